@@ -1,0 +1,85 @@
+# Sourced by ./run, ./test and .ci/run: brings what is missing (Debian packages, MFEM), configures
+# and builds. Does nothing, quickly, when everything is there. Says what it does.
+#
+#   MFEM_DIR=/prefix ./run …   use an MFEM of your own (4.6 or newer), serial or MPI
+
+build_type=${CATTANEO_BUILD_TYPE:-Release}
+build=build/$(printf %s "$build_type" | tr '[:upper:]' '[:lower:]')
+deps=build/deps
+mfem_version=4.10.0.1
+packages="g++ cmake ninja-build zlib1g libeigen3-dev libsuitesparse-dev libopenblas-dev
+   nlohmann-json3-dev libgtest-dev libbenchmark-dev"
+
+say() { printf '%s\n' "cattaneo: $*" >&2; }
+die() { say "$*"; exit 1; }
+
+# install_packages NAME…: installs the Debian packages that are missing, or says which ones are.
+install_packages()
+{
+   local missing="" package sudo=""
+   command -v dpkg-query >/dev/null || die "this is not a Debian system: install the equivalents of $*, then touch $deps/packages-by-hand"
+   for package in "$@"; do
+      dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing="$missing $package"
+   done
+   [ -z "$missing" ] && return 0
+   if [ "$(id -u)" != 0 ]; then
+      command -v sudo >/dev/null && sudo -n true 2>/dev/null && sudo=sudo ||
+         die "please install these packages (no root here to do it):$missing"
+   fi
+   say "installing packages:$missing"
+   { $sudo apt-get update -qq && $sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing; } \
+      >"$deps/apt.log" 2>&1 || { cat "$deps/apt.log" >&2; die "could not install:$missing"; }
+}
+
+# The prebuilt serial MFEM that the Python package mfem carries; Python is only the courier.
+bring_mfem()
+{
+   [ -n "${MFEM_DIR:-}" ] && return 0
+   MFEM_DIR=$PWD/$deps/mfem-$mfem_version
+   [ -f "$MFEM_DIR/lib/cmake/mfem/MFEMConfig.cmake" ] && return 0
+   say "bringing MFEM ($mfem_version, prebuilt, serial)"
+   command -v python3 >/dev/null && python3 -m pip --version >/dev/null 2>&1 || install_packages python3 python3-pip
+   local wheel=$deps/wheel
+   rm -rf "$wheel" && mkdir -p "$wheel"
+   python3 -m pip download -q --disable-pip-version-check --no-deps --only-binary=:all: --dest "$wheel" \
+      --python-version 3.11 --implementation cp --abi cp311 --platform manylinux_2_28_x86_64 "mfem==$mfem_version" ||
+      die "could not bring MFEM; name your own with MFEM_DIR=/prefix"
+   python3 - "$wheel" "$MFEM_DIR" <<'PYTHON' || die "could not unpack MFEM"
+import pathlib, sys, zipfile
+wheel = next(pathlib.Path(sys.argv[1]).glob("mfem-*.whl"))
+root, target = "mfem/external/ser/", pathlib.Path(sys.argv[2] + ".part")
+with zipfile.ZipFile(wheel) as z:
+    for name in z.namelist():
+        part = name[len(root):]
+        if name.startswith(root) and not name.endswith("/") and part.split("/")[0] in ("include", "lib", "share"):
+            path = target / part
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(z.read(name))
+target.rename(sys.argv[2])
+PYTHON
+   rm -rf "$wheel"
+}
+
+# prepare TARGET…: everything up to built targets (all of them if none is named).
+prepare()
+{
+   mkdir -p "$deps"
+   if [ "$(cat "$deps/packages" 2>/dev/null)" != "$packages" ] && [ ! -e "$deps/packages-by-hand" ]; then
+      install_packages $packages
+      printf '%s' "$packages" >"$deps/packages"
+   fi
+   bring_mfem
+   if [ ! -f "$build/build.ninja" ] || [ "$(cat "$build/mfem_dir" 2>/dev/null)" != "$MFEM_DIR" ]; then
+      say "configuring ($build_type, MFEM at ${MFEM_DIR#"$PWD"/})"
+      local launcher=""
+      command -v ccache >/dev/null && launcher=-DCMAKE_CXX_COMPILER_LAUNCHER=ccache
+      rm -f "$build/CMakeCache.txt"
+      cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE="$build_type" -DMFEM_DIR="$MFEM_DIR" $launcher ${CATTANEO_CMAKE_ARGS:-} \
+         >"$deps/configure.log" 2>&1 || { cat "$deps/configure.log" >&2; die "configuration failed"; }
+      printf '%s' "$MFEM_DIR" >"$build/mfem_dir"
+   fi
+   # A build that has something to do shows its progress; one that has not is silent.
+   if ninja -C "$build" -n "$@" 2>/dev/null | grep -q 'no work to do'; then return 0; fi
+   say "building ${*:-everything}"
+   ninja -C "$build" "$@" >&2 || die "the build failed"
+}

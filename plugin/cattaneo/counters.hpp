@@ -1,0 +1,54 @@
+#pragma once
+
+namespace cattaneo
+{
+
+/// How often each expensive act was done. Every report carries one, so that what a scene does
+/// not need is visibly not done; tests assert these numbers.
+struct Counters
+{
+   long assemblies = 0;           ///< elastic operators assembled
+   long factorisations = 0;       ///< sparse factorisations
+   long back_substitutions = 0;   ///< right-hand sides solved with a sparse factor
+   long field_recoveries = 0;     ///< interior displacement fields recovered
+   long unions = 0;               ///< pairs of condensed bodies joined
+   long tangential_unknowns = 0;  ///< tangential unknowns of the friction problem (0 if frictionless)
+   long increments = 0;           ///< accepted increments of a march
+   long rejected_increments = 0;  ///< increments that were tried and cut
+   long sweeps = 0;               ///< Gauss–Seidel sweeps over all contact nodes
+   long newton_steps = 0;         ///< active-set (semismooth Newton) steps
+   long dense_factorisations = 0; ///< dense factorisations by the friction solver
+   long lemke_pivots = 0;         ///< pivots of the Lemke fallback
+   long limit_solves = 0;         ///< shakedown limit programmes solved
+
+   /// Calls visit(name, value&) for every counter, in the order above.
+   template <class Self, class Visitor>
+   static void for_each(Self &self, Visitor visit)
+   {
+      visit("assemblies", self.assemblies);
+      visit("factorisations", self.factorisations);
+      visit("back_substitutions", self.back_substitutions);
+      visit("field_recoveries", self.field_recoveries);
+      visit("unions", self.unions);
+      visit("tangential_unknowns", self.tangential_unknowns);
+      visit("increments", self.increments);
+      visit("rejected_increments", self.rejected_increments);
+      visit("sweeps", self.sweeps);
+      visit("newton_steps", self.newton_steps);
+      visit("dense_factorisations", self.dense_factorisations);
+      visit("lemke_pivots", self.lemke_pivots);
+      visit("limit_solves", self.limit_solves);
+   }
+
+   Counters &operator+=(Counters other)
+   {
+      long values[16];
+      int k = 0;
+      for_each(other, [&](const char *, long &value) { values[k++] = value; });
+      k = 0;
+      for_each(*this, [&](const char *, long &value) { value += values[k++]; });
+      return *this;
+   }
+};
+
+} // namespace cattaneo

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <cattaneo/counters.hpp>
+#include <cattaneo/elastic/boundary_part.hpp>
+#include <cattaneo/elastic/material.hpp>
+#include <cattaneo/reduced/reduced_problem.hpp>
+#include <array>
+#include <map>
+#include <memory>
+#include <mfem.hpp>
+#include <string>
+#include <vector>
+
+namespace cattaneo
+{
+
+/** One elastic body: its stiffness on the true dofs of an H1 space, its supports and its load
+    patterns. Knows nothing of contact.
+
+    The stiffness is *not* eliminated: reactions and prescribed displacements need all of it. The
+    space is the nodal Gauss–Lobatto one, ordered byVDIM or byNODES: other bases have edge weights of both
+    signs and are refused (see NUMERICS in the design notes: nodal complementarity).
+
+    Components: 0 = x, 1 = y. Forces are per unit thickness. */
+class ElasticBody
+{
+public:
+   /// Assembles the isotropic operator on elements of the given order (>= 1). The mesh must be 2D
+   /// and must outlive the body; straight, curved and nonconforming meshes of quads and triangles.
+   ElasticBody(mfem::Mesh &mesh, int order, const Material &material);
+
+   /// One material for each element attribute (index attribute - 1).
+   ElasticBody(mfem::Mesh &mesh, int order, const std::vector<Material> &materials);
+
+   /// The user's own symmetric operator on the true dofs of a 2-component H1 space (orthotropic,
+   /// user integrators, …). Copies the matrix; the space must outlive the body.
+   ElasticBody(mfem::FiniteElementSpace &space, const mfem::SparseMatrix &stiffness);
+
+   /// No displacement of this component on the nodes of a boundary part.
+   void fix(const BoundaryPart &part, int component);
+   /// No displacement of this component at the mesh node nearest to (x, y).
+   void fix_node(double x, double y, int component);
+
+   /// Pressure on a boundary part (positive pushes into the body), force per area.
+   void add_pressure(const std::string &pattern, const BoundaryPart &part, const ScalarField &p);
+   /// Traction (t_x, t_y) on a boundary part, force per area.
+   void add_traction(const std::string &pattern, const BoundaryPart &part, const ScalarField &tx,
+                     const ScalarField &ty);
+   /// Body force (b_x, b_y), force per volume.
+   void add_body_force(const std::string &pattern, const ScalarField &bx, const ScalarField &by);
+   /// Prescribed displacement of one component on the nodes of a boundary part. A pattern is either
+   /// force- or displacement-controlled (InputError if mixed); a node's displacement may be
+   /// prescribed by several patterns (they add) and need not be fixed as well.
+   void add_displacement(const std::string &pattern, const BoundaryPart &part, int component,
+                         const ScalarField &u);
+
+   struct Pattern
+   {
+      std::string name;
+      Control control;
+      mfem::Vector values; ///< force control: true-dof forces; displacement: prescribed values
+   };
+
+   mfem::FiniteElementSpace &space() const { return *space_; }
+   const mfem::SparseMatrix &stiffness() const { return *stiffness_; }
+   const std::vector<Pattern> &patterns() const { return patterns_; }
+   /// Sorted true dofs that are fixed or prescribed by a displacement pattern.
+   mfem::Array<int> essential_dofs() const;
+   /// Material of an element attribute; InputError for a user's operator.
+   const Material &material(int attribute) const;
+   bool has_material() const { return !materials_.empty(); }
+
+   /// True dof of component c of the scalar node (local dof) of the space.
+   int true_dof(int scalar_dof, int component) const;
+   /// Coordinates of every scalar node, size 2 × nodes.
+   const mfem::DenseMatrix &node_coordinates() const { return coordinates_; }
+
+   const Counters &counters() const { return counters_; }
+
+private:
+   void adopt_space();
+   Pattern &load(const std::string &name, Control control);
+
+   std::unique_ptr<mfem::FiniteElementCollection> owned_collection_;
+   std::unique_ptr<mfem::FiniteElementSpace> owned_space_;
+   mfem::FiniteElementSpace *space_ = nullptr;
+   std::unique_ptr<mfem::SparseMatrix> stiffness_;
+   std::vector<Material> materials_;
+   std::vector<Pattern> patterns_;
+   std::vector<bool> essential_; ///< by true dof
+   std::vector<int> vdof_to_true_;
+   mfem::DenseMatrix coordinates_;
+   Counters counters_;
+};
+
+} // namespace cattaneo
