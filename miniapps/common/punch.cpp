@@ -1,6 +1,5 @@
 #include "common/punch.hpp"
 
-#include <algorithm>
 #include <cattaneo/elastic/graded_mesh.hpp>
 #include <cattaneo/input_error.hpp>
 
@@ -50,20 +49,15 @@ Punch make_punch(const PunchOptions &options)
       return punch;
    }
 
-   const double L = options.domain;
-   std::vector<double> left = graded(-1, -L, smallest, options.growth);
-   std::reverse(left.begin(), left.end());
-   const std::vector<double> width =
-      joined({left, contact, graded(1, L, smallest, options.growth)});
-   std::vector<double> depth = graded(0, -L, smallest, options.growth);
-   std::reverse(depth.begin(), depth.end());
-   punch.meshes.push_back(std::make_unique<mfem::Mesh>(rectangle_mesh(width, depth)));
+   punch.meshes.push_back(std::make_unique<mfem::Mesh>(
+      half_plane_mesh(contact, graded(0, 1, smallest, options.growth, std::max(0.1, largest)),
+                      ring_scales(1, options.domain, smallest, options.growth))));
    punch.bodies.push_back(
       std::make_unique<ElasticBody>(*punch.meshes[1], options.order, material));
    ElasticBody &plane = *punch.bodies[1];
-   plane.fix(bottom, 0);
-   plane.fix(bottom, 1);
-   const ContactLine facing = contact_line(plane, BoundaryPart({top}, 0, -1, 1));
+   const int surface = 1, far_bottom = 3;
+   for (int component : {0, 1}) { plane.fix(far_bottom, component); }
+   const ContactLine facing = contact_line(plane, surface);
    const Pairing pairing = pair_lines(condensed.line, facing);
    punch.dofs += plane.space().GetTrueVSize();
    punch.reduction = reduce(std::move(condensed), condense(plane, facing), pairing);
