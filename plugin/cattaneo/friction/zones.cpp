@@ -78,7 +78,7 @@ struct Bracket
    {
       if (!(best > -1.3 && best < 0.3)) { return false; }
       const double doubt = std::isfinite(other) ? std::abs(best - other) : 0.5;
-      edge = {s[inside] + step() * best * spacing(), std::clamp(doubt, 0.05, 0.5) * spacing()};
+      edge = {s[inside] + step() * best * spacing(), std::clamp(doubt, 0.1, 0.5) * spacing()};
       return true;
    }
 };
