@@ -343,7 +343,6 @@ MarchReport March::run()
    }
    report_.counters += solver_.counters();
    report_.counters -= before;
-   report_.counters.tangential_unknowns = solver_.counters().tangential_unknowns;
    report_.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
    return report_;
@@ -384,7 +383,10 @@ MarchReport march(const ReducedProblem &problem, const LoadHistory &history,
                   const MarchObserver &observer)
 {
    FrictionSolver solver(problem, settings.friction);
-   return march(solver, history, state, settings, observer);
+   const Counters made = solver.counters();
+   MarchReport report = march(solver, history, state, settings, observer);
+   report.counters += made;
+   return report;
 }
 
 } // namespace cattaneo
