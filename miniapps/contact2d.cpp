@@ -7,7 +7,7 @@
 //
 //  Sample runs:  contact2d -case meshes/dovetail.json
 //                contact2d -case meshes/rounded_punch.json --cycles 2
-//                contact2d -mesh1 meshes/rounded_punch.msh -contact1 3 -load1 "P pressure 2 .01"
+//                contact2d -mesh1 meshes/rounded_punch.msh -contact1 3 -load1 "P pressure 2 .1"
 
 #include "common/case_options.hpp"
 #include "common/miniapp.hpp"
@@ -57,10 +57,9 @@ std::unique_ptr<mfem::Mesh> read_mesh(const std::string &file)
    std::getline(in, line);
    if (line.rfind("$MeshFormat", 0) == 0)
    {
-      double version = 0;
-      int binary = 0;
-      in >> version >> binary;
-      require(version >= 2 && version < 3, "Gmsh file of format ", version,
+      std::string version;
+      in >> version;
+      require(version[0] == '2', "Gmsh file of format ", version,
               ", must be 2.2 (gmsh -format msh22)");
    }
    else
@@ -240,6 +239,9 @@ int main(int argc, char *argv[])
          args.parse();
 
          require(options[0].mesh[0], "option mesh1 is empty, must name a mesh file");
+         require(options[1].mesh[0] ||
+                    !(options[1].contact[0] || options[1].support[0] || options[1].load[0]),
+                 "options contact2, support2 or load2 are given without a mesh2");
          require(order >= 1 && order <= 8, "option order is ", order, ", must be 1 to 8");
          require(friction >= 0 && std::isfinite(friction), "option friction is ", friction,
                  ", must be a number that is not negative");
