@@ -178,13 +178,14 @@ TEST_F(Contact2D, EqualsTheSquarePunch)
       options.half_plane = half_plane;
       const miniapp::Punch punch = miniapp::make_punch(options);
       std::string own = "--mesh1 '" + write("block.mesh", *punch.meshes[0]) +
-                        "' --contact1 1 --young1 0.91 --friction 0.3 --load1 "
+                        "' --contact1 '1[-1<x<1]' --young1 0.91 --friction 0.3 --load1 "
                         "'P pressure 3 0.5; Q traction 3 0.5 0; Q pressure 3 -3*x' "
-                        "--history 'P=0; P=1; Q=0.24; Q=-0.24; Q=0' --cycle-start 1 --cycles 3";
+                        "--history 'P=0; P=1; Q=0.24; Q=0; Q=-0.24; Q=0' --cycle-start 1 "
+                        "--cycles 3 --increments 40";
       if (half_plane)
       {
          own += " --mesh2 '" + write("plane.mesh", *punch.meshes[1]) +
-                "' --contact2 '3[-1<x<1]' --young2 0.91 --support2 1:xy";
+                "' --contact2 1 --young2 0.91 --support2 3:xy";
       }
       const auto mine = contact2d(own);
       const auto other = run_miniapp(
@@ -422,6 +423,21 @@ TEST_F(Contact2D, AnUnsupportedBodyIsRefused)
    EXPECT_EQ(run.code, 1) << run.output;
    EXPECT_NE(run.output.find("unsupported body"), std::string::npos) << run.output;
    EXPECT_TRUE(run.results.is_null());
+}
+
+TEST_F(Contact2D, TheDocumentedCaseIsTheOneShipped)
+{
+   const auto content = [](const std::string &file)
+   {
+      std::ifstream in(std::string(CATTANEO_SOURCE_DIR) + "/" + file);
+      std::stringstream text;
+      text << in.rdbuf();
+      return text.str();
+   };
+   const std::string guide = content("docs/contact2d.md");
+   const std::size_t from = guide.find("```json\n") + 8;
+   EXPECT_EQ(guide.substr(from, guide.find("```", from) - from),
+             content("meshes/rounded_punch.json"));
 }
 
 TEST_F(Contact2D, OptionsOverrideTheCaseFile)
