@@ -42,6 +42,7 @@ BodyFields::BodyFields(const ElasticBody &body, const std::string &directory,
       }
    }
    series_.SetPrefixPath(directory);
+   series_.SetPrecision(17); // of the times
    series_.SetHighOrderOutput(true);
    series_.SetLevelsOfDetail(order);
    for (const auto &[field_name, field] : fields_)
@@ -62,8 +63,8 @@ void BodyFields::write(const mfem::Vector &displacement, double time)
    series_.SetCycle(series_.GetCycle() + 1);
    series_.SetTime(time);
    series_.Save();
-   require(series_.Error() == mfem::DataCollection::No_Error,
-           "ParaView output: cannot write into the folder '", directory_, "'");
+   require(series_.Error() == 0, "ParaView output: cannot write into the folder '", directory_,
+           "'");
 }
 
 /// The nodes of the stress elements are points of the body's elements: the stress is
