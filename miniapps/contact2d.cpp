@@ -215,7 +215,7 @@ int main(int argc, char *argv[])
          args.add(&gap, "gap", Text::word,
                   "Initial gap: geometry (from the meshes) or closed (none).");
          args.add(&pairing_tolerance, "pairing",
-                  "Largest offset of paired nodes along the contact, in edge lengths.");
+                  "Largest offset of paired nodes along the contact, in distances of nodes.");
          args.add(&history_text, "history", Text::statements,
                   "Load multipliers at times 0, 1, …, as 'P=0; P=1; Q=0.1'; default: all from "
                   "0 to 1.");
