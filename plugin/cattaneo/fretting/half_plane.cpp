@@ -20,9 +20,8 @@ Stress half_plane_stress(const Traction &pressure, const Traction &shear, double
 
 double out_of_plane_constraint(double poisson, bool plane_stress)
 {
-   require(poisson > -1 && (poisson < 0.5 || (plane_stress && poisson == 0.5)),
-           "Poisson's ratio is ", poisson, "; it must be above -1 and below 0.5",
-           plane_stress ? " (0.5 is allowed in plane stress)." : ".");
+   require(poisson > -1 && poisson < 0.5, "Poisson's ratio is ", poisson,
+           "; it must be above -1 and below 0.5.");
    return plane_stress ? 0.0 : poisson;
 }
 

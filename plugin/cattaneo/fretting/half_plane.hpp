@@ -32,7 +32,7 @@ Stress half_plane_stress(const Traction &pressure, const Traction &shear, double
 
 /** σ_zz = c (σ_xx + σ_yy): the constraint c is Poisson's ratio in plane strain and 0 in plane
     stress. It is all that these criteria need to know of the third direction.
-    InputError unless -1 < poisson < 0.5 (plane stress: -1 < poisson <= 0.5). */
+    InputError unless -1 < poisson < 0.5. */
 double out_of_plane_constraint(double poisson, bool plane_stress);
 
 /// Von Mises' equivalent stress, the root of (2.17), which is 3 J₂: yield at √3 k (2.18).
