@@ -71,6 +71,7 @@ TEST(Fretting, RefusesBadInput)
    EXPECT_THROW(flat_rounded_contact(1, 0, 1, 1), InputError);
    EXPECT_THROW(rounded_edge(0, 1, 1), InputError);
    EXPECT_THROW(symmetric_k_n(1, -1), InputError);
+   EXPECT_THROW(edge_gradient(0, 1), InputError);
    EXPECT_THROW(shear_intensities(1, infinity, 0), InputError);
    EXPECT_THROW(first_yield_load(0, 0.3), InputError);
    EXPECT_THROW(full_yield_load(0), InputError);

@@ -286,6 +286,28 @@ TEST(Calibration, ShearIntensitiesFollowFromTheStuckTractions)
    expect_relative(bulk / 4 * 2 / pi * sum, -bulk / 2, 1e-6);
 }
 
+TEST(Calibration, GradientIsThatOfTheWholeContactBelowItsEdge)
+{
+   const double modulus = 60000, radius = 4;
+   const FlatRoundedContact c = flat_rounded_contact(800, radius, 1.5, modulus);
+   const double a = c.half_width;
+   const auto excess = [&](double y)
+   {
+      const auto line = [&](double s) { return flamant(c.pressure(s - a), 0, -s, y).xx; };
+      const double whole = integrate(line, 0, a - 1.5) + integrate(line, a - 1.5, a + 1.5) +
+                           integrate(line, a + 1.5, 2 * a);
+      return whole - stress({c.k_n, 0, 1}, 0, y).xx;
+   };
+   // The next term is as y^(3/2): two depths give the limit.
+   const double y = 1e-3 * (a - 1.5);
+   const double limit = 2 * excess(y) / y - excess(4 * y) / (4 * y);
+   expect_relative(edge_gradient(radius, modulus), limit, 1e-3);
+   // Hertz: 2 p0/a.
+   const HertzContact hertz = hertz_contact(500, radius, modulus);
+   expect_relative(edge_gradient(radius, modulus), 2 * hertz.peak_pressure / hertz.half_width,
+                   1e-14);
+}
+
 TEST(Yield, SurfaceFormulasAgreeWithTheField)
 {
    for (const double constraint : {0.0, 0.3, 0.45})

@@ -123,6 +123,13 @@ double symmetric_k_n(double half_width, double load_rate)
    return std::sqrt(2 / half_width) / pi * load_rate;
 }
 
+double edge_gradient(double radius, double modulus)
+{
+   require_positive("the radius", radius);
+   require_positive("the contact modulus E*", modulus);
+   return modulus / radius;
+}
+
 ShearIntensities shear_intensities(double half_width, double shear, double bulk_difference)
 {
    require_positive("the half width", half_width);

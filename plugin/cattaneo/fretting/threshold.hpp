@@ -30,7 +30,7 @@ struct CrackedEdge
    Edge edge;                    ///< at peak load
    double stress_ratio = -1;     ///< valley load over peak load, -1 <= R < 1 (K_N is constant)
    double bulk_stress = 0.0;     ///< mean (σ1+σ2)/2 of the bulk stresses at peak load
-   double stress_gradient = 0.0; ///< static line stress per depth: 2p0/a for Hertz
+   double stress_gradient = 0.0; ///< static line stress per depth, edge_gradient()
 
    /// InputError outside the ranges above.
    void validate() const;
