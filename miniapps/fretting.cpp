@@ -11,7 +11,7 @@
 //
 //  Sample runs:  fretting
 //                fretting -P 400 -r 50 -Q 60 -bs 80 -m Al -f 0.7
-//                fretting -p flat-rounded -r 3 -b 3 -P 1000 -Q 150 -bs 120 -m Ti6Al4V
+//                fretting -p flat-rounded -r 3 -b 3 -P 1000 -Q 20 -bs 20 -m Ti6Al4V
 //                fretting -p kn -kn 4000 -kt 20 -f 0.6 -E 115 -m Ti6Al4V -j fretting.json
 //                fretting -Q 5 -bs 10 -plot results/fretting
 //                fretting -plot results/fretting -rec miniapps/data/fretting_records.csv
@@ -637,9 +637,10 @@ void program(int argc, char *argv[])
                      "Radius of the pad or of its edges, mm.");
    options.AddOption(&design.flat, "-b", "--flat",
                      "Half width of the flat, mm (flat-rounded).");
-   options.AddOption(&design.normal, "-P", "--normal-load", "Normal force, N/mm, constant.");
+   options.AddOption(&design.normal, "-P", "--normal-load",
+                     "Normal force, N/mm, constant (not for kn).");
    options.AddOption(&design.shear, "-Q", "--shear-load",
-                     "Shear force on the specimen at peak load, N/mm.");
+                     "Shear force on the specimen at peak load, N/mm (not for kn).");
    options.AddOption(
       &design.bulk, "-bs", "--bulk",
       "Bulk stress in the specimen at peak load, MPa (default: none, and said so).");
@@ -688,6 +689,9 @@ void program(int argc, char *argv[])
               " has no friction coefficient; give one with --friction.");
       design.friction = m.friction.middle();
    }
+   require(
+      design.friction > 0, "the friction coefficient is ", design.friction,
+      "; it must be positive: without friction nothing sticks and there is no partial slip.");
    require(records.empty() || !plot.empty(), "--records needs --plot for its figures.");
 
    const EdgeAssessment judged = assess_design(design, setting);
@@ -706,19 +710,19 @@ void program(int argc, char *argv[])
    threshold = m.threshold / mpa_sqrt_m;
    limit = m.fatigue_limit.low;
    yield = m.shear_yield.low;
-   miniapp::echo(options);
-   print_page(design, setting, judged);
    if (!json.empty()) { write_file(json, document.dump(3) + "\n"); }
    if (!plot.empty())
    {
       std::error_code error;
       std::filesystem::create_directories(plot, error);
       require(!error, "cannot make the directory ", plot, ".");
-      // The figures of the tests of an earlier run would belong to another design.
+      // The tests of an earlier run would belong to another design.
       std::filesystem::remove(plot + "/records.csv", error);
       for (const auto &[name, text] : files) { write_file(plot + "/" + name, text); }
-      draw(plot);
    }
+   miniapp::echo(options);
+   print_page(design, setting, judged);
+   if (!plot.empty()) { draw(plot); }
 }
 
 } // namespace

@@ -13,15 +13,26 @@ bool parse(mfem::OptionsParser &options)
    options.Parse();
    if (options.Help())
    {
-      options.PrintHelp(std::cout);
+      // A number without a default is NaN, which says nothing to the reader.
+      const std::string none = ", current value: nan";
+      std::stringstream text;
+      options.PrintHelp(text);
+      std::string help = text.str();
+      for (auto at = help.find(none); at != std::string::npos; at = help.find(none))
+      {
+         help.erase(at, none.size());
+      }
+      std::cout << help;
       return false;
    }
    if (!options.Good())
    {
-      std::stringstream text;
-      std::string line;
+      std::ostringstream text;
       options.PrintError(text);
-      std::getline(text, line);
+      // MFEM may leave the stream broken, so it is read from a copy of its text.
+      std::istringstream lines(text.str());
+      std::string line;
+      while (line.empty() && std::getline(lines, line)) {}
       throw InputError(line + " (-h shows the options)");
    }
    return true;

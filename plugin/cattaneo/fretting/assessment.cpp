@@ -53,7 +53,8 @@ void judge_slip_zone(const FrettingProblem &problem, FrettingReport &report)
              t, "The slip zone stays on the outer part of the rounded edge.",
              "The slip zone reaches well into the rounded edge; pressure there is no longer "
              "K_N√t.",
-             "The slip zone fills the rounded edge: do not trust K_N; solve the whole "
+             "The slip zone is a large part of the rounded edge: do not trust K_N; solve the "
+             "whole "
              "contact.")});
    }
    const double width = problem.rounded_width > 0 ? problem.rounded_width : problem.half_width;
