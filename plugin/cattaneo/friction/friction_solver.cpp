@@ -550,6 +550,137 @@ bool FrictionSolver::Implementation::runs_away(const IncrementReport &report,
    return report.round_off > 1e-10 && finds_mechanism(multipliers);
 }
 
+bool FrictionSolver::Implementation::lemke_start()
+{
+   // Non-dimensional unknowns: each displacement in units of (largest force)/(own stiffness)^½.
+   const Index N = frictionless ? n : 3 * n;
+   MatrixXd M(N, N);
+   VectorXd b(N);
+   VectorXd base_u = u;
+   for (Index i = 0; i < n; ++i)
+   {
+      base_u[m(i)] = -problem.gap[i];
+      if (!frictionless) { base_u[t(i)] = v_old[i]; }
+   }
+   const double scale = reference > 0 ? reference : 1.0;
+   const VectorXd base = (f + K * base_u) / scale;
+   const VectorXd dn = knn.cwiseSqrt().cwiseInverse();
+   VectorXd fs; // friction between rows scaled by dt and rows scaled by dn
+   if (frictionless)
+   {
+      M = dn.asDiagonal() * K * dn.asDiagonal();
+      b = dn.asDiagonal() * base;
+   }
+   else
+   {
+      const VectorXd dt = ktt.cwiseSqrt().cwiseInverse();
+      const MatrixXd A = dt.asDiagonal() * problem.A * dt.asDiagonal();
+      const MatrixXd B = dn.asDiagonal() * problem.B * dt.asDiagonal();
+      const MatrixXd C = dn.asDiagonal() * problem.C * dn.asDiagonal();
+      fs = problem.friction.cwiseProduct(dt.cwiseQuotient(dn));
+      const MatrixXd fB = fs.asDiagonal() * B, fC = fs.asDiagonal() * C;
+      M << C, B, -B, fC + B.transpose(), fB + A, -fB - A, fC - B.transpose(), fB - A, A - fB;
+      const VectorXd bq = dt.asDiagonal() * base.head(n), bp = dn.asDiagonal() * base.tail(n);
+      const VectorXd fp = fs.asDiagonal() * bp;
+      b << bp, fp + bq, fp - bq;
+   }
+   // The cover is a loading path: extra pressure z0 at every node, and with it extra strength
+   // against slip, fading together. An even cover reaches a solution in 98 of 100 random
+   // problems with f up to 3, uneven ones in the rest (20,000 of 20,000). The generator is
+   // seeded afresh, so that equal problems take equal paths.
+   LemkeReport report;
+   std::mt19937_64 random(1);
+   for (int trial = 0; trial < (frictionless ? 1 : 60) && !report.solved; ++trial)
+   {
+      auto uneven = [&]
+      { return trial ? std::exp(3 * std::ldexp(double(random() >> 11), -53) - 1.5) : 1; };
+      VectorXd cover = VectorXd::Ones(N);
+      for (Index i = 0; i < n && !frictionless; ++i)
+      {
+         cover[i] = uneven();
+         cover[n + i] = fs[i] * cover[i] + 2 * uneven();
+         cover[2 * n + i] = fs[i] * cover[i] + 2 * uneven();
+      }
+      report = lemke(M, b, cover, 20 * N);
+      counters.lemke_pivots += report.pivots;
+   }
+   if (!report.solved) { return false; }
+   u = base_u;
+   for (Index i = 0; i < n; ++i)
+   {
+      const double y = report.z[i];
+      status[i] = y > 0 ? NodeState::separation : NodeState::stick;
+      u[m(i)] += scale * dn[i] * y;
+      if (frictionless) { continue; }
+      const double x = report.z[n + i] - report.z[2 * n + i];
+      u[t(i)] += scale / std::sqrt(ktt[i]) * x;
+      if (y > 0 || x == 0) { continue; }
+      status[i] = x > 0 ? NodeState::forward_slip : NodeState::backward_slip;
+   }
+   F = f + K * u;
+   return true;
+}
+
+bool FrictionSolver::Implementation::run_lemke(IncrementReport &report)
+{
+   if (!lemke_start()) { return false; }
+   const VectorXd u_lemke = u, F_lemke = F;
+   const std::vector<NodeState> status_lemke = status;
+   // The pivots leave round-off of their own; the equations of the final states remove it.
+   if (newton(settings.max_newton))
+   {
+      residuals(report);
+      if (accepted(report)) { return true; }
+   }
+   u = u_lemke;
+   F = F_lemke;
+   status = status_lemke;
+   residuals(report);
+   return accepted(report);
+}
+
+bool FrictionSolver::Implementation::run_gauss_seidel(IncrementReport &report)
+{
+   for (long k = 0; k < settings.max_sweeps; ++k)
+   {
+      sweep();
+      // The forces are updated by columns; now and then they are formed anew, against drift.
+      if (k % 64 == 63) { F = f + K * u; }
+      residuals(report);
+      if (!u.allFinite()) { return false; }
+      if (accepted(report))
+      {
+         F = f + K * u;
+         residuals(report);
+         if (accepted(report)) { return true; }
+      }
+   }
+   return false;
+}
+
+bool FrictionSolver::Implementation::run_automatic(IncrementReport &report,
+                                                   const VectorXd &multipliers)
+{
+   int sweeps = settings.sweeps;
+   for (int attempt = 0; attempt < settings.max_attempts; ++attempt)
+   {
+      for (int k = 0; k < sweeps; ++k) { sweep(); }
+      const VectorXd u_swept = u;
+      const std::vector<NodeState> status_swept = status;
+      if (newton(settings.max_newton))
+      {
+         residuals(report);
+         if (accepted(report)) { return true; }
+      }
+      if (attempt == 1 && finds_mechanism(multipliers)) { return false; }
+      u = u_swept;
+      status = status_swept;
+      F = f + K * u;
+      sweeps = std::max(4, 2 * sweeps);
+   }
+   return run_lemke(report);
+}
+
 /// True if no admissible contact forces can balance the loads: there is nothing to search for.
 bool FrictionSolver::Implementation::finds_mechanism(const VectorXd &multipliers)
 {
