@@ -22,15 +22,14 @@ TEST(Hertz, HalfPlanesMeetTheClosedFormsAtBothOrders)
 
 TEST(Hertz, TractionsConvergeToTheClosedForms)
 {
-   // The largest deviation sits at the edge of contact, where the pressure falls as a square
-   // root: it goes with the square root of the spacing or better.
+   // Mean over the line; the square-root edge limits the rate to about first order.
    double before = 1;
-   for (const char *nodes : {"51", "201", "801"})
+   for (const char *nodes : {"51", "151", "451"})
    {
       const auto run = run_miniapp("hertz", std::string("-domain 1000 -nodes ") + nodes);
       ASSERT_EQ(run.code, 0) << run.output;
-      const double deviation = run.results["pressure_deviation"];
-      EXPECT_LT(deviation, 0.6 * before);
+      const double deviation = run.results["pressure_deviation_mean"];
+      EXPECT_LT(deviation, 0.35 * before);
       EXPECT_NEAR(run.results["levels"][0]["stick_half_width"].get<double>(),
                   run.results["levels"][0]["cattaneo_mindlin"].get<double>(),
                   3.34 / (std::stod(nodes) - 1) * 0.15);
@@ -45,7 +44,7 @@ TEST(Hertz, BlockMeetsTheReferencesAtBothOrders)
       for (const char *ratio : {"0.4", "0.8"})
       {
          const auto run = run_miniapp("hertz", std::string("-body block --shear '' -ratio ") +
-                                                 ratio + " -order " + order);
+                                                  ratio + " -order " + order);
          SCOPED_TRACE(run.output);
          expect_references_met(run, 2);
       }
