@@ -22,19 +22,20 @@ TEST(Hertz, HalfPlanesMeetTheClosedFormsAtBothOrders)
 
 TEST(Hertz, TractionsConvergeToTheClosedForms)
 {
-   // Mean over the line; the square-root edge limits the rate to about first order.
-   double before = 1;
-   for (const char *nodes : {"51", "151", "451"})
+   // Mean over the line: of first order at least; single steps vary with where the edge of
+   // contact lies in its element.
+   double coarse = 0, fine = 0;
+   for (const char *nodes : {"51", "451"})
    {
       const auto run = run_miniapp("hertz", std::string("-domain 1000 -nodes ") + nodes);
       ASSERT_EQ(run.code, 0) << run.output;
-      const double deviation = run.results["pressure_deviation_mean"];
-      EXPECT_LT(deviation, 0.35 * before);
+      coarse = fine;
+      fine = run.results["pressure_deviation_mean"];
       EXPECT_NEAR(run.results["levels"][0]["stick_half_width"].get<double>(),
                   run.results["levels"][0]["cattaneo_mindlin"].get<double>(),
                   3.34 / (std::stod(nodes) - 1) * 0.15);
-      before = deviation;
    }
+   EXPECT_LT(fine, coarse / 9);
 }
 
 TEST(Hertz, BlockMeetsTheReferencesAtBothOrders)
