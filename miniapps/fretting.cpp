@@ -121,7 +121,9 @@ SolvedContact solve_contact(const Design &design, const Setting &setting,
    options.material = {m.young, m.poisson,
                        setting.plane_stress ? PlaneState::stress : PlaneState::strain};
    options.load = design.normal;
-   options.bulk = true;
+   options.bulk = bulk_of(design) != 0;
+   // The far size costs the bulk's equilibrium digits; the contact does not feel it.
+   options.domain = 1e3;
    miniapp::HertzScene scene = make_scene(options);
    ReducedProblem &problem = scene.reduction.problem;
    set_friction(problem, design.friction);
@@ -131,7 +133,7 @@ SolvedContact solve_contact(const Design &design, const Setting &setting,
    normal[problem.pattern("P")] = 1;
    Eigen::VectorXd cyclic = none;
    cyclic[problem.pattern("Q")] = design.shear / design.normal;
-   cyclic[problem.pattern("bulk")] = bulk_of(design);
+   if (options.bulk) { cyclic[problem.pattern("bulk")] = bulk_of(design); }
 
    SolvedContact solved;
    solved.dofs = scene.dofs;
@@ -189,7 +191,9 @@ miniapp::ReferenceTable compare(const Design &design, const Setting &setting,
    const double shift =
       a * bulk_of(design) * (design.shear < 0 ? -1 : 1) / (4 * design.friction * peak_pressure);
    miniapp::ReferenceTable table;
-   table.add("half width a, mm", a, solved.trailing.edge.position.error, unset,
+   // Read-out between the nodes: a tenth of a spacing beside the estimate of its error.
+   const double read_out = 0.1 * 2 * miniapp::HalfPlanes().span * a / (design.nodes - 1);
+   table.add("half width a, mm", a, solved.trailing.edge.position.error + read_out, unset,
              solved.half_width);
    const auto row = [&](const std::string &what, double exact, double computed)
    { table.add(what, exact, 0.01 * std::abs(exact), unset, computed); };
@@ -203,13 +207,13 @@ miniapp::ReferenceTable compare(const Design &design, const Setting &setting,
       const double slip = a - stick + (trailing ? shift : -shift);
       if (a - stick >= std::abs(shift))
       {
-         table.add("slip zone d, mm" + where, slip, edge.edge.slip_zone_error, unset,
+         table.add("slip zone d, mm" + where, slip, edge.edge.slip_zone_error + read_out, unset,
                    edge.edge.slip_zone);
       }
       if (shift == 0 && x > 0)
       {
          // The sheet's limits: d is underestimated by this factor; the energy is exact Hertz.
-         const double spread = edge.edge.slip_zone_error / edge.edge.slip_zone;
+         const double spread = (edge.edge.slip_zone_error + read_out) / edge.edge.slip_zone;
          const double factor = 0.5 * (1 + std::sqrt(1 - x));
          table.add("predicted / computed d" + where, factor, factor * (0.02 + spread), unset,
                    slip_zone(edge.edge.near_edge()) / edge.edge.slip_zone);

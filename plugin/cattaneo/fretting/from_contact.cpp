@@ -3,6 +3,8 @@
 #include <cattaneo/fretting/measures.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
+#include <limits>
+#include <sstream>
 
 namespace cattaneo::fretting
 {
@@ -88,11 +90,76 @@ void check(const ReducedProblem &problem, const ContactState &pressed,
    loaded.validate(problem);
 }
 
-/// Positions where the stuck shear of these tied nodes is singular, two for each stretch.
-std::vector<double> singular_positions(const ReducedProblem &problem,
-                                       const ContactState &loaded,
-                                       const std::vector<Stretch> &contact,
-                                       const std::vector<bool> &tied)
+/// Where a quantity that is smooth across an edge vanishes, with an estimate of the error.
+struct Zero
+{
+   double position = 0.0;
+   double error = std::numeric_limits<double>::infinity();
+};
+
+/** Zero of a parabola through values at distances t (increasing, in spacings), nearest to t =
+   0. The number of values is the one of least error: the larger of the standard error and the
+    change when a cubic is fitted. */
+Zero nearest_zero(const std::vector<double> &t, const std::vector<double> &values,
+                  const std::vector<double> &weights)
+{
+   Zero best;
+   for (Index count = 6; count <= Index(t.size()); count++)
+   {
+      const double scale = t[count - 1];
+      Eigen::MatrixXd terms(count, 4);
+      VectorXd rhs(count);
+      for (Index k = 0; k < count; k++)
+      {
+         const double x = t[k] / scale, root = std::sqrt(weights[k]);
+         terms.row(k) << root, root * x, root * x * x, root * x * x * x;
+         rhs[k] = root * values[k];
+      }
+      const Eigen::MatrixXd parabola = terms.leftCols(3);
+      const Eigen::Vector3d c = parabola.colPivHouseholderQr().solve(rhs);
+      const double under = c[1] * c[1] - 4 * c[0] * c[2];
+      if (!(under > 0 && c[1] > 0)) { continue; }
+      const double zero = -2 * c[0] / (c[1] + std::sqrt(under));
+      const double slope = c[1] + 2 * c[2] * zero;
+      // At the zero: variance of the parabola, and the cubic's value.
+      const Eigen::Vector3d at(1, zero, zero * zero);
+      const double variance = (rhs - parabola * c).squaredNorm() / (count - 3);
+      const double standard =
+         std::sqrt(variance * at.dot((parabola.transpose() * parabola).ldlt().solve(at)));
+      const Eigen::Vector4d d = terms.colPivHouseholderQr().solve(rhs);
+      const double other = d[0] + zero * (d[1] + zero * (d[2] + zero * d[3]));
+      const double error = std::max(standard, std::abs(other)) / slope * scale;
+      if (error < best.error) { best = {zero * scale, error}; }
+   }
+   return best;
+}
+
+/// Values at the nodes of a half stretch from its end inwards, without the last two, which
+/// carry parts of elements that are not wholly in contact.
+template <class Value>
+Zero zero_near_end(const ReducedProblem &problem, Index end, Index last, int side,
+                   const Value &value)
+{
+   const VectorXd &s = problem.arc_length;
+   const double h = std::abs(s[end + side] - s[end]);
+   std::vector<double> t, values, weights;
+   for (Index i = end + 2 * side; side * (last - i) >= 0; i += side)
+   {
+      t.push_back(std::abs(s[i] - s[end]) / h);
+      values.push_back(value(i));
+      weights.push_back(problem.weights[i]);
+   }
+   Zero zero = nearest_zero(t, values, weights);
+   // Further than a spacing from where it must be: not found.
+   if (!(zero.position > -2 && zero.position < 1)) { return {}; }
+   return {s[end] + side * h * zero.position, h * zero.error};
+}
+
+/// Positions where the stuck shear of these tied nodes is singular, one for each edge.
+std::vector<Zero> singular_positions(const ReducedProblem &problem, const ContactState &loaded,
+                                     const std::vector<Stretch> &contact,
+                                     const std::vector<ContactEdge> &edges,
+                                     const std::vector<bool> &tied)
 {
    const Index n = problem.nodes();
    const VectorXd &s = problem.arc_length;
@@ -111,34 +178,24 @@ std::vector<double> singular_positions(const ReducedProblem &problem,
    const VectorXd strain = misfit.v;
    release(problem, tied, closed_nodes(loaded), VectorXd::Zero(2 * n), misfit);
    const VectorXd q = tractions(problem, misfit.q);
-   std::vector<double> positions;
-   for (const Stretch &stretch : contact)
+   std::vector<Zero> positions;
+   for (const ContactEdge &edge : edges)
    {
-      for (const int side : {1, -1})
+      if (edge.complete)
       {
-         Index end = side > 0 ? stretch.first : stretch.last;
-         const Index beyond = end - side;
-         if (beyond >= 0 && beyond < n && tied[beyond]) { end = beyond; }
-         // (strain/q)² is a parabola for a Hertz contact and vanishes at the edge.
-         const Index count = std::min<Index>(8, (stretch.last - stretch.first) / 2 - 1);
-         const double h = std::abs(s[end + side] - s[end]);
-         Eigen::MatrixXd terms(count, 3);
-         VectorXd values(count);
-         for (Index k = 0; k < count; k++)
-         {
-            const Index i = end + side * (k + 1);
-            const double t = std::abs(s[i] - s[end]) / h;
-            terms.row(k) << 1, t, t * t;
-            values[k] = std::pow(strain[i] / q[i], 2);
-         }
-         const Eigen::Vector3d c = terms.colPivHouseholderQr().solve(values);
-         const double root = c[1] * c[1] - 4 * c[0] * c[2];
-         double t = -0.5;
-         if (root > 0 && c[1] > 0) { t = -2 * c[0] / (c[1] + std::sqrt(root)); }
-         // Within the elements that join the last tied node and its neighbours.
-         if (!(t > -2 && t < 1)) { t = -0.5; }
-         positions.push_back(s[end] + side * t * h);
+         positions.push_back({});
+         continue;
       }
+      const int side = edge.side;
+      Index end = side > 0 ? edge.first : edge.last;
+      if (tied[end - side]) { end -= side; }
+      // (strain/q)² is a parabola for a Hertz contact; near its middle both vanish.
+      const Index half = side > 0 ? edge.last - 1 : edge.first + 1;
+      Zero zero = zero_near_end(problem, end, half, side,
+                                [&](Index i) { return std::pow(strain[i] / q[i], 2); });
+      const double h = std::abs(s[end] - s[end - side]);
+      if (!std::isfinite(zero.error)) { zero = {s[end] - 0.5 * side * h, 0.5 * h}; }
+      positions.push_back(zero);
    }
    return positions;
 }
@@ -238,7 +295,6 @@ std::vector<ContactEdge> contact_edges(const ReducedProblem &problem,
          ContactEdge edge;
          edge.side = side;
          edge.position = side > 0 ? stretch.from : stretch.to;
-         edge.half_width = 0.5 * (stretch.to.position - stretch.from.position);
          edge.first = side > 0 ? stretch.first : middle + 1;
          edge.last = side > 0 ? middle : stretch.last;
          edge.friction = problem.friction[side > 0 ? edge.first : edge.last];
@@ -253,15 +309,31 @@ std::vector<ContactEdge> contact_edges(const ReducedProblem &problem,
                     "own intensities, or lengthen the line if it was cut off.";
             edge.why_not = text.str();
          }
-         read_slip_zone(all, stretch, edge);
+         else
+         {
+            // p² is smooth, and a parabola for Hertz; zones() looks at eight nodes only.
+            const VectorXd p = tractions(problem, loaded.p);
+            const Zero zero = zero_near_end(problem, side > 0 ? edge.first : edge.last,
+                                            side > 0 ? edge.last : edge.first, side,
+                                            [&](Index i) { return p[i] * p[i]; });
+            if (zero.error < edge.position.error)
+            {
+               edge.position = {zero.position, zero.error};
+            }
+         }
          edges.push_back(edge);
       }
+      ContactEdge &left = edges[edges.size() - 2], &right = edges.back();
+      left.half_width = right.half_width =
+         0.5 * (right.position.position - left.position.position);
+      read_slip_zone(all, stretch, left);
+      read_slip_zone(all, stretch, right);
    }
 
    // Stuck solutions: the nodes in contact, then one more at each edge in turn.
    const std::vector<bool> base = closed_nodes(loaded);
-   const std::vector<double> base_positions =
-      singular_positions(problem, loaded, contact, base);
+   const std::vector<Zero> base_positions =
+      singular_positions(problem, loaded, contact, edges, base);
    const ContactState base_state = fully_stuck(problem, pressed, loaded, base);
    const auto fit_shear = [&](const ContactState &stuck, std::size_t e, double position)
    {
@@ -276,7 +348,7 @@ std::vector<ContactEdge> contact_edges(const ReducedProblem &problem,
    {
       if (edges[e].complete) { continue; }
       edges[e].k_n = fit_edge(edge_tractions(problem, loaded, edges[e], cracked), settings).k_n;
-      edges[e].k_t = fit_shear(base_state, e, base_positions[e]);
+      edges[e].k_t = fit_shear(base_state, e, base_positions[e].position);
    }
    std::vector<FittedIntensity> found(edges.size());
    for (std::size_t e = 0; e < edges.size(); e++) { found[e] = edges[e].k_t; }
@@ -287,15 +359,17 @@ std::vector<ContactEdge> contact_edges(const ReducedProblem &problem,
       std::vector<bool> tied = base;
       const Index outermost = edges[e].side > 0 ? edges[e].first : edges[e].last;
       tied[outermost - edges[e].side] = true;
-      const double position = singular_positions(problem, loaded, contact, tied)[e];
+      const Zero extended = singular_positions(problem, loaded, contact, edges, tied)[e];
       const ContactState stuck = fully_stuck(problem, pressed, loaded, tied);
-      const double step = position - base_positions[e];
-      const double fraction = (edges[e].position.position - base_positions[e]) / step;
+      const double step = extended.position - base_positions[e].position;
+      const double fraction = (edges[e].position.position - base_positions[e].position) / step;
       for (std::size_t other = 0; other < edges.size(); other++)
       {
          if (edges[other].complete) { continue; }
          const double k_t =
-            fit_shear(stuck, other, other == e ? position : base_positions[other]).value;
+            fit_shear(stuck, other,
+                      other == e ? extended.position : base_positions[other].position)
+               .value;
          const double change = k_t - edges[other].k_t.value;
          found[other].value += fraction * change;
          read_out[other] += std::abs(change / step) * edges[e].position.error;
