@@ -96,12 +96,19 @@ struct SolvedEdge
 
 struct SolvedContact
 {
-   double half_width = 0.0;
+   double half_width = 0.0, spacing = 0.0; ///< of the contact and of its nodes
    SolvedEdge trailing, leading;
    FrictionStatus status = FrictionStatus::converged;
    int steady_cycle = 0, dofs = 0;
    double seconds = 0.0;
 };
+
+/// Fewer spacings than two do not carry the slip in a zone, nor its energy.
+bool resolved(const SolvedEdge &edge, const SolvedContact &solved)
+{
+   const double predicted = slip_zone(edge.edge.near_edge());
+   return std::min(predicted, edge.edge.slip_zone) >= 2 * solved.spacing;
+}
 
 double bulk_of(const Design &design)
 {
@@ -173,6 +180,7 @@ SolvedContact solve_contact(const Design &design, const Setting &setting,
               compare_energy(problem, edges[e], report.cycles.back(), k_t_range, modulus)};
    }
    solved.half_width = edges[0].half_width;
+   solved.spacing = 2 * options.span * options.half_width / (options.nodes - 1);
    solved.seconds = watch.seconds();
    return solved;
 }
@@ -192,18 +200,23 @@ miniapp::ReferenceTable compare(const Design &design, const Setting &setting,
       a * bulk_of(design) * (design.shear < 0 ? -1 : 1) / (4 * design.friction * peak_pressure);
    miniapp::ReferenceTable table;
    // Read-out between the nodes: a tenth of a spacing beside the estimate of its error.
-   const double read_out = 0.1 * 2 * miniapp::HalfPlanes().span * a / (design.nodes - 1);
+   const double read_out = 0.1 * solved.spacing;
    table.add("half width a, mm", a, solved.trailing.edge.position.error + read_out, unset,
              solved.half_width);
-   const auto row = [&](const std::string &what, double exact, double computed)
-   { table.add(what, exact, 0.01 * std::abs(exact), unset, computed); };
+   // Shear intensities within 1 % of the larger one, or of d = a/1000.
+   const double shear_scale =
+      std::max({std::abs(closed_form.k_t.trailing), std::abs(closed_form.k_t.leading),
+                5e-4 * design.friction * closed_form.k_n * a});
    for (const bool trailing : {true, false})
    {
       const SolvedEdge &edge = trailing ? solved.trailing : solved.leading;
       const std::string where = trailing ? ", trailing edge" : ", leading edge";
-      row("K_N, MPa/sqrt(mm)" + where, closed_form.k_n, edge.edge.k_n.value);
-      row("K_T, MPa sqrt(mm)" + where,
-          trailing ? closed_form.k_t.trailing : closed_form.k_t.leading, edge.edge.k_t.value);
+      table.add("K_N, MPa/sqrt(mm)" + where, closed_form.k_n, 0.01 * closed_form.k_n, unset,
+                edge.edge.k_n.value);
+      table.add("K_T, MPa sqrt(mm)" + where,
+                trailing ? closed_form.k_t.trailing : closed_form.k_t.leading,
+                0.01 * shear_scale, unset, edge.edge.k_t.value);
+      if (!resolved(edge, solved)) { continue; }
       const double slip = a - stick + (trailing ? shift : -shift);
       if (a - stick >= std::abs(shift))
       {
@@ -572,7 +585,7 @@ Json to_json(const FittedIntensity &fitted)
            {"nodes", fitted.nodes}};
 }
 
-Json to_json(const SolvedEdge &solved)
+Json to_json(const SolvedEdge &solved, bool resolved)
 {
    const ContactEdge &edge = solved.edge;
    return {{"k_n", to_json(edge.k_n)},
@@ -582,6 +595,7 @@ Json to_json(const SolvedEdge &solved)
            {"slip_zone_predicted", slip_zone(edge.near_edge())},
            {"slip_zone_reversed", solved.reversed_slip_zone},
            {"slides", edge.slides},
+           {"resolved", resolved},
            {"energy", solved.energy.computed_total},
            {"energy_predicted", solved.energy.predicted_total},
            {"energy_max", solved.energy.computed_max},
@@ -591,8 +605,8 @@ Json to_json(const SolvedEdge &solved)
 Json to_json(const SolvedContact &solved)
 {
    return {{"half_width", solved.half_width},
-           {"trailing", to_json(solved.trailing)},
-           {"leading", to_json(solved.leading)},
+           {"trailing", to_json(solved.trailing, resolved(solved.trailing, solved))},
+           {"leading", to_json(solved.leading, resolved(solved.leading, solved))},
            {"steady_cycle", solved.steady_cycle},
            {"dofs", solved.dofs},
            {"seconds", solved.seconds}};
@@ -625,6 +639,14 @@ void print_solution(const SolvedContact &solved, const miniapp::ReferenceTable &
                  "from K_N and K_T " + number(solution.energy.predicted_total, "N"));
       print_line("largest per area", number(solution.energy.computed_max, "N/mm"),
                  "from K_T " + number(solution.energy.predicted_max, "N/mm"));
+      if (edge.k_t.value != 0 && !resolved(solution, solved))
+      {
+         std::cout << wrap("The slip zone is shorter than two spacings of the contact nodes (" +
+                              number(solved.spacing, "mm") +
+                              "): its computed length and energy are not resolved; K_N and K_T "
+                              "are. More --nodes resolve it.",
+                           6);
+      }
    }
    std::cout << std::flush;
    table.print();

@@ -118,6 +118,11 @@ TEST(Fretting, BorderlineDesignsAreAnsweredAndSaid)
    run = run_miniapp("fretting", "-p fe -Q 0");
    ASSERT_EQ(run.code, 0) << run.output;
    EXPECT_EQ(run.results["fe"]["trailing"]["slip_zone"], 0);
+   // A slip zone of one spacing: the intensities hold, the rest is said not to.
+   run = run_miniapp("fretting", "-p fe -Q 20");
+   expect_references_met(run, 5);
+   EXPECT_EQ(run.results["fe"]["trailing"]["resolved"], false);
+   EXPECT_NE(run.output.find("not resolved"), std::string::npos);
 }
 
 TEST(Fretting, BadOptionsAreOneSentenceAndExitCodeOne)
