@@ -5,26 +5,33 @@
 //  contact knows of all that only two numbers: K_N, how fast the pressure rises, and K_T, how
 //  strong the shear would be if nothing slipped. From them follow the slip zone, the stresses,
 //  the growth of a crack normal to the surface, the Kitagawa-Takahashi verdict and the
-//  frictional energy.
+//  frictional energy. The pad 'fe' finds the two numbers in a finite element solution of the
+//  contact and compares slip zone and energy with the computed ones.
 //
 //  Units: N, mm, MPa; forces per mm of thickness. Material data in GPa, MPa and MPa sqrt(m).
 //
 //  Sample runs:  fretting
 //                fretting -P 400 -r 50 -Q 60 -bs 80 -m Al -f 0.7
 //                fretting -p flat-rounded -r 3 -b 3 -P 1000 -Q 20 -bs 20 -m Ti6Al4V
-//                fretting -p kn -kn 4000 -kt 20 -f 0.6 -E 115 -m Ti6Al4V -j fretting.json
+//                fretting -p kn -kn 4000 -kt 20 -f 0.6 -E 115 -m Ti6Al4V
+//                fretting -p fe -Q 50
+//                fretting -p fe -Q 50 -bs 30 -nodes 201
 //                fretting -Q 5 -bs 10 -plot results/fretting
 //                fretting -plot results/fretting -rec miniapps/data/fretting_records.csv
+
+#include "common/hertz_scene.hpp"
+#include "common/miniapp.hpp"
 
 #include <algorithm>
 #include <cattaneo/fretting/assessment.hpp>
 #include <cattaneo/fretting/calibration.hpp>
 #include <cattaneo/fretting/edge_crack.hpp>
+#include <cattaneo/fretting/from_contact.hpp>
 #include <cattaneo/fretting/measures.hpp>
 #include <cattaneo/fretting/yield.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/whole_file.hpp>
 #include <cmath>
-#include <common/program.hpp>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -37,12 +44,14 @@
 
 using namespace cattaneo;
 using namespace cattaneo::fretting;
-using miniapp::write_file;
 using Json = nlohmann::ordered_json;
 
 namespace
 {
 
+using fretting::Edge; // not the edge of a zone
+
+const double pi = std::acos(-1.0);
 const double unset = std::numeric_limits<double>::quiet_NaN();
 bool given(double value)
 {
@@ -59,6 +68,7 @@ struct Design
    double load_ratio = -1;
    double friction = unset;
    double k_n = unset, k_t = unset, half_width = unset;
+   int nodes = 101, order = 2; ///< of the finite element contact
 };
 
 struct Setting
@@ -76,6 +86,166 @@ struct Contact
    double stress_gradient = 0.0;
 };
 
+/// One edge of the finite element contact over one steady cycle.
+struct SolvedEdge
+{
+   ContactEdge edge;
+   double reversed_slip_zone = 0.0; ///< computed, back at peak load
+   EnergyComparison energy;
+};
+
+struct SolvedContact
+{
+   double half_width = 0.0, spacing = 0.0; ///< of the contact and of its nodes
+   SolvedEdge trailing, leading;
+   FrictionStatus status = FrictionStatus::converged;
+   int steady_cycle = 0, dofs = 0;
+   double seconds = 0.0;
+};
+
+/// Fewer spacings than two do not carry the slip in a zone, nor its energy.
+bool resolved(const SolvedEdge &edge, const SolvedContact &solved)
+{
+   const double predicted = slip_zone(edge.edge.near_edge());
+   return std::min(predicted, edge.edge.slip_zone) >= 2 * solved.spacing;
+}
+
+double bulk_of(const Design &design)
+{
+   return given(design.bulk) ? design.bulk : 0;
+}
+
+/// The cylinder on a half-plane, pressed and sheared by finite elements.
+SolvedContact solve_contact(const Design &design, const Setting &setting,
+                            const Contact &closed_form)
+{
+   const miniapp::Stopwatch watch;
+   const FatigueMaterial &m = setting.material;
+   miniapp::HalfPlanes options;
+   options.order = design.order;
+   options.nodes = design.nodes;
+   options.half_width = closed_form.half_width;
+   options.material = {m.young, m.poisson,
+                       setting.plane_stress ? PlaneState::stress : PlaneState::strain};
+   options.load = design.normal;
+   options.bulk = bulk_of(design) != 0;
+   // The far size costs the bulk's equilibrium digits; the contact does not feel it.
+   options.domain = 1e3;
+   miniapp::HertzScene scene = make_scene(options);
+   ReducedProblem &problem = scene.reduction.problem;
+   set_friction(problem, design.friction);
+   problem.gap = problem.position.col(0).array().square() / (2 * design.radius);
+
+   Eigen::VectorXd none = Eigen::VectorXd::Zero(problem.patterns.size()), normal = none;
+   normal[problem.pattern("P")] = 1;
+   Eigen::VectorXd cyclic = none;
+   cyclic[problem.pattern("Q")] = design.shear / design.normal;
+   if (options.bulk) { cyclic[problem.pattern("bulk")] = bulk_of(design); }
+
+   SolvedContact solved;
+   solved.dofs = scene.dofs;
+   FrictionSolver solver(problem);
+   ContactState state = ContactState::virgin(problem);
+   const auto go = [&](LoadHistory history)
+   {
+      state.time = 0;
+      const MarchReport report = march(solver, history, state);
+      require(report.status == FrictionStatus::converged,
+              "the finite element contact ends in '", name(report.status),
+              "' before the peak load: ", report.message);
+      return report;
+   };
+   go(LoadHistory::through({none, normal}));
+   const ContactState pressed = state;
+   go(LoadHistory::through({normal, normal + cyclic}));
+   const ContactState peak = state;
+   LoadHistory cycle = LoadHistory::through(
+      {normal + cyclic, normal + design.load_ratio * cyclic, normal + cyclic});
+   cycle.cycle_start = 0;
+   cycle.cycles = 4;
+   const MarchReport report = go(cycle);
+   solved.steady_cycle = report.steady_cycle;
+
+   const double modulus = contact_modulus(m.young, m.poisson, setting.plane_stress);
+   const std::vector<ContactEdge> edges = contact_edges(problem, pressed, peak);
+   const std::vector<ContactEdge> reversed = contact_edges(problem, pressed, state);
+   require(edges.size() == 2 && reversed.size() == 2, "the finite element contact has ",
+           edges.size(), " edges instead of 2: refine it with --nodes.");
+   for (const std::size_t e : {0, 1})
+   {
+      const double k_t_range = (1 - design.load_ratio) * std::abs(edges[e].k_t.value);
+      // Shear on the specimen points into the contact at its left edge if Q > 0.
+      SolvedEdge &edge = e == 0 ? solved.trailing : solved.leading;
+      edge = {edges[e], reversed[e].slip_zone,
+              compare_energy(problem, edges[e], report.cycles.back(), k_t_range, modulus)};
+   }
+   solved.half_width = edges[0].half_width;
+   solved.spacing = 2 * options.span * options.half_width / (options.nodes - 1);
+   solved.seconds = watch.seconds();
+   return solved;
+}
+
+/** What the finite elements give beside the closed forms of Hertz and Mindlin (with bulk
+   stress: Nowell and Hills, as long as both edges slip in the sense of the shear). */
+miniapp::ReferenceTable compare(const Design &design, const Setting &setting,
+                                const Contact &closed_form, const SolvedContact &solved)
+{
+   const FatigueMaterial &m = setting.material;
+   const double modulus = contact_modulus(m.young, m.poisson, setting.plane_stress);
+   const double a = closed_form.half_width;
+   const double limit = design.friction * design.normal, x = std::abs(design.shear) / limit;
+   const double peak_pressure = 2 * design.normal / (pi * a);
+   const double stick = a * std::sqrt(1 - x);
+   const double shift =
+      a * bulk_of(design) * (design.shear < 0 ? -1 : 1) / (4 * design.friction * peak_pressure);
+   miniapp::ReferenceTable table;
+   // Read-out between the nodes: a tenth of a spacing beside the estimate of its error.
+   const double read_out = 0.1 * solved.spacing;
+   table.add("half width a, mm", a, solved.trailing.edge.position.error + read_out, unset,
+             solved.half_width);
+   // Shear intensities within 1 % of the larger one, or of d = a/1000.
+   const double shear_scale =
+      std::max({std::abs(closed_form.k_t.trailing), std::abs(closed_form.k_t.leading),
+                5e-4 * design.friction * closed_form.k_n * a});
+   for (const bool trailing : {true, false})
+   {
+      const SolvedEdge &edge = trailing ? solved.trailing : solved.leading;
+      const std::string where = trailing ? ", trailing edge" : ", leading edge";
+      table.add("K_N, MPa/sqrt(mm)" + where, closed_form.k_n, 0.01 * closed_form.k_n, unset,
+                edge.edge.k_n.value);
+      table.add("K_T, MPa sqrt(mm)" + where,
+                trailing ? closed_form.k_t.trailing : closed_form.k_t.leading,
+                0.01 * shear_scale, unset, edge.edge.k_t.value);
+      if (!resolved(edge, solved)) { continue; }
+      const double slip = a - stick + (trailing ? shift : -shift);
+      if (a - stick >= std::abs(shift))
+      {
+         table.add("slip zone d, mm" + where, slip, edge.edge.slip_zone_error + read_out, unset,
+                   edge.edge.slip_zone);
+      }
+      if (shift == 0 && x > 0)
+      {
+         // The sheet's limits: d is underestimated by this factor; the energy is exact Hertz.
+         const double spread = (edge.edge.slip_zone_error + read_out) / edge.edge.slip_zone;
+         const double factor = 0.5 * (1 + std::sqrt(1 - x));
+         table.add("predicted / computed d" + where, factor, factor * (0.02 + spread), unset,
+                   slip_zone(edge.edge.near_edge()) / edge.edge.slip_zone);
+         const double y = 0.5 * (1 - design.load_ratio) * x;
+         const double energy =
+            0.5 * hertz_slip_energy(design.friction, design.normal, y, modulus);
+         table.add("energy per cycle, N" + where, energy, 0.02 * energy, unset,
+                   edge.energy.computed_total);
+         const Edge exact{closed_form.k_n, closed_form.k_t.trailing, design.friction};
+         const double ratio =
+            slip_energy_total(exact, (1 - design.load_ratio) * std::abs(exact.k_t), modulus) /
+            energy;
+         table.add("predicted / computed energy" + where, ratio, 0.05 * ratio, unset,
+                   edge.energy.predicted_total / edge.energy.computed_total);
+      }
+   }
+   return table;
+}
+
 Contact calibrate(const Design &design, const Setting &setting)
 {
    Contact contact;
@@ -88,15 +258,15 @@ Contact calibrate(const Design &design, const Setting &setting)
       contact.k_t = {design.k_t, unset};
       return contact;
    }
-   require(design.pad == "hertz" || design.pad == "flat-rounded", "the pad is '", design.pad,
-           "'; it must be hertz, flat-rounded or kn.");
+   require(design.pad == "hertz" || design.pad == "flat-rounded" || design.pad == "fe",
+           "the pad is '", design.pad, "'; it must be hertz, flat-rounded, fe or kn.");
    require(
       !given(design.k_n) && !given(design.k_t) && !given(design.half_width),
       "--k-n, --k-t and --half-width are for the pad 'kn'; here they follow from the loads.");
    const FatigueMaterial &material = setting.material;
    const double modulus =
       contact_modulus(material.young, material.poisson, setting.plane_stress);
-   if (design.pad == "hertz")
+   if (design.pad != "flat-rounded")
    {
       require(!given(design.flat), "--flat is for the pad 'flat-rounded'.");
       const HertzContact hertz = hertz_contact(design.normal, design.radius, modulus);
@@ -117,8 +287,17 @@ Contact calibrate(const Design &design, const Setting &setting)
    require(std::abs(design.shear) < limit, "the shear force Q = ", design.shear,
            " N/mm reaches the friction limit fP = ", limit,
            " N/mm: the whole contact slides and there is no partial slip to assess.");
-   contact.k_t = shear_intensities(contact.half_width, design.shear,
-                                   (given(design.bulk) ? design.bulk : 0) - design.bulk_pad);
+   contact.k_t =
+      shear_intensities(contact.half_width, design.shear, bulk_of(design) - design.bulk_pad);
+   return contact;
+}
+
+/// The intensities that the finite elements gave, in place of the closed forms.
+Contact replace_intensities(Contact contact, const SolvedContact &solved)
+{
+   contact.half_width = contact.rounded_width = solved.half_width;
+   contact.k_n = 0.5 * (solved.trailing.edge.k_n.value + solved.leading.edge.k_n.value);
+   contact.k_t = {solved.trailing.edge.k_t.value, solved.leading.edge.k_t.value};
    return contact;
 }
 
@@ -127,12 +306,13 @@ struct EdgeAssessment
    FrettingProblem problem;
    FrettingReport report;
    std::string edge;
+   Contact contact;
 };
 
 /// The edge whose crack is driven harder.
-EdgeAssessment assess_design(const Design &design, const Setting &setting)
+EdgeAssessment assess_design(const Design &design, const Setting &setting,
+                             const Contact &contact)
 {
-   const Contact contact = calibrate(design, setting);
    EdgeAssessment worst;
    for (const bool trailing : {true, false})
    {
@@ -154,7 +334,7 @@ EdgeAssessment assess_design(const Design &design, const Setting &setting)
       const FrettingReport report = assess(problem, setting.criteria);
       if (trailing || report.threshold.drive > worst.report.threshold.drive)
       {
-         worst = {problem, report, trailing ? "trailing" : "leading"};
+         worst = {problem, report, trailing ? "trailing" : "leading", contact};
       }
    }
    return worst;
@@ -267,10 +447,17 @@ void print_page(const Design &design, const Setting &setting, const EdgeAssessme
 {
    const FrettingReport &r = judged.report;
    const FatigueMaterial &m = setting.material;
-   const Contact contact = calibrate(design, setting);
+   const Contact &contact = judged.contact;
    const double a = contact.half_width;
    std::cout << "\nFRETTING ASSESSMENT: " << design.pad << " pad, " << m.name << ", "
-             << (setting.plane_stress ? "plane stress" : "plane strain") << "\n\n";
+             << (setting.plane_stress ? "plane stress" : "plane strain") << "\n";
+   std::cout << wrap("E " + number(1e-3 * m.young, "GPa") + ", ν " + number(m.poisson) +
+                        ", ΔK_th " + number(m.threshold / mpa_sqrt_m, "MPa√m") +
+                        ", fatigue limit " + number(m.fatigue_limit.low, "MPa") +
+                        ", shear yield " + number(m.shear_yield.low, "MPa") + ", friction " +
+                        number(design.friction),
+                     3)
+             << "\n";
    std::cout << wrap(verdict_text(r), 3)
              << wrap("Trust in this result: " + to_string(r.trust) + " (see the last section).",
                      3);
@@ -342,7 +529,7 @@ Json value(double number)
 Json to_json(const Design &design, const Setting &setting, const EdgeAssessment &judged)
 {
    const FrettingReport &r = judged.report;
-   const Contact contact = calibrate(design, setting);
+   const Contact &contact = judged.contact;
    const double width = contact.rounded_width > 0 ? contact.rounded_width : contact.half_width;
    Json validity = Json::array();
    for (const Validity &item : r.validity)
@@ -388,6 +575,81 @@ Json to_json(const Design &design, const Setting &setting, const EdgeAssessment 
            {"energy_total", r.energy_total},
            {"trust", to_string(r.trust)},
            {"validity", validity}};
+}
+
+Json to_json(const FittedIntensity &fitted)
+{
+   return {{"value", fitted.value},
+           {"relative_error", fitted.relative_error},
+           {"window", {fitted.window.nearest, fitted.window.farthest}},
+           {"nodes", fitted.nodes}};
+}
+
+Json to_json(const SolvedEdge &solved, bool resolved)
+{
+   const ContactEdge &edge = solved.edge;
+   return {{"k_n", to_json(edge.k_n)},
+           {"k_t", to_json(edge.k_t)},
+           {"slip_zone", edge.slip_zone},
+           {"slip_zone_error", edge.slip_zone_error},
+           {"slip_zone_predicted", slip_zone(edge.near_edge())},
+           {"slip_zone_reversed", solved.reversed_slip_zone},
+           {"slides", edge.slides},
+           {"resolved", resolved},
+           {"energy", solved.energy.computed_total},
+           {"energy_predicted", solved.energy.predicted_total},
+           {"energy_max", solved.energy.computed_max},
+           {"energy_max_predicted", solved.energy.predicted_max}};
+}
+
+Json to_json(const SolvedContact &solved)
+{
+   return {{"half_width", solved.half_width},
+           {"trailing", to_json(solved.trailing, resolved(solved.trailing, solved))},
+           {"leading", to_json(solved.leading, resolved(solved.leading, solved))},
+           {"steady_cycle", solved.steady_cycle},
+           {"dofs", solved.dofs},
+           {"seconds", solved.seconds}};
+}
+
+void print_solution(const SolvedContact &solved, const miniapp::ReferenceTable &table)
+{
+   std::cout << "\n6. The finite element contact (" << solved.dofs << " dofs, "
+             << number(solved.seconds, "s") << ")\n";
+   for (const bool trailing : {true, false})
+   {
+      const SolvedEdge &solution = trailing ? solved.trailing : solved.leading;
+      const ContactEdge &edge = solution.edge;
+      std::cout << (trailing ? "   trailing edge\n" : "   leading edge\n");
+      const auto line = [](const char *what, const FittedIntensity &fitted, const char *unit)
+      {
+         print_line(what, number(fitted.value, unit),
+                    "± " + number(100 * fitted.relative_error, "%") + ", fitted from " +
+                       number(fitted.window.nearest) + " to " +
+                       number(fitted.window.farthest, "mm") + " (" +
+                       std::to_string(fitted.nodes) + " nodes)");
+      };
+      line("K_N", edge.k_n, "MPa/√mm");
+      line("K_T", edge.k_t, "MPa√mm");
+      print_line("slip zone d", number(edge.slip_zone, "mm"),
+                 "± " + number(edge.slip_zone_error, "mm") + "; from K_N and K_T " +
+                    number(slip_zone(edge.near_edge()), "mm") +
+                    (edge.slides ? "; the whole contact slides" : ""));
+      print_line("energy per cycle", number(solution.energy.computed_total, "N"),
+                 "from K_N and K_T " + number(solution.energy.predicted_total, "N"));
+      print_line("largest per area", number(solution.energy.computed_max, "N/mm"),
+                 "from K_T " + number(solution.energy.predicted_max, "N/mm"));
+      if (edge.k_t.value != 0 && !resolved(solution, solved))
+      {
+         std::cout << wrap("The slip zone is shorter than two spacings of the contact nodes (" +
+                              number(solved.spacing, "mm") +
+                              "): its computed length and energy are not resolved; K_N and K_T "
+                              "are. More --nodes resolve it.",
+                           6);
+      }
+   }
+   std::cout << std::flush;
+   table.print();
 }
 
 // --- figures
@@ -578,7 +840,8 @@ std::string correlate(const std::string &file, const Design &common, const Setti
               "; it must be 0 or 1.");
       try
       {
-         const FrettingReport report = assess_design(design, setting).report;
+         const FrettingReport report =
+            assess_design(design, setting, calibrate(design, setting)).report;
          table.row(series, cycles, runout, design.friction, report.edge_stress_range,
                    report.abscissa, report.ordinate, report.k_t_range, report.energy_max,
                    report.energy_total, to_string(report.trust));
@@ -620,7 +883,7 @@ void replace(double from, double scale, double &to)
    if (given(from)) { to = from * scale; }
 }
 
-void program(int argc, char *argv[])
+int program(int argc, char *argv[])
 {
    Design design;
    Setting setting;
@@ -632,7 +895,8 @@ void program(int argc, char *argv[])
 
    mfem::OptionsParser options(argc, argv);
    options.AddOption(&design.pad, "-p", "--pad",
-                     "hertz (cylinder on flat), flat-rounded, or kn (K_N and K_T given).");
+                     "hertz (cylinder on flat), fe (the same by finite elements), "
+                     "flat-rounded, or kn (K_N and K_T given).");
    options.AddOption(&design.radius, "-r", "--radius",
                      "Radius of the pad or of its edges, mm.");
    options.AddOption(&design.flat, "-b", "--flat",
@@ -654,6 +918,8 @@ void program(int argc, char *argv[])
    options.AddOption(&design.k_t, "-kt", "--k-t", "K_T at peak load in MPa sqrt(mm) (pad kn).");
    options.AddOption(&design.half_width, "-a", "--half-width",
                      "Half width of the contact, mm (pad kn, for the validity only).");
+   options.AddOption(&design.nodes, "-nodes", "--nodes", "Contact nodes (pad fe).");
+   options.AddOption(&design.order, "-order", "--order", "Order of the elements (pad fe).");
    options.AddOption(&material, "-m", "--material", "Name of a material record.");
    options.AddOption(&material_file, "-mf", "--material-file",
                      "File of material records, JSON.");
@@ -672,7 +938,7 @@ void program(int argc, char *argv[])
    options.AddOption(
       &records, "-rec", "--records",
       "CSV of tests (P, Q, bulk, ..., cycles, runout) to correlate; needs --plot.");
-   if (!miniapp::parse(options)) { return; }
+   miniapp::parse(options);
 
    setting.criteria.criterion = criterion_of(criterion);
    FatigueMaterial &m = setting.material;
@@ -694,8 +960,28 @@ void program(int argc, char *argv[])
       "; it must be positive: without friction nothing sticks and there is no partial slip.");
    require(records.empty() || !plot.empty(), "--records needs --plot for its figures.");
 
-   const EdgeAssessment judged = assess_design(design, setting);
-   const Json document = to_json(design, setting, judged);
+   const bool solve = design.pad == "fe";
+   require(!solve || records.empty(),
+           "--records are assessed by the closed forms: not with the pad 'fe'.");
+   require(!solve || design.bulk_pad == 0, "the pad 'fe' takes no --bulk-pad.");
+   if (!json.empty()) { require_writable(json); }
+
+   Contact contact = calibrate(design, setting);
+   SolvedContact solved;
+   miniapp::ReferenceTable table;
+   if (solve)
+   {
+      solved = solve_contact(design, setting, contact);
+      table = compare(design, setting, contact, solved);
+      contact = replace_intensities(contact, solved);
+   }
+   const EdgeAssessment judged = assess_design(design, setting, contact);
+   Json document = to_json(design, setting, judged);
+   if (solve)
+   {
+      document["fe"] = to_json(solved);
+      document["references"] = table.json();
+   }
    std::map<std::string, std::string> files;
    if (!plot.empty())
    {
@@ -703,14 +989,7 @@ void program(int argc, char *argv[])
       files["assessment.json"] = document.dump(3) + "\n";
       if (!records.empty()) { files["records.csv"] = correlate(records, design, setting); }
    }
-
-   // What the records gave, so that the echo shows what was used.
-   young = m.young / 1e3;
-   poisson = m.poisson;
-   threshold = m.threshold / mpa_sqrt_m;
-   limit = m.fatigue_limit.low;
-   yield = m.shear_yield.low;
-   if (!json.empty()) { write_file(json, document.dump(3) + "\n"); }
+   miniapp::write_json(document, json);
    if (!plot.empty())
    {
       std::error_code error;
@@ -718,16 +997,17 @@ void program(int argc, char *argv[])
       require(!error, "cannot make the directory ", plot, ".");
       // The tests of an earlier run would belong to another design.
       std::filesystem::remove(plot + "/records.csv", error);
-      for (const auto &[name, text] : files) { write_file(plot + "/" + name, text); }
+      for (const auto &[name, text] : files) { write_whole(plot + "/" + name, text); }
    }
-   miniapp::echo(options);
    print_page(design, setting, judged);
+   if (solve) { print_solution(solved, table); }
    if (!plot.empty()) { draw(plot); }
+   return 0;
 }
 
 } // namespace
 
 int main(int argc, char *argv[])
 {
-   return miniapp::run("fretting", [&] { program(argc, argv); });
+   return miniapp::run([&] { return program(argc, argv); });
 }

@@ -11,11 +11,10 @@
 //                hertz -shear "0.3 0.6 0.9"
 //                hertz -body block -ratio 0.8 -shear none
 
+#include "common/hertz_scene.hpp"
 #include "common/miniapp.hpp"
 
 #include <algorithm>
-#include <cattaneo/condense/reduction.hpp>
-#include <cattaneo/elastic/graded_mesh.hpp>
 #include <cattaneo/friction/march.hpp>
 #include <cattaneo/friction/zones.hpp>
 #include <cattaneo/input_error.hpp>
@@ -32,92 +31,6 @@ namespace
 
 const double none = std::numeric_limits<double>::quiet_NaN();
 const double E_star = 0.5, radius = 100;
-
-struct Scene
-{
-   std::vector<std::unique_ptr<mfem::Mesh>> meshes;
-   std::vector<std::unique_ptr<ElasticBody>> bodies;
-   Reduction reduction;
-   int dofs = 0;
-};
-
-Material material(double poisson)
-{
-   return {1 - poisson * poisson, poisson, PlaneState::strain};
-}
-
-/// Loads of a body whose face of attribute `top`, of half-width L at height H above the
-/// contact, takes P as pressure and Q as shear with the linear pressure that balances its
-/// moment. `turn` is -1 for the body below, the half-turn image of the one above.
-void load(ElasticBody &body, int top, double L, double H, double P, double turn)
-{
-   body.add_pressure("P", top, P / (2 * L));
-   body.add_traction("Q", top, turn * P / (2 * L), 0.0);
-   const double slope = -turn * 1.5 * P * H / (L * L * L);
-   body.add_pressure("Q", top, [=](double x, double) { return slope * x; });
-}
-
-/// Two half-planes, both free, under loads in equilibrium: body 2 is body 1 turned by 180°.
-Scene half_planes(int order, int nodes, double span, double domain, double poisson, double P)
-{
-   Scene scene;
-   const int elements = (nodes - 1) / order;
-   const std::vector<double> contact = graded_to_ends(span, elements, 1.0);
-   const double h = contact[1] - contact[0], growth = 1.25;
-   const std::vector<double> depth = graded(0, span, h, growth, 0.2 * span);
-   const std::vector<double> rings = ring_scales(span, domain, h, growth);
-   const int surface = 1, far = 3;
-   std::vector<CondensedBody> condensed;
-   for (double turn : {-1.0, 1.0}) // the mesh is the lower body, its half-turn the upper one
-   {
-      scene.meshes.push_back(
-         std::make_unique<mfem::Mesh>(half_plane_mesh(contact, depth, rings)));
-      mfem::Mesh &mesh = *scene.meshes.back();
-      for (int v = 0; v < mesh.GetNV(); ++v)
-      {
-         mesh.GetVertex(v)[0] *= turn;
-         mesh.GetVertex(v)[1] *= turn;
-      }
-      scene.bodies.push_back(std::make_unique<ElasticBody>(mesh, order, material(poisson)));
-      ElasticBody &body = *scene.bodies.back();
-      load(body, far, domain, domain, P, -turn);
-      scene.dofs += body.space().GetTrueVSize();
-      const ContactLine line = contact_line(body, surface);
-      condensed.push_back(
-         condense(body, line, {}, condensed.empty() ? nullptr : &condensed.front()));
-   }
-   const Pairing pairing = pair_lines(condensed[0].line, condensed[1].line);
-   scene.reduction = reduce(condensed[0], condensed[1], pairing);
-   return scene;
-}
-
-/// Square block of side 2 on a half-plane that is held at its bottom.
-Scene block(int order, int nodes, double domain, double poisson, double P)
-{
-   Scene scene;
-   const double growth = 1.25;
-   const std::vector<double> contact = graded_to_ends(1.0, (nodes - 1) / order, 1.0);
-   const double h = contact[1] - contact[0];
-   const int bottom = 1, top = 3;
-   scene.meshes.push_back(
-      std::make_unique<mfem::Mesh>(rectangle_mesh(contact, graded(0, 2, h, growth, 0.1))));
-   scene.bodies.push_back(
-      std::make_unique<ElasticBody>(*scene.meshes[0], order, material(poisson)));
-   load(*scene.bodies[0], top, 1, 2, P, 1);
-   scene.meshes.push_back(std::make_unique<mfem::Mesh>(half_plane_mesh(
-      contact, graded(0, 1, h, growth, 0.1), ring_scales(1, domain, h, growth))));
-   scene.bodies.push_back(
-      std::make_unique<ElasticBody>(*scene.meshes[1], order, material(poisson)));
-   ElasticBody &plane = *scene.bodies[1];
-   const int surface = 1, far = 3;
-   for (int component : {0, 1}) { plane.fix(far, component); }
-   for (const auto &body : scene.bodies) { scene.dofs += body->space().GetTrueVSize(); }
-   const ContactLine above = contact_line(*scene.bodies[0], bottom);
-   const ContactLine below = contact_line(plane, surface);
-   scene.reduction = reduce(condense(*scene.bodies[0], above), condense(plane, below),
-                            pair_lines(above, below));
-   return scene;
-}
 
 /// Peak pressure: top of the parabola p²(x) (exact for Hertz) fitted within half a half-width
 /// of the largest nodal value, with the nodes' weights. Nodal values of quadratic elements
@@ -209,8 +122,11 @@ int main(int argc, char *argv[])
 
          const double b = on_block ? ratio : 1.0;
          const double P = M_PI * E_star * b * b / (4 * radius), p0 = 2 * P / (M_PI * b);
-         Scene scene = on_block ? block(order, nodes, domain, poisson, P)
-                                : half_planes(order, nodes, span, domain, poisson, P);
+         const Material material{1 - poisson * poisson, poisson, PlaneState::strain};
+         miniapp::HertzScene scene =
+            on_block ? make_scene(miniapp::BlockOnHalfPlane{order, nodes, domain, material, P})
+                     : make_scene(miniapp::HalfPlanes{order, nodes, b, span, domain, material,
+                                                      P, false});
          ReducedProblem &problem = scene.reduction.problem;
          set_friction(problem, friction);
          const VectorXd x = problem.position.col(0);

@@ -21,6 +21,24 @@ struct Leave
    int code;
 };
 
+/// MFEM's text without the values that were not set: a number without a default is NaN, which
+/// says nothing to the reader.
+std::string without_unset(const std::string &text)
+{
+   const std::string none = ", current value: nan";
+   std::istringstream lines(text);
+   std::string result;
+   for (std::string line; std::getline(lines, line);)
+   {
+      const bool unset = line.size() > 4 && line.substr(line.size() - 4) == " nan";
+      const auto at = line.find(none);
+      if (at != std::string::npos) { line.erase(at, none.size()); }
+      else if (unset) { continue; }
+      result += line + "\n";
+   }
+   return result;
+}
+
 } // namespace
 
 int run(const std::function<int()> &body)
@@ -45,7 +63,9 @@ void parse(mfem::OptionsParser &options)
    options.Parse();
    if (options.Help())
    {
-      options.PrintHelp(std::cout);
+      std::ostringstream help;
+      options.PrintHelp(help);
+      std::cout << without_unset(help.str());
       throw Leave{0};
    }
    if (!options.Good())
@@ -59,8 +79,9 @@ void parse(mfem::OptionsParser &options)
       std::cerr << "error:" << message << " (-h lists the options)" << std::endl;
       throw Leave{1};
    }
-   options.PrintOptions(std::cout);
-   std::cout << std::endl;
+   std::ostringstream values;
+   options.PrintOptions(values);
+   std::cout << without_unset(values.str()) << std::endl;
 }
 
 std::vector<double> numbers(const char *option, const std::string &text)

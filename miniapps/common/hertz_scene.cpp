@@ -1,0 +1,108 @@
+#include "common/hertz_scene.hpp"
+
+#include <cattaneo/elastic/graded_mesh.hpp>
+#include <cattaneo/input_error.hpp>
+
+namespace miniapp
+{
+
+using namespace cattaneo;
+
+namespace
+{
+
+/// Loads of a body whose face of attribute `top`, of half-width L at height H above the
+/// contact, takes P as pressure and Q as shear with the linear pressure that balances its
+/// moment. `turn` is -1 for the body below, the half-turn image of the one above.
+void load(ElasticBody &body, int top, double L, double H, double P, double turn)
+{
+   body.add_pressure("P", top, P / (2 * L));
+   body.add_traction("Q", top, turn * P / (2 * L), 0.0);
+   const double slope = -turn * 1.5 * P * H / (L * L * L);
+   body.add_pressure("Q", top, [=](double x, double) { return slope * x; });
+}
+
+} // namespace
+
+void HalfPlanes::validate() const
+{
+   require(order >= 1 && order <= 8, "option --order is ", order, ", must be 1 to 8");
+   require(nodes >= 9 && (nodes - 1) % order == 0, "option --nodes is ", nodes,
+           ", must be at least 9 and one more than a multiple of the order ", order);
+   require(span > 1, "option --span is ", span, ", must be above 1");
+   require(domain > 10, "option --domain is ", domain, ", must be above 10");
+   require(half_width > 0 && load > 0, "the half-width ", half_width, " and the load ", load,
+           " of the contact must be positive");
+}
+
+HertzScene make_scene(const HalfPlanes &options)
+{
+   options.validate();
+   HertzScene scene;
+   const int elements = (options.nodes - 1) / options.order;
+   const double span = options.span * options.half_width;
+   const double domain = options.domain * options.half_width;
+   const std::vector<double> contact = graded_to_ends(span, elements, 1.0);
+   const double h = contact[1] - contact[0], growth = 1.25;
+   const std::vector<double> depth = graded(0, span, h, growth, 0.2 * span);
+   const std::vector<double> rings = ring_scales(span, domain, h, growth);
+   const int surface = 1, far = 3, sides = 4;
+   std::vector<CondensedBody> condensed;
+   for (double turn : {-1.0, 1.0}) // the mesh is the lower body, its half-turn the upper one
+   {
+      scene.meshes.push_back(
+         std::make_unique<mfem::Mesh>(half_plane_mesh(contact, depth, rings)));
+      mfem::Mesh &mesh = *scene.meshes.back();
+      for (int v = 0; v < mesh.GetNV(); ++v)
+      {
+         mesh.GetVertex(v)[0] *= turn;
+         mesh.GetVertex(v)[1] *= turn;
+      }
+      scene.bodies.push_back(
+         std::make_unique<ElasticBody>(mesh, options.order, options.material));
+      ElasticBody &body = *scene.bodies.back();
+      load(body, far, domain, domain, options.load, -turn);
+      if (options.bulk && turn > 0)
+      {
+         body.add_traction(
+            "bulk", sides, [](double x, double) { return x > 0 ? 1.0 : -1.0; }, 0.0);
+      }
+      scene.dofs += body.space().GetTrueVSize();
+      const ContactLine line = contact_line(body, surface);
+      condensed.push_back(
+         condense(body, line, {}, condensed.empty() ? nullptr : &condensed.front()));
+   }
+   const Pairing pairing = pair_lines(condensed[0].line, condensed[1].line);
+   scene.reduction = reduce(condensed[0], condensed[1], pairing);
+   return scene;
+}
+
+HertzScene make_scene(const BlockOnHalfPlane &options)
+{
+   HertzScene scene;
+   const double growth = 1.25;
+   const std::vector<double> contact =
+      graded_to_ends(1.0, (options.nodes - 1) / options.order, 1.0);
+   const double h = contact[1] - contact[0];
+   const int bottom = 1, top = 3;
+   scene.meshes.push_back(
+      std::make_unique<mfem::Mesh>(rectangle_mesh(contact, graded(0, 2, h, growth, 0.1))));
+   scene.bodies.push_back(
+      std::make_unique<ElasticBody>(*scene.meshes[0], options.order, options.material));
+   load(*scene.bodies[0], top, 1, 2, options.load, 1);
+   scene.meshes.push_back(std::make_unique<mfem::Mesh>(half_plane_mesh(
+      contact, graded(0, 1, h, growth, 0.1), ring_scales(1, options.domain, h, growth))));
+   scene.bodies.push_back(
+      std::make_unique<ElasticBody>(*scene.meshes[1], options.order, options.material));
+   ElasticBody &plane = *scene.bodies[1];
+   const int surface = 1, far = 3;
+   for (int component : {0, 1}) { plane.fix(far, component); }
+   for (const auto &body : scene.bodies) { scene.dofs += body->space().GetTrueVSize(); }
+   const ContactLine above = contact_line(*scene.bodies[0], bottom);
+   const ContactLine below = contact_line(plane, surface);
+   scene.reduction = reduce(condense(*scene.bodies[0], above), condense(plane, below),
+                            pair_lines(above, below));
+   return scene;
+}
+
+} // namespace miniapp

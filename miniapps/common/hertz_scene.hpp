@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cattaneo/condense/reduction.hpp>
+#include <memory>
+#include <vector>
+
+namespace miniapp
+{
+
+/** Two half-planes of the same material, a pad above (body 1) and a specimen below, both free
+    bodies under loads in equilibrium; body 2 is body 1 turned by 180°. Without a gap: that is
+    set in the reduced problem. Any consistent units.
+
+    Load patterns: "P", the normal force `load`; "Q", a shear of the same resultant, +x on the
+    pad, with the pressure that balances its moment; "bulk" if asked for, unit tension along x
+    in the specimen. */
+struct HalfPlanes
+{
+   int order = 2;
+   int nodes = 101;         ///< contact nodes; (nodes - 1) a multiple of the order
+   double half_width = 1.0; ///< expected half-width of the contact, the unit of the next two
+   double span = 1.67;      ///< half-width of the contact candidates
+   double domain = 1e4;     ///< half-width and depth of each block that stands for a half-plane
+   cattaneo::Material material;
+   double load = 1.0; ///< per unit thickness
+   bool bulk = false;
+
+   /// InputError naming the option, its value and what is allowed.
+   void validate() const;
+};
+
+/// Square block of side 2 on a half-plane that is held at its bottom; loads as above, the
+/// specimen's are its support's.
+struct BlockOnHalfPlane
+{
+   int order = 2;
+   int nodes = 101;
+   double domain = 1e4;
+   cattaneo::Material material;
+   double load = 1.0;
+};
+
+/// The bodies must live as long as their reduction is used for fields.
+struct HertzScene
+{
+   std::vector<std::unique_ptr<mfem::Mesh>> meshes;
+   std::vector<std::unique_ptr<cattaneo::ElasticBody>> bodies;
+   cattaneo::Reduction reduction;
+   int dofs = 0; ///< of both bodies
+};
+
+HertzScene make_scene(const HalfPlanes &options);
+HertzScene make_scene(const BlockOnHalfPlane &options);
+
+} // namespace miniapp

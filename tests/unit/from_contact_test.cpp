@@ -1,0 +1,310 @@
+#include <cattaneo/fretting/calibration.hpp>
+#include <cattaneo/fretting/corner.hpp>
+#include <cattaneo/fretting/from_contact.hpp>
+#include <cattaneo/fretting/measures.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cmath>
+#include <functional>
+#include <gtest/gtest.h>
+
+namespace
+{
+
+using namespace cattaneo;
+using namespace cattaneo::fretting;
+using Eigen::Index;
+using Eigen::VectorXd;
+
+const double pi = std::acos(-1.0);
+const double modulus = 0.5; // E*
+
+/** Two similar half-planes by the boundary element method: constant tractions on n cells of
+    [-half, half], displacements at their centres from Flamant's solution,
+    v = -(2/(π E*)) ∫ q ln|x - s| ds. Both are held by a spring so soft that the loads arrive
+    whole. Patterns: "P" and "Q" of resultant 1, "bulk" of unit tension in body 2. */
+ReducedProblem half_planes(int n, double half, const std::function<double(double)> &gap)
+{
+   ReducedProblem problem;
+   const double h = 2 * half / n, soft = 1e5;
+   VectorXd x(n);
+   for (int i = 0; i < n; i++) { x[i] = -half + (i + 0.5) * h; }
+   const auto primitive = [](double s) { return s * std::log(std::abs(s)) - s; };
+   Eigen::MatrixXd G(n, n);
+   for (int i = 0; i < n; i++)
+   {
+      for (int j = 0; j < n; j++)
+      {
+         const double s = x[i] - x[j];
+         G(i, j) =
+            soft - 2 / (pi * modulus * h) * (primitive(s + h / 2) - primitive(s - h / 2));
+      }
+   }
+   const Eigen::MatrixXd K = G.inverse();
+   problem.A = problem.C = 0.5 * (K + K.transpose());
+   problem.B = Eigen::MatrixXd::Zero(n, n);
+   const VectorXd zero = VectorXd::Zero(n), one = VectorXd::Ones(n);
+   // A load moves body 1 by `soft` against no contact force: q = A (v - v_load).
+   problem.patterns = {{"P", Control::force, zero, problem.C * (soft * one)},
+                       {"Q", Control::force, -problem.A * (soft * one), zero},
+                       {"bulk", Control::force, problem.A * x / (2 * modulus), zero}};
+   problem.H = Eigen::MatrixXd::Zero(3, 3);
+   problem.gap = x.unaryExpr(gap);
+   problem.weights = VectorXd::Constant(n, h);
+   problem.arc_length = x.array() + half;
+   set_friction(problem, 0.5);
+   return problem;
+}
+
+struct Solved
+{
+   ContactState pressed, peak;
+   MarchReport cycles;
+};
+
+Solved solve(const ReducedProblem &problem, const Eigen::Vector3d &normal,
+             const Eigen::Vector3d &cyclic)
+{
+   Solved result;
+   ContactState state = ContactState::virgin(problem);
+   march(problem, LoadHistory::through({Eigen::Vector3d::Zero(), normal}), state);
+   result.pressed = state;
+   state.time = 0;
+   march(problem, LoadHistory::through({normal, normal + cyclic}), state);
+   result.peak = state;
+   state.time = 0;
+   LoadHistory cycle =
+      LoadHistory::through({normal + cyclic, normal - cyclic, normal + cyclic});
+   cycle.cycle_start = 0;
+   cycle.cycles = 3;
+   result.cycles = march(problem, cycle, state);
+   EXPECT_EQ(result.cycles.status, FrictionStatus::converged) << result.cycles.message;
+   return result;
+}
+
+const double radius = 20, load = pi * modulus / (4 * radius); // Hertz half-width 1
+
+ReducedProblem hertz_pair(int n)
+{
+   return half_planes(n, 1.4, [](double x) { return x * x / (2 * radius); });
+}
+
+TEST(FromContact, HertzIntensitiesSlipZoneAndEnergy)
+{
+   const ReducedProblem problem = hertz_pair(161);
+   const double x = 0.3, shear = x * 0.5 * load;
+   const Solved solved = solve(problem, {load, 0, 0}, {0, shear, 0});
+   const std::vector<ContactEdge> edges = contact_edges(problem, solved.pressed, solved.peak);
+   ASSERT_EQ(edges.size(), 2u);
+   const ShearIntensities k_t = shear_intensities(1, shear, 0);
+   const double k_n = hertz_k_n(load, 1), exact_slip = 1 - std::sqrt(1 - x);
+   for (std::size_t e = 0; e < 2; e++)
+   {
+      const ContactEdge &edge = edges[e];
+      const double exact = e == 0 ? k_t.trailing : k_t.leading;
+      EXPECT_EQ(edge.side, e == 0 ? 1 : -1);
+      EXPECT_FALSE(edge.complete);
+      EXPECT_FALSE(edge.slides);
+      EXPECT_NEAR(edge.position.position, e == 0 ? 0.4 : 2.4, 2e-3);
+      EXPECT_NEAR(edge.k_n.value, k_n, 0.01 * k_n);
+      EXPECT_NEAR(edge.k_t.value, exact, 0.01 * std::abs(exact));
+      EXPECT_LT(std::abs(edge.k_t.value / exact - 1), 3 * edge.k_t.relative_error);
+      EXPECT_LT(edge.k_t.relative_error, 0.02);
+      EXPECT_GE(edge.k_n.nodes, 4);
+      EXPECT_GT(edge.k_n.window.farthest, edge.k_n.window.nearest);
+      EXPECT_NEAR(edge.slip_zone, exact_slip, edge.slip_zone_error + 0.1 * 2.8 / 161);
+      // The sheet: the near-edge field underestimates the slip zone by this factor.
+      EXPECT_NEAR(slip_zone(edge.near_edge()) / edge.slip_zone, 0.5 * (1 + std::sqrt(1 - x)),
+                  0.03);
+      const EnergyComparison energy = compare_energy(problem, edge, solved.cycles.cycles.back(),
+                                                     2 * std::abs(exact), modulus);
+      const double exact_energy = 0.5 * hertz_slip_energy(0.5, load, x, modulus);
+      EXPECT_NEAR(energy.computed_total, exact_energy, 0.02 * exact_energy);
+      EXPECT_NEAR(energy.predicted_total,
+                  slip_energy_total({k_n, exact, 0.5}, 2 * std::abs(exact), modulus),
+                  0.01 * energy.predicted_total); // of K_N
+      EXPECT_LT(energy.predicted_total, energy.computed_total);
+   }
+}
+
+TEST(FromContact, StuckSolutionGivesTheSameIntensitiesAsTheFrictionalOne)
+{
+   const ReducedProblem problem = hertz_pair(121);
+   const Solved solved = solve(problem, {load, 0, 0}, {0, 0.2 * 0.5 * load, 0});
+   const ContactState stuck = fully_stuck(problem, solved.pressed, solved.peak);
+   // It carries the whole shear force and the same pressure.
+   EXPECT_NEAR(stuck.q.sum(), solved.peak.q.sum(), 1e-4 * load);
+   EXPECT_LT((stuck.p - solved.peak.p).cwiseAbs().maxCoeff(), 1e-9 * load);
+   const std::vector<ContactEdge> slipping =
+      contact_edges(problem, solved.pressed, solved.peak);
+   const std::vector<ContactEdge> sticking = contact_edges(problem, solved.pressed, stuck);
+   ASSERT_EQ(sticking.size(), 2u);
+   for (std::size_t e = 0; e < 2; e++)
+   {
+      EXPECT_NEAR(sticking[e].k_t.value, slipping[e].k_t.value, 1e-8);
+      EXPECT_EQ(sticking[e].slip_zone, 0);
+      EXPECT_GT(slipping[e].slip_zone, 0);
+   }
+}
+
+TEST(FromContact, BulkTensionDistinguishesTheEdgesAndTheBodies)
+{
+   const ReducedProblem problem = hertz_pair(161);
+   const double shear = 0.15 * 0.5 * load, bulk = 1e-3;
+   const Solved solved = solve(problem, {load, 0, 0}, {0, shear, bulk});
+   const ShearIntensities exact = shear_intensities(1, shear, bulk);
+   const std::vector<ContactEdge> second = contact_edges(problem, solved.pressed, solved.peak);
+   const std::vector<ContactEdge> first =
+      contact_edges(problem, solved.pressed, solved.peak, CrackedBody::first);
+   ASSERT_EQ(second.size(), 2u);
+   EXPECT_NEAR(second[0].k_t.value, exact.trailing, 0.01 * exact.trailing);
+   EXPECT_NEAR(second[1].k_t.value, exact.leading, 0.01 * exact.trailing);
+   EXPECT_GT(second[0].slip_zone, second[1].slip_zone);
+   for (std::size_t e = 0; e < 2; e++)
+   {
+      EXPECT_DOUBLE_EQ(first[e].k_t.value, -second[e].k_t.value);
+      EXPECT_EQ(first[e].k_n.value, second[e].k_n.value);
+   }
+}
+
+TEST(FromContact, FlatAndRoundedPadHasItsCalibration)
+{
+   const double flat = 0.5;
+   const ReducedProblem problem = half_planes(
+      281, 1.4,
+      [&](double x) { return std::pow(std::max(0.0, std::abs(x) - flat), 2) / (2 * radius); });
+   const double force = 0.012, shear = 0.1 * 0.5 * force;
+   const FlatRoundedContact pad = flat_rounded_contact(force, radius, flat, modulus);
+   ASSERT_LT(pad.half_width, 1.3);
+   const Solved solved = solve(problem, {force, 0, 0}, {0, shear, 0});
+   const std::vector<ContactEdge> edges = contact_edges(problem, solved.pressed, solved.peak);
+   ASSERT_EQ(edges.size(), 2u);
+   EXPECT_NEAR(edges[0].half_width, pad.half_width, 3e-3);
+   EXPECT_NEAR(edges[0].k_n.value, pad.k_n, 0.02 * pad.k_n);
+   const double k_t = shear_intensities(pad.half_width, shear, 0).trailing;
+   EXPECT_NEAR(edges[0].k_t.value, k_t, 0.01 * k_t);
+}
+
+TEST(FromContact, CompleteContactIsRefusedWithAReason)
+{
+   const ReducedProblem problem = half_planes(41, 1, [](double) { return 0.0; });
+   const Solved solved = solve(problem, {load, 0, 0}, {0, 0.1 * load, 0});
+   const std::vector<ContactEdge> edges = contact_edges(problem, solved.pressed, solved.peak);
+   ASSERT_EQ(edges.size(), 2u);
+   for (const ContactEdge &edge : edges)
+   {
+      EXPECT_TRUE(edge.complete);
+      EXPECT_NE(edge.why_not.find("corner"), std::string::npos) << edge.why_not;
+      EXPECT_THROW(edge.near_edge(), InputError);
+      EXPECT_THROW(compare_energy(problem, edge, solved.cycles.cycles.back(), 1, modulus),
+                   InputError);
+   }
+}
+
+TEST(FromContact, RefusesWhatItCannotJudge)
+{
+   const ReducedProblem coarse = hertz_pair(9);
+   const Solved solved = solve(coarse, {load, 0, 0}, {0, 0.1 * 0.5 * load, 0});
+   EXPECT_THROW(contact_edges(coarse, solved.pressed, solved.peak), InputError);
+   EXPECT_THROW(fully_stuck(coarse, solved.pressed, solved.peak, {true}), InputError);
+   ReducedProblem frictionless = coarse;
+   frictionless.A.resize(0, 0);
+   frictionless.B.resize(9, 0);
+   EXPECT_THROW(contact_edges(frictionless, solved.pressed, solved.peak), InputError);
+}
+
+// --- corners
+
+TEST(Corner, SquarePunchOnAHalfPlane)
+{
+   const CornerModes modes = corner_modes({pi / 2, pi});
+   EXPECT_NEAR(modes.one.eigenvalue, 0.544483736782, 1e-12);
+   EXPECT_NEAR(modes.two.eigenvalue, 0.908529189846, 1e-12);
+   EXPECT_NEAR(modes.one.traction_ratio(), 0.543075578837, 1e-11);
+   EXPECT_NEAR(modes.two.traction_ratio(), -0.218923236249, 1e-11);
+}
+
+TEST(Corner, OtherAngles)
+{
+   // A crack: both exponents 1/2, and on its own line K_I, K_II are the tractions.
+   const CornerModes crack = corner_modes({pi, pi});
+   EXPECT_NEAR(crack.one.eigenvalue, 0.5, 1e-14);
+   EXPECT_NEAR(crack.two.eigenvalue, 0.5, 1e-14);
+   EXPECT_NEAR(crack.one.pressure, 1, 1e-12);
+   EXPECT_NEAR(crack.one.shear, 0, 1e-12);
+   EXPECT_NEAR(crack.two.shear, 1, 1e-12);
+   EXPECT_NEAR(crack.two.pressure, 0, 1e-12);
+   // Roots solve the characteristic equation, and mode II passes λ = 1 at tan α = α.
+   for (const double sum : {3.3, 3.9, 4.3, 4.49, 4.50, 4.9, 5.5, 6.2})
+   {
+      const CornerModes modes = corner_modes({sum - 2.0, 2.0});
+      const double one = modes.one.eigenvalue, two = modes.two.eigenvalue;
+      EXPECT_NEAR(std::sin(one * sum) + one * std::sin(sum), 0, 1e-13);
+      EXPECT_NEAR(std::sin(two * sum) - two * std::sin(sum), 0, 1e-9);
+      EXPECT_GE(one, 0.5);
+      EXPECT_LT(one, 1);
+      EXPECT_EQ(two<1, sum> 4.493409457909064);
+      EXPECT_GT(std::abs(two - 1), 1e-4);
+   }
+   // Exchanging pad and body mirrors the corner: the shear changes sides, and so does K_II.
+   const CornerModes a = corner_modes({1.6, 3.2}), b = corner_modes({3.2, 1.6});
+   EXPECT_NEAR(a.one.shear, -b.one.shear, 1e-12);
+   EXPECT_NEAR(a.two.pressure, -b.two.pressure, 1e-12);
+   EXPECT_THROW(corner_modes({1.5, 1.6}), InputError);
+   EXPECT_THROW(corner_modes({4, 3}), InputError);
+   EXPECT_THROW(corner_modes({-1, 5}), InputError);
+}
+
+EdgeTractions corner_tractions(const Corner &corner, double one, double two, double smooth)
+{
+   const CornerModes modes = corner_modes(corner);
+   EdgeTractions tractions;
+   tractions.edge = 2;
+   for (int i = 0; i < 60; i++)
+   {
+      const double r = 0.01 * i;
+      const double first = one * std::pow(r, modes.one.eigenvalue - 1);
+      const double second = two * std::pow(r, modes.two.eigenvalue - 1);
+      tractions.position.push_back(2 - r); // contact to the left of the corner
+      tractions.pressure.push_back(
+         i ? first * modes.one.pressure + second * modes.two.pressure + smooth * r : 0);
+      tractions.shear.push_back(
+         i ? -(first * modes.one.shear + second * modes.two.shear - smooth * r) : 0);
+   }
+   return tractions;
+}
+
+TEST(Corner, FitRecoversBothIntensities)
+{
+   for (const Corner corner : {Corner{pi / 2, pi}, Corner{1.9, 2.9}, Corner{2.5, 2.5}})
+   {
+      const CornerFit exact = fit_corner(corner, corner_tractions(corner, 1.3, -0.4, 0));
+      EXPECT_NEAR(exact.k_one.value, 1.3, 1e-9);
+      EXPECT_NEAR(exact.k_two.value, -0.4, 1e-9);
+      const CornerFit fit = fit_corner(corner, corner_tractions(corner, 1.3, -0.4, 0.2));
+      EXPECT_NEAR(fit.k_one.value, 1.3, 1.3 * 3 * fit.k_one.relative_error);
+      EXPECT_NEAR(fit.k_two.value, -0.4, 0.4 * 3 * fit.k_two.relative_error);
+      EXPECT_NEAR(fit.k_one.value, 1.3, 0.01);
+      EXPECT_GT(fit.k_one.nodes, 3);
+   }
+   EXPECT_NEAR(
+      fit_corner({pi / 2, pi}, corner_tractions({pi / 2, pi}, 1, 0.1, 0)).least_friction,
+      0.543075578837, 1e-9);
+}
+
+TEST(Corner, FitRefusesBadInput)
+{
+   const Corner corner{pi / 2, pi};
+   EdgeTractions tractions = corner_tractions(corner, 1, 1, 0);
+   EXPECT_THROW(fit_corner({1.3, pi}, tractions), InputError); // mode II is not singular
+   tractions.shear.pop_back();
+   EXPECT_THROW(fit_corner(corner, tractions), InputError);
+   tractions = corner_tractions(corner, 1, 1, 0);
+   tractions.edge = 1.9;
+   EXPECT_THROW(fit_corner(corner, tractions), InputError);
+   tractions = corner_tractions(corner, 1, 1, 0);
+   FitSettings settings;
+   settings.window = {0.001, 0.015};
+   EXPECT_THROW(fit_corner(corner, tractions, settings), InputError);
+}
+
+} // namespace
