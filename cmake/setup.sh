@@ -7,7 +7,7 @@ build_type=${CATTANEO_BUILD_TYPE:-Release}
 build=build/$(printf %s "$build_type" | tr '[:upper:]' '[:lower:]')
 deps=build/deps
 mfem_version=4.10.0.1
-packages="g++ cmake ninja-build zlib1g libeigen3-dev libsuitesparse-dev libopenblas-dev
+packages="g++ cmake ninja-build zlib1g libeigen3-dev libsuitesparse-dev libopenblas-dev coinor-libipopt-dev
    nlohmann-json3-dev libgtest-dev libbenchmark-dev"
 
 say() { printf '%s\n' "cattaneo: $*" >&2; }
