@@ -15,8 +15,8 @@ namespace cattaneo
 
        |q0_j + θ q1_j + r| ≤ f (p0_j + θ p1_j + M r),   rigidᵀ r = 0.
 
-    With one tangential component it is a linear programme, with two (torsion) a second-order cone
-    programme. p ≥ 0 is implied. */
+    With one tangential component it is a linear programme, with two (torsion) a second-order
+   cone programme. p ≥ 0 is implied. */
 struct ConeProgramme
 {
    const ResidualForces *residual = nullptr; ///< not owned
@@ -35,8 +35,8 @@ struct ConeProgramme
    Eigen::Index components() const { return loads.q0.rows() / friction.size(); }
 };
 
-/** Motions dual to the limit: at load vertex j node i slips by `slip` and opens by `opening`, with
-    opening ≥ f |slip| (the flow rule associated with the friction cone). */
+/** Motions dual to the limit: at load vertex j node i slips by `slip` and opens by `opening`,
+   with opening ≥ f |slip| (the flow rule associated with the friction cone). */
 struct Mechanism
 {
    Eigen::MatrixXd slip;    ///< c·n × vertices
@@ -48,8 +48,8 @@ struct ConeSettings
    int max_iterations = 300;
    /// Stopping tolerance of the scaled optimality conditions.
    double tolerance = 1e-10;
-   /// Every cone is left by this much of the node's typical force, so that the point that is found
-   /// stays inside after rounding and the small constraint violations of the solver.
+   /// Every cone is left by this much of the node's typical force, so that the point that is
+   /// found stays inside after rounding and the small constraint violations of the solver.
    double margin = 1e-10;
 };
 
@@ -85,16 +85,16 @@ ConeSolution solve(const ConeProgramme &programme, const ConeSettings &settings,
 
 /// Largest (|q| - f p) / force scale over all nodes and vertices: at most 0 inside every cone.
 /// Plain arithmetic from the slip and the matrices of the reduced problem.
-double worst_violation(const ConeProgramme &programme, const ReducedProblem &problem, double theta,
-                       const Eigen::VectorXd &slip);
+double worst_violation(const ConeProgramme &programme, const ReducedProblem &problem,
+                       double theta, const Eigen::VectorXd &slip);
 
-/** A proven upper bound of θ by weak duality. For motions with A Σslip + Bᵀ Σopening = 0, summed
-    over the vertices, and opening ≥ f |slip|, each admissible state does work
+/** A proven upper bound of θ by weak duality. For motions with A Σslip + Bᵀ Σopening = 0,
+   summed over the vertices, and opening ≥ f |slip|, each admissible state does work
 
        0 ≤ Σ_j opening·p + slip·q = Σ_j opening·(p0 + θ p1) + slip·(q0 + θ q1),
 
-    so that θ ≤ W0 / (-W1) if W1 < 0. @a mechanism, which a solver leaves with small residuals, is
-    first made to satisfy both conditions to round-off; what then remains of the first is
+    so that θ ≤ W0 / (-W1) if W1 < 0. @a mechanism, which a solver leaves with small residuals,
+   is first made to satisfy both conditions to round-off; what then remains of the first is
     multiplied by @a slip_size, a bound of the slips, and added. Infinite if W1 ≥ 0 or if the
     mechanism cannot be repaired. The mechanism comes back scaled to W1 = -1. */
 double weak_duality_bound(const ConeProgramme &programme, const ReducedProblem &problem,

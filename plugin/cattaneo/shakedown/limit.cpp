@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/shakedown/limit.hpp>
 #include <chrono>
@@ -39,8 +40,8 @@ void check(const LimitProblem &problem, const LimitSettings &settings)
            problem.residual.flexibility.rows(), " tangential unknowns instead of ", m);
 }
 
-/// A typical force of each node: its largest under the given loads, but not less than a thousandth
-/// of the median, so that a node without force of its own still has a scale.
+/// A typical force of each node: its largest under the given loads, but not less than a
+/// thousandth of the median, so that a node without force of its own still has a scale.
 Eigen::VectorXd typical_forces(const Eigen::MatrixXd &q, const Eigen::MatrixXd &p)
 {
    const Eigen::Index n = p.rows();
@@ -60,19 +61,16 @@ ConeSolution solve_counted(const ConeProgramme &programme, const LimitSettings &
    ConeSettings cone;
    cone.max_iterations = settings.max_iterations;
    ConeSolution solution = solve(programme, cone, start);
-   if (start.mechanism.slip.size() && solution.outcome == ConeOutcome::failed)
-   {
-      report.iterations += solution.iterations;
-      ++report.counters.limit_solves;
-      solution = solve(programme, cone, {start.theta, start.r, {}});
-   }
    report.iterations += solution.iterations;
    ++report.counters.limit_solves;
    return solution;
 }
 
 /// Every slip of interest moves no node further than this; a factor ten above the one found.
-double slip_size(const Eigen::VectorXd &slip) { return 10 * slip.cwiseAbs().maxCoeff(); }
+double slip_size(const Eigen::VectorXd &slip)
+{
+   return 10 * slip.cwiseAbs().maxCoeff();
+}
 
 /** How far the loads stay from the cones of friction @a friction: the largest θ with
     f p - |q| ≥ θ weight at every node and vertex. */
@@ -93,7 +91,8 @@ ConeProgramme clearance_programme(const LimitProblem &problem, const StuckForces
    return programme;
 }
 
-/// Largest θ near @a theta at which @a slip is admissible in plain arithmetic; -infinity if none.
+/// Largest θ near @a theta at which @a slip is admissible in plain arithmetic; -infinity if
+/// none.
 double largest_admissible(const ConeProgramme &programme, const ReducedProblem &problem,
                           double theta, const Eigen::VectorXd &slip)
 {
@@ -140,12 +139,18 @@ const char *name(LimitStatus status)
 {
    switch (status)
    {
-   case LimitStatus::certified: return "certified";
-   case LimitStatus::bracketed: return "bracketed";
-   case LimitStatus::unlimited: return "unlimited";
-   case LimitStatus::no_solution: return "no solution";
-   case LimitStatus::failed: return "failed";
-   case LimitStatus::unavailable: return "unavailable";
+   case LimitStatus::certified:
+      return "certified";
+   case LimitStatus::bracketed:
+      return "bracketed";
+   case LimitStatus::unlimited:
+      return "unlimited";
+   case LimitStatus::no_solution:
+      return "no solution";
+   case LimitStatus::failed:
+      return "failed";
+   case LimitStatus::unavailable:
+      return "unavailable";
    }
    return "";
 }
@@ -156,10 +161,11 @@ void LimitSettings::validate() const
            ", must be at least 1e-9 and below 1");
    require(max_iterations > 0, "shakedown: max_iterations is ", max_iterations,
            ", must be positive");
-   require(largest_factor > 0 && std::isfinite(largest_factor),
-           "shakedown: largest_factor is ", largest_factor, ", must be positive and finite");
+   require(largest_factor > 0 && std::isfinite(largest_factor), "shakedown: largest_factor is ",
+           largest_factor, ", must be positive and finite");
    require(largest_friction > 0 && std::isfinite(largest_friction),
-           "shakedown: largest_friction is ", largest_friction, ", must be positive and finite");
+           "shakedown: largest_friction is ", largest_friction,
+           ", must be positive and finite");
 }
 
 LimitReport load_limit(const LimitProblem &problem, const LimitSettings &settings)
@@ -196,8 +202,8 @@ LimitReport load_limit(const LimitProblem &problem, const LimitSettings &setting
                     "the constant loads do not press the contact together at any node");
    }
    programme.force_scale = typical_forces(loads.q0, loads.p0);
-   // The load factor at which the varying loads exhaust the friction of the constant ones, summed
-   // over the contact: the size of gross sliding.
+   // The load factor at which the varying loads exhaust the friction of the constant ones,
+   // summed over the contact: the size of gross sliding.
    const Eigen::VectorXd &f = programme.friction;
    double varying = (f.asDiagonal() * loads.p1).cwiseAbs().colwise().sum().maxCoeff();
    varying = std::max(varying, loads.q1.cwiseAbs().colwise().sum().maxCoeff());
@@ -263,8 +269,8 @@ LimitReport load_limit(const LimitProblem &problem, const LimitSettings &setting
    if (!std::isfinite(report.lower))
    {
       report.limit = report.lower = 0;
-      return finish(LimitStatus::failed, "the solver's point is not admissible. " +
-                                            solution.message);
+      return finish(LimitStatus::failed,
+                    "the solver's point is not admissible. " + solution.message);
    }
    if (solution.outcome == ConeOutcome::ceiling)
    {
@@ -309,7 +315,8 @@ LimitReport friction_limit(const LimitProblem &problem, double load_factor,
    const Eigen::VectorXd force_scale = typical_forces(q, p);
    Eigen::MatrixXd weight = force_scale.replicate(1, loads.vertices());
 
-   /// Largest |q| / p with slip v; infinite if a node has p ≤ 0. Takes v over if it is the best.
+   /// Largest |q| / p with slip v; infinite if a node has p ≤ 0. Takes v over if it is the
+   /// best.
    const auto take = [&](const Eigen::VectorXd &v)
    {
       const Eigen::MatrixXd qv = q.colwise() + Eigen::VectorXd(reduced.A * v);
@@ -351,9 +358,8 @@ LimitReport friction_limit(const LimitProblem &problem, double load_factor,
    {
       const double f =
          std::min(settings.largest_friction, report.upper * (1 - 0.5 * settings.tolerance));
-      ConeProgramme programme =
-         clearance_programme(problem, loads, load_factor, Eigen::VectorXd::Constant(n, f),
-                             weight, force_scale);
+      ConeProgramme programme = clearance_programme(
+         problem, loads, load_factor, Eigen::VectorXd::Constant(n, f), weight, force_scale);
       // Clearances are compared with f p.
       programme.theta_scale = f;
       solution = solve_counted(programme, settings, start, report);

@@ -10,9 +10,9 @@ namespace cattaneo
 
        constant + λ varying.col(j)
 
-    and vary linearly from each vertex to the next, from the last back to the first. λ is the load
-    factor of the shakedown theorems. The conditions of no slip and no separation are convex in the
-    loads, so that only the vertices matter to a limit. */
+    and vary linearly from each vertex to the next, from the last back to the first. λ is the
+   load factor of the shakedown theorems. The conditions of no slip and no separation are convex
+   in the loads, so that only the vertices matter to a limit. */
 struct LoadCycle
 {
    Eigen::VectorXd constant; ///< one entry for each load pattern
@@ -27,12 +27,14 @@ struct LoadCycle
    void validate(const ReducedProblem &problem) const;
 };
 
-/** Thesis 4.3, figure 4.6: pattern @a held at the constant multiplier @a load, pattern @a cycled
-    between λ and R λ. R = @a reversal, -1 ≤ R ≤ 1 (4.24). InputError on an unknown pattern. */
+/** Thesis 4.3, figure 4.6: pattern @a held at the constant multiplier @a load, pattern @a
+   cycled between λ and R λ. R = @a reversal, -1 ≤ R ≤ 1 (4.24). InputError on an unknown
+   pattern. */
 LoadCycle held_and_cycled(const ReducedProblem &problem, const std::string &held, double load,
                           const std::string &cycled, double reversal);
 
-/// The forces that the loads of each vertex leave on the stuck contact nodes: `constant + λ varying`.
+/// The forces that the loads of each vertex leave on the stuck contact nodes: `constant + λ
+/// varying`.
 struct StuckForces
 {
    Eigen::MatrixXd q0; ///< tangential, constant part, c·n × vertices

@@ -22,7 +22,7 @@ struct Spectrum
    Eigen::Index rigid = 0; ///< number of leading values that are zero to round-off
 
    Spectrum(const char *name, const Eigen::MatrixXd &K)
-       : scale(K.diagonal().cwiseSqrt().cwiseInverse())
+      : scale(K.diagonal().cwiseSqrt().cwiseInverse())
    {
       const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scale.asDiagonal() * K *
                                                                   scale.asDiagonal());
@@ -61,8 +61,8 @@ ResidualForces residual_forces(const ReducedProblem &problem)
 {
    problem.validate();
    require(problem.components() > 0, "shakedown: the problem was reduced without friction");
-   require(problem.gap.cwiseAbs().maxCoeff() == 0,
-           "shakedown: the largest gap is ", problem.gap.cwiseAbs().maxCoeff(),
+   require(problem.gap.cwiseAbs().maxCoeff() == 0, "shakedown: the largest gap is ",
+           problem.gap.cwiseAbs().maxCoeff(),
            ", must be zero (absorb_gap makes it a load pattern)");
    const Spectrum spectrum("A", problem.A);
    ResidualForces residual;
@@ -102,7 +102,8 @@ double degree_of_coupling(const ReducedProblem &problem)
                              Spectrum("A", problem.A).inverse_root();
    const Eigen::MatrixXd gram = N * N.transpose();
    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram, Eigen::EigenvaluesOnly);
-   // A rigid motion that both slips and opens (rotation of a curved contact) correlates exactly.
+   // A rigid motion that both slips and opens (rotation of a curved contact) correlates
+   // exactly.
    double largest = 0;
    for (const double value : solver.eigenvalues())
    {
