@@ -28,16 +28,15 @@ private:
    std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
 };
 
-void check(const LimitProblem &problem, const LimitSettings &settings)
+void check(const ReducedProblem &reduced, const ResidualForces &residual,
+           const LimitSettings &settings)
 {
    settings.validate();
-   problem.reduced.validate();
-   problem.cycle.validate(problem.reduced);
-   const Eigen::Index m = problem.reduced.A.rows();
-   require(problem.residual.flexibility.rows() == m &&
-              problem.residual.transfer.rows() == problem.reduced.nodes(),
+   reduced.validate();
+   const Eigen::Index m = reduced.A.rows();
+   require(residual.flexibility.rows() == m && residual.transfer.rows() == reduced.nodes(),
            "shakedown: the residual forces do not belong to the reduced problem: ",
-           problem.residual.flexibility.rows(), " tangential unknowns instead of ", m);
+           residual.flexibility.rows(), " tangential unknowns instead of ", m);
 }
 
 /// A typical force of each node: its largest under the given loads, but not less than a
@@ -74,13 +73,13 @@ double slip_size(const Eigen::VectorXd &slip)
 
 /** How far the loads stay from the cones of friction @a friction: the largest θ with
     f p - |q| ≥ θ weight at every node and vertex. */
-ConeProgramme clearance_programme(const LimitProblem &problem, const StuckForces &loads,
+ConeProgramme clearance_programme(const ResidualForces &residual, const StuckForces &loads,
                                   double load_factor, Eigen::VectorXd friction,
                                   const Eigen::MatrixXd &weight,
                                   const Eigen::VectorXd &force_scale)
 {
    ConeProgramme programme;
-   programme.residual = &problem.residual;
+   programme.residual = &residual;
    programme.loads.q0 = loads.q(load_factor);
    programme.loads.p0 = loads.p(load_factor);
    programme.loads.q1 = Eigen::MatrixXd::Zero(loads.q0.rows(), loads.vertices());
@@ -170,9 +169,15 @@ void LimitSettings::validate() const
 
 LimitReport load_limit(const LimitProblem &problem, const LimitSettings &settings)
 {
+   return load_limit(problem.reduced, problem.residual,
+                     stuck_forces(problem.reduced, problem.cycle), settings);
+}
+
+LimitReport load_limit(const ReducedProblem &reduced, const ResidualForces &residual,
+                       const StuckForces &loads, const LimitSettings &settings)
+{
    const Stopwatch stopwatch;
-   check(problem, settings);
-   const ReducedProblem &reduced = problem.reduced;
+   check(reduced, residual, settings);
    const Eigen::Index n = reduced.nodes(), m = reduced.A.rows();
    for (Eigen::Index i = 0; i < n; ++i)
    {
@@ -190,11 +195,10 @@ LimitReport load_limit(const LimitProblem &problem, const LimitSettings &setting
    };
 
    ConeProgramme programme;
-   programme.residual = &problem.residual;
+   programme.residual = &residual;
    programme.friction = reduced.friction;
-   programme.loads = stuck_forces(reduced, problem.cycle);
+   programme.loads = loads;
    programme.ceiling = settings.largest_factor;
-   const StuckForces &loads = programme.loads;
    if (loads.p0.maxCoeff() <= 0)
    {
       report.upper = infinity;
@@ -223,14 +227,14 @@ LimitReport load_limit(const LimitProblem &problem, const LimitSettings &setting
    if (worst_violation(programme, reduced, 0, start.r) > -1e-3)
    {
       const Eigen::MatrixXd weight = programme.force_scale.replicate(1, loads.vertices());
-      const ConeProgramme first = clearance_programme(problem, loads, 0, reduced.friction,
+      const ConeProgramme first = clearance_programme(residual, loads, 0, reduced.friction,
                                                       weight, programme.force_scale);
       ConeSolution solution = solve_counted(first, settings, start, report);
       if (solution.outcome == ConeOutcome::unavailable)
       {
          return finish(LimitStatus::unavailable, solution.message);
       }
-      report.slip = problem.residual.flexibility * solution.r;
+      report.slip = residual.flexibility * solution.r;
       report.mechanism = solution.mechanism;
       if (weak_duality_bound(first, reduced, report.mechanism, slip_size(report.slip)) < 0)
       {
@@ -259,7 +263,7 @@ LimitReport load_limit(const LimitProblem &problem, const LimitSettings &setting
    {
       return finish(LimitStatus::failed, solution.message);
    }
-   report.slip = problem.residual.flexibility * solution.r;
+   report.slip = residual.flexibility * solution.r;
    report.lower = largest_admissible(programme, reduced, solution.theta, report.slip);
    report.limit = report.lower;
    report.violation = worst_violation(programme, reduced, report.lower, report.slip);
@@ -290,7 +294,7 @@ LimitReport friction_limit(const LimitProblem &problem, double load_factor,
                            const LimitSettings &settings)
 {
    const Stopwatch stopwatch;
-   check(problem, settings);
+   check(problem.reduced, problem.residual, settings);
    require(std::isfinite(load_factor), "shakedown: the load factor is not finite");
    const ReducedProblem &reduced = problem.reduced;
    const Eigen::Index n = reduced.nodes(), m = reduced.A.rows();
@@ -358,8 +362,9 @@ LimitReport friction_limit(const LimitProblem &problem, double load_factor,
    {
       const double f =
          std::min(settings.largest_friction, report.upper * (1 - 0.5 * settings.tolerance));
-      ConeProgramme programme = clearance_programme(
-         problem, loads, load_factor, Eigen::VectorXd::Constant(n, f), weight, force_scale);
+      ConeProgramme programme =
+         clearance_programme(problem.residual, loads, load_factor,
+                             Eigen::VectorXd::Constant(n, f), weight, force_scale);
       // Clearances are compared with f p.
       programme.theta_scale = f;
       solution = solve_counted(programme, settings, start, report);
@@ -393,7 +398,7 @@ LimitReport friction_limit(const LimitProblem &problem, double load_factor,
    if (report.slip.size())
    {
       ConeProgramme programme =
-         clearance_programme(problem, loads, load_factor,
+         clearance_programme(problem.residual, loads, load_factor,
                              Eigen::VectorXd::Constant(n, report.upper), weight, force_scale);
       report.violation = worst_violation(programme, reduced, 0, report.slip);
    }

@@ -75,6 +75,11 @@ struct LimitReport
    the constant loads alone cannot be carried. */
 LimitReport load_limit(const LimitProblem &problem, const LimitSettings &settings = {});
 
+/// The same for given forces on the stuck contact instead of the load patterns'
+/// (lower_limit.hpp).
+LimitReport load_limit(const ReducedProblem &reduced, const ResidualForces &residual,
+                       const StuckForces &loads, const LimitSettings &settings = {});
+
 /** Smallest friction coefficient, the same at all nodes, for the loads constant + @a
    load_factor × varying (the problem's own friction is not used). It is the least f of a
    quasi-convex problem: each step asks for the state of greatest clearance from the cones of a
