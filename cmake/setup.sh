@@ -60,6 +60,20 @@ PYTHON
    rm -rf "$wheel"
 }
 
+# HiGHS, a linear programme solver that the tests check the shakedown limits with. Needs a Python that
+# can run it; where there is none the tests that ask it say that they are skipped.
+bring_highs()
+{
+   local target=$PWD/$deps/highs
+   [ -d "$target" ] && return 0
+   command -v python3 >/dev/null && python3 -m pip --version >/dev/null 2>&1 || return 0
+   say "bringing HiGHS (for the tests)"
+   rm -rf "$target.part"
+   python3 -m pip install -q --disable-pip-version-check --root-user-action=ignore --only-binary=:all: --target "$target.part" highspy ||
+      die "could not bring HiGHS; name a folder that has the Python package highspy with CATTANEO_HIGHS="
+   mv "$target.part" "$target"
+}
+
 # prepare TARGET…: everything up to built targets (all of them if none is named).
 prepare()
 {
