@@ -113,25 +113,34 @@ namespace
 using Ipopt::Index;
 using Ipopt::Number;
 
-/** The programme for Ipopt in unknowns of order one: x = {θ / scale, ρ, π} with ρ = r / s and
-    π = M r / s, s the typical force of the node. π as unknowns tied by one dense equation keep
-   the cone constraints sparse however many load vertices there are (NUMERICS: the Jacobian
-   would otherwise be dense once per vertex). An uncoupled problem has no π. */
+/** The programme for Ipopt in unknowns of order one, forces over the typical force s of their
+    node: x = {θ, ρ, π, t} with ρ = r / s, π = M r / s and, with two tangential components only,
+    t = f p / s of every cone.
+
+    π as unknowns tied by one dense equation keep the cones sparse however many load vertices
+   there are; an uncoupled problem has none. One component: the two rows t ± q ≥ 0 of a linear
+   programme. Two: t - |q|²/t ≥ 0, which is convex and smooth for t > 0, where the bound t ≥ 0
+   keeps it; |q| itself has no derivative at the tip, where limits by separation lie. */
 class ConeNlp : public Ipopt::TNLP
 {
 public:
    ConeNlp(const ConeProgramme &programme, const ConeSettings &settings, const ConeStart &start)
       : programme(programme), settings(settings), start(start), n(programme.nodes()),
         c(programme.components()), m(n * c), vertices(programme.loads.vertices()),
-        rigid(programme.residual->rigid.cols()), coupled(!programme.residual->uncoupled)
+        cones(n * vertices), rigid(programme.residual->rigid.cols()),
+        coupled(!programme.residual->uncoupled), disc(c == 2),
+        tangential(programme.pressure_only ? 0 : 1), first_pi(1 + m),
+        first_t(first_pi + (coupled ? n : 0)), first_balance(coupled ? n : 0),
+        first_definition(first_balance + rigid),
+        first_cone(first_definition + (disc ? cones : 0))
    {
       const Eigen::VectorXd inverse = programme.force_scale.cwiseInverse();
       const Eigen::VectorXd inverse_q = inverse.replicate(c, 1);
-      const double t = programme.theta_scale;
+      const double unit = programme.theta_scale;
       q0 = inverse_q.asDiagonal() * programme.loads.q0;
-      q1 = inverse_q.asDiagonal() * programme.loads.q1 * t;
+      q1 = inverse_q.asDiagonal() * programme.loads.q1 * unit;
       p0 = inverse.asDiagonal() * programme.loads.p0;
-      p1 = inverse.asDiagonal() * programme.loads.p1 * t;
+      p1 = inverse.asDiagonal() * programme.loads.p1 * unit;
       if (coupled)
       {
          transfer = inverse.asDiagonal() * programme.residual->transfer *
@@ -139,9 +148,6 @@ public:
       }
       balance = programme.residual->rigid.transpose() * inverse_q.cwiseInverse().asDiagonal();
       for (Eigen::Index k = 0; k < rigid; ++k) { balance.row(k).normalize(); }
-      tangential = programme.pressure_only ? 0 : 1;
-      equalities = (coupled ? n : 0) + rigid;
-      cones = n * vertices;
    }
 
    ConeSolution solution;
@@ -149,37 +155,37 @@ public:
    bool get_nlp_info(Index &variables, Index &constraints, Index &jacobian, Index &hessian,
                      IndexStyleEnum &style) override
    {
-      variables = static_cast<Index>(1 + m + (coupled ? n : 0));
-      constraints = static_cast<Index>(equalities + rows_per_cone() * cones);
-      const Eigen::Index cone_entries = 1 + c + (coupled ? 1 : 0);
-      jacobian = static_cast<Index>((coupled ? n * (m + 1) : 0) + rigid * m +
-                                    rows_per_cone() * cones * cone_entries);
-      hessian = static_cast<Index>(c == 1 ? 0 : 1 + 5 * n);
+      const Eigen::Index pi = coupled ? 1 : 0;
+      variables = static_cast<Index>(first_t + (disc ? cones : 0));
+      constraints = static_cast<Index>(first_cone + (disc ? 1 : 2) * cones);
+      jacobian = static_cast<Index>(pi * n * (m + 1) + rigid * m +
+                                    cones * (disc ? (2 + pi) + 4 : 2 * (2 + pi)));
+      hessian = static_cast<Index>(disc ? 1 + 4 * n + 4 * cones : 0);
       style = TNLP::C_STYLE;
       return true;
    }
 
-   bool get_bounds_info(Index, Number *x_low, Number *x_high, Index constraints, Number *g_low,
-                        Number *g_high) override
+   bool get_bounds_info(Index variables, Number *x_low, Number *x_high, Index constraints,
+                        Number *g_low, Number *g_high) override
    {
       const double none = 2e19; // what Ipopt takes for infinite
-      x_low[0] = -none;
+      std::fill(x_low, x_low + variables, -none);
+      std::fill(x_high, x_high + variables, none);
       x_high[0] = programme.ceiling;
+      // Residual forces far beyond any use: where friction can wedge the contact, states
+      // without bound are admissible and the iterates would follow them for ever.
+      const double reach = 100 * programme.ceiling;
       for (Eigen::Index k = 0; k < m; ++k)
       {
          const double s = programme.force_scale[k % n];
-         x_low[1 + k] = programme.r_low.size() ? programme.r_low[k] / s : -none;
-         x_high[1 + k] = programme.r_high.size() ? programme.r_high[k] / s : none;
+         x_low[1 + k] = programme.r_low.size() ? programme.r_low[k] / s : -reach;
+         x_high[1 + k] = programme.r_high.size() ? programme.r_high[k] / s : reach;
       }
-      for (Eigen::Index i = 0; coupled && i < n; ++i)
-      {
-         x_low[1 + m + i] = -none;
-         x_high[1 + m + i] = none;
-      }
-      std::fill(g_low, g_low + equalities, 0.0);
-      std::fill(g_high, g_high + equalities, 0.0);
-      std::fill(g_low + equalities, g_low + constraints, settings.margin);
-      std::fill(g_high + equalities, g_high + constraints, none);
+      std::fill(x_low + first_t, x_low + variables, 0.0);
+      std::fill(g_low, g_low + first_cone, 0.0);
+      std::fill(g_high, g_high + first_cone, 0.0);
+      std::fill(g_low + first_cone, g_low + constraints, settings.margin);
+      std::fill(g_high + first_cone, g_high + constraints, none);
       return true;
    }
 
@@ -193,7 +199,11 @@ public:
       {
          Eigen::Map<Eigen::VectorXd> rho(x + 1, m);
          rho = start.r.cwiseQuotient(programme.force_scale.replicate(c, 1));
-         if (coupled) { Eigen::Map<Eigen::VectorXd>(x + 1 + m, n) = transfer * rho; }
+         if (coupled) { Eigen::Map<Eigen::VectorXd>(x + first_pi, n) = transfer * rho; }
+      }
+      for (Eigen::Index k = 0; disc && k < cones; ++k)
+      {
+         x[first_t + k] = std::max(limit(x, k), 1e-2);
       }
       if (init_z)
       {
@@ -204,22 +214,23 @@ public:
       {
          std::fill(lambda, lambda + constraints, 0.0);
          const Mechanism &mechanism = start.mechanism;
-         const Eigen::VectorXd &s = programme.force_scale;
-         for (Eigen::Index j = 0; j < vertices; ++j)
+         for (Eigen::Index k = 0; k < cones; ++k)
          {
-            for (Eigen::Index i = 0; i < n; ++i)
+            const Eigen::Index i = k % n, j = k / n;
+            const double unit = programme.force_scale[i] / programme.theta_scale;
+            const double opening = mechanism.opening(i, j) * unit;
+            const double y = opening / programme.friction[i];
+            // Stationary in π, the multiplier of its definition is what the cones press.
+            if (coupled) { lambda[i] += opening; }
+            if (disc)
             {
-               const double y = mechanism.opening(i, j) / programme.friction[i];
-               const double unit = s[i] / programme.theta_scale;
-               Number *row = lambda + equalities + rows_per_cone() * (j * n + i);
-               if (c == 1)
-               {
-                  row[0] = -0.5 * (y + mechanism.slip(i, j)) * unit;
-                  row[1] = -0.5 * (y - mechanism.slip(i, j)) * unit;
-               }
-               else { row[0] = -y * unit; }
-               // Stationary in π, the multiplier of its definition is what the cones press.
-               if (coupled) { lambda[i] += mechanism.opening(i, j) * unit; }
+               lambda[first_definition + k] = y;
+               lambda[first_cone + k] = -0.5 * y;
+            }
+            else
+            {
+               lambda[first_cone + 2 * k] = -0.5 * (y + mechanism.slip(i, j) * unit);
+               lambda[first_cone + 2 * k + 1] = -0.5 * (y - mechanism.slip(i, j) * unit);
             }
          }
       }
@@ -242,22 +253,26 @@ public:
    bool eval_g(Index, const Number *x, bool, Index, Number *g) override
    {
       const Eigen::Map<const Eigen::VectorXd> rho(x + 1, m);
-      Eigen::Map<Eigen::VectorXd> values(g, equalities);
       if (coupled)
       {
-         values.head(n) = Eigen::Map<const Eigen::VectorXd>(x + 1 + m, n) - transfer * rho;
+         Eigen::Map<Eigen::VectorXd>(g, n) =
+            Eigen::Map<const Eigen::VectorXd>(x + first_pi, n) - transfer * rho;
       }
-      values.tail(rigid) = balance * rho;
+      Eigen::Map<Eigen::VectorXd>(g + first_balance, rigid) = balance * rho;
       for (Eigen::Index k = 0; k < cones; ++k)
       {
-         const Cone cone(*this, x, k);
-         Number *row = g + equalities + rows_per_cone() * k;
-         if (c == 1)
+         if (disc)
          {
-            row[0] = cone.limit + cone.q[0];
-            row[1] = cone.limit - cone.q[0];
+            const double t = x[first_t + k];
+            g[first_definition + k] = t - limit(x, k);
+            g[first_cone + k] = t - shear(x, k).squaredNorm() / t;
          }
-         else { row[0] = cone.limit - cone.length; }
+         else
+         {
+            const double t = limit(x, k), q = shear(x, k)[0];
+            g[first_cone + 2 * k] = t + q;
+            g[first_cone + 2 * k + 1] = t - q;
+         }
       }
       return true;
    }
@@ -279,41 +294,37 @@ public:
       };
       for (Eigen::Index i = 0; coupled && i < n; ++i)
       {
-         put(i, 1 + m + i, 1);
+         put(i, first_pi + i, 1);
          for (Eigen::Index k = 0; k < m; ++k) { put(i, 1 + k, -transfer(i, k)); }
       }
       for (Eigen::Index r = 0; r < rigid; ++r)
       {
-         for (Eigen::Index k = 0; k < m; ++k)
-         {
-            put(equalities - rigid + r, 1 + k, balance(r, k));
-         }
+         for (Eigen::Index k = 0; k < m; ++k) { put(first_balance + r, 1 + k, balance(r, k)); }
       }
       for (Eigen::Index k = 0; k < cones; ++k)
       {
          const Eigen::Index i = k % n, j = k / n;
-         Eigen::Vector2d direction = Eigen::Vector2d::UnitX();
-         if (values && c == 2)
+         const double f = programme.friction[i];
+         if (disc)
          {
-            const Cone cone(*this, x, k);
-            direction = cone.q / cone.length;
+            // The definition of t: t - f p = 0.
+            put(first_definition + k, first_t + k, 1);
+            put(first_definition + k, 0, -f * p1(i, j));
+            if (coupled) { put(first_definition + k, first_pi + i, -f); }
+            const Eigen::Vector2d u =
+               values ? Eigen::Vector2d(shear(x, k) / x[first_t + k]) : Eigen::Vector2d::Zero();
+            put(first_cone + k, first_t + k, 1 + u.squaredNorm());
+            put(first_cone + k, 0, -2 * (u[0] * q1(i, j) + u[1] * q1(n + i, j)));
+            put(first_cone + k, 1 + i, -2 * u[0] * tangential);
+            put(first_cone + k, 1 + n + i, -2 * u[1] * tangential);
+            continue;
          }
-         for (int side = 0; side < rows_per_cone(); ++side)
+         for (const int side : {0, 1})
          {
-            // One component: limit + q, then limit - q; two: limit - |q|.
-            const double sign = c == 1 && side == 0 ? 1 : -1;
-            const Eigen::Index r = equalities + rows_per_cone() * k + side;
-            double by_theta = programme.friction[i] * p1(i, j);
-            for (Eigen::Index d = 0; d < c; ++d)
-            {
-               by_theta += sign * direction[d] * q1(d * n + i, j);
-            }
-            put(r, 0, by_theta);
-            for (Eigen::Index d = 0; d < c; ++d)
-            {
-               put(r, 1 + d * n + i, sign * direction[d] * tangential);
-            }
-            if (coupled) { put(r, 1 + m + i, programme.friction[i]); }
+            const double sign = side == 0 ? 1 : -1;
+            put(first_cone + 2 * k + side, 0, f * p1(i, j) + sign * q1(i, j));
+            put(first_cone + 2 * k + side, 1 + i, sign * tangential);
+            if (coupled) { put(first_cone + 2 * k + side, first_pi + i, f); }
          }
       }
       return true;
@@ -322,115 +333,120 @@ public:
    bool eval_h(Index, const Number *x, bool, Number, Index, const Number *lambda, bool, Index,
                Index *row, Index *column, Number *values) override
    {
-      if (c == 1) { return true; }
+      if (!disc) { return true; }
       if (!values)
       {
-         row[0] = column[0] = 0;
-         Eigen::Index entry = 1;
+         Eigen::Index entry = 0;
          const auto put = [&](Eigen::Index r, Eigen::Index k)
          {
             row[entry] = static_cast<Index>(r);
             column[entry++] = static_cast<Index>(k);
          };
+         put(0, 0);
          for (Eigen::Index i = 0; i < n; ++i)
          {
             put(1 + i, 0);
             put(1 + n + i, 0);
             put(1 + i, 1 + i);
-            put(1 + n + i, 1 + i);
             put(1 + n + i, 1 + n + i);
+         }
+         for (Eigen::Index k = 0; k < cones; ++k)
+         {
+            put(first_t + k, 0);
+            put(first_t + k, 1 + k % n);
+            put(first_t + k, 1 + n + k % n);
+            put(first_t + k, first_t + k);
          }
          return true;
       }
-      std::fill(values, values + 1 + 5 * n, 0.0);
+      std::fill(values, values + 1 + 4 * n, 0.0);
       for (Eigen::Index k = 0; k < cones; ++k)
       {
+         // The second derivatives of |q|²/t are 2/t in q, -2 q/t² mixed, 2 |q|²/t³ in t.
          const Eigen::Index i = k % n, j = k / n;
-         const Cone cone(*this, x, k);
-         const Eigen::Vector2d u = cone.q / cone.length;
-         const Eigen::Matrix2d curvature = -lambda[equalities + k] *
-                                           (Eigen::Matrix2d::Identity() - u * u.transpose()) /
-                                           cone.length;
-         const Eigen::Vector2d by_theta(q1(i, j), q1(n + i, j));
-         const Eigen::Vector2d mixed = tangential * curvature * by_theta;
-         Number *own = values + 1 + 5 * i;
-         values[0] += by_theta.dot(curvature * by_theta);
-         own[0] += mixed[0];
-         own[1] += mixed[1];
-         own[2] += tangential * curvature(0, 0);
-         own[3] += tangential * curvature(1, 0);
-         own[4] += tangential * curvature(1, 1);
+         const double t = x[first_t + k], weight = -lambda[first_cone + k] * 2 / t;
+         const Eigen::Vector2d u = shear(x, k) / t, by_theta(q1(i, j), q1(n + i, j));
+         values[0] += weight * by_theta.squaredNorm();
+         Number *own = values + 1 + 4 * i;
+         own[0] += weight * tangential * by_theta[0];
+         own[1] += weight * tangential * by_theta[1];
+         own[2] += weight * tangential;
+         own[3] += weight * tangential;
+         Number *with_t = values + 1 + 4 * n + 4 * k;
+         with_t[0] = -weight * u.dot(by_theta);
+         with_t[1] = -weight * tangential * u[0];
+         with_t[2] = -weight * tangential * u[1];
+         with_t[3] = weight * u.squaredNorm();
       }
       return true;
    }
 
-   void finalize_solution(Ipopt::SolverReturn, Index, const Number *x, const Number *,
+   void finalize_solution(Ipopt::SolverReturn, Index, const Number *x, const Number *z_low,
                           const Number *, Index, const Number *, const Number *lambda, Number,
                           const Ipopt::IpoptData *, Ipopt::IpoptCalculatedQuantities *) override
    {
-      solution.theta = x[0] * programme.theta_scale;
       const Eigen::VectorXd &s = programme.force_scale;
+      solution.theta = x[0] * programme.theta_scale;
       solution.r = Eigen::Map<const Eigen::VectorXd>(x + 1, m).cwiseProduct(s.replicate(c, 1));
       Mechanism &mechanism = solution.mechanism;
       mechanism.slip.resize(m, vertices);
       mechanism.opening.resize(n, vertices);
       for (Eigen::Index k = 0; k < cones; ++k)
       {
+         // Opening is the multiplier of p, slip that of q: what each row's multiplier does to
+         // them.
          const Eigen::Index i = k % n, j = k / n;
-         const Number *row = lambda + equalities + rows_per_cone() * k;
          const double unit = programme.theta_scale / s[i];
-         if (c == 1)
+         double by_limit;
+         if (disc)
          {
-            const double plus = std::max(0.0, -row[0]), minus = std::max(0.0, -row[1]);
-            mechanism.slip(i, j) = (plus - minus) * unit;
-            mechanism.opening(i, j) = programme.friction[i] * (plus + minus) * unit;
+            const Eigen::Vector2d u = shear(x, k) / x[first_t + k];
+            const double y = std::max(0.0, -lambda[first_cone + k]) * unit;
+            by_limit = y * (1 + u.squaredNorm()) + std::max(0.0, z_low[first_t + k]) * unit;
+            mechanism.slip(i, j) = -2 * y * u[0];
+            mechanism.slip(n + i, j) = -2 * y * u[1];
          }
          else
          {
-            const double y = std::max(0.0, -row[0]);
-            const Cone cone(*this, x, k);
-            for (Eigen::Index d = 0; d < 2; ++d)
-            {
-               mechanism.slip(d * n + i, j) = -y * cone.q[d] / cone.length * unit;
-            }
-            mechanism.opening(i, j) = programme.friction[i] * y * unit;
+            const double plus = std::max(0.0, -lambda[first_cone + 2 * k]) * unit;
+            const double minus = std::max(0.0, -lambda[first_cone + 2 * k + 1]) * unit;
+            by_limit = plus + minus;
+            mechanism.slip(i, j) = plus - minus;
          }
+         mechanism.opening(i, j) = programme.friction[i] * by_limit;
       }
    }
 
 private:
-   /// The cone of node k % n at vertex k / n: tangential force and friction limit, over s.
-   struct Cone
+   /// f p / s of cone k, that is of node k % n at vertex k / n.
+   double limit(const Number *x, Eigen::Index k) const
    {
+      const Eigen::Index i = k % n, j = k / n;
+      const double change = coupled ? x[first_pi + i] : 0.0;
+      return programme.friction[i] * (p0(i, j) + x[0] * p1(i, j) + change);
+   }
+
+   /// q / s of cone k; the second component is zero if there is but one.
+   Eigen::Vector2d shear(const Number *x, Eigen::Index k) const
+   {
+      const Eigen::Index i = k % n, j = k / n;
       Eigen::Vector2d q = Eigen::Vector2d::Zero();
-      double limit;
-      double length; ///< |q|, rounded off at the tip from outside: still on the safe side
-
-      Cone(const ConeNlp &nlp, const Number *x, Eigen::Index k)
+      for (Eigen::Index d = 0; d < c; ++d)
       {
-         const Eigen::Index n = nlp.n, i = k % n, j = k / n;
-         const double theta = x[0];
-         for (Eigen::Index d = 0; d < nlp.c; ++d)
-         {
-            q[d] = nlp.q0(d * n + i, j) + theta * nlp.q1(d * n + i, j) +
-                   nlp.tangential * x[1 + d * n + i];
-         }
-         const double change = nlp.coupled ? x[1 + nlp.m + i] : 0.0;
-         limit = nlp.programme.friction[i] * (nlp.p0(i, j) + theta * nlp.p1(i, j) + change);
-         constexpr double tip = 1e-6; // changes |q| of order one by 5e-13
-         length = std::sqrt(q.squaredNorm() + tip * tip);
+         const Eigen::Index row = d * n + i;
+         q[d] = q0(row, j) + x[0] * q1(row, j) + tangential * x[1 + row];
       }
-   };
-
-   int rows_per_cone() const { return c == 1 ? 2 : 1; }
+      return q;
+   }
 
    const ConeProgramme &programme;
    const ConeSettings &settings;
    const ConeStart &start;
-   const Eigen::Index n, c, m, vertices, rigid;
-   const bool coupled;
-   double tangential = 1;
-   Eigen::Index equalities = 0, cones = 0;
+   const Eigen::Index n, c, m, vertices, cones, rigid;
+   const bool coupled, disc;
+   const double tangential; ///< what r does to the tangential forces: 1, or 0 if left out
+   /// First unknown π and t; first row of rigidᵀ r = 0, of the definitions of t, of the cones.
+   const Eigen::Index first_pi, first_t, first_balance, first_definition, first_cone;
    Eigen::MatrixXd q0, q1, p0, p1, transfer, balance;
 };
 

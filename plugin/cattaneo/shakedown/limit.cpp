@@ -86,7 +86,7 @@ ConeProgramme clearance_programme(const ResidualForces &residual, const StuckFor
    programme.loads.p1 = -(friction.cwiseInverse().asDiagonal() * weight);
    programme.friction = std::move(friction);
    programme.force_scale = force_scale;
-   programme.ceiling = 1e6;
+   programme.ceiling = 10; // more clearance than ten times the friction limit is of no use
    return programme;
 }
 
@@ -358,10 +358,10 @@ LimitReport friction_limit(const LimitProblem &problem, double load_factor,
    constexpr int max_programmes = 40;
    constexpr double smallest_friction = 1e-9; // below it, counts as zero
    ConeSolution solution;
+   double f =
+      std::min(settings.largest_friction, report.upper * (1 - 0.5 * settings.tolerance));
    for (int k = 0; k < max_programmes && report.upper > smallest_friction; ++k)
    {
-      const double f =
-         std::min(settings.largest_friction, report.upper * (1 - 0.5 * settings.tolerance));
       ConeProgramme programme =
          clearance_programme(problem.residual, loads, load_factor,
                              Eigen::VectorXd::Constant(n, f), weight, force_scale);
@@ -382,13 +382,26 @@ LimitReport friction_limit(const LimitProblem &problem, double load_factor,
          weak_duality_bound(programme, reduced, mechanism, slip_size(slip));
       const double before = report.upper;
       take(slip);
+      const bool wedged = solution.outcome == ConeOutcome::ceiling;
       if (clearance < 0)
       {
          report.lower = f;
          report.mechanism = std::move(mechanism);
-         break;
+         const double highest = std::min(settings.largest_friction, report.upper);
+         if (highest - f <= settings.tolerance * highest) { break; }
+      }
+      if (clearance < 0 || wedged)
+      {
+         // Wedged: so much friction holds any residual state, without a best one. Bisect until
+         // there is one.
+         const double high = wedged ? f : std::min(settings.largest_friction, report.upper);
+         f = 0.5 * (report.lower + high);
+         start.r.setZero();
+         weight = force_scale.replicate(1, loads.vertices());
+         continue;
       }
       if (!(report.upper < before)) { break; }
+      f = report.upper * (1 - 0.5 * settings.tolerance);
       start = {0, solution.r, {}};
    }
    if (report.upper <= smallest_friction)
