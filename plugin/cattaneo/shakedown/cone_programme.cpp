@@ -480,7 +480,8 @@ ConeSolution run_ipopt(const ConeProgramme &programme, const ConeSettings &setti
    if (start.mechanism.slip.size())
    {
       options->SetStringValue("warm_start_init_point", "yes");
-      options->SetNumericValue("mu_init", 1e-4);
+      // The default would push every multiplier up to 1e-3 and spoil most of what is known.
+      options->SetNumericValue("warm_start_mult_bound_push", 1e-9);
    }
    // An empty file name: otherwise the options of a file ipopt.opt in the working directory
    // rule.

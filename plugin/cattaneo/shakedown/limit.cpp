@@ -396,13 +396,13 @@ LimitReport friction_limit(const LimitProblem &problem, double load_factor,
          // there is one.
          const double high = wedged ? f : std::min(settings.largest_friction, report.upper);
          f = 0.5 * (report.lower + high);
-         start.r.setZero();
+         start = {0, Eigen::VectorXd::Zero(m), {}};
          weight = force_scale.replicate(1, loads.vertices());
          continue;
       }
       if (!(report.upper < before)) { break; }
       f = report.upper * (1 - 0.5 * settings.tolerance);
-      start = {0, solution.r, {}};
+      start = {0, solution.r, solution.mechanism};
    }
    if (report.upper <= smallest_friction)
    {
