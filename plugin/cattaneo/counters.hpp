@@ -7,13 +7,14 @@ namespace cattaneo
 /// not need is visibly not done; tests assert these numbers.
 struct Counters
 {
-   long assemblies = 0;           ///< elastic operators assembled
-   long factorisations = 0;       ///< sparse factorisations
-   long back_substitutions = 0;   ///< right-hand sides solved with a sparse factor
-   long field_recoveries = 0;     ///< interior displacement fields recovered
-   long unions = 0;               ///< pairs of condensed bodies joined
-   long tangential_unknowns = 0;  ///< tangential unknowns of the friction problem (0 if frictionless)
-   long increments = 0;           ///< accepted increments of a march
+   long assemblies = 0;         ///< elastic operators assembled
+   long factorisations = 0;     ///< sparse factorisations
+   long back_substitutions = 0; ///< right-hand sides solved with a sparse factor
+   long field_recoveries = 0;   ///< interior displacement fields recovered
+   long unions = 0;             ///< pairs of condensed bodies joined
+   long tangential_unknowns =
+      0;                ///< tangential unknowns of the friction problem (0 if frictionless)
+   long increments = 0; ///< accepted increments of a march
    long rejected_increments = 0;  ///< increments that were tried and cut
    long sweeps = 0;               ///< Gauss–Seidel sweeps over all contact nodes
    long newton_steps = 0;         ///< active-set (semismooth Newton) steps
@@ -40,13 +41,17 @@ struct Counters
       visit("limit_solves", self.limit_solves);
    }
 
-   Counters &operator+=(Counters other)
+   Counters &operator+=(const Counters &other) { return add(other, 1); }
+   Counters &operator-=(const Counters &other) { return add(other, -1); }
+
+private:
+   Counters &add(Counters other, long sign)
    {
-      long values[16];
+      long values[32];
       int k = 0;
       for_each(other, [&](const char *, long &value) { values[k++] = value; });
       k = 0;
-      for_each(*this, [&](const char *, long &value) { value += values[k++]; });
+      for_each(*this, [&](const char *, long &value) { value += sign * values[k++]; });
       return *this;
    }
 };

@@ -15,15 +15,18 @@ ReducedProblem two_nodes()
    problem.A = Eigen::Matrix2d{{4, -1}, {-1, 4}};
    problem.B = Eigen::Matrix2d{{0.5, 0.1}, {-0.2, 0.3}};
    problem.C = Eigen::Matrix2d{{5, -1}, {-1, 5}};
-   problem.patterns = {{"press", cattaneo::Control::force, Eigen::Vector2d(0.1, -0.1),
-                        Eigen::Vector2d(1, 1)}};
+   problem.patterns = {
+      {"press", cattaneo::Control::force, Eigen::Vector2d(0.1, -0.1), Eigen::Vector2d(1, 1)}};
    problem.H = Eigen::MatrixXd::Zero(1, 1);
    problem.gap = Eigen::Vector2d(0.0, 0.01);
    problem.friction = Eigen::Vector2d(0.3, 0.3);
    return problem;
 }
 
-TEST(ReducedProblem, ValidatesWhatIsSound) { EXPECT_NO_THROW(two_nodes().validate()); }
+TEST(ReducedProblem, ValidatesWhatIsSound)
+{
+   EXPECT_NO_THROW(two_nodes().validate());
+}
 
 TEST(ReducedProblem, RefusesBadInput)
 {

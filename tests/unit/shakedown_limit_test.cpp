@@ -282,8 +282,8 @@ TEST(WeakDuality, BoundsTheLimitFromAnyMotion)
       std::mt19937 random(seed);
       for (int k = 0; k < 50; ++k)
       {
-         Mechanism mechanism{random_matrix(random, n, 2),
-                             0.5 * random_matrix(random, n, 2).cwiseAbs()};
+         CollapseMechanism mechanism{random_matrix(random, n, 2),
+                                     0.5 * random_matrix(random, n, 2).cwiseAbs()};
          const double bound = weak_duality_bound(programme, problem, mechanism, 0);
          EXPECT_GE(bound, limit * (1 - 1e-12)) << seed << ' ' << k;
          finite += std::isfinite(bound);

@@ -8,24 +8,24 @@
 namespace cattaneo
 {
 
-/** One body reduced to its contact nodes (thesis 3.2):  f = S u + Σ λ_k f_k, in the local frames
-    of the contact line: u = {v; w}, f = {q; p}, all tangential entries first. */
+/** One body reduced to its contact nodes (thesis 3.2):  f = S u + Σ λ_k f_k, in the local
+   frames of the contact line: u = {v; w}, f = {q; p}, all tangential entries first. */
 class CondensedBody
 {
 public:
    ContactLine line;
    Eigen::MatrixXd S;                 ///< 2n × 2n, symmetric
    std::vector<LoadPattern> patterns; ///< f_k, by name
-   Eigen::MatrixXd H;                 ///< loads by loads with the contact clamped (see ReducedProblem::H)
-   int rigid_modes = 0;               ///< rigid motions that the supports leave free (0 to 3)
+   Eigen::MatrixXd H;   ///< loads by loads with the contact clamped (see ReducedProblem::H)
+   int rigid_modes = 0; ///< rigid motions that the supports leave free (0 to 3)
    Counters counters;
 
    /// Displacement of all true dofs for contact displacements {v; w} of *this body* and load
    /// multipliers (order of `patterns`). One solve with the kept factor.
    mfem::Vector recover(const Eigen::VectorXd &u, const Eigen::VectorXd &multipliers);
 
-   /// The three rigid motions of the contact nodes in local frames, 2n × 3 (x, y, rotation about
-   /// the origin).
+   /// The three rigid motions of the contact nodes in local frames, 2n × 3 (x, y, rotation
+   /// about the origin).
    Eigen::MatrixXd rigid_motions() const;
 
    struct Operator; ///< factor and dof lists, shared between equal bodies
@@ -37,14 +37,15 @@ struct CondenseSettings
    SparseFactor::Backend backend = SparseFactor::Backend::automatic;
 };
 
-/** Condenses a body to the nodes of a contact line: one factorisation, contact dofs last, one solve
-    a load pattern. If `alike` was condensed from an equal operator (same numbers, supports and
-    contact dofs, as for the second of two equal bodies turned by 180° or shifted) its factor is used
-    and nothing is factored.
+/** Condenses a body to the nodes of a contact line: one factorisation, contact dofs last, one
+   solve a load pattern. If `alike` was condensed from an equal operator (same numbers, supports
+   and contact dofs, as for the second of two equal bodies turned by 180° or shifted) its factor
+   is used and nothing is factored.
 
-    InputError, before factoring, if the supports and the contact nodes together leave a rigid motion
-    free, or if a contact dof is fixed or prescribed. */
+    InputError, before factoring, if the supports and the contact nodes together leave a rigid
+   motion free, or if a contact dof is fixed or prescribed. */
 CondensedBody condense(const ElasticBody &body, const ContactLine &line,
-                       const CondenseSettings &settings = {}, const CondensedBody *alike = nullptr);
+                       const CondenseSettings &settings = {},
+                       const CondensedBody *alike = nullptr);
 
 } // namespace cattaneo

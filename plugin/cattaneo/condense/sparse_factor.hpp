@@ -7,10 +7,10 @@
 namespace cattaneo
 {
 
-/** A sparse Cholesky factor of a symmetric positive definite matrix whose last rows (the "trailing"
-    ones) were ordered last, so that the trailing Schur complement can be read off it. The one place
-    that knows CHOLMOD; without it (CATTANEO_USE_CHOLMOD=OFF, or backend::eigen) Eigen does the same,
-    slower, with permissive licences only. */
+/** A sparse Cholesky factor of a symmetric positive definite matrix whose last rows (the
+   "trailing" ones) were ordered last, so that the trailing Schur complement can be read off it.
+   The one place that knows CHOLMOD; without it (CATTANEO_USE_CHOLMOD=OFF, or backend::eigen)
+   Eigen does the same, slower, with permissive licences only. */
 class SparseFactor
 {
 public:
@@ -22,9 +22,9 @@ public:
    };
    static bool has_cholmod();
 
-   /// Factors K(keep, keep) + diag(shift on the trailing rows). `keep`: rows of K in any order, of
-   /// which the last `trailing` are the trailing ones. InputError naming the row of K if the matrix
-   /// is not positive definite.
+   /// Factors K(keep, keep) + diag(shift on the trailing rows). `keep`: rows of K in any order,
+   /// of which the last `trailing` are the trailing ones. InputError naming the row of K if the
+   /// matrix is not positive definite.
    SparseFactor(const mfem::SparseMatrix &K, const std::vector<int> &keep, int trailing,
                 double shift, Backend backend = Backend::automatic);
    ~SparseFactor();

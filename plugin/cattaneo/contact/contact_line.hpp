@@ -1,7 +1,7 @@
 #pragma once
 
-#include <cattaneo/elastic/body.hpp>
 #include <Eigen/Dense>
+#include <cattaneo/elastic/body.hpp>
 #include <vector>
 
 namespace cattaneo
@@ -10,28 +10,28 @@ namespace cattaneo
 /** The ordered contact nodes of one body.
 
     Nodes run along the boundary with the body on the left. Each node has a right-handed local
-    frame (tangent, normal) with the normal *into* the body (thesis 3.2.1); at a node between two
-    boundary elements the normals are averaged with the elements' consistent weights. Several
-    separate chains are allowed; they follow each other, each with its own arc length from its own
-    start (continued, so that it grows along the whole line). */
+    frame (tangent, normal) with the normal *into* the body (thesis 3.2.1); at a node between
+   two boundary elements the normals are averaged with the elements' consistent weights. Several
+    separate chains are allowed; they follow each other, each with its own arc length from its
+   own start (continued, so that it grows along the whole line). */
 struct ContactLine
 {
-   std::vector<int> scalar_dofs;       ///< node of the space
+   std::vector<int> scalar_dofs;              ///< node of the space
    std::vector<std::array<int, 2>> true_dofs; ///< x and y true dof of each node
-   std::vector<int> chain;             ///< number of the chain each node belongs to
-   Eigen::MatrixXd position;           ///< n × 2
-   Eigen::MatrixXd tangent, normal;    ///< n × 2, unit vectors
-   Eigen::VectorXd arc_length;         ///< n
-   Eigen::VectorXd weights;            ///< consistent: ∫φ_i ds (sums to the length)
-   Eigen::VectorXd lumped_weights;     ///< tributary length: half the distance to each neighbour
-   Eigen::VectorXd spacing;            ///< shortest distance to a neighbour, the local edge length
+   std::vector<int> chain;                    ///< number of the chain each node belongs to
+   Eigen::MatrixXd position;                  ///< n × 2
+   Eigen::MatrixXd tangent, normal;           ///< n × 2, unit vectors
+   Eigen::VectorXd arc_length;                ///< n
+   Eigen::VectorXd weights;                   ///< consistent: ∫φ_i ds (sums to the length)
+   Eigen::VectorXd lumped_weights; ///< tributary length: half the distance to each neighbour
+   Eigen::VectorXd spacing;        ///< shortest distance to a neighbour, the local edge length
 
    Eigen::Index size() const { return position.rows(); }
 };
 
-/// Contact nodes of the boundary elements of a boundary part (an interval keeps the elements that
-/// lie wholly inside it). InputError if there are none, or if a basis with weights of both signs
-/// was used.
+/// Contact nodes of the boundary elements of a boundary part (an interval keeps the elements
+/// that lie wholly inside it). InputError if there are none, or if a basis with weights of both
+/// signs was used.
 ContactLine contact_line(const ElasticBody &body, const BoundaryPart &part);
 
 } // namespace cattaneo

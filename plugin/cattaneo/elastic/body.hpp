@@ -1,10 +1,10 @@
 #pragma once
 
+#include <array>
 #include <cattaneo/counters.hpp>
 #include <cattaneo/elastic/boundary_part.hpp>
 #include <cattaneo/elastic/material.hpp>
 #include <cattaneo/reduced/reduced_problem.hpp>
-#include <array>
 #include <map>
 #include <memory>
 #include <mfem.hpp>
@@ -17,23 +17,25 @@ namespace cattaneo
 /** One elastic body: its stiffness on the true dofs of an H1 space, its supports and its load
     patterns. Knows nothing of contact.
 
-    The stiffness is *not* eliminated: reactions and prescribed displacements need all of it. The
-    space is the nodal Gauss–Lobatto one, ordered byVDIM or byNODES: other bases have edge weights of both
-    signs and are refused (see NUMERICS in the design notes: nodal complementarity).
+    The stiffness is *not* eliminated: reactions and prescribed displacements need all of it.
+   The space is the nodal Gauss–Lobatto one, ordered byVDIM or byNODES: other bases have edge
+   weights of both signs and are refused (see NUMERICS in the design notes: nodal
+   complementarity).
 
     Components: 0 = x, 1 = y. Forces are per unit thickness. */
 class ElasticBody
 {
 public:
-   /// Assembles the isotropic operator on elements of the given order (>= 1). The mesh must be 2D
-   /// and must outlive the body; straight, curved and nonconforming meshes of quads and triangles.
+   /// Assembles the isotropic operator on elements of the given order (>= 1). The mesh must be
+   /// 2D and must outlive the body; straight, curved and nonconforming meshes of quads and
+   /// triangles.
    ElasticBody(mfem::Mesh &mesh, int order, const Material &material);
 
    /// One material for each element attribute (index attribute - 1).
    ElasticBody(mfem::Mesh &mesh, int order, const std::vector<Material> &materials);
 
-   /// The user's own symmetric operator on the true dofs of a 2-component H1 space (orthotropic,
-   /// user integrators, …). Copies the matrix; the space must outlive the body.
+   /// The user's own symmetric operator on the true dofs of a 2-component H1 space
+   /// (orthotropic, user integrators, …). Copies the matrix; the space must outlive the body.
    ElasticBody(mfem::FiniteElementSpace &space, const mfem::SparseMatrix &stiffness);
 
    /// No displacement of this component on the nodes of a boundary part.
@@ -42,15 +44,17 @@ public:
    void fix_node(double x, double y, int component);
 
    /// Pressure on a boundary part (positive pushes into the body), force per area.
-   void add_pressure(const std::string &pattern, const BoundaryPart &part, const ScalarField &p);
+   void add_pressure(const std::string &pattern, const BoundaryPart &part,
+                     const ScalarField &p);
    /// Traction (t_x, t_y) on a boundary part, force per area.
-   void add_traction(const std::string &pattern, const BoundaryPart &part, const ScalarField &tx,
-                     const ScalarField &ty);
+   void add_traction(const std::string &pattern, const BoundaryPart &part,
+                     const ScalarField &tx, const ScalarField &ty);
    /// Body force (b_x, b_y), force per volume.
-   void add_body_force(const std::string &pattern, const ScalarField &bx, const ScalarField &by);
-   /// Prescribed displacement of one component on the nodes of a boundary part. A pattern is either
-   /// force- or displacement-controlled (InputError if mixed); a node's displacement may be
-   /// prescribed by several patterns (they add) and need not be fixed as well.
+   void add_body_force(const std::string &pattern, const ScalarField &bx,
+                       const ScalarField &by);
+   /// Prescribed displacement of one component on the nodes of a boundary part. A pattern is
+   /// either force- or displacement-controlled (InputError if mixed); a node's displacement may
+   /// be prescribed by several patterns (they add) and need not be fixed as well.
    void add_displacement(const std::string &pattern, const BoundaryPart &part, int component,
                          const ScalarField &u);
 

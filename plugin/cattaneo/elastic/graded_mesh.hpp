@@ -6,9 +6,10 @@
 namespace cattaneo
 {
 
-/// Coordinates from `from` to `to` in steps that start at `first` and grow by the factor `growth`
-/// (>= 1) until `largest`; the last steps are stretched to end exactly at `to`. `from` > `to` is
-/// allowed; the result runs from `from` to `to`.
+/// Coordinates from `from` to `to` in steps that start at `first` and grow by the factor
+/// `growth`
+/// (>= 1) until `largest`; the last steps are stretched to end exactly at `to`. `from` > `to`
+/// is allowed; the result runs from `from` to `to`.
 std::vector<double> graded(double from, double to, double first, double growth,
                            double largest = 1e300);
 

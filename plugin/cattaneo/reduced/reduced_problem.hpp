@@ -35,9 +35,9 @@ struct LoadPattern
     multiplier of load pattern k. Per unit thickness in the plane; forces over the full
     circumference in axisymmetry.
 
-    There are c tangential components a node: 1 in the plane, 2 with torsion (radial for all nodes
-    first, then circumferential), 0 when the problem was reduced without friction. Plain data: it
-    knows no mesh. */
+    There are c tangential components a node: 1 in the plane, 2 with torsion (radial for all
+   nodes first, then circumferential), 0 when the problem was reduced without friction. Plain
+   data: it knows no mesh. */
 struct ReducedProblem
 {
    Eigen::MatrixXd A; ///< tangential stiffness, c·n × c·n, symmetric
@@ -46,15 +46,15 @@ struct ReducedProblem
 
    std::vector<LoadPattern> patterns;
 
-   /// Response of the loads to the loads with the contact nodes clamped (u = {v; w} = 0), in the
-   /// order of the patterns: the conjugate of pattern k (displacement of a force, reaction of a
-   /// prescribed displacement) is g = H λ ∓ F_kᵀ u, minus for force control. It enters the
+   /// Response of the loads to the loads with the contact nodes clamped (u = {v; w} = 0), in
+   /// the order of the patterns: the conjugate of pattern k (displacement of a force, reaction
+   /// of a prescribed displacement) is g = H λ ∓ F_kᵀ u, minus for force control. It enters the
    /// external work only.
    Eigen::MatrixXd H;
 
    Eigen::VectorXd gap;      ///< initial gap g, size n: a node is closed where w + g = 0
    Eigen::VectorXd friction; ///< Coulomb coefficient f of each node, size n
-   Eigen::VectorXd weights;  ///< consistent weight ∫φ_i of each node: traction = force / weight
+   Eigen::VectorXd weights; ///< consistent weight ∫φ_i of each node: traction = force / weight
 
    Eigen::VectorXd arc_length; ///< coordinate of each node along the contact line
    Eigen::MatrixXd position;   ///< n × 2, coordinates of each node (of body 1)
@@ -74,8 +74,8 @@ struct ReducedProblem
    /// The whole reduced stiffness [A Bᵀ; B C].
    Eigen::MatrixXd stiffness() const;
 
-   /// InputError if sizes disagree, entries are not finite, A or C is not symmetric, a diagonal is
-   /// not positive, or a friction coefficient is negative.
+   /// InputError if sizes disagree, entries are not finite, A or C is not symmetric, a diagonal
+   /// is not positive, or a friction coefficient is negative.
    void validate() const;
 };
 

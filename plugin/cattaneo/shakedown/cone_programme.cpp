@@ -44,7 +44,7 @@ double worst_violation(const ConeProgramme &programme, const ReducedProblem &pro
 }
 
 double weak_duality_bound(const ConeProgramme &programme, const ReducedProblem &problem,
-                          Mechanism &mechanism, double slip_size)
+                          CollapseMechanism &mechanism, double slip_size)
 {
    constexpr double none = std::numeric_limits<double>::infinity();
    const Eigen::Index n = programme.nodes(), c = programme.components();
@@ -213,7 +213,7 @@ public:
       if (init_lambda)
       {
          std::fill(lambda, lambda + constraints, 0.0);
-         const Mechanism &mechanism = start.mechanism;
+         const CollapseMechanism &mechanism = start.mechanism;
          for (Eigen::Index k = 0; k < cones; ++k)
          {
             const Eigen::Index i = k % n, j = k / n;
@@ -388,7 +388,7 @@ public:
       const Eigen::VectorXd &s = programme.force_scale;
       solution.theta = x[0] * programme.theta_scale;
       solution.r = Eigen::Map<const Eigen::VectorXd>(x + 1, m).cwiseProduct(s.replicate(c, 1));
-      Mechanism &mechanism = solution.mechanism;
+      CollapseMechanism &mechanism = solution.mechanism;
       mechanism.slip.resize(m, vertices);
       mechanism.opening.resize(n, vertices);
       for (Eigen::Index k = 0; k < cones; ++k)

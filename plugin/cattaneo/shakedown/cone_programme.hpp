@@ -37,7 +37,7 @@ struct ConeProgramme
 
 /** Motions dual to the limit: at load vertex j node i slips by `slip` and opens by `opening`,
    with opening ≥ f |slip| (the flow rule associated with the friction cone). */
-struct Mechanism
+struct CollapseMechanism
 {
    Eigen::MatrixXd slip;    ///< c·n × vertices
    Eigen::MatrixXd opening; ///< n × vertices
@@ -57,8 +57,8 @@ struct ConeSettings
 struct ConeStart
 {
    double theta = 0;
-   Eigen::VectorXd r;   ///< empty: zero
-   Mechanism mechanism; ///< empty: none, a cold start
+   Eigen::VectorXd r;           ///< empty: zero
+   CollapseMechanism mechanism; ///< empty: none, a cold start
 };
 
 enum class ConeOutcome
@@ -76,7 +76,7 @@ struct ConeSolution
    std::string message;
    double theta = 0;
    Eigen::VectorXd r; ///< residual tangential forces, c·n
-   Mechanism mechanism;
+   CollapseMechanism mechanism;
    int iterations = 0;
 };
 
@@ -98,6 +98,6 @@ double worst_violation(const ConeProgramme &programme, const ReducedProblem &pro
     multiplied by @a slip_size, a bound of the slips, and added. Infinite if W1 ≥ 0 or if the
     mechanism cannot be repaired. The mechanism comes back scaled to W1 = -1. */
 double weak_duality_bound(const ConeProgramme &programme, const ReducedProblem &problem,
-                          Mechanism &mechanism, double slip_size);
+                          CollapseMechanism &mechanism, double slip_size);
 
 } // namespace cattaneo

@@ -377,7 +377,7 @@ LimitReport friction_limit(const LimitProblem &problem, double load_factor,
          return finish(LimitStatus::failed, solution.message);
       }
       const Eigen::VectorXd slip = problem.residual.flexibility * solution.r;
-      Mechanism mechanism = solution.mechanism;
+      CollapseMechanism mechanism = solution.mechanism;
       const double clearance =
          weak_duality_bound(programme, reduced, mechanism, slip_size(slip));
       const double before = report.upper;

@@ -65,7 +65,7 @@ struct LimitReport
    double violation = 0;
    Eigen::VectorXd slip; ///< the optimal slip v, c·n, without rigid part
    /// The dual mechanism. Load limit: scaled to work 1 on the varying loads.
-   Mechanism mechanism;
+   CollapseMechanism mechanism;
    int iterations = 0; ///< of Ipopt, summed over the programmes
    double seconds = 0;
    Counters counters; ///< limit_solves: programmes solved

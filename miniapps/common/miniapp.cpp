@@ -1,0 +1,169 @@
+#include "common/miniapp.hpp"
+
+#include <cattaneo/input_error.hpp>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+
+namespace miniapp
+{
+
+using cattaneo::InputError;
+
+namespace
+{
+
+/// Leaves the body with an exit code.
+struct Leave
+{
+   int code;
+};
+
+} // namespace
+
+int run(const std::function<int()> &body)
+{
+   try
+   {
+      return body();
+   }
+   catch (const Leave &leave)
+   {
+      return leave.code;
+   }
+   catch (const InputError &error)
+   {
+      std::cerr << "error: " << error.what() << std::endl;
+      return 1;
+   }
+}
+
+void parse(mfem::OptionsParser &options)
+{
+   options.Parse();
+   if (options.Help())
+   {
+      options.PrintHelp(std::cout);
+      throw Leave{0};
+   }
+   if (!options.Good())
+   {
+      std::cerr << "error:";
+      options.PrintError(std::cerr);
+      std::cerr << "(-h lists the options)" << std::endl;
+      throw Leave{1};
+   }
+   options.PrintOptions(std::cout);
+   std::cout << std::endl;
+}
+
+std::vector<double> numbers(const char *option, const std::string &text)
+{
+   std::vector<double> values;
+   std::string word;
+   for (char c : text + " ")
+   {
+      if (c != ' ' && c != ',')
+      {
+         word += c;
+         continue;
+      }
+      if (word.empty()) { continue; }
+      char *end = nullptr;
+      const double value = std::strtod(word.c_str(), &end);
+      cattaneo::require(*end == 0 && std::isfinite(value), "option ", option, ": '", word,
+                        "' is not a number");
+      values.push_back(value);
+      word.clear();
+   }
+   return values;
+}
+
+void check_choice(const char *option, const std::string &value,
+                  const std::vector<std::string> &allowed)
+{
+   std::string list;
+   for (const std::string &choice : allowed)
+   {
+      if (choice == value) { return; }
+      list += (list.empty() ? "" : ", ") + choice;
+   }
+   throw InputError(std::string("option ") + option + ": '" + value + "' is not one of " +
+                    list);
+}
+
+int exit_code(const cattaneo::MarchReport &report)
+{
+   if (report.status == cattaneo::FrictionStatus::converged) { return 0; }
+   std::cout << "\nEnded with status '" << name(report.status) << "' at time "
+             << report.event_time << ", load multipliers "
+             << report.event_multipliers.transpose() << ":\n  " << report.message << std::endl;
+   return 2;
+}
+
+nlohmann::ordered_json to_json(const cattaneo::Counters &counters)
+{
+   nlohmann::ordered_json j;
+   cattaneo::Counters::for_each(counters,
+                                [&](const char *name, long value) { j[name] = value; });
+   return j;
+}
+
+void write_json(const nlohmann::ordered_json &results, const std::string &file)
+{
+   if (file.empty()) { return; }
+   const std::string part = file + ".part";
+   std::ofstream out(part);
+   out << results.dump(2) << '\n';
+   out.close();
+   if (!out.good() || std::rename(part.c_str(), file.c_str()) != 0)
+   {
+      throw InputError("cannot write file '" + file + "'");
+   }
+}
+
+void ReferenceTable::add(const std::string &name, double reference, double tolerance,
+                         double thesis, double computed)
+{
+   rows_.push_back({name, reference, tolerance, thesis, computed});
+}
+
+void ReferenceTable::print() const
+{
+   if (rows_.empty()) { return; }
+   std::size_t width = 8;
+   for (const Row &row : rows_) { width = std::max(width, row.name.size()); }
+   std::printf("\n%-*s | %11s %9s | %8s | %11s | %10s\n", static_cast<int>(width), "quantity",
+               "reference", "±", "thesis", "computed", "difference");
+   for (const Row &row : rows_)
+   {
+      char thesis[32] = "-";
+      if (std::isfinite(row.thesis))
+      {
+         std::snprintf(thesis, sizeof thesis, "%.4g", row.thesis);
+      }
+      const double difference = row.computed - row.reference;
+      std::printf("%-*s | %11.5g %8.1g | %8s | %11.5g | %+10.2g%s\n", static_cast<int>(width),
+                  row.name.c_str(), row.reference, row.tolerance, thesis, row.computed,
+                  difference, std::abs(difference) <= row.tolerance ? "" : "  outside");
+   }
+   std::fflush(stdout);
+}
+
+nlohmann::ordered_json ReferenceTable::json() const
+{
+   nlohmann::ordered_json list = nlohmann::ordered_json::array();
+   for (const Row &row : rows_)
+   {
+      nlohmann::ordered_json j = {{"quantity", row.name},
+                                  {"reference", row.reference},
+                                  {"tolerance", row.tolerance},
+                                  {"computed", row.computed}};
+      if (std::isfinite(row.thesis)) { j["thesis"] = row.thesis; }
+      list.push_back(j);
+   }
+   return list;
+}
+
+} // namespace miniapp

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cattaneo/counters.hpp>
+#include <cattaneo/friction/march.hpp>
+#include <chrono>
+#include <functional>
+#include <mfem.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace miniapp
+{
+
+/** Runs a miniapp's body and turns bad input into one sentence on stderr and exit code 1. The
+   body returns the exit code: 0, or 2 for an outcome that ended the study early (gross sliding,
+   …). */
+int run(const std::function<int()> &body);
+
+/// Parses the options, echoes them, prints help for -h. Leaves through run() with exit code 0
+/// after help and 1, with one sentence, after a bad option.
+void parse(mfem::OptionsParser &options);
+
+/// Numbers of a list option, separated by spaces or commas; InputError naming the option.
+std::vector<double> numbers(const char *option, const std::string &text);
+
+/// InputError unless the value of an option is one of `allowed`.
+void check_choice(const char *option, const std::string &value,
+                  const std::vector<std::string> &allowed);
+
+/// Exit code of a march's outcome; prints where and why it ended early.
+int exit_code(const cattaneo::MarchReport &report);
+
+nlohmann::ordered_json to_json(const cattaneo::Counters &counters);
+
+/// Writes results as JSON, whole or not at all; nothing if the file name is empty.
+void write_json(const nlohmann::ordered_json &results, const std::string &file);
+
+/// The table at the end of a study: reference | thesis | computed | difference.
+class ReferenceTable
+{
+public:
+   /// `tolerance`: spread of the reference itself plus what the mesh is expected to add, in the
+   /// units of the value. Thesis: NaN where it gives none.
+   void add(const std::string &name, double reference, double tolerance, double thesis,
+            double computed);
+   bool empty() const { return rows_.empty(); }
+   void print() const;
+   nlohmann::ordered_json json() const;
+
+private:
+   struct Row
+   {
+      std::string name;
+      double reference, tolerance, thesis, computed;
+   };
+   std::vector<Row> rows_;
+};
+
+/// Wall time since construction, seconds.
+class Stopwatch
+{
+public:
+   double seconds() const
+   {
+      return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+   }
+
+private:
+   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+};
+
+} // namespace miniapp

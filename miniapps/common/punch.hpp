@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cattaneo/condense/reduction.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace miniapp
+{
+
+/** The square punch of thesis 3.7: |x| < a, 0 < y < 2a, on a rigid plane or on an elastically
+    similar half-plane (a block of half-width and depth `domain`, held at its bottom).
+
+    Units a = P0 = E' = 1, E' = E/(1-ν²) of each body. Load patterns: "P", a uniform pressure of
+    resultant 1 on the top face; "Q", a uniform shear of resultant 1 in +x on the top face with
+   the linear pressure that balances its moment about the contact plane. */
+struct PunchOptions
+{
+   bool half_plane = false;
+   double poisson = 0.3;
+   int order = 2;
+   int nodes = 101; ///< contact nodes; (nodes - 1) must be a multiple of the order
+   double grading =
+      0.01; ///< size of the contact elements at the corners over those in the middle
+   double growth = 1.25; ///< of the elements away from the contact
+   double domain = 1e4;  ///< half-width and depth of the half-plane's block, in a
+
+   /// InputError naming the option, its value and what is allowed.
+   void validate() const;
+};
+
+/// The bodies must live as long as their reduction is used for fields.
+struct Punch
+{
+   std::vector<std::unique_ptr<mfem::Mesh>> meshes;
+   std::vector<std::unique_ptr<cattaneo::ElasticBody>> bodies;
+   cattaneo::Reduction reduction;
+   int dofs = 0; ///< of all bodies
+};
+
+Punch make_punch(const PunchOptions &options);
+
+} // namespace miniapp

@@ -1,0 +1,234 @@
+//  square_punch: a square block pressed and sheared on a rigid plane or a half-plane
+//
+//  Cases I and II of the thesis (3.7): a square elastic block, |x| < a, 0 < y < 2a, is pressed
+//  by P and then sheared by Q, monotonically through a list of values or cyclically. The
+//  interface is a complete contact with Coulomb friction. Units a = P = E' = 1, E' = E/(1-ν²).
+//
+//  Sample runs:  square_punch
+//                square_punch -obstacle half-plane --shear "0.25 0.75"
+//                square_punch -order 1 -nodes 201 -grading 0.02
+//                square_punch -obstacle half-plane -nodes 65 -cycles 3 -amplitude 0.6
+//                square_punch -friction 0 -nodes 33 --shear ""
+
+#include "common/miniapp.hpp"
+#include "common/punch.hpp"
+
+#include <cattaneo/friction/march.hpp>
+#include <cattaneo/friction/zones.hpp>
+#include <cattaneo/input_error.hpp>
+#include <iostream>
+#include <limits>
+
+using namespace cattaneo;
+using Eigen::Vector2d;
+
+namespace
+{
+
+const double none = std::numeric_limits<double>::quiet_NaN();
+
+/// Reference values for f = 0.2 (rigid) and 0.4 (half-plane), ν = 0.3; see the studies' notes:
+/// they were computed on graded quadratic meshes, their spread is the tolerance.
+struct Reference
+{
+   double stick_half_width, stick_tolerance;
+   std::vector<std::pair<double, double>> stick_right; ///< Q/fP, x/a
+   double right_tolerance;
+   double dissipation, dissipation_tolerance; ///< of a steady cycle of Q = ± 0.8 fP
+};
+
+const Reference rigid_reference{
+   0.471, 0.003,   {{0.25, 0.19}, {0.5, -0.203}, {0.75, -0.511}, {0.9, -0.729}},
+   0.005, 9.17e-4, 0.003};
+const Reference half_plane_reference{0.908, 0.010,   {{0.25, 0.746}, {0.75, -0.519}},
+                                     0.01,  3.38e-3, 0.02};
+
+} // namespace
+
+int main(int argc, char *argv[])
+{
+   return miniapp::run(
+      [&]
+      {
+         const miniapp::Stopwatch watch;
+         miniapp::PunchOptions options;
+         const char *obstacle = "rigid";
+         double friction = -1;
+         const char *shear_list = "0.25 0.5 0.75 0.9";
+         int cycles = 0;
+         double amplitude = 0.8;
+         int increments = 20;
+         const char *json = "";
+
+         mfem::OptionsParser args(argc, argv);
+         args.AddOption(&obstacle, "-obstacle", "--obstacle",
+                        "What the block stands on: rigid or half-plane.");
+         args.AddOption(&friction, "-friction", "--friction",
+                        "Coefficient of friction; default 0.2 (rigid), 0.4 (half-plane).");
+         args.AddOption(&options.poisson, "-poisson", "--poisson",
+                        "Poisson's ratio of both bodies.");
+         args.AddOption(&options.order, "-order", "--order", "Order of the elements.");
+         args.AddOption(&options.nodes, "-nodes", "--nodes", "Contact nodes.");
+         args.AddOption(
+            &options.grading, "-grading", "--grading",
+            "Size of the contact elements at the corners over the middle ones (1: uniform).");
+         args.AddOption(&options.domain, "-domain", "--domain",
+                        "Half-width and depth of the half-plane's block, in a.");
+         args.AddOption(&shear_list, "-shear", "--shear", "Monotonic shear: list of Q/fP.");
+         args.AddOption(&cycles, "-cycles", "--cycles",
+                        "Cycles of Q = ± amplitude fP, after P (0: none).");
+         args.AddOption(&amplitude, "-amplitude", "--amplitude",
+                        "Amplitude of the cycles in Q/fP.");
+         args.AddOption(&increments, "-increments", "--increments",
+                        "Load increments between two values of the shear.");
+         args.AddOption(&json, "-json", "--json", "File for the results.");
+         miniapp::parse(args);
+
+         miniapp::check_choice("--obstacle", obstacle, {"rigid", "half-plane"});
+         options.half_plane = std::string(obstacle) == "half-plane";
+         if (friction == -1) { friction = options.half_plane ? 0.4 : 0.2; }
+         require(cycles >= 0, "option --cycles is ", cycles, ", must not be negative");
+         const std::vector<double> shear = miniapp::numbers("--shear", shear_list);
+         require(increments >= 1, "option --increments is ", increments,
+                 ", must be at least 1");
+
+         miniapp::Punch punch = miniapp::make_punch(options);
+         ReducedProblem &problem = punch.reduction.problem;
+         set_friction(problem, friction);
+         const double condensed = watch.seconds();
+         std::cout << "Condensed " << punch.dofs << " dofs to " << 2 * problem.nodes() << " in "
+                   << condensed << " s" << std::endl;
+
+         // Arc length runs from the left corner: x = s - 1 in the tables.
+         auto x = [](const Edge &edge) { return edge.position - 1; };
+         MarchSettings settings;
+         settings.increments = increments;
+         FrictionSolver solver(problem, settings.friction);
+         ContactState state = ContactState::virgin(problem);
+         MarchReport report = march(
+            solver, LoadHistory::through({Vector2d(0, 0), Vector2d(1, 0)}), state, settings);
+         int code = miniapp::exit_code(report);
+         Counters counters = punch.reduction.counters;
+         counters += report.counters;
+
+         const bool standard = options.poisson == 0.3 && options.domain >= 1e3 &&
+                               friction == (options.half_plane ? 0.4 : 0.2);
+         const Reference &reference =
+            options.half_plane ? half_plane_reference : rigid_reference;
+         miniapp::ReferenceTable table;
+         nlohmann::ordered_json results;
+
+         const Zone stick = widest_zone(problem, state, NodeState::stick);
+         const bool sticks = stick.last >= stick.first;
+         const double edge_slip = state.v[problem.nodes() - 1];
+         const ContactState pressed = state;
+         if (code == 0)
+         {
+            results["stick_left"] = sticks ? nlohmann::ordered_json(x(stick.from)) : nullptr;
+            results["stick_right"] = sticks ? nlohmann::ordered_json(x(stick.to)) : nullptr;
+            results["slip_edge"] = edge_slip;
+            results["peak_pressure"] = tractions(problem, state.p).maxCoeff();
+            std::cout << "\nP only:  stick from ";
+            if (sticks) { std::cout << x(stick.from) << " to " << x(stick.to); }
+            else { std::cout << "none"; }
+            std::cout << ", slip at the right corner " << edge_slip << std::endl;
+            if (standard && sticks)
+            {
+               table.add("stick half-width, P only", reference.stick_half_width,
+                         reference.stick_tolerance, none, x(stick.to));
+               if (!options.half_plane)
+               {
+                  table.add("v(corner), P only", 0.0496, 5e-4, none, edge_slip);
+               }
+            }
+         }
+
+         nlohmann::ordered_json levels = nlohmann::ordered_json::array();
+         if (code == 0 && !shear.empty())
+         {
+            std::cout << "\n  Q/fP   stick left   stick right   dissipation\n";
+         }
+         for (std::size_t k = 0; k < shear.size() && code == 0; ++k)
+         {
+            const Vector2d from = state.multipliers, to(1, shear[k] * friction);
+            state.time = 0;
+            report = march(solver, LoadHistory::through({from, to}), state, settings);
+            counters += report.counters;
+            code = miniapp::exit_code(report);
+            if (code != 0) { break; }
+            const Zone zone = widest_zone(problem, state, NodeState::stick);
+            const bool any = zone.last >= zone.first;
+            nlohmann::ordered_json level = {{"shear", shear[k]},
+                                            {"dissipation", state.dissipation}};
+            level["stick_left"] = any ? nlohmann::ordered_json(x(zone.from)) : nullptr;
+            level["stick_right"] = any ? nlohmann::ordered_json(x(zone.to)) : nullptr;
+            levels.push_back(level);
+            std::printf("%6.3f   %10.4f   %11.4f   %11.4e\n", shear[k],
+                        any ? x(zone.from) : none, any ? x(zone.to) : none, state.dissipation);
+            for (const auto &[load, right] : reference.stick_right)
+            {
+               if (standard && any && load == shear[k])
+               {
+                  char name[64];
+                  std::snprintf(name, sizeof name, "right end of stick, Q/fP = %g", load);
+                  table.add(name, right, reference.right_tolerance, none, x(zone.to));
+               }
+            }
+         }
+         if (!levels.empty()) { results["levels"] = levels; }
+
+         if (cycles > 0 && code == 0)
+         {
+            ContactState cyclic = pressed;
+            cyclic.time = 0;
+            cyclic.dissipation = 0;
+            const double Q = amplitude * friction;
+            LoadHistory history = LoadHistory::through(
+               {Vector2d(1, 0), Vector2d(1, Q), Vector2d(1, -Q), Vector2d(1, 0)});
+            history.cycle_start = 0;
+            history.cycles = cycles;
+            report = march(solver, history, cyclic, settings);
+            counters += report.counters;
+            code = miniapp::exit_code(report);
+            nlohmann::ordered_json losses = nlohmann::ordered_json::array();
+            std::cout << "\n cycle   dissipation   external work   slip change\n";
+            for (std::size_t k = 0; k < report.cycles.size(); ++k)
+            {
+               const CycleRecord &cycle = report.cycles[k];
+               std::printf("%6zu   %11.4e   %13.4e   %11.2e\n", k + 1, cycle.dissipation,
+                           cycle.external_work, cycle.slip_change);
+               losses.push_back(cycle.dissipation);
+            }
+            if (report.steady_cycle)
+            {
+               std::cout << "steady from cycle " << report.steady_cycle << ", period "
+                         << report.steady_period << std::endl;
+            }
+            results["dissipation"] = losses;
+            results["steady_cycle"] = report.steady_cycle;
+            results["energy_imbalance"] = report.energy_imbalance;
+            if (standard && amplitude == 0.8 && report.cycles.size() > 1)
+            {
+               table.add("steady loss a cycle, Q = ±0.8 fP", reference.dissipation,
+                         reference.dissipation_tolerance * reference.dissipation, none,
+                         report.cycles.back().dissipation);
+            }
+         }
+         table.print();
+
+         results["status"] = name(report.status);
+         if (code != 0)
+         {
+            results["event_multipliers"] = {report.event_multipliers[0],
+                                            report.event_multipliers[1]};
+         }
+         results["contact_nodes"] = problem.nodes();
+         results["dofs"] = punch.dofs;
+         results["seconds"] = watch.seconds();
+         results["seconds_condensation"] = condensed;
+         results["counters"] = miniapp::to_json(counters);
+         results["references"] = table.json();
+         miniapp::write_json(results, json);
+         return code;
+      });
+}

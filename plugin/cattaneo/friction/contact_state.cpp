@@ -1,0 +1,147 @@
+#include <cattaneo/friction/contact_state.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace cattaneo
+{
+
+const char *name(NodeState state)
+{
+   switch (state)
+   {
+   case NodeState::stick:
+      return "stick";
+   case NodeState::separation:
+      return "separation";
+   case NodeState::forward_slip:
+      return "forward slip";
+   case NodeState::backward_slip:
+      return "backward slip";
+   }
+   return "";
+}
+
+ContactState ContactState::virgin(const ReducedProblem &problem)
+{
+   return with_slip(problem, Eigen::VectorXd::Zero(problem.A.rows()));
+}
+
+ContactState ContactState::with_slip(const ReducedProblem &problem, const Eigen::VectorXd &v)
+{
+   const Eigen::Index n = problem.nodes();
+   require(v.size() == problem.A.rows(), "contact state: initial slip has ", v.size(),
+           " entries, must be ", problem.A.rows());
+   ContactState state;
+   state.v = v;
+   state.w = Eigen::VectorXd::Zero(n);
+   state.q = Eigen::VectorXd::Zero(problem.A.rows());
+   state.p = Eigen::VectorXd::Zero(n);
+   state.status.resize(n);
+   for (Eigen::Index i = 0; i < n; ++i)
+   {
+      state.status[i] = problem.gap[i] > 0 ? NodeState::separation : NodeState::stick;
+   }
+   state.multipliers = Eigen::VectorXd::Zero(problem.patterns.size());
+   return state;
+}
+
+void ContactState::validate(const ReducedProblem &problem) const
+{
+   const Eigen::Index n = problem.nodes(), m = problem.A.rows();
+   const auto patterns = static_cast<Eigen::Index>(problem.patterns.size());
+   require(v.size() == m && q.size() == m && w.size() == n && p.size() == n &&
+              static_cast<Eigen::Index>(status.size()) == n && multipliers.size() == patterns,
+           "contact state: it has ", status.size(), " nodes and ", multipliers.size(),
+           " load multipliers, the reduced problem has ", n, " nodes and ", patterns,
+           " load patterns");
+   require(v.allFinite() && w.allFinite() && q.allFinite() && p.allFinite() &&
+              multipliers.allFinite(),
+           "contact state: a value is not finite");
+}
+
+namespace
+{
+
+const char *const format_name = "cattaneo contact state 1";
+
+std::vector<double> list(const Eigen::VectorXd &x)
+{
+   return {x.data(), x.data() + x.size()};
+}
+
+Eigen::VectorXd vector(const nlohmann::json &j)
+{
+   const auto values = j.get<std::vector<double>>();
+   return Eigen::Map<const Eigen::VectorXd>(values.data(), values.size());
+}
+
+} // namespace
+
+void save(const ContactState &state, const std::string &file)
+{
+   std::vector<int> status;
+   for (NodeState s : state.status) { status.push_back(static_cast<int>(s)); }
+   std::vector<std::vector<double>> cycle_slip;
+   for (const Eigen::VectorXd &v : state.cycle_slip) { cycle_slip.push_back(list(v)); }
+   const nlohmann::json j = {{"format", format_name},
+                             {"time", state.time},
+                             {"step", state.step},
+                             {"peak_force", state.peak_force},
+                             {"dissipation", state.dissipation},
+                             {"multipliers", list(state.multipliers)},
+                             {"status", status},
+                             {"cycle_slip", cycle_slip},
+                             {"v", list(state.v)},
+                             {"w", list(state.w)},
+                             {"q", list(state.q)},
+                             {"p", list(state.p)}};
+   // Written beside and renamed, so that an interrupted save leaves the old file whole.
+   const std::string part = file + ".part";
+   std::ofstream out(part);
+   out << j.dump(1) << '\n';
+   out.close();
+   require(out.good() && std::rename(part.c_str(), file.c_str()) == 0,
+           "contact state: cannot write file '", file, "'");
+}
+
+ContactState load_contact_state(const std::string &file)
+{
+   std::ifstream in(file);
+   require(in.good(), "contact state: cannot read file '", file, "'");
+   try
+   {
+      const nlohmann::json j = nlohmann::json::parse(in);
+      require(j.at("format") == format_name, "contact state: file '", file, "' has format ",
+              j.at("format").dump(), ", must be \"", format_name, "\"");
+      ContactState state;
+      state.time = j.at("time");
+      state.step = j.at("step");
+      state.peak_force = j.at("peak_force");
+      state.dissipation = j.at("dissipation");
+      state.multipliers = vector(j.at("multipliers"));
+      for (int s : j.at("status").get<std::vector<int>>())
+      {
+         require(s >= 0 && s <= 3, "contact state: status ", s, " in file '", file,
+                 "', must be 0 to 3");
+         state.status.push_back(static_cast<NodeState>(s));
+      }
+      for (const nlohmann::json &v : j.at("cycle_slip"))
+      {
+         state.cycle_slip.push_back(vector(v));
+      }
+      state.v = vector(j.at("v"));
+      state.w = vector(j.at("w"));
+      state.q = vector(j.at("q"));
+      state.p = vector(j.at("p"));
+      return state;
+   }
+   catch (const nlohmann::json::exception &e)
+   {
+      throw InputError("contact state: file '" + file +
+                       "' is not a contact state: " + e.what());
+   }
+}
+
+} // namespace cattaneo

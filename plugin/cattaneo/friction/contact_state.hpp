@@ -1,0 +1,64 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <cattaneo/reduced/reduced_problem.hpp>
+#include <string>
+#include <vector>
+
+namespace cattaneo
+{
+
+/// State of a contact node (thesis 3.5 and 3.6, with an initial gap g).
+enum class NodeState : signed char
+{
+   stick,        ///< w + g = 0, v̇ = 0, |q| <= f p
+   separation,   ///< p = q = 0, w + g > 0
+   forward_slip, ///< w + g = 0, q = -f p, v̇ > 0
+   backward_slip ///< w + g = 0, q = +f p, v̇ < 0
+};
+
+const char *name(NodeState state);
+
+inline bool closed(NodeState state)
+{
+   return state != NodeState::separation;
+}
+inline bool slips(NodeState state)
+{
+   return state == NodeState::forward_slip || state == NodeState::backward_slip;
+}
+
+/** All that the future of a frictional contact depends on: one value, copied and saved freely.
+    Sizes as in ReducedProblem; lengths and forces in the problem's own units. */
+struct ContactState
+{
+   Eigen::VectorXd v;             ///< slip: relative tangential displacement
+   Eigen::VectorXd w;             ///< relative normal displacement
+   Eigen::VectorXd q;             ///< tangential nodal forces
+   Eigen::VectorXd p;             ///< normal nodal forces, compression positive
+   std::vector<NodeState> status; ///< of each node, at the end of the last increment
+   Eigen::VectorXd multipliers;   ///< of the load patterns
+   double time = 0.0;             ///< of the load history
+   double step = 0.0;             ///< next trial increment of time; 0: not chosen yet
+   double peak_force = 0.0;  ///< largest clamped nodal force so far: the scale of residuals
+   double dissipation = 0.0; ///< frictional energy lost so far
+   /// Slip at the end of the last two cycles (the latest last), to recognise a steady state.
+   std::vector<Eigen::VectorXd> cycle_slip;
+
+   /// Before any load: no slip, and all nodes without a gap in stick.
+   static ContactState virgin(const ReducedProblem &problem);
+
+   /// Virgin but for a given slip (an initial dislocation), v of size c·n.
+   static ContactState with_slip(const ReducedProblem &problem, const Eigen::VectorXd &v);
+
+   /// InputError if sizes do not fit the problem or a value is not finite.
+   void validate(const ReducedProblem &problem) const;
+};
+
+/// Writes a state as JSON; every double is restored to the last bit. InputError if the file
+/// cannot be written.
+void save(const ContactState &state, const std::string &file);
+/// Reads what save() wrote. InputError if the file is missing or is not a contact state.
+ContactState load_contact_state(const std::string &file);
+
+} // namespace cattaneo

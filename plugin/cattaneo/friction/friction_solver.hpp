@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cattaneo/counters.hpp>
+#include <cattaneo/friction/contact_state.hpp>
+#include <cattaneo/friction/status.hpp>
+#include <cattaneo/reduced/reduced_problem.hpp>
+#include <memory>
+
+namespace cattaneo
+{
+
+enum class FrictionMethod
+{
+   automatic,    ///< a few Gauss–Seidel sweeps, active-set finish, Lemke if both fail
+   gauss_seidel, ///< node by node only (thesis 3.5, appendix D)
+   lemke         ///< the complementarity problem on (w, v⁺, v⁻), then one active-set solve
+};
+
+struct FrictionSettings
+{
+   FrictionMethod method = FrictionMethod::automatic;
+   /// Largest residual of the natural map over the largest clamped nodal force so far, normal
+   /// and tangential apart. Where round-off is larger than this, round-off is the limit
+   /// (reported).
+   double tolerance = 1e-12;
+   int sweeps = 2;       ///< Gauss–Seidel sweeps before the first active-set attempt
+   int max_attempts = 6; ///< active-set attempts, each after twice the sweeps of the one before
+   int max_newton = 60;  ///< active-set steps of one attempt
+   long max_sweeps = 100000; ///< sweeps of the pure Gauss–Seidel method
+
+   /// InputError naming the setting, its value and what is allowed.
+   void validate() const;
+};
+
+struct IncrementReport
+{
+   FrictionStatus status = FrictionStatus::stalled;
+   std::string message;        ///< empty if converged
+   double residual_normal = 0; ///< relative, as FrictionSettings::tolerance
+   double residual_tangential = 0;
+   double round_off = 0; ///< estimate of what arithmetic can reach, relative
+};
+
+/** Solves increments of the frictional contact of a reduced problem: given the state at the
+   start of an increment and the loads at its end, finds the state at its end (thesis 3.5
+   and 3.6).
+
+    The rate is replaced by the difference over the increment. Nothing is remembered between
+    increments but factors of matrices, which depend on the set of node states only: the same
+   state and loads give the same bits, whatever was solved before. */
+class FrictionSolver
+{
+public:
+   /// Validates both. The problem is copied where needed; friction zero at all nodes removes
+   /// the tangential unknowns once and for all.
+   FrictionSolver(const ReducedProblem &problem, const FrictionSettings &settings = {});
+   ~FrictionSolver();
+   FrictionSolver(FrictionSolver &&) noexcept;
+
+   /// Advances `state` to the loads `multipliers`. Unless a solution was found (converged,
+   /// not_unique) the state is left as it was.
+   IncrementReport solve(ContactState &state, const Eigen::VectorXd &multipliers);
+
+   const ReducedProblem &problem() const;
+   bool frictionless() const;
+   /// True if B is zero to round-off: the normal problem does not know of friction.
+   bool uncoupled() const;
+   /// Least critical friction A_ii/|B_ii| of any node, above which the rate problem of that
+   /// node has no unique answer, and the node.
+   double critical_friction() const;
+   Eigen::Index critical_node() const;
+   const Counters &counters() const;
+
+private:
+   struct Implementation;
+   std::unique_ptr<Implementation> impl_;
+};
+
+} // namespace cattaneo

@@ -1,0 +1,381 @@
+#include <cattaneo/friction/march.hpp>
+#include <cattaneo/input_error.hpp>
+#include <chrono>
+#include <cmath>
+
+namespace cattaneo
+{
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+void MarchSettings::validate() const
+{
+   friction.validate();
+   require(increments >= 1, "march settings: increments is ", increments,
+           ", must be at least 1");
+   for (int count : increments_of_piece)
+   {
+      require(count >= 1, "march settings: increments_of_piece has ", count,
+              ", must be at least 1");
+   }
+   require(max_halvings >= 0, "march settings: max_halvings is ", max_halvings,
+           ", must not be negative");
+   require(steady_tolerance >= 0, "march settings: steady_tolerance is ", steady_tolerance,
+           ", must not be negative");
+}
+
+namespace
+{
+
+VectorXd displacements(const ContactState &state)
+{
+   VectorXd u(state.v.size() + state.w.size());
+   u << state.v, state.w;
+   return u;
+}
+
+VectorXd pattern_forces(const LoadPattern &pattern)
+{
+   VectorXd f(pattern.q.size() + pattern.p.size());
+   f << pattern.q, pattern.p;
+   return f;
+}
+
+/// What each load pattern meets: the displacement of a force, the reaction of a prescribed
+/// displacement.
+VectorXd conjugates(const ReducedProblem &problem, const ContactState &state)
+{
+   VectorXd g = problem.H * state.multipliers;
+   for (std::size_t k = 0; k < problem.patterns.size(); ++k)
+   {
+      const LoadPattern &pattern = problem.patterns[k];
+      const double work = pattern.q.dot(state.v) + pattern.p.dot(state.w);
+      g[k] += pattern.control == Control::force ? -work : work;
+   }
+   return g;
+}
+
+/// One march in progress.
+class March
+{
+public:
+   March(FrictionSolver &solver, const LoadHistory &history, ContactState &state,
+         const MarchSettings &settings, const MarchObserver &observer)
+      : solver_(solver), problem_(solver.problem()), history_(history), state_(state),
+        settings_(settings), observer_(observer)
+   {
+   }
+
+   MarchReport run();
+
+private:
+   bool march_piece(int piece);
+   bool exact_in_one(int piece) const;
+   bool advances_too_far(const ContactState &next) const;
+   VectorXd loads(int piece, double time) const;
+   void accept(ContactState &&next, int piece, const IncrementReport &increment);
+   void end_cycle();
+   void bisect_event(int piece, double failed, const IncrementReport &failure);
+
+   FrictionSolver &solver_;
+   const ReducedProblem &problem_;
+   const LoadHistory &history_;
+   ContactState &state_;
+   const MarchSettings &settings_;
+   const MarchObserver &observer_;
+   MarchReport report_;
+   CycleRecord cycle_;
+   double external_work_ = 0, dissipation_ = 0, normal_work_ = 0;
+};
+
+VectorXd March::loads(int piece, double time) const
+{
+   const double t0 = history_.start_time(piece), t1 = history_.end_time(piece);
+   if (time == t1) { return history_.end(piece); }
+   const double fraction = (time - t0) / (t1 - t0);
+   return history_.start(piece) + fraction * (history_.end(piece) - history_.start(piece));
+}
+
+/// True where one increment gives the exact end of a piece, however long it is.
+bool March::exact_in_one(int piece) const
+{
+   if (!settings_.single_increment_if_exact) { return false; }
+   if (solver_.frictionless()) { return true; }
+   // Self-similar: first proportional loading, no gap: everything scales with the load.
+   const bool virgin = state_.v.isZero(0) && state_.q.isZero(0) && state_.p.isZero(0);
+   if (virgin && problem_.gap.isZero(0) && history_.start(piece).isZero(0)) { return true; }
+   // Normal loading of an uncoupled contact that carries no shear: nothing ever slips.
+   if (!solver_.uncoupled() || !state_.q.isZero(0) || !state_.v.isZero(0)) { return false; }
+   const VectorXd f = problem_.clamped_forces(history_.end(piece));
+   const double normal = f.tail(problem_.nodes()).cwiseAbs().maxCoeff();
+   return f.head(problem_.A.rows()).cwiseAbs().maxCoeff() <= 1e-12 * normal;
+}
+
+bool March::advances_too_far(const ContactState &next) const
+{
+   if (settings_.stepping == Stepping::fixed || solver_.frictionless()) { return false; }
+   const Index n = problem_.nodes();
+   bool any_closed = false;
+   for (NodeState s : state_.status) { any_closed = any_closed || closed(s); }
+   if (!any_closed) { return false; }
+   for (Index i = 0; i < n; ++i)
+   {
+      if (!closed(next.status[i]) || closed(state_.status[i])) { continue; }
+      const bool neighbour =
+         (i > 0 && closed(state_.status[i - 1])) || (i + 1 < n && closed(state_.status[i + 1]));
+      if (!neighbour) { return true; }
+   }
+   return false;
+}
+
+void March::accept(ContactState &&next, int piece, const IncrementReport &increment)
+{
+   IncrementRecord record;
+   record.time = next.time;
+   record.cycle = history_.cycle(piece);
+   record.residual_normal = increment.residual_normal;
+   record.residual_tangential = increment.residual_tangential;
+   for (NodeState s : next.status)
+   {
+      switch (s)
+      {
+      case NodeState::stick:
+         ++record.stick;
+         break;
+      case NodeState::separation:
+         ++record.separation;
+         break;
+      case NodeState::forward_slip:
+         ++record.forward_slip;
+         break;
+      case NodeState::backward_slip:
+         ++record.backward_slip;
+         break;
+      }
+   }
+   const VectorXd lost = -0.5 * (state_.q + next.q).cwiseProduct(next.v - state_.v);
+   const double normal_work = -0.5 * (state_.p + next.p).dot(next.w - state_.w);
+   record.dissipation = lost.sum();
+   const VectorXd g0 = conjugates(problem_, state_), g1 = conjugates(problem_, next);
+   for (std::size_t k = 0; k < problem_.patterns.size(); ++k)
+   {
+      const double mean = 0.5 * (state_.multipliers[k] + next.multipliers[k]);
+      record.external_work +=
+         problem_.patterns[k].control == Control::force
+            ? mean * (g1[k] - g0[k])
+            : 0.5 * (g0[k] + g1[k]) * (next.multipliers[k] - state_.multipliers[k]);
+   }
+   if (record.cycle > 0)
+   {
+      if (cycle_.node_dissipation.size() == 0)
+      {
+         cycle_.node_dissipation = VectorXd::Zero(lost.size());
+      }
+      cycle_.node_dissipation += lost;
+      cycle_.dissipation += record.dissipation;
+      cycle_.external_work += record.external_work;
+      cycle_.normal_work += normal_work;
+   }
+   external_work_ += record.external_work;
+   dissipation_ += record.dissipation;
+   normal_work_ += normal_work;
+   next.dissipation += record.dissipation;
+   state_ = std::move(next);
+   report_.increments.push_back(record);
+   report_.largest_residual =
+      std::max({report_.largest_residual, record.residual_normal, record.residual_tangential});
+   ++report_.counters.increments;
+   if (increment.status == FrictionStatus::not_unique &&
+       report_.status == FrictionStatus::converged)
+   {
+      report_.status = increment.status;
+      report_.message = increment.message;
+      report_.event_time = state_.time;
+      report_.event_multipliers = state_.multipliers;
+   }
+   if (observer_) { observer_(state_, record); }
+}
+
+/// No equilibrium at `failed`: approaches the last load at which there is one.
+void March::bisect_event(int piece, double failed, const IncrementReport &failure)
+{
+   const double resolution = 1e-10 * (history_.end_time(piece) - history_.start_time(piece));
+   while (failed - state_.time > resolution)
+   {
+      ContactState next = state_;
+      next.time = 0.5 * (state_.time + failed);
+      if (next.time <= state_.time || next.time >= failed) { break; }
+      const IncrementReport increment = solver_.solve(next, loads(piece, next.time));
+      const bool solved = increment.status == FrictionStatus::converged ||
+                          increment.status == FrictionStatus::not_unique;
+      if (solved) { accept(std::move(next), piece, increment); }
+      else
+      {
+         failed = next.time;
+         ++report_.counters.rejected_increments;
+      }
+   }
+   report_.status = failure.status;
+   report_.message = failure.message;
+   report_.event_time = state_.time;
+   report_.event_multipliers = state_.multipliers;
+}
+
+bool March::march_piece(int piece)
+{
+   const double t0 = history_.start_time(piece), t1 = history_.end_time(piece);
+   const std::size_t point =
+      piece < static_cast<int>(history_.times.size()) - 1
+         ? piece
+         : history_.cycle_start + (piece - history_.cycle_start) %
+                                     (history_.times.size() - 1 - history_.cycle_start);
+   int count = settings_.increments;
+   if (point < settings_.increments_of_piece.size())
+   {
+      count = settings_.increments_of_piece[point];
+   }
+   const bool exact = exact_in_one(piece);
+   if (exact) { count = 1; }
+   const double smallest = (t1 - t0) / count * std::ldexp(1.0, -settings_.max_halvings);
+   auto grid = [&](int k) { return k >= count ? t1 : t0 + (t1 - t0) * k / count; };
+   int k = 1;
+   while (state_.time < t1)
+   {
+      while (grid(k) <= state_.time) { ++k; }
+      double target = grid(k);
+      // A step that had to be cut grows again by doubling.
+      if (state_.step > 0 && state_.time + state_.step < target)
+      {
+         target = state_.time + state_.step;
+      }
+      ContactState next;
+      IncrementReport increment;
+      while (true)
+      {
+         next = state_;
+         next.time = target;
+         increment = solver_.solve(next, loads(piece, target));
+         const bool solved = increment.status == FrictionStatus::converged ||
+                             increment.status == FrictionStatus::not_unique;
+         if (!solved)
+         {
+            bisect_event(piece, target, increment);
+            return false;
+         }
+         const double step = target - state_.time;
+         if (exact || step <= smallest || !advances_too_far(next)) { break; }
+         ++report_.counters.rejected_increments;
+         state_.step = 0.5 * step;
+         target = state_.time + state_.step;
+      }
+      next.step = state_.step > 0 ? 2 * state_.step : 0;
+      if (next.time == grid(k) && next.step >= grid(k) - grid(k - 1)) { next.step = 0; }
+      accept(std::move(next), piece, increment);
+   }
+   return true;
+}
+
+void March::end_cycle()
+{
+   auto change = [&](const VectorXd &v)
+   { return v.size() ? (state_.v - v).cwiseAbs().maxCoeff() : 0.0; };
+   auto &past = state_.cycle_slip;
+   for (std::size_t period = 1; period <= past.size() && !report_.steady_cycle; ++period)
+   {
+      const VectorXd &before = past[past.size() - period];
+      const double scale = std::max(state_.v.size() ? state_.v.cwiseAbs().maxCoeff() : 0.0,
+                                    before.size() ? before.cwiseAbs().maxCoeff() : 0.0);
+      if (change(before) <= settings_.steady_tolerance * scale)
+      {
+         report_.steady_cycle = report_.increments.back().cycle - static_cast<int>(period) + 1;
+         report_.steady_period = static_cast<int>(period);
+      }
+   }
+   cycle_.slip_change = past.empty() ? 0.0 : change(past.back());
+   report_.cycles.push_back(cycle_);
+   cycle_ = {};
+   past.push_back(state_.v);
+   if (past.size() > 2) { past.erase(past.begin()); }
+}
+
+MarchReport March::run()
+{
+   const auto began = std::chrono::steady_clock::now();
+   settings_.validate();
+   state_.validate(problem_);
+   history_.validate(static_cast<int>(problem_.patterns.size()));
+   const Counters before = solver_.counters();
+   const double energy = elastic_energy(problem_, state_);
+   if (history_.cycle_start >= 0 && state_.cycle_slip.empty() &&
+       state_.time <= history_.times[history_.cycle_start] && history_.cycle_start == 0)
+   {
+      state_.cycle_slip.push_back(state_.v);
+   }
+   for (int piece = 0; piece < history_.segments(); ++piece)
+   {
+      if (state_.time >= history_.end_time(piece)) { continue; }
+      if (!march_piece(piece)) { break; }
+      // The first cycle is compared with the state at its start.
+      if (piece + 1 == history_.cycle_start) { state_.cycle_slip = {state_.v}; }
+      if (history_.ends_cycle(piece))
+      {
+         end_cycle();
+         if (report_.steady_cycle && settings_.stop_at_steady_state) { break; }
+      }
+   }
+   report_.time = state_.time;
+   const double stored = elastic_energy(problem_, state_) - energy;
+   const double largest = std::max({std::abs(external_work_), std::abs(stored), dissipation_});
+   if (largest > 0)
+   {
+      report_.energy_imbalance =
+         (external_work_ - stored - dissipation_ - normal_work_) / largest;
+   }
+   report_.counters += solver_.counters();
+   report_.counters -= before;
+   report_.counters.tangential_unknowns = solver_.counters().tangential_unknowns;
+   report_.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+   return report_;
+}
+
+} // namespace
+
+double elastic_energy(const ReducedProblem &problem, const ContactState &state)
+{
+   const VectorXd u = displacements(state);
+   double energy = 0.5 * u.dot(problem.stiffness() * u);
+   for (std::size_t k = 0; k < problem.patterns.size(); ++k)
+   {
+      const Control control = problem.patterns[k].control;
+      // Forces store energy in the clamped bodies, apart from that of u; prescribed
+      // displacements also work with u.
+      if (control == Control::displacement)
+      {
+         energy += state.multipliers[k] * pattern_forces(problem.patterns[k]).dot(u);
+      }
+      for (std::size_t l = 0; l < problem.patterns.size(); ++l)
+      {
+         if (problem.patterns[l].control != control) { continue; }
+         energy += 0.5 * state.multipliers[k] * problem.H(k, l) * state.multipliers[l];
+      }
+   }
+   return energy;
+}
+
+MarchReport march(FrictionSolver &solver, const LoadHistory &history, ContactState &state,
+                  const MarchSettings &settings, const MarchObserver &observer)
+{
+   return March(solver, history, state, settings, observer).run();
+}
+
+MarchReport march(const ReducedProblem &problem, const LoadHistory &history,
+                  ContactState &state, const MarchSettings &settings,
+                  const MarchObserver &observer)
+{
+   FrictionSolver solver(problem, settings.friction);
+   return march(solver, history, state, settings, observer);
+}
+
+} // namespace cattaneo

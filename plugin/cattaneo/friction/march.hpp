@@ -1,0 +1,99 @@
+#pragma once
+
+#include <cattaneo/friction/friction_solver.hpp>
+#include <cattaneo/friction/load_history.hpp>
+#include <functional>
+#include <vector>
+
+namespace cattaneo
+{
+
+/// How a piece of the load history is cut into increments.
+enum class Stepping
+{
+   /// Equal increments, but only one where that is exact: a first proportional loading without
+   /// a gap (self-similar), and any piece without friction.
+   fixed,
+   /// As fixed, and an increment is halved while contact advances by more than one layer of
+   /// nodes (each newly closed node must have had a closed neighbour).
+   advancing
+};
+
+struct MarchSettings
+{
+   FrictionSettings friction;
+   int increments = 20;                  ///< increments of each piece of the history
+   std::vector<int> increments_of_piece; ///< overrides `increments` for the points' pieces
+   Stepping stepping = Stepping::advancing;
+   bool single_increment_if_exact = true; ///< false: cut even where one increment is exact
+   int max_halvings = 12;                 ///< of an increment, for advancing contact or failure
+   bool stop_at_steady_state = true;
+   /// Steady: slip at the end of a cycle differs from that one or two cycles before by less
+   /// than this times the largest slip of the history.
+   double steady_tolerance = 1e-10;
+
+   /// InputError naming the setting, its value and what is allowed.
+   void validate() const;
+};
+
+/// One accepted increment.
+struct IncrementRecord
+{
+   double time = 0;
+   int cycle = 0;                                                      ///< 0: opening part
+   int stick = 0, separation = 0, forward_slip = 0, backward_slip = 0; ///< numbers of nodes
+   double dissipation = 0;   ///< -½(q_old + q_new)·Δv, summed over nodes
+   double external_work = 0; ///< work of the loads, trapezoidal (exact for linear increments)
+   double residual_normal = 0, residual_tangential = 0;
+};
+
+/// One marched cycle.
+struct CycleRecord
+{
+   double dissipation = 0;
+   double external_work = 0;
+   double normal_work = 0; ///< -½(p_old + p_new)·Δw: vanishes as increments shrink
+   double slip_change = 0; ///< largest |v - v one cycle before|
+   Eigen::VectorXd node_dissipation;
+};
+
+struct MarchReport
+{
+   FrictionStatus status = FrictionStatus::converged;
+   std::string message;
+   double time = 0; ///< reached
+   /// Where the outcome is not `converged`: time and load multipliers at which it came about
+   /// (the last equilibrium found, by bisection).
+   double event_time = 0;
+   Eigen::VectorXd event_multipliers;
+   std::vector<IncrementRecord> increments;
+   std::vector<CycleRecord> cycles;
+   int steady_cycle = 0;  ///< first cycle of the steady state; 0: not reached
+   int steady_period = 0; ///< 1 or 2
+   /// Energy balance of the march: external work - change of elastic energy - dissipation -
+   /// normal work, over the largest of them. Round-off if all is well.
+   double energy_imbalance = 0;
+   double largest_residual = 0;
+   Counters counters;
+   double seconds = 0;
+};
+
+/// Called after every accepted increment.
+using MarchObserver = std::function<void(const ContactState &, const IncrementRecord &)>;
+
+/** Marches the state along a load history. The state's own time says where it stands, so that a
+    march can be cut and resumed: the result is the same to the last bit. Stops early, with the
+    status in the report, when there is no equilibrium; the state is then the last one found. */
+MarchReport march(const ReducedProblem &problem, const LoadHistory &history,
+                  ContactState &state, const MarchSettings &settings = {},
+                  const MarchObserver &observer = {});
+
+/// The same with a solver made before (many marches of one problem); settings.friction is the
+/// solver's own.
+MarchReport march(FrictionSolver &solver, const LoadHistory &history, ContactState &state,
+                  const MarchSettings &settings = {}, const MarchObserver &observer = {});
+
+/// Elastic energy stored by the contact displacements and loads of a state (both bodies).
+double elastic_energy(const ReducedProblem &problem, const ContactState &state);
+
+} // namespace cattaneo

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cattaneo/reduced/reduced_problem.hpp>
+
+namespace cattaneo
+{
+
+/// A rigid motion along which the loads do work that no admissible contact forces can balance.
+struct Mechanism
+{
+   bool exists = false;
+   Eigen::VectorXd motion; ///< {v; w} of the contact nodes, largest entry 1
+   bool slides = false;    ///< moves along the contact somewhere (else it only lifts off)
+};
+
+/// Orthonormal basis of the rigid motions {v; w} of a reduced problem: the null space of its
+/// stiffness, one column a motion, none if both bodies are held.
+Eigen::MatrixXd rigid_motions(const ReducedProblem &problem);
+
+/** Can contact forces inside the friction cones (p >= 0, |q| <= f p) balance the given clamped
+    forces {q; p} along the rigid motions? By Farkas' lemma either they can, or there is a
+    mechanism: the residual of a non-negative least-squares problem in the edges of the cones.
+   That they can is necessary for equilibrium; that they cannot is the cause when there is none.
+ */
+Mechanism find_mechanism(const ReducedProblem &problem, const Eigen::MatrixXd &rigid_motions,
+                         const Eigen::VectorXd &clamped_forces);
+
+} // namespace cattaneo

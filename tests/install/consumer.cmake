@@ -1,0 +1,36 @@
+# Installs Cattaneo, extracts the embedding example from README.md, builds it as a project of its
+# own with find_package(Cattaneo) and runs it.
+set(prefix ${BINARY}/install-test/prefix)
+set(project ${BINARY}/install-test/project)
+file(REMOVE_RECURSE ${BINARY}/install-test)
+file(MAKE_DIRECTORY ${project})
+
+function(step)
+   execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE out ERROR_VARIABLE out)
+   if(code)
+      message(FATAL_ERROR "${ARGN}\nended with ${code}:\n${out}")
+   endif()
+   set(output "${out}" PARENT_SCOPE)
+endfunction()
+
+file(READ ${SOURCE}/README.md readme)
+string(FIND "${readme}" "```cpp\n" begin)
+if(begin EQUAL -1)
+   message(FATAL_ERROR "README.md has no C++ example")
+endif()
+math(EXPR begin "${begin} + 7")
+string(SUBSTRING "${readme}" ${begin} -1 readme)
+string(FIND "${readme}" "```" end)
+string(SUBSTRING "${readme}" 0 ${end} example)
+file(WRITE ${project}/embed.cpp "${example}")
+file(COPY ${SOURCE}/tests/install/CMakeLists.txt DESTINATION ${project})
+
+step(${CMAKE_COMMAND} --install ${BINARY} --prefix ${prefix})
+step(${CMAKE_COMMAND} -S ${project} -B ${project}/build -G Ninja -DCMAKE_BUILD_TYPE=Release
+   -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_PREFIX_PATH=${prefix} -DMFEM_DIR=${MFEM_DIR})
+step(${CMAKE_COMMAND} --build ${project}/build)
+step(${project}/build/embed)
+message("${output}")
+if(NOT output MATCHES "converged")
+   message(FATAL_ERROR "the example did not report a converged march")
+endif()

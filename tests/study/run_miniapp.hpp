@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace cattaneo_test
+{
+
+struct Run
+{
+   int code = -1;
+   std::string output;     ///< stdout and stderr
+   nlohmann::json results; ///< of --json; null if the file was not written
+};
+
+/// Runs a miniapp as a user would, with --json, in the source folder.
+inline Run run_miniapp(const std::string &name, const std::string &options)
+{
+   const std::string file =
+      testing::TempDir() + "cattaneo_" + name + "_" + std::to_string(getpid()) + ".json";
+   std::remove(file.c_str());
+   const std::string command = std::string("cd '") + CATTANEO_SOURCE_DIR + "' && '" +
+                               CATTANEO_MINIAPP_DIR + "/" + name + "' " + options +
+                               " --json '" + file + "' 2>&1";
+   Run run;
+   FILE *pipe = popen(command.c_str(), "r");
+   if (!pipe) { return run; }
+   char buffer[4096];
+   std::size_t count = 0;
+   while ((count = fread(buffer, 1, sizeof buffer, pipe)) > 0)
+   {
+      run.output.append(buffer, count);
+   }
+   const int status = pclose(pipe);
+   run.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+   std::ifstream in(file);
+   if (in.good()) { run.results = nlohmann::json::parse(in); }
+   std::remove(file.c_str());
+   return run;
+}
+
+/// Every value that the study compares with a reference is within the tolerance stated beside
+/// it. At least `count` of them are expected.
+inline void expect_references_met(const Run &run, std::size_t count)
+{
+   ASSERT_EQ(run.code, 0) << run.output;
+   ASSERT_TRUE(run.results.contains("references")) << run.output;
+   EXPECT_GE(run.results["references"].size(), count) << run.output;
+   for (const auto &row : run.results["references"])
+   {
+      EXPECT_NEAR(row["computed"].get<double>(), row["reference"].get<double>(),
+                  row["tolerance"].get<double>())
+         << row["quantity"];
+   }
+}
+
+} // namespace cattaneo_test

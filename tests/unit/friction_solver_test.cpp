@@ -1,0 +1,313 @@
+#include "random_problem.hpp"
+
+#include <cattaneo/friction/friction_solver.hpp>
+#include <cattaneo/friction/lemke.hpp>
+#include <cattaneo/friction/mechanism.hpp>
+#include <cattaneo/friction/semidefinite.hpp>
+#include <cattaneo/input_error.hpp>
+#include <gtest/gtest.h>
+
+namespace
+{
+
+using namespace cattaneo;
+using cattaneo_test::random_problem;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+
+ReducedProblem one_node(double a, double b, double c, double q, double p, double f, double gap)
+{
+   ReducedProblem problem;
+   problem.A = Eigen::MatrixXd::Constant(1, 1, a);
+   problem.B = Eigen::MatrixXd::Constant(1, 1, b);
+   problem.C = Eigen::MatrixXd::Constant(1, 1, c);
+   problem.patterns = {
+      {"load", Control::force, VectorXd::Constant(1, q), VectorXd::Constant(1, p)}};
+   problem.H = Eigen::MatrixXd::Zero(1, 1);
+   problem.gap = VectorXd::Constant(1, gap);
+   problem.friction = VectorXd::Constant(1, f);
+   return problem;
+}
+
+/// Largest violation of the laws of contact and friction, checked in plain words from v, w
+/// alone.
+double violation(const ReducedProblem &problem, const ContactState &state,
+                 const VectorXd &v_old)
+{
+   const VectorXd f = problem.clamped_forces(state.multipliers);
+   const Eigen::Index n = problem.nodes();
+   const VectorXd q = problem.A * state.v + problem.B.transpose() * state.w + f.head(n);
+   const VectorXd p = problem.B * state.v + problem.C * state.w + f.tail(n);
+   double worst = 0;
+   for (Eigen::Index i = 0; i < n; ++i)
+   {
+      const double gap = state.w[i] + problem.gap[i], slip = state.v[i] - v_old[i];
+      const double fp = problem.friction[i] * p[i];
+      switch (state.status[i])
+      {
+      case NodeState::separation:
+         worst = std::max({worst, std::abs(p[i]), std::abs(q[i]), -gap});
+         break;
+      case NodeState::stick:
+         worst = std::max({worst, std::abs(gap), std::abs(slip), -p[i], std::abs(q[i]) - fp});
+         break;
+      case NodeState::forward_slip:
+         worst = std::max({worst, std::abs(gap), -slip, -p[i], std::abs(q[i] + fp)});
+         break;
+      case NodeState::backward_slip:
+         worst = std::max({worst, std::abs(gap), slip, -p[i], std::abs(q[i] - fp)});
+         break;
+      }
+      worst = std::max({worst, std::abs(state.q[i] - q[i]), std::abs(state.p[i] - p[i])});
+   }
+   return worst;
+}
+
+/// All states of one node for which the laws hold, by trying the four of them.
+std::vector<NodeState> enumerate(const ReducedProblem &problem, double v_old)
+{
+   const double a = problem.A(0, 0), b = problem.B(0, 0), c = problem.C(0, 0);
+   const double g = problem.gap[0], f = problem.friction[0];
+   const double q0 = problem.patterns[0].q[0] + a * v_old - b * g;
+   const double p0 = problem.patterns[0].p[0] + b * v_old - c * g;
+   std::vector<NodeState> found;
+   const double det = a * c - b * b;
+   if ((b * q0 - a * p0) / det > 0) { found.push_back(NodeState::separation); }
+   if (p0 >= 0 && std::abs(q0) <= f * p0) { found.push_back(NodeState::stick); }
+   const double forward = -(q0 + f * p0) / (a + f * b), backward = -(q0 - f * p0) / (a - f * b);
+   if (forward > 0 && p0 + b * forward >= 0) { found.push_back(NodeState::forward_slip); }
+   if (backward < 0 && p0 + b * backward >= 0) { found.push_back(NodeState::backward_slip); }
+   return found;
+}
+
+TEST(FrictionSolver, OneNodeAgreesWithEnumeration)
+{
+   std::mt19937 random(1);
+   std::uniform_real_distribution<double> uniform(-1, 1);
+   int seen[4] = {0, 0, 0, 0};
+   for (int k = 0; k < 2000; ++k)
+   {
+      const double b = 0.9 * uniform(random), f = std::abs(uniform(random));
+      ReducedProblem problem = one_node(1, b, 1.5, uniform(random), uniform(random), f,
+                                        k % 2 ? 0.0 : 0.3 * std::abs(uniform(random)));
+      const double v_old = 0.2 * uniform(random);
+      const std::vector<NodeState> expected = enumerate(problem, v_old);
+      ASSERT_EQ(expected.size(), 1u); // f < A/|B|: unique
+      for (FrictionMethod method :
+           {FrictionMethod::automatic, FrictionMethod::gauss_seidel, FrictionMethod::lemke})
+      {
+         FrictionSettings settings;
+         settings.method = method;
+         FrictionSolver solver(problem, settings);
+         ContactState state = ContactState::with_slip(problem, VectorXd::Constant(1, v_old));
+         const IncrementReport report = solver.solve(state, VectorXd::Ones(1));
+         ASSERT_EQ(report.status, FrictionStatus::converged)
+            << "problem " << k << " method " << static_cast<int>(method) << ": "
+            << report.message;
+         EXPECT_EQ(state.status[0], expected[0]);
+         EXPECT_LT(violation(problem, state, VectorXd::Constant(1, v_old)), 1e-12);
+      }
+      ++seen[static_cast<int>(expected[0])];
+   }
+   for (int count : seen) { EXPECT_GT(count, 50); }
+}
+
+TEST(FrictionSolver, ThreeMethodsAgreeOnRandomProblems)
+{
+   std::mt19937 random(2);
+   std::uniform_real_distribution<double> uniform(0, 1);
+   for (int k = 0; k < 200; ++k)
+   {
+      const int n = 2 + k % 14;
+      const double scale = std::pow(10.0, 9 * (2 * uniform(random) - 1));
+      ReducedProblem problem = random_problem(n, 3.0 * k / 199.0, 0.12, random);
+      problem.A *= scale;
+      problem.B *= scale;
+      problem.C *= scale;
+      for (LoadPattern &pattern : problem.patterns)
+      {
+         pattern.q *= scale;
+         pattern.p *= scale;
+      }
+      ContactState states[3];
+      const FrictionMethod methods[] = {FrictionMethod::automatic, FrictionMethod::gauss_seidel,
+                                        FrictionMethod::lemke};
+      for (int method = 0; method < 3; ++method)
+      {
+         FrictionSettings settings;
+         settings.method = methods[method];
+         FrictionSolver solver(problem, settings);
+         ContactState &state = states[method];
+         state = ContactState::virgin(problem);
+         for (const Vector2d &loads : {Vector2d(1, 0), Vector2d(1, 0.7), Vector2d(1, -0.6)})
+         {
+            const VectorXd v_old = state.v;
+            const IncrementReport report = solver.solve(state, loads);
+            ASSERT_EQ(report.status, FrictionStatus::converged)
+               << "problem " << k << " method " << method << ": " << report.message;
+            ContactState plain = state;
+            plain.q /= scale;
+            plain.p /= scale;
+            ReducedProblem unit = problem;
+            unit.A /= scale;
+            unit.B /= scale;
+            unit.C /= scale;
+            for (LoadPattern &pattern : unit.patterns)
+            {
+               pattern.q /= scale;
+               pattern.p /= scale;
+            }
+            EXPECT_LT(violation(unit, plain, v_old), 1e-10) << "problem " << k;
+         }
+      }
+      for (int other : {1, 2})
+      {
+         const double size = 1e-9;
+         EXPECT_LT((states[0].v - states[other].v).cwiseAbs().maxCoeff(), size)
+            << "problem " << k;
+         EXPECT_LT((states[0].w - states[other].w).cwiseAbs().maxCoeff(), size)
+            << "problem " << k;
+      }
+   }
+}
+
+TEST(FrictionSolver, FrictionlessHasNoTangentialUnknownsAndNoShear)
+{
+   std::mt19937 random(3);
+   const ReducedProblem problem = random_problem(9, 0.0, 0.2, random);
+   FrictionSolver solver(problem);
+   ContactState state = ContactState::virgin(problem);
+   ASSERT_EQ(solver.solve(state, Vector2d(1, 0.4)).status, FrictionStatus::converged);
+   EXPECT_EQ(solver.counters().tangential_unknowns, 0);
+   EXPECT_TRUE(solver.frictionless());
+   const VectorXd f = problem.clamped_forces(Vector2d(1, 0.4));
+   const VectorXd q = problem.A * state.v + problem.B.transpose() * state.w + f.head(9);
+   const VectorXd p = problem.B * state.v + problem.C * state.w + f.tail(9);
+   EXPECT_LT(q.cwiseAbs().maxCoeff(), 1e-13);
+   EXPECT_LT((p - state.p).cwiseAbs().maxCoeff(), 1e-13);
+   EXPECT_GE(state.p.minCoeff(), 0);
+   EXPECT_GE((state.w + problem.gap).minCoeff(), -1e-15);
+   // The limit of vanishing friction is the frictionless solution.
+   ReducedProblem nearly = problem;
+   set_friction(nearly, 1e-9);
+   FrictionSolver other(nearly);
+   ContactState close = ContactState::virgin(problem);
+   ASSERT_EQ(other.solve(close, Vector2d(1, 0.4)).status, FrictionStatus::converged);
+   EXPECT_LT((close.p - state.p).cwiseAbs().maxCoeff(), 1e-7);
+}
+
+TEST(FrictionSolver, AboveCriticalFrictionNamesTheNode)
+{
+   // One node, A = 1, B = 0.5: critical friction 2. Backward slip with f = 3: stick holds as
+   // well as slip, the answer is not unique.
+   const ReducedProblem problem = one_node(1, 0.5, 1, -0.2, 1, 3.0, 0);
+   FrictionSolver solver(problem);
+   EXPECT_DOUBLE_EQ(solver.critical_friction(), 2.0);
+   ContactState state = ContactState::virgin(problem);
+   const IncrementReport report = solver.solve(state, VectorXd::Ones(1));
+   EXPECT_EQ(report.status, FrictionStatus::not_unique);
+   EXPECT_NE(report.message.find("node 0"), std::string::npos);
+   ReducedProblem below = problem;
+   set_friction(below, 1.9);
+   FrictionSolver unique(below);
+   ContactState other = ContactState::virgin(below);
+   EXPECT_EQ(unique.solve(other, VectorXd::Ones(1)).status, FrictionStatus::converged);
+}
+
+TEST(FrictionSolver, RefusesBadSettings)
+{
+   FrictionSettings settings;
+   settings.tolerance = 0;
+   EXPECT_THROW(FrictionSolver(one_node(1, 0, 1, 0, 1, 0.3, 0), settings), InputError);
+   settings = {};
+   settings.max_newton = 0;
+   EXPECT_THROW(FrictionSolver(one_node(1, 0, 1, 0, 1, 0.3, 0), settings), InputError);
+}
+
+/// Two equal nodes on a rigid free block: the only stiffness is against relative motion.
+ReducedProblem free_block(double f)
+{
+   ReducedProblem problem;
+   problem.A = Eigen::Matrix2d{{1, -1}, {-1, 1}};
+   problem.B = Eigen::Matrix2d::Zero();
+   problem.C = Eigen::Matrix2d{{1, -1}, {-1, 1}};
+   problem.patterns = {
+      {"press", Control::force, Vector2d(0, 0), Vector2d(0.5, 0.5)},
+      {"shear", Control::force, Vector2d(0.8, 0.2), Vector2d(0, 0)},
+      {"lift", Control::force, Vector2d(0, 0), Vector2d(-1, -1)},
+   };
+   problem.H = Eigen::Matrix3d::Zero();
+   problem.gap = Vector2d(0, 0);
+   set_friction(problem, f);
+   return problem;
+}
+
+TEST(FrictionSolver, ReportsSlidingAndLiftingApart)
+{
+   const ReducedProblem problem = free_block(0.4);
+   FrictionSolver solver(problem);
+   ContactState state = ContactState::virgin(problem);
+   EXPECT_EQ(solver.solve(state, Eigen::Vector3d(1, 0.399, 0)).status,
+             FrictionStatus::converged);
+   const ContactState before = state;
+   EXPECT_EQ(solver.solve(state, Eigen::Vector3d(1, 0.401, 0)).status,
+             FrictionStatus::gross_sliding);
+   EXPECT_EQ(state.v, before.v); // left as it was
+   const IncrementReport lifted = solver.solve(state, Eigen::Vector3d(1, 0, 0.6));
+   EXPECT_EQ(lifted.status, FrictionStatus::no_solution);
+   EXPECT_NE(lifted.message.find("lifts off"), std::string::npos);
+}
+
+TEST(Mechanism, FindsTheMotionThatTheLoadsDrive)
+{
+   const ReducedProblem problem = free_block(0.4);
+   const Eigen::MatrixXd Z = rigid_motions(problem);
+   ASSERT_EQ(Z.cols(), 2);
+   EXPECT_LT((problem.stiffness() * Z).cwiseAbs().maxCoeff(), 1e-15);
+   EXPECT_FALSE(
+      find_mechanism(problem, Z, problem.clamped_forces(Eigen::Vector3d(1, 0.39, 0))).exists);
+   const Mechanism sliding =
+      find_mechanism(problem, Z, problem.clamped_forces(Eigen::Vector3d(1, 0.41, 0)));
+   EXPECT_TRUE(sliding.exists && sliding.slides);
+   const Mechanism lifting =
+      find_mechanism(problem, Z, problem.clamped_forces(Eigen::Vector3d(0, 0, 1)));
+   EXPECT_TRUE(lifting.exists && !lifting.slides);
+}
+
+TEST(Lemke, SolvesRandomProblemsAndReportsRays)
+{
+   std::mt19937 random(4);
+   std::normal_distribution<double> normal;
+   for (int k = 0; k < 100; ++k)
+   {
+      const int n = 1 + k % 20;
+      const Eigen::MatrixXd R =
+         Eigen::MatrixXd::NullaryExpr(n, n, [&] { return normal(random); });
+      const Eigen::MatrixXd skew = R - R.transpose();
+      const Eigen::MatrixXd M = R * R.transpose() + skew; // positive definite, not symmetric
+      const VectorXd b = VectorXd::NullaryExpr(n, [&] { return normal(random); });
+      const LemkeReport report = lemke(M, b, VectorXd::Ones(n), 50 * n);
+      ASSERT_TRUE(report.solved);
+      const VectorXd s = M * report.z + b;
+      EXPECT_GE(report.z.minCoeff(), 0);
+      EXPECT_GE(s.minCoeff(), -1e-9);
+      EXPECT_LT(std::abs(s.dot(report.z)), 1e-8);
+   }
+   // s = -z - 1 has no solution.
+   EXPECT_FALSE(lemke(Eigen::MatrixXd::Constant(1, 1, -1), VectorXd::Constant(1, -1),
+                      VectorXd::Ones(1), 50)
+                   .solved);
+}
+
+TEST(Semidefinite, SolvesOnTheRangeAndFindsRigidMotions)
+{
+   const Eigen::Matrix3d A{{1, -1, 0}, {-1, 2, -1}, {0, -1, 1}};
+   const SemidefiniteSolver solver(A);
+   const Eigen::MatrixXd Z = solver.null_space();
+   ASSERT_EQ(Z.cols(), 1);
+   EXPECT_LT((Z - Eigen::Vector3d::Constant(Z(0, 0))).norm(), 1e-14);
+   const Eigen::Vector3d b(1, 1, -2);
+   EXPECT_LT((A * solver.solve(b) - b).norm(), 1e-14);
+}
+
+} // namespace

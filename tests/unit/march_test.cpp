@@ -1,0 +1,238 @@
+#include "random_problem.hpp"
+
+#include <cattaneo/friction/march.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cstdio>
+#include <fstream>
+#include <gtest/gtest.h>
+
+namespace
+{
+
+using namespace cattaneo;
+using cattaneo_test::random_problem;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+
+LoadHistory press_then_shear(double amplitude, int cycles)
+{
+   LoadHistory history =
+      LoadHistory::through({Vector2d(0, 0), Vector2d(1, 0), Vector2d(1, amplitude),
+                            Vector2d(1, -amplitude), Vector2d(1, 0)});
+   history.cycle_start = 1;
+   history.cycles = cycles;
+   return history;
+}
+
+/// One block on a spring: slip and dissipation of a cycle are known in closed form.
+ReducedProblem one_block(double f)
+{
+   ReducedProblem problem;
+   problem.A = Eigen::MatrixXd::Constant(1, 1, 2.0);
+   problem.B = Eigen::MatrixXd::Zero(1, 1);
+   problem.C = Eigen::MatrixXd::Constant(1, 1, 3.0);
+   problem.patterns = {{"press", Control::force, VectorXd::Zero(1), VectorXd::Ones(1)},
+                       {"shear", Control::force, VectorXd::Ones(1), VectorXd::Zero(1)}};
+   problem.H = Eigen::Matrix2d::Zero();
+   problem.gap = VectorXd::Zero(1);
+   set_friction(problem, f);
+   return problem;
+}
+
+TEST(March, OneBlockCycleInClosedForm)
+{
+   // q = 2 v + λ, |q| <= f: with λ = ±1 and f = 0.4 the block slips from v = ∓0.3 to ±0.3. Each
+   // way it loses f · 0.6, a cycle 0.48.
+   const ReducedProblem problem = one_block(0.4);
+   ContactState state = ContactState::virgin(problem);
+   MarchSettings settings;
+   settings.increments = 7;
+   const MarchReport report = march(problem, press_then_shear(1.0, 20), state, settings);
+   EXPECT_EQ(report.status, FrictionStatus::converged);
+   ASSERT_GE(report.cycles.size(), 2u);
+   EXPECT_NEAR(report.cycles[1].dissipation, 0.48, 0.48 * 0.1); // 7 increments: end-point error
+   EXPECT_EQ(report.steady_period, 1);
+   EXPECT_EQ(report.steady_cycle, 2);
+   EXPECT_EQ(report.cycles.size(), 2u); // the other 18 are not marched
+   EXPECT_LT(std::abs(report.energy_imbalance), 1e-14);
+   // Increments that meet the slip events make it exact.
+   settings.increments = 10;
+   state = ContactState::virgin(problem);
+   EXPECT_NEAR(march(problem, press_then_shear(1.0, 3), state, settings).cycles[1].dissipation,
+               0.48, 1e-14);
+}
+
+TEST(March, EnergyBalancesOnRandomProblems)
+{
+   std::mt19937 random(5);
+   for (int k = 0; k < 20; ++k)
+   {
+      ReducedProblem problem = random_problem(8, 0.1 + 0.05 * k, 0.12, random);
+      // One force and one displacement pattern, with a response of the loads to the loads of
+      // the right symmetry.
+      problem.patterns[1].control = Control::displacement;
+      problem.H = Eigen::Matrix2d{{1.3, 0.4}, {-0.4, 2.1}};
+      ContactState state = ContactState::virgin(problem);
+      const MarchReport report = march(problem, press_then_shear(0.7, 3), state);
+      ASSERT_EQ(report.status, FrictionStatus::converged);
+      EXPECT_LT(std::abs(report.energy_imbalance), 1e-12);
+      for (const IncrementRecord &increment : report.increments)
+      {
+         // End-of-increment forces lag, so single increments may gain a little: bounded by
+         // size.
+         EXPECT_GT(increment.dissipation, -1e-3);
+      }
+      EXPECT_GE(state.dissipation, 0);
+   }
+}
+
+TEST(March, ResultDoesNotDependOnTheScaleOfTime)
+{
+   std::mt19937 random(6);
+   const ReducedProblem problem = random_problem(8, 0.3, 0.1, random);
+   LoadHistory history = press_then_shear(0.7, 2);
+   ContactState a = ContactState::virgin(problem), b = a;
+   march(problem, history, a);
+   history.times *= 1024; // exact in binary arithmetic
+   march(problem, history, b);
+   EXPECT_EQ(a.v, b.v);
+   EXPECT_EQ(a.p, b.p);
+}
+
+TEST(March, CutInTwoGivesTheSameBits)
+{
+   std::mt19937 random(7);
+   const ReducedProblem problem = random_problem(12, 0.3, 0.1, random);
+   const LoadHistory history = press_then_shear(0.8, 4);
+   MarchSettings settings;
+   settings.increments = 9;
+   ContactState whole = ContactState::virgin(problem);
+   std::vector<ContactState> passed;
+   march(problem, history, whole, settings,
+         [&](const ContactState &state, const IncrementRecord &) { passed.push_back(state); });
+   const std::string file = testing::TempDir() + "cattaneo_state.json";
+   for (std::size_t cut : {std::size_t(3), passed.size() / 2, passed.size() - 2})
+   {
+      save(passed[cut], file);
+      ContactState rest = load_contact_state(file);
+      march(problem, history, rest, settings);
+      EXPECT_EQ(rest.v, whole.v) << "cut at " << cut;
+      EXPECT_EQ(rest.w, whole.w);
+      EXPECT_EQ(rest.q, whole.q);
+      EXPECT_EQ(rest.p, whole.p);
+      EXPECT_EQ(rest.status, whole.status);
+      EXPECT_EQ(rest.dissipation, whole.dissipation);
+      EXPECT_EQ(rest.time, whole.time);
+   }
+   std::remove(file.c_str());
+}
+
+TEST(March, FirstProportionalLoadingTakesOneIncrement)
+{
+   std::mt19937 random(8);
+   ReducedProblem problem = random_problem(10, 0.2, 0.1, random);
+   problem.gap.setZero();
+   const LoadHistory history = LoadHistory::through({Vector2d(0, 0), Vector2d(1, 0.4)});
+   ContactState once = ContactState::virgin(problem), often = once;
+   const MarchReport report = march(problem, history, once);
+   EXPECT_EQ(report.counters.increments, 1);
+   MarchSettings settings;
+   settings.single_increment_if_exact = false;
+   EXPECT_GE(march(problem, history, often, settings).counters.increments, 20);
+   EXPECT_LT((once.v - often.v).cwiseAbs().maxCoeff(), 1e-12);
+   EXPECT_LT((once.p - often.p).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(March, GrossSlidingIsReportedWithItsLoad)
+{
+   ReducedProblem problem;
+   problem.A = Eigen::Matrix2d{{1, -1}, {-1, 1}};
+   problem.B = Eigen::Matrix2d::Zero();
+   problem.C = Eigen::Matrix2d{{1, -1}, {-1, 1}};
+   problem.patterns = {{"press", Control::force, Vector2d(0, 0), Vector2d(0.5, 0.5)},
+                       {"shear", Control::force, Vector2d(0.8, 0.2), Vector2d(0, 0)}};
+   problem.H = Eigen::Matrix2d::Zero();
+   problem.gap = Vector2d(0, 0);
+   set_friction(problem, 0.4);
+   ContactState state = ContactState::virgin(problem);
+   const MarchReport report = march(
+      problem, LoadHistory::through({Vector2d(0, 0), Vector2d(1, 0), Vector2d(1, 1)}), state);
+   EXPECT_EQ(report.status, FrictionStatus::gross_sliding);
+   EXPECT_NEAR(report.event_multipliers[1], 0.4, 1e-9); // Q = f P
+   EXPECT_EQ(state.time, report.event_time);
+}
+
+/// A row of nodes with a parabolic gap: contact advances.
+TEST(March, AdvancingContactClosesALayerAtATime)
+{
+   const int n = 41;
+   ReducedProblem problem;
+   problem.A = Eigen::MatrixXd::Zero(n, n);
+   for (int i = 0; i < n; ++i)
+   {
+      problem.A(i, i) = 2.2;
+      if (i > 0) { problem.A(i, i - 1) = problem.A(i - 1, i) = -1; }
+   }
+   problem.C = problem.A;
+   problem.B = Eigen::MatrixXd::Zero(n, n);
+   for (int i = 0; i + 1 < n; ++i)
+   {
+      problem.B(i, i + 1) = 0.2;
+      problem.B(i + 1, i) = -0.2;
+   }
+   problem.patterns = {{"press", Control::force, VectorXd::Zero(n), VectorXd::Ones(n)}};
+   problem.H = Eigen::MatrixXd::Zero(1, 1);
+   problem.gap = VectorXd::NullaryExpr(n, [&](int i) { return 0.01 * (i - 20) * (i - 20); });
+   set_friction(problem, 0.3);
+   ContactState state = ContactState::virgin(problem);
+   MarchSettings settings;
+   settings.increments = 4;
+   int closed_before = 1, widest = 0;
+   const MarchReport report =
+      march(problem, LoadHistory::through({VectorXd::Zero(1), VectorXd::Constant(1, 4)}), state,
+            settings,
+            [&](const ContactState &s, const IncrementRecord &record)
+            {
+               const int now = n - record.separation;
+               widest = std::max(widest, now - closed_before);
+               closed_before = now;
+               EXPECT_EQ(s.status[20] != NodeState::separation, true);
+            });
+   EXPECT_EQ(report.status, FrictionStatus::converged);
+   EXPECT_GT(closed_before, 15);
+   EXPECT_LE(widest, 2); // one at each end
+   EXPECT_GT(report.counters.rejected_increments, 0);
+}
+
+TEST(LoadHistory, RefusesBadInput)
+{
+   const ReducedProblem problem = one_block(0.3);
+   ContactState state = ContactState::virgin(problem);
+   LoadHistory history = press_then_shear(1, 2);
+   history.times[2] = history.times[1];
+   EXPECT_THROW(march(problem, history, state), InputError);
+   history = press_then_shear(1, 0);
+   EXPECT_THROW(march(problem, history, state), InputError);
+   history = press_then_shear(1, 2);
+   history.multipliers(1, 4) = 0.5;
+   EXPECT_THROW(march(problem, history, state), InputError);
+   history = LoadHistory::through({VectorXd::Zero(1), VectorXd::Ones(1)});
+   EXPECT_THROW(march(problem, history, state), InputError);
+   MarchSettings settings;
+   settings.increments = 0;
+   EXPECT_THROW(march(problem, press_then_shear(1, 1), state, settings), InputError);
+}
+
+TEST(ContactState, RefusesFilesThatAreNone)
+{
+   EXPECT_THROW(load_contact_state("/nonexistent/state.json"), InputError);
+   const std::string file = testing::TempDir() + "cattaneo_bad_state.json";
+   std::ofstream(file) << "{\"format\": \"something else\"}";
+   EXPECT_THROW(load_contact_state(file), InputError);
+   std::ofstream(file) << "not json";
+   EXPECT_THROW(load_contact_state(file), InputError);
+   std::remove(file.c_str());
+   EXPECT_THROW(save(ContactState(), "/nonexistent/state.json"), InputError);
+}
+
+} // namespace
