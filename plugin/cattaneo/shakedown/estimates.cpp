@@ -32,14 +32,15 @@ double jump(const Eigen::MatrixXd &q, Eigen::Index i, Eigen::Index n, Eigen::Ind
 }
 
 /// (4.9) with the pressures @a p; infinite where a sum of pressures is not positive.
-PointwiseEstimate pointwise(const Eigen::MatrixXd &q, const Eigen::MatrixXd &p)
+PointwiseEstimate pointwise(const Eigen::MatrixXd &q, const Eigen::MatrixXd &p,
+                            const NodeList &nodes)
 {
    PointwiseEstimate estimate;
    estimate.value = -1;
    for_each_pair(q.cols(),
                  [&](Eigen::Index a, Eigen::Index b)
                  {
-                    for (Eigen::Index i = 0; i < p.rows(); ++i)
+                    for (const Eigen::Index i : nodes)
                     {
                        const double sum = p(i, a) + p(i, b);
                        const double f = sum > 0 ? jump(q, i, p.rows(), a, b) / sum : infinity;
@@ -85,14 +86,16 @@ double cheapest(const Eigen::VectorXd &cost, const Eigen::VectorXd &t,
 } // namespace
 
 PointwiseEstimate method1_friction(const ReducedProblem &problem, const LoadCycle &cycle,
-                                   double load_factor)
+                                   double load_factor, const NodeList &nodes)
 {
    const StuckForces forces = stuck_forces(problem, cycle);
-   return pointwise(forces.q(load_factor), forces.p(load_factor));
+   return pointwise(forces.q(load_factor), forces.p(load_factor), chosen_nodes(problem, nodes));
 }
 
-PointwiseEstimate method1_load(const ReducedProblem &problem, const LoadCycle &cycle)
+PointwiseEstimate method1_load(const ReducedProblem &problem, const LoadCycle &cycle,
+                               const NodeList &nodes)
 {
+   const NodeList looked_at = chosen_nodes(problem, nodes);
    const StuckForces forces = stuck_forces(problem, cycle);
    const Eigen::Index n = problem.nodes();
    PointwiseEstimate estimate;
@@ -100,7 +103,7 @@ PointwiseEstimate method1_load(const ReducedProblem &problem, const LoadCycle &c
    for_each_pair(forces.vertices(),
                  [&](Eigen::Index a, Eigen::Index b)
                  {
-                    for (Eigen::Index i = 0; i < n; ++i)
+                    for (const Eigen::Index i : looked_at)
                     {
                        // The constant loads are the same at a and b: their shear drops out.
                        const double f = problem.friction[i];
@@ -114,7 +117,8 @@ PointwiseEstimate method1_load(const ReducedProblem &problem, const LoadCycle &c
    return estimate;
 }
 
-Method2Estimate method2_friction(const LimitProblem &problem, double load_factor)
+Method2Estimate method2_friction(const LimitProblem &problem, double load_factor,
+                                 const NodeList &nodes)
 {
    const ReducedProblem &reduced = problem.reduced;
    const Eigen::Index n = reduced.nodes();
@@ -127,7 +131,8 @@ Method2Estimate method2_friction(const LimitProblem &problem, double load_factor
    const Eigen::MatrixXd &M = problem.residual.transfer;
 
    Method2Estimate estimate;
-   const double f1 = pointwise(q, p).value;
+   const NodeList looked_at = chosen_nodes(reduced, nodes);
+   const double f1 = pointwise(q, p, looked_at).value;
    if (!std::isfinite(f1))
    {
       estimate.message = "the stuck contact is in tension at a node";
@@ -135,8 +140,11 @@ Method2Estimate method2_friction(const LimitProblem &problem, double load_factor
    }
    estimate.residual_low = (-f1 * p - q).rowwise().maxCoeff();
    estimate.residual_high = (f1 * p - q).rowwise().minCoeff();
-   // At the node that decides f1 both are equal, up to rounding.
-   estimate.residual_high = estimate.residual_high.cwiseMax(estimate.residual_low);
+   // At the node that decides f1 both are equal, up to rounding; a node that is not looked at
+   // may need more than f1 and then has no range of its own: it keeps the middle.
+   const Eigen::VectorXd middle = 0.5 * (estimate.residual_low + estimate.residual_high);
+   estimate.residual_low = estimate.residual_low.cwiseMin(middle);
+   estimate.residual_high = estimate.residual_high.cwiseMax(middle);
    const Eigen::VectorXd &low = estimate.residual_low, &high = estimate.residual_high;
    const Eigen::VectorXd t = problem.residual.rigid.cols()
                                 ? Eigen::VectorXd(problem.residual.rigid.col(0))
@@ -158,13 +166,13 @@ Method2Estimate method2_friction(const LimitProblem &problem, double load_factor
       t.isZero() || span == 0 ? 0.5 : std::min(1.0, std::max(0.0, -t.dot(low) / span));
    estimate.natural_residual = low + height * width;
    const auto with_residual = [&](const Eigen::VectorXd &r)
-   { return pointwise(q, p.colwise() + Eigen::VectorXd(M * r)).value; };
+   { return pointwise(q, p.colwise() + Eigen::VectorXd(M * r), looked_at).value; };
    estimate.natural = with_residual(estimate.natural_residual);
 
    estimate.high = 0;
    Eigen::VectorXd lowest(n);
    for (Eigen::Index i = 0; i < n; ++i) { lowest[i] = cheapest(M.row(i), t, low, high); }
-   estimate.high = pointwise(q, p.colwise() + lowest).value;
+   estimate.high = pointwise(q, p.colwise() + lowest, looked_at).value;
 
    // Least friction over the choices: quasi-convex, solved as friction_limit does, with (4.9)
    // as cones: half the jump of the shear against f times the mean pressure.
@@ -186,6 +194,15 @@ Method2Estimate method2_friction(const LimitProblem &problem, double load_factor
                     loads.q0.col(pair) = 0.5 * (q.col(a) - q.col(b));
                     loads.p0.col(pair++) = 0.5 * (p.col(a) + p.col(b));
                  });
+   // The others get so much pressure that they never decide.
+   std::vector<bool> decides(n, false);
+   for (const Eigen::Index i : looked_at) { decides[i] = true; }
+   for (Eigen::Index i = 0; i < n; ++i)
+   {
+      if (decides[i]) { continue; }
+      loads.q0.row(i).setZero();
+      loads.p0.row(i).setConstant(p.row(i).cwiseAbs().maxCoeff() + 2 * std::abs(lowest[i]));
+   }
    loads.q1 = Eigen::MatrixXd::Zero(n, pairs);
    programme.force_scale = loads.p0.cwiseAbs().rowwise().maxCoeff();
    estimate.low = estimate.natural;

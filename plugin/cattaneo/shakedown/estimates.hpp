@@ -1,11 +1,14 @@
 #pragma once
 
 #include <cattaneo/shakedown/limit.hpp>
+#include <cattaneo/shakedown/monolith.hpp>
 
 namespace cattaneo
 {
 
-/** Estimates of the shakedown limit that look at one node at a time (thesis 4.3.1). */
+/** Estimates of the shakedown limit that look at one node at a time (thesis 4.3.1). Like the
+   stuck contact's ratios they do not converge at a corner's nodes, which `nodes` leaves out
+   (monolith.hpp; empty: all). */
 struct PointwiseEstimate
 {
    double value = 0;      ///< friction coefficient or load factor; infinite if there is none
@@ -21,11 +24,12 @@ struct PointwiseEstimate
     over nodes and pairs of load vertices. With two tangential components and more than two
     vertices it is the pairwise necessary condition. */
 PointwiseEstimate method1_friction(const ReducedProblem &problem, const LoadCycle &cycle,
-                                   double load_factor);
+                                   double load_factor, const NodeList &nodes = {});
 
 /// The load factor of method 1 for the friction of the problem: the largest λ with
 /// |q_a - q_b| ≤ f (p_a + p_b) everywhere.
-PointwiseEstimate method1_load(const ReducedProblem &problem, const LoadCycle &cycle);
+PointwiseEstimate method1_load(const ReducedProblem &problem, const LoadCycle &cycle,
+                               const NodeList &nodes = {});
 
 /** Method 2 (thesis 4.3.1.2): a residual shear r that method 1 allows at its own f and that has
    no resultant changes the pressure by M r, and (4.9) is evaluated again with p + M r. It
@@ -45,6 +49,7 @@ struct Method2Estimate
 };
 
 /// `low` is a limit programme and needs Ipopt; without it, low is NaN and the message says so.
-Method2Estimate method2_friction(const LimitProblem &problem, double load_factor);
+Method2Estimate method2_friction(const LimitProblem &problem, double load_factor,
+                                 const NodeList &nodes = {});
 
 } // namespace cattaneo

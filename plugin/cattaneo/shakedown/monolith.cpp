@@ -12,22 +12,6 @@ namespace
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-NodeList chosen(const ReducedProblem &problem, const NodeList &nodes)
-{
-   const Eigen::Index n = problem.nodes();
-   if (nodes.empty())
-   {
-      NodeList all(n);
-      std::iota(all.begin(), all.end(), Eigen::Index(0));
-      return all;
-   }
-   for (const Eigen::Index i : nodes)
-   {
-      require(i >= 0 && i < n, "monolith: node ", i, " is not one of ", n, " nodes");
-   }
-   return nodes;
-}
-
 void check_vertex(const LoadCycle &cycle, Eigen::Index vertex)
 {
    require(vertex >= 0 && vertex < cycle.vertices(), "monolith: vertex ", vertex,
@@ -48,6 +32,22 @@ double first_positive(double a, double b, double c)
 }
 
 } // namespace
+
+NodeList chosen_nodes(const ReducedProblem &problem, const NodeList &nodes)
+{
+   const Eigen::Index n = problem.nodes();
+   if (nodes.empty())
+   {
+      NodeList all(n);
+      std::iota(all.begin(), all.end(), Eigen::Index(0));
+      return all;
+   }
+   for (const Eigen::Index i : nodes)
+   {
+      require(i >= 0 && i < n, "monolith: node ", i, " is not one of ", n, " nodes");
+   }
+   return nodes;
+}
 
 Eigen::VectorXd traction_ratio(const ReducedProblem &problem,
                                const Eigen::VectorXd &multipliers)
@@ -70,7 +70,7 @@ std::vector<Adhesion> adhesion_map(const ReducedProblem &problem, const LoadCycl
 {
    cycle.validate(problem);
    check_vertex(cycle, vertex);
-   const NodeList looked_at = chosen(problem, nodes);
+   const NodeList looked_at = chosen_nodes(problem, nodes);
    std::vector<Adhesion> map;
    for (const double load_factor : load_factors)
    {
@@ -96,7 +96,7 @@ Incipience incipient_separation(const ReducedProblem &problem, const LoadCycle &
    check_vertex(cycle, vertex);
    const StuckForces forces = stuck_forces(problem, cycle);
    Incipience first{infinity, -1};
-   for (const Eigen::Index i : chosen(problem, nodes))
+   for (const Eigen::Index i : chosen_nodes(problem, nodes))
    {
       const double at = first_positive(0, -0.5 * forces.p1(i, vertex), -forces.p0(i, vertex));
       if (at < first.load_factor) { first = {at, i}; }
@@ -111,7 +111,7 @@ Incipience incipient_slip(const ReducedProblem &problem, const LoadCycle &cycle,
    const StuckForces forces = stuck_forces(problem, cycle);
    const Eigen::Index n = problem.nodes(), m = problem.A.rows();
    Incipience first = incipient_separation(problem, cycle, vertex, nodes);
-   for (const Eigen::Index i : chosen(problem, nodes))
+   for (const Eigen::Index i : chosen_nodes(problem, nodes))
    {
       // |q|² - f² p² as a quadratic in λ; before separation p > 0, so the squares suffice.
       const double f = problem.friction[i];

@@ -13,6 +13,9 @@ namespace cattaneo
    nodes only; empty means all. */
 using NodeList = std::vector<Eigen::Index>;
 
+/// @a nodes, or all of them if it is empty. InputError if one does not exist.
+NodeList chosen_nodes(const ReducedProblem &problem, const NodeList &nodes);
+
 /// q / p of each node (4.2) under the loads @a multipliers, size n; with two components |q| /
 /// p. Infinite where p ≤ 0.
 Eigen::VectorXd traction_ratio(const ReducedProblem &problem,
