@@ -95,15 +95,13 @@ TransientReport transient(FrictionSolver &solver, const LimitProblem &problem,
    if (marched.steady_cycle > 0 && marched.steady_period == 1) { last = std::abs(loss.back()); }
    const bool ended = marched.status == FrictionStatus::converged ||
                       marched.status == FrictionStatus::not_unique;
-   report.shaken_down =
-      ended && last <= settings.shaken_down * std::max(loss[0], report.energy);
-   std::size_t first = 0, end = 0;
-   const double round_off = 1e-14 * std::max(loss[0], report.energy);
-   while (end < loss.size() && loss[end] > round_off) { ++end; }
-   first = end / 2;
+   const double little = settings.shaken_down * std::max(loss[0], report.energy);
+   report.shaken_down = ended && last <= little;
+   std::size_t end = 0;
+   while (end < loss.size() && loss[end] > little) { ++end; }
    if (end >= 2)
    {
-      first = std::min(first, end - 2);
+      const std::size_t first = std::min(end / 2, end - 2);
       report.decay =
          std::pow(loss[end - 1] / loss[first], 1.0 / static_cast<double>(end - 1 - first));
    }

@@ -15,9 +15,10 @@ namespace cattaneo
 struct TransientSettings
 {
    int cycles = 200;
-   /// Shaken down: loss of the last cycle at most this much of the first one's, or of the
-   /// elastic energy of the stuck contact if the first loses less than that.
-   double shaken_down = 1e-10;
+   /// Shaken down: the last cycle loses at most this much of what the first one does, or of the
+   /// elastic energy of the stuck contact if that is more. A corner node that opens for a
+   /// moment goes on losing 1e-8 of it.
+   double shaken_down = 1e-6;
    MarchSettings march;
 
    void validate() const;
@@ -33,8 +34,8 @@ struct TransientReport
    /// the largest ½ qᵀ A⁻¹ q over the vertices.
    double energy = 0;
    bool shaken_down = false;
-   /// Loss of a cycle over that of the one before, geometric mean over the later half of the
-   /// cycles that lose more than round-off; 0 if there are fewer than two, 1 in a steady cycle.
+   /// Loss of a cycle over that of the one before: geometric mean over the later half of the
+   /// cycles before shakedown, all of them if it does not shake down; 0 if there are too few.
    double decay = 0;
    int steady_cycle = 0, steady_period = 0; ///< as MarchReport
    Eigen::VectorXd slip;                    ///< at the end
