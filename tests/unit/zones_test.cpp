@@ -35,6 +35,8 @@ Sampled cattaneo_mindlin(int n, double c, double shift)
          p = std::sqrt(1 - x * x);
          q = -0.5 * p;
          state = NodeState::forward_slip;
+         // Slip grows with the power 3/2 of the distance from the front.
+         result.state.v[i] = std::pow(std::max(0.0, std::abs(x) - c), 1.5);
          if (std::abs(x) < c)
          {
             q += 0.5 * std::sqrt(c * c - x * x);
@@ -67,6 +69,19 @@ TEST(Zones, EdgesOfHertzAndCattaneoMindlinAreFoundBetweenNodes)
       EXPECT_EQ(stick.first, all[2].first);
       const Zone contact = contact_zone(s.problem, s.state);
       EXPECT_NEAR(contact.to.position - contact.from.position, 2, 1e-10);
+   }
+}
+
+TEST(Zones, StickThatGrowsIsReadFromItsReserve)
+{
+   // The slipping nodes did not start to slip at this edge: their way does not vanish there.
+   for (double shift : {0.0, 0.0037, 0.011, 0.023})
+   {
+      Sampled s = cattaneo_mindlin(101, 0.6123, shift);
+      s.state.slip_origin.array() -= 1;
+      const Zone stick = widest_zone(s.problem, s.state, NodeState::stick);
+      EXPECT_NEAR(stick.to.position, 1.5 + shift + 0.6123, 0.1 * 0.03);
+      EXPECT_NEAR(stick.from.position, 1.5 + shift - 0.6123, 0.1 * 0.03);
    }
 }
 

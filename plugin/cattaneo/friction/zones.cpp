@@ -24,17 +24,16 @@ VectorXd tractions(const ReducedProblem &problem, const VectorXd &nodal_forces)
 namespace
 {
 
-/// Least-squares polynomial c0 + c1 x + … through the first `count` points.
-VectorXd fit(const std::vector<double> &x, const std::vector<double> &y, Index count, int degree)
+/// Least-squares polynomial c0 + c1 x + … of the given degree.
+VectorXd fit(const std::vector<double> &x, const std::vector<double> &y, int degree)
 {
+   const auto count = static_cast<Index>(x.size());
    Eigen::MatrixXd V(count, degree + 1);
-   VectorXd rhs(count);
    for (Index k = 0; k < count; ++k)
    {
       for (int d = 0; d <= degree; ++d) { V(k, d) = std::pow(x[k], d); }
-      rhs[k] = y[k];
    }
-   return V.householderQr().solve(rhs);
+   return V.householderQr().solve(Eigen::Map<const VectorXd>(y.data(), count));
 }
 
 /// Zero of c0 + c1 x + c2 x² nearest to x = 0; NaN if there is none.
@@ -46,32 +45,79 @@ double zero(const VectorXd &c)
    return -2 * c[0] / (c[1] + std::copysign(std::sqrt(discriminant), c[1]));
 }
 
-/** Edge between node `inside` and its neighbour `outside`, from values that vanish there like a
-    distance. Values beyond `last` belong to another zone. */
-Edge extrapolate(const VectorXd &s, const VectorXd &value, Index inside, Index outside, Index last)
+/// Where to look for an edge: between two neighbouring nodes, of which one lies in the zone
+/// whose values vanish at the edge; `last` is the far end of that zone.
+struct Bracket
 {
-   const double spacing = std::abs(s[outside] - s[inside]);
-   const Edge middle{0.5 * (s[inside] + s[outside]), 0.5 * spacing};
-   const Index step = inside < outside ? -1 : 1;
-   // Distances into the zone, in units of the spacing. The node at the edge itself carries only
-   // part of its tributary length and is left out where there are enough others.
-   std::vector<double> x, y;
-   const Index available = std::abs(last - inside) + 1;
-   for (Index k = available > 4 ? 1 : 0; k < std::min<Index>(available, 9); ++k)
+   const VectorXd &s;
+   Index inside, outside, last;
+
+   Index step() const { return inside < outside ? -1 : 1; }
+   Index nodes() const { return std::abs(last - inside) + 1; }
+   double spacing() const { return std::abs(s[outside] - s[inside]); }
+   Edge middle() const { return {0.5 * (s[inside] + s[outside]), 0.5 * spacing()}; }
+
+   /// Zero of a polynomial through the nodes from..to-1 of the zone (0: `inside`), in spacings
+   /// from `inside` toward the zone; NaN if there are not that many.
+   double extrapolate(const VectorXd &value, Index from, Index to, int degree) const
    {
-      const Index node = inside + step * k;
-      x.push_back(std::abs(s[node] - s[inside]) / spacing);
-      y.push_back(value[node]);
+      if (nodes() < to) { return std::numeric_limits<double>::quiet_NaN(); }
+      std::vector<double> x, y;
+      for (Index k = from; k < to; ++k)
+      {
+         const Index node = inside + step() * k;
+         x.push_back(std::abs(s[node] - s[inside]) / spacing());
+         y.push_back(value[node]);
+      }
+      return zero(fit(x, y, degree));
    }
-   const auto count = static_cast<Index>(x.size());
-   if (count < 3) { return middle; }
-   const double straight = zero(fit(x, y, std::max<Index>(2, (count + 1) / 2), 1));
-   const double curved = count >= 5 ? zero(fit(x, y, count, 2)) : straight;
-   // Inside is positive x; the edge lies in [-1, 0] up to a spacing.
-   const double best = std::isfinite(curved) ? curved : straight;
-   if (!(best > -2 && best < 1)) { return middle; }
-   const double doubt = std::isfinite(straight) ? std::abs(best - straight) : 0.5;
-   return {s[inside] + step * best * spacing, std::min(std::max(doubt, 0.02), 0.5) * spacing};
+
+   /// The edge at `best` if that is between the two nodes or near; `other` tells how sure it
+   /// is.
+   bool accept(double best, double other, Edge &edge) const
+   {
+      if (!(best > -1.3 && best < 0.3)) { return false; }
+      const double doubt = std::isfinite(other) ? std::abs(best - other) : 0.5;
+      edge = {s[inside] + step() * best * spacing(), std::clamp(doubt, 0.1, 0.5) * spacing()};
+      return true;
+   }
+};
+
+/// End of contact: squared pressure. The last two nodes carry parts of elements that are not
+/// wholly in contact and are left out where there are enough others.
+Edge separation_edge(const Bracket &bracket, const VectorXd &pressure2)
+{
+   Edge edge = bracket.middle();
+   const Index count = std::min<Index>(10, bracket.nodes());
+   if (count >= 7)
+   {
+      bracket.accept(bracket.extrapolate(pressure2, 2, count, 2),
+                     bracket.extrapolate(pressure2, 1, count - 2, 2), edge);
+   }
+   else if (count >= 3)
+   {
+      bracket.accept(bracket.extrapolate(pressure2, 0, 3, 1),
+                     bracket.extrapolate(pressure2, 0, 2, 1), edge);
+   }
+   return edge;
+}
+
+/// Slip front from the slipping side: (way slipped)^(2/3) over the nodes behind the first one.
+bool slip_front(const Bracket &bracket, const VectorXd &way, Edge &edge)
+{
+   const Index first = bracket.nodes() >= 4 ? 1 : 0;
+   const double best = bracket.extrapolate(way, first, first + 3, 1);
+   const double other = bracket.extrapolate(way, 0, 3, 1);
+   return bracket.accept(best, first ? other : bracket.extrapolate(way, 0, 2, 1), edge);
+}
+
+/// Edge of a stick zone from its own side: squared frictional reserve.
+Edge stick_edge(const Bracket &bracket, const VectorXd &reserve2)
+{
+   Edge edge = bracket.middle();
+   bracket.accept(bracket.extrapolate(reserve2, 0, 3, 1),
+                  bracket.extrapolate(reserve2, 1, 4, 1), edge);
+   return edge;
 }
 
 } // namespace
@@ -87,11 +133,15 @@ std::vector<Zone> zones(const ReducedProblem &problem, const ContactState &state
    const VectorXd p = tractions(problem, state.p);
    const VectorXd q = state.q.size() ? tractions(problem, state.q) : VectorXd::Zero(n);
    const VectorXd pressure2 = p.cwiseAbs2();
-   VectorXd reserve2(n);
+   VectorXd reserve2(n), way = VectorXd::Zero(n);
    for (Index i = 0; i < n; ++i)
    {
       const double reserve = std::max(problem.friction[i] * p[i] - std::abs(q[i]), 0.0);
       reserve2[i] = reserve * reserve;
+      if (state.v.size())
+      {
+         way[i] = std::pow(std::abs(state.v[i] - state.slip_origin[i]), 2.0 / 3);
+      }
    }
    std::vector<Zone> result;
    for (Index i = 0; i < n; ++i)
@@ -104,7 +154,8 @@ std::vector<Zone> zones(const ReducedProblem &problem, const ContactState &state
       result.back().to = {s[i], 0};
    }
    // Runs of closed nodes, for the pressure at their ends.
-   auto end_of_contact = [&](Index i, Index step) {
+   auto end_of_contact = [&](Index i, Index step)
+   {
       while (i + step >= 0 && i + step < n && closed(state.status[i + step])) { i += step; }
       return i;
    };
@@ -115,19 +166,25 @@ std::vector<Zone> zones(const ReducedProblem &problem, const ContactState &state
       Edge edge;
       if (!closed(left.state))
       {
-         edge = extrapolate(s, pressure2, j, i, end_of_contact(j, 1));
+         edge = separation_edge({s, j, i, end_of_contact(j, 1)}, pressure2);
       }
       else if (!closed(right.state))
       {
-         edge = extrapolate(s, pressure2, i, j, end_of_contact(i, -1));
+         edge = separation_edge({s, i, j, end_of_contact(i, -1)}, pressure2);
       }
       else if (left.state == NodeState::stick)
       {
-         edge = extrapolate(s, reserve2, i, j, left.first);
+         if (!slip_front({s, j, i, right.last}, way, edge))
+         {
+            edge = stick_edge({s, i, j, left.first}, reserve2);
+         }
       }
       else if (right.state == NodeState::stick)
       {
-         edge = extrapolate(s, reserve2, j, i, right.last);
+         if (!slip_front({s, i, j, left.first}, way, edge))
+         {
+            edge = stick_edge({s, j, i, right.last}, reserve2);
+         }
       }
       else
       {
