@@ -1,4 +1,5 @@
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/shakedown/closed_contact.hpp>
 #include <cattaneo/shakedown/lower_limit.hpp>
 #include <cattaneo/shakedown/transient.hpp>
 #include <gtest/gtest.h>
@@ -78,6 +79,40 @@ TEST(Transient, DecayOfOneSpringPairIsImmediate)
       transient(solver, limit, 0.9 * report.limit, Eigen::VectorXd::Zero(3), settings);
    EXPECT_TRUE(run.shaken_down);
    EXPECT_LT(run.dissipation.size(), 10u);
+}
+
+TEST(Transient, LimitOfARecedingContactHoldsInAMarchOfTheWholeContact)
+{
+   // Two of seven nodes are pulled open by the constant loads and stay so.
+   ReducedProblem problem = random_contact(21, 7, 1, false);
+   problem.patterns[0].p[2] = problem.patterns[0].p[5] = -2;
+   set_friction(problem, 0.4);
+   const LoadCycle cycle = held_and_cycled(problem, "press", 1, "shear", -1);
+   const ClosedContact contact = closed_contact(problem, {0, 1, 3, 4, 6});
+   const LimitProblem limit = limit_problem(contact.reduced, cycle);
+   const LimitReport report = load_limit(limit);
+   ASSERT_EQ(report.status, LimitStatus::certified) << report.message;
+   const Eigen::MatrixXd vertices = cycle.multipliers(report.limit);
+   for (Eigen::Index j = 0; j < 2; ++j)
+   {
+      ASSERT_GT(contact.open_gaps(report.slip, vertices.col(j)).minCoeff(), 0);
+   }
+   // The whole contact, from the optimal slip of its closed nodes: the open ones move freely.
+   Eigen::VectorXd start = Eigen::VectorXd::Zero(7);
+   start(contact.closed) = report.slip;
+   const LimitProblem whole = limit_problem(problem, cycle);
+   FrictionSolver solver(problem);
+   TransientSettings settings;
+   settings.cycles = 3;
+   const TransientReport run =
+      transient(solver, whole, report.limit * (1 - 1e-9), start, settings);
+   ASSERT_EQ(run.status, FrictionStatus::converged) << run.message;
+   for (const double loss : run.dissipation) { EXPECT_LT(std::abs(loss), 1e-14 * run.energy); }
+   EXPECT_LT((Eigen::VectorXd(run.slip(contact.closed)) - report.slip).norm(),
+             1e-12 * report.slip.norm());
+   // Above the limit it slips from there, and for ever.
+   const TransientReport above = transient(solver, whole, report.limit * 1.05, start, settings);
+   EXPECT_GT(above.dissipation.back(), 1e-6 * above.energy);
 }
 
 TEST(CounterExample, IsFoundBetweenTheTwoLimitsOnly)

@@ -180,7 +180,7 @@ LowerLimitReport lower_limit(const LimitProblem &problem, const LimitReport &upp
    if (!witness.allFinite() || witness.minCoeff() <= 0 ||
        (witness - F * witness).minCoeff() <= 0)
    {
-      report.message = "coupling times friction is too large for a bound of the pressure";
+      report.message = "no bound: coupling times friction is too large to bound the pressure";
       return report;
    }
    const auto lowest_pressure = [&](const Eigen::MatrixXd &p, const Eigen::MatrixXd &q)
@@ -204,8 +204,10 @@ LowerLimitReport lower_limit(const LimitProblem &problem, const LimitReport &upp
    if (bound.status != LimitStatus::certified && bound.status != LimitStatus::bracketed)
    {
       report.message =
-         "the lowest pressure that slip can leave does not carry the constant loads: " +
-         bound.message;
+         bound.status == LimitStatus::no_solution
+            ? "no bound: some admissible slip may take so much pressure away that "
+              "not even the constant loads are sure to stick"
+            : bound.message;
       return report;
    }
    report.kind = LowerLimitKind::bound;
