@@ -211,10 +211,12 @@ int main(int argc, char *argv[])
          MarchSettings settings;
          settings.increments = increments;
          FrictionSolver solver(problem, settings.friction);
+      const Counters made = solver.counters();
          ContactState state = ContactState::virgin(problem);
          MarchReport report = march(
             solver, LoadHistory::through({Vector2d(0, 0), Vector2d(1, 0)}), state, settings);
          Counters counters = scene.reduction.counters;
+      counters += made;
          counters += report.counters;
          int code = miniapp::exit_code(report);
          miniapp::ReferenceTable table;

@@ -105,11 +105,13 @@ int main(int argc, char *argv[])
          MarchSettings settings;
          settings.increments = increments;
          FrictionSolver solver(problem, settings.friction);
+      const Counters made = solver.counters();
          ContactState state = ContactState::virgin(problem);
          MarchReport report = march(
             solver, LoadHistory::through({Vector2d(0, 0), Vector2d(1, 0)}), state, settings);
          int code = miniapp::exit_code(report);
          Counters counters = punch.reduction.counters;
+      counters += made;
          counters += report.counters;
 
          const bool standard = options.poisson == 0.3 && options.domain >= 1e3 &&

@@ -1,10 +1,11 @@
 #include "common/miniapp.hpp"
 
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/whole_file.hpp>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <iostream>
+#include <sstream>
 
 namespace miniapp
 {
@@ -49,9 +50,13 @@ void parse(mfem::OptionsParser &options)
    }
    if (!options.Good())
    {
-      std::cerr << "error:";
-      options.PrintError(std::cerr);
-      std::cerr << "(-h lists the options)" << std::endl;
+      // MFEM's message has empty lines around it and may stream a null pointer.
+      std::ostringstream text;
+      options.PrintError(text);
+      std::istringstream words(text.str());
+      std::string message, word;
+      while (words >> word) { message += " " + word; }
+      std::cerr << "error:" << message << " (-h lists the options)" << std::endl;
       throw Leave{1};
    }
    options.PrintOptions(std::cout);
@@ -113,14 +118,7 @@ nlohmann::ordered_json to_json(const cattaneo::Counters &counters)
 void write_json(const nlohmann::ordered_json &results, const std::string &file)
 {
    if (file.empty()) { return; }
-   const std::string part = file + ".part";
-   std::ofstream out(part);
-   out << results.dump(2) << '\n';
-   out.close();
-   if (!out.good() || std::rename(part.c_str(), file.c_str()) != 0)
-   {
-      throw InputError("cannot write file '" + file + "'");
-   }
+   cattaneo::write_whole(file, results.dump(2) + '\n');
 }
 
 void ReferenceTable::add(const std::string &name, double reference, double tolerance,

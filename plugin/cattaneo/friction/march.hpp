@@ -74,7 +74,7 @@ struct MarchReport
    /// normal work, over the largest of them. Round-off if all is well.
    double energy_imbalance = 0;
    double largest_residual = 0;
-   Counters counters;
+   Counters counters; ///< of this march (what making the solver took is in the solver's own)
    double seconds = 0;
 };
 

@@ -1,0 +1,118 @@
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cattaneo/fretting/edge_fit.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cmath>
+#include <utility>
+
+namespace cattaneo::fretting
+{
+namespace
+{
+
+/// Distance from the edge and the quantity whose limit there is sought, sorted by distance.
+using Samples = std::vector<std::pair<double, double>>;
+
+constexpr int least_nodes = 4;
+
+FittedIntensity fit(const Samples &samples, std::size_t first, std::size_t last)
+{
+   const Eigen::Index n = last - first;
+   const double scale = samples[last - 1].first;
+   Eigen::MatrixXd terms(n, 3);
+   Eigen::VectorXd values(n);
+   for (Eigen::Index i = 0; i < n; i++)
+   {
+      const double t = samples[first + i].first / scale;
+      terms.row(i) << 1, t, t * t;
+      values[i] = samples[first + i].second;
+   }
+   const Eigen::MatrixXd linear = terms.leftCols(2);
+   const Eigen::VectorXd solution = linear.colPivHouseholderQr().solve(values);
+   const double variance = (values - linear * solution).squaredNorm() / (n - 2);
+   const double standard = std::sqrt(variance * (linear.transpose() * linear).inverse()(0, 0));
+   const double one_more = terms.colPivHouseholderQr().solve(values)[0];
+
+   FittedIntensity result;
+   result.value = solution[0];
+   const double error = std::max(standard, std::abs(one_more - solution[0]));
+   result.relative_error = error > 0 ? error / std::abs(solution[0]) : 0.0;
+   result.window = {samples[first].first, scale};
+   result.nodes = int(n);
+   return result;
+}
+
+FittedIntensity fit_in_window(const Samples &samples, const FitSettings &settings)
+{
+   if (settings.window.farthest > 0)
+   {
+      const auto beyond = [](double t, const auto &sample) { return t < sample.first; };
+      const auto before = [](const auto &sample, double t) { return sample.first < t; };
+      const std::size_t first =
+         std::lower_bound(samples.begin(), samples.end(), settings.window.nearest, before) -
+         samples.begin();
+      const std::size_t last =
+         std::upper_bound(samples.begin(), samples.end(), settings.window.farthest, beyond) -
+         samples.begin();
+      require(last >= first + least_nodes, "between ", settings.window.nearest, " and ",
+              settings.window.farthest, " from the contact edge there are ", last - first,
+              " nodes in contact; the fit needs ", least_nodes, ".");
+      return fit(samples, first, last);
+   }
+   const std::size_t first = settings.skip;
+   require(samples.size() >= first + least_nodes, "there are ", samples.size(),
+           " nodes in contact near the edge; the fit needs ", first + least_nodes, ".");
+   FittedIntensity best = fit(samples, first, first + least_nodes);
+   for (std::size_t last = first + least_nodes + 1; last <= samples.size(); last++)
+   {
+      const FittedIntensity next = fit(samples, first, last);
+      if (next.relative_error < best.relative_error) { best = next; }
+   }
+   return best;
+}
+
+} // namespace
+
+void FitSettings::validate() const
+{
+   const bool chosen = window.nearest == 0 && window.farthest == 0;
+   require(
+      chosen || (window.nearest >= 0 && window.farthest > window.nearest &&
+                 std::isfinite(window.farthest)),
+      "the window of the fit is ", window.nearest, " to ", window.farthest,
+      "; it must be two increasing distances from the edge, or 0 and 0 to have it chosen.");
+   require(skip >= 0, "the number of skipped nodes is ", skip, "; it must not be negative.");
+}
+
+EdgeFit fit_edge(const EdgeTractions &tractions, const FitSettings &settings)
+{
+   settings.validate();
+   const std::size_t n = tractions.position.size();
+   require(tractions.pressure.size() == n && tractions.shear.size() == n, "there are ", n,
+           " positions, ", tractions.pressure.size(), " pressures and ", tractions.shear.size(),
+           " shear tractions; the numbers must agree.");
+   require(std::isfinite(tractions.edge), "the position of the edge is ", tractions.edge,
+           "; it must be finite.");
+   Samples normal, tangential;
+   double side = 0;
+   for (std::size_t i = 0; i < n; i++)
+   {
+      const double x = tractions.position[i] - tractions.edge;
+      const double p = tractions.pressure[i], q = tractions.shear[i];
+      require(std::isfinite(x) && std::isfinite(p) && std::isfinite(q), "node ", i,
+              " has position ", tractions.position[i], ", pressure ", p, " and shear ", q,
+              "; all must be finite.");
+      if (p <= 0 || x == 0) { continue; }
+      if (side == 0) { side = x > 0 ? 1 : -1; }
+      require(x * side > 0, "node ", i, " at ", tractions.position[i],
+              " is in contact on the other side of the edge at ", tractions.edge, ".");
+      const double root = std::sqrt(std::abs(x));
+      normal.push_back({std::abs(x), p / root});
+      tangential.push_back({std::abs(x), side * q * root});
+   }
+   std::sort(normal.begin(), normal.end());
+   std::sort(tangential.begin(), tangential.end());
+   return {fit_in_window(normal, settings), fit_in_window(tangential, settings)};
+}
+
+} // namespace cattaneo::fretting

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <vector>
+
+namespace cattaneo::fretting
+{
+
+/** Tractions near the edge of an incomplete contact, from any solution. All arrays have one
+   entry a node, in any order; nodes without pressure are ignored, those with pressure must all
+   lie on one side of the edge (the other edge's half of the contact may be left in). */
+struct EdgeTractions
+{
+   double edge = 0.0;            ///< position of the contact edge
+   std::vector<double> position; ///< along the surface
+   std::vector<double> pressure; ///< traction (not nodal force), compression positive
+   std::vector<double> shear; ///< fully stuck shear traction on the cracked body, positive in
+                              ///< the direction of increasing position
+};
+
+/// Distances from the edge between which nodes are used.
+struct FitWindow
+{
+   double nearest = 0.0;
+   double farthest = 0.0;
+};
+
+struct FitSettings
+{
+   /// Both 0: the window is chosen, as the one of least reported error.
+   FitWindow window;
+   /// Nodes next to the edge that the choice leaves out: discretisation smears the edge over
+   /// them.
+   int skip = 2;
+
+   /// InputError unless 0 <= nearest < farthest (or both 0) and skip >= 0.
+   void validate() const;
+};
+
+/// One intensity and its relative error: the larger of the standard error of the fit and the
+/// change when one more term of the expansion is fitted.
+struct FittedIntensity
+{
+   double value = 0.0;
+   double relative_error = 0.0;
+   FitWindow window;
+   int nodes = 0; ///< used
+};
+
+struct EdgeFit
+{
+   FittedIntensity k_n;
+   FittedIntensity k_t; ///< signed as Edge::k_t: > 0 pulls the body in, away from the edge
+};
+
+/** K_N and K_T by least squares: p/√t = K_N + c t and q√t = K_T + c t (the next terms of both
+    expansions for a smooth profile). InputError for arrays of unequal length, entries that are
+    not finite, pressure on both sides of the edge, or fewer than 4 nodes in the window. */
+EdgeFit fit_edge(const EdgeTractions &tractions, const FitSettings &settings = {});
+
+} // namespace cattaneo::fretting

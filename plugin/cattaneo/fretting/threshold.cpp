@@ -1,0 +1,158 @@
+#include <algorithm>
+#include <cattaneo/fretting/edge_crack.hpp>
+#include <cattaneo/fretting/root.hpp>
+#include <cattaneo/fretting/threshold.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cmath>
+#include <limits>
+
+namespace cattaneo::fretting
+{
+namespace
+{
+
+void require_positive(const char *what, double value)
+{
+   require(std::isfinite(value) && value > 0, what, " is ", value, "; it must be positive.");
+}
+
+void require_ratio(double ratio)
+{
+   require(ratio >= -1 && ratio < 1, "the load ratio R is ", ratio,
+           "; it must be at least -1 and below 1 (call the larger load the peak).");
+}
+
+/// Root in ln c of a decreasing function of the ratio c > 0.
+template <class Function>
+double decreasing_root(const Function &function)
+{
+   double low = 0, high = 0;
+   while (function(std::exp(low)) < 0) { low -= 1; }
+   while (function(std::exp(high)) > 0) { high += 1; }
+   return std::exp(find_root([&](double log) { return function(std::exp(log)); }, low, high));
+}
+
+/// The c at which κ(c)/c, which falls from infinity to zero, is @a value.
+double invert_factor(double value)
+{
+   return decreasing_root([=](double c) { return std::log(crack_factor(c) / (c * value)); });
+}
+
+} // namespace
+
+double CrackCycle::drive(Criterion criterion) const
+{
+   switch (criterion)
+   {
+   case Criterion::range:
+      return max - min;
+   case Criterion::half_range:
+      return 0.5 * (max - min);
+   case Criterion::open:
+      break;
+   }
+   return std::max(max, 0.0) - std::max(min, 0.0);
+}
+
+void CrackedEdge::validate() const
+{
+   edge.validate();
+   require_ratio(stress_ratio);
+   require(std::isfinite(bulk_stress) && std::isfinite(stress_gradient), "the bulk stress ",
+           bulk_stress, " and the stress gradient ", stress_gradient, " must be finite.");
+}
+
+CrackCycle crack_cycle(const CrackedEdge &crack, double depth)
+{
+   crack.validate();
+   const double root = std::sqrt(std::acos(-1.0) * depth);
+   const double bulk = crack.bulk_stress * power_law_factor(0) * root;
+   const double peak = crack_intensity(crack.edge, depth) + bulk +
+                       crack.stress_gradient * depth * power_law_factor(1) * root;
+   const double swing = 1 - crack.stress_ratio;
+   const double shear_range =
+      crack_intensity_range(crack.edge, swing * std::abs(crack.edge.k_t), depth);
+   const double valley = peak - std::copysign(shear_range, crack.edge.k_t) - swing * bulk;
+   return {std::max(peak, valley), std::min(peak, valley)};
+}
+
+std::string to_string(Verdict verdict)
+{
+   switch (verdict)
+   {
+   case Verdict::propagates:
+      return "propagates";
+   case Verdict::arrests_beyond_a0:
+      return "arrests beyond a0";
+   case Verdict::arrests:
+      break;
+   }
+   return "arrests";
+}
+
+ThresholdReport assess_threshold(const CrackedEdge &crack, double threshold, double critical,
+                                 Criterion criterion)
+{
+   require_positive("the threshold ΔK_th", threshold);
+   require_positive("the critical length a0", critical);
+   const auto excess = [&](double depth)
+   {
+      return crack_cycle(crack, depth).drive(criterion) -
+             threshold * std::sqrt(std::min(1.0, depth / critical));
+   };
+   ThresholdReport report;
+   report.drive = crack_cycle(crack, critical).drive(criterion);
+   const double ratio = 1.02;
+   if (excess(critical) <= 0)
+   {
+      // Walk down to the depth from which growth stopped; 0 if the crack never starts.
+      double depth = critical;
+      while (depth > 1e-6 * critical && excess(depth) <= 0) { depth /= ratio; }
+      report.arrest_depth =
+         excess(depth) > 0 ? find_root(excess, depth, std::min(critical, depth * ratio)) : 0.0;
+      return report;
+   }
+   double depth = critical;
+   double here = report.drive, next = 0;
+   for (;; depth *= ratio, here = next)
+   {
+      next = crack_cycle(crack, depth * ratio).drive(criterion);
+      if (next < threshold)
+      {
+         report.verdict = Verdict::arrests_beyond_a0;
+         report.arrest_depth = find_root(excess, depth, depth * ratio);
+         return report;
+      }
+      if (next >= here) { break; }
+   }
+   report.verdict = Verdict::propagates;
+   report.arrest_depth = std::numeric_limits<double>::infinity();
+   return report;
+}
+
+double threshold_ordinate(Criterion criterion, double friction, double abscissa,
+                          double stress_ratio)
+{
+   require_positive("the friction coefficient", friction);
+   require_positive("the abscissa X", abscissa);
+   require_ratio(stress_ratio);
+   const double fx = friction * abscissa;
+   const auto range = [&](double level) { return fx / invert_factor(level / fx); };
+   if (criterion == Criterion::range) { return range(0.5); }
+   if (criterion == Criterion::half_range) { return range(1.0); }
+   // Open part: all of the range if the crack stays open, else the part above zero; the
+   // smaller.
+   const double peak = 0.5 * (1 - stress_ratio) * range(1 + crack_closing_factor() * abscissa);
+   return std::max(peak, range(0.5));
+}
+
+double threshold_minimum(double friction)
+{
+   require_positive("the friction coefficient", friction);
+   const double n = crack_closing_factor();
+   const double c = decreasing_root(
+      [=](double ratio) { return std::log(friction * crack_factor_slope(ratio) / n); });
+   return 1 / (friction * crack_factor(c) / c - n);
+}
+
+} // namespace cattaneo::fretting

@@ -1,0 +1,101 @@
+#include "study/run_miniapp.hpp"
+
+namespace
+{
+
+using cattaneo_test::expect_references_met;
+using cattaneo_test::run_miniapp;
+
+TEST(SquarePunch, RigidPlaneMeetsTheReferencesAtBothOrders)
+{
+   for (const char *order : {"1", "2"})
+   {
+      const auto run = run_miniapp("square_punch", std::string("-cycles 3 -order ") + order);
+      SCOPED_TRACE(run.output);
+      expect_references_met(run, 7);
+      EXPECT_EQ(run.results["status"], "converged");
+      EXPECT_EQ(run.results["steady_cycle"], 2);
+      EXPECT_LT(std::abs(run.results["energy_imbalance"].get<double>()), 1e-10);
+      // A rigid obstacle is no body: one operator, one factorisation, no union; no field was
+      // asked.
+      EXPECT_EQ(run.results["counters"]["assemblies"], 1);
+      EXPECT_EQ(run.results["counters"]["factorisations"], 1);
+      EXPECT_EQ(run.results["counters"]["unions"], 0);
+      EXPECT_EQ(run.results["counters"]["field_recoveries"], 0);
+   }
+}
+
+TEST(SquarePunch, HalfPlaneMeetsTheReferencesAtBothOrders)
+{
+   for (const char *order : {"1", "2"})
+   {
+      const auto run = run_miniapp(
+         "square_punch", std::string("-obstacle half-plane -cycles 3 -order ") + order);
+      SCOPED_TRACE(run.output);
+      expect_references_met(run, 4);
+      EXPECT_EQ(run.results["counters"]["factorisations"], 2);
+      EXPECT_EQ(run.results["counters"]["unions"], 1);
+   }
+}
+
+TEST(SquarePunch, NoLossBelowTheShakedownLoad)
+{
+   // Studies A: at ±0.6 fP nothing is lost from the second cycle on.
+   const auto run = run_miniapp("square_punch", "-cycles 3 -amplitude 0.6 --shear ''");
+   ASSERT_EQ(run.code, 0) << run.output;
+   EXPECT_GT(run.results["dissipation"][0].get<double>(), 1e-6);
+   EXPECT_LT(std::abs(run.results["dissipation"][1].get<double>()), 1e-14);
+}
+
+TEST(SquarePunch, InfinitesimalShearSticksTheBackwardSlip)
+{
+   const auto run = run_miniapp("square_punch", "--shear '1e-6'");
+   ASSERT_EQ(run.code, 0) << run.output;
+   EXPECT_NEAR(run.results["levels"][0]["stick_left"].get<double>(), -1, 1e-12);
+}
+
+TEST(SquarePunch, SlipUnderPressureAloneIsOdd)
+{
+   const auto run = run_miniapp("square_punch", "--shear ''");
+   ASSERT_EQ(run.code, 0) << run.output;
+   EXPECT_NEAR(run.results["stick_left"].get<double>(),
+               -run.results["stick_right"].get<double>(), 1e-9);
+   EXPECT_EQ(run.results["counters"]["increments"], 1); // self-similar: one increment is exact
+}
+
+TEST(SquarePunch, FrictionlessHasNoTangentialUnknowns)
+{
+   const auto run = run_miniapp("square_punch", "-friction 0 --shear ''");
+   ASSERT_EQ(run.code, 0) << run.output;
+   EXPECT_EQ(run.results["counters"]["tangential_unknowns"], 0);
+   EXPECT_TRUE(run.results["stick_left"].is_null());
+}
+
+TEST(SquarePunch, GrossSlidingIsAnAnswerWithItsLoad)
+{
+   const auto run = run_miniapp("square_punch", "--shear '0.5 1.2'");
+   EXPECT_EQ(run.code, 2) << run.output;
+   EXPECT_EQ(run.results["status"], "gross sliding");
+   // Q = f P, whatever the elasticity.
+   EXPECT_NEAR(run.results["event_multipliers"][1].get<double>(), 0.2, 1e-8);
+   EXPECT_NE(run.output.find("slides"), std::string::npos);
+}
+
+TEST(SquarePunch, BadOptionsAreOneSentenceAndExitCodeOne)
+{
+   for (const char *options :
+        {"-friction -0.1", "-poisson 0.5", "-nodes 100", "-order 0", "-grading 0", "-domain 1",
+         "-obstacle wall", "--shear '0.2 x'", "-cycles -1", "-increments 0", "-friction nan",
+         "--no-such-option", "-order two"})
+   {
+      const auto run = run_miniapp("square_punch", options);
+      EXPECT_EQ(run.code, 1) << options << "\n" << run.output;
+      EXPECT_NE(run.output.find("error:"), std::string::npos) << options << "\n" << run.output;
+      EXPECT_TRUE(run.results.is_null()) << options;
+   }
+   EXPECT_EQ(run_miniapp("square_punch", "-h").code, 0);
+   const auto run = run_miniapp("square_punch", "-nodes 33 --json /nonexistent/folder/x.json");
+   EXPECT_EQ(run.code, 1) << run.output;
+}
+
+} // namespace
