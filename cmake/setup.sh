@@ -69,7 +69,7 @@ bring_highs()
    command -v python3 >/dev/null && python3 -m pip --version >/dev/null 2>&1 || return 0
    say "bringing HiGHS (for the tests)"
    rm -rf "$target.part"
-   python3 -m pip install -q --disable-pip-version-check --root-user-action=ignore --only-binary=:all: --target "$target.part" highspy ||
+   python3 -m pip install -q --disable-pip-version-check --only-binary=:all: --target "$target.part" "highspy>=1.7,<2" ||
       die "could not bring HiGHS; name a folder that has the Python package highspy with CATTANEO_HIGHS="
    mv "$target.part" "$target"
 }
