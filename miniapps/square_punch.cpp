@@ -8,7 +8,7 @@
 //                square_punch -obstacle half-plane --shear "0.25 0.75"
 //                square_punch -order 1 -nodes 201 -grading 0.02
 //                square_punch -obstacle half-plane -nodes 65 -cycles 3 -amplitude 0.6
-//                square_punch -friction 0 -nodes 33 --shear ""
+//                square_punch -friction 0 -nodes 33 -shear none
 
 #include "common/miniapp.hpp"
 #include "common/punch.hpp"
@@ -75,7 +75,8 @@ int main(int argc, char *argv[])
             "Size of the contact elements at the corners over the middle ones (1: uniform).");
          args.AddOption(&options.domain, "-domain", "--domain",
                         "Half-width and depth of the half-plane's block, in a.");
-         args.AddOption(&shear_list, "-shear", "--shear", "Monotonic shear: list of Q/fP.");
+         args.AddOption(&shear_list, "-shear", "--shear",
+                        "Monotonic shear: list of Q/fP, or none.");
          args.AddOption(&cycles, "-cycles", "--cycles",
                         "Cycles of Q = ± amplitude fP, after P (0: none).");
          args.AddOption(&amplitude, "-amplitude", "--amplitude",
@@ -105,13 +106,13 @@ int main(int argc, char *argv[])
          MarchSettings settings;
          settings.increments = increments;
          FrictionSolver solver(problem, settings.friction);
-      const Counters made = solver.counters();
+         const Counters made = solver.counters();
          ContactState state = ContactState::virgin(problem);
          MarchReport report = march(
             solver, LoadHistory::through({Vector2d(0, 0), Vector2d(1, 0)}), state, settings);
          int code = miniapp::exit_code(report);
          Counters counters = punch.reduction.counters;
-      counters += made;
+         counters += made;
          counters += report.counters;
 
          const bool standard = options.poisson == 0.3 && options.domain >= 1e3 &&

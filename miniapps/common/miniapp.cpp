@@ -66,6 +66,7 @@ void parse(mfem::OptionsParser &options)
 std::vector<double> numbers(const char *option, const std::string &text)
 {
    std::vector<double> values;
+   if (text == "none") { return values; }
    std::string word;
    for (char c : text + " ")
    {

@@ -21,7 +21,8 @@ int run(const std::function<int()> &body);
 /// after help and 1, with one sentence, after a bad option.
 void parse(mfem::OptionsParser &options);
 
-/// Numbers of a list option, separated by spaces or commas; InputError naming the option.
+/// Numbers of a list option, separated by spaces or commas, or "none"; InputError naming the
+/// option.
 std::vector<double> numbers(const char *option, const std::string &text);
 
 /// InputError unless the value of an option is one of `allowed`.

@@ -22,20 +22,20 @@ TEST(Hertz, HalfPlanesMeetTheClosedFormsAtBothOrders)
 
 TEST(Hertz, TractionsConvergeToTheClosedForms)
 {
-   // The largest deviation sits at the edge of contact, where the pressure falls as a square
-   // root: it goes with the square root of the spacing or better.
-   double before = 1;
-   for (const char *nodes : {"51", "201", "801"})
+   // Mean over the line: of first order at least; single steps vary with where the edge of
+   // contact lies in its element.
+   double coarse = 0, fine = 0;
+   for (const char *nodes : {"51", "451"})
    {
       const auto run = run_miniapp("hertz", std::string("-domain 1000 -nodes ") + nodes);
       ASSERT_EQ(run.code, 0) << run.output;
-      const double deviation = run.results["pressure_deviation"];
-      EXPECT_LT(deviation, 0.6 * before);
+      coarse = fine;
+      fine = run.results["pressure_deviation_mean"];
       EXPECT_NEAR(run.results["levels"][0]["stick_half_width"].get<double>(),
                   run.results["levels"][0]["cattaneo_mindlin"].get<double>(),
                   3.34 / (std::stod(nodes) - 1) * 0.15);
-      before = deviation;
    }
+   EXPECT_LT(fine, coarse / 9);
 }
 
 TEST(Hertz, BlockMeetsTheReferencesAtBothOrders)
@@ -45,7 +45,7 @@ TEST(Hertz, BlockMeetsTheReferencesAtBothOrders)
       for (const char *ratio : {"0.4", "0.8"})
       {
          const auto run = run_miniapp("hertz", std::string("-body block --shear '' -ratio ") +
-                                                 ratio + " -order " + order);
+                                                  ratio + " -order " + order);
          SCOPED_TRACE(run.output);
          expect_references_met(run, 2);
       }
