@@ -356,12 +356,11 @@ private:
          }
       }
       limit = limit_problem(problem, cycle);
-      const double coupling = degree_of_coupling(problem);
       std::printf(
          "%ld contact nodes, condensed in %.2f s; degree of coupling %.4f (0: none, 1: "
          "most)\n",
-         static_cast<long>(n), watch.seconds(), coupling);
-      results["coupling"] = coupling;
+         static_cast<long>(n), watch.seconds(), limit.coupling);
+      results["coupling"] = limit.coupling;
       results["contact_nodes"] = n;
       standard = !saved && options.punch.half_plane && options.punch.order > 1 &&
                  options.punch.domain >= 1e3;
@@ -702,17 +701,16 @@ private:
       counters += changed.reduction.counters;
       LimitProblem on = limit_problem(reduced, cycle_of(reduced, options.reversal));
       set_friction(on.reduced, options.friction);
-      const double coupling = degree_of_coupling(reduced);
       const LimitReport f = friction_limit(on, options.lambda_max), load = load_limit(on);
       on.cycle = cycle_of(reduced, -1);
       const LimitReport reversed = load_limit(on);
       for (const LimitReport *report : {&f, &load, &reversed}) { note(*report); }
       std::printf("%12s %8d %9.4f %10.6f %10.6f %14.6f %9.2f\n", label.c_str(), changed.dofs,
-                  coupling, f.limit, load.limit / options.friction,
+                  on.coupling, f.limit, load.limit / options.friction,
                   reversed.limit / options.friction, other_watch.seconds());
       return {{"nodes", other.nodes},
               {"plane_stiffness", other.plane_stiffness},
-              {"coupling", coupling},
+              {"coupling", on.coupling},
               {"friction_limit", number(f.limit)},
               {"load_limit", number(load.limit)},
               {"load_limit_reversed", number(reversed.limit)}};

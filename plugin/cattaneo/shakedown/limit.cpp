@@ -131,7 +131,8 @@ LimitProblem limit_problem(ReducedProblem reduced, LoadCycle cycle)
 {
    ResidualForces residual = residual_forces(reduced);
    cycle.validate(reduced);
-   return {std::move(reduced), std::move(residual), std::move(cycle)};
+   const double coupling = residual.uncoupled ? 0 : degree_of_coupling(reduced);
+   return {std::move(reduced), std::move(residual), coupling, std::move(cycle)};
 }
 
 const char *name(LimitStatus status)
@@ -169,8 +170,10 @@ void LimitSettings::validate() const
 
 LimitReport load_limit(const LimitProblem &problem, const LimitSettings &settings)
 {
-   return load_limit(problem.reduced, problem.residual,
-                     stuck_forces(problem.reduced, problem.cycle), settings);
+   LimitReport report = load_limit(problem.reduced, problem.residual,
+                                   stuck_forces(problem.reduced, problem.cycle), settings);
+   report.coupling = problem.coupling;
+   return report;
 }
 
 LimitReport load_limit(const ReducedProblem &reduced, const ResidualForces &residual,
@@ -302,6 +305,7 @@ LimitReport friction_limit(const LimitProblem &problem, double load_factor,
    const Eigen::MatrixXd q = loads.q(load_factor), p = loads.p(load_factor);
 
    LimitReport report;
+   report.coupling = problem.coupling;
    report.upper = report.limit = infinity;
    const auto finish = [&](LimitStatus status, const std::string &message)
    {

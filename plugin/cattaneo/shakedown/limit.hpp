@@ -15,11 +15,12 @@ struct LimitProblem
 {
    ReducedProblem reduced;
    ResidualForces residual; ///< of `reduced`; does not depend on friction or loads
+   double coupling = 0;     ///< degree_of_coupling of `reduced`
    LoadCycle cycle;
 };
 
-/// Computes the residual forces, the expensive part. For a sweep change cycle or friction in
-/// place.
+/// Computes the residual forces and the coupling, the expensive part. For a sweep change cycle
+/// or friction in place.
 LimitProblem limit_problem(ReducedProblem reduced, LoadCycle cycle);
 
 enum class LimitStatus
@@ -66,7 +67,8 @@ struct LimitReport
    Eigen::VectorXd slip; ///< the optimal slip v, c·n, without rigid part
    /// The dual mechanism. Load limit: scaled to work 1 on the varying loads.
    CollapseMechanism mechanism;
-   int iterations = 0; ///< of Ipopt, summed over the programmes
+   double coupling = 0; ///< of the problem
+   int iterations = 0;  ///< of Ipopt, summed over the programmes
    double seconds = 0;
    Counters counters; ///< limit_solves: programmes solved
 };
