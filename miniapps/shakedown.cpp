@@ -640,10 +640,10 @@ private:
       }
       results["marches"] = list;
       if (most.status != LimitStatus::certified) { return; }
-      const TransientBracket bracket = transient_bracket(limit, most, 0.02, settings);
+      const TransientBracket bracket = transient_bracket(limit, most, 0.005, settings);
       for (const auto *side : {&bracket.below, &bracket.above})
       {
-         std::printf("2 %% %s the largest load (λ = %.4f):",
+         std::printf("0.5 %% %s the largest load (λ = %.4f):",
                      side == &bracket.below ? "below" : "above", side->front().load_factor);
          for (const TransientReport &run : *side)
          {

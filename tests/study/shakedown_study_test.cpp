@@ -9,7 +9,7 @@ using cattaneo_test::run_miniapp;
 
 TEST(ShakedownStudy, MeetsItsReferences)
 {
-   const Outcome run = run_miniapp("shakedown", "-march");
+   const Outcome run = run_miniapp("shakedown", "-march -cycles 140");
    expect_references_met(run, 16);
    const auto &results = run.results;
    EXPECT_EQ(results["status"], "certified");
