@@ -278,12 +278,7 @@ int main(int argc, char *argv[])
          const ContactLine &contact = sides[0].condensed.line;
          ReducedProblem &problem = reduction.problem;
          set_friction(problem, friction);
-         // Round-off of coordinates is no gap.
-         for (Eigen::Index i = 0; i < problem.nodes(); ++i)
-         {
-            const bool closed = std::abs(problem.gap[i]) <= 1e-9 * contact.spacing[i];
-            if (closed || std::string(gap) == "closed") { problem.gap[i] = 0; }
-         }
+         if (std::string(gap) == "closed") { problem.gap.setZero(); }
          require(!problem.patterns.empty(),
                  "there is no load: option load1 or load2 must name one");
          LoadHistory history = miniapp::load_history("history", history_text, problem.patterns);

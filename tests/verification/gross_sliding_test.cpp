@@ -1,4 +1,5 @@
-// A free block slides when the shear reaches f P, whatever its elasticity: equilibrium alone says so.
+// A free block slides when the shear reaches f P, whatever its elasticity: equilibrium alone
+// says so.
 
 #include <cattaneo/condense/reduction.hpp>
 #include <cattaneo/friction/march.hpp>
@@ -25,9 +26,9 @@ TEST(GrossSliding, HappensAtCoulombsLimit)
          Reduction reduction = reduce(condense(block, contact_line(block, 1)));
          set_friction(reduction.problem, 0.3);
          ContactState state = ContactState::virgin(reduction.problem);
-         const MarchReport report =
-            march(reduction.problem,
-                  LoadHistory::through({Vector2d(0, 0), Vector2d(1, 0), Vector2d(1, 0.4)}), state);
+         const MarchReport report = march(
+            reduction.problem,
+            LoadHistory::through({Vector2d(0, 0), Vector2d(1, 0), Vector2d(1, 0.4)}), state);
          EXPECT_EQ(report.status, FrictionStatus::gross_sliding) << report.message;
          EXPECT_NEAR(report.event_multipliers[1], 0.3, 1e-9);
          // The state left is the last equilibrium, not a runaway.

@@ -64,8 +64,9 @@ Pairing pair_lines(const ContactLine &line1, const ContactLine &line2, double to
       }
       matched1[i] = matched2[partner] = true;
       pairing.partner[i] = static_cast<int>(partner);
-      pairing.gap[i] =
+      const double gap =
          (line1.position.row(i) - line2.position.row(partner)).dot(line1.normal.row(i));
+      pairing.gap[i] = std::abs(gap) > 1e-9 * line1.spacing[i] ? gap : 0.0;
    }
    require(complete, "pairing: contact nodes without a partner within ", tolerance,
            " edge lengths; of body 1 (", n1, " nodes): ", listed(line1, matched1),

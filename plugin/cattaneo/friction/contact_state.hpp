@@ -28,6 +28,14 @@ inline bool slips(NodeState state)
    return state == NodeState::forward_slip || state == NodeState::backward_slip;
 }
 
+/// Sense of slip: +1 forward (q = -f p), -1 backward (q = +f p), 0 in stick and separation.
+inline double sense(NodeState state)
+{
+   return state == NodeState::forward_slip    ? 1.0
+          : state == NodeState::backward_slip ? -1.0
+                                              : 0.0;
+}
+
 /** All that the future of a frictional contact depends on: one value, copied and saved freely.
     Sizes as in ReducedProblem; lengths and forces in the problem's own units. */
 struct ContactState

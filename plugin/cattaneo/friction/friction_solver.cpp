@@ -398,10 +398,7 @@ bool FrictionSolver::Implementation::solve_uncoupled()
    for (std::size_t k = 0; k < moving.size(); ++k)
    {
       const Index i = moving[k];
-      const double sense = status[i] == NodeState::forward_slip    ? 1.0
-                           : status[i] == NodeState::backward_slip ? -1.0
-                                                                   : 0.0;
-      rhs[k] = -(q[i] + sense * problem.friction[i] * p[i]);
+      rhs[k] = -(q[i] + sense(status[i]) * problem.friction[i] * p[i]);
    }
    const VectorXd x = tangential_factor.lu.solve(rhs);
    for (std::size_t k = 0; k < moving.size(); ++k) { u[t(moving[k])] += x[k]; }
@@ -428,10 +425,7 @@ bool FrictionSolver::Implementation::solve_coupled()
       u[m(i)] = closed(status[i]) ? -problem.gap[i] : 0.0;
       if (status[i] == NodeState::stick) { continue; }
       unknowns.push_back(t(i));
-      const double sense = status[i] == NodeState::forward_slip    ? 1.0
-                           : status[i] == NodeState::backward_slip ? -1.0
-                                                                   : 0.0;
-      equations.push_back({t(i), m(i), sense * problem.friction[i]});
+      equations.push_back({t(i), m(i), sense(status[i]) * problem.friction[i]});
    }
    for (Index i = 0; i < n; ++i)
    {
@@ -542,8 +536,8 @@ bool FrictionSolver::Implementation::accepted(const IncrementReport &report) con
           report.round_off < 1e-6;
 }
 
-/// Displacements so large that round-off hides the forces may be a body that slides away, with an
-/// imbalance that no residual shows.
+/// Displacements so large that round-off hides the forces may be a body that slides away, with
+/// an imbalance that no residual shows.
 bool FrictionSolver::Implementation::runs_away(const IncrementReport &report,
                                                const VectorXd &multipliers)
 {

@@ -30,6 +30,8 @@ struct LoadHistory
    /// Multipliers at the start and the end of a piece.
    Eigen::VectorXd start(int segment) const;
    Eigen::VectorXd end(int segment) const;
+   /// Index of the point where a piece starts (the same in every repeated cycle).
+   int point(int segment) const;
    /// Cycle that a piece belongs to: 0 for the opening part, then 1, 2, ….
    int cycle(int segment) const;
    /// True if a cycle ends with this piece.
@@ -41,7 +43,6 @@ struct LoadHistory
 private:
    int opening() const; ///< pieces before the cycle
    int period() const;  ///< pieces of one cycle
-   int point(int segment) const;
 };
 
 } // namespace cattaneo

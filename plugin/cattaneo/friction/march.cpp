@@ -234,11 +234,7 @@ void March::bisect_event(int piece, double failed, const IncrementReport &failur
 bool March::march_piece(int piece)
 {
    const double t0 = history_.start_time(piece), t1 = history_.end_time(piece);
-   const std::size_t point =
-      piece < static_cast<int>(history_.times.size()) - 1
-         ? piece
-         : history_.cycle_start + (piece - history_.cycle_start) %
-                                     (history_.times.size() - 1 - history_.cycle_start);
+   const auto point = static_cast<std::size_t>(history_.point(piece));
    int count = settings_.increments;
    if (point < settings_.increments_of_piece.size())
    {
