@@ -11,4 +11,4 @@ write_basic_package_version_file("${CMAKE_CURRENT_BINARY_DIR}/CattaneoConfigVers
    COMPATIBILITY SameMinorVersion)
 install(FILES "${CMAKE_CURRENT_BINARY_DIR}/CattaneoConfig.cmake"
    "${CMAKE_CURRENT_BINARY_DIR}/CattaneoConfigVersion.cmake"
-   cmake/FindCHOLMOD.cmake cmake/MFEMTarget.cmake DESTINATION ${config_dir})
+   cmake/FindCHOLMOD.cmake cmake/FindIpopt.cmake cmake/MFEMTarget.cmake DESTINATION ${config_dir})

@@ -8,7 +8,7 @@ build=build/$(printf %s "$build_type" | tr '[:upper:]' '[:lower:]')
 deps=build/deps
 mfem_version=4.10.0.1
 packages="g++ cmake ninja-build zlib1g libeigen3-dev libsuitesparse-dev libopenblas-dev
-   nlohmann-json3-dev libgtest-dev"
+   coinor-libipopt-dev nlohmann-json3-dev libgtest-dev"
 
 say() { printf '%s\n' "cattaneo: $*" >&2; }
 die() { say "$*"; exit 1; }
@@ -58,6 +58,20 @@ with zipfile.ZipFile(wheel) as z:
 target.rename(sys.argv[2])
 PYTHON
    rm -rf "$wheel"
+}
+
+# HiGHS, a linear programme solver that the tests check the shakedown limits with. Needs a Python that
+# can run it; where there is none the tests that ask it say that they are skipped.
+bring_highs()
+{
+   local target=$PWD/$deps/highs
+   [ -d "$target" ] && return 0
+   command -v python3 >/dev/null && python3 -m pip --version >/dev/null 2>&1 || return 0
+   say "bringing HiGHS (for the tests)"
+   rm -rf "$target.part"
+   python3 -m pip install -q --disable-pip-version-check --only-binary=:all: --target "$target.part" "highspy>=1.7,<2" ||
+      die "could not bring HiGHS; name a folder that has the Python package highspy with CATTANEO_HIGHS="
+   mv "$target.part" "$target"
 }
 
 # prepare TARGET…: everything up to built targets (all of them if none is named).

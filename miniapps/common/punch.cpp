@@ -15,6 +15,8 @@ void PunchOptions::validate() const
            ", must be at least 3 and one more than a multiple of the order ", order);
    require(grading > 0 && grading <= 1, "option --grading is ", grading,
            ", must be above 0 and at most 1");
+   require(plane_stiffness > 0, "stiffness of the half-plane over the block's is ",
+           plane_stiffness, ", must be positive");
    require(domain > 2, "option --domain is ", domain, ", must be above 2 (in a)");
 }
 
@@ -24,6 +26,8 @@ Punch make_punch(const PunchOptions &options)
    Punch punch;
    const Material material{1 - options.poisson * options.poisson, options.poisson,
                            PlaneState::strain};
+   Material plane_material = material;
+   plane_material.young *= options.plane_stiffness;
    const std::vector<double> contact =
       graded_to_ends(1.0, (options.nodes - 1) / options.order, options.grading);
    const double smallest = contact[1] - contact[0];
@@ -54,7 +58,7 @@ Punch make_punch(const PunchOptions &options)
       half_plane_mesh(contact, graded(0, 1, smallest, growth, coarsest),
                       ring_scales(1, options.domain, smallest, growth))));
    punch.bodies.push_back(
-      std::make_unique<ElasticBody>(*punch.meshes[1], options.order, material));
+      std::make_unique<ElasticBody>(*punch.meshes[1], options.order, plane_material));
    ElasticBody &plane = *punch.bodies[1];
    const int surface = 1, far_bottom = 3;
    for (int component : {0, 1}) { plane.fix(far_bottom, component); }

@@ -22,7 +22,8 @@ struct PunchOptions
    int nodes = 201; ///< contact nodes; (nodes - 1) must be a multiple of the order
    double grading =
       0.01; ///< size of the contact elements at the corners over those in the middle
-   double domain = 1e4; ///< half-width and depth of the half-plane's block, in a
+   double plane_stiffness = 1; ///< E' of the half-plane over that of the block
+   double domain = 1e4;        ///< half-width and depth of the half-plane's block, in a
 
    /// InputError naming the option, its value and what is allowed.
    void validate() const;

@@ -1,0 +1,104 @@
+#include <cattaneo/input_error.hpp>
+#include <cattaneo/reduced/reduced_file.hpp>
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace cattaneo
+{
+
+namespace
+{
+
+const char *const format_name = "cattaneo reduced problem 1";
+
+/// Rows, columns and the entries column by column.
+template <class Matrix>
+nlohmann::json to_json(const Matrix &M)
+{
+   return {{"rows", M.rows()},
+           {"cols", M.cols()},
+           {"values", std::vector<typename Matrix::Scalar>(M.data(), M.data() + M.size())}};
+}
+
+template <class Matrix>
+void from_json(const nlohmann::json &j, Matrix &M)
+{
+   const auto values = j.at("values").get<std::vector<typename Matrix::Scalar>>();
+   const Eigen::Index rows = j.at("rows"), cols = j.at("cols");
+   require(rows >= 0 && cols >= 0 && rows * cols == static_cast<Eigen::Index>(values.size()),
+           "reduced problem: ", values.size(), " entries for a matrix of ", rows, "×", cols);
+   M.resize(rows, cols);
+   std::copy(values.begin(), values.end(), M.data());
+}
+
+} // namespace
+
+void save(const ReducedProblem &problem, const std::string &file)
+{
+   nlohmann::json j = {{"format", format_name},
+                       {"A", to_json(problem.A)},
+                       {"B", to_json(problem.B)},
+                       {"C", to_json(problem.C)},
+                       {"H", to_json(problem.H)},
+                       {"gap", to_json(problem.gap)},
+                       {"friction", to_json(problem.friction)},
+                       {"weights", to_json(problem.weights)},
+                       {"arc_length", to_json(problem.arc_length)},
+                       {"position", to_json(problem.position)},
+                       {"dofs", to_json(problem.dofs)}};
+   for (const LoadPattern &pattern : problem.patterns)
+   {
+      j["patterns"].push_back({{"name", pattern.name},
+                               {"displacement", pattern.control == Control::displacement},
+                               {"q", to_json(pattern.q)},
+                               {"p", to_json(pattern.p)}});
+   }
+   const std::string part = file + ".part";
+   std::ofstream out(part);
+   out << j << '\n';
+   out.close();
+   require(out.good() && std::rename(part.c_str(), file.c_str()) == 0,
+           "reduced problem: cannot write file '", file, "'");
+}
+
+ReducedProblem load_reduced_problem(const std::string &file)
+{
+   std::ifstream in(file);
+   require(in.good(), "reduced problem: cannot read file '", file, "'");
+   ReducedProblem problem;
+   try
+   {
+      const nlohmann::json j = nlohmann::json::parse(in);
+      require(j.at("format") == format_name, "reduced problem: file '", file, "' is not a '",
+              format_name, "'");
+      from_json(j.at("A"), problem.A);
+      from_json(j.at("B"), problem.B);
+      from_json(j.at("C"), problem.C);
+      from_json(j.at("H"), problem.H);
+      from_json(j.at("gap"), problem.gap);
+      from_json(j.at("friction"), problem.friction);
+      from_json(j.at("weights"), problem.weights);
+      from_json(j.at("arc_length"), problem.arc_length);
+      from_json(j.at("position"), problem.position);
+      from_json(j.at("dofs"), problem.dofs);
+      for (const nlohmann::json &p : j.value("patterns", nlohmann::json::array()))
+      {
+         LoadPattern pattern;
+         pattern.name = p.at("name");
+         pattern.control = p.at("displacement") ? Control::displacement : Control::force;
+         from_json(p.at("q"), pattern.q);
+         from_json(p.at("p"), pattern.p);
+         problem.patterns.push_back(pattern);
+      }
+   }
+   catch (const nlohmann::json::exception &error)
+   {
+      throw InputError("reduced problem: file '" + file +
+                       "' is not a reduced problem: " + error.what());
+   }
+   problem.validate();
+   return problem;
+}
+
+} // namespace cattaneo

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cattaneo/reduced/reduced_problem.hpp>
+#include <string>
+
+namespace cattaneo
+{
+
+/// Writes a reduced problem as JSON; every double is restored to the last bit. InputError if
+/// the file cannot be written.
+void save(const ReducedProblem &problem, const std::string &file);
+
+/// Reads what save() wrote. InputError if the file is missing or is not a valid reduced
+/// problem.
+ReducedProblem load_reduced_problem(const std::string &file);
+
+} // namespace cattaneo

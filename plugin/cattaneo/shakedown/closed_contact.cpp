@@ -1,0 +1,101 @@
+#include <cattaneo/input_error.hpp>
+#include <cattaneo/shakedown/closed_contact.hpp>
+
+namespace cattaneo
+{
+
+ClosedContact closed_contact(const ReducedProblem &problem,
+                             const std::vector<Eigen::Index> &closed)
+{
+   problem.validate();
+   const Eigen::Index n = problem.nodes(), c = problem.components();
+   require(!closed.empty(), "closed contact: no node is closed");
+   std::vector<bool> is_closed(n, false);
+   for (const Eigen::Index i : closed)
+   {
+      require(i >= 0 && i < n, "closed contact: node ", i, " is not one of ", n, " nodes");
+      require(!is_closed[i], "closed contact: node ", i, " is named twice");
+      require(problem.gap[i] == 0, "closed contact: node ", i, " has the gap ", problem.gap[i],
+              ", must be zero (absorb_gap makes it a load pattern)");
+      is_closed[i] = true;
+   }
+   ClosedContact contact;
+   for (Eigen::Index i = 0; i < n; ++i)
+   {
+      (is_closed[i] ? contact.closed : contact.open).push_back(i);
+   }
+   const auto n_closed = static_cast<Eigen::Index>(contact.closed.size());
+   const auto n_open = static_cast<Eigen::Index>(contact.open.size());
+
+   // Unknowns of a set of nodes in {v; w}: component by component, then normal.
+   const auto unknowns = [&](const std::vector<Eigen::Index> &nodes)
+   {
+      std::vector<Eigen::Index> list;
+      for (Eigen::Index k = 0; k <= c; ++k)
+      {
+         for (const Eigen::Index i : nodes) { list.push_back(k * n + i); }
+      }
+      return list;
+   };
+   const std::vector<Eigen::Index> kept = unknowns(contact.closed),
+                                   freed = unknowns(contact.open);
+   const auto patterns = static_cast<Eigen::Index>(problem.patterns.size());
+   Eigen::MatrixXd forces((c + 1) * n, patterns);
+   Eigen::VectorXd sign(patterns); // of Fᵀ u in the conjugates of the loads
+   for (Eigen::Index k = 0; k < patterns; ++k)
+   {
+      const LoadPattern &pattern = problem.patterns[k];
+      forces.col(k) << pattern.q, pattern.p;
+      sign[k] = pattern.control == Control::force ? -1 : 1;
+   }
+   const Eigen::MatrixXd K = problem.stiffness();
+   Eigen::MatrixXd S = K(kept, kept), F = forces(kept, Eigen::all);
+   Eigen::MatrixXd H = problem.H;
+   Eigen::MatrixXd by_kept(freed.size(), kept.size()), by_load(freed.size(), patterns);
+   if (n_open > 0)
+   {
+      const Eigen::LLT<Eigen::MatrixXd> factor(K(freed, freed));
+      require(factor.info() == Eigen::Success, "closed contact: the motion of the ", n_open,
+              " open nodes is not determined: their stiffness is not positive definite");
+      by_kept = -factor.solve(K(freed, kept));
+      by_load = -factor.solve(forces(freed, Eigen::all));
+      S += K(kept, freed) * by_kept;
+      S = (0.5 * (S + S.transpose())).eval();
+      F += K(kept, freed) * by_load;
+      H += sign.asDiagonal() * forces(freed, Eigen::all).transpose() * by_load;
+   }
+
+   ReducedProblem &reduced = contact.reduced;
+   const Eigen::Index m = c * n_closed;
+   reduced.A = S.topLeftCorner(m, m);
+   reduced.B = S.bottomLeftCorner(n_closed, m);
+   reduced.C = S.bottomRightCorner(n_closed, n_closed);
+   reduced.H = H;
+   for (Eigen::Index k = 0; k < patterns; ++k)
+   {
+      reduced.patterns.push_back({problem.patterns[k].name, problem.patterns[k].control,
+                                  F.col(k).head(m), F.col(k).tail(n_closed)});
+   }
+   reduced.gap = Eigen::VectorXd::Zero(n_closed);
+   reduced.friction = problem.friction(contact.closed);
+   if (problem.weights.size()) { reduced.weights = problem.weights(contact.closed); }
+   if (problem.arc_length.size()) { reduced.arc_length = problem.arc_length(contact.closed); }
+   if (problem.position.size())
+   {
+      reduced.position = problem.position(contact.closed, Eigen::all);
+   }
+   if (problem.dofs.size()) { reduced.dofs = problem.dofs(contact.closed, Eigen::all); }
+
+   contact.open_by_slip = by_kept.bottomLeftCorner(n_open, m);
+   contact.open_by_load = by_load.bottomRows(n_open);
+   contact.open_gap = problem.gap(contact.open);
+   return contact;
+}
+
+Eigen::VectorXd ClosedContact::open_gaps(const Eigen::VectorXd &slip,
+                                         const Eigen::VectorXd &multipliers) const
+{
+   return open_gap + open_by_slip * slip + open_by_load * multipliers;
+}
+
+} // namespace cattaneo

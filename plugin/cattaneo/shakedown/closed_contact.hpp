@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cattaneo/reduced/reduced_problem.hpp>
+#include <vector>
+
+namespace cattaneo
+{
+
+/** A receding contact under cyclic load: the shakedown limit on the part that stays closed.
+
+    Assumption: the nodes of `closed` are closed and all others open throughout the cycle. The
+   open nodes carry no force and are condensed out of the reduced problem,
+
+       K_cc - K_co K_oo⁻¹ K_oc,   f_c - K_co K_oo⁻¹ f_o,
+
+    and what is left is a contact of fewer nodes that is always closed. Whether the assumption
+    holds is for open_gaps to tell afterwards (and, for the closed nodes, the cone condition).
+ */
+struct ClosedContact
+{
+   ReducedProblem reduced; ///< of the closed nodes
+   std::vector<Eigen::Index> closed, open;
+
+   /// w + g of the open nodes when the closed ones have slipped by @a slip under the loads
+   /// @a multipliers: negative where the assumption fails (the bodies overlap).
+   Eigen::VectorXd open_gaps(const Eigen::VectorXd &slip,
+                             const Eigen::VectorXd &multipliers) const;
+
+   Eigen::MatrixXd open_by_slip; ///< w of the open nodes by the closed nodes' slip
+   Eigen::MatrixXd open_by_load; ///< w of the open nodes by the load multipliers
+   Eigen::VectorXd open_gap;     ///< g of the open nodes
+};
+
+/// InputError if a node is named twice or does not exist, if none is closed, if a closed node
+/// has a gap, or if the open nodes' motion is not determined by the closed ones'.
+ClosedContact closed_contact(const ReducedProblem &problem,
+                             const std::vector<Eigen::Index> &closed);
+
+} // namespace cattaneo

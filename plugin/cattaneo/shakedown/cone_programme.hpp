@@ -1,0 +1,103 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <cattaneo/shakedown/load_cycle.hpp>
+#include <cattaneo/shakedown/residual_forces.hpp>
+#include <string>
+
+namespace cattaneo
+{
+
+/** The convex programme behind every limit (thesis 4.3.2; Melan's static theorem):
+
+       largest θ for which one residual state r, constant in time, leaves every node inside its
+       friction cone at every load vertex j,
+
+       |q0_j + θ q1_j + r| ≤ f (p0_j + θ p1_j + M r),   rigidᵀ r = 0.
+
+    With one tangential component it is a linear programme, with two (torsion) a second-order
+   cone programme. p ≥ 0 is implied. */
+struct ConeProgramme
+{
+   const ResidualForces *residual = nullptr; ///< not owned
+   Eigen::VectorXd friction;                 ///< f > 0 of each node, size n
+   StuckForces loads;                        ///< q0, q1, p0, p1 with θ for λ
+   /// Optional bounds r_low ≤ r ≤ r_high, size c·n; none if empty.
+   Eigen::VectorXd r_low, r_high;
+   /// Leave r out of the tangential forces: only the change of pressure is allowed for.
+   bool pressure_only = false;
+   double ceiling = 0; ///< θ is searched up to here, in units of theta_scale
+
+   Eigen::VectorXd force_scale; ///< a typical force of each node, positive, size n
+   double theta_scale = 1;      ///< a typical θ, positive
+
+   Eigen::Index nodes() const { return friction.size(); }
+   Eigen::Index components() const { return loads.q0.rows() / friction.size(); }
+};
+
+/** Motions dual to the limit: at load vertex j node i slips by `slip` and opens by `opening`,
+   with opening ≥ f |slip| (the flow rule associated with the friction cone). */
+struct CollapseMechanism
+{
+   Eigen::MatrixXd slip;    ///< c·n × vertices
+   Eigen::MatrixXd opening; ///< n × vertices
+};
+
+struct ConeSettings
+{
+   int max_iterations = 300;
+   /// Stopping tolerance of the scaled optimality conditions.
+   double tolerance = 1e-10;
+   /// Every cone is left by this much of the node's typical force, so that the point that is
+   /// found stays inside after rounding and the small constraint violations of the solver.
+   double margin = 1e-10;
+};
+
+/// Where to start from: a residual state and, of an earlier solution, its mechanism.
+struct ConeStart
+{
+   double theta = 0;
+   Eigen::VectorXd r;           ///< empty: zero
+   CollapseMechanism mechanism; ///< empty: none, a cold start
+};
+
+enum class ConeOutcome
+{
+   solved,
+   ceiling,    ///< θ reaches the ceiling
+   infeasible, ///< no residual state is inside all cones, whatever θ
+   failed,
+   unavailable ///< built without Ipopt
+};
+
+struct ConeSolution
+{
+   ConeOutcome outcome = ConeOutcome::failed;
+   std::string message;
+   double theta = 0;
+   Eigen::VectorXd r; ///< residual tangential forces, c·n
+   CollapseMechanism mechanism;
+   int iterations = 0;
+};
+
+ConeSolution solve(const ConeProgramme &programme, const ConeSettings &settings,
+                   const ConeStart &start);
+
+/// Largest (|q| - f p) / force scale over all nodes and vertices: at most 0 inside every cone.
+/// Plain arithmetic from the slip and the matrices of the reduced problem.
+double worst_violation(const ConeProgramme &programme, const ReducedProblem &problem,
+                       double theta, const Eigen::VectorXd &slip);
+
+/** A proven upper bound of θ by weak duality. For motions with A Σslip + Bᵀ Σopening = 0,
+   summed over the vertices, and opening ≥ f |slip|, each admissible state does work
+
+       0 ≤ Σ_j opening·p + slip·q = Σ_j opening·(p0 + θ p1) + slip·(q0 + θ q1),
+
+    so that θ ≤ W0 / (-W1) if W1 < 0. @a mechanism, which a solver leaves with small residuals,
+   is first made to satisfy both conditions to round-off; what then remains of the first is
+    multiplied by @a slip_size, a bound of the slips, and added. Infinite if W1 ≥ 0 or if the
+    mechanism cannot be repaired. The mechanism comes back scaled to W1 = -1. */
+double weak_duality_bound(const ConeProgramme &programme, const ReducedProblem &problem,
+                          CollapseMechanism &mechanism, double slip_size);
+
+} // namespace cattaneo

@@ -1,0 +1,437 @@
+#include <algorithm>
+#include <cattaneo/input_error.hpp>
+#include <cattaneo/shakedown/limit.hpp>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+namespace cattaneo
+{
+
+namespace
+{
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Share of a node's typical force that rounding can change in a sum over all nodes.
+constexpr double round_off = 1e-12;
+
+class Stopwatch
+{
+public:
+   double seconds() const
+   {
+      return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+   }
+
+private:
+   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+};
+
+void check(const ReducedProblem &reduced, const ResidualForces &residual,
+           const LimitSettings &settings)
+{
+   settings.validate();
+   reduced.validate();
+   const Eigen::Index m = reduced.A.rows();
+   require(residual.flexibility.rows() == m && residual.transfer.rows() == reduced.nodes(),
+           "shakedown: the residual forces do not belong to the reduced problem: ",
+           residual.flexibility.rows(), " tangential unknowns instead of ", m);
+}
+
+/// A typical force of each node: its largest under the given loads, but not less than a
+/// thousandth of the median, so that a node without force of its own still has a scale.
+Eigen::VectorXd typical_forces(const Eigen::MatrixXd &q, const Eigen::MatrixXd &p)
+{
+   const Eigen::Index n = p.rows();
+   Eigen::VectorXd scale = p.cwiseAbs().rowwise().maxCoeff();
+   for (Eigen::Index k = 0; k < q.rows(); ++k)
+   {
+      scale[k % n] = std::max(scale[k % n], q.row(k).cwiseAbs().maxCoeff());
+   }
+   Eigen::VectorXd sorted = scale;
+   std::nth_element(sorted.data(), sorted.data() + n / 2, sorted.data() + n);
+   return scale.cwiseMax(1e-3 * std::max(sorted[n / 2], 1e-3 * scale.maxCoeff()));
+}
+
+ConeSolution solve_counted(const ConeProgramme &programme, const LimitSettings &settings,
+                           const ConeStart &start, LimitReport &report)
+{
+   ConeSettings cone;
+   cone.max_iterations = settings.max_iterations;
+   ConeSolution solution = solve(programme, cone, start);
+   report.iterations += solution.iterations;
+   ++report.counters.limit_solves;
+   return solution;
+}
+
+/// Every slip of interest moves no node further than this; a factor ten above the one found.
+double slip_size(const Eigen::VectorXd &slip)
+{
+   return 10 * slip.cwiseAbs().maxCoeff();
+}
+
+/** How far the loads stay from the cones of friction @a friction: the largest θ with
+    f p - |q| ≥ θ weight at every node and vertex. */
+ConeProgramme clearance_programme(const ResidualForces &residual, const StuckForces &loads,
+                                  double load_factor, Eigen::VectorXd friction,
+                                  const Eigen::MatrixXd &weight,
+                                  const Eigen::VectorXd &force_scale)
+{
+   ConeProgramme programme;
+   programme.residual = &residual;
+   programme.loads.q0 = loads.q(load_factor);
+   programme.loads.p0 = loads.p(load_factor);
+   programme.loads.q1 = Eigen::MatrixXd::Zero(loads.q0.rows(), loads.vertices());
+   programme.loads.p1 = -(friction.cwiseInverse().asDiagonal() * weight);
+   programme.friction = std::move(friction);
+   programme.force_scale = force_scale;
+   programme.ceiling = 10; // more clearance than ten times the friction limit is of no use
+   return programme;
+}
+
+/// Largest θ near @a theta at which @a slip is admissible in plain arithmetic; -infinity if
+/// none.
+double largest_admissible(const ConeProgramme &programme, const ReducedProblem &problem,
+                          double theta, const Eigen::VectorXd &slip)
+{
+   // The violation is convex in θ: where it is negative is one interval.
+   const auto admissible = [&](double t)
+   { return worst_violation(programme, problem, t, slip) <= -round_off; };
+   const double unit = 1e-12 * (std::abs(theta) + programme.theta_scale);
+   double inside = theta, outside = theta, step = unit;
+   if (admissible(theta))
+   {
+      while (step < 1e3 * programme.theta_scale && admissible(outside = theta + step))
+      {
+         inside = outside;
+         step *= 4;
+      }
+   }
+   else
+   {
+      while (!admissible(inside = theta - step))
+      {
+         outside = inside;
+         step *= 4;
+         if (step > 1e-2 * programme.theta_scale) { return -infinity; }
+      }
+   }
+   while (outside - inside > unit)
+   {
+      const double middle = 0.5 * (inside + outside);
+      (admissible(middle) ? inside : outside) = middle;
+   }
+   return inside;
+}
+
+} // namespace
+
+LimitProblem limit_problem(ReducedProblem reduced, LoadCycle cycle)
+{
+   ResidualForces residual = residual_forces(reduced);
+   cycle.validate(reduced);
+   const double coupling = residual.uncoupled ? 0 : degree_of_coupling(reduced);
+   return {std::move(reduced), std::move(residual), coupling, std::move(cycle)};
+}
+
+const char *name(LimitStatus status)
+{
+   switch (status)
+   {
+   case LimitStatus::certified:
+      return "certified";
+   case LimitStatus::bracketed:
+      return "bracketed";
+   case LimitStatus::unlimited:
+      return "unlimited";
+   case LimitStatus::no_solution:
+      return "no solution";
+   case LimitStatus::failed:
+      return "failed";
+   case LimitStatus::unavailable:
+      return "unavailable";
+   }
+   return "";
+}
+
+void LimitSettings::validate() const
+{
+   require(tolerance >= 1e-9 && tolerance < 1, "shakedown: tolerance is ", tolerance,
+           ", must be at least 1e-9 and below 1");
+   require(max_iterations > 0, "shakedown: max_iterations is ", max_iterations,
+           ", must be positive");
+   require(largest_factor > 0 && std::isfinite(largest_factor), "shakedown: largest_factor is ",
+           largest_factor, ", must be positive and finite");
+   require(largest_friction > 0 && std::isfinite(largest_friction),
+           "shakedown: largest_friction is ", largest_friction,
+           ", must be positive and finite");
+}
+
+LimitReport load_limit(const LimitProblem &problem, const LimitSettings &settings)
+{
+   LimitReport report = load_limit(problem.reduced, problem.residual,
+                                   stuck_forces(problem.reduced, problem.cycle), settings);
+   report.coupling = problem.coupling;
+   return report;
+}
+
+LimitReport load_limit(const ReducedProblem &reduced, const ResidualForces &residual,
+                       const StuckForces &loads, const LimitSettings &settings)
+{
+   const Stopwatch stopwatch;
+   check(reduced, residual, settings);
+   const Eigen::Index n = reduced.nodes(), m = reduced.A.rows();
+   for (Eigen::Index i = 0; i < n; ++i)
+   {
+      require(reduced.friction[i] > 0, "shakedown: friction coefficient ", reduced.friction[i],
+              " at node ", i, ", must be positive: a node without friction never sticks");
+   }
+
+   LimitReport report;
+   const auto finish = [&](LimitStatus status, const std::string &message)
+   {
+      report.status = status;
+      report.message = message;
+      report.seconds = stopwatch.seconds();
+      return report;
+   };
+
+   ConeProgramme programme;
+   programme.residual = &residual;
+   programme.friction = reduced.friction;
+   programme.loads = loads;
+   programme.ceiling = settings.largest_factor;
+   if (loads.p0.maxCoeff() <= 0)
+   {
+      report.upper = infinity;
+      return finish(LimitStatus::no_solution,
+                    "the constant loads do not press the contact together at any node");
+   }
+   programme.force_scale = typical_forces(loads.q0, loads.p0);
+   // The load factor at which the varying loads exhaust the friction of the constant ones,
+   // summed over the contact: the size of gross sliding.
+   const Eigen::VectorXd &f = programme.friction;
+   double varying = (f.asDiagonal() * loads.p1).cwiseAbs().colwise().sum().maxCoeff();
+   varying = std::max(varying, loads.q1.cwiseAbs().colwise().sum().maxCoeff());
+   if (varying == 0)
+   {
+      report.upper = infinity;
+      report.lower = report.limit = infinity;
+      report.slip = Eigen::VectorXd::Zero(m);
+      return finish(LimitStatus::unlimited, "no load varies: there is nothing to limit");
+   }
+   programme.theta_scale = f.dot(programme.force_scale) / varying;
+
+   // A strictly admissible state under the constant loads: the stuck one, or the one that is
+   // furthest from all cones.
+   ConeStart start;
+   start.r = Eigen::VectorXd::Zero(m);
+   if (worst_violation(programme, reduced, 0, start.r) > -1e-3)
+   {
+      const Eigen::MatrixXd weight = programme.force_scale.replicate(1, loads.vertices());
+      const ConeProgramme first = clearance_programme(residual, loads, 0, reduced.friction,
+                                                      weight, programme.force_scale);
+      ConeSolution solution = solve_counted(first, settings, start, report);
+      if (solution.outcome == ConeOutcome::unavailable)
+      {
+         return finish(LimitStatus::unavailable, solution.message);
+      }
+      report.slip = residual.flexibility * solution.r;
+      report.mechanism = solution.mechanism;
+      if (weak_duality_bound(first, reduced, report.mechanism, slip_size(report.slip)) < 0)
+      {
+         return finish(LimitStatus::no_solution,
+                       "no slip keeps the contact stuck and closed under the constant loads "
+                       "alone (proven by the mechanism)");
+      }
+      start.r = solution.r;
+   }
+   if (settings.start && settings.start->slip.size() == m)
+   {
+      start.theta = settings.start->limit;
+      start.r = reduced.A * settings.start->slip;
+      if (settings.start->mechanism.slip.cols() == loads.vertices())
+      {
+         start.mechanism = settings.start->mechanism;
+      }
+   }
+
+   const ConeSolution solution = solve_counted(programme, settings, start, report);
+   if (solution.outcome == ConeOutcome::unavailable)
+   {
+      return finish(LimitStatus::unavailable, solution.message);
+   }
+   if (!solution.r.size() || !solution.r.allFinite() || !std::isfinite(solution.theta))
+   {
+      return finish(LimitStatus::failed, solution.message);
+   }
+   report.slip = residual.flexibility * solution.r;
+   report.lower = largest_admissible(programme, reduced, solution.theta, report.slip);
+   report.limit = report.lower;
+   report.violation = worst_violation(programme, reduced, report.lower, report.slip);
+   report.mechanism = solution.mechanism;
+   report.upper =
+      weak_duality_bound(programme, reduced, report.mechanism, slip_size(report.slip));
+   if (!std::isfinite(report.lower))
+   {
+      report.limit = report.lower = 0;
+      return finish(LimitStatus::failed,
+                    "the solver's point is not admissible. " + solution.message);
+   }
+   if (solution.outcome == ConeOutcome::ceiling)
+   {
+      report.upper = infinity;
+      return finish(LimitStatus::unlimited,
+                    "the contact sticks at the largest load factor searched");
+   }
+   if (report.upper - report.lower <= settings.tolerance * std::abs(report.upper))
+   {
+      return finish(LimitStatus::certified, "");
+   }
+   return finish(LimitStatus::bracketed,
+                 "the gap of the certificate is wider than asked for. " + solution.message);
+}
+
+LimitReport friction_limit(const LimitProblem &problem, double load_factor,
+                           const LimitSettings &settings)
+{
+   const Stopwatch stopwatch;
+   check(problem.reduced, problem.residual, settings);
+   require(std::isfinite(load_factor), "shakedown: the load factor is not finite");
+   const ReducedProblem &reduced = problem.reduced;
+   const Eigen::Index n = reduced.nodes(), m = reduced.A.rows();
+   const StuckForces loads = stuck_forces(reduced, problem.cycle);
+   const Eigen::MatrixXd q = loads.q(load_factor), p = loads.p(load_factor);
+
+   LimitReport report;
+   report.coupling = problem.coupling;
+   report.upper = report.limit = infinity;
+   const auto finish = [&](LimitStatus status, const std::string &message)
+   {
+      report.status = status;
+      report.message = message;
+      report.seconds = stopwatch.seconds();
+      return report;
+   };
+   if (p.maxCoeff() <= 0)
+   {
+      return finish(LimitStatus::no_solution,
+                    "the loads do not press the contact together at any node");
+   }
+
+   const Eigen::VectorXd force_scale = typical_forces(q, p);
+   Eigen::MatrixXd weight = force_scale.replicate(1, loads.vertices());
+
+   /// Largest |q| / p with slip v; infinite if a node has p ≤ 0. Takes v over if it is the
+   /// best.
+   const auto take = [&](const Eigen::VectorXd &v)
+   {
+      const Eigen::MatrixXd qv = q.colwise() + Eigen::VectorXd(reduced.A * v);
+      const Eigen::MatrixXd pv = p.colwise() + Eigen::VectorXd(reduced.B * v);
+      double worst = 0;
+      for (Eigen::Index j = 0; j < pv.cols(); ++j)
+      {
+         for (Eigen::Index i = 0; i < n; ++i)
+         {
+            const double allowance = round_off * force_scale[i];
+            if (pv(i, j) <= 2 * allowance) { return; }
+            const double shear =
+               m == n ? std::abs(qv(i, j)) : std::hypot(qv(i, j), qv(n + i, j));
+            worst = std::max(worst, (shear + allowance) / (pv(i, j) - allowance));
+         }
+      }
+      if (worst < report.upper)
+      {
+         report.upper = report.limit = worst;
+         report.slip = v;
+         // Clearance per normal force makes Dinkelbach's iteration superlinear.
+         weight = pv.cwiseMax(1e-3 * force_scale.replicate(1, pv.cols()));
+      }
+   };
+
+   ConeStart start;
+   start.r = Eigen::VectorXd::Zero(m);
+   take(start.r);
+   if (settings.start && settings.start->slip.size() == m)
+   {
+      take(settings.start->slip);
+      start.r = reduced.A * settings.start->slip;
+   }
+
+   constexpr int max_programmes = 40;
+   constexpr double smallest_friction = 1e-9; // below it, counts as zero
+   ConeSolution solution;
+   double f =
+      std::min(settings.largest_friction, report.upper * (1 - 0.5 * settings.tolerance));
+   for (int k = 0; k < max_programmes && report.upper > smallest_friction; ++k)
+   {
+      ConeProgramme programme =
+         clearance_programme(problem.residual, loads, load_factor,
+                             Eigen::VectorXd::Constant(n, f), weight, force_scale);
+      // Clearances are compared with f p.
+      programme.theta_scale = f;
+      solution = solve_counted(programme, settings, start, report);
+      if (solution.outcome == ConeOutcome::unavailable)
+      {
+         return finish(LimitStatus::unavailable, solution.message);
+      }
+      if (!solution.r.size() || !solution.r.allFinite())
+      {
+         return finish(LimitStatus::failed, solution.message);
+      }
+      const Eigen::VectorXd slip = problem.residual.flexibility * solution.r;
+      CollapseMechanism mechanism = solution.mechanism;
+      const double clearance =
+         weak_duality_bound(programme, reduced, mechanism, slip_size(slip));
+      const double before = report.upper;
+      take(slip);
+      const bool wedged = solution.outcome == ConeOutcome::ceiling;
+      if (clearance < 0)
+      {
+         report.lower = f;
+         report.mechanism = std::move(mechanism);
+         const double highest = std::min(settings.largest_friction, report.upper);
+         if (highest - f <= settings.tolerance * highest) { break; }
+      }
+      if (clearance < 0 || wedged)
+      {
+         // Wedged: so much friction holds any residual state, without a best one. Bisect until
+         // there is one.
+         const double high = wedged ? f : std::min(settings.largest_friction, report.upper);
+         f = 0.5 * (report.lower + high);
+         start = {0, Eigen::VectorXd::Zero(m), {}};
+         weight = force_scale.replicate(1, loads.vertices());
+         continue;
+      }
+      if (!(report.upper < before)) { break; }
+      f = report.upper * (1 - 0.5 * settings.tolerance);
+      start = {0, solution.r, solution.mechanism};
+   }
+   if (report.upper <= smallest_friction)
+   {
+      return finish(LimitStatus::certified, "no friction is needed");
+   }
+   if (report.slip.size())
+   {
+      ConeProgramme programme =
+         clearance_programme(problem.residual, loads, load_factor,
+                             Eigen::VectorXd::Constant(n, report.upper), weight, force_scale);
+      report.violation = worst_violation(programme, reduced, 0, report.slip);
+   }
+   if (report.lower >= settings.largest_friction)
+   {
+      return finish(LimitStatus::no_solution,
+                    "no slip keeps the contact stuck and closed with any friction coefficient "
+                    "searched (proven by the mechanism)");
+   }
+   if (!std::isfinite(report.upper)) { return finish(LimitStatus::failed, solution.message); }
+   if (report.upper - report.lower <= settings.tolerance * report.upper)
+   {
+      return finish(LimitStatus::certified, "");
+   }
+   return finish(LimitStatus::bracketed,
+                 "the gap of the certificate is wider than asked for. " + solution.message);
+}
+
+} // namespace cattaneo

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cattaneo/counters.hpp>
+#include <cattaneo/shakedown/cone_programme.hpp>
+
+namespace cattaneo
+{
+
+/** A shakedown limit by Melan's static theorem (thesis 4.3.2): is there a slip v, constant in
+    time, with which all nodes stick, closed (w = 0), throughout the load cycle? Separation
+   during the cycle would be another problem; see closed_contact for contacts that are partly
+   open. The limit is the upper one, λ2: above it every start ends in cyclic slip; below it some
+   start shakes down, and all do if the problem is uncoupled (lower_limit.hpp). */
+struct LimitProblem
+{
+   ReducedProblem reduced;
+   ResidualForces residual; ///< of `reduced`; does not depend on friction or loads
+   double coupling = 0;     ///< degree_of_coupling of `reduced`
+   LoadCycle cycle;
+};
+
+/// Computes the residual forces and the coupling, the expensive part. For a sweep change cycle
+/// or friction in place.
+LimitProblem limit_problem(ReducedProblem reduced, LoadCycle cycle);
+
+enum class LimitStatus
+{
+   certified,   ///< lower ≤ limit ≤ upper are proven and the gap is within the tolerance
+   bracketed,   ///< the bounds are proven, but the gap is wider than asked for
+   unlimited,   ///< no limit below the largest factor searched
+   no_solution, ///< no slip keeps the contact stuck and closed, not even under the constant
+                ///< loads
+   failed,      ///< the solver ended without a usable point
+   unavailable  ///< built without Ipopt
+};
+
+const char *name(LimitStatus status);
+
+struct LimitReport;
+
+struct LimitSettings
+{
+   double tolerance = 1e-6; ///< relative gap of the certificate
+   int max_iterations = 300;
+   /// Load factors beyond this multiple of (friction × normal force) / shear count as
+   /// unlimited.
+   double largest_factor = 1e4;
+   /// The smallest friction coefficient is searched up to here.
+   double largest_friction = 100;
+   /// An earlier report of a sweep over the same contact to start from. Not owned; may be null.
+   const LimitReport *start = nullptr;
+
+   void validate() const;
+};
+
+struct LimitReport
+{
+   LimitStatus status = LimitStatus::failed;
+   std::string message;
+   double limit =
+      0; ///< the safe side: `lower` of a load factor, `upper` of a friction coefficient
+   double lower = 0; ///< proven: plain arithmetic shows the slip below to be admissible, …
+   double upper = 0; ///< … and weak duality no other to be (friction: the other way round)
+   /// Largest (|q| - f p) / nodal force over nodes and vertices at the limit, from slip, A and
+   /// B; at most 0.
+   double violation = 0;
+   Eigen::VectorXd slip; ///< the optimal slip v, c·n, without rigid part
+   /// The dual mechanism. Load limit: scaled to work 1 on the varying loads.
+   CollapseMechanism mechanism;
+   double coupling = 0; ///< of the problem
+   int iterations = 0;  ///< of Ipopt, summed over the programmes
+   double seconds = 0;
+   Counters counters; ///< limit_solves: programmes solved
+};
+
+/** Largest λ ≥ 0 for the friction of the problem and the shape of the cycle. `no_solution` if
+   the constant loads alone cannot be carried. */
+LimitReport load_limit(const LimitProblem &problem, const LimitSettings &settings = {});
+
+/// The same for given forces on the stuck contact instead of the load patterns'
+/// (lower_limit.hpp).
+LimitReport load_limit(const ReducedProblem &reduced, const ResidualForces &residual,
+                       const StuckForces &loads, const LimitSettings &settings = {});
+
+/** Smallest friction coefficient, the same at all nodes, for the loads constant + @a
+   load_factor × varying (the problem's own friction is not used). It is the least f of a
+   quasi-convex problem: each step asks for the state of greatest clearance from the cones of a
+   trial f, whose own largest |q|/p is the next f (Dinkelbach), until duality shows that no
+   state exists at f (1 - tolerance/2). */
+LimitReport friction_limit(const LimitProblem &problem, double load_factor,
+                           const LimitSettings &settings = {});
+
+} // namespace cattaneo

@@ -1,0 +1,133 @@
+#include <cattaneo/input_error.hpp>
+#include <cattaneo/shakedown/monolith.hpp>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace cattaneo
+{
+
+namespace
+{
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+void check_vertex(const LoadCycle &cycle, Eigen::Index vertex)
+{
+   require(vertex >= 0 && vertex < cycle.vertices(), "monolith: vertex ", vertex,
+           " is not one of ", cycle.vertices(), " vertices of the load cycle");
+}
+
+/// Smallest x ≥ 0 at which a x² + 2 b x + c, not positive at 0, becomes positive.
+double first_positive(double a, double b, double c)
+{
+   if (c > 0) { return 0; }
+   if (a == 0) { return b > 0 ? -c / (2 * b) : infinity; }
+   const double discriminant = b * b - a * c;
+   if (discriminant < 0) { return infinity; }
+   const double root = std::sqrt(discriminant);
+   if (a > 0) { return b > 0 ? -c / (b + root) : (root - b) / a; }
+   // Opens downwards: positive between its roots, both of the sign of b.
+   return b > 0 ? -c / (b + root) : infinity;
+}
+
+} // namespace
+
+NodeList chosen_nodes(const ReducedProblem &problem, const NodeList &nodes)
+{
+   const Eigen::Index n = problem.nodes();
+   if (nodes.empty())
+   {
+      NodeList all(n);
+      std::iota(all.begin(), all.end(), Eigen::Index(0));
+      return all;
+   }
+   for (const Eigen::Index i : nodes)
+   {
+      require(i >= 0 && i < n, "monolith: node ", i, " is not one of ", n, " nodes");
+   }
+   return nodes;
+}
+
+Eigen::VectorXd traction_ratio(const ReducedProblem &problem,
+                               const Eigen::VectorXd &multipliers)
+{
+   const Eigen::Index n = problem.nodes(), m = problem.A.rows();
+   const Eigen::VectorXd forces = problem.clamped_forces(multipliers);
+   Eigen::VectorXd ratio(n);
+   for (Eigen::Index i = 0; i < n; ++i)
+   {
+      const double p = forces[m + i];
+      const double q = m == n ? forces[i] : std::hypot(forces[i], forces[n + i]);
+      ratio[i] = p > 0 ? q / p : infinity;
+   }
+   return ratio;
+}
+
+std::vector<Adhesion> adhesion_map(const ReducedProblem &problem, const LoadCycle &cycle,
+                                   Eigen::Index vertex, const std::vector<double> &load_factors,
+                                   const NodeList &nodes)
+{
+   cycle.validate(problem);
+   check_vertex(cycle, vertex);
+   const NodeList looked_at = chosen_nodes(problem, nodes);
+   std::vector<Adhesion> map;
+   for (const double load_factor : load_factors)
+   {
+      const Eigen::VectorXd ratio =
+         traction_ratio(problem, cycle.constant + load_factor * cycle.varying.col(vertex));
+      Adhesion adhesion{load_factor, -1, 0};
+      for (const Eigen::Index i : looked_at)
+      {
+         if (std::abs(ratio[i]) > adhesion.friction)
+         {
+            adhesion.friction = std::abs(ratio[i]);
+            adhesion.node = i;
+         }
+      }
+      map.push_back(adhesion);
+   }
+   return map;
+}
+
+Incipience incipient_separation(const ReducedProblem &problem, const LoadCycle &cycle,
+                                Eigen::Index vertex, const NodeList &nodes)
+{
+   check_vertex(cycle, vertex);
+   const StuckForces forces = stuck_forces(problem, cycle);
+   Incipience first{infinity, -1};
+   for (const Eigen::Index i : chosen_nodes(problem, nodes))
+   {
+      const double at = first_positive(0, -0.5 * forces.p1(i, vertex), -forces.p0(i, vertex));
+      if (at < first.load_factor) { first = {at, i}; }
+   }
+   return first;
+}
+
+Incipience incipient_slip(const ReducedProblem &problem, const LoadCycle &cycle,
+                          Eigen::Index vertex, const NodeList &nodes)
+{
+   check_vertex(cycle, vertex);
+   const StuckForces forces = stuck_forces(problem, cycle);
+   const Eigen::Index n = problem.nodes(), m = problem.A.rows();
+   Incipience first = incipient_separation(problem, cycle, vertex, nodes);
+   for (const Eigen::Index i : chosen_nodes(problem, nodes))
+   {
+      // |q|² - f² p² as a quadratic in λ; before separation p > 0, so the squares suffice.
+      const double f = problem.friction[i];
+      const double p0 = f * forces.p0(i, vertex), p1 = f * forces.p1(i, vertex);
+      double a = -p1 * p1, b = -p0 * p1, c = -p0 * p0;
+      for (Eigen::Index k = i; k < m; k += n)
+      {
+         const double q0 = forces.q0(k, vertex), q1 = forces.q1(k, vertex);
+         a += q1 * q1;
+         b += q0 * q1;
+         c += q0 * q0;
+      }
+      const double at = first_positive(a, b, c);
+      if (at < first.load_factor) { first = {at, i}; }
+   }
+   return first;
+}
+
+} // namespace cattaneo

@@ -1,0 +1,115 @@
+#include <algorithm>
+#include <cattaneo/input_error.hpp>
+#include <cattaneo/shakedown/residual_forces.hpp>
+#include <cmath>
+
+namespace cattaneo
+{
+
+namespace
+{
+
+/// Eigenvalues below this share of the largest, after scaling to a unit diagonal, are rigid
+/// motions: they come out of a condensation at 1e-15, the softest elastic one at 1e-4 or above.
+constexpr double rigid_share = 1e-10;
+
+/// A symmetric positive semidefinite matrix K = scale⁻¹ U Λ Uᵀ scale⁻¹, scale = diag(K)^(-1/2).
+struct Spectrum
+{
+   Eigen::VectorXd scale;
+   Eigen::VectorXd values; ///< ascending, of the matrix scaled to a unit diagonal
+   Eigen::MatrixXd vectors;
+   Eigen::Index rigid = 0; ///< number of leading values that are zero to round-off
+
+   Spectrum(const char *name, const Eigen::MatrixXd &K)
+      : scale(K.diagonal().cwiseSqrt().cwiseInverse())
+   {
+      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scale.asDiagonal() * K *
+                                                                  scale.asDiagonal());
+      values = solver.eigenvalues();
+      vectors = solver.eigenvectors();
+      const double zero = rigid_share * values[values.size() - 1];
+      require(values[0] > -zero, "reduced problem: ", name,
+              " is not positive semidefinite: smallest eigenvalue ", values[0],
+              " after scaling to a unit diagonal");
+      while (rigid < values.size() && values[rigid] <= zero) { ++rigid; }
+   }
+
+   /// F with F Fᵀ a generalised inverse of K.
+   Eigen::MatrixXd inverse_root() const
+   {
+      const Eigen::Index elastic = values.size() - rigid;
+      return scale.asDiagonal() * vectors.rightCols(elastic) *
+             values.tail(elastic).cwiseSqrt().cwiseInverse().asDiagonal();
+   }
+};
+
+/// Largest entry of B relative to the stiffnesses that it couples.
+double largest_coupling(const ReducedProblem &problem)
+{
+   const Eigen::VectorXd a = problem.A.diagonal().cwiseSqrt().cwiseInverse();
+   const Eigen::VectorXd c = problem.C.diagonal().cwiseSqrt().cwiseInverse();
+   return (c.asDiagonal() * problem.B * a.asDiagonal()).cwiseAbs().maxCoeff();
+}
+
+/// B of two equal bodies is 1e-15 of A after a condensation; this leaves two digits.
+constexpr double uncoupled_share = 1e-13;
+
+} // namespace
+
+ResidualForces residual_forces(const ReducedProblem &problem)
+{
+   problem.validate();
+   require(problem.components() > 0, "shakedown: the problem was reduced without friction");
+   require(problem.gap.cwiseAbs().maxCoeff() == 0, "shakedown: the largest gap is ",
+           problem.gap.cwiseAbs().maxCoeff(),
+           ", must be zero (absorb_gap makes it a load pattern)");
+   const Spectrum spectrum("A", problem.A);
+   ResidualForces residual;
+   const Eigen::MatrixXd root = spectrum.inverse_root();
+   residual.flexibility = root * root.transpose();
+   residual.rigid = spectrum.scale.asDiagonal() * spectrum.vectors.leftCols(spectrum.rigid);
+   residual.rigid.colwise().normalize();
+
+   const double coupling = largest_coupling(problem);
+   residual.uncoupled = coupling <= uncoupled_share;
+   if (residual.uncoupled)
+   {
+      residual.transfer = Eigen::MatrixXd::Zero(problem.nodes(), problem.A.rows());
+   }
+   else
+   {
+      residual.transfer = problem.B * residual.flexibility;
+      const double leak =
+         residual.rigid.cols() ? (problem.B * residual.rigid).cwiseAbs().maxCoeff() : 0.0;
+      require(leak <= 1e-6 * problem.B.cwiseAbs().maxCoeff(),
+              "reduced problem: stiffness is not positive semidefinite: a slip without "
+              "tangential forces causes normal forces, largest ",
+              leak);
+   }
+   const Eigen::VectorXd opening = problem.B.colwise().sum();
+   const Eigen::VectorXd gross = problem.B.cwiseAbs().colwise().sum();
+   residual.opens_freely =
+      residual.uncoupled || opening.cwiseAbs().maxCoeff() <= 1e-9 * gross.maxCoeff();
+   return residual;
+}
+
+double degree_of_coupling(const ReducedProblem &problem)
+{
+   problem.validate();
+   if (problem.components() == 0 || largest_coupling(problem) <= uncoupled_share) { return 0; }
+   const Eigen::MatrixXd N = Spectrum("C", problem.C).inverse_root().transpose() * problem.B *
+                             Spectrum("A", problem.A).inverse_root();
+   const Eigen::MatrixXd gram = N * N.transpose();
+   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram, Eigen::EigenvaluesOnly);
+   // A rigid motion that both slips and opens (rotation of a curved contact) correlates
+   // exactly.
+   double largest = 0;
+   for (const double value : solver.eigenvalues())
+   {
+      if (value < 1 - 1e-9) { largest = std::max(largest, value); }
+   }
+   return std::sqrt(largest);
+}
+
+} // namespace cattaneo

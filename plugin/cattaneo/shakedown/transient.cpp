@@ -1,0 +1,206 @@
+#include <cattaneo/input_error.hpp>
+#include <cattaneo/shakedown/transient.hpp>
+#include <cmath>
+#include <random>
+
+namespace cattaneo
+{
+
+namespace
+{
+
+/// Do the constant loads lie between the last and the first vertex?
+bool starts_at_constant(const LoadCycle &cycle)
+{
+   // constant + λ varying: zero must lie between the two varying parts.
+   const Eigen::VectorXd a = cycle.varying.col(cycle.vertices() - 1), b = cycle.varying.col(0);
+   const double size = a.norm() * b.norm();
+   return size == 0 || a.dot(b) <= -(1 - 1e-12) * size;
+}
+
+} // namespace
+
+void TransientSettings::validate() const
+{
+   require(cycles >= 1, "transient: cycles is ", cycles, ", must be at least 1");
+   require(shaken_down > 0 && shaken_down < 1, "transient: shaken_down is ", shaken_down,
+           ", must be above 0 and below 1");
+   march.validate();
+}
+
+void CounterExampleSettings::validate() const
+{
+   require(starts >= 0, "counter-example: starts is ", starts, ", must not be negative");
+   require(halvings >= 1, "counter-example: halvings is ", halvings, ", must be at least 1");
+   transient.validate();
+}
+
+TransientReport transient(FrictionSolver &solver, const LimitProblem &problem,
+                          double load_factor, const Eigen::VectorXd &start,
+                          const TransientSettings &settings)
+{
+   settings.validate();
+   const ReducedProblem &reduced = problem.reduced;
+   const LoadCycle &cycle = problem.cycle;
+   TransientReport report;
+   report.load_factor = load_factor;
+   const Eigen::MatrixXd q = stuck_forces(reduced, cycle).q(load_factor);
+   for (Eigen::Index j = 0; j < q.cols(); ++j)
+   {
+      report.energy =
+         std::max(report.energy, 0.5 * q.col(j).dot(problem.residual.flexibility * q.col(j)));
+   }
+
+   ContactState state = ContactState::with_slip(reduced, start);
+   const Counters before = solver.counters();
+   const IncrementReport pressed = solver.solve(state, cycle.constant);
+   report.counters += solver.counters();
+   report.counters -= before;
+   report.status = pressed.status;
+   report.message = pressed.message;
+   report.slip = state.v;
+   if (pressed.status != FrictionStatus::converged &&
+       pressed.status != FrictionStatus::not_unique)
+   {
+      return report;
+   }
+
+   const Eigen::MatrixXd vertices = cycle.multipliers(load_factor);
+   std::vector<Eigen::VectorXd> points = {cycle.constant};
+   for (Eigen::Index j = 0; j < vertices.cols(); ++j) { points.push_back(vertices.col(j)); }
+   const bool from_constant = starts_at_constant(cycle);
+   points.push_back(from_constant ? points[0] : points[1]);
+   LoadHistory history = LoadHistory::through(points);
+   history.cycle_start = from_constant ? 0 : 1;
+   history.cycles = settings.cycles;
+   state.time = 0;
+   state.cycle_slip.clear();
+   const MarchReport marched = march(solver, history, state, settings.march);
+   report.status = marched.status;
+   report.message = marched.message;
+   report.steady_cycle = marched.steady_cycle;
+   report.steady_period = marched.steady_period;
+   report.counters += marched.counters;
+   report.slip = state.v;
+   for (const CycleRecord &record : marched.cycles)
+   {
+      report.dissipation.push_back(record.dissipation);
+   }
+   if (report.dissipation.empty()) { return report; }
+
+   const std::vector<double> &loss = report.dissipation;
+   // A steady state of period two loses little in one of its cycles only.
+   double last = std::abs(loss.back());
+   if (loss.size() > 1) { last = std::max(last, std::abs(loss[loss.size() - 2])); }
+   if (marched.steady_cycle > 0 && marched.steady_period == 1) { last = std::abs(loss.back()); }
+   const bool ended = marched.status == FrictionStatus::converged ||
+                      marched.status == FrictionStatus::not_unique;
+   const double little = settings.shaken_down * std::max(loss[0], report.energy);
+   report.shaken_down = ended && last <= little;
+   std::size_t end = 0;
+   while (end < loss.size() && loss[end] > little) { ++end; }
+   if (end >= 2)
+   {
+      const std::size_t first = std::min(end / 2, end - 2);
+      report.decay =
+         std::pow(loss[end - 1] / loss[first], 1.0 / static_cast<double>(end - 1 - first));
+   }
+   return report;
+}
+
+TransientBracket transient_bracket(const LimitProblem &problem, const LimitReport &limit,
+                                   double margin, const TransientSettings &settings)
+{
+   require(margin > 0 && margin < 1, "transient bracket: margin is ", margin,
+           ", must be above 0 and below 1");
+   require(limit.slip.size() == problem.reduced.A.rows(),
+           "transient bracket: the limit has no optimal slip: ", limit.message);
+   FrictionSolver solver(problem.reduced, settings.march.friction);
+   TransientBracket bracket;
+   for (const double sign : {0.0, 1.0, -1.0})
+   {
+      bracket.below.push_back(
+         transient(solver, problem, limit.limit * (1 - margin), sign * limit.slip, settings));
+      bracket.above.push_back(
+         transient(solver, problem, limit.limit * (1 + margin), sign * limit.slip, settings));
+   }
+   return bracket;
+}
+
+CounterExample find_counter_example(const LimitProblem &problem, const LimitReport &limit,
+                                    double proven, const CounterExampleSettings &settings)
+{
+   settings.validate();
+   const ReducedProblem &reduced = problem.reduced;
+   const Eigen::Index m = reduced.A.rows(), n = reduced.nodes();
+   require(limit.slip.size() == m,
+           "counter-example: the limit has no optimal slip: ", limit.message);
+   FrictionSolver solver(reduced, settings.transient.march.friction);
+   CounterExample found;
+   found.quiet = proven;
+   if (problem.residual.uncoupled)
+   {
+      found.quiet = limit.limit;
+      found.message = "uncoupled: there is none (proven)";
+      return found;
+   }
+
+   // Slips whose residual shear is of the size that friction can hold under the constant loads.
+   std::mt19937 random(settings.seed);
+   std::uniform_real_distribution<double> uniform(-1, 1);
+   const Eigen::VectorXd strength = reduced.friction.cwiseProduct(
+      reduced.clamped_forces(problem.cycle.constant).tail(n).cwiseMax(0.0));
+   std::vector<Eigen::VectorXd> starts;
+   for (const double factor : {-1.0, -3.0, 3.0, 0.0}) { starts.push_back(factor * limit.slip); }
+   for (int k = 0; k < settings.starts; ++k)
+   {
+      Eigen::VectorXd shear(m);
+      for (Eigen::Index i = 0; i < m; ++i) { shear[i] = uniform(random) * strength[i % n]; }
+      // Alternately rough and smooth (few sign changes: a random step).
+      if (k % 2 == 1)
+      {
+         const double position = uniform(random), height = uniform(random);
+         for (Eigen::Index i = 0; i < m; ++i)
+         {
+            const double x = 2.0 * static_cast<double>(i % n) / static_cast<double>(n) - 1;
+            shear[i] = (x < position ? 1 : -1) * height * strength[i % n];
+         }
+      }
+      starts.push_back(problem.residual.flexibility * shear);
+   }
+
+   double low = proven, high = limit.limit, trial = 0.98 * limit.limit;
+   for (int k = 0; k < settings.halvings && trial > low; ++k)
+   {
+      bool cycles = false;
+      for (const Eigen::VectorXd &start : starts)
+      {
+         const TransientReport report =
+            transient(solver, problem, trial, start, settings.transient);
+         ++found.marches;
+         found.counters += report.counters;
+         // Only a steady cycle with slip counts; a slow decay or a lost equilibrium does not.
+         if (report.steady_cycle > 0 && !report.shaken_down)
+         {
+            cycles = found.found = true;
+            found.load_factor = trial;
+            found.start = start;
+            found.dissipation = report.dissipation.back();
+            break;
+         }
+      }
+      if (cycles) { high = trial; }
+      else
+      {
+         low = found.quiet = trial;
+         if (!found.found) { break; }
+      }
+      trial = 0.5 * (low + high);
+   }
+   found.message = found.found
+                      ? "a start was found that slips for ever below the upper limit (observed)"
+                      : "no start was found that slips for ever (observed, not proven)";
+   return found;
+}
+
+} // namespace cattaneo

@@ -1,0 +1,167 @@
+#pragma once
+
+#include <algorithm>
+#include <cattaneo/shakedown/limit.hpp>
+#include <cmath>
+#include <limits>
+#include <random>
+
+/// Reduced problems and brute-force answers for the tests of the shakedown limits.
+namespace shakedown_test
+{
+
+using namespace cattaneo;
+
+inline Eigen::MatrixXd random_matrix(std::mt19937 &random, Eigen::Index rows, Eigen::Index cols)
+{
+   std::uniform_real_distribution<double> uniform(-1, 1);
+   return Eigen::MatrixXd::NullaryExpr(rows, cols, [&]() { return uniform(random); });
+}
+
+/** A random coupled contact of @a n nodes with @a c tangential components: patterns "press"
+    (positive pressures), "shear" and "twist". @a rigid: a free body, with tangential and normal
+    translations (and, for n > 2, a rotation) that cost nothing. */
+inline ReducedProblem random_contact(unsigned seed, Eigen::Index n, Eigen::Index c, bool rigid)
+{
+   std::mt19937 random(seed);
+   const Eigen::Index m = c * n;
+   const Eigen::MatrixXd G = random_matrix(random, m + n, m + n);
+   Eigen::MatrixXd K = G * G.transpose() / static_cast<double>(n);
+   K.diagonal().array() += 1;
+   if (rigid)
+   {
+      Eigen::MatrixXd modes = Eigen::MatrixXd::Zero(m + n, c + (n > 2 ? 2 : 1));
+      for (Eigen::Index k = 0; k <= c; ++k) { modes.block(k * n, k, n, 1).setOnes(); }
+      if (n > 2) { modes.block(m, c + 1, n, 1) = Eigen::VectorXd::LinSpaced(n, -1, 1); }
+      const Eigen::MatrixXd basis =
+         Eigen::HouseholderQR<Eigen::MatrixXd>(modes).householderQ() *
+         Eigen::MatrixXd::Identity(m + n, modes.cols());
+      const Eigen::MatrixXd keep =
+         Eigen::MatrixXd::Identity(m + n, m + n) - basis * basis.transpose();
+      K = keep * K * keep;
+      K = (0.5 * (K + K.transpose())).eval();
+   }
+   ReducedProblem problem;
+   problem.A = K.topLeftCorner(m, m);
+   problem.B = K.bottomLeftCorner(n, m);
+   problem.C = K.bottomRightCorner(n, n);
+   const auto vector = [&](Eigen::Index size)
+   { return Eigen::VectorXd(random_matrix(random, size, 1)); };
+   const Eigen::VectorXd pressure = vector(n).array() * 0.3 + 1;
+   problem.patterns = {
+      {"press", Control::force, 0.1 * vector(m), pressure},
+      {"shear", Control::force, vector(m).array() * 0.4 + 0.6, 0.3 * vector(n)},
+      {"twist", Control::force, 0.5 * vector(m), 0.3 * vector(n)}};
+   problem.H = Eigen::MatrixXd::Zero(3, 3);
+   problem.gap = Eigen::VectorXd::Zero(n);
+   problem.friction = vector(n).array() * 0.2 + 0.5;
+   return problem;
+}
+
+/** Like a square punch on an elastic half-plane: stiffness of the two half-planes' type on a
+   mesh that is graded to both edges, a coupling like that of dissimilar materials, tractions
+   that are smooth. Zero tangential and normal translations. */
+inline ReducedProblem punch_like(Eigen::Index n, double coupling = 0.1)
+{
+   Eigen::VectorXd x(n), weights(n);
+   for (Eigen::Index i = 0; i < n; ++i)
+   {
+      x[i] = -std::cos(M_PI * static_cast<double>(i) / static_cast<double>(n - 1));
+   }
+   for (Eigen::Index i = 0; i < n; ++i)
+   {
+      weights[i] = 0.5 * (x[std::min(i + 1, n - 1)] - x[std::max<Eigen::Index>(i - 1, 0)]);
+   }
+   ReducedProblem problem;
+   problem.A = Eigen::MatrixXd::Zero(n, n);
+   problem.B = Eigen::MatrixXd::Zero(n, n);
+   for (Eigen::Index i = 0; i < n; ++i)
+   {
+      for (Eigen::Index j = 0; j < n; ++j)
+      {
+         if (i == j) { continue; }
+         const double spring = weights[i] * weights[j] / (M_PI * (x[i] - x[j]) * (x[i] - x[j]));
+         problem.A(i, i) += spring;
+         problem.A(i, j) -= spring;
+      }
+   }
+   for (Eigen::Index e = 0; e + 1 < n; ++e)
+   {
+      problem.B.block(e, e, 2, 2) += 0.5 * coupling * Eigen::Matrix2d{{-1, 1}, {-1, 1}};
+   }
+   const Eigen::MatrixXd resultant = weights * Eigen::RowVectorXd::Ones(n) / weights.sum();
+   problem.B -= (resultant * problem.B).eval();
+   problem.C = problem.A;
+   problem.weights = weights;
+   problem.arc_length = x;
+   const Eigen::ArrayXd s = x.array(), bell = (1 - s.square()).square();
+   const Eigen::ArrayXd h = weights.array();
+   problem.patterns = {{"P", Control::force, 0.1 * h * s, 0.5 * h * (1 + 0.3 * s.square())},
+                       {"Q", Control::force, 0.5 * h * (0.7 + bell + 0.1 * s), -0.3 * h * s}};
+   problem.H = Eigen::MatrixXd::Zero(2, 2);
+   problem.gap = Eigen::VectorXd::Zero(n);
+   set_friction(problem, 0.85);
+   return problem;
+}
+
+/// A cycle of random vertices around a constant first pattern.
+inline LoadCycle random_cycle(unsigned seed, Eigen::Index patterns, Eigen::Index vertices)
+{
+   std::mt19937 random(seed + 1000);
+   LoadCycle cycle{Eigen::VectorXd::Zero(patterns), random_matrix(random, patterns, vertices)};
+   cycle.constant[0] = 1;
+   cycle.varying.row(0) *= 0.3;
+   return cycle;
+}
+
+/** The largest λ of a linear programme with one tangential component by brute force: every
+   corner of the admissible set of (λ, v) is the meeting of as many conditions as there are
+   unknowns.
+    @a n at most 3. A rigid slip is fixed by holding node 0. */
+inline double brute_force_load(const ReducedProblem &problem, const LoadCycle &cycle)
+{
+   const Eigen::Index n = problem.nodes();
+   const bool rigid = (problem.A * Eigen::VectorXd::Ones(n)).norm() < 1e-10;
+   const Eigen::Index first = rigid ? 1 : 0, unknowns = 1 + n - first;
+   const Eigen::VectorXd constant = problem.clamped_forces(cycle.constant);
+   const Eigen::Index rows = 2 * n * cycle.vertices();
+   Eigen::MatrixXd G(rows, unknowns); // G x + h >= 0
+   Eigen::VectorXd h(rows);
+   Eigen::Index row = 0;
+   for (Eigen::Index j = 0; j < cycle.vertices(); ++j)
+   {
+      const Eigen::VectorXd varying = problem.clamped_forces(cycle.varying.col(j));
+      for (Eigen::Index i = 0; i < n; ++i)
+      {
+         for (const double sign : {1.0, -1.0})
+         {
+            const double f = problem.friction[i];
+            const Eigen::RowVectorXd slip = f * problem.B.row(i) + sign * problem.A.row(i);
+            G(row, 0) = f * varying[n + i] + sign * varying[i];
+            G.row(row).tail(unknowns - 1) = slip.tail(n - first);
+            h[row++] = f * constant[n + i] + sign * constant[i];
+         }
+      }
+   }
+   double best = -std::numeric_limits<double>::infinity();
+   std::vector<bool> chosen(rows, false);
+   std::fill(chosen.begin(), chosen.begin() + unknowns, true);
+   do {
+      Eigen::MatrixXd equations(unknowns, unknowns);
+      Eigen::VectorXd right(unknowns);
+      Eigen::Index k = 0;
+      for (Eigen::Index r = 0; r < rows; ++r)
+      {
+         if (!chosen[r]) { continue; }
+         equations.row(k) = G.row(r);
+         right[k++] = -h[r];
+      }
+      const Eigen::FullPivLU<Eigen::MatrixXd> lu(equations);
+      if (!lu.isInvertible()) { continue; }
+      const Eigen::VectorXd corner = lu.solve(right);
+      if ((G * corner + h).minCoeff() > -1e-10) { best = std::max(best, corner[0]); }
+   } while (std::prev_permutation(chosen.begin(), chosen.end()));
+   return best;
+}
+
+} // namespace shakedown_test

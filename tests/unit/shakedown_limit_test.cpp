@@ -1,0 +1,310 @@
+#include <cattaneo/input_error.hpp>
+#include <gtest/gtest.h>
+#include <shakedown_problems.hpp>
+
+namespace
+{
+
+using namespace cattaneo;
+using namespace shakedown_test;
+
+/// n nodes without coupling, each its own spring, under pressure p and shear q at λ = 1.
+ReducedProblem springs(const Eigen::VectorXd &p, const Eigen::VectorXd &q)
+{
+   const Eigen::Index n = p.size();
+   ReducedProblem problem;
+   problem.A = problem.C = Eigen::MatrixXd::Identity(n, n);
+   problem.B = Eigen::MatrixXd::Zero(n, n);
+   problem.patterns = {{"P", Control::force, Eigen::VectorXd::Zero(n), p},
+                       {"Q", Control::force, q, Eigen::VectorXd::Zero(n)}};
+   problem.H = Eigen::MatrixXd::Zero(2, 2);
+   problem.gap = Eigen::VectorXd::Zero(n);
+   set_friction(problem, 0.5);
+   return problem;
+}
+
+TEST(LoadLimit, IsThatOfTheWeakestSpring)
+{
+   // Each node alone: a slip centres the shear, so that 2 f p = λ (1 - R) q.
+   const ReducedProblem problem = springs(Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(1, 3, 2));
+   const LimitReport report =
+      load_limit(limit_problem(problem, held_and_cycled(problem, "P", 2, "Q", -0.5)));
+   EXPECT_EQ(report.status, LimitStatus::certified) << report.message;
+   const double expected = 2 * 0.5 * (2 * 2) / (1.5 * 3);
+   EXPECT_LE(report.lower, expected * (1 + 1e-14));
+   EXPECT_GE(report.upper, expected * (1 - 1e-14));
+   EXPECT_NEAR(report.limit, expected, 1e-8);
+   EXPECT_LE(report.violation, 0);
+   EXPECT_EQ(report.counters.limit_solves, 1);
+}
+
+TEST(LoadLimit, IsGrossSlidingForAFreeBodyUnderSteadyShear)
+{
+   // R = 1: any distribution of the shear is within reach, until all nodes slide: λ ΣQ = Σ f P.
+   for (const unsigned seed : {1u, 2u, 3u})
+   {
+      ReducedProblem problem = random_contact(seed, 6, 1, true);
+      problem.patterns[1].p.setZero();
+      set_friction(problem, 0.2);
+      const LimitReport report =
+         load_limit(limit_problem(problem, held_and_cycled(problem, "press", 1, "shear", 1)));
+      // The pattern's own shear has a resultant here.
+      const double expected =
+         (0.2 * problem.patterns[0].p.sum() - problem.patterns[0].q.sum()) /
+         problem.patterns[1].q.sum();
+      ASSERT_EQ(report.status, LimitStatus::certified) << report.message;
+      EXPECT_NEAR(report.limit, expected, 1e-6 * expected) << seed;
+   }
+}
+
+TEST(LoadLimit, EqualsBruteForce)
+{
+   for (unsigned seed = 0; seed < 12; ++seed)
+   {
+      const Eigen::Index n = 2 + seed % 2;
+      const bool rigid = seed % 4 >= 2;
+      const ReducedProblem problem = random_contact(seed, n, 1, rigid);
+      const LoadCycle cycle = random_cycle(seed, 3, 2 + seed % 3);
+      const LimitProblem limit = limit_problem(problem, cycle);
+      EXPECT_EQ(limit.residual.rigid.cols(), rigid ? 1 : 0);
+      const double expected = brute_force_load(problem, cycle);
+      const LimitReport report = load_limit(limit);
+      ASSERT_EQ(report.status, LimitStatus::certified) << seed << ": " << report.message;
+      EXPECT_NEAR(report.limit, expected, 1e-7 * expected) << seed;
+      EXPECT_LE(report.lower, expected * (1 + 1e-12)) << seed;
+      EXPECT_GE(report.upper, expected * (1 - 1e-12)) << seed;
+   }
+}
+
+TEST(FrictionLimit, InvertsTheLoadLimit)
+{
+   for (const bool rigid : {false, true})
+   {
+      LimitProblem problem =
+         limit_problem(random_contact(7, 9, 1, rigid), random_cycle(7, 3, 4));
+      const double load_factor = 0.4;
+      const LimitReport friction = friction_limit(problem, load_factor);
+      ASSERT_EQ(friction.status, LimitStatus::certified) << friction.message;
+      EXPECT_LE(friction.upper - friction.lower, 1e-6 * friction.upper);
+      EXPECT_LE(friction.violation, 0);
+      set_friction(problem.reduced, friction.upper);
+      EXPECT_GE(load_limit(problem).upper, load_factor);
+      set_friction(problem.reduced, friction.lower);
+      EXPECT_LE(load_limit(problem).lower, load_factor);
+   }
+}
+
+TEST(FrictionLimit, IsThatOfTheWeakestSpring)
+{
+   const ReducedProblem problem = springs(Eigen::Vector2d(1, 2), Eigen::Vector2d(0.3, 1));
+   const LimitReport report =
+      friction_limit(limit_problem(problem, held_and_cycled(problem, "P", 1, "Q", -0.5)), 1.0);
+   EXPECT_EQ(report.status, LimitStatus::certified) << report.message;
+   EXPECT_NEAR(report.limit, 1.5 * 1 / (2 * 2), 1e-6);
+   EXPECT_LE(report.lower, 0.375);
+   EXPECT_GE(report.upper, 0.375);
+}
+
+TEST(FrictionLimit, DiscOfOneSpringIsHalfTheLargestDistance)
+{
+   // One node, three load vertices whose shears form a 3-4-5 triangle: the smallest disc that
+   // holds it has the long side as its diameter.
+   ReducedProblem problem;
+   problem.A = Eigen::Matrix2d::Identity();
+   problem.B = Eigen::MatrixXd::Zero(1, 2);
+   problem.C = Eigen::MatrixXd::Identity(1, 1);
+   problem.patterns = {
+      {"P", Control::force, Eigen::Vector2d::Zero(), Eigen::VectorXd::Constant(1, 10)},
+      {"r", Control::force, Eigen::Vector2d(1, 0), Eigen::VectorXd::Zero(1)},
+      {"c", Control::force, Eigen::Vector2d(0, 1), Eigen::VectorXd::Zero(1)}};
+   problem.H = Eigen::MatrixXd::Zero(3, 3);
+   problem.gap = Eigen::VectorXd::Zero(1);
+   set_friction(problem, 0.5);
+   LoadCycle cycle{Eigen::Vector3d(1, 0, 0), Eigen::MatrixXd::Zero(3, 3)};
+   cycle.varying.bottomRows(2) << 0, 3, 0, 0, 0, 4;
+   const LimitProblem limit = limit_problem(problem, cycle);
+   const LimitReport friction = friction_limit(limit, 1.0);
+   EXPECT_EQ(friction.status, LimitStatus::certified) << friction.message;
+   EXPECT_NEAR(friction.limit, 0.25, 1e-6);
+   const LimitReport load = load_limit(limit);
+   EXPECT_EQ(load.status, LimitStatus::certified) << load.message;
+   EXPECT_NEAR(load.limit, 0.5 * 10 / 2.5, 1e-6);
+   EXPECT_NEAR(load.slip[0], -1.5 * load.limit, 1e-4);
+   EXPECT_NEAR(load.slip[1], -2.0 * load.limit, 1e-4);
+}
+
+TEST(Limit, DegenerateCasesHaveStatusesAndMessages)
+{
+   const ReducedProblem problem = random_contact(3, 5, 1, true);
+   // No shear: nothing to limit; and what the pressing alone needs is below what it needs with
+   // it.
+   LoadCycle steady{Eigen::Vector3d(1, 0, 0), Eigen::MatrixXd::Zero(3, 2)};
+   LimitReport report = load_limit(limit_problem(problem, steady));
+   EXPECT_EQ(report.status, LimitStatus::unlimited);
+   EXPECT_NE(report.message, "");
+   // A shear that the pressing itself causes can be relieved altogether: no friction needed.
+   ReducedProblem relieved = problem;
+   relieved.patterns[0].q = relieved.A * Eigen::VectorXd::LinSpaced(5, 0, 0.1);
+   report = friction_limit(limit_problem(relieved, steady), 1.0);
+   EXPECT_EQ(report.status, LimitStatus::certified) << report.message;
+   EXPECT_LT(report.upper, 1e-6);
+   // Load that varies by pressing harder.
+   const ReducedProblem simple = springs(Eigen::Vector2d(1, 1), Eigen::Vector2d(1, 1));
+   report = load_limit(
+      limit_problem(simple, {Eigen::Vector2d(1, 0), Eigen::Matrix2d{{0, 1}, {0, 0}}}));
+   EXPECT_EQ(report.status, LimitStatus::unlimited);
+   EXPECT_EQ(report.upper, std::numeric_limits<double>::infinity());
+   EXPECT_GT(report.lower, 1e3);
+
+   // Pulling: nothing presses the contact together.
+   report =
+      load_limit(limit_problem(problem, held_and_cycled(problem, "press", -1, "shear", 0)));
+   EXPECT_EQ(report.status, LimitStatus::no_solution);
+   report = friction_limit(
+      limit_problem(problem, held_and_cycled(problem, "press", -1, "shear", 0)), 1);
+   EXPECT_EQ(report.status, LimitStatus::no_solution);
+
+   // Constant shear above gross sliding: no state, however the shear is distributed.
+   LoadCycle sliding{Eigen::Vector3d(1, 50, 0), Eigen::MatrixXd::Zero(3, 2)};
+   sliding.varying.row(2) << 1, -1;
+   report = load_limit(limit_problem(problem, sliding));
+   EXPECT_EQ(report.status, LimitStatus::no_solution);
+   EXPECT_NE(report.message.find("proven"), std::string::npos) << report.message;
+
+   // Cyclic pull-off of one node: no friction coefficient helps an uncoupled one.
+   ReducedProblem pulled = springs(Eigen::Vector2d(1, 1), Eigen::Vector2d(0.1, 0.1));
+   pulled.patterns[1].p = Eigen::Vector2d(0, -2);
+   report = friction_limit(limit_problem(pulled, held_and_cycled(pulled, "P", 1, "Q", 0)), 1.0);
+   EXPECT_EQ(report.status, LimitStatus::no_solution);
+   EXPECT_NE(report.message.find("proven"), std::string::npos) << report.message;
+   // It is the separation that limits the load.
+   report = load_limit(limit_problem(pulled, held_and_cycled(pulled, "P", 1, "Q", 0)));
+   EXPECT_EQ(report.status, LimitStatus::certified) << report.message;
+   EXPECT_LT(report.limit, 0.5);
+
+   // R towards 1: the limit tends to that of the steady shear.
+   ReducedProblem steadier = problem;
+   double last = 0;
+   for (const double reversal : {0.0, 0.9, 0.999, 1.0})
+   {
+      report = load_limit(
+         limit_problem(steadier, held_and_cycled(steadier, "press", 1, "shear", reversal)));
+      ASSERT_EQ(report.status, LimitStatus::certified) << reversal << report.message;
+      EXPECT_GE(report.limit, last * (1 - 1e-6));
+      last = report.limit;
+   }
+}
+
+TEST(Limit, RefusesBadInput)
+{
+   ReducedProblem problem = random_contact(3, 4, 1, false);
+   const LoadCycle cycle = random_cycle(3, 3, 2);
+   EXPECT_THROW(limit_problem(problem, random_cycle(3, 2, 2)), InputError);
+   EXPECT_THROW(held_and_cycled(problem, "press", 1, "shear", 1.5), InputError);
+   EXPECT_THROW(held_and_cycled(problem, "press", 1, "bend", 0), InputError);
+   LimitSettings settings;
+   settings.tolerance = 0;
+   EXPECT_THROW(load_limit(limit_problem(problem, cycle), settings), InputError);
+   problem.friction[2] = 0;
+   EXPECT_THROW(load_limit(limit_problem(problem, cycle)), InputError);
+   problem.gap[1] = 1;
+   EXPECT_THROW(limit_problem(problem, cycle), InputError);
+   problem.gap[1] = 0;
+   // A slip that needs no tangential force but changes the pressure would be free energy.
+   problem.A = Eigen::MatrixXd::Identity(4, 4) - Eigen::MatrixXd::Constant(4, 4, 0.25);
+   problem.B = Eigen::MatrixXd::Identity(4, 4);
+   EXPECT_THROW(limit_problem(problem, cycle), InputError);
+}
+
+TEST(Limit, DoesNotDependOnUnits)
+{
+   const ReducedProblem problem = punch_like(33);
+   const LoadCycle cycle = held_and_cycled(problem, "P", 1, "Q", -0.5);
+   const LimitReport load = load_limit(limit_problem(problem, cycle));
+   const LimitReport friction = friction_limit(limit_problem(problem, cycle), 0.6);
+   ASSERT_EQ(load.status, LimitStatus::certified);
+   ASSERT_EQ(friction.status, LimitStatus::certified);
+   for (const double force : {1e-9, 1e9})
+   {
+      for (const double length : {1e-9, 1e9})
+      {
+         ReducedProblem scaled = problem;
+         for (Eigen::MatrixXd *M : {&scaled.A, &scaled.B, &scaled.C}) { *M *= force / length; }
+         for (LoadPattern &pattern : scaled.patterns)
+         {
+            pattern.q *= force;
+            pattern.p *= force;
+         }
+         const LimitProblem limit = limit_problem(scaled, cycle);
+         const LimitReport other = load_limit(limit);
+         EXPECT_EQ(other.iterations, load.iterations);
+         EXPECT_NEAR(other.limit, load.limit, 1e-10);
+         EXPECT_NEAR(other.upper, load.upper, 1e-10);
+         EXPECT_LT((other.slip / length - load.slip).norm(), 1e-6 * load.slip.norm());
+         const LimitReport smallest = friction_limit(limit, 0.6);
+         EXPECT_EQ(smallest.iterations, friction.iterations);
+         EXPECT_NEAR(smallest.limit, friction.limit, 1e-9);
+      }
+   }
+}
+
+TEST(Limit, WarmStartTakesFewerIterationsToTheSameAnswer)
+{
+   const ReducedProblem punch = punch_like(65);
+   LimitProblem problem = limit_problem(punch, held_and_cycled(punch, "P", 1, "Q", -0.5));
+   const LimitReport first = load_limit(problem);
+   set_friction(problem.reduced, 0.87);
+   const LimitReport cold = load_limit(problem);
+   LimitSettings settings;
+   settings.start = &first;
+   const LimitReport warm = load_limit(problem, settings);
+   EXPECT_EQ(warm.status, LimitStatus::certified);
+   EXPECT_LT(2 * warm.iterations, cold.iterations);
+   EXPECT_NEAR(warm.limit, cold.limit, 1e-7 * cold.limit);
+}
+
+TEST(WeakDuality, BoundsTheLimitFromAnyMotion)
+{
+   // Whatever motion it is given: the repaired one must bound the brute-force limit from above.
+   int finite = 0, close = 0;
+   for (unsigned seed = 0; seed < 60; ++seed)
+   {
+      const Eigen::Index n = 2 + seed % 2;
+      const ReducedProblem problem = random_contact(seed, n, 1, seed % 4 >= 2);
+      const LoadCycle cycle = random_cycle(seed, 3, 2);
+      const ResidualForces residual = residual_forces(problem);
+      ConeProgramme programme;
+      programme.residual = &residual;
+      programme.friction = problem.friction;
+      programme.loads = stuck_forces(problem, cycle);
+      programme.force_scale = Eigen::VectorXd::Ones(n);
+      const double limit = brute_force_load(problem, cycle);
+      std::mt19937 random(seed);
+      for (int k = 0; k < 50; ++k)
+      {
+         CollapseMechanism mechanism{random_matrix(random, n, 2),
+                                     0.5 * random_matrix(random, n, 2).cwiseAbs()};
+         const double bound = weak_duality_bound(programme, problem, mechanism, 0);
+         EXPECT_GE(bound, limit * (1 - 1e-12)) << seed << ' ' << k;
+         finite += std::isfinite(bound);
+         close += bound < 2 * limit;
+         if (!std::isfinite(bound)) { continue; }
+         // The mechanism that proves it does so by its own figures.
+         const Eigen::VectorXd imbalance =
+            problem.A * mechanism.slip.rowwise().sum() +
+            problem.B.transpose() * mechanism.opening.rowwise().sum();
+         EXPECT_LT(imbalance.norm(), 1e-11 * mechanism.opening.norm());
+         for (Eigen::Index j = 0; j < 2; ++j)
+         {
+            EXPECT_GE((mechanism.opening.col(j) -
+                       problem.friction.cwiseProduct(mechanism.slip.col(j).cwiseAbs()))
+                         .minCoeff(),
+                      -1e-14 * mechanism.opening.maxCoeff());
+         }
+      }
+   }
+   EXPECT_GT(finite, 100);
+   EXPECT_GT(close, 0);
+}
+
+} // namespace

@@ -1,0 +1,192 @@
+#include <cattaneo/shakedown/lower_limit.hpp>
+#include <gtest/gtest.h>
+#include <shakedown_problems.hpp>
+
+namespace
+{
+
+using namespace cattaneo;
+using namespace shakedown_test;
+
+/** Slip of a closed contact in the last of @a cycles cycles, by small implicit steps: at each,
+   node after node, q beyond ±f p is brought back to it by its own slip. Independent of the
+   library; good for moderate friction. Returns -1 if a node separates. */
+double slip_in_the_last_cycle(const ReducedProblem &problem, const LoadCycle &cycle,
+                              double load_factor, Eigen::VectorXd v, int cycles)
+{
+   const Eigen::Index n = problem.nodes();
+   const int steps = 10;
+   double last = 0;
+   const auto hold = [&](const Eigen::VectorXd &multipliers)
+   {
+      const Eigen::VectorXd clamped = problem.clamped_forces(multipliers);
+      const Eigen::VectorXd before = v;
+      for (int sweep = 0; sweep < 2000; ++sweep)
+      {
+         double change = 0;
+         for (Eigen::Index i = 0; i < n; ++i)
+         {
+            const double f = problem.friction[i];
+            const double q = clamped[i] + problem.A.row(i).dot(v);
+            const double p = clamped[n + i] + problem.B.row(i).dot(v);
+            double step = 0;
+            if (q > f * p) { step = -(q - f * p) / (problem.A(i, i) - f * problem.B(i, i)); }
+            else if (q < -f * p)
+            {
+               step = -(q + f * p) / (problem.A(i, i) + f * problem.B(i, i));
+            }
+            v[i] += step;
+            change = std::max(change, std::abs(step));
+         }
+         if (change < 1e-15) { break; }
+      }
+      last += (v - before).cwiseAbs().sum();
+      const Eigen::VectorXd p = clamped.tail(n) + problem.B * v;
+      return p.minCoeff() > -1e-12;
+   };
+   for (int k = 0; k < cycles; ++k)
+   {
+      last = 0;
+      for (Eigen::Index j = 0; j < cycle.vertices(); ++j)
+      {
+         const Eigen::VectorXd from = cycle.multipliers(load_factor).col(j);
+         const Eigen::VectorXd to =
+            cycle.multipliers(load_factor).col((j + 1) % cycle.vertices());
+         for (int s = 1; s <= steps; ++s)
+         {
+            if (!hold(from + (to - from) * s / steps)) { return -1; }
+         }
+      }
+      if (last < 1e-13) { break; }
+   }
+   return last;
+}
+
+/** Node 1 feels the slip of node 0 in its pressure, node 0 does not feel node 1: whether every
+   start shakes down can be said by hand. Node 0 ends anywhere in |a v0| ≤ f P - λ r; node 1
+   then sticks if f (P + b v0) ≥ λ s. So λ1 is decided by the lowest v0, λ2 by the highest. */
+ReducedProblem chain(double a, double b, double r, double s)
+{
+   ReducedProblem problem;
+   problem.A = a * Eigen::Matrix2d::Identity();
+   problem.B = Eigen::Matrix2d{{0, 0}, {b, 0}};
+   problem.C = a * Eigen::Matrix2d::Identity();
+   problem.patterns = {{"P", Control::force, Eigen::Vector2d::Zero(), Eigen::Vector2d(1, 1)},
+                       {"Q", Control::force, Eigen::Vector2d(r, s), Eigen::Vector2d::Zero()}};
+   problem.H = Eigen::MatrixXd::Zero(2, 2);
+   problem.gap = Eigen::Vector2d::Zero();
+   set_friction(problem, 0.5);
+   return problem;
+}
+
+TEST(LowerLimit, OfAChainOfTwoNodesByHand)
+{
+   const double a = 2, b = 0.8, r = 0.3, s = 1, f = 0.5;
+   const ReducedProblem problem = chain(a, b, r, s);
+   const LimitProblem limit = limit_problem(problem, held_and_cycled(problem, "P", 1, "Q", -1));
+   const LimitReport upper = load_limit(limit);
+   // f (1 ± b (f - λ r) / a) = λ s
+   EXPECT_NEAR(upper.limit, f * (1 + b * f / a) / (s + f * b * r / a), 1e-8);
+   const LowerLimitReport lower = lower_limit(limit, upper);
+   EXPECT_EQ(lower.kind, LowerLimitKind::two_nodes);
+   EXPECT_NEAR(lower.value, f * (1 - b * f / a) / (s - f * b * r / a), 1e-12);
+}
+
+TEST(LowerLimit, OfTwoNodesAgreesWithMarches)
+{
+   // Random coupled pairs: below λ1 every start shakes down; half-way to λ2 some start does
+   // not, and some does.
+   std::mt19937 random(11);
+   int pairs = 0;
+   for (unsigned seed = 100; seed < 160 && pairs < 8; ++seed)
+   {
+      ReducedProblem problem = random_contact(seed, 2, 1, false);
+      for (LoadPattern &pattern : problem.patterns) { pattern.p = pattern.p.cwiseAbs(); }
+      problem.patterns[1].p.setZero();
+      const LoadCycle cycle = held_and_cycled(problem, "press", 1, "shear", -0.7);
+      const LimitProblem limit = limit_problem(problem, cycle);
+      const LimitReport upper = load_limit(limit);
+      ASSERT_EQ(upper.status, LimitStatus::certified) << upper.message;
+      const LowerLimitReport lower = lower_limit(limit, upper);
+      ASSERT_EQ(lower.kind, LowerLimitKind::two_nodes);
+      EXPECT_LE(lower.value, upper.limit);
+      // The theory is for a rate problem with one solution.
+      if ((problem.friction.asDiagonal() * problem.B.cwiseAbs() *
+           problem.A.diagonal().cwiseInverse().asDiagonal())
+             .maxCoeff() > 0.5)
+      {
+         continue;
+      }
+      if (lower.value < 0.05 * upper.limit || lower.value > 0.9 * upper.limit) { continue; }
+      ++pairs;
+      const double just_above = lower.value + 0.1 * (upper.limit - lower.value);
+      int closed_below = 0, cyclic = 0, shaken = 0;
+      for (int k = 0; k < 100; ++k)
+      {
+         const Eigen::VectorXd start = 2 * random_matrix(random, 2, 1);
+         const double below =
+            slip_in_the_last_cycle(problem, cycle, 0.98 * lower.value, start, 3000);
+         closed_below += below >= 0;
+         EXPECT_LT(below, 1e-9) << seed << ' ' << start.transpose();
+         // Around the critical corner, where starts that cycle are first found.
+         const double above =
+            slip_in_the_last_cycle(problem, cycle, just_above, lower.slip + 0.5 * start, 500);
+         cyclic += above > 1e-4;
+         shaken += above >= 0 && above < 1e-9;
+      }
+      EXPECT_GT(closed_below, 20) << seed;
+      EXPECT_GT(cyclic, 0) << seed << ' ' << lower.value << ' ' << upper.limit;
+      EXPECT_GT(shaken, 0) << seed;
+   }
+   EXPECT_EQ(pairs, 8);
+}
+
+TEST(LowerLimit, BoundHoldsInMarches)
+{
+   for (const unsigned seed : {1u, 2u, 3u, 4u})
+   {
+      ReducedProblem problem = random_contact(seed, 5, 1, seed % 2 == 0);
+      problem.B *= 0.2;
+      const LoadCycle cycle = held_and_cycled(problem, "press", 1, "shear", -0.7);
+      const LimitProblem limit = limit_problem(problem, cycle);
+      const LimitReport upper = load_limit(limit);
+      const LowerLimitReport lower = lower_limit(limit, upper);
+      ASSERT_EQ(lower.kind, LowerLimitKind::bound) << lower.message;
+      EXPECT_GT(lower.value, 0);
+      EXPECT_LE(lower.value, upper.limit);
+      std::mt19937 random(seed);
+      for (int k = 0; k < 20; ++k)
+      {
+         const double last = slip_in_the_last_cycle(problem, cycle, 0.99 * lower.value,
+                                                    random_matrix(random, 5, 1), 2000);
+         EXPECT_LT(std::abs(last), 1e-9) << seed;
+      }
+   }
+}
+
+TEST(LowerLimit, OfAnUncoupledContactIsTheUpper)
+{
+   const ReducedProblem problem = punch_like(33, 0);
+   const LimitProblem limit =
+      limit_problem(problem, held_and_cycled(problem, "P", 1, "Q", -0.5));
+   const LimitReport upper = load_limit(limit);
+   const LowerLimitReport lower = lower_limit(limit, upper);
+   EXPECT_EQ(lower.kind, LowerLimitKind::uncoupled);
+   EXPECT_EQ(lower.value, upper.limit);
+   std::mt19937 random(5);
+   EXPECT_LT(slip_in_the_last_cycle(problem, limit.cycle, 0.9 * upper.limit,
+                                    0.2 * random_matrix(random, 33, 1), 300),
+             1e-9);
+}
+
+TEST(LowerLimit, SaysWhenItKnowsNothing)
+{
+   const ReducedProblem problem = punch_like(65, 1.5);
+   const LimitProblem limit =
+      limit_problem(problem, held_and_cycled(problem, "P", 1, "Q", -0.5));
+   const LowerLimitReport lower = lower_limit(limit, load_limit(limit));
+   EXPECT_EQ(lower.kind, LowerLimitKind::none);
+   EXPECT_NE(lower.message, "");
+}
+
+} // namespace
