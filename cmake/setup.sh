@@ -8,7 +8,7 @@ build=build/$(printf %s "$build_type" | tr '[:upper:]' '[:lower:]')
 deps=build/deps
 mfem_version=4.10.0.1
 packages="g++ cmake ninja-build zlib1g libeigen3-dev libsuitesparse-dev libopenblas-dev
-   coinor-libipopt-dev nlohmann-json3-dev libgtest-dev"
+   coinor-libipopt-dev nlohmann-json3-dev libgtest-dev python3-matplotlib"
 
 say() { printf '%s\n' "cattaneo: $*" >&2; }
 die() { say "$*"; exit 1; }
