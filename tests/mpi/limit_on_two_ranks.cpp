@@ -1,6 +1,6 @@
-// Debian's Ipopt brings a sequential MUMPS with a stub of MPI. If the stub were linked in front of
-// the real one, every rank would run alone without a word. Run on two ranks: both must know of each
-// other, before and after a limit programme, and agree on the limit.
+// Debian's Ipopt brings a sequential MUMPS with a stub of MPI. If the stub were linked in front
+// of the real one, every rank would run alone without a word. Run on two ranks: both must know
+// of each other, before and after a limit programme, and agree on the limit.
 
 #include <cattaneo/shakedown/limit.hpp>
 #include <cstdio>

@@ -56,8 +56,8 @@ TEST(ShakedownStudy, ReadsWhatItSaves)
    EXPECT_EQ(punch.results["friction_limit"], saved.results["friction_limit"]);
    EXPECT_EQ(punch.results["load_limit"], saved.results["load_limit"]);
    // A contact that stays closed everywhere is its own closed part.
-   const Outcome closed =
-      run_miniapp("shakedown", "-reduced '" + file + "' -closed -lambda-max 0.2 -reversal -0.5");
+   const Outcome closed = run_miniapp(
+      "shakedown", "-reduced '" + file + "' -closed -lambda-max 0.2 -reversal -0.5");
    EXPECT_EQ(closed.results["closed_nodes"], 33) << closed.output;
    EXPECT_EQ(closed.results["load_limit"], saved.results["load_limit"]);
    std::remove(file.c_str());
