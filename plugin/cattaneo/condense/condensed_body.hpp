@@ -9,7 +9,10 @@ namespace cattaneo
 {
 
 /** One body reduced to its contact nodes (thesis 3.2):  f = S u + Σ λ_k f_k, in the local
-   frames of the contact line: u = {v; w}, f = {q; p}, all tangential entries first. */
+   frames of the contact line: u = {v; w}, f = {q; p}, all tangential entries first.
+
+    It keeps the sparse factor and what its loads need, but neither the ElasticBody nor the
+   mesh. */
 class CondensedBody
 {
 public:
@@ -30,6 +33,8 @@ public:
 
    struct Operator; ///< factor and dof lists, shared between equal bodies
    std::shared_ptr<const Operator> op;
+   struct Loads; ///< right-hand sides and prescribed values of this body's patterns
+   std::shared_ptr<const Loads> loads;
 };
 
 struct CondenseSettings
@@ -38,12 +43,13 @@ struct CondenseSettings
 };
 
 /** Condenses a body to the nodes of a contact line: one factorisation, contact dofs last, one
-   solve a load pattern. If `alike` was condensed from an equal operator (same numbers, supports
-   and contact dofs, as for the second of two equal bodies turned by 180° or shifted) its factor
-   is used and nothing is factored.
+   solve a load pattern. If `alike` was condensed from an equal operator (entries equal to 1e-12
+   of the largest, same supports, same contact dofs in the same order, as for the second of two
+   equal bodies turned by 180° or shifted) its factor is used and nothing is factored.
 
     InputError, before factoring, if the supports and the contact nodes together leave a rigid
-   motion free, or if a contact dof is fixed or prescribed. */
+   motion of the body (or of a part that is connected to nothing) free, or if a contact dof is
+   fixed or prescribed; afterwards if the operator is not positive definite. */
 CondensedBody condense(const ElasticBody &body, const ContactLine &line,
                        const CondenseSettings &settings = {},
                        const CondensedBody *alike = nullptr);

@@ -1,16 +1,35 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <cattaneo/input_error.hpp>
 #include <memory>
 #include <mfem.hpp>
+#include <string>
+#include <vector>
 
 namespace cattaneo
 {
 
+/// The matrix to be factored has a pivot that is not positive.
+class NotPositiveDefinite : public InputError
+{
+public:
+   NotPositiveDefinite(int row_of_K, const std::string &message)
+      : InputError(message), row(row_of_K)
+   {
+   }
+   int row; ///< row of the whole matrix at which it was found out
+};
+
 /** A sparse Cholesky factor of a symmetric positive definite matrix whose last rows (the
-   "trailing" ones) were ordered last, so that the trailing Schur complement can be read off it.
-   The one place that knows CHOLMOD; without it (CATTANEO_USE_CHOLMOD=OFF, or backend::eigen)
-   Eigen does the same, slower, with permissive licences only. */
+   "trailing" ones) were ordered last, so that the trailing Schur complement can be read off it:
+
+       [K11 K12]   [L11    ] [L11ᵀ L21ᵀ]
+       [K21 K22] = [L21 L22] [     L22ᵀ],   K22 - K21 K11⁻¹ K12 = L22 L22ᵀ.
+
+    The one place that knows CHOLMOD; without it (CATTANEO_USE_CHOLMOD=OFF, or Backend::eigen)
+   Eigen does the same, slower, with permissive licences only. Not safe for use by several
+   threads at once. */
 class SparseFactor
 {
 public:
@@ -23,8 +42,9 @@ public:
    static bool has_cholmod();
 
    /// Factors K(keep, keep) + diag(shift on the trailing rows). `keep`: rows of K in any order,
-   /// of which the last `trailing` are the trailing ones. InputError naming the row of K if the
-   /// matrix is not positive definite.
+   /// of which the last `trailing` are the trailing ones. K is taken for symmetric: only one
+   /// triangle is read, and K is not kept. Throws NotPositiveDefinite (an InputError) naming
+   /// the row of K.
    SparseFactor(const mfem::SparseMatrix &K, const std::vector<int> &keep, int trailing,
                 double shift, Backend backend = Backend::automatic);
    ~SparseFactor();
@@ -33,14 +53,16 @@ public:
 
    /// Schur complement of the trailing rows, in the order of `keep`, without the shift.
    Eigen::MatrixXd schur() const;
-   /// Solves with the factored (shifted) matrix; x in the order of `keep`.
+   /// Solves with the factored (shifted) matrix, one right-hand side a column; rows in the
+   /// order of `keep`.
    Eigen::MatrixXd solve(const Eigen::MatrixXd &rhs) const;
    int rows() const;
-   /// Number of non-zeros of the factor.
+   /// Number of non-zeros of the factor (with CHOLMOD: stored entries of its supernodes).
    long nonzeros() const;
 
-private:
    struct Implementation;
+
+private:
    std::unique_ptr<Implementation> impl_;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <array>
 #include <cattaneo/elastic/body.hpp>
 #include <vector>
 
@@ -11,9 +12,14 @@ namespace cattaneo
 
     Nodes run along the boundary with the body on the left. Each node has a right-handed local
     frame (tangent, normal) with the normal *into* the body (thesis 3.2.1); at a node between
-   two boundary elements the normals are averaged with the elements' consistent weights. Several
-    separate chains are allowed; they follow each other, each with its own arc length from its
-   own start (continued, so that it grows along the whole line). */
+   two boundary elements the normals are averaged with the elements' consistent weights. A
+   straight line of a body above y = 0 has tangent (1, 0) and normal (0, 1); of a body below,
+   (-1, 0) and (0, -1). All of this comes from the elements that the boundary elements are edges
+   of, not from the order or the orientation of the boundary elements.
+
+    Several separate chains are allowed; they follow each other in the order of their first
+   nodes (lowest x, then y), and the arc length continues from one to the next. A closed loop
+   starts at its lowest vertex (x, then y) and does not repeat it. */
 struct ContactLine
 {
    std::vector<int> scalar_dofs;              ///< node of the space

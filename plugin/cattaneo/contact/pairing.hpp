@@ -12,10 +12,12 @@ struct Pairing
    Eigen::VectorXd gap;      ///< from geometry: (x1 - x2)·n1, positive if apart
 };
 
-/** Pairs every node of line 1 with the node of line 2 nearest to it along the tangent: the
-   offset along the tangent may be at most `tolerance` times the local edge length. Offsets
-   along the normal are the gap. InputError with both lists of unmatched nodes (coordinates)
-   otherwise. */
+/** Pairs every node of line 1 with the node of line 2 that faces it (normals of opposite sense)
+   and is nearest to it across the interface, among those whose offset along the tangent is at
+   most `tolerance` times the local edge length (the shorter one of the two lines). The tangent
+   is the mean of both bodies', so that the pairing does not depend on which body is called the
+   first. Offsets along the normal are the gap. InputError with both lists of unmatched nodes
+   (coordinates) unless every node of both lines has one partner. */
 Pairing pair_lines(const ContactLine &line1, const ContactLine &line2, double tolerance = 1e-6);
 
 } // namespace cattaneo

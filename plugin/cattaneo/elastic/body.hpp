@@ -5,7 +5,6 @@
 #include <cattaneo/elastic/boundary_part.hpp>
 #include <cattaneo/elastic/material.hpp>
 #include <cattaneo/reduced/reduced_problem.hpp>
-#include <map>
 #include <memory>
 #include <mfem.hpp>
 #include <string>
@@ -19,10 +18,11 @@ namespace cattaneo
 
     The stiffness is *not* eliminated: reactions and prescribed displacements need all of it.
    The space is the nodal Gauss–Lobatto one, ordered byVDIM or byNODES: other bases have edge
-   weights of both signs and are refused (see NUMERICS in the design notes: nodal
-   complementarity).
+   weights of both signs, or dofs that are no nodal values, and are refused.
 
-    Components: 0 = x, 1 = y. Forces are per unit thickness. */
+    Components: 0 = x, 1 = y. Forces are per unit thickness. Everything that is named by a
+    BoundaryPart throws InputError if the attribute does not exist or nothing lies in the
+   interval. */
 class ElasticBody
 {
 public:
@@ -38,9 +38,12 @@ public:
    /// (orthotropic, user integrators, …). Copies the matrix; the space must outlive the body.
    ElasticBody(mfem::FiniteElementSpace &space, const mfem::SparseMatrix &stiffness);
 
+   ElasticBody(ElasticBody &&) = default;
+   ElasticBody &operator=(ElasticBody &&) = default;
+
    /// No displacement of this component on the nodes of a boundary part.
    void fix(const BoundaryPart &part, int component);
-   /// No displacement of this component at the mesh node nearest to (x, y).
+   /// No displacement of this component at the node of the space nearest to (x, y).
    void fix_node(double x, double y, int component);
 
    /// Pressure on a boundary part (positive pushes into the body), force per area.
@@ -54,7 +57,8 @@ public:
                        const ScalarField &by);
    /// Prescribed displacement of one component on the nodes of a boundary part. A pattern is
    /// either force- or displacement-controlled (InputError if mixed); a node's displacement may
-   /// be prescribed by several patterns (they add) and need not be fixed as well.
+   /// be prescribed by several patterns (they add) and need not be fixed as well. Within one
+   /// pattern parts may share nodes, on which they must agree (InputError otherwise).
    void add_displacement(const std::string &pattern, const BoundaryPart &part, int component,
                          const ScalarField &u);
 
@@ -67,6 +71,8 @@ public:
 
    mfem::FiniteElementSpace &space() const { return *space_; }
    const mfem::SparseMatrix &stiffness() const { return *stiffness_; }
+   /// The same matrix, to be kept beyond the life of the body (never changed).
+   std::shared_ptr<const mfem::SparseMatrix> shared_stiffness() const { return stiffness_; }
    const std::vector<Pattern> &patterns() const { return patterns_; }
    /// Sorted true dofs that are fixed or prescribed by a displacement pattern.
    mfem::Array<int> essential_dofs() const;
@@ -74,7 +80,8 @@ public:
    const Material &material(int attribute) const;
    bool has_material() const { return !materials_.empty(); }
 
-   /// True dof of component c of the scalar node (local dof) of the space.
+   /// True dof of component c of the scalar node (local dof) of the space, -1 if it hangs on
+   /// others (nonconforming meshes).
    int true_dof(int scalar_dof, int component) const;
    /// Coordinates of every scalar node, size 2 × nodes.
    const mfem::DenseMatrix &node_coordinates() const { return coordinates_; }
@@ -83,14 +90,22 @@ public:
 
 private:
    void adopt_space();
+   void assemble();
    Pattern &load(const std::string &name, Control control);
+   void add_to_pattern(const std::string &name, const mfem::Vector &local_forces);
+   template <class Density>
+   void add_boundary_load(const std::string &pattern, const BoundaryPart &part,
+                          const char *what, Density density);
+   std::vector<int> nodes_on(const BoundaryPart &part, const std::string &where) const;
 
    std::unique_ptr<mfem::FiniteElementCollection> owned_collection_;
    std::unique_ptr<mfem::FiniteElementSpace> owned_space_;
    mfem::FiniteElementSpace *space_ = nullptr;
-   std::unique_ptr<mfem::SparseMatrix> stiffness_;
+   std::shared_ptr<const mfem::SparseMatrix> stiffness_;
    std::vector<Material> materials_;
    std::vector<Pattern> patterns_;
+   std::vector<std::vector<bool>>
+      prescribed_;               ///< by pattern and true dof (empty: force control)
    std::vector<bool> essential_; ///< by true dof
    std::vector<int> vdof_to_true_;
    mfem::DenseMatrix coordinates_;

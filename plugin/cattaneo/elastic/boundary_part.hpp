@@ -2,6 +2,8 @@
 
 #include <functional>
 #include <limits>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace cattaneo

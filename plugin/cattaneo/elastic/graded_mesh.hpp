@@ -6,22 +6,25 @@
 namespace cattaneo
 {
 
-/// Coordinates from `from` to `to` in steps that start at `first` and grow by the factor
-/// `growth`
-/// (>= 1) until `largest`; the last steps are stretched to end exactly at `to`. `from` > `to`
-/// is allowed; the result runs from `from` to `to`.
+/** Coordinates from `from` to `to` in steps first, first·growth, first·growth², … of at most
+    `largest` each. So that the list ends exactly at `to`, the last steps (as many as together
+    measure four times what is missing or too much) are scaled by one factor, between 3/4 and
+   5/4; all steps if there are only few. `from` > `to` is allowed; the result runs from `from`
+   to `to`. InputError unless first > 0, growth >= 1, largest > 0, from != to, all finite but
+   `largest`. */
 std::vector<double> graded(double from, double to, double first, double growth,
                            double largest = 1e300);
 
-/// Coordinates of [-half, half] with n intervals, symmetric to the last bit, graded toward both
-/// ends so that the end interval is `end_ratio` (0 < end_ratio <= 1) times the middle one.
+/** Coordinates of [-half, half] with n intervals, symmetric to the last bit, in geometric
+   progression toward both ends so that the end interval is `end_ratio` (0 < end_ratio <= 1)
+   times the middle one. */
 std::vector<double> graded_to_ends(double half, int intervals, double end_ratio);
 
-/// Joins coordinate lists that share end points.
+/// Joins coordinate lists of which each starts where the one before ends.
 std::vector<double> joined(const std::vector<std::vector<double>> &pieces);
 
-/// Rectangle of quads with the given (strictly increasing) grid lines. Boundary attributes:
-/// 1 bottom, 2 right, 3 top, 4 left.
+/** Rectangle of quads with the given (strictly increasing) grid lines. Boundary attributes:
+    1 bottom, 2 right, 3 top, 4 left. Vertex (i, j) has the number i + j·(number of x). */
 mfem::Mesh rectangle_mesh(const std::vector<double> &x, const std::vector<double> &y);
 
 } // namespace cattaneo

@@ -1,0 +1,170 @@
+#include <algorithm>
+#include <cattaneo/condense/rigid_motion.hpp>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace cattaneo
+{
+
+Eigen::MatrixXd free_rigid_motions(const DofPlaces &places, const std::vector<int> &dofs,
+                                   const std::vector<bool> &held)
+{
+   // Centre and half width of a bounding box, of all dofs or of the held ones.
+   struct Box
+   {
+      double x = 0.0, y = 0.0, size = 0.0;
+   };
+   const auto box_of = [&](bool held_only)
+   {
+      const double inf = std::numeric_limits<double>::infinity();
+      double lo[2] = {inf, inf}, hi[2] = {-inf, -inf};
+      for (int dof : dofs)
+      {
+         if (held_only && !held[dof]) { continue; }
+         const double point[2] = {places.x[dof], places.y[dof]};
+         for (int c = 0; c < 2; ++c)
+         {
+            lo[c] = std::min(lo[c], point[c]);
+            hi[c] = std::max(hi[c], point[c]);
+         }
+      }
+      return Box{0.5 * (lo[0] + hi[0]), 0.5 * (lo[1] + hi[1]),
+                 0.5 * std::max(hi[0] - lo[0], hi[1] - lo[1])};
+   };
+   const auto count =
+      std::count_if(dofs.begin(), dofs.end(), [&](int dof) { return held[dof]; });
+   const Box whole = box_of(false);
+   Eigen::Matrix3d motions = Eigen::Matrix3d::Identity();
+   Box patch = whole;
+   int rank = 0;
+   if (count > 0)
+   {
+      patch = box_of(true);
+      // One held node: turning about it is free, whatever round-off says of its spread.
+      if (patch.size <= 1e-14 * (std::abs(patch.x) + std::abs(patch.y) + whole.size))
+      {
+         patch.size = whole.size;
+      }
+      const double scale = patch.size > 0 ? patch.size : 1.0;
+      Eigen::MatrixXd rows(count, 3);
+      Eigen::Index k = 0;
+      for (int dof : dofs)
+      {
+         if (!held[dof]) { continue; }
+         if (places.component[dof] == 0)
+         {
+            rows.row(k++) << 1, 0, -(places.y[dof] - patch.y) / scale;
+         }
+         else { rows.row(k++) << 0, 1, (places.x[dof] - patch.x) / scale; }
+      }
+      // Singular values of the rows are those of their triangular factor.
+      const Eigen::MatrixXd R = Eigen::HouseholderQR<Eigen::MatrixXd>(rows).matrixQR().topRows(
+         std::min<Eigen::Index>(count, 3));
+      const Eigen::MatrixXd upper = R.triangularView<Eigen::Upper>();
+      const Eigen::JacobiSVD<Eigen::MatrixXd> svd(upper, Eigen::ComputeFullV);
+      for (Eigen::Index i = 0; i < svd.singularValues().size(); ++i)
+      {
+         if (svd.singularValues()[i] > 1e-9 * svd.singularValues()[0]) { ++rank; }
+      }
+      motions = svd.matrixV();
+      motions.row(2) /= scale;
+   }
+   else { motions(2, 2) = whole.size > 0 ? 1 / whole.size : 1.0; }
+
+   Eigen::MatrixXd free(dofs.size(), 3 - rank);
+   for (int m = 0; m < free.cols(); ++m)
+   {
+      const Eigen::Vector3d motion = motions.col(rank + m);
+      for (std::size_t k = 0; k < dofs.size(); ++k)
+      {
+         const int dof = dofs[k];
+         const bool along_x = places.component[dof] == 0;
+         free(k, m) = along_x ? motion[0] - motion[2] * (places.y[dof] - patch.y)
+                              : motion[1] + motion[2] * (places.x[dof] - patch.x);
+         if (held[dof]) { free(k, m) = 0.0; }
+      }
+      const double largest = free.col(m).cwiseAbs().maxCoeff();
+      if (largest > 0) { free.col(m) /= largest; }
+   }
+   return free;
+}
+
+Eigen::MatrixXd unresisted(const mfem::SparseMatrix &K, const std::vector<int> &dofs,
+                           const Eigen::MatrixXd &motions)
+{
+   if (motions.cols() == 0) { return motions; }
+   std::vector<int> place(K.Height(), -1);
+   for (std::size_t k = 0; k < dofs.size(); ++k) { place[dofs[k]] = static_cast<int>(k); }
+   const int *I = K.GetI(), *J = K.GetJ();
+   const double *data = K.GetData();
+   Eigen::MatrixXd forces(dofs.size(), motions.cols());
+   double stiffness = 0.0;
+   for (std::size_t k = 0; k < dofs.size(); ++k)
+   {
+      Eigen::RowVectorXd force = Eigen::RowVectorXd::Zero(motions.cols());
+      double row = 0.0;
+      for (int e = I[dofs[k]]; e < I[dofs[k] + 1]; ++e)
+      {
+         force += data[e] * motions.row(place[J[e]]);
+         row += std::abs(data[e]);
+      }
+      forces.row(k) = force;
+      stiffness = std::max(stiffness, row);
+   }
+   // Energy of each combination, against the energy of all entries taken positive.
+   const Eigen::MatrixXd energy = motions.transpose() * forces;
+   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(0.5 *
+                                                              (energy + energy.transpose()));
+   const double allowed = 1e-12 * stiffness * static_cast<double>(dofs.size());
+   std::vector<Eigen::Index> kept;
+   for (Eigen::Index m = 0; m < motions.cols(); ++m)
+   {
+      if (modes.eigenvalues()[m] <= allowed) { kept.push_back(m); }
+   }
+   Eigen::MatrixXd result(motions.rows(), kept.size());
+   for (std::size_t k = 0; k < kept.size(); ++k)
+   {
+      result.col(k) = motions * modes.eigenvectors().col(kept[k]);
+   }
+   return result;
+}
+
+std::vector<std::vector<int>> connected_parts(const mfem::SparseMatrix &K)
+{
+   const int n = K.Height();
+   const int *I = K.GetI(), *J = K.GetJ();
+   std::vector<int> parent(n);
+   std::iota(parent.begin(), parent.end(), 0);
+   const auto root = [&parent](int i)
+   {
+      while (parent[i] != i) { i = parent[i] = parent[parent[i]]; }
+      return i;
+   };
+   for (int i = 0; i < n; ++i)
+   {
+      for (int k = I[i]; k < I[i + 1]; ++k)
+      {
+         if (J[k] >= i) { continue; }
+         const int a = root(i), b = root(J[k]);
+         // The lower number leads, so that each group is led by its first row.
+         if (a < b) { parent[b] = a; }
+         else { parent[a] = b; }
+      }
+   }
+   std::vector<int> group(n, -1);
+   std::vector<std::vector<int>> parts;
+   for (int i = 0; i < n; ++i)
+   {
+      const int lead = root(i);
+      if (group[lead] < 0)
+      {
+         group[lead] = static_cast<int>(parts.size());
+         parts.emplace_back();
+      }
+      parts[group[lead]].push_back(i);
+   }
+   return parts;
+}
+
+} // namespace cattaneo

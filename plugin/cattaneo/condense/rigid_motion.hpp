@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <mfem.hpp>
+#include <vector>
+
+namespace cattaneo
+{
+
+/// Where each true dof sits: its node's coordinates and its component.
+struct DofPlaces
+{
+   Eigen::VectorXd x, y;
+   std::vector<int> component;
+};
+
+/** Rigid motions (x, y, rotation) of a set of dofs that vanish at the held ones, as columns
+   over the dofs of the set, each scaled to a largest entry of about 1. The rank is decided at
+   the scale of the held nodes' own spread, so that a small patch holds a large body as well as
+   a large one does. */
+Eigen::MatrixXd free_rigid_motions(const DofPlaces &places, const std::vector<int> &dofs,
+                                   const std::vector<bool> &held);
+
+/// Of the given motions, an orthogonal set of combinations that K does not resist: a user's
+/// operator may contain elastic foundations. `motions` are columns over `dofs`, a union of
+/// whole components.
+Eigen::MatrixXd unresisted(const mfem::SparseMatrix &K, const std::vector<int> &dofs,
+                           const Eigen::MatrixXd &motions);
+
+/// Rows of K in connected groups (graph of non-zero entries), each sorted.
+std::vector<std::vector<int>> connected_parts(const mfem::SparseMatrix &K);
+
+} // namespace cattaneo

@@ -1,0 +1,406 @@
+#include <cattaneo/condense/sparse_factor.hpp>
+
+#include <Eigen/OrderingMethods>
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#ifdef CATTANEO_USE_CHOLMOD
+#include <cholmod.h>
+#endif
+
+namespace cattaneo
+{
+
+namespace
+{
+
+/// The lower triangle of K(keep, keep) + shift, by columns (not sorted within a column). Being
+/// symmetric, row i of K is its column i: nothing has to be transposed.
+struct LowerTriangle
+{
+   std::vector<int> start, row;
+   std::vector<double> value;
+   int size = 0, trailing = 0;
+
+   LowerTriangle(const mfem::SparseMatrix &K, const std::vector<int> &keep, int trailing_rows,
+                 double shift)
+      : size(static_cast<int>(keep.size())), trailing(trailing_rows)
+   {
+      const int *I = K.GetI(), *J = K.GetJ();
+      const double *data = K.GetData();
+      std::vector<int> position(K.Height(), -1);
+      for (int a = 0; a < size; ++a)
+      {
+         require(keep[a] >= 0 && keep[a] < K.Height(), "sparse factor: row ", keep[a],
+                 " to keep, must be from 0 to ", K.Height() - 1);
+         require(position[keep[a]] < 0, "sparse factor: row ", keep[a], " is to be kept twice");
+         position[keep[a]] = a;
+      }
+      start.resize(size + 1);
+      const std::size_t estimate = (static_cast<std::size_t>(K.NumNonZeroElems()) + size) / 2;
+      row.reserve(estimate + size);
+      value.reserve(estimate + size);
+      for (int a = 0; a < size; ++a)
+      {
+         start[a] = static_cast<int>(row.size());
+         const double added = a >= size - trailing ? shift : 0.0;
+         row.push_back(a);
+         value.push_back(added);
+         const std::size_t diagonal = value.size() - 1;
+         for (int k = I[keep[a]]; k < I[keep[a] + 1]; ++k)
+         {
+            const int b = position[J[k]];
+            if (b < a) { continue; }
+            require(std::isfinite(data[k]), "sparse factor: entry (", keep[a], ", ", J[k],
+                    ") of the matrix is ", data[k], ", must be finite");
+            if (b == a)
+            {
+               value[diagonal] += data[k];
+               continue;
+            }
+            row.push_back(b);
+            value.push_back(data[k]);
+         }
+      }
+      start[size] = static_cast<int>(row.size());
+   }
+};
+
+[[noreturn]] void not_positive_definite(int row)
+{
+   throw NotPositiveDefinite(row, "sparse factor: the matrix is not positive definite at row " +
+                                     std::to_string(row) +
+                                     ", it must be symmetric with positive eigenvalues");
+}
+
+/// L Lᵀ of a lower triangular L, in blocks, so that zeros above the diagonal are not
+/// multiplied.
+Eigen::MatrixXd times_own_transpose(const Eigen::MatrixXd &L)
+{
+   const Eigen::Index n = L.rows(), width = 96;
+   Eigen::MatrixXd S(n, n);
+   for (Eigen::Index j = 0; j < n; j += width)
+   {
+      const Eigen::Index w = std::min(width, n - j);
+      S.block(j, j, n - j, w).noalias() =
+         L.block(j, 0, n - j, j + w) * L.block(j, 0, w, j + w).transpose();
+   }
+   S.triangularView<Eigen::StrictlyUpper>() = S.transpose();
+   return S;
+}
+
+} // namespace
+
+struct SparseFactor::Implementation
+{
+   int size = 0, trailing = 0;
+   double shift = 0.0;
+
+   virtual ~Implementation() = default;
+   /// L22, and for each of its rows the number of the trailing row (0 … trailing - 1) it stands
+   /// for.
+   virtual Eigen::MatrixXd trailing_factor(std::vector<int> &order) const = 0;
+   virtual Eigen::MatrixXd solve(const Eigen::MatrixXd &rhs) const = 0;
+   virtual long nonzeros() const = 0;
+};
+
+namespace
+{
+
+/// Eigen's simplicial factor in the order AMD of the interior, then the trailing rows.
+class EigenFactor : public SparseFactor::Implementation
+{
+   using Sparse = Eigen::SparseMatrix<double>;
+   using Natural = Eigen::NaturalOrdering<int>;
+
+   /// LDLᵀ that tells where its first pivot that is not positive is.
+   struct Diagnosis : Eigen::SimplicialLDLT<Sparse, Eigen::Lower, Natural>
+   {
+      int first_bad(const Sparse &lower)
+      {
+         compute(lower);
+         for (Eigen::Index i = 0; i < m_diag.size(); ++i)
+         {
+            if (!(m_diag[i] > 0)) { return static_cast<int>(i); }
+         }
+         return 0;
+      }
+   };
+
+   Eigen::SimplicialLLT<Sparse, Eigen::Lower, Natural> llt_;
+   std::vector<int> position_; ///< place in the factor of each row of keep
+
+public:
+   EigenFactor(const LowerTriangle &K, const std::vector<int> &keep)
+   {
+      const int n = K.size, interior = n - K.trailing;
+      position_.resize(n);
+      std::iota(position_.begin(), position_.end(), 0);
+      if (interior > 0)
+      {
+         std::vector<Eigen::Triplet<double>> both;
+         for (int a = 0; a < interior; ++a)
+         {
+            for (int k = K.start[a]; k < K.start[a + 1]; ++k)
+            {
+               if (K.row[k] >= interior) { continue; }
+               both.emplace_back(K.row[k], a, 1.0);
+               both.emplace_back(a, K.row[k], 1.0);
+            }
+         }
+         Sparse pattern(interior, interior);
+         pattern.setFromTriplets(both.begin(), both.end());
+         Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> inverse;
+         Eigen::AMDOrdering<int>()(pattern, inverse);
+         for (int k = 0; k < interior; ++k) { position_[inverse.indices()[k]] = k; }
+      }
+      std::vector<Eigen::Triplet<double>> entries;
+      entries.reserve(K.row.size());
+      for (int a = 0; a < n; ++a)
+      {
+         for (int k = K.start[a]; k < K.start[a + 1]; ++k)
+         {
+            const auto [low, high] = std::minmax(position_[a], position_[K.row[k]]);
+            entries.emplace_back(high, low, K.value[k]);
+         }
+      }
+      Sparse lower(n, n);
+      lower.setFromTriplets(entries.begin(), entries.end());
+      entries = {};
+      llt_.compute(lower);
+      if (llt_.info() != Eigen::Success)
+      {
+         const int bad = Diagnosis().first_bad(lower);
+         const auto row =
+            std::find(position_.begin(), position_.end(), bad) - position_.begin();
+         not_positive_definite(keep[row]);
+      }
+   }
+
+   Eigen::MatrixXd trailing_factor(std::vector<int> &order) const override
+   {
+      order.resize(trailing);
+      std::iota(order.begin(), order.end(), 0);
+      const int interior = size - trailing;
+      Eigen::MatrixXd L22 = Eigen::MatrixXd::Zero(trailing, trailing);
+      const Sparse &L = llt_.matrixL().nestedExpression();
+      for (int c = 0; c < trailing; ++c)
+      {
+         for (Sparse::InnerIterator entry(L, interior + c); entry; ++entry)
+         {
+            if (entry.row() >= interior + c) { L22(entry.row() - interior, c) = entry.value(); }
+         }
+      }
+      return L22;
+   }
+
+   Eigen::MatrixXd solve(const Eigen::MatrixXd &rhs) const override
+   {
+      Eigen::MatrixXd b(rhs.rows(), rhs.cols()), x(rhs.rows(), rhs.cols());
+      for (int a = 0; a < size; ++a) { b.row(position_[a]) = rhs.row(a); }
+      b = llt_.solve(b).eval();
+      for (int a = 0; a < size; ++a) { x.row(a) = b.row(position_[a]); }
+      return x;
+   }
+
+   long nonzeros() const override { return llt_.matrixL().nestedExpression().nonZeros(); }
+};
+
+#ifdef CATTANEO_USE_CHOLMOD
+
+/// CHOLMOD's supernodal factor in a constrained minimum degree order (CAMD).
+class CholmodFactor : public SparseFactor::Implementation
+{
+   mutable cholmod_common common_; // CHOLMOD's workspace: solves write to it
+   cholmod_factor *L_ = nullptr;
+
+   void check(bool done, const char *step)
+   {
+      if (done && common_.status >= 0) { return; }
+      const int status = common_.status;
+      release();
+      if (status == CHOLMOD_OUT_OF_MEMORY) { throw std::bad_alloc(); }
+      throw std::runtime_error(std::string("sparse factor: CHOLMOD failed to ") + step +
+                               " (status " + std::to_string(status) + ")");
+   }
+
+   void release()
+   {
+      cholmod_free_factor(&L_, &common_);
+      cholmod_finish(&common_);
+   }
+
+public:
+   CholmodFactor(LowerTriangle &K, const std::vector<int> &keep)
+   {
+      cholmod_start(&common_);
+      common_.print = 0;
+      // The order that analyse gets is the order that it must use: no other methods, no
+      // postorder (weighted by column counts, it may move the trailing rows).
+      common_.nmethods = 1;
+      common_.method[0].ordering = CHOLMOD_GIVEN;
+      common_.postorder = 0;
+      common_.supernodal = CHOLMOD_SUPERNODAL;
+      common_.final_ll = 1;
+      common_.quick_return_if_not_posdef = 1;
+
+      cholmod_sparse A = {};
+      A.nrow = A.ncol = K.size;
+      A.nzmax = K.row.size();
+      A.p = K.start.data();
+      A.i = K.row.data();
+      A.x = K.value.data();
+      A.stype = -1;
+      A.itype = CHOLMOD_INT;
+      A.xtype = CHOLMOD_REAL;
+      A.dtype = CHOLMOD_DOUBLE;
+      A.sorted = 0;
+      A.packed = 1;
+
+      std::vector<int> order(K.size), group(K.size, 0);
+      std::fill(group.end() - K.trailing, group.end(), 1);
+      check(cholmod_camd(&A, nullptr, 0, group.data(), order.data(), &common_),
+            "order the matrix");
+      L_ = cholmod_analyze_p(&A, order.data(), nullptr, 0, &common_);
+      check(L_ != nullptr, "analyse the matrix");
+      check(cholmod_factorize(&A, L_, &common_), "factor the matrix");
+      if (L_->minor < L_->n)
+      {
+         const int row = keep[static_cast<const int *>(L_->Perm)[L_->minor]];
+         release();
+         not_positive_definite(row);
+      }
+   }
+
+   ~CholmodFactor() override { release(); }
+   CholmodFactor(const CholmodFactor &) = delete;
+   CholmodFactor &operator=(const CholmodFactor &) = delete;
+
+   Eigen::MatrixXd trailing_factor(std::vector<int> &order) const override
+   {
+      const auto *super = static_cast<const int *>(L_->super);
+      const auto *pi = static_cast<const int *>(L_->pi);
+      const auto *px = static_cast<const int *>(L_->px);
+      const auto *s = static_cast<const int *>(L_->s);
+      const auto *x = static_cast<const double *>(L_->x);
+      const auto *permutation = static_cast<const int *>(L_->Perm);
+      const int interior = size - trailing;
+      order.resize(trailing);
+      for (int k = 0; k < trailing; ++k) { order[k] = permutation[interior + k] - interior; }
+      if (trailing > 0 && *std::min_element(order.begin(), order.end()) < 0)
+      {
+         throw std::logic_error("sparse factor: the trailing rows were not ordered last");
+      }
+
+      Eigen::MatrixXd L22 = Eigen::MatrixXd::Zero(trailing, trailing);
+      for (int k = static_cast<int>(L_->nsuper) - 1; k >= 0 && super[k + 1] > interior; --k)
+      {
+         const int rows = pi[k + 1] - pi[k];
+         // A relaxed supernode may begin before the first trailing column; and what is stored
+         // above the diagonal is not part of L.
+         for (int c = std::max(super[k], interior); c < super[k + 1]; ++c)
+         {
+            const double *column = x + px[k] + static_cast<std::ptrdiff_t>(c - super[k]) * rows;
+            for (int r = c - super[k]; r < rows; ++r)
+            {
+               L22(s[pi[k] + r] - interior, c - interior) = column[r];
+            }
+         }
+      }
+      return L22;
+   }
+
+   Eigen::MatrixXd solve(const Eigen::MatrixXd &rhs) const override
+   {
+      cholmod_dense b = {};
+      b.nrow = rhs.rows();
+      b.ncol = rhs.cols();
+      b.nzmax = rhs.size();
+      b.d = rhs.rows();
+      b.x = const_cast<double *>(rhs.data()); // not written to
+      b.xtype = CHOLMOD_REAL;
+      b.dtype = CHOLMOD_DOUBLE;
+      cholmod_dense *x = cholmod_solve(CHOLMOD_A, L_, &b, &common_);
+      if (!x) { throw std::bad_alloc(); }
+      Eigen::MatrixXd result =
+         Eigen::Map<const Eigen::MatrixXd>(static_cast<double *>(x->x), rhs.rows(), rhs.cols());
+      cholmod_free_dense(&x, &common_);
+      return result;
+   }
+
+   long nonzeros() const override { return static_cast<long>(L_->xsize); }
+};
+
+#endif
+
+} // namespace
+
+bool SparseFactor::has_cholmod()
+{
+#ifdef CATTANEO_USE_CHOLMOD
+   return true;
+#else
+   return false;
+#endif
+}
+
+SparseFactor::SparseFactor(const mfem::SparseMatrix &K, const std::vector<int> &keep,
+                           int trailing, double shift, Backend backend)
+{
+   require(K.Finalized() && K.Height() == K.Width(), "sparse factor: the matrix (", K.Height(),
+           "×", K.Width(), ") must be square and finalized");
+   require(!keep.empty(), "sparse factor: there are no rows to factor");
+   require(trailing >= 0 && trailing <= static_cast<int>(keep.size()),
+           "sparse factor: ", trailing, " trailing rows, must be from 0 to ", keep.size());
+   require(std::isfinite(shift) && shift >= 0, "sparse factor: shift is ", shift,
+           ", must be finite and not negative");
+   require(backend != Backend::cholmod || has_cholmod(),
+           "sparse factor: CHOLMOD was asked for, but this build has only Eigen "
+           "(CATTANEO_USE_CHOLMOD=OFF)");
+   LowerTriangle lower(K, keep, trailing, shift);
+#ifdef CATTANEO_USE_CHOLMOD
+   if (backend != Backend::eigen) { impl_ = std::make_unique<CholmodFactor>(lower, keep); }
+#endif
+   if (!impl_) { impl_ = std::make_unique<EigenFactor>(lower, keep); }
+   impl_->size = lower.size;
+   impl_->trailing = trailing;
+   impl_->shift = shift;
+}
+
+SparseFactor::~SparseFactor() = default;
+SparseFactor::SparseFactor(SparseFactor &&) noexcept = default;
+SparseFactor &SparseFactor::operator=(SparseFactor &&) noexcept = default;
+
+Eigen::MatrixXd SparseFactor::schur() const
+{
+   std::vector<int> order;
+   const Eigen::MatrixXd permuted = times_own_transpose(impl_->trailing_factor(order));
+   Eigen::MatrixXd S(permuted.rows(), permuted.cols());
+   for (Eigen::Index j = 0; j < S.cols(); ++j)
+   {
+      double *column = S.data() + order[j] * S.rows();
+      for (Eigen::Index i = 0; i < S.rows(); ++i) { column[order[i]] = permuted(i, j); }
+   }
+   S.diagonal().array() -= impl_->shift;
+   return S;
+}
+
+Eigen::MatrixXd SparseFactor::solve(const Eigen::MatrixXd &rhs) const
+{
+   require(rhs.rows() == rows(), "sparse factor: right-hand sides of ", rhs.rows(),
+           " rows for a factor of ", rows());
+   return impl_->solve(rhs);
+}
+
+int SparseFactor::rows() const
+{
+   return impl_->size;
+}
+long SparseFactor::nonzeros() const
+{
+   return impl_->nonzeros();
+}
+
+} // namespace cattaneo

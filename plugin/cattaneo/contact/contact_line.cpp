@@ -1,0 +1,230 @@
+#include <algorithm>
+#include <cattaneo/contact/contact_line.hpp>
+#include <cattaneo/elastic/boundary_edge.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace cattaneo
+{
+
+namespace
+{
+
+/// Nodes of one boundary element, in the direction with the body on the left.
+struct Segment
+{
+   std::vector<int> nodes;
+   std::vector<double> distance; ///< arc length from the first node
+   std::vector<double> weights;  ///< ∫φ ds
+   std::vector<std::array<double, 2>> tangents;
+};
+
+double length(BoundaryEdge &edge, double from, double to)
+{
+   const mfem::IntegrationRule &rule = edge.rule(edge.degree());
+   double sum = 0.0;
+   for (int k = 0; k < rule.GetNPoints(); ++k)
+   {
+      const auto d = edge.derivative(from + (to - from) * rule.IntPoint(k).x);
+      sum += rule.IntPoint(k).weight * std::hypot(d[0], d[1]);
+   }
+   return sum * (to - from);
+}
+
+Segment segment(const mfem::FiniteElementSpace &space, int boundary_element, BoundaryEdge &edge)
+{
+   const mfem::FiniteElement &element = *space.GetBE(boundary_element);
+   mfem::Array<int> dofs;
+   space.GetBdrElementDofs(boundary_element, dofs);
+   const mfem::IntegrationRule &nodes = element.GetNodes();
+   std::vector<int> order(dofs.Size());
+   std::iota(order.begin(), order.end(), 0);
+   const bool forward = edge.body_on_left();
+   std::sort(order.begin(), order.end(),
+             [&](int a, int b)
+             { return forward ? nodes[a].x < nodes[b].x : nodes[a].x > nodes[b].x; });
+
+   std::vector<double> weights(dofs.Size(), 0.0);
+   mfem::Vector shape(dofs.Size());
+   const mfem::IntegrationRule &rule = edge.rule(element.GetOrder());
+   for (int k = 0; k < rule.GetNPoints(); ++k)
+   {
+      const mfem::IntegrationPoint &ip = rule.IntPoint(k);
+      const auto d = edge.derivative(ip.x);
+      element.CalcShape(ip, shape);
+      for (int a = 0; a < dofs.Size(); ++a)
+      {
+         weights[a] += ip.weight * std::hypot(d[0], d[1]) * shape(a);
+      }
+   }
+   Segment result;
+   double distance = 0.0;
+   for (std::size_t k = 0; k < order.size(); ++k)
+   {
+      const int a = order[k];
+      if (k > 0) { distance += std::abs(length(edge, nodes[order[k - 1]].x, nodes[a].x)); }
+      result.nodes.push_back(dofs[a]);
+      result.distance.push_back(distance);
+      result.weights.push_back(weights[a]);
+      result.tangents.push_back(edge.tangent(nodes[a].x));
+   }
+   return result;
+}
+
+} // namespace
+
+ContactLine contact_line(const ElasticBody &body, const BoundaryPart &part)
+{
+   const std::string where = "contact line";
+   mfem::FiniteElementSpace &space = body.space();
+   mfem::Mesh &mesh = *space.GetMesh();
+   const mfem::DenseMatrix &x = body.node_coordinates();
+   const auto coordinates = [&x](int node)
+   { return "(" + std::to_string(x(0, node)) + ", " + std::to_string(x(1, node)) + ")"; };
+
+   std::vector<Segment> segments;
+   mfem::Array<int> dofs;
+   for (int i : boundary_elements(mesh, part, where))
+   {
+      BoundaryEdge edge(mesh, i);
+      const double slack = interval_tolerance * edge.size();
+      space.GetBdrElementDofs(i, dofs);
+      const bool inside = std::all_of(dofs.begin(), dofs.end(),
+                                      [&](int node) {
+                                         return x(part.axis, node) >= part.lo - slack &&
+                                                x(part.axis, node) <= part.hi + slack;
+                                      });
+      if (inside) { segments.push_back(segment(space, i, edge)); }
+   }
+   require(!segments.empty(), where, ": there are no boundary elements inside the ",
+           describe(part));
+
+   // Chains: from each segment to the one that starts where it ends.
+   std::map<int, int> starting, ending;
+   for (std::size_t k = 0; k < segments.size(); ++k)
+   {
+      const int first = segments[k].nodes.front(), last = segments[k].nodes.back();
+      require(starting.emplace(first, k).second, where,
+              ": more than two boundary elements meet at ", coordinates(first),
+              ", or one is there twice");
+      require(ending.emplace(last, k).second, where,
+              ": more than two boundary elements meet at ", coordinates(last),
+              ", or one is there twice");
+   }
+   // Where chains start does not depend on the numbering of the mesh: open chains at their
+   // start, loops at the lowest (x, y), and chains in the order of these points.
+   const auto before = [&](int a, int b)
+   {
+      const int i = segments[a].nodes.front(), j = segments[b].nodes.front();
+      return std::make_pair(x(0, i), x(1, i)) < std::make_pair(x(0, j), x(1, j));
+   };
+   std::vector<bool> used(segments.size(), false);
+   const auto follow = [&](int start)
+   {
+      std::vector<int> chain;
+      for (int k = start; !used[k];)
+      {
+         used[k] = true;
+         chain.push_back(k);
+         const auto next = starting.find(segments[k].nodes.back());
+         if (next == starting.end()) { break; }
+         k = next->second;
+      }
+      return chain;
+   };
+   std::vector<std::vector<int>> chains;
+   for (std::size_t k = 0; k < segments.size(); ++k)
+   {
+      if (!ending.count(segments[k].nodes.front()))
+      {
+         chains.push_back(follow(static_cast<int>(k)));
+      }
+   }
+   for (std::size_t k = 0; k < segments.size(); ++k)
+   {
+      if (used[k]) { continue; }
+      std::vector<int> loop = follow(static_cast<int>(k));
+      std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end(), before), loop.end());
+      chains.push_back(loop);
+   }
+   std::sort(chains.begin(), chains.end(),
+             [&](const std::vector<int> &a, const std::vector<int> &b)
+             { return before(a.front(), b.front()); });
+
+   ContactLine line;
+   std::vector<double> arc, weights, lumped, spacing;
+   std::vector<std::array<double, 2>> tangent;
+   double start = 0.0;
+   for (std::size_t c = 0; c < chains.size(); ++c)
+   {
+      const std::size_t first = line.scalar_dofs.size();
+      double end = start;
+      for (int k : chains[c])
+      {
+         const Segment &s = segments[k];
+         for (std::size_t a = 0; a < s.nodes.size(); ++a)
+         {
+            const bool repeats = a == 0 && k != chains[c].front();
+            const bool closes = a + 1 == s.nodes.size() &&
+                                s.nodes[a] == line.scalar_dofs[first] &&
+                                line.scalar_dofs.size() > first + 1;
+            std::size_t node = line.scalar_dofs.size();
+            if (repeats) { --node; }
+            else if (closes) { node = first; }
+            else
+            {
+               line.scalar_dofs.push_back(s.nodes[a]);
+               line.chain.push_back(static_cast<int>(c));
+               arc.push_back(end + s.distance[a]);
+               weights.push_back(0.0);
+               lumped.push_back(0.0);
+               spacing.push_back(std::numeric_limits<double>::infinity());
+               tangent.push_back({0.0, 0.0});
+            }
+            weights[node] += s.weights[a];
+            for (int i = 0; i < 2; ++i) { tangent[node][i] += s.weights[a] * s.tangents[a][i]; }
+            if (a > 0)
+            {
+               const double step = s.distance[a] - s.distance[a - 1];
+               const std::size_t previous = closes ? line.scalar_dofs.size() - 1 : node - 1;
+               for (std::size_t i : {previous, node})
+               {
+                  lumped[i] += 0.5 * step;
+                  spacing[i] = std::min(spacing[i], step);
+               }
+            }
+         }
+         end += s.distance.back();
+      }
+      start = end;
+   }
+
+   const auto n = static_cast<Eigen::Index>(line.scalar_dofs.size());
+   line.position.resize(n, 2);
+   line.tangent.resize(n, 2);
+   line.normal.resize(n, 2);
+   line.arc_length = Eigen::Map<Eigen::VectorXd>(arc.data(), n);
+   line.weights = Eigen::Map<Eigen::VectorXd>(weights.data(), n);
+   line.lumped_weights = Eigen::Map<Eigen::VectorXd>(lumped.data(), n);
+   line.spacing = Eigen::Map<Eigen::VectorXd>(spacing.data(), n);
+   for (Eigen::Index i = 0; i < n; ++i)
+   {
+      const int node = line.scalar_dofs[i];
+      require(line.weights[i] > 0, where, ": the weight of the node at ", coordinates(node),
+              " is ", line.weights[i], ", must be positive");
+      const double size = std::hypot(tangent[i][0], tangent[i][1]);
+      require(size > 0, where, ": the line turns back on itself at ", coordinates(node));
+      line.position.row(i) << x(0, node), x(1, node);
+      line.tangent.row(i) << tangent[i][0] / size, tangent[i][1] / size;
+      line.normal.row(i) << -line.tangent(i, 1), line.tangent(i, 0);
+      line.true_dofs.push_back({body.true_dof(node, 0), body.true_dof(node, 1)});
+      require(line.true_dofs.back()[0] >= 0 && line.true_dofs.back()[1] >= 0, where,
+              ": the node at ", coordinates(node),
+              " hangs on others, the mesh must be conforming along the line");
+   }
+   return line;
+}
+
+} // namespace cattaneo

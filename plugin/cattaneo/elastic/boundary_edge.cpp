@@ -1,0 +1,189 @@
+#include <algorithm>
+#include <cattaneo/elastic/boundary_edge.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cmath>
+#include <sstream>
+
+namespace cattaneo
+{
+
+namespace
+{
+
+/// Root of f in [a, b], where it changes sign: bisection that first tries the secant's point
+/// (exact for straight edges).
+template <class F>
+double root(F f, double a, double b, double fa, double fb)
+{
+   for (int step = 0; step < 200 && fa != 0 && fb != 0 && b - a > 1e-16; ++step)
+   {
+      double c = step % 2 == 0 ? a - fa * (b - a) / (fb - fa) : 0.5 * (a + b);
+      if (!(c > a && c < b)) { c = 0.5 * (a + b); }
+      if (!(c > a && c < b)) { break; }
+      const double fc = f(c);
+      if ((fc > 0) == (fa > 0) && fc != 0)
+      {
+         a = c;
+         fa = fc;
+      }
+      else
+      {
+         b = c;
+         fb = fc;
+      }
+   }
+   return std::abs(fa) < std::abs(fb) ? a : b;
+}
+
+} // namespace
+
+BoundaryEdge::BoundaryEdge(mfem::Mesh &mesh, int boundary_element) : position_(2)
+{
+   mesh.GetBdrElementTransformation(boundary_element, &transformation_);
+   const auto start = point(0.0), middle = point(0.5), end = point(1.0);
+   size_ = std::hypot(middle[0] - start[0], middle[1] - start[1]) +
+           std::hypot(end[0] - middle[0], end[1] - middle[1]);
+
+   // A direction that points into the reference element, mapped to the plane, points to the
+   // body's side of the tangent also where element and edge are curved.
+   int element = 0, info = 0;
+   mesh.GetBdrElementAdjacentElement(boundary_element, element, info);
+   const mfem::Geometry::Type shape = mesh.GetElementBaseGeometry(element);
+   const int *ends = mesh.GetElement(element)->GetEdgeVertices(info / 64);
+   const mfem::IntegrationRule &corners = *mfem::Geometries.GetVertices(shape);
+   const mfem::IntegrationPoint &centre = mfem::Geometries.GetCenter(shape);
+   mfem::IntegrationPoint edge_middle;
+   edge_middle.Set2(0.5 * (corners[ends[0]].x + corners[ends[1]].x),
+                    0.5 * (corners[ends[0]].y + corners[ends[1]].y));
+   mfem::IsoparametricTransformation plane;
+   mesh.GetElementTransformation(element, &plane);
+   plane.SetIntPoint(&edge_middle);
+   const mfem::DenseMatrix &J = plane.Jacobian();
+   const double dx = centre.x - edge_middle.x, dy = centre.y - edge_middle.y;
+   const double inward[2] = {J(0, 0) * dx + J(0, 1) * dy, J(1, 0) * dx + J(1, 1) * dy};
+   const auto along = derivative(0.5);
+   body_on_left_ = along[0] * inward[1] - along[1] * inward[0] > 0;
+}
+
+std::array<double, 2> BoundaryEdge::point(double s)
+{
+   mfem::IntegrationPoint ip;
+   ip.Set1w(s, 0.0);
+   transformation_.Transform(ip, position_);
+   return {position_(0), position_(1)};
+}
+
+std::array<double, 2> BoundaryEdge::derivative(double s)
+{
+   mfem::IntegrationPoint ip;
+   ip.Set1w(s, 0.0);
+   transformation_.SetIntPoint(&ip);
+   const mfem::DenseMatrix &J = transformation_.Jacobian();
+   return {J(0, 0), J(1, 0)};
+}
+
+std::array<double, 2> BoundaryEdge::tangent(double s)
+{
+   const auto d = derivative(s);
+   const double length = std::hypot(d[0], d[1]) * (body_on_left_ ? 1.0 : -1.0);
+   return {d[0] / length, d[1] / length};
+}
+
+const mfem::IntegrationRule &BoundaryEdge::rule(int order) const
+{
+   // A straight edge: shape function times load (degree 12 exactly). A curved one: the length
+   // of the derivative is no polynomial, so take plenty; this is a sum over boundary points
+   // only.
+   const int g = degree();
+   return mfem::IntRules.Get(mfem::Geometry::SEGMENT,
+                             g == 1 ? order + 12 : std::min(2 * order + 4 * g + 12, 60));
+}
+
+std::vector<std::array<double, 2>> BoundaryEdge::pieces(const BoundaryPart &part)
+{
+   const auto coordinate = [&](double s) { return point(s)[part.axis]; };
+   // Cuts at the ends of the interval: between samples dense enough to separate the turning
+   // points of the curve.
+   const int samples = degree() == 1 ? 1 : 4 * degree();
+   std::vector<double> cuts{0.0, 1.0};
+   for (double bound : {part.lo, part.hi})
+   {
+      if (!std::isfinite(bound)) { continue; }
+      const auto distance = [&](double s) { return coordinate(s) - bound; };
+      double before = distance(0.0);
+      for (int k = 0; k < samples; ++k)
+      {
+         const double a = static_cast<double>(k) / samples, b = (k + 1.0) / samples;
+         const double after = distance(b);
+         if (before == 0) { cuts.push_back(a); }
+         else if ((before < 0) != (after < 0))
+         {
+            cuts.push_back(root(distance, a, b, before, after));
+         }
+         before = after;
+      }
+   }
+   std::sort(cuts.begin(), cuts.end());
+   std::vector<std::array<double, 2>> inside;
+   for (std::size_t k = 0; k + 1 < cuts.size(); ++k)
+   {
+      if (cuts[k + 1] - cuts[k] < 1e-15) { continue; }
+      const double middle = coordinate(0.5 * (cuts[k] + cuts[k + 1]));
+      if (middle >= part.lo && middle <= part.hi) { inside.push_back({cuts[k], cuts[k + 1]}); }
+   }
+   return inside;
+}
+
+std::string describe(const BoundaryPart &part)
+{
+   std::ostringstream text;
+   text << "boundary part with attribute";
+   for (std::size_t k = 0; k < part.attributes.size(); ++k)
+   {
+      text << (k ? ", " : part.attributes.size() > 1 ? "s " : " ") << part.attributes[k];
+   }
+   const char *name = part.axis == 0 ? "x" : "y";
+   if (std::isfinite(part.lo) || std::isfinite(part.hi))
+   {
+      text << " and " << part.lo << " <= " << name << " <= " << part.hi;
+   }
+   return text.str();
+}
+
+std::vector<int> boundary_elements(const mfem::Mesh &mesh, const BoundaryPart &part,
+                                   const std::string &where)
+{
+   require(part.axis == 0 || part.axis == 1, where, ": axis of the interval is ", part.axis,
+           ", must be 0 (x) or 1 (y)");
+   require(part.lo <= part.hi, where, ": interval from ", part.lo, " to ", part.hi,
+           ", must not be empty");
+   require(!part.attributes.empty(), where, ": no boundary attribute is named");
+   std::string known;
+   for (int a : mesh.bdr_attributes)
+   {
+      known += (known.empty() ? "" : ", ") + std::to_string(a);
+   }
+   for (int a : part.attributes)
+   {
+      require(mesh.bdr_attributes.Find(a) >= 0, where, ": the mesh has no boundary attribute ",
+              a, "; it has: ", known.empty() ? "none" : known);
+   }
+   std::vector<int> elements;
+   for (int i = 0; i < mesh.GetNBE(); ++i)
+   {
+      const int attribute = mesh.GetBdrAttribute(i);
+      if (std::find(part.attributes.begin(), part.attributes.end(), attribute) ==
+          part.attributes.end())
+      {
+         continue;
+      }
+      int face = 0, orientation = 0;
+      mesh.GetBdrElementFace(i, &face, &orientation);
+      require(!mesh.FaceIsInterior(face), where, ": boundary element ", i, " (attribute ",
+              attribute, ") lies between two elements, must be on the outer boundary");
+      elements.push_back(i);
+   }
+   return elements;
+}
+
+} // namespace cattaneo

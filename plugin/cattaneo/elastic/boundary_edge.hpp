@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <cattaneo/elastic/boundary_part.hpp>
+#include <mfem.hpp>
+#include <string>
+#include <vector>
+
+namespace cattaneo
+{
+
+/** One boundary element as a parametrised curve x(s), 0 <= s <= 1 (the element's own reference
+    coordinate), that knows on which side the body is. The side is that of the mesh element
+   which the boundary element is an edge of, however either is numbered or oriented. */
+class BoundaryEdge
+{
+public:
+   BoundaryEdge(mfem::Mesh &mesh, int boundary_element);
+
+   std::array<double, 2> point(double s);
+   /// dx/ds; its length is the Jacobian of the curve.
+   std::array<double, 2> derivative(double s);
+   /// Unit tangent with the body on the left.
+   std::array<double, 2> tangent(double s);
+
+   /// True if the body is on the left for growing s.
+   bool body_on_left() const { return body_on_left_; }
+   /// Length of the two chords through the middle: a scale for tolerances.
+   double size() const { return size_; }
+   /// Polynomial degree of x(s).
+   int degree() const { return transformation_.OrderJ() + 1; }
+   /// Gauss points (on [0, 1]) for a load that varies smoothly times a shape function of the
+   /// given order: exact on straight edges for a polynomial load of degree 12.
+   const mfem::IntegrationRule &rule(int order) const;
+
+   /// The pieces [from, to] of 0 <= s <= 1 that lie in the interval of the part.
+   std::vector<std::array<double, 2>> pieces(const BoundaryPart &part);
+
+private:
+   mfem::IsoparametricTransformation transformation_;
+   mfem::Vector position_;
+   bool body_on_left_ = true;
+   double size_ = 0.0;
+};
+
+/// Boundary elements that have an attribute of the part (the interval is not looked at).
+/// InputError, starting with `where`, if an attribute does not exist (with a list of those that
+/// do), the interval is empty or an element is not on the boundary of the mesh.
+std::vector<int> boundary_elements(const mfem::Mesh &mesh, const BoundaryPart &part,
+                                   const std::string &where);
+
+/// "boundary part with attributes 1, 2 and 0 <= x <= 1", for messages.
+std::string describe(const BoundaryPart &part);
+
+/// Coordinates this far outside an interval, relative to the size of the element, are in it.
+constexpr double interval_tolerance = 1e-8;
+
+} // namespace cattaneo

@@ -1,0 +1,144 @@
+#include <algorithm>
+#include <cattaneo/elastic/graded_mesh.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cmath>
+#include <limits>
+
+namespace cattaneo
+{
+
+std::vector<double> graded(double from, double to, double first, double growth, double largest)
+{
+   require(std::isfinite(from) && std::isfinite(to) && from != to, "graded: runs from ", from,
+           " to ", to, ", the ends must be finite and different");
+   require(std::isfinite(first) && first > 0, "graded: first step is ", first,
+           ", must be positive");
+   require(std::isfinite(growth) && growth >= 1, "graded: growth is ", growth,
+           ", must be at least 1 and finite");
+   require(largest > 0, "graded: largest step is ", largest, ", must be positive");
+   const double length = std::abs(to - from);
+   const double allowed = 1e7; // far more grid lines than any mesh can use
+   require(length / std::min(first, largest) < allowed || growth > 1, "graded: first step ",
+           first, " is too small for the length ", length);
+
+   std::vector<double> steps;
+   double sum = 0.0, step = std::min(first, largest);
+   // Another step only if it brings the end nearer.
+   while (steps.empty() || length - sum > 0.5 * step)
+   {
+      steps.push_back(step);
+      sum += step;
+      step = std::min(step * growth, largest);
+      require(steps.size() < allowed, "graded: more than ", allowed, " steps from ", from,
+              " to ", to);
+   }
+   const double missing = length - sum;
+   std::size_t k = steps.size();
+   double scaled = 0.0;
+   while (k > 0 && scaled < 4 * std::abs(missing)) { scaled += steps[--k]; }
+   if (scaled > 0)
+   {
+      for (; k < steps.size(); ++k) { steps[k] *= 1 + missing / scaled; }
+   }
+
+   std::vector<double> points{from};
+   const double direction = to > from ? 1.0 : -1.0;
+   sum = 0.0;
+   for (double h : steps)
+   {
+      sum += h;
+      points.push_back(from + direction * sum);
+   }
+   points.back() = to;
+   return points;
+}
+
+std::vector<double> graded_to_ends(double half, int intervals, double end_ratio)
+{
+   require(std::isfinite(half) && half > 0, "graded to ends: half length is ", half,
+           ", must be positive");
+   require(intervals >= 1, "graded to ends: ", intervals, " intervals, must be at least 1");
+   require(end_ratio > 0 && end_ratio <= 1, "graded to ends: end ratio is ", end_ratio,
+           ", must be above 0 and at most 1");
+   const int n = intervals, last = (n - 1) / 2; // steps from the end to the middle interval
+   const double growth = last > 0 ? std::pow(end_ratio, -1.0 / last) : 1.0;
+   // Distances from the middle, outward; the middle interval counts half if n is odd.
+   std::vector<double> outward;
+   double sum = 0.0;
+   if (n % 2 == 0) { outward.push_back(0.0); }
+   for (int d = last; d >= 0; --d)
+   {
+      sum += std::pow(growth, d - last) * (n % 2 == 1 && d == last ? 0.5 : 1.0);
+      outward.push_back(sum);
+   }
+   std::vector<double> x(n + 1);
+   const int count = static_cast<int>(outward.size());
+   for (int k = 0; k < count; ++k)
+   {
+      const double value = k == count - 1 ? half : half * (outward[k] / sum);
+      x[n - count + 1 + k] = value;
+      x[count - 1 - k] = -value;
+   }
+   if (n % 2 == 0) { x[n / 2] = 0.0; }
+   return x;
+}
+
+std::vector<double> joined(const std::vector<std::vector<double>> &pieces)
+{
+   std::vector<double> all;
+   for (const std::vector<double> &piece : pieces)
+   {
+      require(!piece.empty(), "joined: a list of coordinates is empty");
+      if (all.empty())
+      {
+         all = piece;
+         continue;
+      }
+      const double tolerance = 1e-12 * (std::abs(all.front()) + std::abs(piece.back()));
+      require(std::abs(piece.front() - all.back()) <= tolerance, "joined: a list starts at ",
+              piece.front(), ", must start where the one before ends, at ", all.back());
+      all.insert(all.end(), piece.begin() + 1, piece.end());
+   }
+   return all;
+}
+
+mfem::Mesh rectangle_mesh(const std::vector<double> &x, const std::vector<double> &y)
+{
+   const auto check = [](const char *name, const std::vector<double> &grid)
+   {
+      require(grid.size() >= 2, "rectangle mesh: ", grid.size(), " grid lines in ", name,
+              ", must be at least 2");
+      for (std::size_t k = 0; k < grid.size(); ++k)
+      {
+         require(std::isfinite(grid[k]) && (k == 0 || grid[k] > grid[k - 1]),
+                 "rectangle mesh: grid line ", k, " in ", name, " is ", grid[k],
+                 ", must be finite and larger than the one before");
+      }
+   };
+   check("x", x);
+   check("y", y);
+   require(static_cast<double>(x.size()) * y.size() < std::numeric_limits<int>::max() / 4,
+           "rectangle mesh: ", x.size(), " × ", y.size(), " grid lines are too many");
+   const int nx = static_cast<int>(x.size()) - 1, ny = static_cast<int>(y.size()) - 1;
+   mfem::Mesh mesh(2, (nx + 1) * (ny + 1), nx * ny, 2 * (nx + ny));
+   for (int j = 0; j <= ny; ++j)
+   {
+      for (int i = 0; i <= nx; ++i) { mesh.AddVertex(x[i], y[j]); }
+   }
+   const auto vertex = [nx](int i, int j) { return i + j * (nx + 1); };
+   for (int j = 0; j < ny; ++j)
+   {
+      for (int i = 0; i < nx; ++i)
+      {
+         mesh.AddQuad(vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1));
+      }
+   }
+   for (int i = 0; i < nx; ++i) { mesh.AddBdrSegment(vertex(i, 0), vertex(i + 1, 0), 1); }
+   for (int j = 0; j < ny; ++j) { mesh.AddBdrSegment(vertex(nx, j), vertex(nx, j + 1), 2); }
+   for (int i = nx; i > 0; --i) { mesh.AddBdrSegment(vertex(i, ny), vertex(i - 1, ny), 3); }
+   for (int j = ny; j > 0; --j) { mesh.AddBdrSegment(vertex(0, j), vertex(0, j - 1), 4); }
+   mesh.FinalizeQuadMesh(1, 0, false);
+   return mesh;
+}
+
+} // namespace cattaneo
