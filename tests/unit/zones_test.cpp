@@ -93,4 +93,42 @@ TEST(Zones, EndsOfACompleteContactAreItsEndNodes)
    EXPECT_EQ(all[0].to.error, 0);
 }
 
+TEST(Zones, OpeningAndSlipFindTheEdgesWherePressureAndReserveAreRough)
+{
+   // Right half of a Cattaneo–Mindlin contact: opening beyond the edge and slip behind the
+   // front go as the 3/2 power of the distance; pressure and reserve are spoilt.
+   const int n = 101;
+   Sampled s = cattaneo_mindlin(n, 0.6123, 0.0037);
+   for (int i = 0; i < n; ++i)
+   {
+      const double x = s.problem.arc_length[i] - 1.5 - 0.0037;
+      s.state.w[i] = std::pow(std::max(std::abs(x) - 1, 0.0), 1.5) * (1 + 0.3 * std::abs(x));
+      s.state.v[i] = 7 + std::pow(std::max(std::abs(x) - 0.6123, 0.0), 1.5);
+      const double noise = 1 + 0.05 * (i % 2);
+      s.state.p[i] *= noise;
+      s.state.q[i] *= noise;
+   }
+   const Eigen::VectorXd before = Eigen::VectorXd::Constant(n, 7);
+   const std::vector<Zone> all = zones(s.problem, s.state, before);
+   ASSERT_EQ(all.size(), 5u);
+   const double expected[] = {-1, -0.6123, 0.6123, 1};
+   for (int k = 0; k < 4; ++k)
+   {
+      // A hundredth of the spacing; the opening's own curvature makes its edges inexact.
+      EXPECT_NEAR(all[k].to.position, 1.5037 + expected[k], 3e-4);
+      EXPECT_GE(all[k].to.error, std::abs(all[k].to.position - 1.5037 - expected[k]));
+   }
+   EXPECT_THROW(zones(s.problem, s.state, Eigen::VectorXd::Zero(3)), std::invalid_argument);
+}
+
+TEST(Zones, ASlipFrontThatRetreatedIsNotReadFromSlip)
+{
+   Sampled s = cattaneo_mindlin(101, 0.6123, 0.0037);
+   for (int i = 0; i < 101; ++i) { s.state.v[i] = 1e-3 * i; } // slip in the stick zone as well
+   const std::vector<Zone> with = zones(s.problem, s.state, Eigen::VectorXd::Constant(101, -1));
+   const std::vector<Zone> without = zones(s.problem, s.state);
+   EXPECT_EQ(with[1].to.position, without[1].to.position);
+   EXPECT_EQ(with[2].to.position, without[2].to.position);
+}
+
 } // namespace

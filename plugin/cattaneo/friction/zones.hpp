@@ -21,26 +21,36 @@ struct Zone
    Eigen::Index first, last; ///< nodes
 };
 
-/** Zones of a state along the contact line, in the order of the nodes; ends of the line are exact.
+/** Zones of a state along the contact line, in the order of the nodes; ends of the line are
+    exact.
 
-    At an edge of contact the pressure falls to zero as the square root of the distance, and so does
-    the frictional reserve f p - |q| at the edge of a stick zone. Their squares are smooth there: a
-    parabola through up to eight nodes inside the zone is extrapolated to zero (for Hertz and
-    Cattaneo–Mindlin it is exact). The error estimate is its distance from a straight line through
-    the nearest half of the nodes. Where the extrapolation leaves the interval between the two nodes
-    by more than a spacing, the edge is the middle of the interval, ± half of it.
+    Near an edge at distance d inside, the pressure goes as d^(1/2) and so does the frictional
+    reserve f p - |q| of a stick zone; outside, the opening goes as d^(3/2) and so does the slip
+    behind an advancing slip front. p², (f p - |q|)², (w + g)^(2/3) and |v - slip_before|^(2/3)
+   are smooth: a parabola through up to eight nodes is extrapolated to zero. The error estimate
+   is its distance from a straight line through the nearest half of the nodes; of the two sides
+   the surer one is taken. Where an extrapolation leaves the interval between the two nodes by
+   more than a spacing, or there are too few nodes, the edge is the middle of the interval, ±
+   half of it. Displacements are smoother than nodal forces: an edge is found to about a
+   fiftieth of a spacing by opening and slip, a tenth by pressure and reserve.
+
+    `slip_before`: slip v at the last reversal of the load (zero for a first loading; empty: not
+    known, and slip is not used). After a reversal the reserve keeps kinks of older slip zones,
+   and slip since the reversal is the only smooth witness.
 
     Needs the problem's arc_length and weights. Plane problems (one tangential component). */
-std::vector<Zone> zones(const ReducedProblem &problem, const ContactState &state);
+std::vector<Zone> zones(const ReducedProblem &problem, const ContactState &state,
+                        const Eigen::VectorXd &slip_before = {});
 
 /// The widest zone in the given state; first > last if there is none.
-Zone widest_zone(const ReducedProblem &problem, const ContactState &state, NodeState which);
+Zone widest_zone(const ReducedProblem &problem, const ContactState &state, NodeState which,
+                 const Eigen::VectorXd &slip_before = {});
 
 /// From the first closed node to the last; first > last if all are apart.
 Zone contact_zone(const ReducedProblem &problem, const ContactState &state);
 
-/// Tractions (force over consistent weight) of nodal forces of one component, size n. Zero where
-/// the weight is zero (the axis node of quadratic axisymmetric elements).
+/// Tractions (force over consistent weight) of nodal forces of one component, size n. Zero
+/// where the weight is zero (the axis node of quadratic axisymmetric elements).
 Eigen::VectorXd tractions(const ReducedProblem &problem, const Eigen::VectorXd &nodal_forces);
 
 } // namespace cattaneo
