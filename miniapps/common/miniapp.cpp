@@ -110,17 +110,21 @@ nlohmann::ordered_json to_json(const cattaneo::Counters &counters)
    return j;
 }
 
-void write_json(const nlohmann::ordered_json &results, const std::string &file)
+void write_file(const std::string &text, const std::string &file)
 {
-   if (file.empty()) { return; }
    const std::string part = file + ".part";
    std::ofstream out(part);
-   out << results.dump(2) << '\n';
+   out << text;
    out.close();
    if (!out.good() || std::rename(part.c_str(), file.c_str()) != 0)
    {
       throw InputError("cannot write file '" + file + "'");
    }
+}
+
+void write_json(const nlohmann::ordered_json &results, const std::string &file)
+{
+   if (!file.empty()) { write_file(results.dump(2) + '\n', file); }
 }
 
 void ReferenceTable::add(const std::string &name, double reference, double tolerance,
