@@ -86,6 +86,11 @@ void Panel::add(double time, const std::vector<Zone> &zones,
    }
 }
 
+void Panel::mark(double time, double coordinate)
+{
+   rows_ += number(time) + ",thesis," + number(coordinate) + "," + number(coordinate) + "\n";
+}
+
 void Panel::limit(const char *axis, double lo, double hi)
 {
    comments_ += std::string("# limits ") + axis + ": " + number(lo) + "," + number(hi) + "\n";

@@ -35,6 +35,9 @@ public:
    void add(double time, const std::vector<cattaneo::Zone> &zones,
             const std::function<double(double)> &coordinate);
 
+   /// A value of the thesis on a zone diagram.
+   void mark(double time, double coordinate);
+
    /// Limits of the axes; NaN leaves one to the data. They are part of the figure only.
    void limit_x(double lo, double hi);
    void limit_y(double lo, double hi);

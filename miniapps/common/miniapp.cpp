@@ -152,6 +152,7 @@ void ReferenceTable::print() const
                   row.name.c_str(), row.reference, row.tolerance, thesis, row.computed,
                   difference, std::abs(difference) <= row.tolerance ? "" : "  outside");
    }
+   for (const std::string &note : notes_) { std::printf("  %s\n", note.c_str()); }
    std::fflush(stdout);
 }
 

@@ -105,22 +105,24 @@ Receding make_receding(const RecedingOptions &options)
 namespace
 {
 
-/// Least squares of the relative deviation of t from k1 x^(λ1-1) + k2 x^(λ2-1).
+const double corner_fit_from = 0.005, corner_fit_to = 0.05;
+
+/// Strengths k1, k2 of the two singular terms of a traction t(x): least squares, relative to
+/// the first mode, together with the first bounded term (a pair of complex eigenvalues).
 Eigen::Vector2d fit_corner(const std::vector<double> &x, const std::vector<double> &t)
 {
-   MatrixXd V(x.size(), 2);
+   const double real = 1.629257, imaginary = 0.231251;
+   MatrixXd V(x.size(), 4);
    VectorXd rhs(x.size());
    for (std::size_t k = 0; k < x.size(); ++k)
    {
-      // The first mode's size is the scale: the traction itself may change sign.
       const double scale = std::pow(x[k], 1 - williams_eigenvalue[0]);
-      for (int mode = 0; mode < 2; ++mode)
-      {
-         V(k, mode) = scale * std::pow(x[k], williams_eigenvalue[mode] - 1);
-      }
+      V.row(k) << 1.0, scale * std::pow(x[k], williams_eigenvalue[1] - 1),
+         scale * std::pow(x[k], real - 1) * std::cos(imaginary * std::log(x[k])),
+         scale * std::pow(x[k], real - 1) * std::sin(imaginary * std::log(x[k]));
       rhs[k] = scale * t[k];
    }
-   return V.householderQr().solve(rhs);
+   return V.householderQr().solve(rhs).head(2);
 }
 
 } // namespace
@@ -132,19 +134,18 @@ BondedTractions bonded_tractions(const ReducedProblem &problem, int pattern)
    result.q = tractions(problem, problem.patterns.at(pattern).q);
    const VectorXd &x = problem.arc_length;
    std::vector<double> near, p_near, q_near;
-   for (Index i = 0; i < x.size(); ++i)
+   // The last few nodes at the corner never converge; what they spoil must stay small, so that
+   // the fit starts well away from them.
+   const Index skip = 8;
+   for (Index i = skip; i < x.size(); ++i)
    {
-      if (x[i] > 0.01 && x[i] < 0.1)
-      {
-         near.push_back(x[i]);
-         p_near.push_back(result.p[i]);
-         q_near.push_back(result.q[i]);
-      }
+      if (x[i] < corner_fit_from || x[i] > corner_fit_to) { continue; }
+      near.push_back(x[i]);
+      p_near.push_back(result.p[i]);
+      q_near.push_back(result.q[i]);
    }
-   require(near.size() >= 4,
-           "the corner fit needs at least 4 contact nodes in 0.01 < x/t < 0.1,"
-           " there are ",
-           near.size());
+   require(near.size() >= 8, "the corner fit needs at least 8 contact nodes in ",
+           corner_fit_from, " < x/t < ", corner_fit_to, ", there are ", near.size());
    const Eigen::Vector2d kp = fit_corner(near, p_near), kq = fit_corner(near, q_near);
    result.k1_pressure = kp[0];
    result.k2_pressure = kp[1];
@@ -152,9 +153,7 @@ BondedTractions bonded_tractions(const ReducedProblem &problem, int pattern)
    result.k2_shear = kq[1];
    result.corner_ratio = kq[0] / kp[0];
 
-   // The last few nodes at the corner never converge (the singular element); the exact ratio of
-   // the corner stands for them.
-   const Index skip = 8;
+   // At the corner itself the exact ratio stands for the nodes.
    result.adhesion_friction = williams_ratio[0];
    result.lowest_pressure = std::numeric_limits<double>::infinity();
    for (Index i = skip; i < x.size(); ++i)

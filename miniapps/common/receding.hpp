@@ -22,8 +22,8 @@ struct RecedingOptions
    int order = 2;
    double spacing =
       0.02; ///< of the contact nodes from the corner to beyond the edge of the load
-   double corner = 0.002; ///< of the contact nodes at the strip's end
-   double growth = 1.25;  ///< of the elements away from the contact and the corner
+   double corner = 0.0005; ///< of the contact nodes at the strip's end
+   double growth = 1.25;   ///< of the elements away from the contact and the corner
    double poisson = 0.3;
 
    /// The limit of a half-plane, or the finite block that comes close to what the thesis used.
@@ -48,8 +48,8 @@ Receding make_receding(const RecedingOptions &options);
     carry. */
 struct BondedTractions
 {
-   /// Strength of the Williams corner, 90° on 180°: p = k1 x^(λ1-1) + k2 x^(λ2-1), fitted on
-   /// 0.01 < x/t < 0.1 by least squares of the relative deviation, and the shear alike.
+   /// Strengths of the Williams corner, 90° on 180°, p = k1 x^(λ1-1) + k2 x^(λ2-1) + …, fitted
+   /// on 0.005 < x/t < 0.05, and of the shear alike.
    double k1_pressure = 0, k2_pressure = 0, k1_shear = 0, k2_shear = 0;
    double corner_ratio =
       0; ///< k1_shear / k1_pressure: 0.543 for any load that the corner feels

@@ -56,6 +56,8 @@ def draw_lines(axes, rows):
     series = OrderedDict()
     for row in rows:
         series.setdefault((row["series"], row["style"]), []).append((value(row["x"]), value(row["y"])))
+    # Curves with companions are told apart by colour, and the companions are the dashed ones.
+    plain = any(style == "dashed" and ": " in name for name, style in series)
     names = list(OrderedDict.fromkeys(name for name, style in series if style in ("line", "points")))
     for (name, style), points in series.items():
         x, y = zip(*points)
@@ -63,11 +65,12 @@ def draw_lines(axes, rows):
         owner = next((k for k, other in enumerate(names) if name == other or name.endswith(": " + other)), None)
         colour = COLOURS[owner % len(COLOURS)] if owner is not None else "#555555"
         if style == "line":
-            axes.plot(x, y, color=colour, linestyle=DASHES[owner % len(DASHES)], linewidth=1.6, label=name)
+            axes.plot(x, y, color=colour, linestyle="-" if plain else DASHES[owner % len(DASHES)], linewidth=1.6,
+                      label=name)
         elif style == "points":
             axes.plot(x, y, "o", color=colour, markersize=3.5, label=name)
         elif style == "dashed":
-            axes.plot(x, y, color=colour, linestyle="--", linewidth=0.9, label=name)
+            axes.plot(x, y, color=colour, linestyle=(0, (5, 2)), linewidth=1.2, label=name)
         else:
             axes.plot(x, y, "D", markerfacecolor="none", markeredgecolor="black", markersize=6,
                       markeredgewidth=1.2, label=name, zorder=5)
@@ -89,7 +92,7 @@ def draw_zones(axes, rows):
         # The states at the end of an increment hold during it; edges move linearly where the same
         # zones were there before, and jump where they were not.
         before = steps[times[k - 1]] if k else None
-        start = times[k - 1] if k else time - (times[1] - times[0] if len(times) > 1 else 1.0)
+        start = times[k - 1] if k else time
         same = before is not None and [z[0] for z in before] == [z[0] for z in steps[time]]
         for j, (state, lo, hi) in enumerate(steps[time]):
             lo0, hi0 = before[j][1:] if same else (lo, hi)
@@ -104,8 +107,7 @@ def draw_zones(axes, rows):
             if state not in seen:
                 seen.append(state)
     if times:
-        first = times[0] - (times[1] - times[0] if len(times) > 1 else 1.0)
-        axes.set_xlim(min(first, times[0]), times[-1])
+        axes.set_xlim(min(times), max(times))
         axes.set_ylim(min(z[1] for s in steps.values() for z in s), max(z[2] for s in steps.values() for z in s))
     if marks:
         axes.plot([value(r["time"]) for r in marks], [value(r["from"]) for r in marks], "D", color="black",
