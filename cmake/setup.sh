@@ -69,14 +69,15 @@ prepare()
       printf '%s' "$packages" >"$deps/packages"
    fi
    bring_mfem
-   if [ ! -f "$build/build.ninja" ] || [ "$(cat "$build/mfem_dir" 2>/dev/null)" != "$MFEM_DIR" ]; then
+   local configuration="$MFEM_DIR ${CATTANEO_CMAKE_ARGS:-}"
+   if [ ! -f "$build/build.ninja" ] || [ "$(cat "$build/configured" 2>/dev/null)" != "$configuration" ]; then
       say "configuring ($build_type, MFEM at ${MFEM_DIR#"$PWD"/})"
       local launcher=""
       command -v ccache >/dev/null && launcher=-DCMAKE_CXX_COMPILER_LAUNCHER=ccache
       rm -f "$build/CMakeCache.txt"
       cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE="$build_type" -DMFEM_DIR="$MFEM_DIR" $launcher ${CATTANEO_CMAKE_ARGS:-} \
          >"$deps/configure.log" 2>&1 || { cat "$deps/configure.log" >&2; die "configuration failed"; }
-      printf '%s' "$MFEM_DIR" >"$build/mfem_dir"
+      printf '%s' "$configuration" >"$build/configured"
    fi
    # A build that has something to do shows its progress; one that has not is silent.
    if ninja -C "$build" -n "$@" 2>/dev/null | grep -q 'no work to do'; then return 0; fi

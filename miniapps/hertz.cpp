@@ -64,15 +64,14 @@ Scene half_planes(int order, int nodes, double span, double domain, double poiss
    const int elements = (nodes - 1) / order;
    const std::vector<double> contact = graded_to_ends(span, elements, 1.0);
    const double h = contact[1] - contact[0], growth = 1.25;
-   std::vector<double> left = graded(-span, -domain, h, growth);
-   std::reverse(left.begin(), left.end());
-   const std::vector<double> x = joined({left, contact, graded(span, domain, h, growth)});
-   const std::vector<double> y = graded(0, domain, h, growth);
-   const int bottom = 1, top = 3;
+   const std::vector<double> depth = graded(0, span, h, growth, 0.2 * span);
+   const std::vector<double> rings = ring_scales(span, domain, h, growth);
+   const int surface = 1, far = 3;
    std::vector<CondensedBody> condensed;
-   for (double turn : {1.0, -1.0})
+   for (double turn : {-1.0, 1.0}) // the mesh is the lower body, its half-turn the upper one
    {
-      scene.meshes.push_back(std::make_unique<mfem::Mesh>(rectangle_mesh(x, y)));
+      scene.meshes.push_back(
+         std::make_unique<mfem::Mesh>(half_plane_mesh(contact, depth, rings)));
       mfem::Mesh &mesh = *scene.meshes.back();
       for (int v = 0; v < mesh.GetNV(); ++v)
       {
@@ -81,9 +80,9 @@ Scene half_planes(int order, int nodes, double span, double domain, double poiss
       }
       scene.bodies.push_back(std::make_unique<ElasticBody>(mesh, order, material(poisson)));
       ElasticBody &body = *scene.bodies.back();
-      load(body, top, domain, domain, P, turn);
+      load(body, far, domain, domain, P, -turn);
       scene.dofs += body.space().GetTrueVSize();
-      const ContactLine line = contact_line(body, BoundaryPart({bottom}, 0, -span, span));
+      const ContactLine line = contact_line(body, surface);
       condensed.push_back(
          condense(body, line, {}, condensed.empty() ? nullptr : &condensed.front()));
    }
@@ -105,23 +104,42 @@ Scene block(int order, int nodes, double domain, double poisson, double P)
    scene.bodies.push_back(
       std::make_unique<ElasticBody>(*scene.meshes[0], order, material(poisson)));
    load(*scene.bodies[0], top, 1, 2, P, 1);
-   std::vector<double> left = graded(-1, -domain, h, growth);
-   std::reverse(left.begin(), left.end());
-   std::vector<double> depth = graded(0, -domain, h, growth);
-   std::reverse(depth.begin(), depth.end());
-   scene.meshes.push_back(std::make_unique<mfem::Mesh>(
-      rectangle_mesh(joined({left, contact, graded(1, domain, h, growth)}), depth)));
+   scene.meshes.push_back(std::make_unique<mfem::Mesh>(half_plane_mesh(
+      contact, graded(0, 1, h, growth, 0.1), ring_scales(1, domain, h, growth))));
    scene.bodies.push_back(
       std::make_unique<ElasticBody>(*scene.meshes[1], order, material(poisson)));
    ElasticBody &plane = *scene.bodies[1];
-   plane.fix(bottom, 0);
-   plane.fix(bottom, 1);
+   const int surface = 1, far = 3;
+   for (int component : {0, 1}) { plane.fix(far, component); }
    for (const auto &body : scene.bodies) { scene.dofs += body->space().GetTrueVSize(); }
    const ContactLine above = contact_line(*scene.bodies[0], bottom);
-   const ContactLine below = contact_line(plane, BoundaryPart({top}, 0, -1, 1));
+   const ContactLine below = contact_line(plane, surface);
    scene.reduction = reduce(condense(*scene.bodies[0], above), condense(plane, below),
                             pair_lines(above, below));
    return scene;
+}
+
+/// Peak pressure: top of the parabola p²(x) (exact for Hertz) fitted within half a half-width
+/// of the largest nodal value, with the nodes' weights. Nodal values of quadratic elements
+/// alternate about the smooth profile, by 0.03 % here, in the proportion of their weights.
+double peak_pressure(const ReducedProblem &problem, const ContactState &state,
+                     double half_width)
+{
+   const VectorXd p = tractions(problem, state.p), x = problem.position.col(0);
+   Eigen::Index top = 0;
+   p.maxCoeff(&top);
+   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+   Eigen::Vector3d rhs = Eigen::Vector3d::Zero();
+   for (Eigen::Index i = 0; i < x.size(); ++i)
+   {
+      const double s = (x[i] - x[top]) / half_width;
+      if (std::abs(s) > 0.5) { continue; }
+      const Eigen::Vector3d row(1, s, s * s);
+      normal += problem.weights[i] * row * row.transpose();
+      rhs += problem.weights[i] * p[i] * p[i] * row;
+   }
+   const Eigen::Vector3d c = normal.ldlt().solve(rhs);
+   return std::sqrt(c[0] - c[1] * c[1] / (4 * c[2]));
 }
 
 /// Largest deviation of nodal tractions from a closed form, in units of `scale`.
@@ -206,8 +224,7 @@ int main(int argc, char *argv[])
             const Zone contact = contact_zone(problem, state);
             const double half_width = 0.5 * (contact.to.position - contact.from.position);
             const VectorXd p = tractions(problem, state.p);
-            // The peak is smooth: nodal values need no more than the largest of them.
-            const double peak = p.maxCoeff();
+            const double peak = peak_pressure(problem, state, half_width);
             const double worst =
                deviation(p, x, p0,
                          [&](double s) {
@@ -222,19 +239,21 @@ int main(int argc, char *argv[])
                       << "), peak pressure " << peak / p0
                       << " p0_Hertz, largest deviation from Hertz " << worst << " p0"
                       << std::endl;
-            // Tolerances of the peak: 0.2 % for bilinear, 0.008 % for quadratic elements at 101
-            // nodes.
+            // Tolerances: of the peak, 0.2 % for bilinear and 0.008 % for quadratic elements at
+            // 101
+            // nodes; of edges, the spread of the reference (none for closed forms) and the
+            // read-out.
+            const double read_out = std::max(contact.to.error, contact.from.error) / b;
             if (!on_block && nodes == 101 && span == 1.67 && domain >= 1e3)
             {
                table.add("peak pressure / p0 Hertz", 1.0, order == 1 ? 2e-3 : 8e-5, none,
                          peak / p0);
-               table.add("half-width / b Hertz", 1.0, order == 1 ? 4e-3 : 2e-3, none,
-                         half_width / b);
+               table.add("half-width / b Hertz", 1.0, read_out, none, half_width / b);
             }
             if (on_block && (ratio == 0.4 || ratio == 0.8) && friction == 0.4 && domain >= 1e3)
             {
-               table.add("half-width / b Hertz", ratio == 0.4 ? 0.989 : 0.959, 0.003, none,
-                         half_width / b);
+               table.add("half-width / b Hertz", ratio == 0.4 ? 0.989 : 0.959, 0.003 + read_out,
+                         none, half_width / b);
                table.add("peak pressure / p0 Hertz", ratio == 0.4 ? 1.011 : 1.047, 0.003, none,
                          peak / p0);
             }
@@ -274,7 +293,8 @@ int main(int argc, char *argv[])
             {
                char name[64];
                std::snprintf(name, sizeof name, "stick half-width / b, Q/fP = %g", shear[k]);
-               table.add(name, exact_c, 2e-3, none, c);
+               table.add(name, exact_c, std::max(stick.from.error, stick.to.error) / b, none,
+                         c);
             }
          }
          if (!levels.empty())

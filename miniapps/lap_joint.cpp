@@ -64,7 +64,6 @@ struct Outcome
    MarchReport report;
    int code = 0;
    ContactState tightened, first_peak, first_end, last_peak;
-   VectorXd slip_tightened, slip_before_last; ///< at the starts of the loading pieces
    double a0 = 0, a = 0, c_first = 0, c_steady = 0, peak_pressure = 0;
    double a0_error = 0, a_error = 0, c_first_error = 0, c_steady_error = 0;
 
@@ -84,7 +83,7 @@ struct Outcome
    }
 };
 
-using Observer = std::function<void(const ContactState &, const VectorXd &slip_before)>;
+using Observer = std::function<void(const ContactState &)>;
 
 /// Marches through the tightening points, then cycles the remote load between 0 and `load`.
 Outcome run(FrictionSolver &solver, std::vector<VectorXd> points, int remote, double load,
@@ -103,10 +102,9 @@ Outcome run(FrictionSolver &solver, std::vector<VectorXd> points, int remote, do
    settings.increments = increments;
    settings.stop_at_steady_state = stop;
    ContactState state = ContactState::virgin(problem);
-   VectorXd before = state.v;
    auto note = [&](const ContactState &now, const IncrementRecord &)
    {
-      if (observe) { observe(now, before); }
+      if (observe) { observe(now); }
       const double pieces = now.time - tightened; // of the cycles; whole at their ends
       if (pieces >= 0 && std::abs(pieces - std::round(pieces)) < 1e-12)
       {
@@ -115,12 +113,10 @@ Outcome run(FrictionSolver &solver, std::vector<VectorXd> points, int remote, do
          else if (piece % 2 == 1)
          {
             outcome.last_peak = now;
-            outcome.slip_before_last = before;
             if (piece == 1) { outcome.first_peak = now; }
          }
          else if (piece == 2) { outcome.first_end = now; }
       }
-      if (std::abs(now.time - std::round(now.time)) < 1e-12) { before = now.v; }
    };
    outcome.report = march(solver, history, state, settings, note);
    outcome.code = miniapp::exit_code(outcome.report);
@@ -132,10 +128,10 @@ Outcome run(FrictionSolver &solver, std::vector<VectorXd> points, int remote, do
    zone = contact_zone(problem, outcome.first_peak);
    outcome.a = half_width(zone);
    outcome.a_error = read_out_error(zone);
-   zone = widest_zone(problem, outcome.first_peak, NodeState::stick, outcome.tightened.v);
+   zone = widest_zone(problem, outcome.first_peak, NodeState::stick);
    outcome.c_first = half_width(zone);
    outcome.c_first_error = read_out_error(zone);
-   zone = widest_zone(problem, outcome.last_peak, NodeState::stick, outcome.slip_before_last);
+   zone = widest_zone(problem, outcome.last_peak, NodeState::stick);
    outcome.c_steady = half_width(zone);
    outcome.c_steady_error = read_out_error(zone);
    return outcome;
@@ -331,10 +327,10 @@ int Study::single()
    miniapp::Panel diagram = miniapp::Panel::zones(
       "zones", "Zones in time (1: pinched, then T: 0 → Tmax → 0)", "load step", "x/t");
    nlohmann::ordered_json evolution = nlohmann::ordered_json::array();
-   auto observe = [&](const ContactState &state, const VectorXd &before)
+   auto observe = [&](const ContactState &state)
    {
       if (state.time < 1) { return; }
-      const std::vector<Zone> all = zones(problem(), state, before);
+      const std::vector<Zone> all = zones(problem(), state);
       diagram.add(state.time, all, [&](double s) { return x(s); });
       nlohmann::ordered_json list = nlohmann::ordered_json::array();
       for (const Zone &zone : all)

@@ -48,11 +48,10 @@ struct Extent
 };
 
 /// One loaded or partly unloaded state.
-Extent extent(const ReducedProblem &problem, const ContactState &state, double overhang,
-              const VectorXd &slip_before)
+Extent extent(const ReducedProblem &problem, const ContactState &state, double overhang)
 {
    Extent result;
-   result.zones = zones(problem, state, slip_before);
+   result.zones = zones(problem, state);
    if (!closed(result.zones.front().state))
    {
       result.s = overhang - result.zones.front().to.position;
@@ -258,7 +257,7 @@ int Study::map(const std::vector<double> &overhangs, const std::vector<double> &
          if (const int code = miniapp::exit_code(report)) { return code; }
          guess = state;
          const Extent found =
-            extent(*problem, state, overhangs[k], VectorXd::Zero(problem->nodes()));
+            extent(*problem, state, overhangs[k]);
          s.push_back(found.s);
          e.push_back(found.e);
          std::printf("%7.3g %8.4g %8.4f %8.4f\n", f, overhangs[k], found.s, found.e);
@@ -307,8 +306,9 @@ int Study::unload(FrictionSolver &solver, ContactState &state, double overhang, 
    }
    miniapp::Panel diagram =
       miniapp::Panel::zones("zones", "Zones during unloading", "p/p0", "ξ/t");
-   diagram.add(1.0, extent(*problem, full, overhang, VectorXd::Zero(x.size())).zones,
-               [&](double s) { return s - overhang; });
+   diagram.add(1.0, extent(*problem, full, overhang).zones,
+               [&](double s) {
+      return s - overhang; });
    miniapp::Panel profiles = miniapp::Panel::lines("tractions", "Pressure p and shear q over f",
                                                    "ξ/t", "p/p0, q/(f p0)");
    miniapp::Panel slip_panel =
@@ -330,7 +330,7 @@ int Study::unload(FrictionSolver &solver, ContactState &state, double overhang, 
    auto observe = [&](const ContactState &now, const IncrementRecord &)
    {
       const double level = now.multipliers[pattern];
-      const Extent found = extent(*problem, now, overhang, full.v);
+      const Extent found = extent(*problem, now, overhang);
       diagram.add(level, found.zones, [&](double s) { return s - overhang; });
       for (PointHistory &h : histories)
       {
@@ -445,7 +445,7 @@ int domain_study(miniapp::RecedingOptions options, double overhang, double frict
       ContactState state = ContactState::virgin(problem);
       const MarchReport report = march(problem, loading(problem, 0), state);
       if (const int code = miniapp::exit_code(report)) { return code; }
-      const Extent found = extent(problem, state, overhang, VectorXd::Zero(problem.nodes()));
+      const Extent found = extent(problem, state, overhang);
       std::printf("%8g %8g %8g %8.4f %8.4f\n", length, depth, side, found.s, found.e);
    }
    return 0;
@@ -551,7 +551,7 @@ int main(int argc, char *argv[])
          if (code == 0)
          {
             const Extent found =
-               extent(problem, state, overhang, VectorXd::Zero(problem.nodes()));
+               extent(problem, state, overhang);
             std::printf("\nLoading, n = %g, f = %g: s/t = %.4f ± %.4f, e/t = %.4f ± %.4f\n",
                         overhang, friction, found.s, found.s_error, found.e, found.e_error);
             study.results.update(to_json(found, overhang));

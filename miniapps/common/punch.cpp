@@ -1,6 +1,5 @@
 #include "common/punch.hpp"
 
-#include <algorithm>
 #include <cattaneo/elastic/graded_mesh.hpp>
 #include <cattaneo/input_error.hpp>
 
@@ -16,7 +15,6 @@ void PunchOptions::validate() const
            ", must be at least 3 and one more than a multiple of the order ", order);
    require(grading > 0 && grading <= 1, "option --grading is ", grading,
            ", must be above 0 and at most 1");
-   require(growth > 1 && growth <= 2, "growth is ", growth, ", must be above 1 and at most 2");
    require(domain > 2, "option --domain is ", domain, ", must be above 2 (in a)");
 }
 
@@ -31,9 +29,11 @@ Punch make_punch(const PunchOptions &options)
    const double smallest = contact[1] - contact[0];
    const double largest = contact[contact.size() / 2 + 1] - contact[contact.size() / 2];
 
-   // From the contact upward, no coarser than a tenth of the height.
-   const std::vector<double> height =
-      graded(0, 2, smallest, options.growth, std::max(0.2, largest));
+   // Away from the contact elements grow, more slowly where the order is low: a bilinear mesh
+   // that is coarse above the contact misses the block's compliance.
+   const double growth = options.order == 1 ? 1.1 : 1.25;
+   const double coarsest = std::max(options.order == 1 ? 0.04 : 0.2, largest);
+   const std::vector<double> height = graded(0, 2, smallest, growth, coarsest);
    punch.meshes.push_back(std::make_unique<mfem::Mesh>(rectangle_mesh(contact, height)));
    punch.bodies.push_back(
       std::make_unique<ElasticBody>(*punch.meshes[0], options.order, material));
@@ -50,20 +50,15 @@ Punch make_punch(const PunchOptions &options)
       return punch;
    }
 
-   const double L = options.domain;
-   std::vector<double> left = graded(-1, -L, smallest, options.growth);
-   std::reverse(left.begin(), left.end());
-   const std::vector<double> width =
-      joined({left, contact, graded(1, L, smallest, options.growth)});
-   std::vector<double> depth = graded(0, -L, smallest, options.growth);
-   std::reverse(depth.begin(), depth.end());
-   punch.meshes.push_back(std::make_unique<mfem::Mesh>(rectangle_mesh(width, depth)));
+   punch.meshes.push_back(std::make_unique<mfem::Mesh>(
+      half_plane_mesh(contact, graded(0, 1, smallest, growth, coarsest),
+                      ring_scales(1, options.domain, smallest, growth))));
    punch.bodies.push_back(
       std::make_unique<ElasticBody>(*punch.meshes[1], options.order, material));
    ElasticBody &plane = *punch.bodies[1];
-   plane.fix(bottom, 0);
-   plane.fix(bottom, 1);
-   const ContactLine facing = contact_line(plane, BoundaryPart({top}, 0, -1, 1));
+   const int surface = 1, far_bottom = 3;
+   for (int component : {0, 1}) { plane.fix(far_bottom, component); }
+   const ContactLine facing = contact_line(plane, surface);
    const Pairing pairing = pair_lines(condensed.line, facing);
    punch.dofs += plane.space().GetTrueVSize();
    punch.reduction = reduce(std::move(condensed), condense(plane, facing), pairing);

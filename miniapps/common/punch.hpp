@@ -19,11 +19,10 @@ struct PunchOptions
    bool half_plane = false;
    double poisson = 0.3;
    int order = 2;
-   int nodes = 101; ///< contact nodes; (nodes - 1) must be a multiple of the order
+   int nodes = 201; ///< contact nodes; (nodes - 1) must be a multiple of the order
    double grading =
       0.01; ///< size of the contact elements at the corners over those in the middle
-   double growth = 1.25; ///< of the elements away from the contact
-   double domain = 1e4;  ///< half-width and depth of the half-plane's block, in a
+   double domain = 1e4; ///< half-width and depth of the half-plane's block, in a
 
    /// InputError naming the option, its value and what is allowed.
    void validate() const;

@@ -52,10 +52,16 @@ DofPlaces places_of(const ElasticBody &body)
    return places;
 }
 
-/// Rigid motions that the supports leave free; InputError if some are left with the contact
-/// nodes held as well.
-int count_rigid_modes(const ElasticBody &body, const std::vector<int> &essential,
-                      const std::vector<int> &contact)
+/// Rigid motions that the supports leave free.
+struct FreeMotions
+{
+   Eigen::MatrixXd contact;   ///< at the contact dofs, one column a motion
+   Eigen::MatrixXd resultant; ///< work of each pattern's forces (columns) on each motion
+};
+
+/// InputError if some motions are left with the contact nodes held as well.
+FreeMotions find_free_motions(const ElasticBody &body, const std::vector<int> &essential,
+                              const std::vector<int> &contact)
 {
    const mfem::SparseMatrix &K = body.stiffness();
    const DofPlaces places = places_of(body);
@@ -63,7 +69,10 @@ int count_rigid_modes(const ElasticBody &body, const std::vector<int> &essential
    for (int dof : essential) { supported[dof] = true; }
    std::vector<bool> held = supported;
    for (int dof : contact) { held[dof] = true; }
-   int free = 0;
+   const auto count = static_cast<Eigen::Index>(body.patterns().size());
+   FreeMotions free;
+   free.contact.resize(contact.size(), 0);
+   free.resultant.resize(0, count);
    const std::vector<std::vector<int>> parts = connected_parts(K);
    for (const std::vector<int> &part : parts)
    {
@@ -83,9 +92,49 @@ int count_rigid_modes(const ElasticBody &body, const std::vector<int> &essential
                  " of the body with the node (", places.x[dof], ", ", places.y[dof],
                  "), must leave none");
       }
-      free += static_cast<int>(motions(supported).cols());
+      const Eigen::MatrixXd rigid = motions(supported);
+      for (Eigen::Index m = 0; m < rigid.cols(); ++m)
+      {
+         Eigen::VectorXd whole = Eigen::VectorXd::Zero(K.Height());
+         for (std::size_t k = 0; k < part.size(); ++k) { whole[part[k]] = rigid(k, m); }
+         free.contact.conservativeResize(Eigen::NoChange, free.contact.cols() + 1);
+         free.resultant.conservativeResize(free.resultant.rows() + 1, Eigen::NoChange);
+         free.contact.rightCols(1) = whole(contact);
+         for (Eigen::Index k = 0; k < count; ++k)
+         {
+            // Prescribed displacements strain the body; their forces do no work on rigid
+            // motions.
+            const auto &pattern = body.patterns()[k];
+            const Eigen::Map<const Eigen::VectorXd> forces(pattern.values.GetData(),
+                                                           K.Height());
+            free.resultant(free.resultant.rows() - 1, k) =
+               pattern.control == Control::force ? whole.dot(forces) : 0.0;
+         }
+      }
    }
    return free;
+}
+
+/** Imposes on S and f (one column a pattern, both in global components) what is known of a free
+    body: rigid motions meet no resistance, and the clamped contact balances the loads. In exact
+    arithmetic this changes nothing. In floating point a motion that is large far from the
+   contact (turning a half-plane of 10⁴ contact widths) would leave round-off of 10⁻⁴ of the
+   stiffness. */
+void impose_equilibrium(const FreeMotions &free, Eigen::MatrixXd &S, Eigen::MatrixXd &f)
+{
+   const Eigen::Index count = free.contact.cols();
+   if (count == 0) { return; }
+   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(free.contact);
+   const Eigen::MatrixXd Q =
+      qr.householderQ() * Eigen::MatrixXd::Identity(free.contact.rows(), count);
+   const Eigen::MatrixXd R = qr.matrixQR().topRows(count).triangularView<Eigen::Upper>();
+   const Eigen::MatrixXd SQ = S * Q;
+   S += Q * (Q.transpose() * SQ) * Q.transpose() - Q * SQ.transpose() - SQ * Q.transpose();
+   S = (0.5 * (S + S.transpose())).eval();
+   // Contact forces and loads together do no work: (Q R)ᵀ f = -resultant.
+   const Eigen::MatrixXd balance =
+      -R.transpose().triangularView<Eigen::Lower>().solve(free.resultant);
+   f += Q * (balance - Q.transpose() * f);
 }
 
 bool equal_operators(const mfem::SparseMatrix &A, const mfem::SparseMatrix &B)
@@ -171,7 +220,8 @@ CondensedBody condense(const ElasticBody &body, const ContactLine &line,
    CondensedBody result;
    result.line = line;
    result.counters = body.counters();
-   result.rigid_modes = count_rigid_modes(body, essential, contact);
+   const FreeMotions free = find_free_motions(body, essential, contact);
+   result.rigid_modes = static_cast<int>(free.contact.cols());
    const auto shares = [&](const CondensedBody::Operator &other)
    {
       return other.essential == essential &&
@@ -187,8 +237,6 @@ CondensedBody condense(const ElasticBody &body, const ContactLine &line,
    }
    const CondensedBody::Operator &op = *result.op;
    const FrameChange frames = FrameChange::to_local(line.tangent, line.normal);
-   result.S = frames.both(op.S);
-
    // Loads: one column a pattern. K d is needed once more below, at contact and essential dofs.
    const auto &patterns = body.patterns();
    const auto count = static_cast<Eigen::Index>(patterns.size());
@@ -215,7 +263,9 @@ CondensedBody condense(const ElasticBody &body, const ContactLine &line,
          if (!force) { loads->prescribed(a, k) = values(essential[a]); }
       }
    }
+   Eigen::MatrixXd S = op.S, clamped(op.contact, count);
    result.H = Eigen::MatrixXd::Zero(count, count);
+   Eigen::MatrixXd response(count, count);
    if (count > 0)
    {
       Eigen::MatrixXd rhs = Eigen::MatrixXd::Zero(size, count);
@@ -226,9 +276,14 @@ CondensedBody condense(const ElasticBody &body, const ContactLine &line,
       // With springs on the contact nodes instead of clamps: K_CI K_II⁻¹ r = -(S + shift) U_C,
       // and r'ᵀ K_II⁻¹ r = r'ᵀ U_I - U'_Cᵀ (S + shift) U_C.
       const Eigen::MatrixXd released = op.S * loads->contact + op.shift * loads->contact;
-      const Eigen::MatrixXd clamped = -released - at_contact;
-      const Eigen::MatrixXd response = loads->interior.transpose() * U.topRows(interior) -
-                                       loads->contact.transpose() * released;
+      clamped = -released - at_contact;
+      response = loads->interior.transpose() * U.topRows(interior) -
+                 loads->contact.transpose() * released;
+   }
+   impose_equilibrium(free, S, clamped);
+   result.S = frames.both(S);
+   if (count > 0)
+   {
       const Eigen::MatrixXd local = frames.rows(clamped);
       for (Eigen::Index k = 0; k < count; ++k)
       {

@@ -8,6 +8,9 @@
 
 #ifdef CATTANEO_USE_CHOLMOD
 #include <cholmod.h>
+#if __has_include(<dlfcn.h>)
+#include <dlfcn.h>
+#endif
 #endif
 
 namespace cattaneo
@@ -210,6 +213,41 @@ public:
 
 #ifdef CATTANEO_USE_CHOLMOD
 
+/** While it lives, OpenMP regions of the libraries we call run on one thread. CHOLMOD asks for
+   four threads at several small loops of every supernode, whatever OMP_NUM_THREADS says; waking
+   them takes as long as the factorisation itself (17,000 dofs: 50 ms instead of 26 ms;
+   260,000: 1.5 s instead of 1.1 s). The parallel part that pays is in BLAS, and not concerned.
+   Whether there is an OpenMP runtime is known to the loader only. */
+class OneOpenMPThread
+{
+   using Get = int (*)();
+   using Set = void (*)(int);
+   Set set_ = nullptr;
+   int levels_ = 0;
+
+public:
+   OneOpenMPThread()
+   {
+#if __has_include(<dlfcn.h>)
+      const auto get = reinterpret_cast<Get>(dlsym(RTLD_DEFAULT, "omp_get_max_active_levels"));
+      set_ = reinterpret_cast<Set>(dlsym(RTLD_DEFAULT, "omp_set_max_active_levels"));
+      if (!get || !set_)
+      {
+         set_ = nullptr;
+         return;
+      }
+      levels_ = get();
+      set_(0);
+#endif
+   }
+   ~OneOpenMPThread()
+   {
+      if (set_) { set_(levels_); }
+   }
+   OneOpenMPThread(const OneOpenMPThread &) = delete;
+   OneOpenMPThread &operator=(const OneOpenMPThread &) = delete;
+};
+
 /// CHOLMOD's supernodal factor in a constrained minimum degree order (CAMD).
 class CholmodFactor : public SparseFactor::Implementation
 {
@@ -235,6 +273,7 @@ class CholmodFactor : public SparseFactor::Implementation
 public:
    CholmodFactor(LowerTriangle &K, const std::vector<int> &keep)
    {
+      const OneOpenMPThread one_thread;
       cholmod_start(&common_);
       common_.print = 0;
       // The order that analyse gets is the order that it must use: no other methods, no
@@ -314,6 +353,7 @@ public:
 
    Eigen::MatrixXd solve(const Eigen::MatrixXd &rhs) const override
    {
+      const OneOpenMPThread one_thread;
       cholmod_dense b = {};
       b.nrow = rhs.rows();
       b.ncol = rhs.cols();

@@ -181,8 +181,7 @@ void ElasticBody::assemble()
    std::unique_ptr<mfem::SparseMatrix> local(form.LoseMat());
    if (const mfem::SparseMatrix *P = space_->GetConformingProlongation())
    {
-      const std::unique_ptr<mfem::SparseMatrix> Pt(mfem::Transpose(*P));
-      local.reset(mfem::RAP(*Pt, *local, *P));
+      local.reset(mfem::RAP(*P, *local, *P));
    }
    stiffness_ = std::move(local);
    ++counters_.assemblies;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cattaneo/elastic/graded_mesh.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
@@ -102,21 +103,26 @@ std::vector<double> joined(const std::vector<std::vector<double>> &pieces)
    return all;
 }
 
+namespace
+{
+
+void check_grid(const char *mesh, const char *name, const std::vector<double> &grid)
+{
+   require(grid.size() >= 2, mesh, ": ", grid.size(), " values in ", name,
+           ", must be at least 2");
+   for (std::size_t k = 0; k < grid.size(); ++k)
+   {
+      require(std::isfinite(grid[k]) && (k == 0 || grid[k] > grid[k - 1]), mesh, ": value ", k,
+              " in ", name, " is ", grid[k], ", must be finite and larger than the one before");
+   }
+}
+
+} // namespace
+
 mfem::Mesh rectangle_mesh(const std::vector<double> &x, const std::vector<double> &y)
 {
-   const auto check = [](const char *name, const std::vector<double> &grid)
-   {
-      require(grid.size() >= 2, "rectangle mesh: ", grid.size(), " grid lines in ", name,
-              ", must be at least 2");
-      for (std::size_t k = 0; k < grid.size(); ++k)
-      {
-         require(std::isfinite(grid[k]) && (k == 0 || grid[k] > grid[k - 1]),
-                 "rectangle mesh: grid line ", k, " in ", name, " is ", grid[k],
-                 ", must be finite and larger than the one before");
-      }
-   };
-   check("x", x);
-   check("y", y);
+   check_grid("rectangle mesh", "x", x);
+   check_grid("rectangle mesh", "y", y);
    require(static_cast<double>(x.size()) * y.size() < std::numeric_limits<int>::max() / 4,
            "rectangle mesh: ", x.size(), " × ", y.size(), " grid lines are too many");
    const int nx = static_cast<int>(x.size()) - 1, ny = static_cast<int>(y.size()) - 1;
@@ -139,6 +145,82 @@ mfem::Mesh rectangle_mesh(const std::vector<double> &x, const std::vector<double
    for (int j = ny; j > 0; --j) { mesh.AddBdrSegment(vertex(0, j), vertex(0, j - 1), 4); }
    mesh.FinalizeQuadMesh(1, 0, false);
    return mesh;
+}
+
+mfem::Mesh half_plane_mesh(const std::vector<double> &contact, const std::vector<double> &depth,
+                           const std::vector<double> &scale)
+{
+   check_grid("half-plane mesh", "contact", contact);
+   check_grid("half-plane mesh", "depth", depth);
+   check_grid("half-plane mesh", "scale", scale);
+   require(contact.front() == -contact.back(), "half-plane mesh: the contact runs from ",
+           contact.front(), " to ", contact.back(), ", must be symmetric about 0");
+   require(depth.front() == 0, "half-plane mesh: depth starts at ", depth.front(),
+           ", must be 0");
+   require(scale.front() == 1, "half-plane mesh: scale starts at ", scale.front(),
+           ", must be 1");
+   const int nx = static_cast<int>(contact.size()) - 1, ny = static_cast<int>(depth.size()) - 1;
+   const int rings = static_cast<int>(scale.size()) - 1, outline = 2 * ny + nx;
+   mfem::Mesh mesh(2, (nx + 1) * (ny + 1) + rings * (outline + 1), nx * ny + rings * outline,
+                   nx + 2 * rings + outline);
+   for (int j = 0; j <= ny; ++j)
+   {
+      for (int i = 0; i <= nx; ++i) { mesh.AddVertex(contact[i], -depth[j]); }
+   }
+   // The outline runs down the left side of the box, along its bottom and up the right side.
+   std::vector<int> inner;
+   for (int j = 0; j < ny; ++j) { inner.push_back(j * (nx + 1)); }
+   for (int i = 0; i <= nx; ++i) { inner.push_back(ny * (nx + 1) + i); }
+   for (int j = ny - 1; j >= 0; --j) { inner.push_back(j * (nx + 1) + nx); }
+   std::vector<std::array<double, 2>> points;
+   for (int v : inner) { points.push_back({mesh.GetVertex(v)[0], mesh.GetVertex(v)[1]}); }
+   for (int k = 1; k <= rings; ++k)
+   {
+      for (const auto &point : points)
+      {
+         mesh.AddVertex(scale[k] * point[0], scale[k] * point[1]);
+      }
+   }
+   const auto grid = [nx](int i, int j) { return i + j * (nx + 1); };
+   const auto ring = [&](int m, int k)
+   { return k == 0 ? inner[m] : (nx + 1) * (ny + 1) + (k - 1) * (outline + 1) + m; };
+   for (int j = 0; j < ny; ++j)
+   {
+      for (int i = 0; i < nx; ++i)
+      {
+         mesh.AddQuad(grid(i, j + 1), grid(i + 1, j + 1), grid(i + 1, j), grid(i, j));
+      }
+   }
+   for (int k = 0; k < rings; ++k)
+   {
+      for (int m = 0; m < outline; ++m)
+      {
+         mesh.AddQuad(ring(m, k), ring(m, k + 1), ring(m + 1, k + 1), ring(m + 1, k));
+      }
+   }
+   for (int i = nx; i > 0; --i) { mesh.AddBdrSegment(grid(i, 0), grid(i - 1, 0), 1); }
+   for (int k = 0; k < rings; ++k)
+   {
+      mesh.AddBdrSegment(ring(0, k), ring(0, k + 1), 2);
+      mesh.AddBdrSegment(ring(outline, k + 1), ring(outline, k), 2);
+   }
+   for (int m = 0; m < outline; ++m)
+   {
+      mesh.AddBdrSegment(ring(m, rings), ring(m + 1, rings), m < ny || m >= ny + nx ? 4 : 3);
+   }
+   mesh.FinalizeQuadMesh(1, 0, false);
+   return mesh;
+}
+
+std::vector<double> ring_scales(double a, double domain, double first, double growth)
+{
+   require(domain > 4 * a, "ring scales: the domain is ", domain, ", must be above ", 4 * a);
+   std::vector<double> radii = graded(a, 3 * a, first, growth);
+   const double last = radii.back() - radii[radii.size() - 2];
+   radii = joined({radii, graded(3 * a, domain, std::max(last, 0.1 * a), 1.5)});
+   for (double &radius : radii) { radius /= a; }
+   radii.front() = 1;
+   return radii;
 }
 
 } // namespace cattaneo

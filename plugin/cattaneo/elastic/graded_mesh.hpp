@@ -27,4 +27,20 @@ std::vector<double> joined(const std::vector<std::vector<double>> &pieces);
     1 bottom, 2 right, 3 top, 4 left. Vertex (i, j) has the number i + j·(number of x). */
 mfem::Mesh rectangle_mesh(const std::vector<double> &x, const std::vector<double> &y);
 
+/** Half-plane y < 0 around a contact |x| <= a, a = contact.back(): a box of quads with the grid
+    lines x = contact (symmetric, increasing) and y = -depth (from 0, increasing), and around it
+   rings that are copies of the box's outline scaled by `scale` (from 1, increasing) about the
+   origin. Far elements are large in both directions, so that a domain of 10⁴ a costs a few
+   dozen rings and none of the round-off of a tensor-product grid, whose far elements are
+   needles.
+
+    Boundary attributes: 1 the contact, 2 the free surface beside it, 3 the far bottom, 4 the
+   far sides. */
+mfem::Mesh half_plane_mesh(const std::vector<double> &contact, const std::vector<double> &depth,
+                           const std::vector<double> &scale);
+
+/// Scales 1 … domain/a for half_plane_mesh(): rings that start with the thickness `first` and
+/// grow by `growth` up to 3a, and by 1.5 beyond, where the field is smooth.
+std::vector<double> ring_scales(double a, double domain, double first, double growth);
+
 } // namespace cattaneo

@@ -35,6 +35,7 @@ ContactState ContactState::with_slip(const ReducedProblem &problem, const Eigen:
            " entries, must be ", problem.A.rows());
    ContactState state;
    state.v = v;
+   state.slip_origin = v;
    state.w = Eigen::VectorXd::Zero(n);
    state.q = Eigen::VectorXd::Zero(problem.A.rows());
    state.p = Eigen::VectorXd::Zero(n);
@@ -51,8 +52,9 @@ void ContactState::validate(const ReducedProblem &problem) const
 {
    const Eigen::Index n = problem.nodes(), m = problem.A.rows();
    const auto patterns = static_cast<Eigen::Index>(problem.patterns.size());
-   require(v.size() == m && q.size() == m && w.size() == n && p.size() == n &&
-              static_cast<Eigen::Index>(status.size()) == n && multipliers.size() == patterns,
+   require(v.size() == m && q.size() == m && slip_origin.size() == m && w.size() == n &&
+              p.size() == n && static_cast<Eigen::Index>(status.size()) == n &&
+              multipliers.size() == patterns,
            "contact state: it has ", status.size(), " nodes and ", multipliers.size(),
            " load multipliers, the reduced problem has ", n, " nodes and ", patterns,
            " load patterns");
@@ -93,6 +95,7 @@ void save(const ContactState &state, const std::string &file)
                              {"multipliers", list(state.multipliers)},
                              {"status", status},
                              {"cycle_slip", cycle_slip},
+                             {"slip_origin", list(state.slip_origin)},
                              {"v", list(state.v)},
                              {"w", list(state.w)},
                              {"q", list(state.q)},
@@ -131,6 +134,7 @@ ContactState load_contact_state(const std::string &file)
       {
          state.cycle_slip.push_back(vector(v));
       }
+      state.slip_origin = vector(j.at("slip_origin"));
       state.v = vector(j.at("v"));
       state.w = vector(j.at("w"));
       state.q = vector(j.at("q"));

@@ -32,10 +32,13 @@ inline bool slips(NodeState state)
     Sizes as in ReducedProblem; lengths and forces in the problem's own units. */
 struct ContactState
 {
-   Eigen::VectorXd v;             ///< slip: relative tangential displacement
-   Eigen::VectorXd w;             ///< relative normal displacement
-   Eigen::VectorXd q;             ///< tangential nodal forces
-   Eigen::VectorXd p;             ///< normal nodal forces, compression positive
+   Eigen::VectorXd v; ///< slip: relative tangential displacement
+   Eigen::VectorXd w; ///< relative normal displacement
+   Eigen::VectorXd q; ///< tangential nodal forces
+   Eigen::VectorXd p; ///< normal nodal forces, compression positive
+   /// Slip v at which each node last stuck, opened or turned round: v - slip_origin is the way
+   /// it has slipped since, and vanishes at an advancing slip front. Size c·n.
+   Eigen::VectorXd slip_origin;
    std::vector<NodeState> status; ///< of each node, at the end of the last increment
    Eigen::VectorXd multipliers;   ///< of the load patterns
    double time = 0.0;             ///< of the load history

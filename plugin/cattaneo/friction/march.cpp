@@ -154,6 +154,13 @@ void March::accept(ContactState &&next, int piece, const IncrementReport &increm
          break;
       }
    }
+   const Index n = problem_.nodes();
+   for (Index i = 0; i < next.v.size(); ++i)
+   {
+      const NodeState before = state_.status[i % n], now = next.status[i % n];
+      if (!slips(now)) { next.slip_origin[i] = next.v[i]; }
+      else if (slips(before) && before != now) { next.slip_origin[i] = state_.v[i]; }
+   }
    const VectorXd lost = -0.5 * (state_.q + next.q).cwiseProduct(next.v - state_.v);
    const double normal_work = -0.5 * (state_.p + next.p).dot(next.w - state_.w);
    record.dissipation = lost.sum();

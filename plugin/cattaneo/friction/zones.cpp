@@ -24,18 +24,16 @@ VectorXd tractions(const ReducedProblem &problem, const VectorXd &nodal_forces)
 namespace
 {
 
-/// Least-squares polynomial c0 + c1 x + … through the first `count` points.
-VectorXd fit(const std::vector<double> &x, const std::vector<double> &y, Index count,
-             int degree)
+/// Least-squares polynomial c0 + c1 x + … of the given degree.
+VectorXd fit(const std::vector<double> &x, const std::vector<double> &y, int degree)
 {
+   const auto count = static_cast<Index>(x.size());
    Eigen::MatrixXd V(count, degree + 1);
-   VectorXd rhs(count);
    for (Index k = 0; k < count; ++k)
    {
       for (int d = 0; d <= degree; ++d) { V(k, d) = std::pow(x[k], d); }
-      rhs[k] = y[k];
    }
-   return V.householderQr().solve(rhs);
+   return V.householderQr().solve(Eigen::Map<const VectorXd>(y.data(), count));
 }
 
 /// Zero of c0 + c1 x + c2 x² nearest to x = 0; NaN if there is none.
@@ -47,68 +45,118 @@ double zero(const VectorXd &c)
    return -2 * c[0] / (c[1] + std::copysign(std::sqrt(discriminant), c[1]));
 }
 
-/** Edge between node `first` and its neighbour `beyond`, from values on the side of `first`
-   that vanish at the edge like a distance. Values beyond `last` belong to another zone. The
-   middle of the two nodes, with half their distance for its error, where nothing better is
-   found. */
-Edge extrapolate(const VectorXd &s, const VectorXd &value, Index first, Index beyond,
-                 Index last)
+/// Where to look for an edge: between two neighbouring nodes, of which one lies in the zone
+/// whose values vanish at the edge; `last` is the far end of that zone.
+struct Bracket
 {
-   const double spacing = std::abs(s[beyond] - s[first]);
-   const Edge middle{0.5 * (s[first] + s[beyond]), 0.5 * spacing};
-   const Index step = first < beyond ? -1 : 1;
-   // Distances into the zone, in units of the spacing. The node at the edge itself feels that
-   // the edge of the discrete solution is a node, and is left out where there are enough
-   // others.
-   std::vector<double> x, y;
-   const Index available = std::abs(last - first) + 1;
-   for (Index k = available > 4 ? 1 : 0; k < std::min<Index>(available, 9); ++k)
+   const VectorXd &s;
+   Index inside, outside, last;
+
+   Index step() const { return inside < outside ? -1 : 1; }
+   Index nodes() const { return std::abs(last - inside) + 1; }
+   double spacing() const { return std::abs(s[outside] - s[inside]); }
+   Edge middle() const { return {0.5 * (s[inside] + s[outside]), 0.5 * spacing()}; }
+
+   /// Zero of a polynomial through the nodes from..to-1 of the zone (0: `inside`), in spacings
+   /// from `inside` toward the zone; NaN if there are not that many.
+   double extrapolate(const VectorXd &value, Index from, Index to, int degree) const
    {
-      const Index node = first + step * k;
-      x.push_back(std::abs(s[node] - s[first]) / spacing);
-      y.push_back(value[node]);
+      if (nodes() < to) { return std::numeric_limits<double>::quiet_NaN(); }
+      std::vector<double> x, y;
+      for (Index k = from; k < to; ++k)
+      {
+         const Index node = inside + step() * k;
+         x.push_back(std::abs(s[node] - s[inside]) / spacing());
+         y.push_back(value[node]);
+      }
+      return zero(fit(x, y, degree));
    }
-   const auto count = static_cast<Index>(x.size());
-   if (count < 3) { return middle; }
-   const double straight = zero(fit(x, y, std::max<Index>(2, (count + 1) / 2), 1));
-   const double curved = count >= 5 ? zero(fit(x, y, count, 2)) : straight;
-   // Into the zone is positive x; the edge lies in [-1, 0] up to a spacing.
-   const double best = std::isfinite(curved) ? curved : straight;
-   if (!(best > -2 && best < 1)) { return middle; }
-   const double doubt = std::isfinite(straight) ? std::abs(best - straight) : 0.5;
-   return {s[first] + step * best * spacing, std::min(std::max(doubt, 0.02), 0.5) * spacing};
-}
+
+   /// The edge at `best` if that is between the two nodes or near; `other` tells how sure it
+   /// is.
+   bool accept(double best, double other, Edge &edge) const
+   {
+      if (!(best > -1.3 && best < 0.3)) { return false; }
+      const double doubt = std::isfinite(other) ? std::abs(best - other) : 0.5;
+      edge = {s[inside] + step() * best * spacing(), std::clamp(doubt, 0.02, 0.5) * spacing()};
+      return true;
+   }
+};
 
 const Edge &surer(const Edge &a, const Edge &b)
 {
    return b.error < a.error ? b : a;
 }
 
+/// End of contact from inside: squared pressure. The last two nodes carry parts of elements
+/// that are not wholly in contact and are left out where there are enough others.
+Edge separation_edge(const Bracket &bracket, const VectorXd &pressure2)
+{
+   Edge edge = bracket.middle();
+   const Index count = std::min<Index>(10, bracket.nodes());
+   if (count >= 7)
+   {
+      bracket.accept(bracket.extrapolate(pressure2, 2, count, 2),
+                     bracket.extrapolate(pressure2, 1, count - 2, 2), edge);
+   }
+   else if (count >= 3)
+   {
+      bracket.accept(bracket.extrapolate(pressure2, 0, 3, 1),
+                     bracket.extrapolate(pressure2, 0, 2, 1), edge);
+   }
+   return edge;
+}
+
+/// An edge from the side where a displacement vanishes at it: (displacement)^(2/3), a parabola
+/// through five nodes behind the first one. Much smoother than nodal forces, but more nodes
+/// would reach into whatever ends the zone on its other side.
+bool displacement_edge(const Bracket &bracket, const VectorXd &displacement23, Edge &edge)
+{
+   return bracket.accept(bracket.extrapolate(displacement23, 1, 6, 2),
+                         bracket.extrapolate(displacement23, 1, 5, 2), edge);
+}
+
+/// Slip front from the slipping side: a straight line where there are only few nodes.
+bool slip_front(const Bracket &bracket, const VectorXd &way, Edge &edge)
+{
+   if (displacement_edge(bracket, way, edge)) { return true; }
+   const Index first = bracket.nodes() >= 4 ? 1 : 0;
+   const double best = bracket.extrapolate(way, first, first + 3, 1);
+   const double other = bracket.extrapolate(way, 0, 3, 1);
+   return bracket.accept(best, first ? other : bracket.extrapolate(way, 0, 2, 1), edge);
+}
+
+/// Edge of a stick zone from its own side: squared frictional reserve.
+Edge stick_edge(const Bracket &bracket, const VectorXd &reserve2)
+{
+   Edge edge = bracket.middle();
+   bracket.accept(bracket.extrapolate(reserve2, 0, 3, 1),
+                  bracket.extrapolate(reserve2, 1, 4, 1), edge);
+   return edge;
+}
+
 } // namespace
 
-std::vector<Zone> zones(const ReducedProblem &problem, const ContactState &state,
-                        const VectorXd &slip_before)
+std::vector<Zone> zones(const ReducedProblem &problem, const ContactState &state)
 {
    const Index n = problem.nodes();
    require(problem.components() <= 1, "zones: plane problems only, this one has ",
            problem.components(), " tangential components");
    require(problem.arc_length.size() == n && problem.weights.size() == n,
            "zones: the reduced problem has no arc length or weights");
-   require(slip_before.size() == 0 || slip_before.size() == state.v.size(),
-           "zones: ", slip_before.size(), " slips before, the state has ", state.v.size());
    const VectorXd &s = problem.arc_length;
    const VectorXd p = tractions(problem, state.p);
    const VectorXd q = state.q.size() ? tractions(problem, state.q) : VectorXd::Zero(n);
    const VectorXd pressure2 = p.cwiseAbs2();
-   VectorXd reserve2(n), opening(n), slipped = VectorXd::Zero(n);
+   VectorXd reserve2(n), opening(n), way = VectorXd::Zero(n);
    for (Index i = 0; i < n; ++i)
    {
       const double reserve = std::max(problem.friction[i] * p[i] - std::abs(q[i]), 0.0);
       reserve2[i] = reserve * reserve;
-      opening[i] = std::pow(std::max(state.w[i] + problem.gap[i], 0.0), 2.0 / 3.0);
-      if (slip_before.size())
+      opening[i] = std::pow(std::max(state.w[i] + problem.gap[i], 0.0), 2.0 / 3);
+      if (state.v.size())
       {
-         slipped[i] = std::pow(std::abs(state.v[i] - slip_before[i]), 2.0 / 3.0);
+         way[i] = std::pow(std::abs(state.v[i] - state.slip_origin[i]), 2.0 / 3);
       }
    }
    std::vector<Zone> result;
@@ -127,29 +175,38 @@ std::vector<Zone> zones(const ReducedProblem &problem, const ContactState &state
       while (i + step >= 0 && i + step < n && closed(state.status[i + step])) { i += step; }
       return i;
    };
-   // Node i is closed or sticks, j is open or slips; both zones end where theirs do.
-   auto contact_edge = [&](Index i, Index j, const Zone &open)
+   // Node i is closed, j is open; the far ends of both.
+   auto contact_edge = [&](Index i, Index j, Index closed_end, Index open_end)
    {
-      const Index far = j > i ? open.last : open.first;
-      return surer(extrapolate(s, pressure2, i, j, end_of_contact(i, i - j)),
-                   extrapolate(s, opening, j, i, far));
-   };
-   auto stick_edge = [&](Index i, Index j, const Zone &stick, const Zone &slip)
-   {
-      const Edge edge = extrapolate(s, reserve2, i, j, j > i ? stick.first : stick.last);
-      // Where a slip front retreats, what sticks again has slipped too: nothing vanishes there.
-      if (slipped[i] > 0) { return edge; }
-      return surer(edge, extrapolate(s, slipped, j, i, j > i ? slip.last : slip.first));
+      const Edge inside = separation_edge({s, i, j, closed_end}, pressure2);
+      Edge outside;
+      return displacement_edge({s, j, i, open_end}, opening, outside) ? surer(inside, outside)
+                                                                      : inside;
    };
    for (std::size_t k = 0; k + 1 < result.size(); ++k)
    {
       Zone &left = result[k], &right = result[k + 1];
       const Index i = left.last, j = right.first;
       Edge edge;
-      if (!closed(left.state)) { edge = contact_edge(j, i, left); }
-      else if (!closed(right.state)) { edge = contact_edge(i, j, right); }
-      else if (left.state == NodeState::stick) { edge = stick_edge(i, j, left, right); }
-      else if (right.state == NodeState::stick) { edge = stick_edge(j, i, right, left); }
+      if (!closed(left.state)) { edge = contact_edge(j, i, end_of_contact(j, 1), left.first); }
+      else if (!closed(right.state))
+      {
+         edge = contact_edge(i, j, end_of_contact(i, -1), right.last);
+      }
+      else if (left.state == NodeState::stick)
+      {
+         if (!slip_front({s, j, i, right.last}, way, edge))
+         {
+            edge = stick_edge({s, i, j, left.first}, reserve2);
+         }
+      }
+      else if (right.state == NodeState::stick)
+      {
+         if (!slip_front({s, i, j, left.first}, way, edge))
+         {
+            edge = stick_edge({s, j, i, right.last}, reserve2);
+         }
+      }
       else
       {
          // Opposite slip on both sides: shear changes sign.
@@ -178,11 +235,10 @@ std::vector<Zone> zones(const ReducedProblem &problem, const ContactState &state
    return result;
 }
 
-Zone widest_zone(const ReducedProblem &problem, const ContactState &state, NodeState which,
-                 const VectorXd &slip_before)
+Zone widest_zone(const ReducedProblem &problem, const ContactState &state, NodeState which)
 {
    Zone widest{which, {}, {}, 0, -1};
-   for (const Zone &zone : zones(problem, state, slip_before))
+   for (const Zone &zone : zones(problem, state))
    {
       const bool wider =
          widest.first > widest.last ||
