@@ -11,7 +11,7 @@
 //                plane_receding -friction 0.7 -unload "0.9 0.5 0.2 0.1" -steps 50
 //                plane_receding -domain th0 -friction 0.3 -order 1 -spacing 0.04 -corner 0.001
 //                plane_receding -overhang 0.8 -friction 1.4
-//                plane_receding -map "0.4 0.8 1.2 1.6 2 3" -spacing 0.05
+//                plane_receding -map "0.4 0.8 1.2 1.6 2 3" -spacing 0.05 -corner 0.01
 
 #include "common/figure.hpp"
 #include "common/miniapp.hpp"
@@ -237,27 +237,26 @@ int Study::map(const std::vector<double> &overhangs, const std::vector<double> &
    nlohmann::ordered_json list = nlohmann::ordered_json::array();
    miniapp::Panel panel = miniapp::Panel::lines("map", "Separation s and border of stick e",
                                                 "overhang n", "s/t (upper), e/t (lower)");
+   std::vector<std::vector<NodeState>> guesses(overhangs.size());
    std::printf("\n      f        n      s/t      e/t\n");
    for (double f : frictions)
    {
       set_friction(*problem, f);
       FrictionSolver solver(*problem);
-      ContactState guess = ContactState::virgin(*problem);
       std::vector<double> s, e;
       for (std::size_t k = 0; k < overhangs.size(); ++k)
       {
          ContactState state = ContactState::virgin(*problem);
-         // The states of the nodes at the overhang before are where the search starts.
-         state.status = guess.status;
+         // The states of the nodes at the friction before are where the search starts.
+         if (!guesses[k].empty()) { state.status = guesses[k]; }
          const int pattern =
             std::find(options.overhangs.begin(), options.overhangs.end(), overhangs[k]) -
             options.overhangs.begin();
          const MarchReport report = march(solver, loading(*problem, pattern), state);
          counters += report.counters;
          if (const int code = miniapp::exit_code(report)) { return code; }
-         guess = state;
-         const Extent found =
-            extent(*problem, state, overhangs[k]);
+         guesses[k] = state.status;
+         const Extent found = extent(*problem, state, overhangs[k]);
          s.push_back(found.s);
          e.push_back(found.e);
          std::printf("%7.3g %8.4g %8.4f %8.4f\n", f, overhangs[k], found.s, found.e);
@@ -307,8 +306,7 @@ int Study::unload(FrictionSolver &solver, ContactState &state, double overhang, 
    miniapp::Panel diagram =
       miniapp::Panel::zones("zones", "Zones during unloading", "p/p0", "ξ/t");
    diagram.add(1.0, extent(*problem, full, overhang).zones,
-               [&](double s) {
-      return s - overhang; });
+               [&](double s) { return s - overhang; });
    miniapp::Panel profiles = miniapp::Panel::lines("tractions", "Pressure p and shear q over f",
                                                    "ξ/t", "p/p0, q/(f p0)");
    miniapp::Panel slip_panel =
@@ -550,8 +548,7 @@ int main(int argc, char *argv[])
          int code = miniapp::exit_code(report);
          if (code == 0)
          {
-            const Extent found =
-               extent(problem, state, overhang);
+            const Extent found = extent(problem, state, overhang);
             std::printf("\nLoading, n = %g, f = %g: s/t = %.4f ± %.4f, e/t = %.4f ± %.4f\n",
                         overhang, friction, found.s, found.s_error, found.e, found.e_error);
             study.results.update(to_json(found, overhang));

@@ -1,8 +1,7 @@
 #include "common/figure.hpp"
 
-#include "common/miniapp.hpp"
-
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/whole_file.hpp>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -121,7 +120,7 @@ void output(const std::vector<Panel> &panels, const std::string &csv_prefix,
    for (const Panel &panel : panels)
    {
       names.push_back(prefix + "_" + panel.name() + ".csv");
-      write_file(panel.csv(), names.back());
+      write_whole(names.back(), panel.csv());
       files += " " + argument(names.back());
    }
    if (picture.empty()) { return; }

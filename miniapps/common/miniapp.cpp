@@ -1,10 +1,11 @@
 #include "common/miniapp.hpp"
 
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/whole_file.hpp>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <iostream>
+#include <sstream>
 
 namespace miniapp
 {
@@ -49,9 +50,13 @@ void parse(mfem::OptionsParser &options)
    }
    if (!options.Good())
    {
-      std::cerr << "error:";
-      options.PrintError(std::cerr);
-      std::cerr << "(-h lists the options)" << std::endl;
+      // MFEM's message has empty lines around it and may stream a null pointer.
+      std::ostringstream text;
+      options.PrintError(text);
+      std::istringstream words(text.str());
+      std::string message, word;
+      while (words >> word) { message += " " + word; }
+      std::cerr << "error:" << message << " (-h lists the options)" << std::endl;
       throw Leave{1};
    }
    options.PrintOptions(std::cout);
@@ -110,21 +115,9 @@ nlohmann::ordered_json to_json(const cattaneo::Counters &counters)
    return j;
 }
 
-void write_file(const std::string &text, const std::string &file)
-{
-   const std::string part = file + ".part";
-   std::ofstream out(part);
-   out << text;
-   out.close();
-   if (!out.good() || std::rename(part.c_str(), file.c_str()) != 0)
-   {
-      throw InputError("cannot write file '" + file + "'");
-   }
-}
-
 void write_json(const nlohmann::ordered_json &results, const std::string &file)
 {
-   if (!file.empty()) { write_file(results.dump(2) + '\n', file); }
+   if (!file.empty()) { cattaneo::write_whole(file, results.dump(2) + '\n'); }
 }
 
 void ReferenceTable::add(const std::string &name, double reference, double tolerance,

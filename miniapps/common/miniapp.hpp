@@ -33,9 +33,6 @@ int exit_code(const cattaneo::MarchReport &report);
 
 nlohmann::ordered_json to_json(const cattaneo::Counters &counters);
 
-/// Writes a file, whole or not at all. InputError if it cannot be written.
-void write_file(const std::string &text, const std::string &file);
-
 /// Writes results as JSON, whole or not at all; nothing if the file name is empty.
 void write_json(const nlohmann::ordered_json &results, const std::string &file);
 

@@ -55,6 +55,7 @@ DofPlaces places_of(const ElasticBody &body)
 /// Rigid motions that the supports leave free.
 struct FreeMotions
 {
+   int count = 0;             ///< by geometry; those that K does not resist follow
    Eigen::MatrixXd contact;   ///< at the contact dofs, one column a motion
    Eigen::MatrixXd resultant; ///< work of each pattern's forces (columns) on each motion
 };
@@ -92,7 +93,11 @@ FreeMotions find_free_motions(const ElasticBody &body, const std::vector<int> &e
                  " of the body with the node (", places.x[dof], ", ", places.y[dof],
                  "), must leave none");
       }
-      const Eigen::MatrixXd rigid = motions(supported);
+      // Elements of lower order than their geometry resist rotation a little: no equilibrium
+      // there.
+      const Eigen::MatrixXd possible = motions(supported);
+      const Eigen::MatrixXd rigid = unresisted(K, part, possible);
+      free.count += static_cast<int>(possible.cols());
       for (Eigen::Index m = 0; m < rigid.cols(); ++m)
       {
          Eigen::VectorXd whole = Eigen::VectorXd::Zero(K.Height());
@@ -221,7 +226,7 @@ CondensedBody condense(const ElasticBody &body, const ContactLine &line,
    result.line = line;
    result.counters = body.counters();
    const FreeMotions free = find_free_motions(body, essential, contact);
-   result.rigid_modes = static_cast<int>(free.contact.cols());
+   result.rigid_modes = free.count;
    const auto shares = [&](const CondensedBody::Operator &other)
    {
       return other.essential == essential &&

@@ -108,12 +108,13 @@ namespace
 
 void check_grid(const char *mesh, const char *name, const std::vector<double> &grid)
 {
-   require(grid.size() >= 2, mesh, ": ", grid.size(), " values in ", name,
+   require(grid.size() >= 2, mesh, ": ", grid.size(), " grid lines in ", name,
            ", must be at least 2");
    for (std::size_t k = 0; k < grid.size(); ++k)
    {
-      require(std::isfinite(grid[k]) && (k == 0 || grid[k] > grid[k - 1]), mesh, ": value ", k,
-              " in ", name, " is ", grid[k], ", must be finite and larger than the one before");
+      require(std::isfinite(grid[k]) && (k == 0 || grid[k] > grid[k - 1]), mesh, ": grid line ",
+              k, " in ", name, " is ", grid[k],
+              ", must be finite and larger than the one before");
    }
 }
 

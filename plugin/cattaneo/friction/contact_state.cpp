@@ -1,6 +1,6 @@
 #include <cattaneo/friction/contact_state.hpp>
 #include <cattaneo/input_error.hpp>
-#include <cstdio>
+#include <cattaneo/whole_file.hpp>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -100,13 +100,7 @@ void save(const ContactState &state, const std::string &file)
                              {"w", list(state.w)},
                              {"q", list(state.q)},
                              {"p", list(state.p)}};
-   // Written beside and renamed, so that an interrupted save leaves the old file whole.
-   const std::string part = file + ".part";
-   std::ofstream out(part);
-   out << j.dump(1) << '\n';
-   out.close();
-   require(out.good() && std::rename(part.c_str(), file.c_str()) == 0,
-           "contact state: cannot write file '", file, "'");
+   write_whole(file, j.dump(1) + '\n');
 }
 
 ContactState load_contact_state(const std::string &file)

@@ -113,6 +113,7 @@ struct FrictionSolver::Implementation
    bool lemke_start();
    void residuals(IncrementReport &report) const;
    bool accepted(const IncrementReport &report) const;
+   bool runs_away(const IncrementReport &report, const VectorXd &multipliers);
    bool finds_mechanism(const VectorXd &multipliers);
    void explain_failure(IncrementReport &report) const;
    double noise() const
@@ -159,7 +160,8 @@ FrictionSolver::Implementation::Implementation(const ReducedProblem &given,
       ktn = problem.B.diagonal();
       const double scale =
          std::sqrt(problem.A.cwiseAbs().maxCoeff() * problem.C.cwiseAbs().maxCoeff());
-      uncoupled = problem.B.cwiseAbs().maxCoeff() <= 1e-12 * scale;
+      // Condensed bodies of great extent carry round-off of 1e-12 of their stiffness.
+      uncoupled = problem.B.cwiseAbs().maxCoeff() <= 1e-11 * scale;
       if (uncoupled)
       {
          problem.B.setZero();
@@ -536,9 +538,16 @@ void FrictionSolver::Implementation::residuals(IncrementReport &report) const
 bool FrictionSolver::Implementation::accepted(const IncrementReport &report) const
 {
    const double allowed = std::max(settings.tolerance, report.round_off);
-   // A displacement so large that round-off hides the forces is a runaway, not a solution.
    return report.residual_normal <= allowed && report.residual_tangential <= allowed &&
           report.round_off < 1e-6;
+}
+
+/// Displacements so large that round-off hides the forces may be a body that slides away, with an
+/// imbalance that no residual shows.
+bool FrictionSolver::Implementation::runs_away(const IncrementReport &report,
+                                               const VectorXd &multipliers)
+{
+   return report.round_off > 1e-10 && finds_mechanism(multipliers);
 }
 
 bool FrictionSolver::Implementation::lemke_start()
@@ -730,6 +739,7 @@ IncrementReport FrictionSolver::Implementation::solve(ContactState &state,
       solved = run_lemke(report);
       break;
    }
+   if (solved && runs_away(report, multipliers)) { solved = false; }
    if (!solved)
    {
       if (!mechanism.exists) { finds_mechanism(multipliers); }

@@ -1,0 +1,219 @@
+#include "common/statements.hpp"
+
+#include <cattaneo/input_error.hpp>
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+
+namespace miniapp
+{
+
+using namespace cattaneo;
+
+namespace
+{
+
+/// Pieces of a text between separators, without spaces around them; empty ones are left out.
+std::vector<std::string> split(const std::string &text, const char *separators)
+{
+   std::vector<std::string> pieces;
+   std::size_t from = 0;
+   while (from <= text.size())
+   {
+      const std::size_t to = std::min(text.find_first_of(separators, from), text.size());
+      std::string piece = text.substr(from, to - from);
+      piece.erase(0, piece.find_first_not_of(" \t\n"));
+      piece.erase(piece.find_last_not_of(" \t\n") + 1);
+      if (!piece.empty()) { pieces.push_back(piece); }
+      from = to + 1;
+   }
+   return pieces;
+}
+
+double number(const std::string &where, const std::string &text)
+{
+   char *end = nullptr;
+   const double value = std::strtod(text.c_str(), &end);
+   require(!text.empty() && *end == 0 && std::isfinite(value), where, ": '", text,
+           "' is not a number");
+   return value;
+}
+
+std::vector<int> components(const std::string &where, const std::string &text)
+{
+   if (text == "x") { return {0}; }
+   if (text == "y") { return {1}; }
+   require(text == "xy", where, ": component '", text, "', must be x, y or xy");
+   return {0, 1};
+}
+
+} // namespace
+
+BoundaryPart boundary_part(const std::string &where, const std::string &text)
+{
+   const std::string form = "', must be boundary attributes such as 3 or 3,4, perhaps with an "
+                            "interval such as 3[-1<x<1]";
+   const std::size_t bracket = std::min(text.find('['), text.size());
+   std::vector<int> attributes;
+   for (const std::string &word : split(text.substr(0, bracket), ","))
+   {
+      char *end = nullptr;
+      const long attribute = std::strtol(word.c_str(), &end, 10);
+      require(*end == 0 && attribute > 0 && attribute < 1000000000, where, ": '", text, form);
+      attributes.push_back(static_cast<int>(attribute));
+   }
+   require(!attributes.empty(), where, ": '", text, form);
+   if (bracket == text.size()) { return attributes; }
+   require(text.back() == ']', where, ": '", text, form);
+   const std::vector<std::string> bounds =
+      split(text.substr(bracket + 1, text.size() - bracket - 2), "<");
+   require(bounds.size() == 3 && (bounds[1] == "x" || bounds[1] == "y"), where, ": '", text,
+           form);
+   return {attributes, bounds[1] == "x" ? 0 : 1, number(where, bounds[0]),
+           number(where, bounds[2])};
+}
+
+ScalarField linear_field(const std::string &where, const std::string &text)
+{
+   double coefficients[3] = {0, 0, 0}; // of 1, x, y
+   const auto check = [&](bool condition)
+   {
+      require(condition, where, ": '", text,
+              "' is not a number or a linear function such as 1-3*x+2*y");
+   };
+   check(!text.empty());
+   const char *at = text.c_str();
+   while (*at)
+   {
+      check(at == text.c_str() || *at == '+' || *at == '-');
+      double value = 1;
+      if (*at == '+' || *at == '-') { value = *at++ == '-' ? -1 : 1; }
+      const bool numeric = std::isdigit(static_cast<unsigned char>(*at)) || *at == '.';
+      if (numeric)
+      {
+         char *end = nullptr;
+         value *= std::strtod(at, &end);
+         check(end != at);
+         at = end;
+         if (*at == '*')
+         {
+            ++at;
+            check(*at == 'x' || *at == 'y');
+         }
+      }
+      check(numeric || *at == 'x' || *at == 'y');
+      const int power = *at == 'x' ? 1 : *at == 'y' ? 2 : 0;
+      if (power) { ++at; }
+      coefficients[power] += value;
+   }
+   const double c = coefficients[0], cx = coefficients[1], cy = coefficients[2];
+   check(std::isfinite(c) && std::isfinite(cx) && std::isfinite(cy));
+   return [=](double x, double y) { return c + cx * x + cy * y; };
+}
+
+void add_supports(ElasticBody &body, const std::string &option, const std::string &text)
+{
+   for (const std::string &statement : split(text, " ;\t\n"))
+   {
+      const std::string where = option + " '" + statement + "'";
+      const std::size_t colon = statement.find(':');
+      require(colon != std::string::npos, where,
+              ": must be attributes:components such as 1:xy, or @x,y:components for one node");
+      const std::string place = statement.substr(0, colon);
+      const std::vector<int> fixed = components(where, statement.substr(colon + 1));
+      if (place[0] == '@')
+      {
+         const std::vector<std::string> point = split(place.substr(1), ",");
+         require(point.size() == 2, where, ": '", place, "', must be a point such as @0,-1");
+         const double x = number(where, point[0]), y = number(where, point[1]);
+         for (int component : fixed) { body.fix_node(x, y, component); }
+         continue;
+      }
+      const BoundaryPart part = boundary_part(where, place);
+      for (int component : fixed) { body.fix(part, component); }
+   }
+}
+
+void add_loads(ElasticBody &body, const std::string &option, const std::string &text)
+{
+   struct Kind
+   {
+      const char *name;
+      std::size_t words;
+      const char *form;
+   };
+   static const Kind kinds[] = {{"pressure", 4, "PATTERN pressure WHERE p"},
+                                {"traction", 5, "PATTERN traction WHERE tx ty"},
+                                {"body-force", 4, "PATTERN body-force bx by"},
+                                {"displacement-x", 4, "PATTERN displacement-x WHERE u"},
+                                {"displacement-y", 4, "PATTERN displacement-y WHERE u"}};
+   for (const std::string &statement : split(text, ";\n"))
+   {
+      const std::string where = option + " '" + statement + "'";
+      const std::vector<std::string> words = split(statement, " \t");
+      require(words.size() >= 2, where, ": must be PATTERN KIND WHERE VALUES");
+      const std::string &pattern = words[0];
+      require(pattern.find_first_of("=,\"") == std::string::npos, where, ": pattern name '",
+              pattern, "' must not hold =, a comma or a quote");
+      const Kind *kind = nullptr;
+      std::string known;
+      for (const Kind &k : kinds)
+      {
+         if (words[1] == k.name) { kind = &k; }
+         known += (known.empty() ? "" : ", ") + std::string(k.name);
+      }
+      require(kind, where, ": kind '", words[1], "' is not one of ", known);
+      require(words.size() == kind->words, where, ": has ", words.size(), " words, must be ",
+              kind->form);
+      const auto field = [&](std::size_t k) { return linear_field(where, words[k]); };
+      const std::string name = kind->name;
+      if (name == "body-force") { body.add_body_force(pattern, field(2), field(3)); }
+      else
+      {
+         const BoundaryPart part = boundary_part(where, words[2]);
+         if (name == "pressure") { body.add_pressure(pattern, part, field(3)); }
+         else if (name == "traction") { body.add_traction(pattern, part, field(3), field(4)); }
+         else
+         {
+            body.add_displacement(pattern, part, name == "displacement-x" ? 0 : 1, field(3));
+         }
+      }
+   }
+}
+
+LoadHistory load_history(const std::string &option, const std::string &text,
+                         const std::vector<LoadPattern> &patterns)
+{
+   Eigen::VectorXd loads = Eigen::VectorXd::Zero(patterns.size());
+   std::vector<Eigen::VectorXd> points;
+   for (const std::string &statement : split(text, ";"))
+   {
+      const std::string where = option + " '" + statement + "'";
+      for (const std::string &word : split(statement, ", \t\n"))
+      {
+         const std::size_t equals = word.find('=');
+         require(equals != std::string::npos, where, ": '", word,
+                 "', must be PATTERN=number such as P=1");
+         std::size_t k = 0;
+         std::string known;
+         for (; k < patterns.size() && patterns[k].name != word.substr(0, equals); ++k)
+         {
+            known += (k ? ", " : "") + patterns[k].name;
+         }
+         require(k < patterns.size(), where, ": there is no load pattern '",
+                 word.substr(0, equals), "'; there are: ", known);
+         loads[k] = number(where, word.substr(equals + 1));
+      }
+      points.push_back(loads);
+   }
+   if (points.empty())
+   {
+      points = {Eigen::VectorXd::Zero(loads.size()), Eigen::VectorXd::Ones(loads.size())};
+   }
+   require(points[0].isZero(0), option, ": the loads of the first point are (",
+           points[0].transpose(), "), must be 0: the bodies start without load");
+   return LoadHistory::through(points);
+}
+
+} // namespace miniapp

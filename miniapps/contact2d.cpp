@@ -1,0 +1,428 @@
+//  contact2d: frictional contact of your own meshes: two bodies, or one on a rigid line
+//
+//  Reads one or two meshes (MFEM, or Gmsh in format 2.2), condenses them to the nodes of their
+//  contact attributes and marches a load history with Coulomb friction. Materials, supports,
+//  loads and history come from options, from a JSON case file, or from both: docs/contact2d.md
+//  describes them. Units are the user's: forces are per unit thickness.
+//
+//  Sample runs:  contact2d -case meshes/dovetail.json
+//                contact2d -case meshes/rounded_punch.json --cycles 2
+//                contact2d -mesh1 meshes/rounded_punch.msh -contact1 3 -load1 "P pressure 2 .1"
+
+#include "common/case_options.hpp"
+#include "common/miniapp.hpp"
+#include "common/statements.hpp"
+
+#include <algorithm>
+#include <cattaneo/condense/reduction.hpp>
+#include <cattaneo/friction/march.hpp>
+#include <cattaneo/friction/zones.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cattaneo/output/history.hpp>
+#include <cattaneo/output/paraview.hpp>
+#include <cattaneo/whole_file.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+using namespace cattaneo;
+using Eigen::VectorXd;
+using nlohmann::ordered_json;
+
+namespace
+{
+
+/// What the options say of one body.
+struct BodyOptions
+{
+   const char *mesh = "", *young = "1", *poisson = "0.3", *contact = "", *support = "",
+              *load = "";
+};
+
+struct Side
+{
+   std::unique_ptr<mfem::Mesh> mesh;
+   std::unique_ptr<ElasticBody> body;
+   CondensedBody condensed;
+};
+
+/// MFEM ends the process for some files that are no meshes: only the two formats are let
+/// through.
+std::unique_ptr<mfem::Mesh> read_mesh(const std::string &file)
+{
+   std::ifstream in(file);
+   require(in.good() && !std::filesystem::is_directory(file), "mesh file cannot be read");
+   std::string line;
+   std::getline(in, line);
+   if (line.rfind("$MeshFormat", 0) == 0)
+   {
+      std::string version;
+      in >> version;
+      require(version[0] == '2', "Gmsh file of format ", version,
+              ", must be 2.2 (gmsh -format msh22)");
+   }
+   else
+   {
+      require(line.rfind("MFEM ", 0) == 0,
+              "mesh file must begin with 'MFEM' or '$MeshFormat' (Gmsh), not with '",
+              line.substr(0, 20), "'");
+   }
+   in.close();
+   try
+   {
+      return std::make_unique<mfem::Mesh>(file.c_str(), 1, 1);
+   }
+   catch (const std::exception &error)
+   {
+      std::string reason = error.what();
+      std::replace(reason.begin(), reason.end(), '\n', ' ');
+      throw InputError("mesh file cannot be read: " + reason);
+   }
+}
+
+std::vector<Material> materials(const BodyOptions &options, const std::string &k,
+                                bool plane_stress)
+{
+   std::vector<double> young = miniapp::numbers(("young" + k).c_str(), options.young);
+   std::vector<double> poisson = miniapp::numbers(("poisson" + k).c_str(), options.poisson);
+   require(!young.empty() && !poisson.empty(), "options young", k, " and poisson", k,
+           " must not be empty");
+   const std::size_t count = std::max(young.size(), poisson.size());
+   if (young.size() == 1) { young.resize(count, young[0]); }
+   if (poisson.size() == 1) { poisson.resize(count, poisson[0]); }
+   require(young.size() == poisson.size(), "options young", k, " and poisson", k, " have ",
+           young.size(), " and ", poisson.size(), " values, must have as many (or one)");
+   std::vector<Material> list;
+   for (std::size_t a = 0; a < count; ++a)
+   {
+      list.push_back(
+         {young[a], poisson[a], plane_stress ? PlaneState::stress : PlaneState::strain});
+   }
+   return list;
+}
+
+Side make_side(const BodyOptions &options, const std::string &k, int order, bool plane_stress)
+{
+   try
+   {
+      require(options.contact[0], "option contact", k,
+              " is empty, must name boundary attributes");
+      Side side;
+      side.mesh = read_mesh(options.mesh);
+      const std::vector<Material> list = materials(options, k, plane_stress);
+      side.body = list.size() == 1 ? std::make_unique<ElasticBody>(*side.mesh, order, list[0])
+                                   : std::make_unique<ElasticBody>(*side.mesh, order, list);
+      miniapp::add_supports(*side.body, "support" + k, options.support);
+      miniapp::add_loads(*side.body, "load" + k, options.load);
+      const ContactLine line =
+         contact_line(*side.body, miniapp::boundary_part("contact" + k, options.contact));
+      side.condensed = condense(*side.body, line);
+      return side;
+   }
+   catch (const InputError &error)
+   {
+      throw InputError("body " + k + " ('" + options.mesh + "'): " + error.what());
+   }
+}
+
+/// The rigid obstacle is the straight line that touches the contact nodes, across their mean
+/// normal.
+Reduction on_rigid_line(const CondensedBody &body)
+{
+   const ContactLine &line = body.line;
+   const Eigen::Vector2d normal = (line.normal.transpose() * line.weights).normalized();
+   const double level = (line.position * normal).minCoeff();
+   return reduce(body,
+                 [=](double x, double y) { return normal.dot(Eigen::Vector2d(x, y)) - level; });
+}
+
+void add_options(miniapp::CaseOptions &args, BodyOptions &body, const std::string &k,
+                 const char *mesh_help)
+{
+   using Text = miniapp::CaseOptions::Text;
+   args.add(&body.mesh, "mesh" + k, Text::file, mesh_help);
+   args.add(&body.young, "young" + k, Text::numbers,
+            "Young's modulus: one, or one for each element attribute.");
+   args.add(&body.poisson, "poisson" + k, Text::numbers,
+            "Poisson's ratio: one, or one for each element attribute.");
+   args.add(&body.contact, "contact" + k, Text::word,
+            "Boundary attributes of the contact, as 3 or 3,4 or 3[-1<x<1].");
+   args.add(&body.support, "support" + k, Text::statements,
+            "Fixed components, as '1:xy 2:x @0,-1:x' (attributes, or the node near a point).");
+   args.add(
+      &body.load, "load" + k, Text::statements,
+      "Loads 'PATTERN KIND WHERE VALUES; …', as 'P pressure 3 100; Q traction 3 1 0'; kinds: "
+      "pressure, traction, body-force, displacement-x, displacement-y.");
+}
+
+/// A saved state must stand where the history stands at its time.
+void check_start(const ContactState &state, const LoadHistory &history)
+{
+   for (int piece = 0; piece < history.segments(); ++piece)
+   {
+      const double from = history.start_time(piece), to = history.end_time(piece);
+      if (state.time < from || state.time > to) { continue; }
+      const VectorXd loads =
+         history.start(piece) +
+         (state.time - from) / (to - from) * (history.end(piece) - history.start(piece));
+      const double scale = history.multipliers.cwiseAbs().maxCoeff();
+      require((loads - state.multipliers).cwiseAbs().maxCoeff() <= 1e-9 * scale,
+              "option load-state: the saved state has the load multipliers (",
+              state.multipliers.transpose(), "), the history has (", loads.transpose(),
+              ") at its time ", state.time);
+      return;
+   }
+   require(false, "option load-state: the saved state's time ", state.time,
+           " is outside of the history, which ends at ",
+           history.end_time(history.segments() - 1));
+}
+
+ordered_json loads_json(const ReducedProblem &problem, const VectorXd &multipliers)
+{
+   ordered_json j;
+   for (std::size_t k = 0; k < problem.patterns.size(); ++k)
+   {
+      j[problem.patterns[k].name] = multipliers[k];
+   }
+   return j;
+}
+
+} // namespace
+
+int main(int argc, char *argv[])
+{
+   return miniapp::run(
+      [&]
+      {
+         const miniapp::Stopwatch watch;
+         using Text = miniapp::CaseOptions::Text;
+         BodyOptions options[2];
+         int order = 2, cycle_start = -1, cycles = 1, increments = 20;
+         bool plane_stress = false;
+         double friction = 0, pairing_tolerance = 1e-6;
+         const char *gap = "geometry", *history_text = "", *stepping = "advancing";
+         const char *json = "", *csv = "", *paraview = "", *frames = "", *save_file = "",
+                    *load_file = "";
+
+         miniapp::CaseOptions args(argc, argv);
+         add_options(args, options[0], "1", "Mesh of body 1 (MFEM, or Gmsh 2.2).");
+         add_options(args, options[1], "2",
+                     "Mesh of body 2; without it body 1 is on a rigid line.");
+         args.add(&order, "order", "Order of the elements.");
+         args.add(&plane_stress, "plane-stress", "Plane stress instead of plane strain.");
+         args.add(&friction, "friction", "Coefficient of friction.");
+         args.add(&gap, "gap", Text::word,
+                  "Initial gap: geometry (from the meshes) or closed (none).");
+         args.add(&pairing_tolerance, "pairing",
+                  "Largest offset of paired nodes along the contact, in edge lengths.");
+         args.add(&history_text, "history", Text::statements,
+                  "Load multipliers at times 0, 1, …, as 'P=0; P=1; Q=0.1'; default: all from "
+                  "0 to 1.");
+         args.add(&cycle_start, "cycle-start",
+                  "Point of the history (from 0) where its cycle starts; -1: there is none.");
+         args.add(&cycles, "cycles",
+                  "How often the cycle is marched (fewer once it is steady).");
+         args.add(&increments, "increments",
+                  "Load increments between two points of the history.");
+         args.add(&stepping, "stepping", Text::word,
+                  "advancing (finer where contact advances) or fixed.");
+         mfem::OptionsParser &line = args.command_line();
+         line.AddOption(&json, "-json", "--json", "File for the results.");
+         line.AddOption(&csv, "-csv", "--csv",
+                        "Prefix of the tables PREFIX_history.csv and PREFIX_nodes.csv.");
+         line.AddOption(&paraview, "-paraview", "--paraview", "Folder for ParaView files.");
+         line.AddOption(&frames, "-frames", "--frames",
+                        "Times to be written besides the last one, or all (every increment).");
+         line.AddOption(&save_file, "-save-state", "--save-state", "File for the last state.");
+         line.AddOption(&load_file, "-load-state", "--load-state", "State to go on from.");
+         args.parse();
+
+         require(options[0].mesh[0], "option mesh1 is empty, must name a mesh file");
+         require(options[1].mesh[0] ||
+                    !(options[1].contact[0] || options[1].support[0] || options[1].load[0]),
+                 "options contact2, support2 or load2 are given without a mesh2");
+         require(order >= 1 && order <= 8, "option order is ", order, ", must be 1 to 8");
+         require(friction >= 0 && std::isfinite(friction), "option friction is ", friction,
+                 ", must be a number that is not negative");
+         require(pairing_tolerance > 0 && pairing_tolerance < 0.5, "option pairing is ",
+                 pairing_tolerance, ", must be above 0 and below 0.5");
+         require(increments >= 1, "option increments is ", increments, ", must be at least 1");
+         miniapp::check_choice("gap", gap, {"geometry", "closed"});
+         miniapp::check_choice("stepping", stepping, {"advancing", "fixed"});
+         const std::string prefix = csv, folder = paraview;
+         if (json[0]) { require_writable(json); }
+         if (save_file[0]) { require_writable(save_file); }
+         if (csv[0]) { require_writable(prefix + "_nodes.csv"); }
+         if (paraview[0] && !std::filesystem::is_directory(folder))
+         {
+            require_writable(folder);
+         }
+         const bool all_frames = std::string(frames) == "all";
+         std::vector<double> wanted =
+            all_frames ? std::vector<double>() : miniapp::numbers("frames", frames);
+         std::sort(wanted.begin(), wanted.end());
+
+         std::vector<Side> sides;
+         int dofs = 0;
+         for (int k = 0; k < (options[1].mesh[0] ? 2 : 1); ++k)
+         {
+            sides.push_back(make_side(options[k], std::to_string(k + 1), order, plane_stress));
+            dofs += sides[k].body->space().GetTrueVSize();
+         }
+         Reduction reduction =
+            sides.size() == 1 ? on_rigid_line(sides[0].condensed)
+                              : reduce(sides[0].condensed, sides[1].condensed,
+                                       pair_lines(sides[0].condensed.line,
+                                                  sides[1].condensed.line, pairing_tolerance));
+         const ContactLine &contact = sides[0].condensed.line;
+         ReducedProblem &problem = reduction.problem;
+         set_friction(problem, friction);
+         // Round-off of coordinates is no gap.
+         for (Eigen::Index i = 0; i < problem.nodes(); ++i)
+         {
+            const bool closed = std::abs(problem.gap[i]) <= 1e-9 * contact.spacing[i];
+            if (closed || std::string(gap) == "closed") { problem.gap[i] = 0; }
+         }
+         require(!problem.patterns.empty(),
+                 "there is no load: option load1 or load2 must name one");
+         LoadHistory history = miniapp::load_history("history", history_text, problem.patterns);
+         history.cycle_start = cycle_start;
+         history.cycles = cycles;
+         history.validate(static_cast<int>(problem.patterns.size()));
+         const double condensed = watch.seconds();
+         std::cout << "Condensed " << dofs << " dofs to " << 2 * problem.nodes() << " in "
+                   << condensed << " s; gap " << problem.gap.minCoeff() << " to "
+                   << problem.gap.maxCoeff() << std::endl;
+
+         ContactState state = ContactState::virgin(problem);
+         if (load_file[0])
+         {
+            state = load_contact_state(load_file);
+            state.validate(problem);
+            check_start(state, history);
+         }
+         for (double time : wanted)
+         {
+            const double end = history.end_time(history.segments() - 1);
+            require(time > state.time && time <= end, "option frames: time ", time,
+                    " is outside of the march from ", state.time, " to ", end);
+         }
+
+         MarchSettings settings;
+         settings.increments = increments;
+         settings.stepping =
+            std::string(stepping) == "fixed" ? Stepping::fixed : Stepping::advancing;
+         const bool recording = csv[0] || paraview[0];
+         HistoryTable table;
+         std::vector<ContactState> recorded;
+         auto next_frame = wanted.begin();
+         const MarchReport report = march(
+            problem, history, state, settings,
+            [&](const ContactState &reached, const IncrementRecord &record)
+            {
+               if (!recording) { return; }
+               table.add(reached, record);
+               bool frame = all_frames;
+               for (; next_frame != wanted.end() && reached.time >= *next_frame; ++next_frame)
+               {
+                  frame = true;
+               }
+               if (frame) { recorded.push_back(reached); }
+            });
+         const int code = miniapp::exit_code(report);
+         if (recording && (recorded.empty() || recorded.back().time != state.time))
+         {
+            recorded.push_back(state);
+         }
+
+         if (paraview[0])
+         {
+            ContactLineFields contact_fields(problem, contact.chain, folder, "contact");
+            for (const ContactState &frame : recorded) { contact_fields.write(frame); }
+            for (std::size_t k = 0; k < sides.size(); ++k)
+            {
+               BodyFields fields(*sides[k].body, folder, "body" + std::to_string(k + 1));
+               for (const ContactState &frame : recorded)
+               {
+                  fields.write(reduction.displacement(static_cast<int>(k), frame.v, frame.w,
+                                                      frame.multipliers),
+                               frame.time);
+               }
+            }
+         }
+         if (csv[0])
+         {
+            table.write(prefix + "_history.csv", problem);
+            write_nodes(prefix + "_nodes.csv", problem, recorded);
+         }
+         if (save_file[0]) { save(state, save_file); }
+
+         // The contact pushes body 1 by q along the tangents and p along the normals.
+         const Eigen::Vector2d force =
+            contact.tangent.transpose() * state.q + contact.normal.transpose() * state.p;
+         const double peak = tractions(problem, state.p).maxCoeff();
+         ordered_json results, zone_list = ordered_json::array(),
+                               losses = ordered_json::array();
+         std::cout << "\nAt time " << state.time << ": contact force on body 1 ("
+                   << force.transpose() << "), peak pressure " << peak
+                   << "\n\n state            from          to   (arc length)\n";
+         for (const Zone &zone : zones(problem, state))
+         {
+            std::printf(" %-13s %9.5g   %9.5g\n", name(zone.state), zone.from.position,
+                        zone.to.position);
+            zone_list.push_back({{"state", name(zone.state)},
+                                 {"from", zone.from.position},
+                                 {"to", zone.to.position}});
+         }
+         if (!report.cycles.empty())
+         {
+            std::cout << "\n cycle   dissipation   external work   slip change\n";
+         }
+         const int last_cycle = report.increments.empty() ? 0 : report.increments.back().cycle;
+         const int ended = static_cast<int>(report.cycles.size());
+         // A cycle that was not finished has increments, but no record.
+         const bool unfinished = code != 0 && last_cycle > 0;
+         const int first_cycle = last_cycle - ended + (unfinished ? 0 : 1);
+         for (int k = 0; k < ended; ++k)
+         {
+            const CycleRecord &cycle = report.cycles[k];
+            std::printf("%6d   %11.4e   %13.4e   %11.2e\n", first_cycle + k, cycle.dissipation,
+                        cycle.external_work, cycle.slip_change);
+            losses.push_back(cycle.dissipation);
+         }
+         if (report.steady_cycle)
+         {
+            std::cout << "steady from cycle " << report.steady_cycle << ", period "
+                      << report.steady_period << std::endl;
+         }
+         results["status"] = name(report.status);
+         if (code != 0)
+         {
+            results["message"] = report.message;
+            results["event_time"] = report.event_time;
+            results["event_loads"] = loads_json(problem, report.event_multipliers);
+         }
+         results["time"] = state.time;
+         results["loads"] = loads_json(problem, state.multipliers);
+         results["peak_pressure"] = peak;
+         results["contact_force"] = {force[0], force[1]};
+         results["zones"] = zone_list;
+         results["first_cycle"] = losses.empty() ? 0 : first_cycle;
+         results["dissipation"] = losses;
+         results["total_dissipation"] = state.dissipation;
+         results["steady_cycle"] = report.steady_cycle;
+         results["steady_period"] = report.steady_period;
+         results["energy_imbalance"] = report.energy_imbalance;
+         results["largest_residual"] = report.largest_residual;
+         results["contact_nodes"] = problem.nodes();
+         results["dofs"] = dofs;
+         Counters counters = reduction.counters;
+         counters += report.counters;
+         results["counters"] = miniapp::to_json(counters);
+         results["seconds"] = watch.seconds();
+         results["seconds_condensation"] = condensed;
+         miniapp::write_json(results, json);
+         return code;
+      });
+}

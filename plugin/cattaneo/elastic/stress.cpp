@@ -1,0 +1,24 @@
+#include <cattaneo/elastic/stress.hpp>
+#include <cmath>
+
+namespace cattaneo
+{
+
+double Stress::von_mises() const
+{
+   const double normal = (xx - yy) * (xx - yy) + (yy - zz) * (yy - zz) + (zz - xx) * (zz - xx);
+   return std::sqrt(0.5 * normal + 3 * xy * xy);
+}
+
+Stress stress(const Material &material, double strain_xx, double strain_yy, double shear_angle)
+{
+   const double spherical = material.lambda() * (strain_xx + strain_yy), mu = material.mu();
+   Stress s;
+   s.xx = spherical + 2 * mu * strain_xx;
+   s.yy = spherical + 2 * mu * strain_yy;
+   s.zz = material.state == PlaneState::strain ? material.poisson * (s.xx + s.yy) : 0.0;
+   s.xy = mu * shear_angle;
+   return s;
+}
+
+} // namespace cattaneo

@@ -1,0 +1,187 @@
+#include <cattaneo/elastic/stress.hpp>
+#include <cattaneo/friction/zones.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cattaneo/output/paraview.hpp>
+#include <cattaneo/whole_file.hpp>
+#include <filesystem>
+#include <sstream>
+
+namespace cattaneo
+{
+
+namespace
+{
+
+void make_folder(const std::string &folder)
+{
+   std::error_code error;
+   std::filesystem::create_directories(folder, error);
+   require(!error, "ParaView output: cannot make the folder '", folder, "': ", error.message());
+}
+
+const char *const stress_names[] = {"sigma_xx", "sigma_yy", "sigma_zz", "tau_xy", "von_mises"};
+
+} // namespace
+
+BodyFields::BodyFields(const ElasticBody &body, const std::string &directory,
+                       const std::string &name)
+   : body_(body), directory_(directory), series_(name, body.space().GetMesh())
+{
+   mfem::FiniteElementSpace &space = body.space();
+   const int order = space.GetMaxElementOrder();
+   fields_["displacement"] = std::make_unique<mfem::GridFunction>(&space);
+   if (body.has_material())
+   {
+      collection_ =
+         std::make_unique<mfem::L2_FECollection>(order, 2, mfem::BasisType::GaussLobatto);
+      stress_space_ =
+         std::make_unique<mfem::FiniteElementSpace>(space.GetMesh(), collection_.get());
+      for (const char *component : stress_names)
+      {
+         fields_[component] = std::make_unique<mfem::GridFunction>(stress_space_.get());
+      }
+   }
+   series_.SetPrefixPath(directory);
+   series_.SetPrecision(17); // of the times
+   series_.SetHighOrderOutput(true);
+   series_.SetLevelsOfDetail(order);
+   for (const auto &[field_name, field] : fields_)
+   {
+      *field = 0.0;
+      series_.RegisterField(field_name, field.get());
+   }
+}
+
+void BodyFields::write(const mfem::Vector &displacement, double time)
+{
+   require(displacement.Size() == body_.space().GetTrueVSize(),
+           "ParaView output: ", displacement.Size(), " displacements, the body has ",
+           body_.space().GetTrueVSize(), " true dofs");
+   fields_.at("displacement")->SetFromTrueDofs(displacement);
+   if (stress_space_) { evaluate_stress(); }
+   make_folder(directory_);
+   series_.SetCycle(series_.GetCycle() + 1);
+   series_.SetTime(time);
+   series_.Save();
+   require(series_.Error() == 0, "ParaView output: cannot write into the folder '", directory_,
+           "'");
+}
+
+/// The nodes of the stress elements are points of the body's elements: the stress is
+/// interpolated there, exactly where it is a polynomial of the elements' order.
+void BodyFields::evaluate_stress()
+{
+   const mfem::GridFunction &u = *fields_.at("displacement");
+   mfem::Mesh &mesh = *stress_space_->GetMesh();
+   mfem::GridFunction *component[5];
+   for (int c = 0; c < 5; ++c) { component[c] = fields_.at(stress_names[c]).get(); }
+   mfem::IsoparametricTransformation transformation;
+   mfem::DenseMatrix gradient;
+   mfem::Array<int> dofs;
+   for (int e = 0; e < mesh.GetNE(); ++e)
+   {
+      const Material &material = body_.material(mesh.GetAttribute(e));
+      mesh.GetElementTransformation(e, &transformation);
+      stress_space_->GetElementDofs(e, dofs);
+      const mfem::IntegrationRule &nodes = stress_space_->GetFE(e)->GetNodes();
+      for (int i = 0; i < dofs.Size(); ++i)
+      {
+         transformation.SetIntPoint(&nodes.IntPoint(i));
+         u.GetVectorGradient(transformation, gradient);
+         const Stress s =
+            stress(material, gradient(0, 0), gradient(1, 1), gradient(0, 1) + gradient(1, 0));
+         const double values[] = {s.xx, s.yy, s.zz, s.xy, s.von_mises()};
+         for (int c = 0; c < 5; ++c) { (*component[c])(dofs[i]) = values[c]; }
+      }
+   }
+}
+
+const mfem::GridFunction &BodyFields::field(const std::string &name) const
+{
+   std::string known;
+   for (const auto &[field_name, field] : fields_)
+   {
+      if (field_name == name) { return *field; }
+      known += (known.empty() ? "" : ", ") + field_name;
+   }
+   throw InputError("ParaView output: there is no field '" + name + "'; there are: " + known);
+}
+
+ContactLineFields::ContactLineFields(const ReducedProblem &problem,
+                                     const std::vector<int> &chain,
+                                     const std::string &directory, const std::string &name)
+   : problem_(problem), chain_(chain), directory_(directory), name_(name)
+{
+   const Eigen::Index n = problem.nodes();
+   require(problem.components() <= 1, "ParaView output: plane problems only, this one has ",
+           problem.components(), " tangential components");
+   require(problem.arc_length.size() == n && problem.position.rows() == n,
+           "ParaView output: the reduced problem has no arc length or positions");
+   require(static_cast<Eigen::Index>(chain.size()) == n, "ParaView output: ", chain.size(),
+           " numbers of chains for ", n, " nodes");
+}
+
+void ContactLineFields::write(const ContactState &state)
+{
+   state.validate(problem_);
+   const Eigen::Index n = problem_.nodes();
+   const Eigen::VectorXd none = Eigen::VectorXd::Zero(n);
+   const bool tangential = state.q.size() > 0;
+   Eigen::VectorXd status(n);
+   for (Eigen::Index i = 0; i < n; ++i) { status[i] = static_cast<double>(state.status[i]); }
+
+   std::ostringstream vtp;
+   vtp.precision(17);
+   const auto array = [&vtp](const char *field_name, const Eigen::VectorXd &values)
+   {
+      vtp << "<DataArray type=\"Float64\" Name=\"" << field_name << "\" format=\"ascii\">\n";
+      for (double value : values) { vtp << value << '\n'; }
+      vtp << "</DataArray>\n";
+   };
+   std::vector<Eigen::Index> ends; // of the chains: one past the last node
+   for (Eigen::Index i = 1; i <= n; ++i)
+   {
+      if (i == n || chain_[i] != chain_[i - 1]) { ends.push_back(i); }
+   }
+   vtp << "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\">\n<PolyData>\n"
+       << "<Piece NumberOfPoints=\"" << n << "\" NumberOfVerts=\"0\" NumberOfLines=\""
+       << ends.size() << "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<Points>\n"
+       << "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">\n";
+   for (Eigen::Index i = 0; i < n; ++i)
+   {
+      vtp << problem_.position(i, 0) << ' ' << problem_.position(i, 1) << " 0\n";
+   }
+   vtp << "</DataArray>\n</Points>\n<Lines>\n"
+       << "<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">\n";
+   for (Eigen::Index i = 0; i < n; ++i) { vtp << i << '\n'; }
+   vtp << "</DataArray>\n<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">\n";
+   for (Eigen::Index end : ends) { vtp << end << '\n'; }
+   vtp << "</DataArray>\n</Lines>\n<PointData>\n";
+   array("arc_length", problem_.arc_length);
+   array("gap", problem_.gap);
+   array("state", status);
+   array("p", tractions(problem_, state.p));
+   array("q", tangential ? tractions(problem_, state.q) : none);
+   array("slip", tangential ? state.v : none);
+   array("opening", state.w + problem_.gap);
+   vtp << "</PointData>\n</Piece>\n</PolyData>\n</VTKFile>\n";
+
+   times_.push_back(state.time);
+   std::ostringstream pvd;
+   pvd.precision(17);
+   pvd << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" "
+          "version=\"0.1\">\n<Collection>\n";
+   const auto file = [this](std::size_t k) { return name_ + "_" + std::to_string(k) + ".vtp"; };
+   for (std::size_t k = 0; k < times_.size(); ++k)
+   {
+      pvd << "<DataSet timestep=\"" << times_[k] << "\" part=\"0\" file=\"" << file(k)
+          << "\"/>\n";
+   }
+   pvd << "</Collection>\n</VTKFile>\n";
+   const std::string folder = directory_ + "/" + name_;
+   make_folder(folder);
+   write_whole(folder + "/" + file(times_.size() - 1), vtp.str());
+   write_whole(folder + "/" + name_ + ".pvd", pvd.str());
+}
+
+} // namespace cattaneo

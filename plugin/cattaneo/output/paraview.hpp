@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cattaneo/contact/contact_line.hpp>
+#include <cattaneo/elastic/body.hpp>
+#include <cattaneo/friction/contact_state.hpp>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace cattaneo
+{
+
+/** Series of a body's fields for ParaView (5.5 or newer), in the folder `directory`/`name`:
+   open `name`.pvd. Fields: "displacement"; "sigma_xx", "sigma_yy", "sigma_zz", "tau_xy"
+   (tension positive) and "von_mises" on discontinuous elements of the body's own order, from
+   each element's own material. A body with a user's operator has no material: displacement
+   only.
+
+    The body must outlive this. Nothing is computed or written before write(). */
+class BodyFields
+{
+public:
+   BodyFields(const ElasticBody &body, const std::string &directory, const std::string &name);
+
+   /// Writes one more time of the series. `displacement`: all true dofs, as
+   /// Reduction::displacement gives them. InputError if the size is wrong or the folder cannot
+   /// be written.
+   void write(const mfem::Vector &displacement, double time);
+
+   /// A field as last written; InputError with the list of names if there is none of that name.
+   const mfem::GridFunction &field(const std::string &name) const;
+
+private:
+   void evaluate_stress();
+
+   const ElasticBody &body_;
+   std::string directory_;
+   std::unique_ptr<mfem::L2_FECollection> collection_;
+   std::unique_ptr<mfem::FiniteElementSpace> stress_space_;
+   std::map<std::string, std::unique_ptr<mfem::GridFunction>> fields_;
+   mfem::ParaViewDataCollection series_;
+};
+
+/** Series of a contact line for ParaView, in the folder `directory`/`name`: open `name`.pvd.
+   One polyline a chain of nodes, at the reference position of body 1, with the point data
+   arc_length, gap (initial), state (0 stick, 1 separation, 2 forward slip, 3 backward slip), p
+   and q (tractions: nodal forces over consistent weights), slip (v) and opening (w + g). Plane
+   problems.
+
+    The problem must outlive this. */
+class ContactLineFields
+{
+public:
+   /// `chain`: number of the chain of each node, as ContactLine has it.
+   ContactLineFields(const ReducedProblem &problem, const std::vector<int> &chain,
+                     const std::string &directory, const std::string &name);
+
+   /// Writes one more time of the series, that of the state. InputError if the state does not
+   /// fit or the folder cannot be written.
+   void write(const ContactState &state);
+
+private:
+   const ReducedProblem &problem_;
+   std::vector<int> chain_;
+   std::string directory_, name_;
+   std::vector<double> times_;
+};
+
+} // namespace cattaneo

@@ -1,0 +1,456 @@
+#include "study/run_miniapp.hpp"
+
+#include "common/punch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <numeric>
+#include <sstream>
+#include <vector>
+
+namespace
+{
+
+using cattaneo_test::Run; // hidden inside of tests by testing::Test::Run
+using cattaneo_test::run_miniapp;
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+/// An empty folder of its own for each test, for the files it writes and reads.
+class Contact2D : public testing::Test
+{
+protected:
+   void SetUp() override
+   {
+      folder = testing::TempDir() + "cattaneo_contact2d_" + std::to_string(getpid());
+      fs::remove_all(folder);
+      fs::create_directories(folder);
+   }
+   void TearDown() override { fs::remove_all(folder); }
+
+   std::string write(const std::string &name, const std::string &text) const
+   {
+      std::ofstream(folder + "/" + name) << text;
+      return folder + "/" + name;
+   }
+
+   std::string write(const std::string &name, mfem::Mesh &mesh) const
+   {
+      std::ofstream out(folder + "/" + name);
+      out.precision(17);
+      mesh.Print(out);
+      return folder + "/" + name;
+   }
+
+   std::string folder;
+};
+
+Run contact2d(const std::string &options)
+{
+   return run_miniapp("contact2d", options);
+}
+
+/// States of the zones from the start of the line to its end.
+std::vector<std::string> states(const Run &run)
+{
+   std::vector<std::string> list;
+   for (const auto &zone : run.results["zones"]) { list.push_back(zone["state"]); }
+   return list;
+}
+
+/// Columns of a CSV table of numbers; text becomes NaN.
+std::map<std::string, std::vector<double>> table(const std::string &file)
+{
+   std::ifstream in(file);
+   EXPECT_TRUE(in.good()) << file;
+   std::string line, word;
+   std::vector<std::string> names;
+   std::getline(in, line);
+   std::istringstream header(line);
+   while (std::getline(header, word, ',')) { names.push_back(word); }
+   std::map<std::string, std::vector<double>> columns;
+   while (std::getline(in, line))
+   {
+      std::istringstream row(line);
+      for (const std::string &name : names)
+      {
+         std::getline(row, word, ',');
+         char *end = nullptr;
+         const double value = std::strtod(word.c_str(), &end);
+         columns[name].push_back(*end ? std::nan("") : value);
+      }
+   }
+   return columns;
+}
+
+TEST_F(Contact2D, DovetailCarriesItsLoadOnTheFlank)
+{
+   const auto run = contact2d("--case meshes/dovetail.json --csv '" + folder + "/dovetail'");
+   ASSERT_EQ(run.code, 0) << run.output;
+   const json &r = run.results;
+   EXPECT_EQ(r["status"], "converged");
+   // The neck is pulled by 200 on a half-width of 5 - √2.
+   const double load = 200 * (5 - std::sqrt(2.0));
+   EXPECT_NEAR(r["contact_force"][1].get<double>(), -load, 1e-9 * load);
+   // The flank is inclined by 45°: friction lies between its two bounds.
+   const double ratio =
+      r["contact_force"][0].get<double>() / r["contact_force"][1].get<double>();
+   EXPECT_GT(ratio, (1 - 0.3) / (1 + 0.3) * 0.98);
+   EXPECT_LT(ratio, 1.0);
+   EXPECT_EQ(states(run).front(), "separation");
+   EXPECT_EQ(states(run).back(), "separation");
+   EXPECT_NEAR(r["zones"].back()["to"].get<double>(), 5.4, 0.005);
+   EXPECT_LT(std::abs(r["energy_imbalance"].get<double>()), 1e-11);
+   EXPECT_LT(r["largest_residual"].get<double>(), 1e-12);
+   ASSERT_EQ(r["dissipation"].size(), 5u);
+   for (double loss : r["dissipation"]) { EXPECT_GT(loss, 0); }
+   EXPECT_EQ(r["counters"]["assemblies"], 2);
+   EXPECT_EQ(r["counters"]["factorisations"], 2);
+   EXPECT_EQ(r["counters"]["field_recoveries"], 0);
+
+   const auto history = table(folder + "/dovetail_history.csv");
+   EXPECT_EQ(history.at("time").size(), r["counters"]["increments"].get<std::size_t>());
+   const auto &losses = history.at("dissipation");
+   const double total = std::accumulate(losses.begin(), losses.end(), 0.0);
+   EXPECT_NEAR(total, r["total_dissipation"].get<double>(), 1e-12 * total);
+}
+
+TEST_F(Contact2D, RoundedPunchHasTheContactWidthOfTheClosedForm)
+{
+   const std::string pressed = "--case meshes/rounded_punch.json --history 'P=0; P=1' "
+                               "--cycle-start -1 --csv '" +
+                               folder + "/punch'";
+   const auto run = contact2d(pressed);
+   ASSERT_EQ(run.code, 0) << run.output;
+   EXPECT_NEAR(run.results["contact_force"][0].get<double>(), 0, 1e-7);
+   EXPECT_NEAR(run.results["contact_force"][1].get<double>(), 600, 1e-7);
+   // Ciavarella, Hills & Monno (1998): P R/(a² E*) = (ε - sin ε cos ε)/(2 cos² ε), b = a/cos ε.
+   const double right = 600 * 5 / (9 * 0.5 * 210e3 / (1 - 0.09));
+   double low = 0, high = 1;
+   while (high - low > 1e-12)
+   {
+      const double e = 0.5 * (low + high);
+      const double left = (e - std::sin(e) * std::cos(e)) / (2 * std::pow(std::cos(e), 2));
+      (left < right ? low : high) = e;
+   }
+   const double b = 3 / std::cos(low);
+   double from = 1e9, to = -1e9;
+   for (const auto &zone : run.results["zones"])
+   {
+      if (zone["state"] == "separation") { continue; }
+      from = std::min(from, zone["from"].get<double>());
+      to = std::max(to, zone["to"].get<double>());
+   }
+   EXPECT_NEAR(0.5 * (to - from), b, 0.01);
+   // The meshes are symmetric on the contact line, but not inside.
+   const auto nodes = table(folder + "/punch_nodes.csv");
+   const auto &p = nodes.at("p"), &q = nodes.at("q");
+   ASSERT_EQ(p.size(), 113u);
+   double skew = 0, total = 0;
+   for (std::size_t i = 0; i < p.size(); ++i)
+   {
+      const std::size_t mirrored = p.size() - 1 - i;
+      skew += std::abs(p[i] - p[mirrored]) + std::abs(q[i] + q[mirrored]);
+      total += p[i];
+   }
+   EXPECT_LT(skew, 0.02 * total);
+}
+
+TEST_F(Contact2D, RoundedPunchReachesASteadyCycle)
+{
+   const auto run = contact2d("--case meshes/rounded_punch.json");
+   ASSERT_EQ(run.code, 0) << run.output;
+   EXPECT_GT(run.results["steady_cycle"], 0);
+   EXPECT_EQ(run.results["steady_period"], 1);
+   EXPECT_GT(run.results["dissipation"].back(), 0);
+   EXPECT_LT(std::abs(run.results["energy_imbalance"].get<double>()), 1e-11);
+}
+
+TEST_F(Contact2D, EqualsTheSquarePunch)
+{
+   for (const bool half_plane : {false, true})
+   {
+      miniapp::PunchOptions options;
+      options.nodes = 41;
+      options.half_plane = half_plane;
+      const miniapp::Punch punch = miniapp::make_punch(options);
+      std::string own = "--mesh1 '" + write("block.mesh", *punch.meshes[0]) +
+                        "' --contact1 '1[-1<x<1]' --young1 0.91 --friction 0.3 --load1 "
+                        "'P pressure 3 0.5; Q traction 3 0.5 0; Q pressure 3 -3*x' "
+                        "--history 'P=0; P=1; Q=0.24; Q=0; Q=-0.24; Q=0' --cycle-start 1 "
+                        "--cycles 3 --increments 40";
+      if (half_plane)
+      {
+         own += " --mesh2 '" + write("plane.mesh", *punch.meshes[1]) +
+                "' --contact2 1 --young2 0.91 --support2 3:xy";
+      }
+      const auto mine = contact2d(own);
+      const auto other = run_miniapp(
+         "square_punch", std::string("--nodes 41 --friction 0.3 --shear '' --cycles 3 "
+                                     "--amplitude 0.8 --obstacle ") +
+                            (half_plane ? "half-plane" : "rigid"));
+      ASSERT_EQ(mine.code, 0) << mine.output;
+      ASSERT_EQ(other.code, 0) << other.output;
+      EXPECT_EQ(mine.results["dofs"], other.results["dofs"]);
+      EXPECT_EQ(mine.results["contact_nodes"], other.results["contact_nodes"]);
+      const json &losses = mine.results["dissipation"],
+                 &expected = other.results["dissipation"];
+      ASSERT_EQ(losses.size(), expected.size());
+      for (std::size_t k = 0; k < losses.size(); ++k)
+      {
+         EXPECT_NEAR(losses[k].get<double>(), expected[k].get<double>(),
+                     1e-8 * expected[k].get<double>());
+      }
+      const auto pressed = contact2d(own + " --frames 1 --csv '" + folder + "/punch'");
+      const auto nodes = table(folder + "/punch_nodes.csv");
+      EXPECT_NEAR(*std::max_element(nodes.at("p").begin(), nodes.at("p").begin() + 41),
+                  other.results["peak_pressure"].get<double>(),
+                  1e-8 * other.results["peak_pressure"].get<double>());
+      EXPECT_NEAR(nodes.at("slip")[40], other.results["slip_edge"].get<double>(), 1e-9);
+   }
+}
+
+TEST_F(Contact2D, FieldsAreRecoveredForFramesOnly)
+{
+   const auto run = contact2d("--case meshes/rounded_punch.json --cycles 1 --frames '1 2' "
+                              "--paraview '" +
+                              folder + "/fields'");
+   ASSERT_EQ(run.code, 0) << run.output;
+   // Two frames and the last state, two bodies.
+   EXPECT_EQ(run.results["counters"]["field_recoveries"], 6);
+   for (const char *name : {"body1", "body2", "contact"})
+   {
+      const std::string pvd = folder + "/fields/" + name + "/" + name + ".pvd";
+      std::ifstream in(pvd);
+      ASSERT_TRUE(in.good()) << pvd;
+      std::stringstream text;
+      text << in.rdbuf();
+      int sets = 0;
+      for (std::string line; std::getline(text, line);)
+      {
+         sets += line.find("<DataSet") != std::string::npos;
+      }
+      EXPECT_EQ(sets, 3) << pvd;
+   }
+}
+
+TEST_F(Contact2D, ARunCutInTwoGivesTheSameBits)
+{
+   const std::string run = "--case meshes/dovetail.json --cycles ";
+   const std::string state = " '" + folder + "/state.json'";
+   const auto whole = contact2d(run + "4");
+   const auto first = contact2d(run + "2 --save-state" + state);
+   const auto second = contact2d(run + "4 --load-state" + state);
+   ASSERT_EQ(whole.code, 0) << whole.output;
+   ASSERT_EQ(first.code, 0) << first.output;
+   ASSERT_EQ(second.code, 0) << second.output;
+   ASSERT_EQ(whole.results["dissipation"].size(), 4u) << whole.output;
+   for (const char *key : {"time", "loads", "peak_pressure", "contact_force", "zones",
+                           "total_dissipation", "steady_cycle", "status"})
+   {
+      EXPECT_EQ(whole.results[key], second.results[key]) << key;
+   }
+   EXPECT_EQ(second.results["first_cycle"], 3);
+   EXPECT_EQ(second.results["dissipation"][0], whole.results["dissipation"][2]);
+   EXPECT_EQ(second.results["dissipation"][1], whole.results["dissipation"][3]);
+
+   const auto other =
+      contact2d(run + "4 --history 'P=0; P=0.5; P=0.6; P=0.5' --load-state" + state);
+   EXPECT_EQ(other.code, 1);
+   EXPECT_NE(other.output.find("the saved state has the load multipliers"), std::string::npos)
+      << other.output;
+}
+
+TEST_F(Contact2D, GrossSlidingIsAnOutcomeWithItsLoad)
+{
+   miniapp::PunchOptions options;
+   options.nodes = 21;
+   const miniapp::Punch punch = miniapp::make_punch(options);
+   const auto run =
+      contact2d("--mesh1 '" + write("block.mesh", *punch.meshes[0]) +
+                "' --contact1 1 --friction 0.3 --load1 'P pressure 3 0.5; "
+                "Q traction 3 0.5 0; Q pressure 3 -3*x' --history 'P=0; P=1; Q=0.4'");
+   EXPECT_EQ(run.code, 2) << run.output;
+   ASSERT_TRUE(run.results.is_object());
+   EXPECT_EQ(run.results["status"], "gross sliding");
+   EXPECT_NEAR(run.results["event_loads"]["Q"].get<double>(), 0.3, 1e-4);
+   EXPECT_NE(run.output.find("gross sliding"), std::string::npos);
+}
+
+TEST_F(Contact2D, BadInputIsOneSentenceAndLeavesNoFile)
+{
+   const std::string block = "--mesh1 meshes/rounded_punch.msh --contact1 3 ";
+   const std::string pressed = block + "--load1 'P pressure 2 1' ";
+   const std::string pair = "--case meshes/dovetail.json ";
+   mfem::Mesh solid = mfem::Mesh::MakeCartesian3D(2, 2, 2, mfem::Element::HEXAHEDRON);
+   const std::string in_space = write("solid.mesh", solid);
+   const std::string text = write("text.mesh", "not a mesh\n");
+   const std::string truncated =
+      write("short.mesh", "MFEM mesh v1.0\n\ndimension\n2\n\nelements\n");
+   const std::string gmsh4 = write("new.msh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n");
+   const auto case_file = [&](const std::string &name, const std::string &contents)
+   { return "--case '" + write(name, contents) + "'"; };
+   struct Bad
+   {
+      std::string options;
+      std::vector<std::string> words; ///< that the message must hold
+   };
+   const std::vector<Bad> table = {
+      {"--mesh1 nowhere.msh --contact1 3", {"body 1", "nowhere.msh", "cannot be read"}},
+      {"", {"mesh1 is empty"}},
+      {"--mesh1 '" + in_space + "' --contact1 1", {"solid.mesh", "dimension 3", "must be 2"}},
+      {"--mesh1 '" + text + "' --contact1 1", {"text.mesh", "must begin with", "not a mesh"}},
+      {"--mesh1 '" + truncated + "' --contact1 1", {"short.mesh", "cannot be read"}},
+      {"--mesh1 '" + gmsh4 + "' --contact1 1", {"new.msh", "4.1", "must be 2.2"}},
+      {"--mesh1 meshes/rounded_punch.msh --contact1 9",
+       {"contact line", "attribute 9", "2, 3, 4"}},
+      {"--mesh1 meshes/rounded_punch.msh", {"contact1 is empty"}},
+      {block + "--load1 'P pressure 7 1'", {"pressure 'P'", "attribute 7", "2, 3, 4"}},
+      {block + "--support1 8:x", {"fix", "attribute 8", "2, 3, 4"}},
+      {"--mesh1 meshes/rounded_punch.msh --contact1 '3[7<x<8]'",
+       {"no boundary elements", "7 <= x"}},
+      {"--mesh1 meshes/rounded_punch.msh --contact1 '3[x<8]'",
+       {"contact1", "3[x<8]", "3[-1<x<1]"}},
+      {pair + "--pairing 1e-6",
+       {"pairing", "without a partner", "body 1 (81 nodes)", "body 2"}},
+      {pressed + "--friction -0.25", {"friction", "-0.25", "not negative"}},
+      {pressed + "--friction nan", {"friction", "nan", "not a number"}},
+      {pressed + "--friction 1e999", {"friction", "1e999", "not a number"}},
+      {pressed + "--increments 2.5", {"increments", "2.5", "not an integer"}},
+      {pressed + "--young1 nan", {"young1", "nan", "not a number"}},
+      {pressed + "--young1 -1", {"Young's modulus", "-1"}},
+      {pressed + "--young1 '1 2' --poisson1 '0.1 0.2 0.3'", {"young1", "2 and 3 values"}},
+      {pressed + "--poisson1 0.5", {"Poisson's ratio", "0.5", "below 0.5"}},
+      {pressed + "--order 0", {"order", "0", "1 to 8"}},
+      {pressed + "--increments 0", {"increments", "0", "at least 1"}},
+      {pressed + "--gap wide", {"gap", "wide", "geometry, closed"}},
+      {pressed + "--stepping fast", {"stepping", "fast", "advancing, fixed"}},
+      {pressed + "--support1 3:x", {"contact node", "fixed or prescribed"}},
+      {pressed + "--support1 2", {"support1 '2'", "must be"}},
+      {pressed + "--support1 2:z", {"support1 '2:z'", "x, y or xy"}},
+      {pressed + "--support1 @1:x", {"@1", "must be a point"}},
+      {pressed + "--contact2 3", {"without a mesh2"}},
+      {block, {"no load"}},
+      {block + "--load1 'P pressure 2'",
+       {"P pressure 2", "3 words", "PATTERN pressure WHERE p"}},
+      {block + "--load1 'P push 2 1'", {"kind 'push'", "pressure, traction, body-force"}},
+      {block + "--load1 'P pressure 2 nan'", {"'nan'", "linear function"}},
+      {block + "--load1 'P pressure 2 1*z'", {"'1*z'", "linear function"}},
+      {block + "--load1 'P pressure 2 1; P displacement-x 4 1'",
+       {"load pattern 'P'", "displacement"}},
+      {pressed + "--history 'P=0; Q=1'", {"history 'Q=1'", "no load pattern 'Q'", "P"}},
+      {pressed + "--history 'P=0; P=one'", {"history", "'one'", "not a number"}},
+      {pressed + "--history 'P=1; P=2'", {"history", "first point", "must be 0"}},
+      {pressed + "--history 'P=0'", {"1 points", "at least 2"}},
+      {pressed + "--history 'P=0; P=1; P=2' --cycle-start 1",
+       {"end of the cycle (2)", "start (1)"}},
+      {pressed + "--cycle-start 4", {"cycle starts at point 4", "0 to 0"}},
+      {pressed + "--history 'P=0; P=1; P=0' --cycle-start 0 --cycles 0",
+       {"0 cycles", "at least 1"}},
+      {pressed + "--frames 2", {"frames", "time 2", "from 0 to 1"}},
+      {pressed + "--load-state nowhere.json", {"nowhere.json", "cannot read"}},
+      {pressed + "--wrong 3", {"Unrecognized option", "--wrong"}},
+      {pressed + "--friction", {"--friction", "is not a number"}},
+      {"--case nowhere.json", {"nowhere.json", "cannot be read"}},
+      {case_file("broken.json", "{\"order\": 2"), {"broken.json", "is not JSON"}},
+      {case_file("list.json", "[1, 2]"), {"list.json", "array", "must be an object"}},
+      {case_file("unknown.json", "{\"yung1\": 2}"),
+       {"unknown.json", "'yung1'", "mesh1, young1"}},
+      {case_file("type1.json", "{\"friction\": \"0.3\"}"),
+       {"'friction'", "\"0.3\"", "a number"}},
+      {case_file("type2.json", "{\"order\": 1.5}"), {"'order'", "1.5", "an integer"}},
+      {case_file("type3.json", "{\"young1\": [1, \"2\"]}"), {"'young1'", "array of numbers"}},
+      {case_file("type4.json", "{\"load1\": {\"P\": 1}}"), {"'load1'", "array of strings"}},
+      {case_file("type5.json", "{\"contact1\": 3}"), {"'contact1'", "3", "a string"}},
+      {case_file("type6.json", "{\"plane-stress\": 1}"), {"'plane-stress'", "true or false"}},
+      {case_file("path.json", "{\"mesh1\": \"no.msh\", \"contact1\": \"3\"}"),
+       {folder + "/no.msh"}},
+   };
+   fs::create_directories(folder + "/out");
+   for (const Bad &bad : table)
+   {
+      const auto run =
+         contact2d(bad.options + " --csv '" + folder + "/out/t' --paraview '" + folder +
+                   "/out/fields' --save-state '" + folder + "/out/state.json'");
+      const std::size_t at = run.output.find("error:");
+      EXPECT_EQ(run.code, 1) << bad.options << "\n" << run.output;
+      if (at == std::string::npos)
+      {
+         ADD_FAILURE() << "no message for " << bad.options << "\n" << run.output;
+         continue;
+      }
+      const std::string message = run.output.substr(at);
+      EXPECT_EQ(message.find('\n'), message.size() - 1) << "one line: " << message;
+      for (const std::string &word : bad.words)
+      {
+         EXPECT_NE(message.find(word), std::string::npos)
+            << bad.options << "\nshould say '" << word << "': " << message;
+      }
+      EXPECT_TRUE(run.results.is_null()) << bad.options;
+      EXPECT_TRUE(fs::is_empty(folder + "/out")) << bad.options;
+      fs::remove_all(folder + "/out");
+      fs::create_directories(folder + "/out");
+   }
+   for (const char *options : {"--json /nowhere/r.json", "--csv /nowhere/r",
+                               "--paraview /nowhere/r", "--save-state /nowhere/s"})
+   {
+      const std::string option = options;
+      const std::string program = std::string("'") + CATTANEO_MINIAPP_DIR + "/contact2d' ";
+      const std::string command = "cd '" + std::string(CATTANEO_SOURCE_DIR) + "' && " +
+                                  program + pressed + option +
+                                  " 2>&1 >/dev/null | grep -q 'no folder'";
+      EXPECT_EQ(std::system(command.c_str()), 0) << option;
+   }
+}
+
+TEST_F(Contact2D, AnUnsupportedBodyIsRefused)
+{
+   // The second of two separate squares touches neither support nor contact.
+   mfem::Mesh mesh(2, 8, 2, 2);
+   const double corners[8][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1},
+                                 {5, 0}, {6, 0}, {6, 1}, {5, 1}};
+   for (const auto &corner : corners) { mesh.AddVertex(corner[0], corner[1]); }
+   mesh.AddQuad(0, 1, 2, 3);
+   mesh.AddQuad(4, 5, 6, 7);
+   mesh.AddBdrSegment(0, 1, 1);
+   mesh.AddBdrSegment(2, 3, 2);
+   mesh.FinalizeQuadMesh(0, 0, true);
+   const auto run = contact2d("--mesh1 '" + write("two.mesh", mesh) +
+                              "' --contact1 1 --load1 'P pressure 2 1'");
+   EXPECT_EQ(run.code, 1) << run.output;
+   EXPECT_NE(run.output.find("unsupported body"), std::string::npos) << run.output;
+   EXPECT_TRUE(run.results.is_null());
+}
+
+TEST_F(Contact2D, TheDocumentedCaseIsTheOneShipped)
+{
+   const auto content = [](const std::string &file)
+   {
+      std::ifstream in(std::string(CATTANEO_SOURCE_DIR) + "/" + file);
+      std::stringstream text;
+      text << in.rdbuf();
+      return text.str();
+   };
+   const std::string guide = content("docs/contact2d.md");
+   const std::size_t from = guide.find("```json\n") + 8;
+   EXPECT_EQ(guide.substr(from, guide.find("```", from) - from),
+             content("meshes/rounded_punch.json"));
+}
+
+TEST_F(Contact2D, OptionsOverrideTheCaseFile)
+{
+   const auto run = contact2d("--case meshes/dovetail.json --friction 0 --order 1 --cycles 1");
+   ASSERT_EQ(run.code, 0) << run.output;
+   EXPECT_EQ(run.results["counters"]["tangential_unknowns"], 0);
+   EXPECT_EQ(run.results["total_dissipation"], 0);
+   EXPECT_EQ(run.results["contact_nodes"], 41);
+   // Without friction the flank of 45° carries as much sideways as upward, but for its ends.
+   EXPECT_NEAR(run.results["contact_force"][0].get<double>() /
+                  run.results["contact_force"][1].get<double>(),
+               1.0, 0.02);
+}
+
+} // namespace
