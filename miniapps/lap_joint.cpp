@@ -204,7 +204,7 @@ struct Study
 {
    miniapp::LapJointOptions options;
    miniapp::LapJoint joint;
-   double friction = 0.2, load = 0.04;
+   double friction = 0.2, load = 0.04, snug = 0.05;
    int cycles = 3, increments = 40;
    bool stop = true;
    Counters counters;
@@ -215,7 +215,8 @@ struct Study
    ReducedProblem &problem() { return joint.reduction.problem; }
    double P0() const { return options.widths[0]; }
    double x(double arc_length) { return arc_length + problem().position(0, 0); }
-   /// Multipliers of the pinch pressures tightened one after another, from zero.
+   /// Multipliers of the pinch pressures: several bolts are first drawn together to the snug
+   /// pressure, then tightened one after another.
    std::vector<VectorXd> tightening(const std::vector<int> &order, int width = 0,
                                     double pressure = 1);
 
@@ -231,6 +232,11 @@ std::vector<VectorXd> Study::tightening(const std::vector<int> &order, int width
                                         double pressure)
 {
    std::vector<VectorXd> points{VectorXd::Zero(problem().patterns.size())};
+   if (order.size() > 1 && snug > 0)
+   {
+      points.push_back(points.back());
+      for (int bolt : order) { points.back()[joint.pinch(bolt, width)] = snug * pressure; }
+   }
    for (int bolt : order)
    {
       points.push_back(points.back());
@@ -571,6 +577,8 @@ int main(int argc, char *argv[])
          args.AddOption(&tightening, "-tightening", "--tightening",
                         "Orders of tightening, bolts from 1: \"2 1 3 / 1 3 2\" (empty: inner "
                         "first, outer first).");
+         args.AddOption(&study.snug, "-snug", "--snug",
+                        "Pressure over p0 to which several bolts are drawn together first.");
          args.AddOption(&sweep_load, "-sweep-load", "--sweep-load",
                         "Sweep: list of T/P0 (empty: none).");
          args.AddOption(&sweep_friction, "-sweep-friction", "--sweep-friction",
@@ -593,6 +601,8 @@ int main(int argc, char *argv[])
                  ", must be at least 1");
          require(study.increments >= 1, "option --increments is ", study.increments,
                  ", must be at least 1");
+         require(study.snug >= 0 && study.snug < 1, "option --snug is ", study.snug,
+                 ", must be 0 or more and below 1");
          study.stop = !all_cycles;
          options.bolts = miniapp::numbers("--bolts", bolts);
          const std::vector<double> loads = miniapp::numbers("--sweep-load", sweep_load);

@@ -203,7 +203,7 @@ void Study::bonded(double overhang, int pattern)
    else { std::printf("  the bonded strip pulls: no friction keeps it together\n"); }
    results["adhesion_friction"] = json_number(b.adhesion_friction);
    results["adhesion_x"] = b.adhesion_x;
-   results["corner_ratio"] = b.corner_ratio;
+   results["corner_ratio"] = json_number(b.corner_ratio);
    results["corner_strength"] = {b.k1_pressure, b.k2_pressure};
    results["lowest_bonded_pressure"] = b.lowest_pressure;
    if (options.order >= 2 && options.corner <= 5e-4)

@@ -113,7 +113,7 @@ std::string Panel::csv() const
 void output(const std::vector<Panel> &panels, const std::string &csv_prefix,
             const std::string &picture)
 {
-   if (csv_prefix.empty() && picture.empty()) { return; }
+   if (panels.empty() || (csv_prefix.empty() && picture.empty())) { return; }
    const std::string prefix = csv_prefix.empty() ? picture : csv_prefix;
    std::string files;
    std::vector<std::string> names;

@@ -52,7 +52,7 @@ struct BondedTractions
    /// on 0.005 < x/t < 0.05, and of the shear alike.
    double k1_pressure = 0, k2_pressure = 0, k1_shear = 0, k2_shear = 0;
    double corner_ratio =
-      0; ///< k1_shear / k1_pressure: 0.543 for any load that the corner feels
+      0; ///< k1_shear / k1_pressure: 0.543; NaN where the mesh is too coarse to fit
    double lowest_pressure = 0;
    /// Least friction for full adhesion: the largest of the corner's ratio (exact) and of |q|/p
    /// away from the corner; infinite if the bonded strip pulls somewhere.

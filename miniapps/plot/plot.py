@@ -152,7 +152,7 @@ def main(arguments):
         if comments.get("reversed") == "x":
             axes.invert_xaxis()
     figure.tight_layout()
-    figure.savefig(picture, dpi=130)
+    figure.savefig(picture, dpi=110)
 
 
 if __name__ == "__main__":

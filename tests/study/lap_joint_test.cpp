@@ -27,14 +27,14 @@ void expect_symmetric_and_balanced(const Run &run)
 
 TEST(LapJoint, TensionMeetsTheReferences)
 {
-   const Run run = run_miniapp("lap_joint", "");
+   const auto run = run_miniapp("lap_joint", "");
    expect_references_met(run, 7);
    expect_symmetric_and_balanced(run);
 }
 
 TEST(LapJoint, CompressionMeetsTheReferences)
 {
-   const Run run = run_miniapp("lap_joint", "-friction 0.5 -load -0.04");
+   const auto run = run_miniapp("lap_joint", "-friction 0.5 -load -0.04");
    expect_references_met(run, 6);
    expect_symmetric_and_balanced(run);
 }
@@ -79,8 +79,8 @@ TEST(LapJoint, ZonesDoNotDependOnTheLoadLevelOrPoissonsRatio)
    ASSERT_EQ(solver.solve(high, Eigen::Vector2d(1e6, 0)).status, FrictionStatus::converged);
    EXPECT_EQ(low.status, high.status);
    EXPECT_LT((1e12 * low.p - high.p).cwiseAbs().maxCoeff(), 1e-9 * high.p.maxCoeff());
-   const Run a = run_miniapp("lap_joint", "-spacing 0.0125 -poisson 0");
-   const Run b = run_miniapp("lap_joint", "-spacing 0.0125 -poisson 0.4");
+   const auto a = run_miniapp("lap_joint", "-spacing 0.0125 -poisson 0");
+   const auto b = run_miniapp("lap_joint", "-spacing 0.0125 -poisson 0.4");
    ASSERT_EQ(a.code + b.code, 0) << a.output << b.output;
    for (const char *key : {"a0", "a", "c_first", "c_steady"})
    {
@@ -90,7 +90,7 @@ TEST(LapJoint, ZonesDoNotDependOnTheLoadLevelOrPoissonsRatio)
 
 TEST(LapJoint, DissipationFallsWithFrictionAndRisesWithLoad)
 {
-   const Run run = run_miniapp(
+   const auto run = run_miniapp(
       "lap_joint", "-sweep-load '0.02 0.04' -sweep-friction '0.2 0.4 0.8' -spacing 0.0125");
    ASSERT_EQ(run.code, 0) << run.output;
    const auto &sweep = run.results["sweep"];
@@ -106,11 +106,11 @@ TEST(LapJoint, OrderOfTighteningMattersOnlyForUnequalLaps)
 {
    const std::string options =
       "-bolts '-1.2 0 1.2' -friction 0.2 -load 0.1 -spacing 0.025 -increments 20";
-   const Run equal = run_miniapp("lap_joint", options);
+   const auto equal = run_miniapp("lap_joint", options);
    ASSERT_EQ(equal.code, 0) << equal.output;
    const auto &same = equal.results["tightening"];
    ASSERT_EQ(same.size(), 2u);
-   const Run unequal = run_miniapp("lap_joint", options + " -lower-thickness 2");
+   const auto unequal = run_miniapp("lap_joint", options + " -lower-thickness 2");
    ASSERT_EQ(unequal.code, 0) << unequal.output;
    const auto &other = unequal.results["tightening"];
    ASSERT_EQ(other.size(), 2u);

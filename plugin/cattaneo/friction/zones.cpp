@@ -183,6 +183,14 @@ std::vector<Zone> zones(const ReducedProblem &problem, const ContactState &state
       return displacement_edge({s, j, i, open_end}, opening, outside) ? surer(inside, outside)
                                                                       : inside;
    };
+   // Node i sticks, j slips; the far ends of both zones. Where the front retreats, slip does
+   // not vanish at it and its extrapolation is in doubt.
+   auto slip_edge = [&](Index i, Index j, Index stick_end, Index slip_end)
+   {
+      const Edge inside = stick_edge({s, i, j, stick_end}, reserve2);
+      Edge outside;
+      return slip_front({s, j, i, slip_end}, way, outside) ? surer(outside, inside) : inside;
+   };
    for (std::size_t k = 0; k + 1 < result.size(); ++k)
    {
       Zone &left = result[k], &right = result[k + 1];
@@ -195,17 +203,11 @@ std::vector<Zone> zones(const ReducedProblem &problem, const ContactState &state
       }
       else if (left.state == NodeState::stick)
       {
-         if (!slip_front({s, j, i, right.last}, way, edge))
-         {
-            edge = stick_edge({s, i, j, left.first}, reserve2);
-         }
+         edge = slip_edge(i, j, left.first, right.last);
       }
       else if (right.state == NodeState::stick)
       {
-         if (!slip_front({s, i, j, left.first}, way, edge))
-         {
-            edge = stick_edge({s, j, i, right.last}, reserve2);
-         }
+         edge = slip_edge(j, i, right.last, left.first);
       }
       else
       {
