@@ -11,6 +11,7 @@
 //                hertz -shear "0.3 0.6 0.9"
 //                hertz -body block -ratio 0.8 -shear none
 
+#include "common/figure.hpp"
 #include "common/hertz_scene.hpp"
 #include "common/miniapp.hpp"
 
@@ -86,7 +87,8 @@ int main(int argc, char *argv[])
       [&]
       {
          const miniapp::Stopwatch watch;
-         const char *body = "half-plane", *shear_list = "0.6", *json = "";
+         const char *body = "half-plane", *shear_list = "0.6", *json = "", *csv = "",
+                    *plot = "";
          double friction = 0.4, poisson = 0.3, ratio = 0.4, domain = 1e4, span = 1.67;
          int order = 2, nodes = 101, increments = 20;
          mfem::OptionsParser args(argc, argv);
@@ -106,6 +108,8 @@ int main(int argc, char *argv[])
          args.AddOption(&increments, "-increments", "--increments",
                         "Load increments between two values (more where contact advances).");
          args.AddOption(&json, "-json", "--json", "File for the results.");
+         args.AddOption(&csv, "-csv", "--csv", "Prefix of CSV files for the figures.");
+         args.AddOption(&plot, "-plot", "--plot", "Picture of the results (png, pdf, svg).");
          miniapp::parse(args);
          miniapp::check_choice("--body", body, {"half-plane", "block"});
          const bool on_block = std::string(body) == "block";
@@ -148,8 +152,17 @@ int main(int argc, char *argv[])
          int code = miniapp::exit_code(report);
          miniapp::ReferenceTable table;
          nlohmann::ordered_json results;
+         miniapp::Panel profiles = miniapp::Panel::lines("tractions", "Pressure and shear",
+                                                         "x/b", "p/p0 Hertz, -q/(f p0 Hertz)");
          if (code == 0)
          {
+            profiles.add("p", x / b, tractions(problem, state.p) / p0, "points");
+            VectorXd exact(x.size());
+            for (Eigen::Index i = 0; i < x.size(); ++i)
+            {
+               exact[i] = std::sqrt(std::max(0.0, 1 - x[i] * x[i] / (b * b)));
+            }
+            profiles.add("Hertz: p", x / b, exact, "dashed");
             const Zone contact = contact_zone(problem, state);
             const double half_width = 0.5 * (contact.to.position - contact.from.position);
             const double peak = peak_pressure(problem, state, half_width);
@@ -213,6 +226,9 @@ int main(int argc, char *argv[])
                   { return std::abs(s) < half ? std::sqrt(half * half - s * s) / b : 0.0; };
                   return -friction * p0 * (ellipse(b) - ellipse(exact_c * b));
                });
+            char label[32];
+            std::snprintf(label, sizeof label, "-q/f, Q/fP = %g", shear[k]);
+            profiles.add(label, x / b, tractions(problem, state.q) / (-friction * p0));
             std::printf("%6.3f   %9.5f   %11.5f   %12.2e\n", shear[k], c, exact_c,
                         shearing.largest);
             levels.push_back({{"shear", shear[k]},
@@ -241,6 +257,7 @@ int main(int argc, char *argv[])
          results["counters"] = miniapp::to_json(counters);
          results["references"] = table.json();
          miniapp::write_json(results, json);
+         miniapp::output({profiles}, csv, plot);
          return code;
       });
 }

@@ -10,6 +10,7 @@
 //                square_punch -obstacle half-plane -nodes 65 -cycles 3 -amplitude 0.6
 //                square_punch -friction 0 -nodes 33 -shear none
 
+#include "common/figure.hpp"
 #include "common/miniapp.hpp"
 #include "common/punch.hpp"
 
@@ -59,7 +60,7 @@ int main(int argc, char *argv[])
          int cycles = 0;
          double amplitude = 0.8;
          int increments = 20;
-         const char *json = "";
+         const char *json = "", *csv = "", *plot = "";
 
          mfem::OptionsParser args(argc, argv);
          args.AddOption(&obstacle, "-obstacle", "--obstacle",
@@ -84,6 +85,8 @@ int main(int argc, char *argv[])
          args.AddOption(&increments, "-increments", "--increments",
                         "Load increments between two values of the shear.");
          args.AddOption(&json, "-json", "--json", "File for the results.");
+         args.AddOption(&csv, "-csv", "--csv", "Prefix of CSV files for the figures.");
+         args.AddOption(&plot, "-plot", "--plot", "Picture of the results (png, pdf, svg).");
          miniapp::parse(args);
 
          miniapp::check_choice("--obstacle", obstacle, {"rigid", "half-plane"});
@@ -126,6 +129,25 @@ int main(int argc, char *argv[])
          const bool sticks = stick.last >= stick.first;
          const double edge_slip = state.v[problem.nodes() - 1];
          const ContactState pressed = state;
+         miniapp::Panel slip =
+            miniapp::Panel::lines("slip", "Slip of the interface", "x/a", "v E'/P");
+         miniapp::Panel shear_traction = miniapp::Panel::lines(
+            "tractions", "Shear over f, and pressure (dashed)", "x/a", "q a/(f P), p a/P");
+         auto draw = [&](double load, const ContactState &at)
+         {
+            const Eigen::VectorXd position = problem.arc_length.array() - 1;
+            char label[32];
+            std::snprintf(label, sizeof label, "Q/fP = %g", load);
+            slip.add(label, position, at.v);
+            // The corner's node and its neighbours: the singularity, not the picture's scale.
+            const Eigen::Index skip = 12, count = problem.nodes() - 2 * skip;
+            if (count < 2 || friction == 0) { return; }
+            shear_traction.add(label, position.segment(skip, count),
+                               tractions(problem, at.q).segment(skip, count) / friction);
+            shear_traction.add(std::string("p: ") + label, position.segment(skip, count),
+                               tractions(problem, at.p).segment(skip, count), "dashed");
+         };
+         draw(0, pressed);
          if (code == 0)
          {
             results["stick_left"] = sticks ? nlohmann::ordered_json(x(stick.from)) : nullptr;
@@ -160,6 +182,7 @@ int main(int argc, char *argv[])
             counters += report.counters;
             code = miniapp::exit_code(report);
             if (code != 0) { break; }
+            draw(shear[k], state);
             const Zone zone = widest_zone(problem, state, NodeState::stick);
             const bool any = zone.last >= zone.first;
             nlohmann::ordered_json level = {{"shear", shear[k]},
@@ -237,6 +260,7 @@ int main(int argc, char *argv[])
          results["counters"] = miniapp::to_json(counters);
          results["references"] = table.json();
          miniapp::write_json(results, json);
+         miniapp::output({slip, shear_traction}, csv, plot);
          return code;
       });
 }

@@ -139,8 +139,7 @@ nlohmann::ordered_json to_json(const cattaneo::Counters &counters)
 
 void write_json(const nlohmann::ordered_json &results, const std::string &file)
 {
-   if (file.empty()) { return; }
-   cattaneo::write_whole(file, results.dump(2) + '\n');
+   if (!file.empty()) { cattaneo::write_whole(file, results.dump(2) + '\n'); }
 }
 
 void ReferenceTable::add(const std::string &name, double reference, double tolerance,
@@ -168,6 +167,7 @@ void ReferenceTable::print() const
                   row.name.c_str(), row.reference, row.tolerance, thesis, row.computed,
                   difference, std::abs(difference) <= row.tolerance ? "" : "  outside");
    }
+   for (const std::string &note : notes_) { std::printf("  %s\n", note.c_str()); }
    std::fflush(stdout);
 }
 

@@ -45,6 +45,8 @@ public:
    /// units of the value. Thesis: NaN where it gives none.
    void add(const std::string &name, double reference, double tolerance, double thesis,
             double computed);
+   /// A line below the table: why the thesis differs, for instance.
+   void note(const std::string &text) { notes_.push_back(text); }
    bool empty() const { return rows_.empty(); }
    void print() const;
    nlohmann::ordered_json json() const;
@@ -56,6 +58,7 @@ private:
       double reference, tolerance, thesis, computed;
    };
    std::vector<Row> rows_;
+   std::vector<std::string> notes_;
 };
 
 /// Wall time since construction, seconds.

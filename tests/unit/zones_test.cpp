@@ -108,4 +108,41 @@ TEST(Zones, EndsOfACompleteContactAreItsEndNodes)
    EXPECT_EQ(all[0].to.error, 0);
 }
 
+TEST(Zones, OpeningAndSlipFindTheEdgesWherePressureAndReserveAreRough)
+{
+   // Opening beyond the edge and slip behind the front go as the 3/2 power of the distance,
+   // but not exactly so; pressure and reserve are spoilt.
+   const int n = 101;
+   Sampled s = cattaneo_mindlin(n, 0.6123, 0.0037);
+   for (int i = 0; i < n; ++i)
+   {
+      const double x = std::abs(s.problem.arc_length[i] - 1.5 - 0.0037);
+      s.state.w[i] = std::pow(std::max(x - 1, 0.0), 1.5) * (1 + 0.3 * x);
+      s.state.slip_origin[i] = 7;
+      s.state.v[i] = 7 + std::pow(std::max(x - 0.6123, 0.0), 1.5) * (1 - 0.2 * x);
+      const double noise = 1 + 0.05 * (i % 2);
+      s.state.p[i] *= noise;
+      s.state.q[i] *= noise;
+   }
+   const std::vector<Zone> all = zones(s.problem, s.state);
+   ASSERT_EQ(all.size(), 5u);
+   const double expected[] = {-1, -0.6123, 0.6123, 1};
+   for (int k = 0; k < 4; ++k)
+   {
+      EXPECT_NEAR(all[k].to.position, 1.5037 + expected[k], 0.01 * 0.03);
+      EXPECT_GE(all[k].to.error, std::abs(all[k].to.position - 1.5037 - expected[k]));
+   }
+}
+
+TEST(Zones, AZoneNeverEndsBeforeItStarts)
+{
+   // One node of slip between stick and separation, with values that extrapolate wildly.
+   Sampled s = cattaneo_mindlin(41, 0.95, 0.0);
+   for (int i = 0; i < 41; ++i) { s.state.p[i] *= 1 + 0.5 * std::sin(3.0 * i); }
+   for (const Zone &zone : zones(s.problem, s.state))
+   {
+      EXPECT_LE(zone.from.position, zone.to.position);
+   }
+}
+
 } // namespace

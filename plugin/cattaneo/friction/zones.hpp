@@ -21,18 +21,21 @@ struct Zone
    Eigen::Index first, last; ///< nodes
 };
 
-/** Zones of a state along the contact line, in the order of the nodes; ends of the line are
+/** Zones of a state along the contact line, in the order of the nodes. Ends of the line are
    exact.
 
     Edges are read out between the nodes by extrapolating, to zero, what is smooth there:
-    - end of contact: the square of the pressure (which falls as the square root of the
-   distance), a parabola through up to eight nodes, exact for Hertz;
-    - advancing slip front: |v - slip_origin|^(2/3), a straight line through three nodes behind
-   it;
+    - end of contact: from inside the square of the pressure (which falls as the square root of
+      the distance), from outside the opening^(2/3), extrapolated by parabolas, and of the
+      two the surer one;
+    - advancing slip front: |v - slip_origin|^(2/3), a parabola through five nodes behind it;
     - else, at the edge of stick: the square of the frictional reserve f p - |q|, a straight
-   line through three nodes. Errors against closed forms are about 0.05, 0.05 and 0.2 spacings.
-   The error estimate is the change when other nodes are used; where the extrapolation leaves
-   the interval between the nodes, the edge is its middle, ± half of it.
+   line through three nodes.
+
+    Displacements are smoother than nodal forces, since the edge of the discrete solution is a
+    node: against finer meshes, opening and slip are right to about 0.05 spacings, pressure to
+    0.2. The error estimate is the change when other nodes are used; where the extrapolation
+    leaves the interval between the nodes, the edge is its middle, ± half of it.
 
     Needs the problem's arc_length and weights. Plane problems (one tangential component). */
 std::vector<Zone> zones(const ReducedProblem &problem, const ContactState &state);

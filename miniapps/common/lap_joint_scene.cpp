@@ -1,0 +1,107 @@
+#include "common/lap_joint_scene.hpp"
+
+#include <algorithm>
+#include <cattaneo/elastic/graded_mesh.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cmath>
+
+namespace miniapp
+{
+
+using namespace cattaneo;
+
+void LapJointOptions::validate() const
+{
+   require(order >= 1 && order <= 8, "option --order is ", order, ", must be 1 to 8");
+   require(spacing > 0 && spacing <= 0.1, "option --spacing is ", spacing,
+           ", must be above 0 and at most 0.1 (in t)");
+   require(growth > 1 && growth <= 2, "growth is ", growth, ", must be above 1 and at most 2");
+   require(!widths.empty(), "there is no width of the pinch pressure");
+   require(!bolts.empty(), "there is no bolt");
+   require(protrusion > 0, "option --protrusion is ", protrusion, ", must be positive (in t)");
+   require(remote > 2, "the loaded ends are ", remote,
+           " from the bolt, must be above 2 (in t)");
+   require(lower_thickness > 0.1 && lower_thickness < 100, "option --lower-thickness is ",
+           lower_thickness, ", must be between 0.1 and 100 (of the upper's)");
+   for (double w : widths)
+   {
+      require(w > 0 && 0.5 * w <= protrusion, "a width of the pinch pressure is ", w,
+              ", must be positive and within the protrusion ", protrusion, " to both sides");
+   }
+   for (double x : bolts) { require(std::isfinite(x), "a bolt is at ", x, ", must be finite"); }
+}
+
+LapJoint make_lap_joint(const LapJointOptions &options)
+{
+   options.validate();
+   LapJoint joint;
+   joint.bolts = static_cast<int>(options.bolts.size());
+   const Material material{1 - options.poisson * options.poisson, options.poisson,
+                           PlaneState::strain};
+   double d = 0;
+   for (double x : options.bolts) { d = std::max(d, std::abs(x)); }
+   const double free_end = d + options.protrusion, loaded_end = -d - options.remote;
+   const double w_max = *std::max_element(options.widths.begin(), options.widths.end());
+
+   // Grid lines common to both laps on the overlap, symmetric about the middle; fine where the
+   // contact is expected, a little beyond the outermost pinch.
+   const double h = options.order * options.spacing;
+   const double fine = std::min(free_end, d + 0.5 * w_max + 0.3);
+   const int count = 2 * static_cast<int>(std::ceil(fine / h));
+   std::vector<double> right;
+   for (int k = 0; k <= count / 2; ++k) { right.push_back(2 * fine * k / count); }
+   if (fine < free_end)
+   {
+      right = joined({right, graded(fine, free_end, h, options.growth, 0.1)});
+   }
+   std::vector<double> x = graded(-free_end, loaded_end, right.back() - right[right.size() - 2],
+                                  options.growth, 0.25);
+   std::reverse(x.begin(), x.end());
+   for (std::size_t k = right.size() - 1; k-- > 0;) { x.push_back(-right[k]); }
+   x.insert(x.end(), right.begin() + 1, right.end());
+
+   const int interface = 1, outer = 3, loaded = 4; // sides of the upper lap; 2 is the free end
+   const bool equal = options.lower_thickness == 1.0;
+   std::vector<CondensedBody> condensed;
+   for (const double turn : {1.0, -1.0})
+   {
+      const double thickness = 0.5 * (turn > 0 ? 1.0 : options.lower_thickness);
+      // An even number of layers, symmetric about the middle, so that the supported node is a
+      // vertex.
+      const double half = 0.5 * thickness;
+      std::vector<double> y = graded(0, half, h, options.growth, 0.05);
+      const std::size_t lower_half = y.size() - 1;
+      for (std::size_t k = lower_half; k-- > 0;) { y.push_back(thickness - y[k]); }
+      joint.meshes.push_back(std::make_unique<mfem::Mesh>(rectangle_mesh(x, y)));
+      mfem::Mesh &mesh = *joint.meshes.back();
+      for (int v = 0; v < mesh.GetNV(); ++v)
+      {
+         for (int c = 0; c < 2; ++c) { mesh.GetVertex(v)[c] *= turn; }
+      }
+      joint.bodies.push_back(std::make_unique<ElasticBody>(mesh, options.order, material));
+      ElasticBody &lap = *joint.bodies.back();
+      for (double w : options.widths)
+      {
+         for (std::size_t k = 0; k < options.bolts.size(); ++k)
+         {
+            char name[64];
+            std::snprintf(name, sizeof name, "bolt %zu, w = %g", k + 1, w);
+            const double centre = options.bolts[k];
+            lap.add_pressure(name, BoundaryPart({outer}, 0, centre - 0.5 * w, centre + 0.5 * w),
+                             1.0);
+         }
+      }
+      lap.add_pressure("T", loaded, -1 / thickness);
+      lap.fix_node(turn * loaded_end, turn * half, 1);
+      joint.dofs += lap.space().GetTrueVSize();
+      const ContactLine line =
+         contact_line(lap, BoundaryPart({interface}, 0, -free_end, free_end));
+      condensed.push_back(
+         condense(lap, line, {}, condensed.empty() || !equal ? nullptr : &condensed.front()));
+   }
+   const Pairing pairing = pair_lines(condensed[0].line, condensed[1].line);
+   joint.reduction = reduce(std::move(condensed[0]), std::move(condensed[1]), pairing);
+   return joint;
+}
+
+} // namespace miniapp

@@ -1,0 +1,178 @@
+#include "common/receding.hpp"
+
+#include <algorithm>
+#include <cattaneo/elastic/graded_mesh.hpp>
+#include <cattaneo/friction/zones.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cmath>
+#include <limits>
+
+namespace miniapp
+{
+
+using namespace cattaneo;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+const double williams_eigenvalue[2] = {0.544483736782, 0.908529189846};
+const double williams_ratio[2] = {0.543075578837, -0.218923236249};
+
+void RecedingOptions::half_plane_domain()
+{
+   length = 100;
+   depth = side = 1e4;
+}
+
+void RecedingOptions::thesis_domain()
+{
+   length = 20;
+   depth = 200;
+   side = 80;
+}
+
+void RecedingOptions::validate() const
+{
+   require(order >= 1 && order <= 8, "option --order is ", order, ", must be 1 to 8");
+   require(spacing > 0 && spacing <= 0.5, "option --spacing is ", spacing,
+           ", must be above 0 and at most 0.5 (in t)");
+   require(corner > 0 && corner <= spacing, "option --corner is ", corner,
+           ", must be above 0 and at most the spacing ", spacing);
+   require(growth > 1 && growth <= 2, "growth is ", growth, ", must be above 1 and at most 2");
+   require(!overhangs.empty(), "there is no overhang");
+   for (double n : overhangs)
+   {
+      require(n > 0 && n < length, "an overhang is ", n, ", must be between 0 and the length ",
+              length, " (in t)");
+   }
+   require(depth > 1 && side > 1, "options --depth and --side are ", depth, " and ", side,
+           ", must be above 1 (in t)");
+}
+
+Receding make_receding(const RecedingOptions &options)
+{
+   options.validate();
+   Receding scene;
+   const Material material{1 - options.poisson * options.poisson, options.poisson,
+                           PlaneState::strain};
+   const int bottom = 1, right = 2, top = 3;
+   const double L = options.length, growth = options.growth;
+   // Elements hold as many intervals between nodes as their order says.
+   const double h = options.spacing * options.order, h_corner = options.corner * options.order;
+
+   // Slip and separation lie within 2 t of the load's edge.
+   const double n_max = *std::max_element(options.overhangs.begin(), options.overhangs.end());
+   const double fine_end = std::min(L, n_max + 2.5);
+   std::vector<double> contact = graded(0, fine_end, h_corner, growth, h);
+   if (fine_end < L) { contact = joined({contact, graded(fine_end, L, h, growth)}); }
+
+   scene.meshes.push_back(std::make_unique<mfem::Mesh>(
+      rectangle_mesh(contact, graded(0, 1, h_corner, growth, 0.1))));
+   scene.bodies.push_back(
+      std::make_unique<ElasticBody>(*scene.meshes[0], options.order, material));
+   ElasticBody &strip = *scene.bodies[0];
+   for (double n : options.overhangs)
+   {
+      char name[32];
+      std::snprintf(name, sizeof name, "n = %g", n);
+      strip.add_pressure(name, BoundaryPart({top}, 0, n, L), 1.0);
+   }
+   // The contact node at the end of the line stays free: a contact dof cannot be fixed, and L
+   // is far from the zones of interest.
+   const double clear = 0.4 * options.corner;
+   strip.fix(BoundaryPart({right}, 1, clear, 1), 0);
+
+   std::vector<double> outside = graded(0, -options.side, h_corner, growth);
+   std::reverse(outside.begin(), outside.end());
+   std::vector<double> depth = graded(0, -options.depth, h_corner, growth);
+   std::reverse(depth.begin(), depth.end());
+   scene.meshes.push_back(
+      std::make_unique<mfem::Mesh>(rectangle_mesh(joined({outside, contact}), depth)));
+   scene.bodies.push_back(
+      std::make_unique<ElasticBody>(*scene.meshes[1], options.order, material));
+   ElasticBody &block = *scene.bodies[1];
+   block.fix(bottom, 1);
+   block.fix(BoundaryPart({right}, 1, -options.depth, -clear), 0);
+
+   const ContactLine above = contact_line(strip, bottom);
+   const ContactLine below = contact_line(block, BoundaryPart({top}, 0, 0, L));
+   scene.reduction =
+      reduce(condense(strip, above), condense(block, below), pair_lines(above, below));
+   for (const auto &body : scene.bodies) { scene.dofs += body->space().GetTrueVSize(); }
+   return scene;
+}
+
+namespace
+{
+
+const double corner_fit_from = 0.005, corner_fit_to = 0.05;
+
+/// Strengths k1, k2 of the two singular terms of a traction t(x): least squares, relative to
+/// the first mode, together with the first bounded term (a pair of complex eigenvalues).
+Eigen::Vector2d fit_corner(const std::vector<double> &x, const std::vector<double> &t)
+{
+   const double real = 1.629257, imaginary = 0.231251;
+   MatrixXd V(x.size(), 4);
+   VectorXd rhs(x.size());
+   for (std::size_t k = 0; k < x.size(); ++k)
+   {
+      const double scale = std::pow(x[k], 1 - williams_eigenvalue[0]);
+      V.row(k) << 1.0, scale * std::pow(x[k], williams_eigenvalue[1] - 1),
+         scale * std::pow(x[k], real - 1) * std::cos(imaginary * std::log(x[k])),
+         scale * std::pow(x[k], real - 1) * std::sin(imaginary * std::log(x[k]));
+      rhs[k] = scale * t[k];
+   }
+   return V.householderQr().solve(rhs).head(2);
+}
+
+} // namespace
+
+BondedTractions bonded_tractions(const ReducedProblem &problem, int pattern)
+{
+   BondedTractions result;
+   result.p = tractions(problem, problem.patterns.at(pattern).p);
+   result.q = tractions(problem, problem.patterns.at(pattern).q);
+   const VectorXd &x = problem.arc_length;
+   std::vector<double> near, p_near, q_near;
+   // The last few nodes at the corner never converge; what they spoil must stay small, so that
+   // the fit starts well away from them.
+   const Index skip = 8;
+   for (Index i = skip; i < x.size(); ++i)
+   {
+      if (x[i] < corner_fit_from || x[i] > corner_fit_to) { continue; }
+      near.push_back(x[i]);
+      p_near.push_back(result.p[i]);
+      q_near.push_back(result.q[i]);
+   }
+   result.corner_ratio = std::numeric_limits<double>::quiet_NaN();
+   if (near.size() >= 8) // else the mesh is too coarse for the fit
+   {
+      const Eigen::Vector2d kp = fit_corner(near, p_near), kq = fit_corner(near, q_near);
+      result.k1_pressure = kp[0];
+      result.k2_pressure = kp[1];
+      result.k1_shear = kq[0];
+      result.k2_shear = kq[1];
+      result.corner_ratio = kq[0] / kp[0];
+   }
+
+   // At the corner itself the exact ratio stands for the nodes.
+   result.adhesion_friction = williams_ratio[0];
+   result.lowest_pressure = std::numeric_limits<double>::infinity();
+   for (Index i = skip; i < x.size(); ++i)
+   {
+      result.lowest_pressure = std::min(result.lowest_pressure, result.p[i]);
+      const double ratio = std::abs(result.q[i]) / result.p[i];
+      if (result.p[i] > 0 && ratio > result.adhesion_friction)
+      {
+         result.adhesion_friction = ratio;
+         result.adhesion_x = x[i];
+      }
+   }
+   if (result.lowest_pressure <= 0)
+   {
+      result.adhesion_friction = std::numeric_limits<double>::infinity();
+   }
+   return result;
+}
+
+} // namespace miniapp

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cattaneo/condense/reduction.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace miniapp
+{
+
+/** The plane receding contact of thesis chapter 5: an elastic strip 0 < x < length, 0 < y < t
+   on the similar block -side < x < length, -depth < y < 0. A pressure p0 acts on the strip's
+   top for x > n t. u_x = 0 at x = length (of both), u_y = 0 at the bottom of the block.
+
+    Units t = p0 = E' = 1, E' = E/(1-ν²). Every overhang n is a load pattern of its own, in the
+    given order: the end of the load need not be a mesh line, so that one condensed pair serves
+    all n. */
+struct RecedingOptions
+{
+   double length = 100, depth = 1e4, side = 1e4; ///< in t
+   std::vector<double> overhangs = {4.0};        ///< n, in t
+   int order = 2;
+   double spacing =
+      0.02; ///< of the contact nodes from the corner to beyond the edge of the load
+   double corner = 0.0005; ///< of the contact nodes at the strip's end
+   double growth = 1.25;   ///< of the elements away from the contact and the corner
+   double poisson = 0.3;
+
+   /// The limit of a half-plane, or the finite block that comes close to what the thesis used.
+   void half_plane_domain();
+   void thesis_domain();
+   /// InputError naming the option, its value and what is allowed.
+   void validate() const;
+};
+
+/// The bodies must live as long as their reduction is used for fields.
+struct Receding
+{
+   std::vector<std::unique_ptr<mfem::Mesh>> meshes;
+   std::vector<std::unique_ptr<cattaneo::ElasticBody>> bodies;
+   cattaneo::Reduction reduction;
+   int dofs = 0; ///< of both bodies
+};
+
+Receding make_receding(const RecedingOptions &options);
+
+/** Bonded tractions along the contact, as a monolith has them: what the clamped contact nodes
+    carry. */
+struct BondedTractions
+{
+   /// Strengths of the Williams corner, 90° on 180°, p = k1 x^(λ1-1) + k2 x^(λ2-1) + …, fitted
+   /// on 0.005 < x/t < 0.05, and of the shear alike.
+   double k1_pressure = 0, k2_pressure = 0, k1_shear = 0, k2_shear = 0;
+   double corner_ratio =
+      0; ///< k1_shear / k1_pressure: 0.543; NaN where the mesh is too coarse to fit
+   double lowest_pressure = 0;
+   /// Least friction for full adhesion: the largest of the corner's ratio (exact) and of |q|/p
+   /// away from the corner; infinite if the bonded strip pulls somewhere.
+   double adhesion_friction = 0;
+   double adhesion_x = 0; ///< where that friction is needed (0: at the corner)
+   Eigen::VectorXd p, q;  ///< tractions of the nodes
+};
+
+/// Eigenvalues and ratios q/p on the interface of the Williams corner, modes I and II.
+extern const double williams_eigenvalue[2], williams_ratio[2];
+
+BondedTractions bonded_tractions(const cattaneo::ReducedProblem &problem, int pattern);
+
+} // namespace miniapp

@@ -1,0 +1,125 @@
+#include "run_miniapp.hpp"
+
+#include "common/lap_joint_scene.hpp"
+
+#include <cattaneo/friction/friction_solver.hpp>
+#include <cmath>
+
+namespace
+{
+
+using namespace cattaneo;
+using cattaneo_test::expect_references_met;
+using cattaneo_test::Run;
+using cattaneo_test::run_miniapp;
+
+void expect_symmetric_and_balanced(const Run &run)
+{
+   EXPECT_LT(run.results["asymmetry"].get<double>(), 1e-7);
+   EXPECT_LT(run.results["pressure_memory"].get<double>(), 1e-7);
+   // Trapezoidal work of friction against that of the loads, over a steady cycle.
+   EXPECT_LT(run.results["work_error"].get<double>(), 1e-10);
+   EXPECT_LT(std::abs(run.results["energy_imbalance"].get<double>()), 1e-10);
+   EXPECT_EQ(run.results["steady_cycle"], 2);
+   EXPECT_EQ(run.results["steady_period"], 1);
+   EXPECT_EQ(run.results["counters"]["factorisations"], 1) << "equal laps share one factor";
+}
+
+TEST(LapJoint, TensionMeetsTheReferences)
+{
+   const auto run = run_miniapp("lap_joint", "");
+   expect_references_met(run, 7);
+   expect_symmetric_and_balanced(run);
+}
+
+TEST(LapJoint, CompressionMeetsTheReferences)
+{
+   const auto run = run_miniapp("lap_joint", "-friction 0.5 -load -0.04");
+   expect_references_met(run, 6);
+   expect_symmetric_and_balanced(run);
+}
+
+TEST(LapJoint, ContactIsUncoupledWhereItTouches)
+{
+   miniapp::LapJointOptions options;
+   options.spacing = 0.025;
+   miniapp::LapJoint joint = miniapp::make_lap_joint(options);
+   ReducedProblem &problem = joint.reduction.problem;
+   set_friction(problem, 0.2);
+   FrictionSolver solver(problem);
+   ContactState state = ContactState::virgin(problem);
+   ASSERT_EQ(solver.solve(state, Eigen::Vector2d(1, 0)).status, FrictionStatus::converged);
+   // The S shape of the overlap couples slip and opening at its free ends. With the separated
+   // nodes released, what is left between the nodes in contact couples no more.
+   const Eigen::Index n = problem.nodes();
+   std::vector<Eigen::Index> in, free;
+   for (int half = 0; half < 2; ++half)
+   {
+      for (Eigen::Index i = 0; i < n; ++i)
+      {
+         (closed(state.status[i]) ? in : free).push_back(half * n + i);
+      }
+   }
+   const Eigen::MatrixXd K = problem.stiffness();
+   const Eigen::MatrixXd S = K(in, in) - K(in, free) * K(free, free).ldlt().solve(K(free, in));
+   const Eigen::Index m = S.rows() / 2;
+   EXPECT_LT(S.bottomLeftCorner(m, m).cwiseAbs().maxCoeff(), 1e-7 * S.cwiseAbs().maxCoeff());
+   EXPECT_LT(state.q.cwiseAbs().maxCoeff(), 1e-7 * state.p.maxCoeff());
+}
+
+TEST(LapJoint, ZonesDoNotDependOnTheLoadLevelOrPoissonsRatio)
+{
+   miniapp::LapJointOptions options;
+   options.spacing = 0.025;
+   miniapp::LapJoint joint = miniapp::make_lap_joint(options);
+   set_friction(joint.reduction.problem, 0.2);
+   FrictionSolver solver(joint.reduction.problem);
+   ContactState low = ContactState::virgin(joint.reduction.problem), high = low;
+   ASSERT_EQ(solver.solve(low, Eigen::Vector2d(1e-6, 0)).status, FrictionStatus::converged);
+   ASSERT_EQ(solver.solve(high, Eigen::Vector2d(1e6, 0)).status, FrictionStatus::converged);
+   EXPECT_EQ(low.status, high.status);
+   EXPECT_LT((1e12 * low.p - high.p).cwiseAbs().maxCoeff(), 1e-9 * high.p.maxCoeff());
+   const auto a = run_miniapp("lap_joint", "-spacing 0.0125 -poisson 0");
+   const auto b = run_miniapp("lap_joint", "-spacing 0.0125 -poisson 0.4");
+   ASSERT_EQ(a.code + b.code, 0) << a.output << b.output;
+   for (const char *key : {"a0", "a", "c_first", "c_steady"})
+   {
+      EXPECT_NEAR(a.results[key].get<double>(), b.results[key].get<double>(), 1e-3) << key;
+   }
+}
+
+TEST(LapJoint, DissipationFallsWithFrictionAndRisesWithLoad)
+{
+   const auto run = run_miniapp(
+      "lap_joint", "-sweep-load '0.02 0.04' -sweep-friction '0.2 0.4 0.8' -spacing 0.0125");
+   ASSERT_EQ(run.code, 0) << run.output;
+   const auto &sweep = run.results["sweep"];
+   ASSERT_EQ(sweep.size(), 6u);
+   auto loss = [&](int friction, int load)
+   { return sweep[2 * friction + load]["dissipation_steady"].get<double>(); };
+   for (int k = 0; k < 3; ++k) { EXPECT_GT(loss(k, 1), 4 * loss(k, 0)); }
+   for (int k = 0; k < 2; ++k) { EXPECT_LT(loss(k + 1, 1), loss(k, 1)); }
+   EXPECT_EQ(run.results["counters"]["factorisations"], 1);
+}
+
+TEST(LapJoint, OrderOfTighteningMattersOnlyForUnequalLaps)
+{
+   const std::string options =
+      "-bolts '-1.2 0 1.2' -friction 0.2 -load 0.1 -spacing 0.025 -increments 20";
+   const auto equal = run_miniapp("lap_joint", options);
+   ASSERT_EQ(equal.code, 0) << equal.output;
+   const auto &same = equal.results["tightening"];
+   ASSERT_EQ(same.size(), 2u);
+   const auto unequal = run_miniapp("lap_joint", options + " -lower-thickness 2");
+   ASSERT_EQ(unequal.code, 0) << unequal.output;
+   const auto &other = unequal.results["tightening"];
+   ASSERT_EQ(other.size(), 2u);
+   for (int k = 0; k < 2; ++k)
+   {
+      EXPECT_LT(same[k]["residual_shear"].get<double>(), 1e-3);
+      EXPECT_GT(other[k]["residual_shear"].get<double>(), 1e-2);
+   }
+   EXPECT_EQ(unequal.results["counters"]["factorisations"], 2);
+}
+
+} // namespace

@@ -1,0 +1,120 @@
+#include "run_miniapp.hpp"
+
+#include <cmath>
+
+namespace
+{
+
+using cattaneo_test::expect_references_met;
+using cattaneo_test::run_miniapp;
+
+double number(const nlohmann::json &j)
+{
+   return j.is_number() ? j.get<double>() : std::nan("");
+}
+
+TEST(PlaneReceding, LoadingAndUnloadingMeetTheReferencesOnAHalfPlane)
+{
+   const auto run = run_miniapp("plane_receding", "-unload '0.9 0.5 0.2 0.1' -steps 50");
+   expect_references_met(run, 13);
+   // Separation recedes further during unloading, and a forward zone follows it.
+   double before = run.results["separation"];
+   for (const auto &level : run.results["levels"])
+   {
+      EXPECT_LT(number(level["separation"]), before);
+      before = level["separation"];
+      EXPECT_EQ(level["zones"].size(), 5u) << level;
+   }
+   EXPECT_EQ(run.results["counters"]["lemke_pivots"], 0);
+}
+
+TEST(PlaneReceding, FiniteBlockOfTheThesis)
+{
+   expect_references_met(run_miniapp("plane_receding", "-domain th0 -friction 0.3"), 3);
+   const auto run =
+      run_miniapp("plane_receding", "-domain th0 -unload 0.5 -slip '' -lowest 0.4");
+   ASSERT_EQ(run.code, 0) << run.output;
+   // The fourth border is in the table but not here: the notes say 0.48; 0.502 comes out of
+   // three meshes and two numbers of steps, and the thesis has 0.5.
+   const double borders[] = {-1.053, -0.77, -0.18};
+   const auto &zones = run.results["levels"][0]["zones"];
+   ASSERT_EQ(zones.size(), 5u);
+   for (int k = 0; k < 3; ++k)
+   {
+      EXPECT_NEAR(zones[k]["to"].get<double>(), borders[k], k == 0 ? 0.006 : 0.015);
+   }
+   EXPECT_NEAR(number(run.results["separation"]), 1.382, 0.006);
+   EXPECT_NEAR(number(run.results["stick_slip"]), -0.351, 0.006);
+}
+
+TEST(PlaneReceding, MapOverOverhangAndFrictionFromOneCondensation)
+{
+   const auto run = run_miniapp(
+      "plane_receding", "-map '0.4 1.2 1.6 2 4' -spacing 0.04 -corner 0.01 -domain-study");
+   expect_references_met(run, 10);
+   const auto &counters = run.results["counters"];
+   EXPECT_EQ(counters["factorisations"], 2);
+   EXPECT_EQ(counters["unions"], 1);
+   // Independent of n from n = 2 on, but for f = 1, where separation nears the strip's end.
+   for (const auto &a : run.results["map"])
+   {
+      for (const auto &b : run.results["map"])
+      {
+         if (a["friction"] == 1 || a["friction"] != b["friction"] || a["overhang"] < 2 ||
+             b["overhang"] < 2)
+         {
+            continue;
+         }
+         EXPECT_NEAR(number(a["separation"]), number(b["separation"]), 0.005);
+         EXPECT_NEAR(number(a["stick_slip"]), number(b["stick_slip"]), 0.005);
+      }
+   }
+   EXPECT_NE(run.output.find("Domain study"), std::string::npos);
+}
+
+TEST(PlaneReceding, BondedStripNearsTheWilliamsCorner)
+{
+   expect_references_met(run_miniapp("plane_receding", "-overhang 0.8 -friction 1.4"), 2);
+   // A short overhang needs no more than the corner itself.
+   const auto run = run_miniapp("plane_receding", "-overhang 0.1 -friction 0.8");
+   ASSERT_EQ(run.code, 0) << run.output;
+   EXPECT_NEAR(run.results["adhesion_friction"], 0.543075578837, 1e-9);
+   EXPECT_TRUE(run.results["separation"].is_null());
+   EXPECT_TRUE(run.results["stick_slip"].is_null())
+      << "the corner's nodes ask for 0.6 to 0.77, never converging";
+}
+
+TEST(PlaneReceding, PoissonsRatioDoesNotMatter)
+{
+   const std::string options = "-friction 0.5 -spacing 0.05 -corner 0.01 -poisson ";
+   const auto a = run_miniapp("plane_receding", options + "0");
+   const auto b = run_miniapp("plane_receding", options + "0.4");
+   ASSERT_EQ(a.code, 0) << a.output;
+   ASSERT_EQ(b.code, 0) << b.output;
+   // Discretisation errors do depend on it: a fiftieth of the spacing.
+   EXPECT_NEAR(number(a.results["separation"]), number(b.results["separation"]), 1e-3);
+   EXPECT_NEAR(number(a.results["stick_slip"]), number(b.results["stick_slip"]), 1e-3);
+}
+
+TEST(PlaneReceding, UnloadingHardlyDependsOnTheSteps)
+{
+   const std::string options = "-unload '0.8 0.5 0.2' -lowest 0.2 -spacing 0.05 -corner 0.01 "
+                               "-overhang 2.5 -steps ";
+   const auto coarse = run_miniapp("plane_receding", options + "25");
+   const auto fine = run_miniapp("plane_receding", options + "100");
+   ASSERT_EQ(coarse.code, 0) << coarse.output;
+   ASSERT_EQ(fine.code, 0) << fine.output;
+   for (int level = 0; level < 3; ++level)
+   {
+      const auto &a = coarse.results["levels"][level]["zones"];
+      const auto &b = fine.results["levels"][level]["zones"];
+      ASSERT_EQ(a.size(), b.size());
+      for (std::size_t k = 0; k < a.size(); ++k)
+      {
+         EXPECT_EQ(a[k]["state"], b[k]["state"]);
+         EXPECT_NEAR(a[k]["to"].get<double>(), b[k]["to"].get<double>(), 0.02);
+      }
+   }
+}
+
+} // namespace
