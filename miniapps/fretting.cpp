@@ -220,8 +220,9 @@ miniapp::ReferenceTable compare(const Design &design, const Setting &setting,
       const double slip = a - stick + (trailing ? shift : -shift);
       if (a - stick >= std::abs(shift))
       {
-         table.add("slip zone d, mm" + where, slip, edge.edge.slip_zone_error + read_out, unset,
-                   edge.edge.slip_zone);
+         // Two edges, each read out to a tenth of a spacing.
+         table.add("slip zone d, mm" + where, slip, edge.edge.slip_zone_error + 2 * read_out,
+                   unset, edge.edge.slip_zone);
       }
       if (shift == 0 && x > 0)
       {

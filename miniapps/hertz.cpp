@@ -185,7 +185,9 @@ int main(int argc, char *argv[])
             // 101
             // nodes; of edges, the spread of the reference (none for closed forms) and the
             // read-out.
-            const double read_out = std::max(contact.to.error, contact.from.error) / b;
+            const double spacing = problem.arc_length[1] - problem.arc_length[0];
+            const double read_out =
+               std::max({contact.to.error, contact.from.error, 0.1 * spacing}) / b;
             if (!on_block && nodes == 101 && span == 1.67 && domain >= 1e3)
             {
                table.add("peak pressure / p0 Hertz", 1.0, order == 1 ? 2e-3 : 8e-5, none,
@@ -239,8 +241,11 @@ int main(int argc, char *argv[])
             {
                char name[64];
                std::snprintf(name, sizeof name, "stick half-width / b, Q/fP = %g", shear[k]);
-               table.add(name, exact_c, std::max(stick.from.error, stick.to.error) / b, none,
-                         c);
+               table.add(name, exact_c,
+                         std::max({stick.from.error, stick.to.error,
+                                   0.1 * (problem.arc_length[1] - problem.arc_length[0])}) /
+                            b,
+                         none, c);
             }
          }
          if (!levels.empty())
