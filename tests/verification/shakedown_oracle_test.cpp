@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <punch_problem.hpp>
 #include <shakedown_problems.hpp>
+#include <unistd.h>
 
 // The limits against HiGHS, an independent solver, through a Python script. ./test brings it
 // into build/deps/highs; CATTANEO_HIGHS names another folder.
@@ -65,8 +66,9 @@ protected:
                                          {"p0", list(loads.p0.col(j))},
                                          {"p1", list(loads.p1.col(j))}});
       }
-      const std::string stem =
-         ::testing::TempDir() + ::testing::UnitTest::GetInstance()->current_test_info()->name();
+      const std::string stem = ::testing::TempDir() +
+                               ::testing::UnitTest::GetInstance()->current_test_info()->name() +
+                               std::to_string(getpid());
       std::ofstream(stem + ".in.json") << question;
       std::remove((stem + ".out.json").c_str());
       const std::string command =
