@@ -2,13 +2,21 @@
 # and builds. Does nothing, quickly, when everything is there. Says what it does.
 #
 #   MFEM_DIR=/prefix ./run …   use an MFEM of your own (4.6 or newer), serial or MPI
+#
+# flavour=mpi, set before sourcing, asks for the MPI build of MFEM (./run --mpi, ./test --mpi).
 
+flavour=${flavour:-serial}
 build_type=${CATTANEO_BUILD_TYPE:-Release}
 build=build/$(printf %s "$build_type" | tr '[:upper:]' '[:lower:]')
 deps=build/deps
 mfem_version=4.10.0.1
+mfem_mpi_version=4.6.0
 packages="g++ cmake ninja-build zlib1g libeigen3-dev libsuitesparse-dev libopenblas-dev
    coinor-libipopt-dev nlohmann-json3-dev libgtest-dev python3-matplotlib"
+if [ "$flavour" = mpi ]; then
+   build=$build-mpi
+   packages="$packages libhypre-dev libmetis-dev libopenmpi-dev openmpi-bin"
+fi
 
 say() { printf '%s\n' "cattaneo: $*" >&2; }
 die() { say "$*"; exit 1; }
@@ -31,10 +39,47 @@ install_packages()
       >"$deps/apt.log" 2>&1 || { cat "$deps/apt.log" >&2; die "could not install:$missing"; }
 }
 
-# The prebuilt serial MFEM that the Python package mfem carries; Python is only the courier.
+# One of the two flavours of MFEM, unless the user named one.
 bring_mfem()
 {
    [ -n "${MFEM_DIR:-}" ] && return 0
+   if [ "$flavour" = mpi ]; then build_mpi_mfem; else unpack_serial_mfem; fi
+}
+
+# MFEM with MPI, hypre, METIS and SuiteSparse, built once from the source that the Rust crate
+# mfem-cpp carries; cargo is only the courier.
+build_mpi_mfem()
+{
+   MFEM_DIR=$PWD/$deps/mfem-$mfem_mpi_version-mpi
+   [ -f "$MFEM_DIR/lib/cmake/mfem/MFEMConfig.cmake" ] && return 0
+   local courier=$deps/courier source log=$deps/mfem-mpi.log
+   command -v cargo >/dev/null || install_packages cargo
+   say "bringing the source of MFEM ($mfem_mpi_version)"
+   rm -rf "$courier" && mkdir -p "$courier"
+   printf '[package]\nname = "courier"\nversion = "0.0.0"\n[lib]\npath = "none.rs"\n[dependencies]\nmfem-cpp = "=0.2.0"\n' >"$courier/Cargo.toml"
+   touch "$courier/none.rs"
+   (cd "$courier" && cargo vendor --quiet --versioned-dirs vendor >/dev/null) ||
+      die "could not bring the source of MFEM; name an MPI build of your own with MFEM_DIR=/prefix"
+   source=$(echo "$courier"/vendor/mfem-cpp-*/mfem)
+   say "building MFEM with MPI and hypre (once, about 7 minutes on two cores)"
+   cmake -S "$source" -B "$courier/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX="$MFEM_DIR.part" \
+      -DMFEM_USE_MPI=ON -DMFEM_USE_METIS=ON -DMFEM_USE_METIS_5=ON -DMFEM_USE_SUITESPARSE=ON -DMFEM_USE_EXCEPTIONS=ON \
+      -DMFEM_ENABLE_EXAMPLES=OFF -DMFEM_ENABLE_MINIAPPS=OFF -DMFEM_ENABLE_TESTING=OFF \
+      -DHYPRE_DIR=/usr -DHYPRE_INCLUDE_DIRS=/usr/include/hypre -DMETIS_DIR=/usr -DSuiteSparse_DIR=/usr \
+      $(launcher) >"$log" 2>&1 || { cat "$log" >&2; die "MFEM could not be configured"; }
+   ninja -C "$courier/build" install >&2 || die "MFEM could not be built"
+   # The package files name the prefix they were made for.
+   grep -rlI "$MFEM_DIR.part" "$MFEM_DIR.part" | xargs -r sed -i "s|$MFEM_DIR.part|$MFEM_DIR|g"
+   mv "$MFEM_DIR.part" "$MFEM_DIR"
+   rm -rf "$courier"
+}
+
+# The compiler cache, if this machine has one.
+launcher() { command -v ccache >/dev/null && echo -DCMAKE_CXX_COMPILER_LAUNCHER=ccache; }
+
+# The prebuilt serial MFEM that the Python package mfem carries; Python is only the courier.
+unpack_serial_mfem()
+{
    MFEM_DIR=$PWD/$deps/mfem-$mfem_version
    [ -f "$MFEM_DIR/lib/cmake/mfem/MFEMConfig.cmake" ] && return 0
    say "bringing MFEM ($mfem_version, prebuilt, serial)"
@@ -78,18 +123,16 @@ bring_highs()
 prepare()
 {
    mkdir -p "$deps"
-   if [ "$(cat "$deps/packages" 2>/dev/null)" != "$packages" ] && [ ! -e "$deps/packages-by-hand" ]; then
+   if [ "$(cat "$deps/packages-$flavour" 2>/dev/null)" != "$packages" ] && [ ! -e "$deps/packages-by-hand" ]; then
       install_packages $packages
-      printf '%s' "$packages" >"$deps/packages"
+      printf '%s' "$packages" >"$deps/packages-$flavour"
    fi
    bring_mfem
    local configuration="$MFEM_DIR ${CATTANEO_CMAKE_ARGS:-}"
    if [ ! -f "$build/build.ninja" ] || [ "$(cat "$build/configured" 2>/dev/null)" != "$configuration" ]; then
       say "configuring ($build_type, MFEM at ${MFEM_DIR#"$PWD"/})"
-      local launcher=""
-      command -v ccache >/dev/null && launcher=-DCMAKE_CXX_COMPILER_LAUNCHER=ccache
       rm -f "$build/CMakeCache.txt"
-      cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE="$build_type" -DMFEM_DIR="$MFEM_DIR" $launcher ${CATTANEO_CMAKE_ARGS:-} \
+      cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE="$build_type" -DMFEM_DIR="$MFEM_DIR" $(launcher) ${CATTANEO_CMAKE_ARGS:-} \
          >"$deps/configure.log" 2>&1 || { cat "$deps/configure.log" >&2; die "configuration failed"; }
       printf '%s' "$configuration" >"$build/configured"
    fi
