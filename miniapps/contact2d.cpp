@@ -71,7 +71,7 @@ std::unique_ptr<mfem::Mesh> read_mesh(const std::string &file)
    in.close();
    try
    {
-      return std::make_unique<mfem::Mesh>(file.c_str(), 1, 1);
+      return miniapp::distribute(mfem::Mesh(file.c_str(), 1, 1));
    }
    catch (const std::exception &error)
    {
@@ -268,7 +268,7 @@ int main(int argc, char *argv[])
          for (int k = 0; k < (options[1].mesh[0] ? 2 : 1); ++k)
          {
             sides.push_back(make_side(options[k], std::to_string(k + 1), order, plane_stress));
-            dofs += sides[k].body->space().GetTrueVSize();
+            dofs += sides[k].body->dofs();
          }
          Reduction reduction =
             sides.size() == 1 ? on_rigid_line(sides[0].condensed)
@@ -334,7 +334,10 @@ int main(int argc, char *argv[])
          if (paraview[0])
          {
             ContactLineFields contact_fields(problem, contact.chain, folder, "contact");
-            for (const ContactState &frame : recorded) { contact_fields.write(frame); }
+            for (const ContactState &frame : recorded)
+            {
+               if (miniapp::writes()) { contact_fields.write(frame); }
+            }
             for (std::size_t k = 0; k < sides.size(); ++k)
             {
                BodyFields fields(*sides[k].body, folder, "body" + std::to_string(k + 1));
@@ -346,12 +349,12 @@ int main(int argc, char *argv[])
                }
             }
          }
-         if (csv[0])
+         if (csv[0] && miniapp::writes())
          {
             table.write(prefix + "_history.csv", problem);
             write_nodes(prefix + "_nodes.csv", problem, recorded);
          }
-         if (save_file[0]) { save(state, save_file); }
+         if (save_file[0] && miniapp::writes()) { save(state, save_file); }
 
          // The contact pushes body 1 by q along the tangents and p along the normals.
          const Eigen::Vector2d force =

@@ -322,7 +322,7 @@ private:
          counters += punch.reduction.counters;
       }
       set_friction(problem, options.friction);
-      if (*options.save) { save(problem, options.save); }
+      if (*options.save && miniapp::writes()) { save(problem, options.save); }
       NodeList always_closed;
       if (options.closed)
       {

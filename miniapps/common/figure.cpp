@@ -1,5 +1,7 @@
 #include "common/figure.hpp"
 
+#include "common/miniapp.hpp"
+
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/whole_file.hpp>
 #include <cstdio>
@@ -113,7 +115,7 @@ std::string Panel::csv() const
 void output(const std::vector<Panel> &panels, const std::string &csv_prefix,
             const std::string &picture)
 {
-   if (panels.empty() || (csv_prefix.empty() && picture.empty())) { return; }
+   if (panels.empty() || (csv_prefix.empty() && picture.empty()) || !writes()) { return; }
    const std::string prefix = csv_prefix.empty() ? picture : csv_prefix;
    std::string files;
    std::vector<std::string> names;

@@ -1,5 +1,7 @@
 #include "common/hertz_scene.hpp"
 
+#include "common/miniapp.hpp"
+
 #include <cattaneo/elastic/graded_mesh.hpp>
 #include <cattaneo/input_error.hpp>
 
@@ -50,8 +52,7 @@ HertzScene make_scene(const HalfPlanes &options)
    std::vector<CondensedBody> condensed;
    for (double turn : {-1.0, 1.0}) // the mesh is the lower body, its half-turn the upper one
    {
-      scene.meshes.push_back(
-         std::make_unique<mfem::Mesh>(half_plane_mesh(contact, depth, rings)));
+      scene.meshes.push_back(distribute(half_plane_mesh(contact, depth, rings)));
       mfem::Mesh &mesh = *scene.meshes.back();
       for (int v = 0; v < mesh.GetNV(); ++v)
       {
@@ -67,7 +68,7 @@ HertzScene make_scene(const HalfPlanes &options)
          body.add_traction(
             "bulk", sides, [](double x, double) { return x > 0 ? 1.0 : -1.0; }, 0.0);
       }
-      scene.dofs += body.space().GetTrueVSize();
+      scene.dofs += body.dofs();
       const ContactLine line = contact_line(body, surface);
       condensed.push_back(
          condense(body, line, {}, condensed.empty() ? nullptr : &condensed.front()));
@@ -85,19 +86,18 @@ HertzScene make_scene(const BlockOnHalfPlane &options)
       graded_to_ends(1.0, (options.nodes - 1) / options.order, 1.0);
    const double h = contact[1] - contact[0];
    const int bottom = 1, top = 3;
-   scene.meshes.push_back(
-      std::make_unique<mfem::Mesh>(rectangle_mesh(contact, graded(0, 2, h, growth, 0.1))));
+   scene.meshes.push_back(distribute(rectangle_mesh(contact, graded(0, 2, h, growth, 0.1))));
    scene.bodies.push_back(
       std::make_unique<ElasticBody>(*scene.meshes[0], options.order, options.material));
    load(*scene.bodies[0], top, 1, 2, options.load, 1);
-   scene.meshes.push_back(std::make_unique<mfem::Mesh>(half_plane_mesh(
+   scene.meshes.push_back(distribute(half_plane_mesh(
       contact, graded(0, 1, h, growth, 0.1), ring_scales(1, options.domain, h, growth))));
    scene.bodies.push_back(
       std::make_unique<ElasticBody>(*scene.meshes[1], options.order, options.material));
    ElasticBody &plane = *scene.bodies[1];
    const int surface = 1, far = 3;
    for (int component : {0, 1}) { plane.fix(far, component); }
-   for (const auto &body : scene.bodies) { scene.dofs += body->space().GetTrueVSize(); }
+   for (const auto &body : scene.bodies) { scene.dofs += body->dofs(); }
    const ContactLine above = contact_line(*scene.bodies[0], bottom);
    const ContactLine below = contact_line(plane, surface);
    scene.reduction = reduce(condense(*scene.bodies[0], above), condense(plane, below),

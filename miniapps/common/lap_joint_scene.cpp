@@ -1,5 +1,7 @@
 #include "common/lap_joint_scene.hpp"
 
+#include "common/miniapp.hpp"
+
 #include <algorithm>
 #include <cattaneo/elastic/graded_mesh.hpp>
 #include <cattaneo/input_error.hpp>
@@ -72,7 +74,7 @@ LapJoint make_lap_joint(const LapJointOptions &options)
       std::vector<double> y = graded(0, half, h, options.growth, 0.05);
       const std::size_t lower_half = y.size() - 1;
       for (std::size_t k = lower_half; k-- > 0;) { y.push_back(thickness - y[k]); }
-      joint.meshes.push_back(std::make_unique<mfem::Mesh>(rectangle_mesh(x, y)));
+      joint.meshes.push_back(distribute(rectangle_mesh(x, y)));
       mfem::Mesh &mesh = *joint.meshes.back();
       for (int v = 0; v < mesh.GetNV(); ++v)
       {
@@ -93,7 +95,7 @@ LapJoint make_lap_joint(const LapJointOptions &options)
       }
       lap.add_pressure("T", loaded, -1 / thickness);
       lap.fix_node(turn * loaded_end, turn * half, 1);
-      joint.dofs += lap.space().GetTrueVSize();
+      joint.dofs += lap.dofs();
       const ContactLine line =
          contact_line(lap, BoundaryPart({interface}, 0, -free_end, free_end));
       condensed.push_back(

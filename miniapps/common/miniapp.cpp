@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <iostream>
 #include <sstream>
+#include <thread>
 
 namespace miniapp
 {
@@ -39,10 +40,56 @@ std::string without_unset(const std::string &text)
    return result;
 }
 
+/// True if the other ranks come here too, within a second: most errors are seen by all alike.
+bool all_fail()
+{
+#ifdef MFEM_USE_MPI
+   MPI_Request all;
+   MPI_Ibarrier(MPI_COMM_WORLD, &all);
+   int there = 0;
+   for (int wait = 0; wait < 100 && !there; ++wait)
+   {
+      MPI_Test(&all, &there, MPI_STATUS_IGNORE);
+      if (!there) { std::this_thread::sleep_for(std::chrono::milliseconds(10)); }
+   }
+   return there != 0;
+#else
+   return true;
+#endif
+}
+
 } // namespace
+
+bool writes()
+{
+#ifdef MFEM_USE_MPI
+   return mfem::Mpi::Root();
+#else
+   return true;
+#endif
+}
+
+std::unique_ptr<mfem::Mesh> distribute(mfem::Mesh mesh)
+{
+#ifdef MFEM_USE_MPI
+   if (mfem::Mpi::WorldSize() > 1)
+   {
+      cattaneo::require(mesh.GetNE() >= mfem::Mpi::WorldSize(), "the mesh has ", mesh.GetNE(),
+                        " elements for ", mfem::Mpi::WorldSize(),
+                        " ranks, there must be at least one for each");
+      return std::make_unique<mfem::ParMesh>(MPI_COMM_WORLD, mesh);
+   }
+#endif
+   return std::make_unique<mfem::Mesh>(std::move(mesh));
+}
 
 int run(const std::function<int()> &body)
 {
+#ifdef MFEM_USE_MPI
+   mfem::Mpi::Init();
+   mfem::Hypre::Init();
+   if (!writes() && !std::freopen("/dev/null", "w", stdout)) { return 1; }
+#endif
    try
    {
       return body();
@@ -53,7 +100,15 @@ int run(const std::function<int()> &body)
    }
    catch (const InputError &error)
    {
+      if (all_fail())
+      {
+         if (writes()) { std::cerr << "error: " << error.what() << std::endl; }
+         return 1;
+      }
       std::cerr << "error: " << error.what() << std::endl;
+#ifdef MFEM_USE_MPI
+      MPI_Abort(MPI_COMM_WORLD, 1);
+#endif
       return 1;
    }
 }
@@ -76,7 +131,10 @@ void parse(mfem::OptionsParser &options)
       std::istringstream words(text.str());
       std::string message, word;
       while (words >> word) { message += " " + word; }
-      std::cerr << "error:" << message << " (-h lists the options)" << std::endl;
+      if (writes())
+      {
+         std::cerr << "error:" << message << " (-h lists the options)" << std::endl;
+      }
       throw Leave{1};
    }
    std::ostringstream values;
@@ -139,7 +197,7 @@ nlohmann::ordered_json to_json(const cattaneo::Counters &counters)
 
 void write_json(const nlohmann::ordered_json &results, const std::string &file)
 {
-   if (!file.empty()) { cattaneo::write_whole(file, results.dump(2) + '\n'); }
+   if (!file.empty() && writes()) { cattaneo::write_whole(file, results.dump(2) + '\n'); }
 }
 
 void ReferenceTable::add(const std::string &name, double reference, double tolerance,

@@ -4,6 +4,7 @@
 #include <cattaneo/friction/march.hpp>
 #include <chrono>
 #include <functional>
+#include <memory>
 #include <mfem.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -14,8 +15,18 @@ namespace miniapp
 
 /** Runs a miniapp's body and turns bad input into one sentence on stderr and exit code 1. The
    body returns the exit code: 0, or 2 for an outcome that ended the study early (gross sliding,
-   …). */
+   …).
+
+    On several ranks all of them run the body, and the first one speaks and writes for all; an
+   error that only one rank sees ends the others too. */
 int run(const std::function<int()> &body);
+
+/// True on the rank that writes files.
+bool writes();
+
+/// A mesh for bodies to be made on: on several ranks an mfem::ParMesh of the given one, which
+/// every rank must have.
+std::unique_ptr<mfem::Mesh> distribute(mfem::Mesh mesh);
 
 /// Parses the options, echoes them, prints help for -h. Leaves through run() with exit code 0
 /// after help and 1, with one sentence, after a bad option.

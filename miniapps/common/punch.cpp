@@ -1,5 +1,7 @@
 #include "common/punch.hpp"
 
+#include "common/miniapp.hpp"
+
 #include <cattaneo/elastic/graded_mesh.hpp>
 #include <cattaneo/input_error.hpp>
 
@@ -38,7 +40,7 @@ Punch make_punch(const PunchOptions &options)
    const double growth = options.order == 1 ? 1.1 : 1.25;
    const double coarsest = std::max(options.order == 1 ? 0.04 : 0.2, largest);
    const std::vector<double> height = graded(0, 2, smallest, growth, coarsest);
-   punch.meshes.push_back(std::make_unique<mfem::Mesh>(rectangle_mesh(contact, height)));
+   punch.meshes.push_back(distribute(rectangle_mesh(contact, height)));
    punch.bodies.push_back(
       std::make_unique<ElasticBody>(*punch.meshes[0], options.order, material));
    ElasticBody &block = *punch.bodies[0];
@@ -47,16 +49,16 @@ Punch make_punch(const PunchOptions &options)
    block.add_traction("Q", top, 0.5, 0.0);
    block.add_pressure("Q", top, [](double x, double) { return -3 * x; });
    CondensedBody condensed = condense(block, contact_line(block, bottom));
-   punch.dofs = block.space().GetTrueVSize();
+   punch.dofs = block.dofs();
    if (!options.half_plane)
    {
       punch.reduction = reduce(std::move(condensed));
       return punch;
    }
 
-   punch.meshes.push_back(std::make_unique<mfem::Mesh>(
-      half_plane_mesh(contact, graded(0, 1, smallest, growth, coarsest),
-                      ring_scales(1, options.domain, smallest, growth))));
+   punch.meshes.push_back(
+      distribute(half_plane_mesh(contact, graded(0, 1, smallest, growth, coarsest),
+                                 ring_scales(1, options.domain, smallest, growth))));
    punch.bodies.push_back(
       std::make_unique<ElasticBody>(*punch.meshes[1], options.order, plane_material));
    ElasticBody &plane = *punch.bodies[1];
@@ -64,7 +66,7 @@ Punch make_punch(const PunchOptions &options)
    for (int component : {0, 1}) { plane.fix(far_bottom, component); }
    const ContactLine facing = contact_line(plane, surface);
    const Pairing pairing = pair_lines(condensed.line, facing);
-   punch.dofs += plane.space().GetTrueVSize();
+   punch.dofs += plane.dofs();
    punch.reduction = reduce(std::move(condensed), condense(plane, facing), pairing);
    return punch;
 }

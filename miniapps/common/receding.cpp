@@ -1,5 +1,7 @@
 #include "common/receding.hpp"
 
+#include "common/miniapp.hpp"
+
 #include <algorithm>
 #include <cattaneo/elastic/graded_mesh.hpp>
 #include <cattaneo/friction/zones.hpp>
@@ -66,8 +68,8 @@ Receding make_receding(const RecedingOptions &options)
    std::vector<double> contact = graded(0, fine_end, h_corner, growth, h);
    if (fine_end < L) { contact = joined({contact, graded(fine_end, L, h, growth)}); }
 
-   scene.meshes.push_back(std::make_unique<mfem::Mesh>(
-      rectangle_mesh(contact, graded(0, 1, h_corner, growth, 0.1))));
+   scene.meshes.push_back(
+      distribute(rectangle_mesh(contact, graded(0, 1, h_corner, growth, 0.1))));
    scene.bodies.push_back(
       std::make_unique<ElasticBody>(*scene.meshes[0], options.order, material));
    ElasticBody &strip = *scene.bodies[0];
@@ -86,8 +88,7 @@ Receding make_receding(const RecedingOptions &options)
    std::reverse(outside.begin(), outside.end());
    std::vector<double> depth = graded(0, -options.depth, h_corner, growth);
    std::reverse(depth.begin(), depth.end());
-   scene.meshes.push_back(
-      std::make_unique<mfem::Mesh>(rectangle_mesh(joined({outside, contact}), depth)));
+   scene.meshes.push_back(distribute(rectangle_mesh(joined({outside, contact}), depth)));
    scene.bodies.push_back(
       std::make_unique<ElasticBody>(*scene.meshes[1], options.order, material));
    ElasticBody &block = *scene.bodies[1];
@@ -98,7 +99,7 @@ Receding make_receding(const RecedingOptions &options)
    const ContactLine below = contact_line(block, BoundaryPart({top}, 0, 0, L));
    scene.reduction =
       reduce(condense(strip, above), condense(block, below), pair_lines(above, below));
-   for (const auto &body : scene.bodies) { scene.dofs += body->space().GetTrueVSize(); }
+   for (const auto &body : scene.bodies) { scene.dofs += body->dofs(); }
    return scene;
 }
 

@@ -9,7 +9,8 @@ struct Counters
 {
    long assemblies = 0;         ///< elastic operators assembled
    long factorisations = 0;     ///< sparse factorisations
-   long back_substitutions = 0; ///< right-hand sides solved with a sparse factor
+   long back_substitutions = 0; ///< right-hand sides solved (sparse factor, or iterations)
+   long krylov_iterations = 0;  ///< of all iterative solves together
    long field_recoveries = 0;   ///< interior displacement fields recovered
    long unions = 0;             ///< pairs of condensed bodies joined
    long tangential_unknowns =
@@ -29,6 +30,7 @@ struct Counters
       visit("assemblies", self.assemblies);
       visit("factorisations", self.factorisations);
       visit("back_substitutions", self.back_substitutions);
+      visit("krylov_iterations", self.krylov_iterations);
       visit("field_recoveries", self.field_recoveries);
       visit("unions", self.unions);
       visit("tangential_unknowns", self.tangential_unknowns);

@@ -1,9 +1,12 @@
 #include <algorithm>
 #include <cattaneo/condense/condensed_body.hpp>
+#include <cattaneo/condense/distributed_solver.hpp>
+#include <cattaneo/condense/equal_operators.hpp>
 #include <cattaneo/condense/local_frame.hpp>
 #include <cattaneo/condense/rigid_motion.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
+#include <numeric>
 
 namespace cattaneo
 {
@@ -16,9 +19,15 @@ struct CondensedBody::Operator
    int contact = 0;            ///< number of contact dofs, 2n or (torsion) n
    double shift = 0.0;
    std::unique_ptr<SparseFactor> factor;
+#ifdef MFEM_USE_MPI
+   std::unique_ptr<DistributedSolver> distributed; ///< instead of all the above but `contact`
+#endif
    Eigen::MatrixXd S; ///< in global components, {x; y}
 
-   int interior() const { return static_cast<int>(keep.size()) - contact; }
+   int interior() const
+   {
+      return static_cast<int>(keep.size()) - contact;
+   }
 };
 
 struct CondensedBody::Loads
@@ -26,7 +35,8 @@ struct CondensedBody::Loads
    Eigen::MatrixXd interior; ///< right-hand side of each pattern: F_I, or -K_ID d
    Eigen::MatrixXd
       contact; ///< (K + shift) U = {interior; 0} at the contact dofs, global components
-   Eigen::MatrixXd prescribed; ///< d of each pattern at the essential dofs
+   Eigen::MatrixXd prescribed;                 ///< d of each pattern at the essential dofs
+   std::vector<ElasticBody::Pattern> patterns; ///< instead of all the above if distributed
 };
 
 namespace
@@ -126,6 +136,136 @@ FreeMotions find_free_motions(const ElasticBody &body, const std::vector<int> &e
    return free;
 }
 
+#ifdef MFEM_USE_MPI
+
+/** The same of a body on several ranks, taken for connected, from what holds it: the places of
+    the supports and of the contact nodes. */
+FreeMotions find_free_motions(const ElasticBody &body, const ContactLine &line)
+{
+   // Two unheld corners of the bounding box carry the body's size.
+   const Ranks &ranks = body.ranks();
+   const mfem::DenseMatrix &x = body.node_coordinates();
+   double box[4] = {-1e300, -1e300, -1e300, -1e300}; // -lo, hi
+   std::vector<double> supports;
+   const mfem::Array<int> essential = body.essential_dofs();
+   for (int node = 0; node < x.Width(); ++node)
+   {
+      for (int c = 0; c < 2; ++c)
+      {
+         box[c] = std::max(box[c], -x(c, node));
+         box[2 + c] = std::max(box[2 + c], x(c, node));
+      }
+      for (int c = 0; c < body.components(); ++c)
+      {
+         const int dof = body.true_dof(node, c);
+         if (dof >= 0 && std::binary_search(essential.begin(), essential.end(), dof))
+         {
+            supports.insert(supports.end(), {x(0, node), x(1, node), double(c)});
+         }
+      }
+   }
+   for (double &side : box) { side = ranks.max(side); }
+   supports = ranks.gather(supports);
+   const auto n = line.size();
+   const int held = static_cast<int>(supports.size() / 3),
+             contact = body.components() * static_cast<int>(n),
+             count = held + contact + 2 * body.components();
+   DofPlaces places{Eigen::VectorXd(count), Eigen::VectorXd(count), std::vector<int>(count),
+                    body.geometry()};
+   int k = 0;
+   const auto add = [&](double px, double py, int component)
+   {
+      places.x[k] = px;
+      places.y[k] = py;
+      places.component[k++] = component;
+   };
+   for (int a = 0; a < held; ++a)
+   {
+      add(supports[3 * a], supports[3 * a + 1], static_cast<int>(supports[3 * a + 2]));
+   }
+   for (int c = 0; c < body.components(); ++c)
+   {
+      for (Eigen::Index i = 0; i < n; ++i) { add(line.position(i, 0), line.position(i, 1), c); }
+   }
+   for (int c = 0; c < body.components(); ++c)
+   {
+      add(-box[0], -box[1], c);
+      add(box[2], box[3], c);
+   }
+   std::vector<int> all(count);
+   std::iota(all.begin(), all.end(), 0);
+   std::vector<bool> supported(count, false), both(count, false);
+   std::fill(supported.begin(), supported.begin() + held, true);
+   std::fill(both.begin(), both.begin() + held + contact, true);
+   require(free_rigid_motions(places, all, both).cols() == 0, "unsupported body: supports (",
+           held, " dofs) and contact nodes (", n,
+           ") together leave rigid motions free, must leave none");
+   const Eigen::MatrixXd rigid = free_rigid_motions(places, all, supported);
+
+   // Each motion as a linear field of each component, from its values where the body is not
+   // held, to find its work with the loads.
+   const auto &patterns = body.patterns();
+   FreeMotions free;
+   free.count = static_cast<int>(rigid.cols());
+   free.contact = rigid.middleRows(held, contact);
+   free.resultant = Eigen::MatrixXd::Zero(rigid.cols(), patterns.size());
+   for (Eigen::Index m = 0; m < rigid.cols(); ++m)
+   {
+      Eigen::MatrixXd field(3, body.components());
+      for (int c = 0; c < body.components(); ++c)
+      {
+         const int corner = held + contact + 2 * c;
+         Eigen::MatrixXd rows(n + 2, 3);
+         Eigen::VectorXd values(n + 2);
+         for (Eigen::Index i = 0; i < n + 2; ++i)
+         {
+            const auto at = i < n ? held + c * n + i : corner + i - n;
+            rows.row(i) << 1, places.x[at], places.y[at];
+            values[i] = rigid(at, m);
+         }
+         field.col(c) = rows.completeOrthogonalDecomposition().solve(values);
+      }
+      for (int node = 0; node < x.Width(); ++node)
+      {
+         for (int c = 0; c < body.components(); ++c)
+         {
+            const int dof = body.true_dof(node, c);
+            if (dof < 0) { continue; }
+            const double motion =
+               field(0, c) + field(1, c) * x(0, node) + field(2, c) * x(1, node);
+            for (std::size_t p = 0; p < patterns.size(); ++p)
+            {
+               if (patterns[p].control != Control::force) { continue; }
+               free.resultant(m, static_cast<Eigen::Index>(p)) +=
+                  motion * patterns[p].values(dof);
+            }
+         }
+      }
+   }
+   ranks.sum(free.resultant);
+   return free;
+}
+
+std::shared_ptr<const CondensedBody::Operator> distributed(const ElasticBody &body,
+                                                           const std::vector<int> &contact,
+                                                           const CondensedBody *alike,
+                                                           Counters &counters)
+{
+   auto op = std::make_shared<CondensedBody::Operator>();
+   op->contact = static_cast<int>(contact.size());
+   op->distributed = std::make_unique<DistributedSolver>(body, contact);
+   if (alike && alike->op && alike->op->distributed &&
+       op->distributed->equals(*alike->op->distributed))
+   {
+      return alike->op;
+   }
+   op->S = op->distributed->schur(counters);
+   ++counters.factorisations;
+   return op;
+}
+
+#endif
+
 /** Imposes on S and f (one column a pattern, both in global components) what is known of a free
     body: rigid motions meet no resistance, and the clamped contact balances the loads. In exact
     arithmetic this changes nothing. In floating point a motion that is large far from the
@@ -146,20 +286,6 @@ void impose_equilibrium(const FreeMotions &free, Eigen::MatrixXd &S, Eigen::Matr
    const Eigen::MatrixXd balance =
       -R.transpose().triangularView<Eigen::Lower>().solve(free.resultant);
    f += Q * (balance - Q.transpose() * f);
-}
-
-bool equal_operators(const mfem::SparseMatrix &A, const mfem::SparseMatrix &B)
-{
-   if (&A == &B) { return true; }
-   const int n = A.Height(), entries = A.NumNonZeroElems();
-   if (B.Height() != n || B.NumNonZeroElems() != entries ||
-       !std::equal(A.GetI(), A.GetI() + n + 1, B.GetI()) ||
-       !std::equal(A.GetJ(), A.GetJ() + entries, B.GetJ()))
-   {
-      return false;
-   }
-   const Eigen::Map<const Eigen::VectorXd> a(A.GetData(), entries), b(B.GetData(), entries);
-   return (a - b).lpNorm<Eigen::Infinity>() <= 1e-12 * a.lpNorm<Eigen::Infinity>();
 }
 
 std::shared_ptr<const CondensedBody::Operator> factored(const ElasticBody &body,
@@ -199,135 +325,176 @@ std::shared_ptr<const CondensedBody::Operator> factored(const ElasticBody &body,
    return op;
 }
 
+/// Loads of a body on one rank, and what is kept of them for recovery.
+ClampedLoads clamp(const CondensedBody::Operator &op,
+                   const std::vector<ElasticBody::Pattern> &patterns,
+                   CondensedBody::Loads &loads, Counters &counters)
+{
+   // One column a pattern. K d is needed once more below, at contact and essential dofs.
+   const auto count = static_cast<Eigen::Index>(patterns.size());
+   const auto supports = op.essential.size();
+   const int interior = op.interior(), size = static_cast<int>(op.keep.size());
+   const int *contact = op.keep.data() + interior;
+   loads.interior = Eigen::MatrixXd::Zero(interior, count);
+   loads.contact = Eigen::MatrixXd::Zero(op.contact, count);
+   loads.prescribed = Eigen::MatrixXd::Zero(supports, count);
+   Eigen::MatrixXd at_contact(op.contact, count); // F_C, or -K_CD d
+   Eigen::MatrixXd at_essential(supports, count); // F_D, or K_DD d
+   mfem::Vector product(op.K->Height());
+   for (Eigen::Index k = 0; k < count; ++k)
+   {
+      const bool force = patterns[k].control == Control::force;
+      const mfem::Vector &values = patterns[k].values;
+      if (!force) { op.K->Mult(values, product); }
+      const mfem::Vector &source = force ? values : product;
+      const double sign = force ? 1.0 : -1.0;
+      for (int a = 0; a < interior; ++a) { loads.interior(a, k) = sign * source(op.keep[a]); }
+      for (int a = 0; a < op.contact; ++a) { at_contact(a, k) = sign * source(contact[a]); }
+      for (std::size_t a = 0; a < supports; ++a)
+      {
+         at_essential(a, k) = source(op.essential[a]);
+         if (!force) { loads.prescribed(a, k) = values(op.essential[a]); }
+      }
+   }
+   if (count == 0) { return {at_contact, loads.prescribed, loads.prescribed}; }
+   Eigen::MatrixXd rhs = Eigen::MatrixXd::Zero(size, count);
+   rhs.topRows(interior) = loads.interior;
+   const Eigen::MatrixXd U = op.factor->solve(rhs);
+   counters.back_substitutions += count;
+   loads.contact = U.bottomRows(op.contact);
+   // With springs on the contact nodes instead of clamps: K_CI K_II⁻¹ r = -(S + shift) U_C,
+   // and r'ᵀ K_II⁻¹ r = r'ᵀ U_I - U'_Cᵀ (S + shift) U_C.
+   const Eigen::MatrixXd released = op.S * loads.contact + op.shift * loads.contact;
+   return {-released - at_contact,
+           loads.interior.transpose() * U.topRows(interior) -
+              loads.contact.transpose() * released,
+           at_essential.transpose() * loads.prescribed};
+}
+
+/// ReducedProblem::H, signs and symmetry, from the energies of clamped loads.
+Eigen::MatrixXd load_by_load(const std::vector<ElasticBody::Pattern> &patterns,
+                             const ClampedLoads &clamped)
+{
+   const auto count = static_cast<Eigen::Index>(patterns.size());
+   const Eigen::MatrixXd &response = clamped.response, &reaction = clamped.reaction;
+   Eigen::MatrixXd H(count, count);
+   for (Eigen::Index k = 0; k < count; ++k)
+   {
+      for (Eigen::Index j = 0; j < count; ++j)
+      {
+         const bool force = patterns[k].control == Control::force;
+         double &h = H(k, j);
+         if (patterns[j].control == patterns[k].control)
+         {
+            // Flexibility of forces, or stiffness of prescribed displacements.
+            h = 0.5 * (response(k, j) + response(j, k));
+            if (!force) { h = 0.5 * (reaction(j, k) + reaction(k, j)) - h; }
+         }
+         else
+         {
+            // Displacement of force f by motion d; the support's reaction is its opposite.
+            const Eigen::Index f = force ? k : j, d = force ? j : k;
+            h = reaction(f, d) + response(f, d);
+            if (!force) { h = -h; }
+         }
+      }
+   }
+   return H;
+}
+
 } // namespace
 
 CondensedBody condense(const ElasticBody &body, const ContactLine &line,
                        const CondenseSettings &settings, const CondensedBody *alike)
 {
-   const mfem::SparseMatrix &K = body.stiffness();
    const auto n = line.size();
    require(n > 0 && line.true_dofs.size() == static_cast<std::size_t>(n),
            "unsupported body: the contact line has ", n, " nodes and ", line.true_dofs.size(),
            " pairs of dofs, must have as many and at least one");
+   const Ranks &ranks = body.ranks();
    const mfem::Array<int> essential_dofs = body.essential_dofs();
    const std::vector<int> essential(essential_dofs.begin(), essential_dofs.end());
-   const int components = body.components();
+   const int components = body.components(), first = body.first_global_dof();
+   const int dofs = body.dofs();
    std::vector<int> contact(components * n);
    for (Eigen::Index i = 0; i < n; ++i)
    {
       for (int c = 0; c < components; ++c)
       {
          const int dof = line.true_dofs[i][c];
-         require(dof >= 0 && dof < K.Height(), "condense: contact dof ", dof, " of node ", i,
-                 " of the line, must be from 0 to ", K.Height() - 1,
-                 " (is it a line of this body?)");
-         require(!std::binary_search(essential.begin(), essential.end(), dof),
-                 "condense: component ", component_name(body.geometry(), c),
-                 " of the contact node at (", line.position(i, 0), ", ", line.position(i, 1),
-                 ") is fixed or prescribed, contact nodes must be free");
+         require(dof >= 0 && dof < dofs, "condense: contact dof ", dof, " of node ", i,
+                 " of the line, must be from 0 to ", dofs - 1, " (is it a line of this body?)");
          contact[c * n + i] = dof;
       }
+   }
+   // On all ranks alike, the owner of a dof knows.
+   std::vector<double> fixed;
+   for (std::size_t a = 0; a < contact.size(); ++a)
+   {
+      if (std::binary_search(essential.begin(), essential.end(), contact[a] - first))
+      {
+         fixed.push_back(static_cast<double>(a));
+      }
+   }
+   fixed = ranks.gather(fixed);
+   if (!fixed.empty())
+   {
+      const auto a = static_cast<Eigen::Index>(*std::min_element(fixed.begin(), fixed.end()));
+      require(false, "condense: component ", component_name(body.geometry(), a / n),
+              " of the contact node at (", line.position(a % n, 0), ", ",
+              line.position(a % n, 1), ") is fixed or prescribed, contact nodes must be free");
    }
 
    CondensedBody result;
    result.line = line;
    result.geometry = body.geometry();
    result.counters = body.counters();
-   const FreeMotions free = find_free_motions(body, essential, contact);
-   result.rigid_modes = free.count;
-   const auto shares = [&](const CondensedBody::Operator &other)
-   {
-      return other.essential == essential &&
-             other.contact == static_cast<int>(contact.size()) &&
-             std::equal(contact.begin(), contact.end(), other.keep.end() - other.contact) &&
-             equal_operators(*other.K, K);
-   };
-   if (alike && alike->op && shares(*alike->op)) { result.op = alike->op; }
-   else
-   {
-      result.op = factored(body, essential, contact, settings.backend);
-      ++result.counters.factorisations;
-   }
-   const CondensedBody::Operator &op = *result.op;
-   const FrameChange frames = frames_of(line, body.geometry());
-   // Loads: one column a pattern. K d is needed once more below, at contact and essential dofs.
    const auto &patterns = body.patterns();
-   const auto count = static_cast<Eigen::Index>(patterns.size());
-   const int interior = op.interior(), size = static_cast<int>(op.keep.size());
    auto loads = std::make_shared<CondensedBody::Loads>();
-   loads->interior = Eigen::MatrixXd::Zero(interior, count);
-   loads->contact = Eigen::MatrixXd::Zero(op.contact, count);
-   loads->prescribed = Eigen::MatrixXd::Zero(essential.size(), count);
-   Eigen::MatrixXd at_contact(op.contact, count);         // F_C, or -K_CD d
-   Eigen::MatrixXd at_essential(essential.size(), count); // F_D, or K_DD d
-   mfem::Vector product(K.Height());
-   for (Eigen::Index k = 0; k < count; ++k)
+   FreeMotions free;
+   ClampedLoads clamped;
+#ifdef MFEM_USE_MPI
+   if (ranks.several())
    {
-      const bool force = patterns[k].control == Control::force;
-      const mfem::Vector &values = patterns[k].values;
-      if (!force) { K.Mult(values, product); }
-      const mfem::Vector &source = force ? values : product;
-      const double sign = force ? 1.0 : -1.0;
-      for (int a = 0; a < interior; ++a) { loads->interior(a, k) = sign * source(op.keep[a]); }
-      for (int a = 0; a < op.contact; ++a) { at_contact(a, k) = sign * source(contact[a]); }
-      for (std::size_t a = 0; a < essential.size(); ++a)
+      free = find_free_motions(body, line);
+      result.op = distributed(body, contact, alike, result.counters);
+      loads->patterns = patterns;
+      clamped = result.op->distributed->loads(patterns, result.counters);
+   }
+   else
+#endif
+   {
+      free = find_free_motions(body, essential, contact);
+      const auto shares = [&](const CondensedBody::Operator &other)
       {
-         at_essential(a, k) = source(essential[a]);
-         if (!force) { loads->prescribed(a, k) = values(essential[a]); }
-      }
-   }
-   Eigen::MatrixXd S = op.S, clamped(op.contact, count);
-   result.H = Eigen::MatrixXd::Zero(count, count);
-   Eigen::MatrixXd response(count, count);
-   if (count > 0)
-   {
-      Eigen::MatrixXd rhs = Eigen::MatrixXd::Zero(size, count);
-      rhs.topRows(interior) = loads->interior;
-      const Eigen::MatrixXd U = op.factor->solve(rhs);
-      result.counters.back_substitutions += count;
-      loads->contact = U.bottomRows(op.contact);
-      // With springs on the contact nodes instead of clamps: K_CI K_II⁻¹ r = -(S + shift) U_C,
-      // and r'ᵀ K_II⁻¹ r = r'ᵀ U_I - U'_Cᵀ (S + shift) U_C.
-      const Eigen::MatrixXd released = op.S * loads->contact + op.shift * loads->contact;
-      clamped = -released - at_contact;
-      response = loads->interior.transpose() * U.topRows(interior) -
-                 loads->contact.transpose() * released;
-   }
-   impose_equilibrium(free, S, clamped);
-   result.S = frames.both(S);
-   if (count > 0)
-   {
-      const Eigen::MatrixXd local = frames.rows(clamped);
-      for (Eigen::Index k = 0; k < count; ++k)
+         return other.essential == essential &&
+                other.contact == static_cast<int>(contact.size()) &&
+                std::equal(contact.begin(), contact.end(), other.keep.end() - other.contact) &&
+                equal_operators(*other.K, body.stiffness());
+      };
+      if (alike && alike->op && shares(*alike->op)) { result.op = alike->op; }
+      else
       {
-         result.patterns.push_back({patterns[k].name, patterns[k].control, local.col(k).head(n),
-                                    local.col(k).tail(op.contact - n)});
-         for (Eigen::Index j = 0; j < count; ++j)
-         {
-            const bool force = patterns[k].control == Control::force;
-            double &h = result.H(k, j);
-            if (patterns[j].control == patterns[k].control)
-            {
-               // Flexibility of forces, or stiffness of prescribed displacements.
-               h = 0.5 * (response(k, j) + response(j, k));
-               if (!force)
-               {
-                  h = 0.5 * (loads->prescribed.col(k).dot(at_essential.col(j)) +
-                             loads->prescribed.col(j).dot(at_essential.col(k))) -
-                      h;
-               }
-            }
-            else
-            {
-               // Displacement of force f by motion d; the support's reaction is its opposite.
-               const Eigen::Index f = force ? k : j, d = force ? j : k;
-               h = at_essential.col(f).dot(loads->prescribed.col(d)) + response(f, d);
-               if (!force) { h = -h; }
-            }
-         }
+         result.op = factored(body, essential, contact, settings.backend);
+         ++result.counters.factorisations;
       }
+      clamped = clamp(*result.op, patterns, *loads, result.counters);
    }
+   result.rigid_modes = free.count;
    result.loads = std::move(loads);
+   result.H = load_by_load(patterns, clamped);
+   Eigen::MatrixXd S = result.op->S;
+   impose_equilibrium(free, S, clamped.forces);
+   const FrameChange frames = frames_of(line, body.geometry());
+   result.S = frames.both(S);
+   if (patterns.empty()) { return result; }
+   const Eigen::MatrixXd local = frames.rows(clamped.forces);
+   for (std::size_t k = 0; k < patterns.size(); ++k)
+   {
+      const auto force = local.col(static_cast<Eigen::Index>(k));
+      result.patterns.push_back(
+         {patterns[k].name, patterns[k].control, force.head(n), force.tail(local.rows() - n)});
+   }
    return result;
 }
 
@@ -341,6 +508,21 @@ mfem::Vector CondensedBody::recover(const Eigen::VectorXd &u,
    require(u.allFinite() && multipliers.allFinite(),
            "recover: a contact displacement or a load multiplier is not finite");
    const Eigen::VectorXd contact = frames_of(line, geometry).transposed().rows(u);
+#ifdef MFEM_USE_MPI
+   if (op->distributed)
+   {
+      ++counters.field_recoveries;
+      mfem::Vector forces(op->distributed->size()), prescribed(forces.Size());
+      forces = prescribed = 0.0;
+      for (std::size_t k = 0; k < loads->patterns.size(); ++k)
+      {
+         const auto &pattern = loads->patterns[k];
+         (pattern.control == Control::force ? forces : prescribed)
+            .Add(multipliers[static_cast<Eigen::Index>(k)], pattern.values);
+      }
+      return op->distributed->recover(contact, forces, prescribed, counters);
+   }
+#endif
    const Eigen::VectorXd moved = contact - loads->contact * multipliers;
    Eigen::VectorXd rhs(op->keep.size());
    rhs.head(op->interior()) = loads->interior * multipliers;

@@ -12,7 +12,13 @@ namespace cattaneo
 namespace
 {
 
-/// Nodes of one boundary element, in the direction with the body on the left.
+/// A number of a scalar node that all ranks share.
+int number(const ElasticBody &body, int scalar_dof)
+{
+   return body.ranks().several() ? body.global_dof(scalar_dof, 0) : scalar_dof;
+}
+
+/// Nodes (their numbers) of one boundary element, in the direction with the body on the left.
 struct Segment
 {
    std::vector<int> nodes;
@@ -69,13 +75,67 @@ Segment segment(const ElasticBody &body, int boundary_element, BoundaryEdge &edg
    {
       const int a = order[k];
       if (k > 0) { distance += std::abs(length(edge, nodes[order[k - 1]].x, nodes[a].x)); }
-      result.nodes.push_back(dofs[a]);
+      result.nodes.push_back(number(body, dofs[a]));
       result.distance.push_back(distance);
       result.weights.push_back(weights[a]);
       result.shares.push_back(shares[a]);
       result.tangents.push_back(edge.tangent(nodes[a].x));
    }
    return result;
+}
+
+/// What is known of a node, wherever it is: the same on all ranks.
+struct Node
+{
+   int scalar_dof = -1; ///< of the space, if this rank has it
+   double x = 0, y = 0;
+   std::array<int, 2> dofs{-1, -1};
+   bool on_axis = false;
+};
+
+/// Every rank gets the segments and nodes of all.
+void share(const Ranks &ranks, std::vector<Segment> &segments, std::map<int, Node> &nodes)
+{
+   if (!ranks.several()) { return; }
+   std::vector<double> packed;
+   for (const Segment &s : segments)
+   {
+      packed.push_back(static_cast<double>(s.nodes.size()));
+      for (std::size_t a = 0; a < s.nodes.size(); ++a)
+      {
+         const Node &node = nodes.at(s.nodes[a]);
+         for (double value : {double(s.nodes[a]), s.distance[a], s.weights[a], s.shares[a],
+                              s.tangents[a][0], s.tangents[a][1], node.x, node.y,
+                              double(node.dofs[0]), double(node.dofs[1]), double(node.on_axis)})
+         {
+            packed.push_back(value);
+         }
+      }
+   }
+   packed = ranks.gather(packed);
+   segments.clear();
+   for (std::size_t k = 0; k < packed.size();)
+   {
+      const auto next = [&] { return packed[k++]; };
+      const auto next_int = [&] { return static_cast<int>(next()); };
+      Segment s;
+      const int count = next_int();
+      for (int a = 0; a < count; ++a)
+      {
+         s.nodes.push_back(next_int());
+         s.distance.push_back(next());
+         s.weights.push_back(next());
+         s.shares.push_back(next());
+         s.tangents.emplace_back();
+         for (double &component : s.tangents.back()) { component = next(); }
+         Node &node = nodes[s.nodes.back()];
+         node.x = next();
+         node.y = next();
+         for (int &dof : node.dofs) { dof = next_int(); }
+         node.on_axis = next() != 0;
+      }
+      segments.push_back(s);
+   }
 }
 
 } // namespace
@@ -86,10 +146,13 @@ ContactLine contact_line(const ElasticBody &body, const BoundaryPart &part)
    mfem::FiniteElementSpace &space = body.space();
    mfem::Mesh &mesh = *space.GetMesh();
    const mfem::DenseMatrix &x = body.node_coordinates();
-   const auto coordinates = [&x](int node)
-   { return "(" + std::to_string(x(0, node)) + ", " + std::to_string(x(1, node)) + ")"; };
-
    std::vector<Segment> segments;
+   std::map<int, Node> nodes;
+   const auto coordinates = [&nodes](int id)
+   {
+      const Node &node = nodes.at(id);
+      return "(" + std::to_string(node.x) + ", " + std::to_string(node.y) + ")";
+   };
    mfem::Array<int> dofs;
    for (int i : boundary_elements(mesh, part, where))
    {
@@ -101,8 +164,20 @@ ContactLine contact_line(const ElasticBody &body, const BoundaryPart &part)
                                          return x(part.axis, node) >= part.lo - slack &&
                                                 x(part.axis, node) <= part.hi + slack;
                                       });
-      if (inside) { segments.push_back(segment(body, i, edge)); }
+      if (!inside) { continue; }
+      segments.push_back(segment(body, i, edge));
+      for (int dof : dofs)
+      {
+         const bool two = body.components() == 2;
+         nodes[number(body, dof)] = {
+            dof,
+            x(0, dof),
+            x(1, dof),
+            {body.global_dof(dof, 0), two ? body.global_dof(dof, 1) : -1},
+            body.on_axis(dof)};
+      }
    }
+   share(body.ranks(), segments, nodes);
    require(!segments.empty(), where, ": there are no boundary elements inside the ",
            describe(part));
 
@@ -123,7 +198,8 @@ ContactLine contact_line(const ElasticBody &body, const BoundaryPart &part)
    const auto before = [&](int a, int b)
    {
       const int i = segments[a].nodes.front(), j = segments[b].nodes.front();
-      return std::make_pair(x(0, i), x(1, i)) < std::make_pair(x(0, j), x(1, j));
+      return std::make_pair(nodes.at(i).x, nodes.at(i).y) <
+             std::make_pair(nodes.at(j).x, nodes.at(j).y);
    };
    std::vector<bool> used(segments.size(), false);
    const auto follow = [&](int start)
@@ -159,12 +235,13 @@ ContactLine contact_line(const ElasticBody &body, const BoundaryPart &part)
              { return before(a.front(), b.front()); });
 
    ContactLine line;
+   std::vector<int> numbers;
    std::vector<double> arc, weights, lumped, spacing;
    std::vector<std::array<double, 2>> tangent;
    double start = 0.0;
    for (std::size_t c = 0; c < chains.size(); ++c)
    {
-      const std::size_t first = line.scalar_dofs.size();
+      const std::size_t first = numbers.size();
       double end = start;
       for (int k : chains[c])
       {
@@ -172,15 +249,14 @@ ContactLine contact_line(const ElasticBody &body, const BoundaryPart &part)
          for (std::size_t a = 0; a < s.nodes.size(); ++a)
          {
             const bool repeats = a == 0 && k != chains[c].front();
-            const bool closes = a + 1 == s.nodes.size() &&
-                                s.nodes[a] == line.scalar_dofs[first] &&
-                                line.scalar_dofs.size() > first + 1;
-            std::size_t node = line.scalar_dofs.size();
+            const bool closes = a + 1 == s.nodes.size() && s.nodes[a] == numbers[first] &&
+                                numbers.size() > first + 1;
+            std::size_t node = numbers.size();
             if (repeats) { --node; }
             else if (closes) { node = first; }
             else
             {
-               line.scalar_dofs.push_back(s.nodes[a]);
+               numbers.push_back(s.nodes[a]);
                line.chain.push_back(static_cast<int>(c));
                arc.push_back(end + s.distance[a]);
                weights.push_back(0.0);
@@ -193,7 +269,7 @@ ContactLine contact_line(const ElasticBody &body, const BoundaryPart &part)
             if (a > 0)
             {
                const double step = s.distance[a] - s.distance[a - 1];
-               const std::size_t previous = closes ? line.scalar_dofs.size() - 1 : node - 1;
+               const std::size_t previous = closes ? numbers.size() - 1 : node - 1;
                for (std::size_t i : {previous, node})
                {
                   lumped[i] += 0.5 * step;
@@ -210,7 +286,7 @@ ContactLine contact_line(const ElasticBody &body, const BoundaryPart &part)
    {
       const auto drop = [node](auto &list)
       { list.erase(list.begin() + static_cast<std::ptrdiff_t>(node)); };
-      drop(line.scalar_dofs);
+      drop(numbers);
       drop(line.chain);
       drop(arc);
       drop(weights);
@@ -218,18 +294,18 @@ ContactLine contact_line(const ElasticBody &body, const BoundaryPart &part)
       drop(spacing);
       drop(tangent);
    };
-   for (std::size_t node = line.scalar_dofs.size(); node-- > 0;)
+   for (std::size_t node = numbers.size(); node-- > 0;)
    {
-      if (!body.on_axis(line.scalar_dofs[node])) { continue; }
+      if (!nodes.at(numbers[node]).on_axis) { continue; }
       const auto neighbour = [&](std::size_t other)
       { return other < line.chain.size() && line.chain[other] == line.chain[node]; };
       require(neighbour(node + 1) || neighbour(node - 1), where, ": the node at ",
-              coordinates(line.scalar_dofs[node]), " is alone on the axis");
+              coordinates(numbers[node]), " is alone on the axis");
       weights[neighbour(node + 1) ? node + 1 : node - 1] += weights[node];
       leave_out(node);
    }
 
-   const auto n = static_cast<Eigen::Index>(line.scalar_dofs.size());
+   const auto n = static_cast<Eigen::Index>(numbers.size());
    line.position.resize(n, 2);
    line.tangent.resize(n, 2);
    line.normal.resize(n, 2);
@@ -239,18 +315,19 @@ ContactLine contact_line(const ElasticBody &body, const BoundaryPart &part)
    line.spacing = Eigen::Map<Eigen::VectorXd>(spacing.data(), n);
    for (Eigen::Index i = 0; i < n; ++i)
    {
-      const int node = line.scalar_dofs[i];
-      require(line.weights[i] > 0, where, ": the weight of the node at ", coordinates(node),
+      const int id = numbers[i];
+      const Node &node = nodes.at(id);
+      require(line.weights[i] > 0, where, ": the weight of the node at ", coordinates(id),
               " is ", line.weights[i], ", must be positive");
       const double size = std::hypot(tangent[i][0], tangent[i][1]);
-      require(size > 0, where, ": the line turns back on itself at ", coordinates(node));
-      line.position.row(i) << x(0, node), x(1, node);
+      require(size > 0, where, ": the line turns back on itself at ", coordinates(id));
+      line.position.row(i) << node.x, node.y;
       line.tangent.row(i) << tangent[i][0] / size, tangent[i][1] / size;
       line.normal.row(i) << -line.tangent(i, 1), line.tangent(i, 0);
-      const bool two = body.components() == 2;
-      line.true_dofs.push_back({body.true_dof(node, 0), two ? body.true_dof(node, 1) : -1});
-      require(line.true_dofs.back()[0] >= 0 && (!two || line.true_dofs.back()[1] >= 0), where,
-              ": the node at ", coordinates(node),
+      line.scalar_dofs.push_back(node.scalar_dof);
+      line.true_dofs.push_back(node.dofs);
+      require(node.dofs[0] >= 0 && (body.components() == 1 || node.dofs[1] >= 0), where,
+              ": the node at ", coordinates(id),
               " hangs on others, the mesh must be conforming along the line");
    }
    return line;

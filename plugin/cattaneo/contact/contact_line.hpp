@@ -28,8 +28,8 @@ namespace cattaneo
    freely, which opens it or lets it overlap by O(h³) (order 1: O(h)). */
 struct ContactLine
 {
-   std::vector<int> scalar_dofs;              ///< node of the space
-   std::vector<std::array<int, 2>> true_dofs; ///< x and y true dof of each node (twist, -1)
+   std::vector<int> scalar_dofs;              ///< node of the space; -1 if another rank has it
+   std::vector<std::array<int, 2>> true_dofs; ///< x and y true dof (twist, -1), global numbers
    std::vector<int> chain;                    ///< number of the chain each node belongs to
    Eigen::MatrixXd position;                  ///< n × 2
    Eigen::MatrixXd tangent, normal;           ///< n × 2, unit vectors

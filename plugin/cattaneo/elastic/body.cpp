@@ -20,13 +20,9 @@ mfem::Mesh &checked(mfem::Mesh &mesh)
    require(mesh.Dimension() == 2 && mesh.SpaceDimension() == 2,
            "elastic body: the mesh is of dimension ", mesh.Dimension(),
            " in space of dimension ", mesh.SpaceDimension(), ", both must be 2");
-   require(mesh.GetNE() > 0, "elastic body: the mesh has no elements");
-#ifdef MFEM_USE_MPI
-   const auto *parallel = dynamic_cast<const mfem::ParMesh *>(&mesh);
-   require(
-      !parallel || parallel->GetNRanks() == 1,
-      "elastic body: the mesh is distributed, this body needs the whole of it on one rank");
-#endif
+   require(Ranks(mesh).any(mesh.GetNE() > 0), "elastic body: the mesh has no elements");
+   require(Ranks(mesh).size() == 1 || !mesh.ncmesh,
+           "elastic body: the mesh is distributed and nonconforming, must be conforming");
    return mesh;
 }
 
@@ -42,6 +38,17 @@ double value_at(const ScalarField &field, double x, double y, const std::string 
    require(std::isfinite(value), where, ": the value at (", x, ", ", y, ") is ", value,
            ", must be finite");
    return value;
+}
+
+std::unique_ptr<mfem::BilinearForm> new_form(mfem::FiniteElementSpace &space)
+{
+#ifdef MFEM_USE_MPI
+   if (auto *shared = dynamic_cast<mfem::ParFiniteElementSpace *>(&space))
+   {
+      return std::make_unique<mfem::ParBilinearForm>(shared);
+   }
+#endif
+   return std::make_unique<mfem::BilinearForm>(&space);
 }
 
 const char *name(Control control)
@@ -66,6 +73,7 @@ ElasticBody::ElasticBody(mfem::Mesh &mesh, int order, const std::vector<Material
 {
    checked(mesh);
    checked_order(order);
+   ranks_ = Ranks(mesh);
    require(!materials_.empty(), "elastic body: there is no material");
    for (const Material &material : materials_)
    {
@@ -80,8 +88,19 @@ ElasticBody::ElasticBody(mfem::Mesh &mesh, int order, const std::vector<Material
               materials_.size(), " (for the attributes from 1)");
    }
    owned_collection_ = std::make_unique<mfem::H1_FECollection>(order, 2);
-   owned_space_ = std::make_unique<mfem::FiniteElementSpace>(
-      &mesh, owned_collection_.get(), components(), mfem::Ordering::byVDIM);
+#ifdef MFEM_USE_MPI
+   if (ranks_.several())
+   {
+      owned_space_ = std::make_unique<mfem::ParFiniteElementSpace>(
+         dynamic_cast<mfem::ParMesh *>(&mesh), owned_collection_.get(), components(),
+         mfem::Ordering::byVDIM);
+   }
+   else
+#endif
+   {
+      owned_space_ = std::make_unique<mfem::FiniteElementSpace>(
+         &mesh, owned_collection_.get(), components(), mfem::Ordering::byVDIM);
+   }
    space_ = owned_space_.get();
    adopt_space();
    assemble();
@@ -92,6 +111,9 @@ ElasticBody::ElasticBody(mfem::FiniteElementSpace &space, const mfem::SparseMatr
    : space_(&space), geometry_(geometry)
 {
    checked(*space.GetMesh());
+   require(
+      Ranks(*space.GetMesh()).size() == 1,
+      "elastic body: the mesh is distributed, an operator of one's own must be on one rank");
    require(space.GetVDim() == components(), "elastic body: the space has ", space.GetVDim(),
            " components, must have ", components());
    const auto *collection = dynamic_cast<const mfem::H1_FECollection *>(space.FEColl());
@@ -130,7 +152,19 @@ void ElasticBody::adopt_space()
    mfem::FiniteElementSpace &space = *space_;
    mfem::Mesh &mesh = *space.GetMesh();
    vdof_to_true_.assign(space.GetVSize(), -1);
-   if (const mfem::SparseMatrix *restriction = space.GetConformingRestriction())
+#ifdef MFEM_USE_MPI
+   if (ranks_.several())
+   {
+      const auto &shared = dynamic_cast<const mfem::ParFiniteElementSpace &>(space);
+      first_global_dof_ = static_cast<int>(shared.GetMyTDofOffset());
+      for (int v = 0; v < space.GetVSize(); ++v)
+      {
+         vdof_to_true_[v] = shared.GetLocalTDofNumber(v);
+      }
+   }
+   else
+#endif
+      if (const mfem::SparseMatrix *restriction = space.GetConformingRestriction())
    {
       // True dofs are those nodes that hang on no others: each row has one entry.
       const int *I = restriction->GetI(), *J = restriction->GetJ();
@@ -178,6 +212,7 @@ void ElasticBody::hold_axis()
    {
       axis_radius_ = std::max(axis_radius_, 1e-12 * std::abs(coordinates_(0, node)));
    }
+   axis_radius_ = ranks_.max(axis_radius_);
    for (int node = 0; node < space_->GetNDofs(); ++node)
    {
       if (on_axis(node))
@@ -216,7 +251,8 @@ void ElasticBody::assemble()
       mu(k) = materials_[k].mu();
    }
    mfem::PWConstCoefficient lambda_field(lambda), mu_field(mu);
-   mfem::BilinearForm form(space_);
+   std::unique_ptr<mfem::BilinearForm> made = new_form(*space_);
+   mfem::BilinearForm &form = *made;
    mfem::BilinearFormIntegrator *integrator = nullptr;
    switch (geometry_)
    {
@@ -233,13 +269,20 @@ void ElasticBody::assemble()
    form.AddDomainIntegrator(integrator);
    form.Assemble(0);
    form.Finalize(0);
+   ++counters_.assemblies;
+#ifdef MFEM_USE_MPI
+   if (ranks_.several())
+   {
+      distributed_.reset(dynamic_cast<mfem::ParBilinearForm &>(form).ParallelAssemble());
+      return;
+   }
+#endif
    std::unique_ptr<mfem::SparseMatrix> local(form.LoseMat());
    if (const mfem::SparseMatrix *P = space_->GetConformingProlongation())
    {
       local.reset(mfem::RAP(*P, *local, *P));
    }
    stiffness_ = std::move(local);
-   ++counters_.assemblies;
 }
 
 std::vector<int> ElasticBody::nodes_on(const BoundaryPart &part, const std::string &where) const
@@ -261,9 +304,24 @@ std::vector<int> ElasticBody::nodes_on(const BoundaryPart &part, const std::stri
          }
       }
    }
+#ifdef MFEM_USE_MPI
+   // A node at the end of the part may belong to a rank that has no boundary element there.
+   if (const auto *shared = dynamic_cast<const mfem::ParFiniteElementSpace *>(space_))
+   {
+      mfem::Array<int> marked(space_->GetVSize());
+      marked = 0;
+      for (int node : nodes) { marked[space_->DofToVDof(node, 0)] = 1; }
+      shared->Synchronize(marked);
+      nodes.clear();
+      for (int node = 0; node < space_->GetNDofs(); ++node)
+      {
+         if (marked[space_->DofToVDof(node, 0)]) { nodes.push_back(node); }
+      }
+   }
+#endif
    std::sort(nodes.begin(), nodes.end());
    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-   require(!nodes.empty(), where, ": there are no nodes on the ", describe(part));
+   require(ranks_.any(!nodes.empty()), where, ": there are no nodes on the ", describe(part));
    return nodes;
 }
 
@@ -294,7 +352,13 @@ void ElasticBody::fix_node(double x, double y, int component)
          nearest = node;
       }
    }
-   essential_[true_dof(nearest, component)] = true;
+   // The first of the ranks that have a node as near.
+   const std::vector<double> distances = ranks_.gather({distance});
+   const auto first = std::min_element(distances.begin(), distances.end());
+   if (first - distances.begin() == ranks_.rank())
+   {
+      essential_[true_dof(nearest, component)] = true;
+   }
 }
 
 ElasticBody::Pattern &ElasticBody::load(const std::string &name_, Control control)
@@ -319,9 +383,11 @@ ElasticBody::Pattern &ElasticBody::load(const std::string &name_, Control contro
 void ElasticBody::add_to_pattern(const std::string &name_, const mfem::Vector &local_forces)
 {
    Pattern &pattern = load(name_, Control::force);
-   if (const mfem::SparseMatrix *P = space_->GetConformingProlongation())
+   if (const mfem::Operator *P = space_->GetProlongationMatrix())
    {
-      P->AddMultTranspose(local_forces, pattern.values);
+      mfem::Vector forces(P->Width());
+      P->MultTranspose(local_forces, forces);
+      pattern.values += forces;
    }
    else { pattern.values += local_forces; }
 }
@@ -365,7 +431,7 @@ void ElasticBody::add_boundary_load(const std::string &pattern, const BoundaryPa
          }
       }
    }
-   require(anything, where, ": there is nothing on the ", describe(part));
+   require(ranks_.any(anything), where, ": there is nothing on the ", describe(part));
    add_to_pattern(pattern, forces);
 }
 
@@ -506,6 +572,24 @@ const Material &ElasticBody::material(int attribute) const
 int ElasticBody::true_dof(int scalar_dof, int component) const
 {
    return vdof_to_true_[space_->DofToVDof(scalar_dof, component)];
+}
+
+int ElasticBody::dofs() const
+{
+   return static_cast<int>(ranks_.sum(static_cast<long>(space_->GetTrueVSize())));
+}
+
+int ElasticBody::global_dof(int scalar_dof, int component) const
+{
+#ifdef MFEM_USE_MPI
+   if (ranks_.several())
+   {
+      const auto &shared = dynamic_cast<const mfem::ParFiniteElementSpace &>(*space_);
+      return static_cast<int>(
+         shared.GetGlobalTDofNumber(space_->DofToVDof(scalar_dof, component)));
+   }
+#endif
+   return true_dof(scalar_dof, component);
 }
 
 } // namespace cattaneo

@@ -5,6 +5,7 @@
 #include <cattaneo/elastic/boundary_part.hpp>
 #include <cattaneo/elastic/geometry.hpp>
 #include <cattaneo/elastic/material.hpp>
+#include <cattaneo/elastic/ranks.hpp>
 #include <cattaneo/reduced/reduced_problem.hpp>
 #include <memory>
 #include <mfem.hpp>
@@ -28,13 +29,16 @@ namespace cattaneo
    a body that twists is an axisymmetric and a torsion body. With both, r < 0 is an InputError.
 
     Everything that is named by a BoundaryPart throws InputError if the attribute does not exist
-   or nothing lies in the interval. */
+   or nothing lies in the interval.
+
+    On an mfem::ParMesh of several ranks every call is collective, dofs are those that the rank
+    owns, and the stiffness is a hypre matrix. */
 class ElasticBody
 {
 public:
    /// Assembles the isotropic operator on elements of the given order (>= 1). The mesh must be
-   /// 2D and must outlive the body; straight, curved and nonconforming meshes of quads and
-   /// triangles.
+   /// 2D and must outlive the body; straight, curved and nonconforming (not if distributed)
+   /// meshes of quads and triangles.
    ElasticBody(mfem::Mesh &mesh, int order, const Material &material,
                Geometry geometry = Geometry::plane);
 
@@ -85,25 +89,55 @@ public:
    Geometry geometry() const { return geometry_; }
    int components() const { return cattaneo::components(geometry_); }
    mfem::FiniteElementSpace &space() const { return *space_; }
+   const Ranks &ranks() const { return ranks_; }
+   /// True dofs of all ranks.
+   int dofs() const;
+   /// Of a body on one rank.
    const mfem::SparseMatrix &stiffness() const { return *stiffness_; }
    /// The same matrix, to be kept beyond the life of the body (never changed).
    std::shared_ptr<const mfem::SparseMatrix> shared_stiffness() const { return stiffness_; }
-   const std::vector<Pattern> &patterns() const { return patterns_; }
+#ifdef MFEM_USE_MPI
+   /// Of a body on several ranks, to be kept beyond its life.
+   std::shared_ptr<const mfem::HypreParMatrix> distributed_stiffness() const
+   {
+      return distributed_;
+   }
+#endif
+   const std::vector<Pattern> &patterns() const
+   {
+      return patterns_;
+   }
    /// Sorted true dofs that are fixed or prescribed by a displacement pattern.
    mfem::Array<int> essential_dofs() const;
    /// Material of an element attribute; InputError for a user's operator.
    const Material &material(int attribute) const;
-   bool has_material() const { return !materials_.empty(); }
+   bool has_material() const
+   {
+      return !materials_.empty();
+   }
 
    /// True dof of component c of the scalar node (local dof) of the space, -1 if it hangs on
-   /// others (nonconforming meshes).
+   /// others (nonconforming meshes) or belongs to another rank.
    int true_dof(int scalar_dof, int component) const;
+   /// The same as a number that all ranks share.
+   int global_dof(int scalar_dof, int component) const;
+   /// First of the global numbers of this rank's true dofs.
+   int first_global_dof() const
+   {
+      return first_global_dof_;
+   }
    /// Coordinates of every scalar node, size 2 × nodes.
-   const mfem::DenseMatrix &node_coordinates() const { return coordinates_; }
+   const mfem::DenseMatrix &node_coordinates() const
+   {
+      return coordinates_;
+   }
    /// True if a scalar node lies on the axis of revolution; always false in the plane.
    bool on_axis(int scalar_dof) const;
 
-   const Counters &counters() const { return counters_; }
+   const Counters &counters() const
+   {
+      return counters_;
+   }
 
 private:
    void adopt_space();
@@ -122,7 +156,12 @@ private:
    mfem::FiniteElementSpace *space_ = nullptr;
    Geometry geometry_ = Geometry::plane;
    double axis_radius_ = 0.0; ///< nodes nearer to the axis than this are on it
+   Ranks ranks_;
+   int first_global_dof_ = 0;
    std::shared_ptr<const mfem::SparseMatrix> stiffness_;
+#ifdef MFEM_USE_MPI
+   std::shared_ptr<const mfem::HypreParMatrix> distributed_;
+#endif
    std::vector<Material> materials_;
    std::vector<Pattern> patterns_;
    std::vector<std::vector<bool>>

@@ -57,7 +57,12 @@ void BodyFields::write(const mfem::Vector &displacement, double time)
    require(displacement.Size() == body_.space().GetTrueVSize(),
            "ParaView output: ", displacement.Size(), " displacements, the body has ",
            body_.space().GetTrueVSize(), " true dofs");
-   fields_.at("displacement")->SetFromTrueDofs(displacement);
+   mfem::GridFunction &field = *fields_.at("displacement");
+   if (const mfem::Operator *P = body_.space().GetProlongationMatrix())
+   {
+      P->Mult(displacement, field);
+   }
+   else { field = displacement; }
    if (stress_space_) { evaluate_stress(); }
    make_folder(directory_);
    series_.SetCycle(series_.GetCycle() + 1);
