@@ -1,3 +1,4 @@
+#include <cattaneo/friction/friction_disc.hpp>
 #include <cattaneo/friction/friction_solver.hpp>
 #include <cattaneo/friction/lemke.hpp>
 #include <cattaneo/friction/mechanism.hpp>
@@ -13,6 +14,7 @@ namespace cattaneo
 
 using Eigen::Index;
 using Eigen::MatrixXd;
+using Eigen::Vector2d;
 using Eigen::VectorXd;
 
 const char *name(FrictionStatus status)
@@ -74,9 +76,10 @@ struct FrictionSolver::Implementation
    FrictionSettings settings;
    Counters counters;
 
-   Index n = 0;
+   Index n = 0, c = 0; // nodes and tangential components (frictionless: none)
    bool frictionless = false, uncoupled = false;
-   VectorXd ktt, ktn, knn; // each node's own stiffness block
+   VectorXd ktt, ktn, knn; // each node's own stiffness block (disc: ktt is its mean)
+   VectorXd critical;      // friction of each node
    MatrixXd K;             // [A Bᵀ; B C], or the normal stiffness alone if frictionless
    double K_norm = 0;      // row-sum norm
    double critical_friction = std::numeric_limits<double>::infinity();
@@ -91,23 +94,36 @@ struct FrictionSolver::Implementation
    VectorXd u, F; // displacements {v; w} and forces {q; p} (frictionless: w, p)
    VectorXd v_old;
    std::vector<NodeState> status;
-   double reference = 0; // largest clamped force so far
+   std::vector<DiscSlip> direction; // disc: of the slipping nodes, as last linearised
+   double reference = 0;            // largest clamped force so far
 
    Implementation(const ReducedProblem &given, const FrictionSettings &chosen);
 
+   bool disc() const { return c == 2; } // friction force in the disc |q| <= f p
    Index t(Index i) const { return i; } // row of node i's tangential entry
-   Index m(Index i) const { return frictionless ? i : n + i; } // row of its normal entry
+   Index t(Index i, Index k) const { return k * n + i; } // and of its k-th
+   Index m(Index i) const { return c * n + i; }          // row of its normal entry
    double gap(Index i) const { return u[m(i)] + problem.gap[i]; }
    double slip(Index i) const { return u[t(i)] - v_old[i]; }
+   Vector2d disc_slip(Index i) const { return at(u, i) - at(v_old, i); }
+   Vector2d disc_trial(Index i) const { return at(F, i) - ktt[i] * disc_slip(i); }
+   /// The two tangential entries of node i.
+   Vector2d at(const VectorXd &x, Index i) const { return {x[i], x[n + i]}; }
+   double bound(Index i) const { return problem.friction[i] * std::max(F[m(i)], 0.0); }
 
    void start(const ContactState &state, const VectorXd &multipliers);
    void finish(ContactState &state, const VectorXd &multipliers);
    void sweep();
    void set_node(Index i, double x, double y, NodeState state);
+   DiscNode disc_node(Index i) const; // without its forces
+   void move_disc_node(Index i);
    bool newton(int steps);
+   bool newton_disc(int steps);
    bool solve_for_states();
    bool solve_coupled();
+   bool solve_normal();
    bool solve_uncoupled();
+   bool solve_disc();
    bool solve_frictionless();
    bool update_states();
    bool lemke_start();
@@ -136,9 +152,13 @@ FrictionSolver::Implementation::Implementation(const ReducedProblem &given,
 {
    settings.validate();
    problem.validate();
-   require(problem.components() <= 1, "friction solver: the reduced problem has ",
-           problem.components(), " tangential components a node, at most 1 is supported");
+   require(problem.components() <= 2, "friction solver: the reduced problem has ",
+           problem.components(), " tangential components a node, at most 2 are supported");
    frictionless = problem.components() == 0 || problem.friction.maxCoeff() == 0;
+   c = frictionless ? 0 : problem.components();
+   require(!disc() || settings.method != FrictionMethod::lemke,
+           "friction solver: method lemke needs one tangential component a node, the reduced "
+           "problem has 2");
    knn = problem.C.diagonal();
    if (frictionless)
    {
@@ -155,8 +175,8 @@ FrictionSolver::Implementation::Implementation(const ReducedProblem &given,
    }
    else
    {
-      counters.tangential_unknowns = n;
-      ktt = problem.A.diagonal();
+      counters.tangential_unknowns = c * n;
+      ktt = problem.A.diagonal().head(n);
       ktn = problem.B.diagonal();
       const double scale =
          std::sqrt(problem.A.cwiseAbs().maxCoeff() * problem.C.cwiseAbs().maxCoeff());
@@ -168,12 +188,18 @@ FrictionSolver::Implementation::Implementation(const ReducedProblem &given,
          ktn.setZero();
       }
       K = problem.stiffness();
+      critical = ktt.cwiseQuotient(ktn.cwiseAbs());
       for (Index i = 0; i < n; ++i)
       {
-         const double critical = ktt[i] / std::abs(ktn[i]);
-         if (critical < critical_friction)
+         if (disc())
          {
-            critical_friction = critical;
+            const DiscNode node = disc_node(i);
+            ktt[i] = std::sqrt(node.A.determinant());
+            critical[i] = cattaneo::critical_friction(node.A, node.b);
+         }
+         if (critical[i] < critical_friction)
+         {
+            critical_friction = critical[i];
             critical_node = i;
          }
       }
@@ -194,13 +220,13 @@ void FrictionSolver::Implementation::start(const ContactState &state,
    {
       reference = std::max(reference, (problem.A * v_old).cwiseAbs().maxCoeff());
       f = clamped;
-      u.resize(2 * n);
+      u.resize((c + 1) * n);
       u << state.v, state.w;
    }
    else
    {
       f = clamped.tail(n);
-      if (tangential) { f -= problem.B * tangential->solve(clamped.head(n)); }
+      if (tangential) { f -= problem.B * tangential->solve(clamped.head(problem.A.rows())); }
       u = state.w;
    }
    for (Index i = 0; i < n; ++i)
@@ -208,6 +234,7 @@ void FrictionSolver::Implementation::start(const ContactState &state,
       if (closed(status[i])) { u[m(i)] = -problem.gap[i]; }
    }
    F = f + K * u;
+   direction.resize(disc() ? n : 0);
 }
 
 void FrictionSolver::Implementation::finish(ContactState &state, const VectorXd &multipliers)
@@ -218,21 +245,20 @@ void FrictionSolver::Implementation::finish(ContactState &state, const VectorXd 
    state.p = F.tail(n);
    if (!frictionless)
    {
-      state.v = u.head(n);
-      state.q = F.head(n);
+      state.v = u.head(c * n);
+      state.q = F.head(c * n);
    }
    else if (tangential)
    {
-      const VectorXd clamped = problem.clamped_forces(multipliers).head(n);
+      const VectorXd clamped = problem.clamped_forces(multipliers).head(problem.A.rows());
       state.v = -tangential->solve(problem.B.transpose() * state.w + clamped);
       state.q.setZero();
       for (Index i = 0; i < n; ++i)
       {
-         if (closed(status[i]))
-         {
-            status[i] =
-               state.v[i] >= v_old[i] ? NodeState::forward_slip : NodeState::backward_slip;
-         }
+         if (!closed(status[i])) { continue; }
+         if (problem.components() == 2) { status[i] = NodeState::slip; }
+         else if (state.v[i] >= v_old[i]) { status[i] = NodeState::forward_slip; }
+         else { status[i] = NodeState::backward_slip; }
       }
    }
    state.status = status;
@@ -243,7 +269,7 @@ void FrictionSolver::Implementation::finish(ContactState &state, const VectorXd 
       if (!closed(status[i]))
       {
          state.p[i] = 0;
-         if (state.q.size()) { state.q[i] = 0; }
+         for (Index k = i; k < state.q.size(); k += n) { state.q[k] = 0; }
       }
    }
 }
@@ -270,6 +296,41 @@ void FrictionSolver::Implementation::set_node(Index i, double x, double y, NodeS
    status[i] = state;
 }
 
+DiscNode FrictionSolver::Implementation::disc_node(Index i) const
+{
+   const Index r = t(i, 0), s = t(i, 1);
+   DiscNode node;
+   node.A << problem.A(r, r), problem.A(r, s), problem.A(s, r), problem.A(s, s);
+   node.b << problem.B(i, r), problem.B(i, s);
+   node.c = knn[i];
+   node.friction = problem.friction[i];
+   return node;
+}
+
+void FrictionSolver::Implementation::move_disc_node(Index i)
+{
+   DiscNode node = disc_node(i);
+   const Vector2d x = disc_slip(i);
+   node.q0 = at(F, i) - node.A * x - gap(i) * node.b;
+   node.p0 = F[m(i)] - node.b.dot(x) - node.c * gap(i);
+   const DiscMove move = solve_node(node);
+   if (!move.found) { return; } // as in the plane
+   const Vector2d step = move.slip - x;
+   for (Index k = 0; k < 2; ++k)
+   {
+      if (step[k] == 0) { continue; }
+      F.noalias() += step[k] * K.col(t(i, k));
+      u[t(i, k)] = v_old[t(i, k)] + move.slip[k];
+   }
+   const double lift = move.gap - gap(i);
+   if (lift != 0)
+   {
+      F.noalias() += lift * K.col(m(i));
+      u[m(i)] = move.gap - problem.gap[i];
+   }
+   status[i] = move.state;
+}
+
 /// One pass over all nodes, each solved exactly with the others held (thesis 3.5): separation
 /// if the free node opens, else stick if friction suffices, else slip.
 void FrictionSolver::Implementation::sweep()
@@ -281,6 +342,11 @@ void FrictionSolver::Implementation::sweep()
       {
          const double y = gap(i) - F[i] / knn[i];
          set_node(i, 0, std::max(y, 0.0), y > 0 ? NodeState::separation : NodeState::stick);
+         continue;
+      }
+      if (disc())
+      {
+         move_disc_node(i);
          continue;
       }
       const double x = slip(i), y = gap(i), fi = problem.friction[i];
@@ -319,8 +385,10 @@ void FrictionSolver::Implementation::sweep()
 bool FrictionSolver::Implementation::solve_for_states()
 {
    ++counters.newton_steps;
-   const bool solvable =
-      frictionless ? solve_frictionless() : (uncoupled ? solve_uncoupled() : solve_coupled());
+   const bool solvable = frictionless ? solve_frictionless()
+                         : disc()     ? solve_disc()
+                         : uncoupled  ? solve_uncoupled()
+                                      : solve_coupled();
    if (solvable) { F = f + K * u; }
    return solvable && u.allFinite();
 }
@@ -351,38 +419,48 @@ bool FrictionSolver::Implementation::solve_frictionless()
    return true;
 }
 
-/// B = 0: normal equations of the open nodes, then tangential ones with the pressure known.
-bool FrictionSolver::Implementation::solve_uncoupled()
+/// B = 0: gaps from the normal equations of the open nodes alone.
+bool FrictionSolver::Implementation::solve_normal()
 {
-   std::vector<Index> open, moving;
-   std::vector<signed char> open_key(n, 0), moving_key(n, 0);
+   std::vector<Index> open;
+   std::vector<signed char> open_key(n, 0);
    for (Index i = 0; i < n; ++i)
    {
-      u[t(i)] = v_old[i];
       u[m(i)] = closed(status[i]) ? -problem.gap[i] : 0.0;
       if (!closed(status[i]))
       {
          open.push_back(i);
          open_key[i] = 1;
       }
+   }
+   if (open.empty()) { return true; }
+   if (normal_factor.key != open_key)
+   {
+      ++counters.dense_factorisations;
+      normal_factor.compute(problem.C(open, open));
+      normal_factor.key = open_key;
+   }
+   if (normal_factor.singular) { return false; }
+   VectorXd base = f.tail(n) + problem.C * u.tail(n);
+   const VectorXd w = -normal_factor.lu.solve(base(open));
+   for (std::size_t k = 0; k < open.size(); ++k) { u[m(open[k])] = w[k]; }
+   return true;
+}
+
+/// B = 0: normal equations of the open nodes, then tangential ones with the pressure known.
+bool FrictionSolver::Implementation::solve_uncoupled()
+{
+   if (!solve_normal()) { return false; }
+   std::vector<Index> moving;
+   std::vector<signed char> moving_key(n, 0);
+   for (Index i = 0; i < n; ++i)
+   {
+      u[t(i)] = v_old[i];
       if (status[i] != NodeState::stick)
       {
          moving.push_back(i);
          moving_key[i] = 1;
       }
-   }
-   if (!open.empty())
-   {
-      if (normal_factor.key != open_key)
-      {
-         ++counters.dense_factorisations;
-         normal_factor.compute(problem.C(open, open));
-         normal_factor.key = open_key;
-      }
-      if (normal_factor.singular) { return false; }
-      VectorXd base = f.tail(n) + problem.C * u.tail(n);
-      const VectorXd w = -normal_factor.lu.solve(base(open));
-      for (std::size_t k = 0; k < open.size(); ++k) { u[m(open[k])] = w[k]; }
    }
    if (moving.empty()) { return true; }
    if (tangential_factor.key != moving_key)
@@ -464,6 +542,81 @@ bool FrictionSolver::Implementation::solve_coupled()
    return true;
 }
 
+/// Newton's equations of the disc: tangential displacements of the nodes that slip or are open,
+/// and gaps of the open ones (B = 0: known beforehand).
+bool FrictionSolver::Implementation::solve_disc()
+{
+   if (uncoupled && !solve_normal()) { return false; }
+   // Equations of a moving node, n·q - f p = 0 and t·q + k·x = 0 (open: n and t are the axes
+   // and f and k are zero), x being its slip increment.
+   struct Equations
+   {
+      Index node;
+      Vector2d n, t, k;
+      double f;
+   };
+   std::vector<Equations> moving;
+   std::vector<Index> unknowns;
+   for (Index i = 0; i < n; ++i)
+   {
+      for (Index k = 0; k < 2; ++k) { u[t(i, k)] = v_old[t(i, k)]; }
+      if (!uncoupled) { u[m(i)] = closed(status[i]) ? -problem.gap[i] : 0.0; }
+      if (status[i] == NodeState::separation)
+      {
+         moving.push_back({i, Vector2d::UnitX(), Vector2d::UnitY(), Vector2d::Zero(), 0.0});
+      }
+      else if (slips(status[i]))
+      {
+         const DiscSlip &to = direction[i];
+         moving.push_back({i, to.n, (1 - to.share) * to.t(), to.share * ktt[i] * to.t(),
+                           problem.friction[i]});
+      }
+   }
+   for (Index k = 0; k < 2; ++k)
+   {
+      for (const Equations &e : moving) { unknowns.push_back(t(e.node, k)); }
+   }
+   for (Index i = 0; i < n && !uncoupled; ++i)
+   {
+      if (!closed(status[i])) { unknowns.push_back(m(i)); }
+   }
+   if (unknowns.empty()) { return true; }
+   const auto count = static_cast<Index>(moving.size());
+   const auto size = static_cast<Index>(unknowns.size());
+   // What the equations make of forces {q; p}.
+   auto combine = [&](const double *forces, double *rows)
+   {
+      for (Index r = 0; r < count; ++r)
+      {
+         const Equations &e = moving[r];
+         const double radial = forces[t(e.node, 0)], circumferential = forces[t(e.node, 1)];
+         rows[r] = e.n[0] * radial + e.n[1] * circumferential - e.f * forces[m(e.node)];
+         rows[count + r] = e.t[0] * radial + e.t[1] * circumferential;
+      }
+      for (Index r = 2 * count; r < size; ++r) { rows[r] = forces[unknowns[r]]; }
+   };
+   const VectorXd base = f + K * u;
+   VectorXd rhs(size);
+   combine(base.data(), rhs.data());
+   MatrixXd M(size, size);
+   for (Index col = 0; col < size; ++col)
+   {
+      combine(K.col(unknowns[col]).data(), M.col(col).data());
+   }
+   for (Index r = 0; r < count; ++r)
+   {
+      M(count + r, r) += moving[r].k[0];
+      M(count + r, count + r) += moving[r].k[1];
+   }
+   ++counters.dense_factorisations;
+   CachedFactor factor;
+   factor.compute(M);
+   if (factor.singular) { return false; }
+   const VectorXd x = factor.lu.solve(rhs);
+   for (Index col = 0; col < size; ++col) { u[unknowns[col]] -= x[col]; }
+   return true;
+}
+
 /// The states that the present displacements and forces ask for. True if none changed.
 /// Violations within round-off change nothing, lest states flicker where two of them meet.
 bool FrictionSolver::Implementation::update_states()
@@ -479,13 +632,20 @@ bool FrictionSolver::Implementation::update_states()
          if (knn[i] * gap(i) < -tiny) { next = NodeState::stick; }
       }
       else if (F[m(i)] < -tiny) { next = NodeState::separation; }
+      else if (disc())
+      {
+         const Vector2d trial = disc_trial(i);
+         const double size = std::hypot(trial[0], trial[1]);
+         const bool stays = size <= bound(i) + (slips(status[i]) ? -tiny : tiny);
+         next = stays || size == 0 ? NodeState::stick : NodeState::slip;
+         if (next == NodeState::slip) { direction[i] = DiscSlip(trial, bound(i)); }
+      }
       else if (!frictionless)
       {
-         const double bound = problem.friction[i] * std::max(F[m(i)], 0.0);
          const double trial = F[t(i)] - ktt[i] * slip(i);
          const double margin = slips(status[i]) ? -tiny : tiny;
-         if (trial < -bound - margin) { next = NodeState::forward_slip; }
-         else if (trial > bound + margin) { next = NodeState::backward_slip; }
+         if (trial < -bound(i) - margin) { next = NodeState::forward_slip; }
+         else if (trial > bound(i) + margin) { next = NodeState::backward_slip; }
          else { next = NodeState::stick; }
       }
       if (next != status[i])
@@ -497,8 +657,33 @@ bool FrictionSolver::Implementation::update_states()
    return same;
 }
 
+/// In the disc the directions of slip change from step to step as well: done when the residual
+/// is small enough, given up when it has stopped falling.
+bool FrictionSolver::Implementation::newton_disc(int steps)
+{
+   IncrementReport now;
+   double best = std::numeric_limits<double>::infinity();
+   int patience = 8;
+   update_states(); // finds the directions
+   for (int k = 0; k < steps && patience > 0; ++k)
+   {
+      if (!solve_for_states()) { return false; }
+      residuals(now);
+      if (update_states() && accepted(now)) { return true; }
+      const double size = std::max(now.residual_normal, now.residual_tangential);
+      if (size < 0.5 * best)
+      {
+         best = size;
+         patience = 8;
+      }
+      else { --patience; }
+   }
+   return false;
+}
+
 bool FrictionSolver::Implementation::newton(int steps)
 {
+   if (disc()) { return newton_disc(steps); }
    std::set<std::vector<NodeState>> visited;
    for (int k = 0; k < steps; ++k)
    {
@@ -519,9 +704,17 @@ void FrictionSolver::Implementation::residuals(IncrementReport &report) const
       const double p = F[m(i)];
       normal = std::max(normal, std::abs(std::min(knn[i] * gap(i), p)));
       if (frictionless) { continue; }
-      const double bound = problem.friction[i] * std::max(p, 0.0);
+      const double limit = bound(i);
+      if (disc())
+      {
+         const Vector2d trial = disc_trial(i);
+         const double size = std::hypot(trial[0], trial[1]);
+         const Vector2d held = size > limit ? Vector2d(limit / size * trial) : trial;
+         tangent = std::max(tangent, (at(F, i) - held).norm());
+         continue;
+      }
       const double trial = F[t(i)] - ktt[i] * slip(i);
-      tangent = std::max(tangent, std::abs(F[t(i)] - std::clamp(trial, -bound, bound)));
+      tangent = std::max(tangent, std::abs(F[t(i)] - std::clamp(trial, -limit, limit)));
    }
    const double scale = reference > 0 ? reference : 1.0;
    report.residual_normal = normal / scale;
@@ -617,7 +810,7 @@ bool FrictionSolver::Implementation::lemke_start()
 
 bool FrictionSolver::Implementation::run_lemke(IncrementReport &report)
 {
-   if (!lemke_start()) { return false; }
+   if (disc() || !lemke_start()) { return false; }
    const VectorXd u_lemke = u, F_lemke = F;
    const std::vector<NodeState> status_lemke = status;
    // The pivots leave round-off of their own; the equations of the final states remove it.
@@ -744,12 +937,11 @@ IncrementReport FrictionSolver::Implementation::solve(ContactState &state,
    report.status = FrictionStatus::converged;
    for (Index i = 0; !frictionless && i < n; ++i)
    {
-      const double critical = ktt[i] / std::abs(ktn[i]);
-      if (closed(status[i]) && problem.friction[i] >= critical)
+      if (closed(status[i]) && problem.friction[i] >= critical[i])
       {
          std::ostringstream message;
          message << "friction " << problem.friction[i] << " at node " << i
-                 << " is above its critical value " << critical;
+                 << " is above its critical value " << critical[i];
          report.status = FrictionStatus::not_unique;
          report.message = message.str();
          break;

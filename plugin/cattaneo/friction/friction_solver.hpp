@@ -13,7 +13,8 @@ enum class FrictionMethod
 {
    automatic,    ///< a few Gauss–Seidel sweeps, active-set finish, Lemke if both fail
    gauss_seidel, ///< node by node only (thesis 3.5, appendix D)
-   lemke         ///< the complementarity problem on (w, v⁺, v⁻), then one active-set solve
+   lemke ///< the complementarity problem on (w, v⁺, v⁻), then one active-set solve (one
+         ///< tangential component only)
 };
 
 struct FrictionSettings
@@ -45,6 +46,10 @@ struct IncrementReport
    start of an increment and the loads at its end, finds the state at its end (thesis 3.5
    and 3.6).
 
+    With two tangential components a node the friction force is a vector in the disc
+    |q| <= f p, opposed to the slip increment; what differs from the plane is in
+    friction_disc.hpp.
+
     The rate is replaced by the difference over the increment. Nothing is remembered between
     increments but factors of matrices, which depend on the set of node states only: the same
    state and loads give the same bits, whatever was solved before. */
@@ -66,7 +71,7 @@ public:
    /// True if B is zero to round-off: the normal problem does not know of friction.
    bool uncoupled() const;
    /// Least critical friction A_ii/|B_ii| of any node, above which the rate problem of that
-   /// node has no unique answer, and the node.
+   /// node has no unique answer (with two components: need not have one), and the node.
    double critical_friction() const;
    Eigen::Index critical_node() const;
    const Counters &counters() const;

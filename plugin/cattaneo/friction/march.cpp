@@ -154,18 +154,32 @@ void March::accept(ContactState &&next, int piece, const IncrementReport &increm
       case NodeState::backward_slip:
          ++record.backward_slip;
          break;
+      case NodeState::slip:
+         ++record.slip;
+         break;
       }
    }
    const Index n = problem_.nodes();
-   for (Index i = 0; i < next.v.size(); ++i)
+   for (Index i = 0; i < n; ++i)
    {
-      const NodeState before = state_.status[i % n], now = next.status[i % n];
-      if (!slips(now)) { next.slip_origin[i] = next.v[i]; }
-      else if (slips(before) && before != now) { next.slip_origin[i] = state_.v[i]; }
+      const NodeState before = state_.status[i], now = next.status[i];
+      double along = 0; // old shear along the new: negative if slip has turned round
+      for (Index k = i; now == NodeState::slip && k < next.q.size(); k += n)
+      {
+         along += state_.q[k] * next.q[k];
+      }
+      const bool turned = slips(before) && (before != now || along < 0);
+      for (Index k = i; k < next.v.size(); k += n)
+      {
+         if (!slips(now)) { next.slip_origin[k] = next.v[k]; }
+         else if (turned) { next.slip_origin[k] = state_.v[k]; }
+      }
    }
-   const VectorXd lost = -0.5 * (state_.q + next.q).cwiseProduct(next.v - state_.v);
+   VectorXd lost = -0.5 * (state_.q + next.q).cwiseProduct(next.v - state_.v);
    const double normal_work = -0.5 * (state_.p + next.p).dot(next.w - state_.w);
    record.dissipation = lost.sum();
+   for (Index k = 1; k < problem_.components(); ++k) { lost.head(n) += lost.segment(k * n, n); }
+   lost.conservativeResize(std::min(lost.size(), n));
    const VectorXd g0 = conjugates(problem_, state_), g1 = conjugates(problem_, next);
    for (std::size_t k = 0; k < problem_.patterns.size(); ++k)
    {

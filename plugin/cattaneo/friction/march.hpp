@@ -42,6 +42,7 @@ struct IncrementRecord
    double time = 0;
    int cycle = 0;                                                      ///< 0: opening part
    int stick = 0, separation = 0, forward_slip = 0, backward_slip = 0; ///< numbers of nodes
+   int slip = 0; ///< with two tangential components: nodes that slip in whatever direction
    double dissipation = 0;   ///< -½(q_old + q_new)·Δv, summed over nodes
    double external_work = 0; ///< work of the loads, trapezoidal (exact for linear increments)
    double residual_normal = 0, residual_tangential = 0;
@@ -52,9 +53,9 @@ struct CycleRecord
 {
    double dissipation = 0;
    double external_work = 0;
-   double normal_work = 0; ///< -½(p_old + p_new)·Δw: vanishes as increments shrink
-   double slip_change = 0; ///< largest |v - v one cycle before|
-   Eigen::VectorXd node_dissipation;
+   double normal_work = 0;           ///< -½(p_old + p_new)·Δw: vanishes as increments shrink
+   double slip_change = 0;           ///< largest |v - v one cycle before|
+   Eigen::VectorXd node_dissipation; ///< size n
 };
 
 struct MarchReport
