@@ -127,4 +127,348 @@ TEST(FrictionDisc, BothMethodsObeyTheLawOnRandomProblems)
    EXPECT_LT(double(steps) / solves, 8);
 }
 
+/// Press, then twist up and down; three patterns as in random_disc_problem.
+LoadHistory press_then_twist(double amplitude, int cycles)
+{
+   LoadHistory history =
+      LoadHistory::through({Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(1, 0, amplitude),
+                            Vector3d(1, 0, -amplitude), Vector3d(1, 0, 0)});
+   history.cycle_start = 1;
+   history.cycles = cycles;
+   return history;
+}
+
+/// A problem whose second component is coupled to nothing and not loaded but by "twist".
+ReducedProblem with_separate_twist(int n, double friction, double coupling,
+                                   std::mt19937 &random)
+{
+   ReducedProblem problem = random_disc_problem(n, friction, coupling, random);
+   problem.A.topRightCorner(n, n).setZero();
+   problem.A.bottomLeftCorner(n, n).setZero();
+   problem.B.rightCols(n).setZero();
+   for (int k : {0, 1}) { problem.patterns[k].q.tail(n).setZero(); }
+   return problem;
+}
+
+ReducedProblem first_component(const ReducedProblem &problem)
+{
+   const Index n = problem.nodes();
+   ReducedProblem plane = problem;
+   plane.A = problem.A.topLeftCorner(n, n);
+   plane.B = problem.B.leftCols(n);
+   for (LoadPattern &pattern : plane.patterns) { pattern.q = VectorXd(pattern.q.head(n)); }
+   return plane;
+}
+
+TEST(FrictionDisc, WithoutTorsionItIsThePlane)
+{
+   std::mt19937 random(3);
+   for (int k = 0; k < 20; ++k)
+   {
+      const int n = 5 + k;
+      const ReducedProblem problem = with_separate_twist(n, 0.5, k % 2 ? 0.15 : 0.0, random);
+      const ReducedProblem plane = first_component(problem);
+      LoadHistory history = LoadHistory::through(
+         {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(1, 0.8, 0), Vector3d(0.7, -0.8, 0)});
+      ContactState disc_state = ContactState::virgin(problem),
+                   plane_state = ContactState::virgin(plane);
+      ASSERT_EQ(march(problem, history, disc_state).status, FrictionStatus::converged);
+      ASSERT_EQ(march(plane, history, plane_state).status, FrictionStatus::converged);
+      EXPECT_LT((disc_state.v.head(n) - plane_state.v).cwiseAbs().maxCoeff(), 1e-12);
+      EXPECT_LT((disc_state.p - plane_state.p).cwiseAbs().maxCoeff(), 1e-12);
+      EXPECT_LT((disc_state.q.head(n) - plane_state.q).cwiseAbs().maxCoeff(), 1e-12);
+      EXPECT_TRUE(disc_state.v.tail(n).isZero(0));
+      EXPECT_TRUE(disc_state.q.tail(n).isZero(0));
+      EXPECT_NEAR(disc_state.dissipation, plane_state.dissipation, 1e-12);
+      for (int i = 0; i < n; ++i)
+      {
+         EXPECT_EQ(closed(disc_state.status[i]), closed(plane_state.status[i]));
+         EXPECT_EQ(slips(disc_state.status[i]), slips(plane_state.status[i]));
+      }
+   }
+}
+
+/// An axis node: its tangential rows are coupled to nothing and carry nothing.
+TEST(FrictionDisc, AnUncoupledNodeStaysInStick)
+{
+   std::mt19937 random(4);
+   ReducedProblem problem = random_disc_problem(12, 0.4, 0.1, random);
+   problem.gap[0] = 0;
+   for (int r : {0, 12})
+   {
+      problem.A.row(r).setZero();
+      problem.A.col(r).setZero();
+      problem.A(r, r) = 2;
+      problem.B.col(r).setZero();
+      for (LoadPattern &pattern : problem.patterns) { pattern.q[r] = 0; }
+   }
+   problem.patterns[0].p[0] = 3;
+   ContactState state = ContactState::virgin(problem);
+   ASSERT_EQ(march(problem, press_then_twist(1.0, 2), state).status, FrictionStatus::converged);
+   EXPECT_EQ(state.status[0], NodeState::stick);
+   EXPECT_TRUE(state.v[0] == 0 && state.v[12] == 0 && state.q[0] == 0 && state.q[12] == 0);
+   EXPECT_GT(state.p[0], 0);
+}
+
+/// Turns the tangential plane at every node by the same angle.
+VectorXd turned(const VectorXd &x, double angle)
+{
+   const Index n = x.size() / 2;
+   VectorXd y(2 * n);
+   y << std::cos(angle) * x.head(n) - std::sin(angle) * x.tail(n),
+      std::sin(angle) * x.head(n) + std::cos(angle) * x.tail(n);
+   return y;
+}
+
+TEST(FrictionDisc, TurningThePlaneTurnsTheAnswer)
+{
+   std::mt19937 random(5);
+   const int n = 15;
+   ReducedProblem problem = random_disc_problem(n, 0.6, 0.0, random);
+   problem.A.topRightCorner(n, n).setZero();
+   problem.A.bottomLeftCorner(n, n).setZero();
+   problem.A.bottomRightCorner(n, n) = problem.A.topLeftCorner(n, n);
+   ReducedProblem other = problem;
+   for (LoadPattern &pattern : other.patterns) { pattern.q = turned(pattern.q, 0.7); }
+   ContactState state = ContactState::virgin(problem), image = state;
+   ASSERT_EQ(march(problem, press_then_twist(1.2, 1), state).status, FrictionStatus::converged);
+   ASSERT_EQ(march(other, press_then_twist(1.2, 1), image).status, FrictionStatus::converged);
+   EXPECT_GT(state.v.cwiseAbs().maxCoeff(), 0.1);
+   EXPECT_LT((turned(state.v, 0.7) - image.v).cwiseAbs().maxCoeff(), 1e-11);
+   EXPECT_LT((turned(state.q, 0.7) - image.q).cwiseAbs().maxCoeff(), 1e-11);
+   EXPECT_EQ(state.status, image.status);
+}
+
+TEST(FrictionDisc, OppositeTorqueMirrorsToTheLastBit)
+{
+   std::mt19937 random(6);
+   const int n = 20;
+   const ReducedProblem problem = with_separate_twist(n, 0.5, 0.15, random);
+   ContactState state = ContactState::virgin(problem), image = state;
+   MarchReport reports[2];
+   reports[0] = march(problem, press_then_twist(0.9, 2), state);
+   reports[1] = march(problem, press_then_twist(-0.9, 2), image);
+   ASSERT_EQ(reports[0].status, FrictionStatus::converged);
+   EXPECT_GT(state.v.tail(n).cwiseAbs().maxCoeff(), 0.01);
+   EXPECT_EQ(state.v.head(n), image.v.head(n));
+   EXPECT_EQ(state.v.tail(n), -image.v.tail(n));
+   EXPECT_EQ(state.q.head(n), image.q.head(n));
+   EXPECT_EQ(state.q.tail(n), -image.q.tail(n));
+   EXPECT_EQ(state.w, image.w);
+   EXPECT_EQ(state.p, image.p);
+   EXPECT_EQ(state.status, image.status);
+   EXPECT_EQ(state.dissipation, image.dissipation);
+   EXPECT_EQ(reports[0].counters.newton_steps, reports[1].counters.newton_steps);
+}
+
+TEST(FrictionDisc, UnitsDoNotMatter)
+{
+   std::mt19937 random(7);
+   const ReducedProblem problem = random_disc_problem(18, 0.5, 0.12, random);
+   ContactState state = ContactState::virgin(problem);
+   const MarchReport report = march(problem, press_then_twist(0.9, 1), state);
+   ASSERT_EQ(report.status, FrictionStatus::converged);
+   for (double force : {1e-9, 1e9})
+   {
+      for (double length : {1e-9, 1e9})
+      {
+         ReducedProblem other = problem;
+         other.A *= force / length;
+         other.B *= force / length;
+         other.C *= force / length;
+         other.gap *= length;
+         for (LoadPattern &pattern : other.patterns)
+         {
+            pattern.q *= force;
+            pattern.p *= force;
+         }
+         other.H *= length / force;
+         ContactState scaled = ContactState::virgin(other);
+         const MarchReport same = march(other, press_then_twist(0.9, 1), scaled);
+         EXPECT_EQ(same.status, FrictionStatus::converged);
+         EXPECT_EQ(same.counters.newton_steps, report.counters.newton_steps);
+         EXPECT_EQ(same.counters.sweeps, report.counters.sweeps);
+         EXPECT_EQ(scaled.status, state.status);
+         EXPECT_LT((scaled.v / length - state.v).cwiseAbs().maxCoeff(), 1e-11);
+         EXPECT_LT((scaled.q / force - state.q).cwiseAbs().maxCoeff(), 1e-11);
+      }
+   }
+}
+
+TEST(FrictionDisc, SavedAndResumedToTheLastBit)
+{
+   std::mt19937 random(8);
+   const ReducedProblem problem = random_disc_problem(16, 0.4, 0.12, random);
+   const LoadHistory history = press_then_twist(0.8, 2);
+   ContactState whole = ContactState::virgin(problem), cut = whole;
+   ASSERT_EQ(march(problem, history, whole).status, FrictionStatus::converged);
+   ContactState kept;
+   march(problem, history, cut, {},
+         [&](const ContactState &state, const IncrementRecord &)
+         {
+            if (state.time <= 2.5) { kept = state; }
+         });
+   int slipping = 0;
+   for (NodeState s : kept.status) { slipping += s == NodeState::slip; }
+   EXPECT_GT(slipping, 0);
+   const std::string file = testing::TempDir() + "disc_state.json";
+   save(kept, file);
+   ContactState resumed = load_contact_state(file);
+   std::remove(file.c_str());
+   EXPECT_EQ(resumed.status, kept.status);
+   march(problem, history, resumed);
+   EXPECT_EQ(resumed.v, whole.v);
+   EXPECT_EQ(resumed.q, whole.q);
+   EXPECT_EQ(resumed.slip_origin, whole.slip_origin);
+   EXPECT_EQ(resumed.dissipation, whole.dissipation);
+}
+
+TEST(FrictionDisc, StepsConvergeAtFirstOrderAndEnergyBalances)
+{
+   std::mt19937 random(9);
+   const ReducedProblem problem = with_separate_twist(14, 0.5, 0.12, random);
+   // Shear first, so that the torque has slip to turn.
+   const LoadHistory history =
+      LoadHistory::through({Vector3d(0, 0, 0), Vector3d(1, 0.6, 0), Vector3d(1, 0.6, 1.1)});
+   std::vector<VectorXd> slip;
+   for (int steps : {40, 80, 160, 1280})
+   {
+      ContactState state = ContactState::virgin(problem);
+      MarchSettings settings;
+      settings.increments = steps;
+      const MarchReport report = march(problem, history, state, settings);
+      ASSERT_EQ(report.status, FrictionStatus::converged);
+      EXPECT_LT(std::abs(report.energy_imbalance), 1e-12);
+      EXPECT_GT(state.dissipation, 0);
+      EXPECT_LE(report.largest_residual, 1e-12);
+      slip.push_back(state.v);
+   }
+   auto error = [&](int k) { return (slip[k] - slip[3]).norm(); };
+   EXPECT_GT(error(0), 1e-6);
+   EXPECT_NEAR(error(0) / error(1), 2, 0.5);
+   EXPECT_NEAR(error(1) / error(2), 2, 0.5);
+}
+
+TEST(FrictionDisc, ProportionalLoadingIsExactInOneIncrement)
+{
+   std::mt19937 random(10);
+   ReducedProblem problem = random_disc_problem(17, 0.5, 0.12, random);
+   problem.gap.setZero();
+   const LoadHistory history = LoadHistory::through({Vector3d(0, 0, 0), Vector3d(1, 0.5, 0.8)});
+   MarchSettings cut;
+   cut.single_increment_if_exact = false;
+   cut.increments = 13;
+   ContactState one = ContactState::virgin(problem), many = one;
+   const MarchReport report = march(problem, history, one);
+   march(problem, history, many, cut);
+   EXPECT_EQ(report.increments.size(), 1u);
+   EXPECT_GT(report.increments[0].slip, 0);
+   EXPECT_LT((one.v - many.v).cwiseAbs().maxCoeff(), 1e-11);
+   EXPECT_NEAR(one.dissipation, many.dissipation, 1e-11);
+   // A torque added to a held pressure is not proportional.
+   const LoadHistory torque =
+      LoadHistory::through({Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(1, 0, 0.5)});
+   one = ContactState::virgin(problem);
+   EXPECT_EQ(march(problem, torque, one).increments.size(), 21u);
+}
+
+TEST(FrictionDisc, WithoutFrictionThereAreNoTangentialUnknowns)
+{
+   std::mt19937 random(11);
+   const int n = 13;
+   const ReducedProblem problem = random_disc_problem(n, 0.0, 0.12, random);
+   ContactState state = ContactState::virgin(problem);
+   FrictionSolver solver(problem);
+   ASSERT_EQ(march(solver, press_then_twist(0.5, 1), state).status, FrictionStatus::converged);
+   EXPECT_EQ(solver.counters().tangential_unknowns, 0);
+   const VectorXd f = problem.clamped_forces(state.multipliers);
+   EXPECT_LT((problem.A * state.v + problem.B.transpose() * state.w + f.head(2 * n))
+                .cwiseAbs()
+                .maxCoeff(),
+             1e-12);
+   EXPECT_EQ(state.dissipation, 0);
+}
+
+TEST(FrictionDisc, RefusesWhatNeedsThePlane)
+{
+   std::mt19937 random(12);
+   FrictionSettings settings;
+   settings.method = FrictionMethod::lemke;
+   EXPECT_THROW(FrictionSolver(random_disc_problem(4, 0.5, 0, random), settings), InputError);
+}
+
+/// A disc on a foundation of springs, free to rotate and to rise: circumferential springs only
+/// resist motion relative to a rigid rotation v_θ = r φ, normal ones relative to a rise.
+ReducedProblem free_disc(int n, double friction, double coupling)
+{
+   ReducedProblem problem;
+   const VectorXd r = VectorXd::LinSpaced(n, 0.2, 1.0), one = VectorXd::Ones(n);
+   const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(n, n);
+   problem.A = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+   problem.A.topLeftCorner(n, n) = 2 * I;
+   problem.A.bottomRightCorner(n, n) = I - r * r.transpose() / r.squaredNorm();
+   problem.C = I - one * one.transpose() / n;
+   problem.B = Eigen::MatrixXd::Zero(n, 2 * n);
+   // A rise moves nothing else: rows of B that add up to zero.
+   for (int i = 0; i + 1 < n; ++i)
+   {
+      problem.B(i, i) += coupling;
+      problem.B(i + 1, i) -= coupling;
+   }
+   LoadPattern press{"press", Control::force, VectorXd::Zero(2 * n), VectorXd::Zero(n)};
+   press.p = one / n + 0.3 / n * (one - 2 * r);
+   press.p *= 1 / press.p.sum();
+   LoadPattern torque{"torque", Control::force, VectorXd::Zero(2 * n), VectorXd::Zero(n)};
+   torque.q[2 * n - 1] = 1 / r[n - 1];
+   problem.patterns = {press, torque};
+   problem.H = Eigen::Matrix2d::Zero();
+   problem.gap = VectorXd::Zero(n);
+   problem.arc_length = r;
+   set_friction(problem, friction);
+   return problem;
+}
+
+TEST(FrictionDisc, SpinsAtTheFrictionTorque)
+{
+   const int n = 12;
+   const ReducedProblem problem = free_disc(n, 0.4, 0.0);
+   FrictionSolver solver(problem);
+   const LoadHistory history =
+      LoadHistory::through({Vector2d(0, 0), Vector2d(1, 0), Vector2d(1, -1)});
+   ContactState state = ContactState::virgin(problem);
+   const MarchReport report = march(solver, history, state);
+   EXPECT_EQ(report.status, FrictionStatus::gross_sliding);
+   EXPECT_NE(report.message.find("spins"), std::string::npos) << report.message;
+   // Uncoupled: the pressure is that of the press alone, whatever the torque.
+   ContactState pressed = ContactState::virgin(problem);
+   solver.solve(pressed, Vector2d(1, 0));
+   const double limit = 0.4 * problem.arc_length.dot(pressed.p);
+   EXPECT_NEAR(-report.event_multipliers[1], limit, 1e-8 * limit);
+   EXPECT_LE(-report.event_multipliers[1], limit * (1 + 1e-9));
+}
+
+TEST(FrictionDisc, SpinsBeyondTheGreatestTorqueOfACoupledContact)
+{
+   const ReducedProblem problem = free_disc(12, 0.4, 0.15);
+   FrictionSolver solver(problem);
+   ASSERT_FALSE(solver.uncoupled());
+   MarchSettings settings;
+   settings.increments = 60;
+   ContactState state = ContactState::virgin(problem);
+   const MarchReport report =
+      march(solver, LoadHistory::through({Vector2d(0, 0), Vector2d(1, 0), Vector2d(1, 1)}),
+            state, settings);
+   EXPECT_EQ(report.status, FrictionStatus::gross_sliding);
+   EXPECT_NE(report.message.find("spins"), std::string::npos) << report.message;
+   ReducedProblem smooth = problem;
+   set_friction(smooth, 0);
+   ContactState pressed = ContactState::virgin(smooth);
+   ASSERT_EQ(FrictionSolver(smooth).solve(pressed, Vector2d(1, 0)).status,
+             FrictionStatus::converged);
+   const double steady = 0.4 * problem.arc_length.dot(pressed.p);
+   std::printf("greatest torque over that of steady rotation: %.6f\n",
+               report.event_multipliers[1] / steady);
+   EXPECT_GE(report.event_multipliers[1], steady * (1 - 1e-6));
+}
+
 } // namespace

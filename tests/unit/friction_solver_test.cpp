@@ -57,6 +57,9 @@ double violation(const ReducedProblem &problem, const ContactState &state,
       case NodeState::backward_slip:
          worst = std::max({worst, std::abs(gap), slip, -p[i], std::abs(q[i] - fp)});
          break;
+      case NodeState::slip:
+         ADD_FAILURE() << "a state of two tangential components";
+         break;
       }
       worst = std::max({worst, std::abs(state.q[i] - q[i]), std::abs(state.p[i] - p[i])});
    }

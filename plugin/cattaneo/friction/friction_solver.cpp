@@ -131,6 +131,7 @@ struct FrictionSolver::Implementation
    bool accepted(const IncrementReport &report) const;
    bool runs_away(const IncrementReport &report, const VectorXd &multipliers);
    bool finds_mechanism(const VectorXd &multipliers);
+   bool spins(const VectorXd &multipliers);
    void explain_failure(IncrementReport &report) const;
    double noise() const
    {
@@ -734,7 +735,7 @@ bool FrictionSolver::Implementation::accepted(const IncrementReport &report) con
 bool FrictionSolver::Implementation::runs_away(const IncrementReport &report,
                                                const VectorXd &multipliers)
 {
-   return report.round_off > 1e-10 && finds_mechanism(multipliers);
+   return report.round_off > 1e-10 && (finds_mechanism(multipliers) || spins(multipliers));
 }
 
 bool FrictionSolver::Implementation::lemke_start()
@@ -880,6 +881,19 @@ bool FrictionSolver::Implementation::finds_mechanism(const VectorXd &multipliers
    return mechanism.exists;
 }
 
+/// True if the loads drive a steady rotation.
+bool FrictionSolver::Implementation::spins(const VectorXd &multipliers)
+{
+   if (!disc()) { return false; }
+   ReducedProblem smooth = problem;
+   set_friction(smooth, 0);
+   FrictionSolver solver(smooth);
+   ContactState state = ContactState::virgin(smooth);
+   if (solver.solve(state, multipliers).status != FrictionStatus::converged) { return false; }
+   mechanism = find_spinning(problem, state.p, problem.clamped_forces(multipliers));
+   return mechanism.exists;
+}
+
 void FrictionSolver::Implementation::explain_failure(IncrementReport &report) const
 {
    std::ostringstream message;
@@ -887,8 +901,10 @@ void FrictionSolver::Implementation::explain_failure(IncrementReport &report) co
    {
       report.status =
          mechanism.slides ? FrictionStatus::gross_sliding : FrictionStatus::no_solution;
-      message << (mechanism.slides ? "the loads exceed what friction can hold: a body slides"
-                                   : "the loads pull the contact apart: a body lifts off");
+      message << (mechanism.spins
+                     ? "the torque exceeds what friction can hold: a body spins about its axis"
+                  : mechanism.slides ? "the loads exceed what friction can hold: a body slides"
+                                     : "the loads pull the contact apart: a body lifts off");
    }
    else if (!frictionless && problem.friction[critical_node] >= critical_friction)
    {
@@ -929,7 +945,7 @@ IncrementReport FrictionSolver::Implementation::solve(ContactState &state,
    if (solved && runs_away(report, multipliers)) { solved = false; }
    if (!solved)
    {
-      if (!mechanism.exists) { finds_mechanism(multipliers); }
+      if (!mechanism.exists && !finds_mechanism(multipliers)) { spins(multipliers); }
       explain_failure(report);
       return report;
    }
