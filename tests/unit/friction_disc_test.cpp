@@ -325,28 +325,34 @@ TEST(FrictionDisc, SavedAndResumedToTheLastBit)
 
 TEST(FrictionDisc, StepsConvergeAtFirstOrderAndEnergyBalances)
 {
-   std::mt19937 random(9);
-   const ReducedProblem problem = with_separate_twist(14, 0.5, 0.12, random);
-   // Shear first, so that the torque has slip to turn.
+   // Shear first, so that the torque has slip to turn. Each node that changes its state
+   // disturbs the error of one problem: that of ten together is of first order.
    const LoadHistory history =
       LoadHistory::through({Vector3d(0, 0, 0), Vector3d(1, 0.6, 0), Vector3d(1, 0.6, 1.1)});
-   std::vector<VectorXd> slip;
-   for (int steps : {40, 80, 160, 1280})
+   const int steps[] = {40, 80, 160, 320, 5120};
+   double error[4] = {0, 0, 0, 0};
+   for (unsigned seed = 0; seed < 10; ++seed)
    {
-      ContactState state = ContactState::virgin(problem);
-      MarchSettings settings;
-      settings.increments = steps;
-      const MarchReport report = march(problem, history, state, settings);
-      ASSERT_EQ(report.status, FrictionStatus::converged);
-      EXPECT_LT(std::abs(report.energy_imbalance), 1e-12);
-      EXPECT_GT(state.dissipation, 0);
-      EXPECT_LE(report.largest_residual, 1e-12);
-      slip.push_back(state.v);
+      std::mt19937 random(seed);
+      ReducedProblem problem = with_separate_twist(10, 0.5, 0.12, random);
+      problem.gap.setZero();
+      VectorXd slip[5];
+      for (int k = 0; k < 5; ++k)
+      {
+         ContactState state = ContactState::virgin(problem);
+         MarchSettings settings;
+         settings.increments = steps[k];
+         const MarchReport report = march(problem, history, state, settings);
+         ASSERT_EQ(report.status, FrictionStatus::converged);
+         EXPECT_LT(std::abs(report.energy_imbalance), 1e-12);
+         EXPECT_LE(report.largest_residual, 1e-12);
+         EXPECT_GT(state.dissipation, 0);
+         slip[k] = state.v;
+      }
+      for (int k = 0; k < 4; ++k) { error[k] += (slip[k] - slip[4]).norm(); }
    }
-   auto error = [&](int k) { return (slip[k] - slip[3]).norm(); };
-   EXPECT_GT(error(0), 1e-6);
-   EXPECT_NEAR(error(0) / error(1), 2, 0.5);
-   EXPECT_NEAR(error(1) / error(2), 2, 0.5);
+   for (int k = 0; k < 3; ++k) { EXPECT_NEAR(error[k] / error[k + 1], 2, 0.3) << k; }
+   EXPECT_GT(error[3], 1e-5); // of slip: not round-off
 }
 
 TEST(FrictionDisc, ProportionalLoadingIsExactInOneIncrement)

@@ -137,7 +137,7 @@ Mechanism find_spinning(const ReducedProblem &problem, const VectorXd &frictionl
          problem.friction[i] * frictionless_pressure[i] * std::hypot(Z(i, 0), Z(n + i, 0));
    }
    const double drive = Z.col(0).dot(clamped_forces.head(2 * n));
-   if (std::abs(drive) <= resistance) { return mechanism; }
+   if (std::abs(drive) < (1 - 1e-9) * resistance) { return mechanism; }
    mechanism.exists = mechanism.slides = mechanism.spins = true;
    mechanism.motion = VectorXd::Zero(3 * n);
    mechanism.motion.head(2 * n) = (drive > 0 ? 1 : -1) / Z.cwiseAbs().maxCoeff() * Z.col(0);
