@@ -68,6 +68,18 @@ struct CachedFactor
    }
 };
 
+/// Stiffness of the closed nodes when the open ones are free, kept likewise.
+struct EliminatedNodes
+{
+   std::vector<signed char> key;
+   std::vector<Index> open, kept; // rows of K: all components of the open, closed nodes
+   std::vector<Index> place;      // of a closed node's first component among `kept`
+   Eigen::LLT<MatrixXd> factor;   // L Lᵀ of the open ones
+   MatrixXd X;                    // L⁻¹ K(open, kept)
+   MatrixXd K;                    // K(kept, kept) - Xᵀ X
+   bool singular = false;
+};
+
 } // namespace
 
 struct FrictionSolver::Implementation
@@ -86,6 +98,7 @@ struct FrictionSolver::Implementation
    Index critical_node = 0;
    std::unique_ptr<SemidefiniteSolver> tangential; // frictionless: A⁻¹
    CachedFactor coupled_factor, normal_factor, tangential_factor;
+   EliminatedNodes eliminated;
    std::unique_ptr<MatrixXd> motions; // rigid motions, found when first needed
    Mechanism mechanism;
 
@@ -123,6 +136,7 @@ struct FrictionSolver::Implementation
    bool solve_coupled();
    bool solve_normal();
    bool solve_uncoupled();
+   bool eliminate_open();
    bool solve_disc();
    bool solve_frictionless();
    bool update_states();
@@ -543,78 +557,111 @@ bool FrictionSolver::Implementation::solve_coupled()
    return true;
 }
 
-/// Newton's equations of the disc: tangential displacements of the nodes that slip or are open,
-/// and gaps of the open ones (B = 0: known beforehand).
+/// Eliminates the open nodes, where all forces are zero; kept for as long as they are the same.
+bool FrictionSolver::Implementation::eliminate_open()
+{
+   std::vector<signed char> key(n);
+   for (Index i = 0; i < n; ++i) { key[i] = closed(status[i]) ? 0 : 1; }
+   if (eliminated.key == key) { return !eliminated.singular; }
+   eliminated.key = key;
+   eliminated.open.clear();
+   eliminated.kept.clear();
+   eliminated.place.assign(n, 0);
+   // B = 0: the gaps are found apart from the rest, and slip does not change the pressure.
+   for (Index k = 0; k < (uncoupled ? 2 : 3); ++k)
+   {
+      for (Index i = 0; i < n; ++i)
+      {
+         auto &dofs = key[i] ? eliminated.open : eliminated.kept;
+         if (k == 0 && !key[i]) { eliminated.place[i] = static_cast<Index>(dofs.size()); }
+         dofs.push_back(t(i, k));
+      }
+   }
+   ++counters.dense_factorisations;
+   eliminated.K = K(eliminated.kept, eliminated.kept);
+   eliminated.singular = false;
+   if (eliminated.open.empty()) { return true; }
+   eliminated.factor.compute(K(eliminated.open, eliminated.open));
+   eliminated.singular = eliminated.factor.info() != Eigen::Success;
+   if (eliminated.singular) { return false; }
+   eliminated.X = K(eliminated.open, eliminated.kept);
+   eliminated.factor.matrixL().solveInPlace(eliminated.X);
+   eliminated.K.selfadjointView<Eigen::Lower>().rankUpdate(eliminated.X.transpose(), -1);
+   eliminated.K.triangularView<Eigen::StrictlyUpper>() = eliminated.K.transpose();
+   return true;
+}
+
+/// Newton's equations of the disc, for the slip of the slipping nodes.
 bool FrictionSolver::Implementation::solve_disc()
 {
    if (uncoupled && !solve_normal()) { return false; }
-   // Equations of a moving node, n·q - f p = 0 and t·q + k·x = 0 (open: n and t are the axes
-   // and f and k are zero), x being its slip increment.
-   struct Equations
-   {
-      Index node;
-      Vector2d n, t, k;
-      double f;
-   };
-   std::vector<Equations> moving;
-   std::vector<Index> unknowns;
+   if (!eliminate_open()) { return false; }
+   std::vector<Index> slipping;
    for (Index i = 0; i < n; ++i)
    {
       for (Index k = 0; k < 2; ++k) { u[t(i, k)] = v_old[t(i, k)]; }
       if (!uncoupled) { u[m(i)] = closed(status[i]) ? -problem.gap[i] : 0.0; }
-      if (status[i] == NodeState::separation)
-      {
-         moving.push_back({i, Vector2d::UnitX(), Vector2d::UnitY(), Vector2d::Zero(), 0.0});
-      }
-      else if (slips(status[i]))
-      {
-         const DiscSlip &to = direction[i];
-         moving.push_back({i, to.n, (1 - to.share) * to.t(), to.share * ktt[i] * to.t(),
-                           problem.friction[i]});
-      }
+      if (slips(status[i])) { slipping.push_back(i); }
    }
-   for (Index k = 0; k < 2; ++k)
+   const std::vector<Index> &open = eliminated.open;
+   VectorXd base = f + K * u;
+   VectorXd lift;
+   if (!open.empty())
    {
-      for (const Equations &e : moving) { unknowns.push_back(t(e.node, k)); }
+      lift = base(open);
+      eliminated.factor.matrixL().solveInPlace(lift);
+      base(eliminated.kept) -= eliminated.X.transpose() * lift;
    }
-   for (Index i = 0; i < n && !uncoupled; ++i)
+   const auto count = static_cast<Index>(slipping.size());
+   if (count > 0)
    {
-      if (!closed(status[i])) { unknowns.push_back(m(i)); }
-   }
-   if (unknowns.empty()) { return true; }
-   const auto count = static_cast<Index>(moving.size());
-   const auto size = static_cast<Index>(unknowns.size());
-   // What the equations make of forces {q; p}.
-   auto combine = [&](const double *forces, double *rows)
-   {
+      const auto closed_nodes =
+         static_cast<Index>(eliminated.kept.size()) / (uncoupled ? 2 : 3);
+      // Rows n·q - f p and (1 - β) t·q of the slipping nodes, then their own β k t·x.
+      MatrixXd M(2 * count, 2 * count);
+      VectorXd rhs(2 * count);
       for (Index r = 0; r < count; ++r)
       {
-         const Equations &e = moving[r];
-         const double radial = forces[t(e.node, 0)], circumferential = forces[t(e.node, 1)];
-         rows[r] = e.n[0] * radial + e.n[1] * circumferential - e.f * forces[m(e.node)];
-         rows[count + r] = e.t[0] * radial + e.t[1] * circumferential;
+         const Index i = slipping[r];
+         const DiscSlip &to = direction[i];
+         const Vector2d across = (1 - to.share) * to.t(), own = to.share * ktt[i] * to.t();
+         const Vector2d q = at(base, i);
+         rhs[r] = to.n[0] * q[0] + to.n[1] * q[1] - problem.friction[i] * base[m(i)];
+         rhs[count + r] = across[0] * q[0] + across[1] * q[1];
+         const Index row = eliminated.place[i];
+         for (Index col = 0; col < 2 * count; ++col)
+         {
+            const Index from =
+               eliminated.place[slipping[col % count]] + (col < count ? 0 : closed_nodes);
+            const double *column = eliminated.K.col(from).data() + row;
+            const double radial = column[0], circumferential = column[closed_nodes];
+            M(r, col) = to.n[0] * radial + to.n[1] * circumferential;
+            if (!uncoupled) { M(r, col) -= problem.friction[i] * column[2 * closed_nodes]; }
+            M(count + r, col) = across[0] * radial + across[1] * circumferential;
+         }
+         M(count + r, r) += own[0];
+         M(count + r, count + r) += own[1];
       }
-      for (Index r = 2 * count; r < size; ++r) { rows[r] = forces[unknowns[r]]; }
-   };
-   const VectorXd base = f + K * u;
-   VectorXd rhs(size);
-   combine(base.data(), rhs.data());
-   MatrixXd M(size, size);
-   for (Index col = 0; col < size; ++col)
-   {
-      combine(K.col(unknowns[col]).data(), M.col(col).data());
+      ++counters.dense_factorisations;
+      CachedFactor factor;
+      factor.compute(M);
+      if (factor.singular) { return false; }
+      const VectorXd x = factor.lu.solve(rhs);
+      for (Index r = 0; r < 2 * count; ++r)
+      {
+         const Index k = r / count, i = slipping[r % count];
+         u[t(i, k)] -= x[r];
+         if (!open.empty())
+         {
+            lift -= x[r] * eliminated.X.col(eliminated.place[i] + k * closed_nodes);
+         }
+      }
    }
-   for (Index r = 0; r < count; ++r)
+   if (!open.empty())
    {
-      M(count + r, r) += moving[r].k[0];
-      M(count + r, count + r) += moving[r].k[1];
+      eliminated.factor.matrixU().solveInPlace(lift);
+      u(open) -= lift;
    }
-   ++counters.dense_factorisations;
-   CachedFactor factor;
-   factor.compute(M);
-   if (factor.singular) { return false; }
-   const VectorXd x = factor.lu.solve(rhs);
-   for (Index col = 0; col < size; ++col) { u[unknowns[col]] -= x[col]; }
    return true;
 }
 
