@@ -2,8 +2,11 @@
 
 #include <cattaneo/friction/friction_disc.hpp>
 #include <cattaneo/friction/march.hpp>
+#include <cattaneo/friction/mechanism.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/output/history.hpp>
 #include <cstdio>
+#include <fstream>
 #include <gtest/gtest.h>
 
 namespace
@@ -475,6 +478,81 @@ TEST(FrictionDisc, SpinsBeyondTheGreatestTorqueOfACoupledContact)
    std::printf("greatest torque over that of steady rotation: %.6f\n",
                report.event_multipliers[1] / steady);
    EXPECT_GE(report.event_multipliers[1], steady * (1 - 1e-6));
+}
+
+/// A rigid block on springs between its nodes only, free to move in the plane of contact.
+TEST(FrictionDisc, SlidesInTheDirectionOfTheLoad)
+{
+   const int n = 3;
+   const double f = 0.3;
+   ReducedProblem problem;
+   const Eigen::MatrixXd relative =
+      Eigen::MatrixXd::Identity(n, n) - Eigen::MatrixXd::Constant(n, n, 1.0 / n);
+   problem.A = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+   problem.A.topLeftCorner(n, n) = problem.A.bottomRightCorner(n, n) = relative;
+   problem.B = Eigen::MatrixXd::Zero(n, 2 * n);
+   problem.C = relative;
+   problem.patterns = {
+      {"press", Control::force, VectorXd::Zero(2 * n), VectorXd::Constant(n, 1.0 / n)}};
+   for (double angle : {0.0, 0.3, 0.9, 2.0, 4.5})
+   {
+      VectorXd q(2 * n);
+      q << VectorXd::Constant(n, std::cos(angle) / n),
+         VectorXd::Constant(n, std::sin(angle) / n);
+      problem.patterns.resize(1);
+      problem.patterns.push_back({"pull", Control::force, q, VectorXd::Zero(n)});
+      problem.H = Eigen::Matrix2d::Zero();
+      problem.gap = VectorXd::Zero(n);
+      set_friction(problem, f);
+      ContactState state = ContactState::virgin(problem);
+      const MarchReport report =
+         march(problem,
+               LoadHistory::through({Vector2d(0, 0), Vector2d(1, 0), Vector2d(1, 0.7)}), state);
+      EXPECT_EQ(report.status, FrictionStatus::gross_sliding) << angle;
+      EXPECT_NEAR(report.event_multipliers[1], f, 1e-8) << angle; // whatever the direction
+      const Eigen::MatrixXd Z = rigid_motions(problem);
+      auto pulled = [&](double force)
+      { return find_mechanism(problem, Z, problem.clamped_forces(Vector2d(1, force))); };
+      EXPECT_FALSE(pulled(f * (1 - 1e-6)).exists);
+      EXPECT_TRUE(pulled(f * (1 + 1e-6)).exists);
+      const VectorXd motion = pulled(1.1 * f).motion;
+      EXPECT_NEAR(motion[0] * std::sin(angle), motion[n] * std::cos(angle), 1e-4) << angle;
+   }
+}
+
+/// Files of a march with torsion: columns of their own, and every row complete.
+TEST(FrictionDisc, TablesHaveBothComponents)
+{
+   std::mt19937 random(13);
+   ReducedProblem problem = random_disc_problem(6, 0.5, 0.1, random);
+   problem.arc_length = VectorXd::LinSpaced(6, 0, 1);
+   problem.position = Eigen::MatrixXd::Zero(6, 2);
+   ContactState state = ContactState::virgin(problem);
+   HistoryTable table;
+   march(problem, press_then_twist(0.8, 1), state, {},
+         [&](const ContactState &now, const IncrementRecord &record)
+         { table.add(now, record); });
+   const std::string file = testing::TempDir() + "disc_table.csv";
+   auto check = [&](const std::string &column)
+   {
+      std::ifstream in(file);
+      std::string line;
+      std::getline(in, line);
+      EXPECT_NE(line.find(column), std::string::npos) << line;
+      const auto columns = std::count(line.begin(), line.end(), ',');
+      int rows = 0;
+      while (std::getline(in, line))
+      {
+         EXPECT_EQ(std::count(line.begin(), line.end(), ','), columns);
+         ++rows;
+      }
+      EXPECT_GT(rows, 5);
+      std::remove(file.c_str());
+   };
+   table.write(file, problem);
+   check(",stick,separation,slip,dissipation");
+   write_nodes(file, problem, {state});
+   check("q_radial,q_circumferential,slip_radial,slip_circumferential");
 }
 
 } // namespace

@@ -105,7 +105,7 @@ Mechanism find_mechanism(const ReducedProblem &problem, const MatrixXd &Z,
          {
             edge += problem.friction[i] / along.norm() * tangential.transpose() * along;
          }
-         if (edge.dot(r) > 1e-10 * edge.norm() * r.norm()) { edges.push_back(edge); }
+         if (edge.dot(r) > 1e-12 * edge.norm() * g.norm()) { edges.push_back(edge); }
       }
       proven = edges.empty();
       if (proven) { break; }
