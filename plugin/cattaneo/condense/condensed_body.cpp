@@ -13,7 +13,7 @@ struct CondensedBody::Operator
    std::shared_ptr<const mfem::SparseMatrix> K;
    std::vector<int> essential; ///< sorted
    std::vector<int> keep;      ///< interior dofs, then x and then y of the contact nodes
-   int contact = 0;            ///< number of contact dofs, 2n
+   int contact = 0;            ///< number of contact dofs, 2n or (torsion) n
    double shift = 0.0;
    std::unique_ptr<SparseFactor> factor;
    Eigen::MatrixXd S; ///< in global components, {x; y}
@@ -37,10 +37,10 @@ DofPlaces places_of(const ElasticBody &body)
    const mfem::DenseMatrix &x = body.node_coordinates();
    const int dofs = body.stiffness().Height();
    DofPlaces places{Eigen::VectorXd::Zero(dofs), Eigen::VectorXd::Zero(dofs),
-                    std::vector<int>(dofs, 0)};
+                    std::vector<int>(dofs, 0), body.geometry()};
    for (int node = 0; node < x.Width(); ++node)
    {
-      for (int c = 0; c < 2; ++c)
+      for (int c = 0; c < body.components(); ++c)
       {
          const int dof = body.true_dof(node, c);
          if (dof < 0) { continue; }
@@ -50,6 +50,12 @@ DofPlaces places_of(const ElasticBody &body)
       }
    }
    return places;
+}
+
+FrameChange frames_of(const ContactLine &line, Geometry geometry)
+{
+   return geometry == Geometry::torsion ? FrameChange::to_circumference(line.position.col(0))
+                                        : FrameChange::to_local(line.tangent, line.normal);
 }
 
 /// Rigid motions that the supports leave free.
@@ -87,8 +93,8 @@ FreeMotions find_free_motions(const ElasticBody &body, const std::vector<int> &e
       {
          const int dof = part.front();
          require(false, "unsupported body: supports (", essential.size(),
-                 " dofs) and contact nodes (", contact.size() / 2, ") together leave ",
-                 still.cols(), " rigid motion(s) free",
+                 " dofs) and contact nodes (", contact.size() / body.components(),
+                 ") together leave ", still.cols(), " rigid motion(s) free",
                  parts.size() > 1 ? " of the separate part" : "",
                  " of the body with the node (", places.x[dof], ", ", places.y[dof],
                  "), must leave none");
@@ -185,7 +191,7 @@ std::shared_ptr<const CondensedBody::Operator> factored(const ElasticBody &body,
    {
       const DofPlaces places = places_of(body);
       require(false, "condense: the stiffness is not positive definite at component ",
-              places.component[error.row] == 0 ? "x" : "y", " of the node (",
+              component_name(body.geometry(), places.component[error.row]), " of the node (",
               places.x[error.row], ", ", places.y[error.row],
               "), it must be for every motion that leaves the supports at rest");
    }
@@ -205,18 +211,19 @@ CondensedBody condense(const ElasticBody &body, const ContactLine &line,
            " pairs of dofs, must have as many and at least one");
    const mfem::Array<int> essential_dofs = body.essential_dofs();
    const std::vector<int> essential(essential_dofs.begin(), essential_dofs.end());
-   std::vector<int> contact(2 * n);
+   const int components = body.components();
+   std::vector<int> contact(components * n);
    for (Eigen::Index i = 0; i < n; ++i)
    {
-      for (int c = 0; c < 2; ++c)
+      for (int c = 0; c < components; ++c)
       {
          const int dof = line.true_dofs[i][c];
          require(dof >= 0 && dof < K.Height(), "condense: contact dof ", dof, " of node ", i,
                  " of the line, must be from 0 to ", K.Height() - 1,
                  " (is it a line of this body?)");
          require(!std::binary_search(essential.begin(), essential.end(), dof),
-                 "condense: component ", c == 0 ? "x" : "y", " of the contact node at (",
-                 line.position(i, 0), ", ", line.position(i, 1),
+                 "condense: component ", component_name(body.geometry(), c),
+                 " of the contact node at (", line.position(i, 0), ", ", line.position(i, 1),
                  ") is fixed or prescribed, contact nodes must be free");
          contact[c * n + i] = dof;
       }
@@ -224,6 +231,7 @@ CondensedBody condense(const ElasticBody &body, const ContactLine &line,
 
    CondensedBody result;
    result.line = line;
+   result.geometry = body.geometry();
    result.counters = body.counters();
    const FreeMotions free = find_free_motions(body, essential, contact);
    result.rigid_modes = free.count;
@@ -241,7 +249,7 @@ CondensedBody condense(const ElasticBody &body, const ContactLine &line,
       ++result.counters.factorisations;
    }
    const CondensedBody::Operator &op = *result.op;
-   const FrameChange frames = FrameChange::to_local(line.tangent, line.normal);
+   const FrameChange frames = frames_of(line, body.geometry());
    // Loads: one column a pattern. K d is needed once more below, at contact and essential dofs.
    const auto &patterns = body.patterns();
    const auto count = static_cast<Eigen::Index>(patterns.size());
@@ -293,7 +301,7 @@ CondensedBody condense(const ElasticBody &body, const ContactLine &line,
       for (Eigen::Index k = 0; k < count; ++k)
       {
          result.patterns.push_back({patterns[k].name, patterns[k].control, local.col(k).head(n),
-                                    local.col(k).tail(n)});
+                                    local.col(k).tail(op.contact - n)});
          for (Eigen::Index j = 0; j < count; ++j)
          {
             const bool force = patterns[k].control == Control::force;
@@ -326,14 +334,13 @@ CondensedBody condense(const ElasticBody &body, const ContactLine &line,
 mfem::Vector CondensedBody::recover(const Eigen::VectorXd &u,
                                     const Eigen::VectorXd &multipliers)
 {
-   const auto n = line.size();
-   require(u.size() == 2 * n, "recover: ", u.size(), " contact displacements, must be ", 2 * n);
+   require(u.size() == op->contact, "recover: ", u.size(), " contact displacements, must be ",
+           op->contact);
    require(multipliers.size() == static_cast<Eigen::Index>(patterns.size()),
            "recover: ", multipliers.size(), " load multipliers, must be ", patterns.size());
    require(u.allFinite() && multipliers.allFinite(),
            "recover: a contact displacement or a load multiplier is not finite");
-   const FrameChange frames = FrameChange::to_local(line.tangent, line.normal);
-   const Eigen::VectorXd contact = frames.inverse().rows(u);
+   const Eigen::VectorXd contact = frames_of(line, geometry).transposed().rows(u);
    const Eigen::VectorXd moved = contact - loads->contact * multipliers;
    Eigen::VectorXd rhs(op->keep.size());
    rhs.head(op->interior()) = loads->interior * multipliers;
@@ -358,6 +365,13 @@ mfem::Vector CondensedBody::recover(const Eigen::VectorXd &u,
 Eigen::MatrixXd CondensedBody::rigid_motions() const
 {
    const auto n = line.size();
+   if (geometry == Geometry::torsion) { return line.position.col(0); }
+   if (geometry == Geometry::axisymmetric)
+   {
+      Eigen::VectorXd along(2 * n);
+      along << line.tangent.col(1), line.normal.col(1);
+      return along;
+   }
    Eigen::MatrixXd Z = Eigen::MatrixXd::Zero(2 * n, 3);
    Z.col(0).head(n).setOnes();
    Z.col(1).tail(n).setOnes();

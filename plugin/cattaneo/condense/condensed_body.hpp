@@ -11,24 +11,30 @@ namespace cattaneo
 /** One body reduced to its contact nodes (thesis 3.2):  f = S u + Σ λ_k f_k, in the local
    frames of the contact line: u = {v; w}, f = {q; p}, all tangential entries first.
 
+    Of a torsion body: u = v = u_θ and f = q, circumferential, positive in the direction of the
+   twist whatever the line's frames.
+
+
     It keeps the sparse factor and what its loads need, but neither the ElasticBody nor the
    mesh. */
 class CondensedBody
 {
 public:
    ContactLine line;
-   Eigen::MatrixXd S;                 ///< 2n × 2n, symmetric
-   std::vector<LoadPattern> patterns; ///< f_k, by name
-   Eigen::MatrixXd H;   ///< loads by loads with the contact clamped (see ReducedProblem::H)
-   int rigid_modes = 0; ///< rigid motions that the supports leave free (0 to 3)
+   Geometry geometry = Geometry::plane;
+   Eigen::MatrixXd S;                 ///< 2n × 2n (torsion: n × n), symmetric
+   std::vector<LoadPattern> patterns; ///< f_k, by name (torsion: p is empty)
+   Eigen::MatrixXd H; ///< loads by loads with the contact clamped (see ReducedProblem::H)
+   int rigid_modes =
+      0; ///< rigid motions that the supports leave free (0 to 3; 0 or 1 about an axis)
    Counters counters;
 
    /// Displacement of all true dofs for contact displacements {v; w} of *this body* and load
    /// multipliers (order of `patterns`). One solve with the kept factor.
    mfem::Vector recover(const Eigen::VectorXd &u, const Eigen::VectorXd &multipliers);
 
-   /// The three rigid motions of the contact nodes in local frames, 2n × 3 (x, y, rotation
-   /// about the origin).
+   /// The rigid motions of the contact nodes in local frames: plane 2n × 3 (x, y, rotation
+   /// about the origin), axisymmetric 2n × 1 (z), torsion n × 1 (rotation).
    Eigen::MatrixXd rigid_motions() const;
 
    struct Operator; ///< factor and dof lists, shared between equal bodies

@@ -5,11 +5,13 @@
 namespace cattaneo
 {
 
-/** Change of frame at every contact node: {v; w} = R {x; y} with
+/** Change of frame of the forces at every contact node: {q; p} = R {x; y} with
 
-       v_i = a_i x_i + b_i y_i,    w_i = c_i x_i + d_i y_i,
+       q_i = a_i x_i + b_i y_i,    p_i = c_i x_i + d_i y_i,
 
-    each 2 × 2 block orthogonal. */
+    each 2 × 2 block orthogonal, so that displacements change in the same way. One component a
+    node (b, c and d empty): q_i = a_i m_i, in torsion the circumferential force of a torque
+   about the axis. In both, displacements change back with Rᵀ. */
 struct FrameChange
 {
    Eigen::VectorXd a, b, c, d;
@@ -19,13 +21,19 @@ struct FrameChange
    {
       return {tangent.col(0), tangent.col(1), normal.col(0), normal.col(1)};
    }
-   FrameChange inverse() const { return {a, c, b, d}; }
+   /// From torques about the axis to circumferential forces at radii r.
+   static FrameChange to_circumference(const Eigen::VectorXd &r)
+   {
+      return {r.cwiseInverse(), {}, {}, {}};
+   }
+   FrameChange transposed() const { return {a, c, b, d}; }
 
-   /// R M, for vectors and matrices of 2n rows.
+   /// R M, for vectors and matrices of 2n (or n) rows.
    template <class Derived>
    Eigen::MatrixXd rows(const Eigen::MatrixBase<Derived> &M) const
    {
       const Eigen::Index n = a.size();
+      if (b.size() == 0) { return a.asDiagonal() * M; }
       Eigen::MatrixXd result(M.rows(), M.cols());
       result.topRows(n) = a.asDiagonal() * M.topRows(n);
       result.topRows(n) += b.asDiagonal() * M.bottomRows(n);

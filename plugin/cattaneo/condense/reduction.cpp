@@ -13,51 +13,67 @@ struct Reduction::Union
    Eigen::MatrixXd difference;      ///< f1 - f2 of each pattern
    std::vector<int> partner;
    FrameChange frames; ///< from body 2's own frames (in the order of body 1)
+
+   /// Where body 2 has the rows of body 1's order.
+   std::vector<int> order(Eigen::Index rows) const
+   {
+      const auto n = static_cast<Eigen::Index>(partner.size());
+      std::vector<int> result(rows);
+      for (Eigen::Index k = 0; k < rows; ++k)
+      {
+         result[k] = static_cast<int>(k - k % n) + partner[k % n];
+      }
+      return result;
+   }
+
+   /// Displacements of body `b` in its own order and frames.
+   Eigen::VectorXd own(int b, const Eigen::VectorXd &relative,
+                       const Eigen::VectorXd &multipliers) const
+   {
+      const Eigen::VectorXd loaded = difference * multipliers.head(difference.cols());
+      const Eigen::VectorXd u1 = sum.solve(S2 * relative - loaded);
+      if (b == 0) { return u1; }
+      Eigen::VectorXd u2(u1.size());
+      u2(order(u1.size())) = frames.transposed().rows(relative - u1);
+      return u2;
+   }
 };
 
 namespace
 {
 
-struct JoinedPatterns
+/// Numbers of the bodies' patterns among all, which grow by those that are new.
+Reduction::PatternIndex join(const std::vector<CondensedBody> &bodies,
+                             std::vector<LoadPattern> &all)
 {
-   std::vector<LoadPattern> patterns; ///< names and controls only
-   std::vector<std::vector<int>> index;
-};
-
-JoinedPatterns join(const std::vector<CondensedBody> &bodies)
-{
-   JoinedPatterns all;
+   Reduction::PatternIndex index;
    for (const CondensedBody &body : bodies)
    {
-      all.index.emplace_back();
+      index.emplace_back();
       for (const LoadPattern &pattern : body.patterns)
       {
          std::size_t k = 0;
-         while (k < all.patterns.size() && all.patterns[k].name != pattern.name) { ++k; }
-         if (k == all.patterns.size())
-         {
-            all.patterns.push_back({pattern.name, pattern.control, {}, {}});
-         }
-         require(all.patterns[k].control == pattern.control, "reduce: load pattern '",
-                 pattern.name,
+         while (k < all.size() && all[k].name != pattern.name) { ++k; }
+         if (k == all.size()) { all.push_back({pattern.name, pattern.control, {}, {}}); }
+         require(all[k].control == pattern.control, "reduce: load pattern '", pattern.name,
                  "' is controlled by force in one body and by displacement in the other, must "
-                 "be the "
-                 "same in both");
-         all.index.back().push_back(static_cast<int>(k));
+                 "be the same in both");
+         index.back().push_back(static_cast<int>(k));
       }
    }
-   return all;
+   return index;
 }
 
 /// Forces {q; p} of a body's patterns as columns, in the order of the joined patterns.
 Eigen::MatrixXd clamped_forces(const CondensedBody &body, const std::vector<int> &index,
-                               std::size_t count)
+                               Eigen::Index count)
 {
-   const Eigen::Index n = body.line.size();
-   Eigen::MatrixXd f = Eigen::MatrixXd::Zero(2 * n, static_cast<Eigen::Index>(count));
+   Eigen::MatrixXd f = Eigen::MatrixXd::Zero(body.S.rows(), count);
    for (std::size_t k = 0; k < index.size(); ++k)
    {
-      f.col(index[k]) << body.patterns[k].q, body.patterns[k].p;
+      const LoadPattern &pattern = body.patterns[k];
+      f.col(index[k]).head(pattern.q.size()) = pattern.q;
+      f.col(index[k]).tail(pattern.p.size()) = pattern.p;
    }
    return f;
 }
@@ -70,9 +86,16 @@ void add_response(const CondensedBody &body, const std::vector<int> &index, Eige
    }
 }
 
-void fill(ReducedProblem &problem, const Eigen::MatrixXd &S, const Eigen::MatrixXd &f,
-          const ContactLine &line)
+/// One or two bodies on relative displacements: f = S u + Σ λ_k f_k.
+struct Block
 {
+   Eigen::MatrixXd S, f, H;
+   std::shared_ptr<const Reduction::Union> way_back; ///< of two bodies
+};
+
+void fill(ReducedProblem &problem, const Block &block, const ContactLine &line)
+{
+   const Eigen::MatrixXd &S = block.S, &f = block.f;
    const Eigen::Index n = line.size();
    problem.A = S.topLeftCorner(n, n);
    problem.B = S.bottomLeftCorner(n, n);
@@ -83,6 +106,7 @@ void fill(ReducedProblem &problem, const Eigen::MatrixXd &S, const Eigen::Matrix
       problem.patterns[k].q = f.col(column).head(n);
       problem.patterns[k].p = f.col(column).tail(n);
    }
+   problem.H = block.H;
    problem.friction = Eigen::VectorXd::Zero(n);
    problem.weights = line.weights;
    problem.arc_length = line.arc_length;
@@ -94,14 +118,18 @@ Eigen::MatrixXd common_motions(const CondensedBody &body1, const Eigen::MatrixXd
 {
    const Eigen::Index n = body1.line.size();
    Eigen::MatrixXd Z = body1.rigid_motions();
-   // Turn about the middle of the line, at its own scale: the columns are then near orthogonal.
-   const Eigen::RowVector2d middle = body1.line.position.colwise().mean();
-   Z.col(2) += middle[1] * Z.col(0) - middle[0] * Z.col(1);
-   const double extent = (body1.line.position.rowwise() - middle).cwiseAbs().maxCoeff();
-   if (n == 1 || extent == 0) { Z.conservativeResize(Eigen::NoChange, 2); }
-   else { Z.col(2) /= extent; }
+   if (Z.cols() == 3)
+   {
+      // Turn about the middle of the line, at its own scale: the columns are then near
+      // orthogonal.
+      const Eigen::RowVector2d middle = body1.line.position.colwise().mean();
+      Z.col(2) += middle[1] * Z.col(0) - middle[0] * Z.col(1);
+      const double extent = (body1.line.position.rowwise() - middle).cwiseAbs().maxCoeff();
+      if (n == 1 || extent == 0) { Z.conservativeResize(Eigen::NoChange, 2); }
+      else { Z.col(2) /= extent; }
+   }
    const Eigen::MatrixXd Q = Eigen::HouseholderQR<Eigen::MatrixXd>(Z).householderQ() *
-                             Eigen::MatrixXd::Identity(2 * n, Z.cols());
+                             Eigen::MatrixXd::Identity(Z.rows(), Z.cols());
    const Eigen::MatrixXd stiffness = Q.transpose() * sum * Q;
    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(
       0.5 * (stiffness + stiffness.transpose()));
@@ -111,21 +139,106 @@ Eigen::MatrixXd common_motions(const CondensedBody &body1, const Eigen::MatrixXd
    return Q * modes.eigenvectors().leftCols(free);
 }
 
+Block alone(const CondensedBody &body, const std::vector<int> &index, Eigen::Index count)
+{
+   Block block{body.S, clamped_forces(body, index, count), Eigen::MatrixXd::Zero(count, count),
+               nullptr};
+   add_response(body, index, block.H);
+   return block;
+}
+
+Block united(const CondensedBody &first, const CondensedBody &second,
+             const std::vector<int> &partner, const Reduction::PatternIndex &index,
+             const std::vector<LoadPattern> &patterns)
+{
+   const ContactLine &line1 = first.line, &line2 = second.line;
+   const Eigen::Index n = line1.size(), size = first.S.rows();
+   const auto count = static_cast<Eigen::Index>(patterns.size());
+   // Body 2 in body 1's order, and in frames exactly opposite to body 1's.
+   auto shared = std::make_shared<Reduction::Union>();
+   shared->partner = partner;
+   FrameChange &frames = shared->frames;
+   frames.a.resize(n);
+   if (size == n) { frames.a.setConstant(-1.0); }
+   else { frames = {frames.a, frames.a, frames.a, frames.a}; }
+   for (Eigen::Index i = 0; i < n && size == 2 * n; ++i)
+   {
+      const int j = partner[i];
+      frames.a[i] = -line1.tangent.row(i).dot(line2.tangent.row(j));
+      frames.b[i] = -line1.tangent.row(i).dot(line2.normal.row(j));
+      frames.c[i] = -line1.normal.row(i).dot(line2.tangent.row(j));
+      frames.d[i] = -line1.normal.row(i).dot(line2.normal.row(j));
+      require(frames.d[i] > 0,
+              "reduce: the bodies do not face each other at the contact node (",
+              line1.position(i, 0), ", ", line1.position(i, 1), ")");
+   }
+   const std::vector<int> order = shared->order(size);
+   Eigen::MatrixXd S2 = second.S(order, order);
+   shared->S2 = frames.both(S2);
+   const Eigen::MatrixXd forces = clamped_forces(second, index[1], count);
+   const Eigen::MatrixXd f2 = frames.rows(forces(order, Eigen::all));
+
+   const Eigen::MatrixXd &S1 = first.S;
+   const Eigen::MatrixXd f1 = clamped_forces(first, index[0], count);
+   shared->difference = f1 - f2;
+   Eigen::MatrixXd &sum = S2; // no longer needed as it was
+   sum = S1 + shared->S2;
+   if (first.rigid_modes > 0 && second.rigid_modes > 0)
+   {
+      const Eigen::MatrixXd Z = common_motions(first, sum);
+      for (Eigen::Index k = 0; k < shared->difference.cols(); ++k)
+      {
+         const double load =
+            Z.cols() > 0 ? (Z.transpose() * shared->difference.col(k)).norm() : 0.0;
+         const double scale = f1.col(k).norm() + f2.col(k).norm();
+         require(load <= 1e-9 * scale, "reduce: load pattern '", patterns[k].name,
+                 "' pushes both bodies in a common rigid motion that nothing resists (part ",
+                 load / scale,
+                 " of it), its loads must be in equilibrium or a body be supported");
+      }
+      shared->difference -= Z * (Z.transpose() * shared->difference);
+      sum.noalias() += sum.diagonal().mean() * Z * Z.transpose();
+   }
+   shared->sum.compute(sum);
+   require(shared->sum.info() == Eigen::Success,
+           "reduce: the sum of the two condensed stiffnesses is not positive definite: the "
+           "bodies can "
+           "move together without resistance");
+
+   // With S1 + S2 = L Lᵀ: S = S1 - YᵀY, Y = L⁻¹ S1, and the same for the loads.
+   const Eigen::MatrixXd Y = shared->sum.matrixL().solve(S1);
+   const Eigen::MatrixXd D = shared->sum.matrixL().solve(shared->difference);
+   Block block{S1, f1 - Y.transpose() * D, Eigen::MatrixXd::Zero(count, count), nullptr};
+   block.S.selfadjointView<Eigen::Lower>().rankUpdate(Y.transpose(), -1.0);
+   block.S.triangularView<Eigen::StrictlyUpper>() = block.S.transpose();
+   add_response(first, index[0], block.H);
+   add_response(second, index[1], block.H);
+   // The contact nodes are clamped to each other now, and move together where the loads push
+   // them: more displacement of the forces, less reaction of the prescribed displacements.
+   const Eigen::MatrixXd together = D.transpose() * D;
+   for (Eigen::Index k = 0; k < count; ++k)
+   {
+      const double sign = patterns[k].control == Control::force ? 1.0 : -1.0;
+      block.H.row(k) += sign * together.row(k);
+   }
+   block.way_back = std::move(shared);
+   return block;
+}
+
 } // namespace
 
 Reduction reduce(CondensedBody body, const ScalarField &gap)
 {
    Reduction result;
+   require(body.geometry != Geometry::torsion,
+           "reduce: the body is one of torsion, which is to be added to a reduction");
    result.counters = body.counters;
    result.bodies.push_back(std::move(body));
    const CondensedBody &only = result.bodies.front();
-   JoinedPatterns joined = join(result.bodies);
-   result.pattern_ = joined.index;
    ReducedProblem &problem = result.problem;
-   problem.patterns = joined.patterns;
-   fill(problem, only.S, clamped_forces(only, joined.index[0], joined.patterns.size()),
-        only.line);
-   problem.H = only.H;
+   result.pattern_ = join(result.bodies, problem.patterns);
+   const auto count = static_cast<Eigen::Index>(problem.patterns.size());
+   fill(problem, alone(only, result.pattern_[0], count), only.line);
    const Eigen::Index n = only.line.size();
    problem.gap.resize(n);
    problem.dofs.resize(n, 2);
@@ -143,6 +256,8 @@ Reduction reduce(CondensedBody body, const ScalarField &gap)
 Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairing)
 {
    const Eigen::Index n = body1.line.size();
+   require(body1.geometry == body2.geometry && body1.geometry != Geometry::torsion,
+           "reduce: the bodies must be both plane or both axisymmetric");
    require(body2.line.size() == n && static_cast<Eigen::Index>(pairing.partner.size()) == n &&
               pairing.gap.size() == n,
            "reduce: contact lines of ", n, " and ", body2.line.size(),
@@ -161,101 +276,95 @@ Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairin
    result.bodies.push_back(std::move(body1));
    result.bodies.push_back(std::move(body2));
    const CondensedBody &first = result.bodies[0], &second = result.bodies[1];
-   JoinedPatterns joined = join(result.bodies);
-   result.pattern_ = joined.index;
-   const std::size_t count = joined.patterns.size();
-
-   // Body 2 in body 1's order, and in frames exactly opposite to body 1's.
-   auto shared = std::make_shared<Reduction::Union>();
-   shared->partner = pairing.partner;
-   FrameChange &frames = shared->frames;
-   frames = {Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n)};
-   const ContactLine &line1 = first.line, &line2 = second.line;
-   const Eigen::MatrixXd forces = clamped_forces(second, joined.index[1], count);
-   Eigen::MatrixXd S2(2 * n, 2 * n), f2(2 * n, static_cast<Eigen::Index>(count));
-   for (Eigen::Index i = 0; i < n; ++i)
-   {
-      const int j = pairing.partner[i];
-      frames.a[i] = -line1.tangent.row(i).dot(line2.tangent.row(j));
-      frames.b[i] = -line1.tangent.row(i).dot(line2.normal.row(j));
-      frames.c[i] = -line1.normal.row(i).dot(line2.tangent.row(j));
-      frames.d[i] = -line1.normal.row(i).dot(line2.normal.row(j));
-      require(frames.d[i] > 0,
-              "reduce: the bodies do not face each other at the contact node (",
-              line1.position(i, 0), ", ", line1.position(i, 1), ")");
-      for (const Eigen::Index half : {Eigen::Index(0), n})
-      {
-         f2.row(half + i) = forces.row(half + j);
-         for (Eigen::Index k = 0; k < n; ++k)
-         {
-            S2(k, half + i) = second.S(pairing.partner[k], half + j);
-            S2(n + k, half + i) = second.S(n + pairing.partner[k], half + j);
-         }
-      }
-   }
-   shared->S2 = frames.both(S2);
-   f2 = frames.rows(f2);
-
-   const Eigen::MatrixXd &S1 = first.S;
-   const Eigen::MatrixXd f1 = clamped_forces(first, joined.index[0], count);
-   shared->difference = f1 - f2;
-   Eigen::MatrixXd &sum = S2; // no longer needed as it was
-   sum = S1 + shared->S2;
-   if (first.rigid_modes > 0 && second.rigid_modes > 0)
-   {
-      const Eigen::MatrixXd Z = common_motions(first, sum);
-      for (Eigen::Index k = 0; k < shared->difference.cols(); ++k)
-      {
-         const double load =
-            Z.cols() > 0 ? (Z.transpose() * shared->difference.col(k)).norm() : 0.0;
-         const double scale = f1.col(k).norm() + f2.col(k).norm();
-         require(load <= 1e-9 * scale, "reduce: load pattern '", joined.patterns[k].name,
-                 "' pushes both bodies in a common rigid motion that nothing resists (part ",
-                 load / scale,
-                 " of it), its loads must be in equilibrium or a body be supported");
-      }
-      shared->difference -= Z * (Z.transpose() * shared->difference);
-      sum.noalias() += sum.diagonal().mean() * Z * Z.transpose();
-   }
-   shared->sum.compute(sum);
-   require(shared->sum.info() == Eigen::Success,
-           "reduce: the sum of the two condensed stiffnesses is not positive definite: the "
-           "bodies can "
-           "move together without resistance");
-
-   // With S1 + S2 = L Lᵀ: S = S1 - YᵀY, Y = L⁻¹ S1, and the same for the loads.
-   const Eigen::MatrixXd Y = shared->sum.matrixL().solve(S1);
-   const Eigen::MatrixXd D = shared->sum.matrixL().solve(shared->difference);
-   Eigen::MatrixXd S = S1;
-   S.selfadjointView<Eigen::Lower>().rankUpdate(Y.transpose(), -1.0);
-   S.triangularView<Eigen::StrictlyUpper>() = S.transpose();
-   const Eigen::MatrixXd f = f1 - Y.transpose() * D;
-
    ReducedProblem &problem = result.problem;
-   problem.patterns = joined.patterns;
-   fill(problem, S, f, line1);
+   result.pattern_ = join(result.bodies, problem.patterns);
+   const Block block =
+      united(first, second, pairing.partner, result.pattern_, problem.patterns);
+   result.union_ = block.way_back;
+   fill(problem, block, first.line);
    problem.gap = pairing.gap;
-   problem.H =
-      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(count));
-   add_response(first, joined.index[0], problem.H);
-   add_response(second, joined.index[1], problem.H);
-   // The contact nodes are clamped to each other now, and move together where the loads push
-   // them: more displacement of the forces, less reaction of the prescribed displacements.
-   const Eigen::MatrixXd together = D.transpose() * D;
    problem.dofs.resize(n, 4);
-   for (std::size_t k = 0; k < count; ++k)
-   {
-      const auto row = static_cast<Eigen::Index>(k);
-      const double sign = problem.patterns[k].control == Control::force ? 1.0 : -1.0;
-      problem.H.row(row) += sign * together.row(row);
-   }
    for (Eigen::Index i = 0; i < n; ++i)
    {
-      const auto &dofs1 = line1.true_dofs[i], &dofs2 = line2.true_dofs[pairing.partner[i]];
+      const auto &dofs1 = first.line.true_dofs[i],
+                 &dofs2 = second.line.true_dofs[pairing.partner[i]];
       problem.dofs.row(i) << dofs1[0], dofs1[1], dofs2[0], dofs2[1];
    }
-   result.union_ = std::move(shared);
    return result;
+}
+
+void Reduction::add_torsion(CondensedBody body)
+{
+   std::vector<CondensedBody> one;
+   one.push_back(std::move(body));
+   add_torsion(std::move(one));
+}
+
+void Reduction::add_torsion(CondensedBody body1, CondensedBody body2)
+{
+   std::vector<CondensedBody> two;
+   two.push_back(std::move(body1));
+   two.push_back(std::move(body2));
+   add_torsion(std::move(two));
+}
+
+void Reduction::add_torsion(std::vector<CondensedBody> twisting)
+{
+   const Eigen::Index n = problem.nodes();
+   require(torsion.empty() && problem.components() == 1, "add torsion: the reduction has ",
+           problem.components(), " tangential components a node, must have 1");
+   require(twisting.size() == bodies.size(), "add torsion: of ", twisting.size(),
+           " bodies to a reduction of ", bodies.size(), ", must be as many");
+   for (std::size_t b = 0; b < bodies.size(); ++b)
+   {
+      require(bodies[b].geometry == Geometry::axisymmetric &&
+                 twisting[b].geometry == Geometry::torsion,
+              "add torsion: body ", b, " must be axisymmetric, and what is added its torsion");
+      const Eigen::MatrixXd &own = bodies[b].line.position, &other = twisting[b].line.position;
+      require(own.rows() == other.rows() &&
+                 (own - other).cwiseAbs().maxCoeff() <= 1e-12 * own.cwiseAbs().maxCoeff(),
+              "add torsion: the contact nodes of body ", b,
+              " are not those of its torsion, must be the same");
+      counters += twisting[b].counters;
+   }
+   const Eigen::Index before = problem.H.rows();
+   torsion_pattern_ = join(twisting, problem.patterns);
+   const auto count = static_cast<Eigen::Index>(problem.patterns.size());
+   Block block;
+   if (twisting.size() == 1) { block = alone(twisting[0], torsion_pattern_[0], count); }
+   else
+   {
+      ++counters.unions;
+      block =
+         united(twisting[0], twisting[1], union_->partner, torsion_pattern_, problem.patterns);
+      torsion_union_ = block.way_back;
+   }
+   problem.A.conservativeResizeLike(Eigen::MatrixXd::Zero(2 * n, 2 * n));
+   problem.A.bottomRightCorner(n, n) = block.S;
+   problem.B.conservativeResizeLike(Eigen::MatrixXd::Zero(n, 2 * n));
+   for (Eigen::Index k = 0; k < count; ++k)
+   {
+      LoadPattern &pattern = problem.patterns[k];
+      pattern.q.conservativeResizeLike(Eigen::VectorXd::Zero(2 * n));
+      pattern.q.tail(n) = block.f.col(k);
+      if (k >= before) { pattern.p = Eigen::VectorXd::Zero(n); }
+   }
+   problem.H.conservativeResizeLike(Eigen::MatrixXd::Zero(count, count));
+   problem.H += block.H;
+   torsion = std::move(twisting);
+}
+
+mfem::Vector Reduction::recover(CondensedBody &body, const Eigen::VectorXd &u,
+                                const std::vector<int> &patterns,
+                                const Eigen::VectorXd &multipliers)
+{
+   Eigen::VectorXd own(patterns.size());
+   for (std::size_t k = 0; k < patterns.size(); ++k) { own[k] = multipliers[patterns[k]]; }
+   Counters added = body.counters;
+   mfem::Vector field = body.recover(u, own);
+   added -= body.counters;
+   counters -= added;
+   return field;
 }
 
 mfem::Vector Reduction::displacement(int b, const Eigen::VectorXd &v, const Eigen::VectorXd &w,
@@ -264,38 +373,33 @@ mfem::Vector Reduction::displacement(int b, const Eigen::VectorXd &v, const Eige
    const Eigen::Index n = problem.nodes();
    require(b >= 0 && b < static_cast<int>(bodies.size()), "displacement: body ", b,
            ", must be from 0 to ", bodies.size() - 1);
-   require(v.size() == n && w.size() == n, "displacement: ", v.size(), " tangential and ",
-           w.size(), " normal displacements, must be ", n, " each");
+   const Eigen::Index tangential = torsion.empty() ? n : 2 * n;
+   require(v.size() == tangential && w.size() == n, "displacement: ", v.size(),
+           " tangential and ", w.size(), " normal displacements, must be ", tangential, " and ",
+           n);
    require(multipliers.size() == static_cast<Eigen::Index>(problem.patterns.size()),
            "displacement: ", multipliers.size(), " load multipliers, must be ",
            problem.patterns.size());
    Eigen::VectorXd u(2 * n);
-   u << v, w;
-   if (union_)
-   {
-      const Eigen::VectorXd loaded =
-         union_->difference * multipliers.head(union_->difference.cols());
-      const Eigen::VectorXd u1 = union_->sum.solve(union_->S2 * u - loaded);
-      if (b == 0) { u = u1; }
-      else
-      {
-         const Eigen::VectorXd u2 = union_->frames.inverse().rows(u - u1);
-         for (Eigen::Index i = 0; i < n; ++i)
-         {
-            u[union_->partner[i]] = u2[i];
-            u[n + union_->partner[i]] = u2[n + i];
-         }
-      }
-   }
-   const std::vector<int> &index = pattern_[b];
-   Eigen::VectorXd own(index.size());
-   for (std::size_t k = 0; k < index.size(); ++k) { own[k] = multipliers[index[k]]; }
-   const Counters before = bodies[b].counters;
-   mfem::Vector field = bodies[b].recover(u, own);
-   counters.back_substitutions +=
-      bodies[b].counters.back_substitutions - before.back_substitutions;
-   counters.field_recoveries += bodies[b].counters.field_recoveries - before.field_recoveries;
-   return field;
+   u << v.head(n), w;
+   if (union_) { u = union_->own(b, u, multipliers); }
+   return recover(bodies[b], u, pattern_[b], multipliers);
+}
+
+mfem::Vector Reduction::twist(int b, const Eigen::VectorXd &v,
+                              const Eigen::VectorXd &multipliers)
+{
+   const Eigen::Index n = problem.nodes();
+   require(b >= 0 && b < static_cast<int>(torsion.size()), "twist: body ", b,
+           ", the reduction has ", torsion.size(), " that twist (counted from 0)");
+   require(v.size() == 2 * n, "twist: ", v.size(), " tangential displacements, must be ",
+           2 * n);
+   require(multipliers.size() == static_cast<Eigen::Index>(problem.patterns.size()),
+           "twist: ", multipliers.size(), " load multipliers, must be ",
+           problem.patterns.size());
+   Eigen::VectorXd u = v.tail(n);
+   if (torsion_union_) { u = torsion_union_->own(b, u, multipliers); }
+   return recover(torsion[b], u, torsion_pattern_[b], multipliers);
 }
 
 } // namespace cattaneo

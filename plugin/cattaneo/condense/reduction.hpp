@@ -9,28 +9,48 @@ namespace cattaneo
 
 /** A reduced problem together with the way back to the fields of its bodies. The nodes are
    those of body 1's contact line, in its order and frames. Load patterns of the bodies are
-   joined by name; the friction coefficient is zero until set. */
+   joined by name; the friction coefficient is zero until set.
+
+    Torsion is a third block that is there only if it is added: it decouples in the bulk, so
+   that A = diag(A_r, A_θ) and B = (B_r, 0), and friction alone couples it to the rest. */
 class Reduction
 {
 public:
    ReducedProblem problem;
-   std::vector<CondensedBody> bodies; ///< one (rigid obstacle) or two
-   Counters counters;                 ///< sum over the bodies and all later recoveries
+   std::vector<CondensedBody> bodies;  ///< one (rigid obstacle) or two
+   std::vector<CondensedBody> torsion; ///< as many again if something twists, or none
+   Counters counters;                  ///< sum over the bodies and all later recoveries
 
-   /// Displacement of all true dofs of body `b` (0 or 1), for relative displacements v and w of
-   /// the contact nodes and multipliers of problem.patterns. One solve with that body's factor.
-   /// If two free bodies move together unresisted, the common motion is the one of least
-   /// squares zero.
+   /// Adds the circumferential components of one axisymmetric body (its torsion body, condensed
+   /// to the same nodes): v_θ = u_θ and q_θ the force on the body, positive with the twist.
+   /// Load patterns of the same name are one pattern. InputError unless the reduction is of one
+   /// axisymmetric body without torsion, or if the nodes differ.
+   void add_torsion(CondensedBody body);
+   /// The same of two bodies: v_θ = u_θ1 - u_θ2, q_θ the force on body 1.
+   void add_torsion(CondensedBody body1, CondensedBody body2);
+
+   /// Displacement of all true dofs of body `b` (0 or 1), for relative displacements v (of all
+   /// tangential components) and w of the contact nodes and multipliers of problem.patterns.
+   /// One solve with that body's factor. If two free bodies move together unresisted, the
+   /// common motion is the one of least squares zero.
    mfem::Vector displacement(int b, const Eigen::VectorXd &v, const Eigen::VectorXd &w,
                              const Eigen::VectorXd &multipliers);
+   /// Twist ψ = u_θ/r of all true dofs of torsion body `b`, for the same displacements v.
+   mfem::Vector twist(int b, const Eigen::VectorXd &v, const Eigen::VectorXd &multipliers);
+
+   struct Union; ///< how two bodies share a relative displacement
+   /// Indices in problem.patterns of a body's patterns.
+   using PatternIndex = std::vector<std::vector<int>>;
 
 private:
    friend Reduction reduce(CondensedBody body, const ScalarField &gap);
    friend Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairing);
-   struct Union; ///< how two bodies share a relative displacement
-   std::shared_ptr<const Union> union_;
-   std::vector<std::vector<int>>
-      pattern_; ///< by body and its pattern: index in problem.patterns
+   void add_torsion(std::vector<CondensedBody> twisting);
+   mfem::Vector recover(CondensedBody &body, const Eigen::VectorXd &u,
+                        const std::vector<int> &patterns, const Eigen::VectorXd &multipliers);
+
+   std::shared_ptr<const Union> union_, torsion_union_;
+   PatternIndex pattern_, torsion_pattern_;
 };
 
 /// One body against a rigid obstacle; gap as a function of the contact nodes' coordinates.

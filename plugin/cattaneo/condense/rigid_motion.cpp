@@ -10,6 +10,19 @@ namespace cattaneo
 Eigen::MatrixXd free_rigid_motions(const DofPlaces &places, const std::vector<int> &dofs,
                                    const std::vector<bool> &held)
 {
+   if (places.geometry != Geometry::plane)
+   {
+      const int last = components(places.geometry) - 1; // the component that moves
+      const auto moves = [&](int dof) { return places.component[dof] == last; };
+      const bool holds = std::any_of(dofs.begin(), dofs.end(),
+                                     [&](int dof) { return held[dof] && moves(dof); });
+      Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(dofs.size(), holds ? 0 : 1);
+      for (std::size_t k = 0; !holds && k < dofs.size(); ++k)
+      {
+         motion(k, 0) = moves(dofs[k]) ? 1.0 : 0.0;
+      }
+      return motion;
+   }
    // Centre and half width of a bounding box, of all dofs or of the held ones.
    struct Box
    {

@@ -17,7 +17,8 @@ struct Segment
 {
    std::vector<int> nodes;
    std::vector<double> distance; ///< arc length from the first node
-   std::vector<double> weights;  ///< ∫φ ds
+   std::vector<double> weights;  ///< ∫φ ds, or ∫φ 2πr ds
+   std::vector<double> shares;   ///< ∫φ ds
    std::vector<std::array<double, 2>> tangents;
 };
 
@@ -33,8 +34,9 @@ double length(BoundaryEdge &edge, double from, double to)
    return sum * (to - from);
 }
 
-Segment segment(const mfem::FiniteElementSpace &space, int boundary_element, BoundaryEdge &edge)
+Segment segment(const ElasticBody &body, int boundary_element, BoundaryEdge &edge)
 {
+   const mfem::FiniteElementSpace &space = body.space();
    const mfem::FiniteElement &element = *space.GetBE(boundary_element);
    mfem::Array<int> dofs;
    space.GetBdrElementDofs(boundary_element, dofs);
@@ -46,7 +48,7 @@ Segment segment(const mfem::FiniteElementSpace &space, int boundary_element, Bou
              [&](int a, int b)
              { return forward ? nodes[a].x < nodes[b].x : nodes[a].x > nodes[b].x; });
 
-   std::vector<double> weights(dofs.Size(), 0.0);
+   std::vector<double> weights(dofs.Size(), 0.0), shares(dofs.Size(), 0.0);
    mfem::Vector shape(dofs.Size());
    const mfem::IntegrationRule &rule = edge.rule(element.GetOrder());
    for (int k = 0; k < rule.GetNPoints(); ++k)
@@ -56,7 +58,9 @@ Segment segment(const mfem::FiniteElementSpace &space, int boundary_element, Bou
       element.CalcShape(ip, shape);
       for (int a = 0; a < dofs.Size(); ++a)
       {
-         weights[a] += ip.weight * std::hypot(d[0], d[1]) * shape(a);
+         const double share = ip.weight * std::hypot(d[0], d[1]) * shape(a);
+         shares[a] += share;
+         weights[a] += share * measure(body.geometry(), edge.point(ip.x)[0]);
       }
    }
    Segment result;
@@ -68,6 +72,7 @@ Segment segment(const mfem::FiniteElementSpace &space, int boundary_element, Bou
       result.nodes.push_back(dofs[a]);
       result.distance.push_back(distance);
       result.weights.push_back(weights[a]);
+      result.shares.push_back(shares[a]);
       result.tangents.push_back(edge.tangent(nodes[a].x));
    }
    return result;
@@ -96,7 +101,7 @@ ContactLine contact_line(const ElasticBody &body, const BoundaryPart &part)
                                          return x(part.axis, node) >= part.lo - slack &&
                                                 x(part.axis, node) <= part.hi + slack;
                                       });
-      if (inside) { segments.push_back(segment(space, i, edge)); }
+      if (inside) { segments.push_back(segment(body, i, edge)); }
    }
    require(!segments.empty(), where, ": there are no boundary elements inside the ",
            describe(part));
@@ -184,7 +189,7 @@ ContactLine contact_line(const ElasticBody &body, const BoundaryPart &part)
                tangent.push_back({0.0, 0.0});
             }
             weights[node] += s.weights[a];
-            for (int i = 0; i < 2; ++i) { tangent[node][i] += s.weights[a] * s.tangents[a][i]; }
+            for (int i = 0; i < 2; ++i) { tangent[node][i] += s.shares[a] * s.tangents[a][i]; }
             if (a > 0)
             {
                const double step = s.distance[a] - s.distance[a - 1];
@@ -199,6 +204,29 @@ ContactLine contact_line(const ElasticBody &body, const BoundaryPart &part)
          end += s.distance.back();
       }
       start = end;
+   }
+
+   const auto leave_out = [&](std::size_t node)
+   {
+      const auto drop = [node](auto &list)
+      { list.erase(list.begin() + static_cast<std::ptrdiff_t>(node)); };
+      drop(line.scalar_dofs);
+      drop(line.chain);
+      drop(arc);
+      drop(weights);
+      drop(lumped);
+      drop(spacing);
+      drop(tangent);
+   };
+   for (std::size_t node = line.scalar_dofs.size(); node-- > 0;)
+   {
+      if (!body.on_axis(line.scalar_dofs[node])) { continue; }
+      const auto neighbour = [&](std::size_t other)
+      { return other < line.chain.size() && line.chain[other] == line.chain[node]; };
+      require(neighbour(node + 1) || neighbour(node - 1), where, ": the node at ",
+              coordinates(line.scalar_dofs[node]), " is alone on the axis");
+      weights[neighbour(node + 1) ? node + 1 : node - 1] += weights[node];
+      leave_out(node);
    }
 
    const auto n = static_cast<Eigen::Index>(line.scalar_dofs.size());
@@ -219,8 +247,9 @@ ContactLine contact_line(const ElasticBody &body, const BoundaryPart &part)
       line.position.row(i) << x(0, node), x(1, node);
       line.tangent.row(i) << tangent[i][0] / size, tangent[i][1] / size;
       line.normal.row(i) << -line.tangent(i, 1), line.tangent(i, 0);
-      line.true_dofs.push_back({body.true_dof(node, 0), body.true_dof(node, 1)});
-      require(line.true_dofs.back()[0] >= 0 && line.true_dofs.back()[1] >= 0, where,
+      const bool two = body.components() == 2;
+      line.true_dofs.push_back({body.true_dof(node, 0), two ? body.true_dof(node, 1) : -1});
+      require(line.true_dofs.back()[0] >= 0 && (!two || line.true_dofs.back()[1] >= 0), where,
               ": the node at ", coordinates(node),
               " hangs on others, the mesh must be conforming along the line");
    }

@@ -19,16 +19,22 @@ namespace cattaneo
 
     Several separate chains are allowed; they follow each other in the order of their first
    nodes (lowest x, then y), and the arc length continues from one to the next. A closed loop
-   starts at its lowest vertex (x, then y) and does not repeat it. */
+   starts at its lowest vertex (x, then y) and does not repeat it.
+
+    In axisymmetry and torsion x = r, weights are areas of the whole circumference, ∫φ_i 2πr ds,
+   and a node on the axis is left out: its weight is exactly zero from order 2 on (that of order
+   1, πh²/3, is added to its neighbour's), so that it carries no pressure that could be told,
+   and its tangential displacements are zero by symmetry. In the reduced problem it moves
+   freely, which opens it or lets it overlap by O(h³) (order 1: O(h)). */
 struct ContactLine
 {
    std::vector<int> scalar_dofs;              ///< node of the space
-   std::vector<std::array<int, 2>> true_dofs; ///< x and y true dof of each node
+   std::vector<std::array<int, 2>> true_dofs; ///< x and y true dof of each node (twist, -1)
    std::vector<int> chain;                    ///< number of the chain each node belongs to
    Eigen::MatrixXd position;                  ///< n × 2
    Eigen::MatrixXd tangent, normal;           ///< n × 2, unit vectors
    Eigen::VectorXd arc_length;                ///< n
-   Eigen::VectorXd weights;                   ///< consistent: ∫φ_i ds (sums to the length)
+   Eigen::VectorXd weights;        ///< consistent: ∫φ_i ds (sums to the length; or the area)
    Eigen::VectorXd lumped_weights; ///< tributary length: half the distance to each neighbour
    Eigen::VectorXd spacing;        ///< shortest distance to a neighbour, the local edge length
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cattaneo/elastic/axisymmetric.hpp>
 #include <cattaneo/elastic/body.hpp>
 #include <cattaneo/elastic/boundary_edge.hpp>
 #include <cattaneo/input_error.hpp>
@@ -35,12 +36,6 @@ int checked_order(int order)
    return order;
 }
 
-void check_component(const std::string &where, int component)
-{
-   require(component == 0 || component == 1, where, ": component is ", component,
-           ", must be 0 (x) or 1 (y)");
-}
-
 double value_at(const ScalarField &field, double x, double y, const std::string &where)
 {
    const double value = field(x, y);
@@ -56,20 +51,28 @@ const char *name(Control control)
 
 } // namespace
 
-ElasticBody::ElasticBody(mfem::Mesh &mesh, int order, const Material &material)
+ElasticBody::ElasticBody(mfem::Mesh &mesh, int order, const Material &material,
+                         Geometry geometry)
    : ElasticBody(mesh, order,
                  std::vector<Material>(
-                    std::max(1, mesh.attributes.Size() ? mesh.attributes.Max() : 1), material))
+                    std::max(1, mesh.attributes.Size() ? mesh.attributes.Max() : 1), material),
+                 geometry)
 {
 }
 
-ElasticBody::ElasticBody(mfem::Mesh &mesh, int order, const std::vector<Material> &materials)
-   : materials_(materials)
+ElasticBody::ElasticBody(mfem::Mesh &mesh, int order, const std::vector<Material> &materials,
+                         Geometry geometry)
+   : geometry_(geometry), materials_(materials)
 {
    checked(mesh);
    checked_order(order);
    require(!materials_.empty(), "elastic body: there is no material");
-   for (const Material &material : materials_) { material.validate(); }
+   for (const Material &material : materials_)
+   {
+      material.validate();
+      require(geometry == Geometry::plane || material.state == PlaneState::strain,
+              "elastic body: a material is in plane stress, which a body of revolution is not");
+   }
    for (int attribute : mesh.attributes)
    {
       require(attribute >= 1 && attribute <= static_cast<int>(materials_.size()),
@@ -77,19 +80,20 @@ ElasticBody::ElasticBody(mfem::Mesh &mesh, int order, const std::vector<Material
               materials_.size(), " (for the attributes from 1)");
    }
    owned_collection_ = std::make_unique<mfem::H1_FECollection>(order, 2);
-   owned_space_ = std::make_unique<mfem::FiniteElementSpace>(&mesh, owned_collection_.get(), 2,
-                                                             mfem::Ordering::byVDIM);
+   owned_space_ = std::make_unique<mfem::FiniteElementSpace>(
+      &mesh, owned_collection_.get(), components(), mfem::Ordering::byVDIM);
    space_ = owned_space_.get();
    adopt_space();
    assemble();
 }
 
-ElasticBody::ElasticBody(mfem::FiniteElementSpace &space, const mfem::SparseMatrix &stiffness)
-   : space_(&space)
+ElasticBody::ElasticBody(mfem::FiniteElementSpace &space, const mfem::SparseMatrix &stiffness,
+                         Geometry geometry)
+   : space_(&space), geometry_(geometry)
 {
    checked(*space.GetMesh());
-   require(space.GetVDim() == 2, "elastic body: the space has ", space.GetVDim(),
-           " components, must have 2");
+   require(space.GetVDim() == components(), "elastic body: the space has ", space.GetVDim(),
+           " components, must have ", components());
    const auto *collection = dynamic_cast<const mfem::H1_FECollection *>(space.FEColl());
    require(collection != nullptr, "elastic body: the space is of the kind ",
            space.FEColl()->Name(), ", must be H1 on the Gauss-Lobatto basis");
@@ -163,6 +167,44 @@ void ElasticBody::adopt_space()
               "elastic body: node ", node, " of the mesh is at (", coordinates_(0, node), ", ",
               coordinates_(1, node), "), must be finite");
    }
+   hold_axis();
+}
+
+void ElasticBody::hold_axis()
+{
+   if (geometry_ == Geometry::plane) { return; }
+   // Round-off of the coordinates.
+   for (int node = 0; node < space_->GetNDofs(); ++node)
+   {
+      axis_radius_ = std::max(axis_radius_, 1e-12 * std::abs(coordinates_(0, node)));
+   }
+   for (int node = 0; node < space_->GetNDofs(); ++node)
+   {
+      if (on_axis(node))
+      {
+         const int dof = true_dof(node, 0);
+         // u_θ = r ψ vanishes there by itself.
+         if (geometry_ == Geometry::axisymmetric && dof >= 0) { essential_[dof] = true; }
+         continue;
+      }
+      require(coordinates_(0, node) > 0, "elastic body: node ", node,
+              " of the mesh is at r = ", coordinates_(0, node), ", z = ", coordinates_(1, node),
+              ", a body of revolution must have r >= 0");
+   }
+}
+
+bool ElasticBody::on_axis(int scalar_dof) const
+{
+   return geometry_ != Geometry::plane && std::abs(coordinates_(0, scalar_dof)) <= axis_radius_;
+}
+
+void ElasticBody::check_component(const std::string &where, int component) const
+{
+   require(component >= 0 && component < components(), where, ": component is ", component,
+           ", must be ",
+           geometry_ == Geometry::plane          ? "0 (x) or 1 (y)"
+           : geometry_ == Geometry::axisymmetric ? "0 (r) or 1 (z)"
+                                                 : "0 (twist)");
 }
 
 void ElasticBody::assemble()
@@ -175,7 +217,20 @@ void ElasticBody::assemble()
    }
    mfem::PWConstCoefficient lambda_field(lambda), mu_field(mu);
    mfem::BilinearForm form(space_);
-   form.AddDomainIntegrator(new mfem::ElasticityIntegrator(lambda_field, mu_field));
+   mfem::BilinearFormIntegrator *integrator = nullptr;
+   switch (geometry_)
+   {
+   case Geometry::plane:
+      integrator = new mfem::ElasticityIntegrator(lambda_field, mu_field);
+      break;
+   case Geometry::axisymmetric:
+      integrator = new AxisymmetricElasticityIntegrator(lambda_field, mu_field);
+      break;
+   case Geometry::torsion:
+      integrator = new TorsionIntegrator(mu_field);
+      break;
+   }
+   form.AddDomainIntegrator(integrator);
    form.Assemble(0);
    form.Finalize(0);
    std::unique_ptr<mfem::SparseMatrix> local(form.LoseMat());
@@ -296,12 +351,13 @@ void ElasticBody::add_boundary_load(const std::string &pattern, const BoundaryPa
          {
             mfem::IntegrationPoint ip;
             ip.Set1w(from + (to - from) * rule.IntPoint(k).x, 0.0);
-            const double weight = (to - from) * rule.IntPoint(k).weight;
+            const double r = edge.point(ip.x)[0];
+            const double weight = (to - from) * rule.IntPoint(k).weight * measure(geometry_, r);
             const std::array<double, 2> force = density(edge, ip.x, where);
             element.CalcShape(ip, shape);
             for (int a = 0; a < dofs.Size(); ++a)
             {
-               for (int c = 0; c < 2; ++c)
+               for (int c = 0; c < components(); ++c)
                {
                   forces(space_->DofToVDof(dofs[a], c)) += weight * shape(a) * force[c];
                }
@@ -316,6 +372,7 @@ void ElasticBody::add_boundary_load(const std::string &pattern, const BoundaryPa
 void ElasticBody::add_pressure(const std::string &pattern, const BoundaryPart &part,
                                const ScalarField &p)
 {
+   check_component("pressure '" + pattern + "'", 1);
    add_boundary_load(pattern, part, "pressure",
                      [&p](BoundaryEdge &edge, double s, const std::string &where)
                      {
@@ -330,6 +387,7 @@ void ElasticBody::add_pressure(const std::string &pattern, const BoundaryPart &p
 void ElasticBody::add_traction(const std::string &pattern, const BoundaryPart &part,
                                const ScalarField &tx, const ScalarField &ty)
 {
+   check_component("traction '" + pattern + "'", 1);
    add_boundary_load(pattern, part, "traction",
                      [&tx, &ty](BoundaryEdge &edge, double s, const std::string &where)
                      {
@@ -340,10 +398,27 @@ void ElasticBody::add_traction(const std::string &pattern, const BoundaryPart &p
                      });
 }
 
+void ElasticBody::add_traction(const std::string &pattern, const BoundaryPart &part,
+                               const ScalarField &t)
+{
+   require(geometry_ == Geometry::torsion, "traction '", pattern,
+           "': one component is given, must be two unless the body is one of torsion");
+   add_boundary_load(pattern, part, "traction",
+                     [&t](BoundaryEdge &edge, double s, const std::string &where)
+                     {
+                        const auto x = edge.point(s), d = edge.derivative(s);
+                        return std::array<double, 2>{std::hypot(d[0], d[1]) *
+                                                        lever(Geometry::torsion, x[0]) *
+                                                        value_at(t, x[0], x[1], where),
+                                                     0.0};
+                     });
+}
+
 void ElasticBody::add_body_force(const std::string &pattern, const ScalarField &bx,
                                  const ScalarField &by)
 {
    const std::string where = "body force '" + pattern + "'";
+   check_component(where, 1);
    load(pattern, Control::force);
    mfem::Mesh &mesh = *space_->GetMesh();
    mfem::Vector forces(space_->GetVSize()), shape, x(2);
@@ -364,7 +439,7 @@ void ElasticBody::add_body_force(const std::string &pattern, const ScalarField &
          transformation.SetIntPoint(&ip);
          transformation.Transform(ip, x);
          element.CalcShape(ip, shape);
-         const double weight = ip.weight * transformation.Weight();
+         const double weight = ip.weight * transformation.Weight() * measure(geometry_, x(0));
          const double force[2] = {weight * value_at(bx, x(0), x(1), where),
                                   weight * value_at(by, x(0), x(1), where)};
          for (int a = 0; a < dofs.Size(); ++a)
@@ -394,6 +469,10 @@ void ElasticBody::add_displacement(const std::string &pattern, const BoundaryPar
       if (dof < 0) { continue; }
       const double x = coordinates_(0, node), y = coordinates_(1, node);
       const double value = value_at(u, x, y, where);
+      require(value == 0 || geometry_ != Geometry::axisymmetric || component != 0 ||
+                 !on_axis(node),
+              where, ": component r at (", x, ", ", y, ") is to be ", value,
+              ", must be zero on the axis");
       const double other = values(dof);
       require(!prescribed_[k][dof] ||
                  std::abs(value - other) <= 1e-9 * (std::abs(value) + std::abs(other)),

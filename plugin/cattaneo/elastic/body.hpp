@@ -3,6 +3,7 @@
 #include <array>
 #include <cattaneo/counters.hpp>
 #include <cattaneo/elastic/boundary_part.hpp>
+#include <cattaneo/elastic/geometry.hpp>
 #include <cattaneo/elastic/material.hpp>
 #include <cattaneo/reduced/reduced_problem.hpp>
 #include <memory>
@@ -20,23 +21,32 @@ namespace cattaneo
    The space is the nodal Gauss–Lobatto one, ordered byVDIM or byNODES: other bases have edge
    weights of both signs, or dofs that are no nodal values, and are refused.
 
-    Components: 0 = x, 1 = y. Forces are per unit thickness. Everything that is named by a
-    BoundaryPart throws InputError if the attribute does not exist or nothing lies in the
-   interval. */
+    Plane: components 0 = x, 1 = y, forces per unit thickness. Axisymmetric: x = r and y = z,
+   components 0 = r, 1 = z, forces on the whole circumference; u_r = 0 on the axis without being
+   asked for. Torsion: the same mesh, but the one component is the twist ψ = u_θ/r: what is
+   fixed or prescribed are angles, and the forces of a pattern are torques. The two decouple, so
+   a body that twists is an axisymmetric and a torsion body. With both, r < 0 is an InputError.
+
+    Everything that is named by a BoundaryPart throws InputError if the attribute does not exist
+   or nothing lies in the interval. */
 class ElasticBody
 {
 public:
    /// Assembles the isotropic operator on elements of the given order (>= 1). The mesh must be
    /// 2D and must outlive the body; straight, curved and nonconforming meshes of quads and
    /// triangles.
-   ElasticBody(mfem::Mesh &mesh, int order, const Material &material);
+   ElasticBody(mfem::Mesh &mesh, int order, const Material &material,
+               Geometry geometry = Geometry::plane);
 
    /// One material for each element attribute (index attribute - 1).
-   ElasticBody(mfem::Mesh &mesh, int order, const std::vector<Material> &materials);
+   ElasticBody(mfem::Mesh &mesh, int order, const std::vector<Material> &materials,
+               Geometry geometry = Geometry::plane);
 
-   /// The user's own symmetric operator on the true dofs of a 2-component H1 space
-   /// (orthotropic, user integrators, …). Copies the matrix; the space must outlive the body.
-   ElasticBody(mfem::FiniteElementSpace &space, const mfem::SparseMatrix &stiffness);
+   /// The user's own symmetric operator on the true dofs of an H1 space of 2 components, in
+   /// torsion 1 (orthotropic, user integrators, …). Copies the matrix; the space must outlive
+   /// the body.
+   ElasticBody(mfem::FiniteElementSpace &space, const mfem::SparseMatrix &stiffness,
+               Geometry geometry = Geometry::plane);
 
    ElasticBody(ElasticBody &&) = default;
    ElasticBody &operator=(ElasticBody &&) = default;
@@ -52,6 +62,9 @@ public:
    /// Traction (t_x, t_y) on a boundary part, force per area.
    void add_traction(const std::string &pattern, const BoundaryPart &part,
                      const ScalarField &tx, const ScalarField &ty);
+   /// Circumferential traction t_θ on a boundary part of a torsion body, force per area.
+   void add_traction(const std::string &pattern, const BoundaryPart &part,
+                     const ScalarField &t);
    /// Body force (b_x, b_y), force per volume.
    void add_body_force(const std::string &pattern, const ScalarField &bx,
                        const ScalarField &by);
@@ -69,6 +82,8 @@ public:
       mfem::Vector values; ///< force control: true-dof forces; displacement: prescribed values
    };
 
+   Geometry geometry() const { return geometry_; }
+   int components() const { return cattaneo::components(geometry_); }
    mfem::FiniteElementSpace &space() const { return *space_; }
    const mfem::SparseMatrix &stiffness() const { return *stiffness_; }
    /// The same matrix, to be kept beyond the life of the body (never changed).
@@ -85,12 +100,16 @@ public:
    int true_dof(int scalar_dof, int component) const;
    /// Coordinates of every scalar node, size 2 × nodes.
    const mfem::DenseMatrix &node_coordinates() const { return coordinates_; }
+   /// True if a scalar node lies on the axis of revolution; always false in the plane.
+   bool on_axis(int scalar_dof) const;
 
    const Counters &counters() const { return counters_; }
 
 private:
    void adopt_space();
    void assemble();
+   void hold_axis();
+   void check_component(const std::string &where, int component) const;
    Pattern &load(const std::string &name, Control control);
    void add_to_pattern(const std::string &name, const mfem::Vector &local_forces);
    template <class Density>
@@ -101,6 +120,8 @@ private:
    std::unique_ptr<mfem::FiniteElementCollection> owned_collection_;
    std::unique_ptr<mfem::FiniteElementSpace> owned_space_;
    mfem::FiniteElementSpace *space_ = nullptr;
+   Geometry geometry_ = Geometry::plane;
+   double axis_radius_ = 0.0; ///< nodes nearer to the axis than this are on it
    std::shared_ptr<const mfem::SparseMatrix> stiffness_;
    std::vector<Material> materials_;
    std::vector<Pattern> patterns_;

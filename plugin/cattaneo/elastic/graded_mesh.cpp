@@ -148,29 +148,33 @@ mfem::Mesh rectangle_mesh(const std::vector<double> &x, const std::vector<double
    return mesh;
 }
 
-mfem::Mesh half_plane_mesh(const std::vector<double> &contact, const std::vector<double> &depth,
-                           const std::vector<double> &scale)
+namespace
 {
-   check_grid("half-plane mesh", "contact", contact);
-   check_grid("half-plane mesh", "depth", depth);
-   check_grid("half-plane mesh", "scale", scale);
-   require(contact.front() == -contact.back(), "half-plane mesh: the contact runs from ",
-           contact.front(), " to ", contact.back(), ", must be symmetric about 0");
-   require(depth.front() == 0, "half-plane mesh: depth starts at ", depth.front(),
-           ", must be 0");
-   require(scale.front() == 1, "half-plane mesh: scale starts at ", scale.front(),
-           ", must be 1");
+
+/// Box of quads below `contact` and rings around it; `half`: the left side of the box is an
+/// axis that the rings end at.
+mfem::Mesh ringed_box(const char *name, const std::vector<double> &contact,
+                      const std::vector<double> &depth, const std::vector<double> &scale,
+                      bool half)
+{
+   check_grid(name, "contact", contact);
+   check_grid(name, "depth", depth);
+   check_grid(name, "scale", scale);
+   require(depth.front() == 0, name, ": depth starts at ", depth.front(), ", must be 0");
+   require(scale.front() == 1, name, ": scale starts at ", scale.front(), ", must be 1");
    const int nx = static_cast<int>(contact.size()) - 1, ny = static_cast<int>(depth.size()) - 1;
-   const int rings = static_cast<int>(scale.size()) - 1, outline = 2 * ny + nx;
+   const int rings = static_cast<int>(scale.size()) - 1;
+   const int left = half ? 0 : ny; // edges of the outline on the left side of the box
+   const int outline = left + nx + ny;
    mfem::Mesh mesh(2, (nx + 1) * (ny + 1) + rings * (outline + 1), nx * ny + rings * outline,
-                   nx + 2 * rings + outline);
+                   nx + 2 * rings + (half ? ny : 0) + outline);
    for (int j = 0; j <= ny; ++j)
    {
       for (int i = 0; i <= nx; ++i) { mesh.AddVertex(contact[i], -depth[j]); }
    }
    // The outline runs down the left side of the box, along its bottom and up the right side.
    std::vector<int> inner;
-   for (int j = 0; j < ny; ++j) { inner.push_back(j * (nx + 1)); }
+   for (int j = 0; j < left; ++j) { inner.push_back(j * (nx + 1)); }
    for (int i = 0; i <= nx; ++i) { inner.push_back(ny * (nx + 1) + i); }
    for (int j = ny - 1; j >= 0; --j) { inner.push_back(j * (nx + 1) + nx); }
    std::vector<std::array<double, 2>> points;
@@ -200,17 +204,39 @@ mfem::Mesh half_plane_mesh(const std::vector<double> &contact, const std::vector
       }
    }
    for (int i = nx; i > 0; --i) { mesh.AddBdrSegment(grid(i, 0), grid(i - 1, 0), 1); }
+   for (int j = 0; half && j < ny; ++j) { mesh.AddBdrSegment(grid(0, j), grid(0, j + 1), 5); }
    for (int k = 0; k < rings; ++k)
    {
-      mesh.AddBdrSegment(ring(0, k), ring(0, k + 1), 2);
+      mesh.AddBdrSegment(ring(0, k), ring(0, k + 1), half ? 5 : 2);
       mesh.AddBdrSegment(ring(outline, k + 1), ring(outline, k), 2);
    }
    for (int m = 0; m < outline; ++m)
    {
-      mesh.AddBdrSegment(ring(m, rings), ring(m + 1, rings), m < ny || m >= ny + nx ? 4 : 3);
+      mesh.AddBdrSegment(ring(m, rings), ring(m + 1, rings),
+                         m < left || m >= left + nx ? 4 : 3);
    }
    mesh.FinalizeQuadMesh(1, 0, false);
    return mesh;
+}
+
+} // namespace
+
+mfem::Mesh half_plane_mesh(const std::vector<double> &contact, const std::vector<double> &depth,
+                           const std::vector<double> &scale)
+{
+   check_grid("half-plane mesh", "contact", contact);
+   require(contact.front() == -contact.back(), "half-plane mesh: the contact runs from ",
+           contact.front(), " to ", contact.back(), ", must be symmetric about 0");
+   return ringed_box("half-plane mesh", contact, depth, scale, false);
+}
+
+mfem::Mesh half_space_mesh(const std::vector<double> &contact, const std::vector<double> &depth,
+                           const std::vector<double> &scale)
+{
+   check_grid("half-space mesh", "contact", contact);
+   require(contact.front() == 0, "half-space mesh: the contact starts at ", contact.front(),
+           ", must start on the axis, at 0");
+   return ringed_box("half-space mesh", contact, depth, scale, true);
 }
 
 std::vector<double> ring_scales(double a, double domain, double first, double growth)

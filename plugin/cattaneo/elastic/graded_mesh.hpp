@@ -39,8 +39,14 @@ mfem::Mesh rectangle_mesh(const std::vector<double> &x, const std::vector<double
 mfem::Mesh half_plane_mesh(const std::vector<double> &contact, const std::vector<double> &depth,
                            const std::vector<double> &scale);
 
-/// Scales 1 … domain/a for half_plane_mesh(): rings that start with the thickness `first` and
-/// grow by `growth` up to 3a, and by 1.5 beyond, where the field is smooth.
+/** The right half of the same for axisymmetry: half-space z < 0 around a contact 0 <= r <= a.
+    Boundary attributes as there, and 5 the axis. */
+mfem::Mesh half_space_mesh(const std::vector<double> &contact, const std::vector<double> &depth,
+                           const std::vector<double> &scale);
+
+/// Scales 1 … domain/a for half_plane_mesh() and half_space_mesh(): rings that start with the
+/// thickness `first` and grow by `growth` up to 3a, and by 1.5 beyond, where the field is
+/// smooth.
 std::vector<double> ring_scales(double a, double domain, double first, double growth);
 
 } // namespace cattaneo

@@ -1,0 +1,91 @@
+#include "common/disc_scene.hpp"
+
+#include <algorithm>
+#include <cattaneo/elastic/graded_mesh.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cmath>
+#include <cstdio>
+
+namespace miniapp
+{
+
+using namespace cattaneo;
+
+void DiscOptions::validate() const
+{
+   require(order >= 1 && order <= 8, "option --order is ", order, ", must be 1 to 8");
+   require(spacing > 0 && spacing <= 0.5, "option --spacing is ", spacing,
+           ", must be above 0 and at most 0.5 (in t)");
+   require(growth > 1 && growth <= 2, "growth is ", growth, ", must be above 1 and at most 2");
+   require(disc_radius >= spacing * order, "option --disc-radius is ", disc_radius,
+           ", must be at least one element, ", spacing * order, " (in t)");
+   require(domain > disc_radius + 1, "option --domain is ", domain, ", must be above ",
+           disc_radius + 1, " (in t)");
+   require(!load_radii.empty(), "there is no load radius");
+   for (double a : load_radii)
+   {
+      require(a > 0 && a <= disc_radius, "option --load-radius is ", a,
+              ", must be above 0 and at most the disc's radius ", disc_radius, " (in t)");
+   }
+}
+
+Disc make_disc(const DiscOptions &options)
+{
+   options.validate();
+   Disc scene;
+   const Material material{1.0, options.poisson};
+   const int bottom = 1, side = 2, top = 3;
+   const double b = options.disc_radius, R = options.domain;
+   // Elements hold as many intervals between nodes as their order says.
+   const double h = options.spacing * options.order;
+   const int count = std::max(1, static_cast<int>(std::lround(b / h)));
+   std::vector<double> contact;
+   for (int i = 0; i <= count; ++i) { contact.push_back(i == count ? b : b * i / count); }
+   std::vector<double> depth = graded(0, -R, h, options.growth);
+   std::reverse(depth.begin(), depth.end());
+   scene.meshes.push_back(std::make_unique<mfem::Mesh>(
+      rectangle_mesh(contact, graded(0, 1, h, options.growth, 0.1))));
+   scene.meshes.push_back(std::make_unique<mfem::Mesh>(
+      rectangle_mesh(joined({contact, graded(b, R, h, options.growth)}), depth)));
+
+   const auto add_bodies = [&](auto &bodies, Geometry geometry)
+   {
+      for (const auto &mesh : scene.meshes)
+      {
+         bodies.push_back(
+            std::make_unique<ElasticBody>(*mesh, options.order, material, geometry));
+         scene.dofs += bodies.back()->space().GetTrueVSize();
+      }
+      for (int c = 0; c < components(geometry); ++c)
+      {
+         bodies[1]->fix(BoundaryPart({bottom, side}), c);
+      }
+   };
+   const auto line_of_disc = [&](const ElasticBody &body)
+   { return contact_line(body, bottom); };
+   const auto line_below = [&](const ElasticBody &body)
+   { return contact_line(body, BoundaryPart({top}, 0, 0, b)); };
+
+   add_bodies(scene.bodies, Geometry::axisymmetric);
+   ElasticBody &disc = *scene.bodies[0], &below = *scene.bodies[1];
+   for (double a : options.load_radii)
+   {
+      char name[32];
+      std::snprintf(name, sizeof name, "a = %g", a);
+      disc.add_pressure(name, BoundaryPart({top}, 0, 0, a), 1.0);
+   }
+   const ContactLine upper = line_of_disc(disc), lower = line_below(below);
+   scene.reduction =
+      reduce(condense(disc, upper), condense(below, lower), pair_lines(upper, lower));
+   if (options.twist)
+   {
+      add_bodies(scene.torsion, Geometry::torsion);
+      ElasticBody &twisting = *scene.torsion[0], &held = *scene.torsion[1];
+      twisting.add_displacement("twist", top, 0, 1.0);
+      scene.reduction.add_torsion(condense(twisting, line_of_disc(twisting)),
+                                  condense(held, line_below(held)));
+   }
+   return scene;
+}
+
+} // namespace miniapp

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cattaneo/condense/reduction.hpp>
+#include <memory>
+#include <vector>
+
+namespace miniapp
+{
+
+/** The axisymmetric receding contact of thesis chapter 7: a disc 0 < r < b, 0 < z < t on a
+   cylinder r < R, -R < z < 0 of the same material, which stands for a half-space and is fixed
+   on its side and bottom. Dead pressure p0 on r < a of the disc's top; if it twists, u_θ = φ r
+   on the whole top.
+
+    Units t = p0 = E = 1. Every load radius is a load pattern of its own, in the given order, on
+   one condensed pair: the end of the load need not be a mesh line. The twist is the pattern
+   after them, "twist", of angle φ = 1. */
+struct DiscOptions
+{
+   double disc_radius = 5;                 ///< b, in t
+   std::vector<double> load_radii = {2.5}; ///< a, in t
+   double domain = 100;                    ///< R, in t
+   int order = 2;
+   double spacing = 0.02; ///< of the contact nodes (rounded so that elements end at b), in t
+   double growth = 1.25;  ///< of the elements away from the contact
+   double poisson = 0.3;
+   bool twist = false;
+
+   /// InputError naming the option, its value and what is allowed.
+   void validate() const;
+};
+
+/// The bodies must live as long as their reduction is used for fields.
+struct Disc
+{
+   std::vector<std::unique_ptr<mfem::Mesh>> meshes;
+   std::vector<std::unique_ptr<cattaneo::ElasticBody>> bodies;  ///< disc, half-space
+   std::vector<std::unique_ptr<cattaneo::ElasticBody>> torsion; ///< the same, or none
+   cattaneo::Reduction reduction;
+   int dofs = 0; ///< of all bodies
+};
+
+Disc make_disc(const DiscOptions &options);
+
+} // namespace miniapp

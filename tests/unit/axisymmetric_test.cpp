@@ -1,0 +1,499 @@
+#include "elastic_support.hpp"
+#include <cattaneo/elastic/stress.hpp>
+
+// Bodies of revolution: operators, loads, contact lines, and torsion as a third block.
+
+namespace
+{
+
+using namespace cattaneo;
+using namespace support;
+
+/// [0, 2] × [0, 1] with its left side on the axis (attribute 4), distorted inside.
+mfem::Mesh cylinder(const std::string &kind, double inner = 0.0, int nr = 4, int nz = 3)
+{
+   mfem::Mesh mesh = block(kind == "triangles" ? kind : "quads", nr, nz);
+   const auto distort = [&](double r, double z, double *to)
+   {
+      const double bubble = std::sin(0.5 * M_PI * r) * std::sin(M_PI * z);
+      to[0] = inner + r + 0.12 * bubble;
+      to[1] = z - 0.09 * bubble;
+   };
+   if (kind == "curved")
+   {
+      mesh.SetCurvature(2);
+      mesh.Transform(
+         [&](const mfem::Vector &x, mfem::Vector &y)
+         {
+            y.SetSize(2);
+            distort(x(0), x(1), y.GetData());
+         });
+      return mesh;
+   }
+   for (int v = 0; v < mesh.GetNV(); ++v)
+   {
+      double *x = mesh.GetVertex(v);
+      distort(x[0], x[1], x);
+   }
+   return mesh;
+}
+
+template <class F>
+VectorXd nodal(const ElasticBody &body, F field)
+{
+   VectorXd U = VectorXd::Zero(body.stiffness().Height());
+   const mfem::DenseMatrix &x = body.node_coordinates();
+   for (int node = 0; node < x.Width(); ++node)
+   {
+      for (int c = 0; c < body.components(); ++c)
+      {
+         const int dof = body.true_dof(node, c);
+         if (dof >= 0) { U[dof] = field(x(0, node), x(1, node), c); }
+      }
+   }
+   return U;
+}
+
+/// Largest |K U - F| at dofs that the axis does not hold, relative to the largest |F|.
+double imbalance(const ElasticBody &body, const VectorXd &U, double scale = 0.0)
+{
+   VectorXd residual = dense(body.stiffness()) * U;
+   for (const ElasticBody::Pattern &pattern : body.patterns())
+   {
+      residual -= eigen(pattern.values);
+      scale = std::max(scale, eigen(pattern.values).cwiseAbs().maxCoeff());
+   }
+   for (int dof : body.essential_dofs()) { residual[dof] = 0; }
+   return residual.cwiseAbs().maxCoeff() / scale;
+}
+
+const char *const kinds[] = {"quads", "triangles", "curved"};
+
+TEST(Axisymmetric, PassesThePatchTests)
+{
+   const Material material{2.0, 0.3};
+   const double lambda = material.lambda(), mu = material.mu();
+   for (const char *kind : kinds)
+   {
+      mfem::Mesh mesh = cylinder(kind);
+      for (int order : {1, 2, 3})
+      {
+         if (kind == std::string("curved") && order < 2) { continue; }
+         const auto body = [&]
+         { return ElasticBody(mesh, order, material, Geometry::axisymmetric); };
+         ElasticBody pressed = body();
+         pressed.add_pressure("p", BoundaryPart({1, 2, 3}), 1.0);
+         const double compression = 1 / (3 * lambda + 2 * mu);
+         EXPECT_LT(imbalance(pressed, nodal(pressed, [&](double r, double z, int c)
+                                            { return -compression * (c == 0 ? r : z); })),
+                   1e-11)
+            << kind << order;
+
+         // u_r = r, u_z = z/2: two states of uniform stress in one.
+         ElasticBody expanded = body();
+         const double spherical = lambda * 2.5;
+         const double radial = spherical + 2 * mu, axial = spherical + mu;
+         expanded.add_traction("t", 2, radial, 0.0);
+         expanded.add_traction("t", 3, 0.0, axial);
+         expanded.add_traction("t", 1, 0.0, -axial);
+         EXPECT_LT(imbalance(expanded, nodal(expanded, [](double r, double z, int c)
+                                             { return c == 0 ? r : 0.5 * z; })),
+                   1e-11)
+            << kind << order;
+         const Stress s = stress(material, 1.0, 0.5, 1.0, 0.0);
+         EXPECT_NEAR(s.xx, radial, 1e-14);
+         EXPECT_NEAR(s.yy, axial, 1e-14);
+         EXPECT_NEAR(s.zz, radial, 1e-14);
+
+         ElasticBody lifted = body();
+         EXPECT_LT(
+            imbalance(lifted,
+                      nodal(lifted, [](double, double, int c) { return c == 1 ? 1 : 0; }),
+                      lifted.stiffness().MaxNorm()),
+            1e-13);
+      }
+   }
+}
+
+TEST(Torsion, PassesThePatchTests)
+{
+   const Material material{2.6, 0.3}; // G = 1
+   for (const char *kind : kinds)
+   {
+      mfem::Mesh mesh = cylinder(kind);
+      for (int order : {1, 2, 3})
+      {
+         if (kind == std::string("curved") && order < 2) { continue; }
+         ElasticBody body(mesh, order, material, Geometry::torsion);
+         EXPECT_EQ(body.stiffness().Height(), body.node_coordinates().Width());
+         EXPECT_EQ(body.essential_dofs().Size(), 0);
+         EXPECT_LT(imbalance(body, nodal(body, [](double, double, int) { return 1; }),
+                             body.stiffness().MaxNorm()),
+                   1e-13);
+         // A twisted bar: u_θ = r z, τ_θz = G r; torque G π R⁴/2.
+         const auto linear = [](double r, double) { return r; };
+         body.add_traction("t", 3, linear);
+         EXPECT_NEAR(eigen(body.patterns()[0].values).sum(), 0.5 * M_PI * 16, 1e-12);
+         body.add_traction("t", 1, [](double r, double) { return -r; });
+         EXPECT_LT(imbalance(body, nodal(body, [](double, double z, int) { return z; })), 1e-11)
+            << kind << order;
+      }
+   }
+}
+
+/// Lamé's cylinder 1 < r < 2 under inner pressure, held between planes.
+TEST(Axisymmetric, ThickWalledCylinderConvergesAtTheElementsRate)
+{
+   const double E = 1.0, nu = 0.3, a = 1, b = 2;
+   const double k = (1 + nu) / E * a * a / (b * b - a * a);
+   const double inner = k * ((1 - 2 * nu) * a + b * b / a);
+   const double work = 2 * M_PI * a * inner; // p × area × displacement, height 1
+   for (int order : {1, 2, 3})
+   {
+      double before = 0;
+      for (int elements : {4, 8, 16})
+      {
+         mfem::Mesh mesh = rectangle_mesh(uniform(a, b, elements), uniform(0, 1, 1));
+         ElasticBody body(mesh, order, {E, nu}, Geometry::axisymmetric);
+         body.add_pressure("p", 4, 1.0);
+         for (int face : {1, 3}) { body.fix(face, 1); }
+         MatrixXd K = dense(body.stiffness());
+         VectorXd F = eigen(body.patterns()[0].values);
+         for (int dof : body.essential_dofs())
+         {
+            K.row(dof).setZero();
+            K.col(dof).setZero();
+            K(dof, dof) = 1;
+            F[dof] = 0;
+         }
+         // The energy is short by the square of the error's energy norm.
+         const double error = 1 - F.dot(K.llt().solve(F)) / work;
+         EXPECT_GT(error, 0);
+         if (elements == 16)
+         {
+            EXPECT_NEAR(std::log2(before / error), 2 * order, 0.15) << order;
+         }
+         before = error;
+      }
+   }
+}
+
+TEST(Axisymmetric, PartialLoadsAreExact)
+{
+   for (const char *kind : {"quads", "triangles"})
+   {
+      mfem::Mesh mesh = cylinder(kind);
+      for (int order : {1, 2, 4})
+      {
+         const double a = 0.7321;
+         const BoundaryPart top({3}, 0, 0, a);
+         ElasticBody body(mesh, order, Material{}, Geometry::axisymmetric);
+         body.add_pressure("p", top, 2.0);
+         body.add_body_force("weight", 0.0, -1.0);
+         const VectorXd up =
+            nodal(body, [](double, double, int c) { return c == 1 ? 1.0 : 0.0; });
+         EXPECT_NEAR(up.dot(eigen(body.patterns()[0].values)), -2 * M_PI * a * a, 1e-13);
+         EXPECT_NEAR(up.dot(eigen(body.patterns()[1].values)), -4 * M_PI, 1e-12);
+         const VectorXd tilt =
+            nodal(body, [](double r, double, int c) { return c == 1 ? r : 0.0; });
+         EXPECT_NEAR(tilt.dot(eigen(body.patterns()[0].values)), -4 * M_PI * a * a * a / 3,
+                     1e-13);
+         ElasticBody twisted(mesh, order, Material{}, Geometry::torsion);
+         twisted.add_traction("t", top, [](double r, double) { return 1 + r; });
+         EXPECT_NEAR(eigen(twisted.patterns()[0].values).sum(),
+                     2 * M_PI * (std::pow(a, 3) / 3 + std::pow(a, 4) / 4), 1e-13);
+      }
+   }
+}
+
+TEST(Axisymmetric, TheAxisIsHeldAndTheOtherSideRefused)
+{
+   mfem::Mesh mesh = cylinder("quads");
+   for (int order : {1, 3})
+   {
+      ElasticBody body(mesh, order, Material{}, Geometry::axisymmetric);
+      EXPECT_EQ(body.essential_dofs().Size(), 3 * order + 1);
+      for (int node = 0; node < body.node_coordinates().Width(); ++node)
+      {
+         if (body.node_coordinates()(0, node) == 0)
+         {
+            EXPECT_GE(body.essential_dofs().Find(body.true_dof(node, 0)), 0);
+         }
+      }
+      body.add_displacement("squeeze", 1, 0, [](double r, double) { return -r; });
+      expect_input_error([&] { body.add_displacement("bad", 1, 0, 1.0); },
+                         "must be zero on the axis");
+      expect_input_error([&] { body.fix(1, 2); }, "must be 0 (r) or 1 (z)");
+      expect_input_error([&] { body.add_traction("t", 3, 1.0); }, "must be two");
+      ElasticBody torsion(mesh, order, Material{}, Geometry::torsion);
+      expect_input_error([&] { torsion.fix(1, 1); }, "must be 0 (twist)");
+      expect_input_error([&] { torsion.add_pressure("p", 3, 1.0); }, "must be 0 (twist)");
+   }
+   EXPECT_EQ(ElasticBody(mesh, 1, Material{}).essential_dofs().Size(), 0);
+   mfem::Mesh across = cylinder("quads", -0.25);
+   for (auto geometry : {Geometry::axisymmetric, Geometry::torsion})
+   {
+      expect_input_error([&] { ElasticBody(across, 1, Material{}, geometry); },
+                         "is at r = -0.25");
+      expect_input_error(
+         [&] {
+            ElasticBody(mesh, 1, Material{1, 0.3, PlaneState::stress}, geometry);
+         },
+         "plane stress");
+   }
+}
+
+TEST(Axisymmetric, ContactLineWeighsAreasAndLeavesTheAxisOut)
+{
+   for (const char *kind : {"quads", "triangles", "curved"})
+   {
+      mfem::Mesh mesh = cylinder(kind);
+      for (int order : {1, 2, 3})
+      {
+         ElasticBody body(mesh, order, Material{}, Geometry::axisymmetric);
+         for (int attribute : {1, 3})
+         {
+            const ContactLine line = contact_line(body, attribute);
+            EXPECT_EQ(line.size(), 4 * order);
+            EXPECT_GT(line.position.col(0).minCoeff(), 0);
+            EXPECT_NEAR(line.weights.sum(), 4 * M_PI, 1e-13);
+            EXPECT_NEAR(line.weights.dot(line.position.col(0)), 2 * M_PI * 8 / 3.0,
+                        order == 1 ? 0.2 : 1e-13); // the axis node's share sits at r = 1/2
+            const double sign = attribute == 1 ? 1 : -1;
+            EXPECT_NEAR((line.normal.col(1).array() - sign).abs().maxCoeff(), 0, 1e-14);
+            for (Eigen::Index i = 0; i < line.size(); ++i)
+            {
+               const double r = line.position(i, 0);
+               EXPECT_NEAR(line.arc_length[i], attribute == 1 ? r : 2 - r, 1e-14);
+            }
+         }
+         ElasticBody torsion(mesh, order, Material{}, Geometry::torsion);
+         EXPECT_EQ(contact_line(torsion, 1).scalar_dofs, contact_line(body, 1).scalar_dofs);
+         EXPECT_EQ(contact_line(torsion, 1).true_dofs[0][1], -1);
+         expect_input_error([&] { contact_line(body, 4); }, "alone on the axis");
+      }
+   }
+}
+
+/// Two rings, one on the other, against both as one body with the same nodes.
+struct Stack
+{
+   mfem::Mesh lower = rectangle_mesh(uniform(1, 2, 3), uniform(-1, 0, 3));
+   mfem::Mesh upper = rectangle_mesh(uniform(1, 2, 3), uniform(0, 0.7, 2));
+   mfem::Mesh both =
+      rectangle_mesh(uniform(1, 2, 3), joined({uniform(-1, 0, 3), uniform(0, 0.7, 2)}));
+   int order = 2;
+   Material material{1.7, 0.3};
+
+   ElasticBody body(mfem::Mesh &mesh, Geometry geometry, bool held, bool loaded) const
+   {
+      ElasticBody result(mesh, order, material, geometry);
+      if (held)
+      {
+         for (int c = 0; c < result.components(); ++c) { result.fix(1, c); }
+      }
+      if (loaded && geometry == Geometry::axisymmetric)
+      {
+         result.add_pressure("p", BoundaryPart({3}, 0, 1.0, 1.4), 1.0);
+      }
+      if (loaded && geometry == Geometry::torsion)
+      {
+         result.add_traction("torque", 3, [](double r, double) { return r * r; });
+      }
+      return result;
+   }
+
+   Reduction reduction(bool torsion)
+   {
+      const ElasticBody top = body(upper, Geometry::axisymmetric, false, true),
+                        bottom = body(lower, Geometry::axisymmetric, true, false);
+      const ContactLine above = contact_line(top, 1), below = contact_line(bottom, 3);
+      Reduction result =
+         reduce(condense(top, above), condense(bottom, below), pair_lines(above, below));
+      if (torsion)
+      {
+         const ElasticBody t = body(upper, Geometry::torsion, false, true),
+                           b = body(lower, Geometry::torsion, true, false);
+         result.add_torsion(condense(t, contact_line(t, 1)), condense(b, contact_line(b, 3)));
+      }
+      return result;
+   }
+};
+
+VectorXd solved(const ElasticBody &body)
+{
+   MatrixXd K = dense(body.stiffness());
+   VectorXd F = eigen(body.patterns()[0].values);
+   for (int dof : body.essential_dofs())
+   {
+      K.row(dof).setZero();
+      K.col(dof).setZero();
+      K(dof, dof) = 1;
+      F[dof] = 0;
+   }
+   return K.llt().solve(F);
+}
+
+TEST(Torsion, JoinsTheReducedProblemAsAThirdBlock)
+{
+   Stack stack;
+   Reduction plain = stack.reduction(false), joined = stack.reduction(true);
+   EXPECT_EQ(plain.problem.components(), 1);
+   ReducedProblem &problem = joined.problem;
+   problem.validate();
+   const Eigen::Index n = problem.nodes();
+   ASSERT_EQ(problem.components(), 2);
+   EXPECT_EQ(problem.A.topLeftCorner(n, n), plain.problem.A);
+   EXPECT_EQ(problem.B.leftCols(n), plain.problem.B);
+   EXPECT_EQ(problem.C, plain.problem.C);
+   EXPECT_EQ(problem.A.topRightCorner(n, n).norm(), 0);
+   EXPECT_EQ(problem.B.rightCols(n).norm(), 0);
+   ASSERT_EQ(problem.patterns.size(), 2u);
+   EXPECT_EQ(problem.patterns[0].q.tail(n).norm(), 0);
+   EXPECT_EQ(problem.patterns[1].q.head(n).norm(), 0);
+   EXPECT_EQ(problem.patterns[1].p.norm(), 0);
+   // What a scene does not need is not built: half of everything.
+   EXPECT_EQ(plain.counters.assemblies, 2);
+   EXPECT_EQ(plain.counters.factorisations, 2);
+   EXPECT_EQ(plain.counters.unions, 1);
+   EXPECT_EQ(joined.counters.assemblies, 4);
+   EXPECT_EQ(joined.counters.factorisations, 4);
+   EXPECT_EQ(joined.counters.unions, 2);
+
+   // Torque of the load on the held contact: ∫ r² r 2πr dr = 2π (2⁵ - 1)/5.
+   const VectorXd r = problem.position.col(0);
+   EXPECT_NEAR(problem.patterns[1].q.tail(n).dot(r), -2 * M_PI * 31 / 5, 1e-11);
+   // The upper ring can spin: no torque resists where nothing presses it to the lower one.
+   const MatrixXd A_theta = problem.A.bottomRightCorner(n, n);
+   EXPECT_LT((A_theta * r).norm(), 1e-12 * A_theta.norm() * r.norm());
+
+   // Bonded: the same displacements as the one body.
+   const VectorXd none = VectorXd::Zero(2 * n), w = VectorXd::Zero(n);
+   const ElasticBody whole = stack.body(stack.both, Geometry::axisymmetric, true, true);
+   const ElasticBody whole_torsion = stack.body(stack.both, Geometry::torsion, true, true);
+   const VectorXd U = solved(whole), psi = solved(whole_torsion);
+   const mfem::DenseMatrix &x = whole.node_coordinates();
+   for (int b : {0, 1})
+   {
+      ElasticBody part =
+         stack.body(b == 0 ? stack.upper : stack.lower, Geometry::axisymmetric, false, false);
+      ElasticBody twisting =
+         stack.body(b == 0 ? stack.upper : stack.lower, Geometry::torsion, false, false);
+      const VectorXd u = eigen(joined.displacement(b, none, w, VectorXd::Unit(2, 0)));
+      const VectorXd twist = eigen(joined.twist(b, none, VectorXd::Unit(2, 1)));
+      int found = 0;
+      for (int node = 0; node < part.node_coordinates().Width(); ++node)
+      {
+         for (int other = 0; other < x.Width(); ++other)
+         {
+            if (std::hypot(x(0, other) - part.node_coordinates()(0, node),
+                           x(1, other) - part.node_coordinates()(1, node)) > 1e-9)
+            {
+               continue;
+            }
+            ++found;
+            for (int c : {0, 1})
+            {
+               EXPECT_NEAR(u[part.true_dof(node, c)], U[whole.true_dof(other, c)],
+                           1e-11 * U.cwiseAbs().maxCoeff());
+            }
+            EXPECT_NEAR(twist[twisting.true_dof(node, 0)],
+                        psi[whole_torsion.true_dof(other, 0)],
+                        1e-11 * psi.cwiseAbs().maxCoeff());
+         }
+      }
+      EXPECT_EQ(found, part.node_coordinates().Width());
+   }
+   // Conjugate of a force pattern: its displacement, here the torque's mean angle.
+   EXPECT_NEAR(problem.H(1, 1), psi.dot(eigen(whole_torsion.patterns()[0].values)),
+               1e-11 * problem.H(1, 1));
+   EXPECT_EQ(problem.H(0, 1), 0);
+}
+
+/// Signs of v_θ and q_θ: the upper body turned by a given angle, or the lower one.
+TEST(Torsion, SlipIsThatOfBodyOneRelativeToBodyTwo)
+{
+   Stack stack;
+   for (int turned : {0, 1})
+   {
+      ElasticBody top = stack.body(stack.upper, Geometry::torsion, false, false),
+                  bottom = stack.body(stack.lower, Geometry::torsion, false, false);
+      // The twist of one outer face is prescribed, the other held.
+      (turned == 0 ? top : bottom).add_displacement("turn", turned == 0 ? 3 : 1, 0, 0.1);
+      (turned == 0 ? bottom : top).fix(turned == 0 ? 1 : 3, 0);
+      const ElasticBody a = stack.body(stack.upper, Geometry::axisymmetric, false, true),
+                        b = stack.body(stack.lower, Geometry::axisymmetric, true, false);
+      const ContactLine above = contact_line(a, 1), below = contact_line(b, 3);
+      Reduction joined =
+         reduce(condense(a, above), condense(b, below), pair_lines(above, below));
+      joined.add_torsion(condense(top, contact_line(top, 1)),
+                         condense(bottom, contact_line(bottom, 3)));
+      const ReducedProblem &problem = joined.problem;
+      const Eigen::Index n = problem.nodes();
+      const VectorXd q = problem.patterns[1].q.tail(n), r = problem.position.col(0);
+      // Bonded, the contact is carried along: the force on body 1 opposes its own turning.
+      EXPECT_LT((turned == 0 ? 1 : -1) * q.dot(r), 0);
+      // Slipping freely, q = 0: the turned body turns rigidly.
+      const VectorXd v = -problem.A.bottomRightCorner(n, n).llt().solve(q);
+      EXPECT_LT(difference(v, (turned == 0 ? 0.1 : -0.1) * r), 1e-10);
+      VectorXd slip = VectorXd::Zero(2 * n);
+      slip.tail(n) = v;
+      for (int body : {0, 1})
+      {
+         const VectorXd twist = eigen(joined.twist(body, slip, VectorXd::Unit(2, 1)));
+         EXPECT_NEAR(twist.minCoeff(), body == turned ? 0.1 : 0.0, 1e-11);
+         EXPECT_NEAR(twist.maxCoeff(), body == turned ? 0.1 : 0.0, 1e-11);
+      }
+      // Torque of the prescribed rotation: the contact's, while it is bonded.
+      EXPECT_NEAR(problem.H(1, 1) * 1.0, 0.1 * std::abs(q.dot(r)), 1e-12);
+   }
+}
+
+TEST(Torsion, RefusesWhatDoesNotBelongTogether)
+{
+   Stack stack;
+   const ElasticBody bottom = stack.body(stack.lower, Geometry::axisymmetric, true, false),
+                     torsion = stack.body(stack.lower, Geometry::torsion, true, false),
+                     other = stack.body(stack.upper, Geometry::torsion, true, false),
+                     plane(stack.lower, 2, Material{});
+   const ContactLine line = contact_line(bottom, 3);
+   const CondensedBody twist = condense(torsion, contact_line(torsion, 3));
+   Reduction one = reduce(condense(bottom, line));
+   expect_input_error([&] { reduce(twist); }, "one of torsion");
+   expect_input_error([&] { one.add_torsion(twist, twist); }, "2 bodies to a reduction of 1");
+   expect_input_error([&] { one.add_torsion(condense(other, contact_line(other, 3))); },
+                      "must be the same");
+   expect_input_error([&] { one.add_torsion(condense(bottom, line)); }, "its torsion");
+   one.add_torsion(twist);
+   EXPECT_EQ(one.problem.components(), 2);
+   expect_input_error([&] { one.add_torsion(twist); }, "2 tangential components");
+   expect_input_error(
+      [&]
+      { reduce(condense(plane, contact_line(plane, 1)), condense(bottom, line), Pairing()); },
+      "both axisymmetric");
+}
+
+TEST(Axisymmetric, OnlyTranslationAlongTheAxisIsRigid)
+{
+   Stack stack;
+   const auto modes = [](const ElasticBody &body)
+   { return condense(body, contact_line(body, 1)).rigid_modes; };
+   ElasticBody free = stack.body(stack.upper, Geometry::axisymmetric, false, false);
+   EXPECT_EQ(modes(free), 1);
+   ElasticBody torsion = stack.body(stack.upper, Geometry::torsion, false, false);
+   EXPECT_EQ(modes(torsion), 1);
+   for (ElasticBody *body : {&free, &torsion})
+   {
+      const CondensedBody condensed = condense(*body, contact_line(*body, 1));
+      const VectorXd Z = condensed.rigid_motions();
+      EXPECT_LT((condensed.S * Z).norm(), 1e-13 * condensed.S.norm() * Z.norm());
+   }
+   free.fix(BoundaryPart({2}, 1, 0.3, 0.7), 0); // does not hold it
+   EXPECT_EQ(modes(free), 1);
+   free.fix_node(2, 0.7, 1);
+   EXPECT_EQ(modes(free), 0);
+   torsion.fix_node(2, 0.7, 0);
+   EXPECT_EQ(modes(torsion), 0);
+}
+
+} // namespace
