@@ -1,3 +1,4 @@
+#include <cattaneo/friction/complementarity.hpp>
 #include <cattaneo/friction/friction_disc.hpp>
 #include <cattaneo/friction/friction_solver.hpp>
 #include <cattaneo/friction/lemke.hpp>
@@ -156,9 +157,13 @@ struct FrictionSolver::Implementation
       return 4 * eps * (K_norm * u.cwiseAbs().maxCoeff() + f.cwiseAbs().maxCoeff());
    }
    IncrementReport solve(ContactState &state, const VectorXd &multipliers);
+   IncrementReport uniqueness(const std::vector<NodeState> &states) const;
    bool run_gauss_seidel(IncrementReport &report);
-   bool run_automatic(IncrementReport &report, const VectorXd &multipliers);
+   bool run_automatic(IncrementReport &report, const ContactState &state,
+                      const VectorXd &multipliers);
    bool run_lemke(IncrementReport &report);
+   bool run_path(IncrementReport &report, const ContactState &state);
+   bool polished(IncrementReport &report);
 };
 
 FrictionSolver::Implementation::Implementation(const ReducedProblem &given,
@@ -858,20 +863,69 @@ bool FrictionSolver::Implementation::lemke_start()
 
 bool FrictionSolver::Implementation::run_lemke(IncrementReport &report)
 {
-   if (disc() || !lemke_start()) { return false; }
-   const VectorXd u_lemke = u, F_lemke = F;
-   const std::vector<NodeState> status_lemke = status;
-   // The pivots leave round-off of their own; the equations of the final states remove it.
+   return !disc() && lemke_start() && polished(report);
+}
+
+/// Pivots leave round-off of their own; the equations of the final states remove it.
+bool FrictionSolver::Implementation::polished(IncrementReport &report)
+{
+   const VectorXd u_found = u, F_found = F;
+   const std::vector<NodeState> status_found = status;
    if (newton(settings.max_newton))
    {
       residuals(report);
       if (accepted(report)) { return true; }
    }
-   u = u_lemke;
-   F = F_lemke;
-   status = status_lemke;
+   u = u_found;
+   F = F_found;
+   status = status_found;
    residuals(report);
    return accepted(report);
+}
+
+/// Follows the solutions from the old loads to the new ones, one node's state at a time.
+bool FrictionSolver::Implementation::run_path(IncrementReport &report,
+                                              const ContactState &state)
+{
+   if (disc()) { return false; } // its states are not linear
+   const Index N = K.rows();
+   VectorXd stuck(N), forces(N), friction = problem.friction;
+   stuck.tail(n) = -problem.gap;
+   forces.tail(n) = state.p;
+   if (frictionless) { friction.setZero(); }
+   else
+   {
+      stuck.head(n) = v_old;
+      forces.head(n) = state.q;
+   }
+   ComplementarityProblem increment;
+   increment.b = f + K * stuck;
+   increment.choice.assign(n, Choice::any);
+   VectorXd x = VectorXd::Zero(N);
+   x.tail(n) = state.w + problem.gap;
+   std::vector<NodeState> states = state.status;
+   for (NodeState &s : states)
+   {
+      if (slips(s)) { s = NodeState::stick; }
+   }
+   // Small departures follow the physical path; larger ones pass by its dead ends.
+   const double slacks[] = {1e-3, 1e-2, 0.1, 1, 10, 1, 0.1, 1};
+   unsigned seed = 0;
+   for (double slack : slacks)
+   {
+      StateEquations equations(K, friction);
+      if (!equations.set(states)) { states.assign(n, NodeState::stick); }
+      const ComplementarityReport path =
+         solve_by_path(equations, friction, increment, x, forces, slack, ++seed);
+      counters.pivots += path.pivots;
+      counters.dense_factorisations += equations.factorisations();
+      if (!path.solved) { continue; }
+      u = stuck + path.x;
+      F = f + K * u;
+      status = equations.states();
+      if (polished(report)) { return true; }
+   }
+   return false;
 }
 
 bool FrictionSolver::Implementation::run_gauss_seidel(IncrementReport &report)
@@ -894,6 +948,7 @@ bool FrictionSolver::Implementation::run_gauss_seidel(IncrementReport &report)
 }
 
 bool FrictionSolver::Implementation::run_automatic(IncrementReport &report,
+                                                   const ContactState &state,
                                                    const VectorXd &multipliers)
 {
    int sweeps = settings.sweeps;
@@ -913,7 +968,7 @@ bool FrictionSolver::Implementation::run_automatic(IncrementReport &report,
       F = f + K * u;
       sweeps = std::max(4, 2 * sweeps);
    }
-   return run_lemke(report);
+   return run_path(report, state);
 }
 
 /// True if no admissible contact forces can balance the loads: there is nothing to search for.
@@ -980,7 +1035,7 @@ IncrementReport FrictionSolver::Implementation::solve(ContactState &state,
    switch (settings.method)
    {
    case FrictionMethod::automatic:
-      solved = run_automatic(report, multipliers);
+      solved = run_automatic(report, state, multipliers);
       break;
    case FrictionMethod::gauss_seidel:
       solved = run_gauss_seidel(report);
@@ -997,10 +1052,20 @@ IncrementReport FrictionSolver::Implementation::solve(ContactState &state,
       return report;
    }
    finish(state, multipliers);
+   const IncrementReport unique = uniqueness(status);
+   report.status = unique.status;
+   report.message = unique.message;
+   return report;
+}
+
+IncrementReport
+FrictionSolver::Implementation::uniqueness(const std::vector<NodeState> &states) const
+{
+   IncrementReport report;
    report.status = FrictionStatus::converged;
    for (Index i = 0; !frictionless && i < n; ++i)
    {
-      if (closed(status[i]) && problem.friction[i] >= critical[i])
+      if (closed(states[i]) && problem.friction[i] >= critical[i])
       {
          std::ostringstream message;
          message << "friction " << problem.friction[i] << " at node " << i
@@ -1045,6 +1110,10 @@ double FrictionSolver::critical_friction() const
 Index FrictionSolver::critical_node() const
 {
    return impl_->critical_node;
+}
+IncrementReport FrictionSolver::uniqueness(const std::vector<NodeState> &states) const
+{
+   return impl_->uniqueness(states);
 }
 const Counters &FrictionSolver::counters() const
 {

@@ -11,10 +11,10 @@ namespace cattaneo
 
 enum class FrictionMethod
 {
-   automatic,    ///< a few Gauss–Seidel sweeps, active-set finish, Lemke if both fail
+   automatic,    ///< a few Gauss–Seidel sweeps, active-set finish; a path if both fail
    gauss_seidel, ///< node by node only (thesis 3.5, appendix D)
-   lemke ///< the complementarity problem on (w, v⁺, v⁻), then one active-set solve (one
-         ///< tangential component only)
+   lemke ///< the complementarity problem on (w, v⁺, v⁻) by a dense tableau, then one
+         ///< active-set solve: slow, a check of the others (one tangential component only)
 };
 
 struct FrictionSettings
@@ -25,7 +25,7 @@ struct FrictionSettings
    /// (reported).
    double tolerance = 1e-12;
    int sweeps = 2;       ///< Gauss–Seidel sweeps before the first active-set attempt
-   int max_attempts = 6; ///< active-set attempts, each after twice the sweeps of the one before
+   int max_attempts = 3; ///< active-set attempts, each after twice the sweeps of the one before
    int max_newton = 60;  ///< active-set steps of one attempt
    long max_sweeps = 100000; ///< sweeps of the pure Gauss–Seidel method
 
@@ -74,6 +74,9 @@ public:
    /// node has no unique answer (with two components: need not have one), and the node.
    double critical_friction() const;
    Eigen::Index critical_node() const;
+   /// converged; or not_unique, with the node in the message, if a node that is closed in these
+   /// states has friction above its critical value.
+   IncrementReport uniqueness(const std::vector<NodeState> &states) const;
    const Counters &counters() const;
 
 private:

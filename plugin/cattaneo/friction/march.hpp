@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cattaneo/friction/exact_path.hpp>
 #include <cattaneo/friction/friction_solver.hpp>
 #include <cattaneo/friction/load_history.hpp>
 #include <functional>
@@ -16,7 +17,11 @@ enum class Stepping
    fixed,
    /// As fixed, and an increment is halved while contact advances by more than one layer of
    /// nodes (each newly closed node must have had a closed neighbour).
-   advancing
+   advancing,
+   /// No increments: from one change of state to the next, exactly (see ExactPath). Pieces that
+   /// one increment solves exactly take that one. Where there is no path to follow, the next of
+   /// the equal increments is taken instead: counted, with the reason, in the report.
+   exact
 };
 
 struct MarchSettings
@@ -69,8 +74,13 @@ struct MarchReport
    Eigen::VectorXd event_multipliers;
    std::vector<IncrementRecord> increments;
    std::vector<CycleRecord> cycles;
-   int steady_cycle = 0;  ///< first cycle of the steady state; 0: not reached
-   int steady_period = 0; ///< 1 or 2
+   /// Stepping::exact: every change of state, in the order of the path. A piece that took one
+   /// increment lists its changes at its start.
+   std::vector<StateChange> changes;
+   int fallbacks = 0;           ///< increments taken because there was no exact path to follow
+   std::string fallback_reason; ///< of the first of them
+   int steady_cycle = 0;        ///< first cycle of the steady state; 0: not reached
+   int steady_period = 0;       ///< 1 or 2
    /// Energy balance of the march: external work - change of elastic energy - dissipation -
    /// normal work, over the largest of them. Round-off if all is well.
    double energy_imbalance = 0;
