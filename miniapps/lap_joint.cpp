@@ -13,9 +13,9 @@
 //                lap_joint -bolts "-1.5 0 1.5" -friction 0.4 -load 0.2 -spacing 0.025
 //                lap_joint -bolts "-1.2 0 1.2" -lower-thickness 2 -load 0.1 -spacing 0.025
 
-#include "common/figure.hpp"
+#include "common/contact_edges.hpp"
 #include "common/lap_joint_scene.hpp"
-#include "common/miniapp.hpp"
+#include "common/study_output.hpp"
 
 #include <algorithm>
 #include <cattaneo/friction/march.hpp>
@@ -34,12 +34,6 @@ namespace
 {
 
 const double none = std::numeric_limits<double>::quiet_NaN();
-
-nlohmann::ordered_json json_number(double value)
-{
-   return std::isfinite(value) ? nlohmann::ordered_json(value)
-                               : nlohmann::ordered_json(nullptr);
-}
 
 double half_width(const Zone &zone)
 {
@@ -396,6 +390,14 @@ int Study::single()
    results["steady_period"] = o.report.steady_period;
    results["zones"] = evolution;
    results["seconds_march"] = o.report.seconds;
+   // The remote load goes from none to its peak: the pressed state is the cycle's other end.
+   miniapp::EdgeStudy edges{problem(), o.tightened, o.first_peak};
+   edges.opposite = &edges.pressed;
+   edges.cycle = &o.report.cycles.back();
+   edges.modulus = 0.5; // E*, with E' = 1 of both laps
+   const miniapp::EdgeReport report = miniapp::read_edges(edges);
+   miniapp::print(report, [&](double s) { return x(s); });
+   results["edges"] = miniapp::to_json(report);
    compare(o);
    draw(o, diagram);
    return 0;
@@ -453,8 +455,8 @@ int Study::sweep(const std::vector<double> &loads, const std::vector<double> &fr
                                {"a", o.a},
                                {"c_first", o.c_first},
                                {"c_steady", o.c_steady},
-                               {"dissipation_first", json_number(first)},
-                               {"dissipation_steady", json_number(steady)},
+                               {"dissipation_first", miniapp::json_number(first)},
+                               {"dissipation_steady", miniapp::json_number(steady)},
                                {"status", name(o.report.status)}});
                if (pressure == 1) { by_p0[k].push_back(steady); }
                if (pressure != 1 || width == P0()) { by_P0[k].push_back(steady); }
@@ -547,12 +549,12 @@ int main(int argc, char *argv[])
    return miniapp::run(
       [&]
       {
-         const miniapp::Stopwatch watch;
+         miniapp::StudyOutput output;
          Study study;
          miniapp::LapJointOptions &options = study.options;
          options.spacing = 0.005;
          const char *bolts = "0", *tightening = "", *sweep_load = "", *sweep_friction = "",
-                    *sweep_width = "", *json = "", *csv = "", *plot = "";
+                    *sweep_width = "";
          bool touch = false, all_cycles = false;
          mfem::OptionsParser args(argc, argv);
          args.AddOption(&options.widths[0], "-width", "--width",
@@ -590,9 +592,7 @@ int main(int argc, char *argv[])
                         "Distance of the contact nodes, in t.");
          args.AddOption(&options.poisson, "-poisson", "--poisson",
                         "Poisson's ratio of both laps.");
-         args.AddOption(&json, "-json", "--json", "File for the results.");
-         args.AddOption(&csv, "-csv", "--csv", "Prefix of CSV files for the figures.");
-         args.AddOption(&plot, "-plot", "--plot", "Picture of the results (png, pdf, svg).");
+         output.add_options(args);
          miniapp::parse(args);
 
          require(study.friction > 0, "option --friction is ", study.friction,
@@ -623,10 +623,7 @@ int main(int argc, char *argv[])
 
          study.joint = miniapp::make_lap_joint(options);
          study.counters = study.joint.reduction.counters;
-         const double condensed = watch.seconds();
-         std::cout << "Condensed " << study.joint.dofs << " dofs to "
-                   << 2 * study.problem().nodes() << " in " << condensed << " s ("
-                   << study.counters.factorisations << " factorisations)" << std::endl;
+         output.reduced(study.problem(), study.joint.dofs);
          int code = single ? study.single() : study.row(all);
          nlohmann::ordered_json &results = study.results;
          if (code == 0 && touch)
@@ -638,7 +635,7 @@ int main(int argc, char *argv[])
                touch_load(solver, study.tightening(all[0]).back(), study.joint.remote(), limit);
             const double ratio = load / study.P0();
             std::printf("\nThe free ends touch at T/P0 = %.5f\n", ratio);
-            results["touch_load"] = json_number(ratio);
+            results["touch_load"] = miniapp::json_number(ratio);
             if (!study.table.empty())
             {
                study.table.add("T/P0 at which the free ends touch", -0.0402, 3e-4, -0.04,
@@ -646,16 +643,8 @@ int main(int argc, char *argv[])
             }
          }
          if (code == 0 && !loads.empty()) { code = study.sweep(loads, frictions, widths); }
-         study.table.print();
          results["code"] = code;
-         results["contact_nodes"] = study.problem().nodes();
-         results["dofs"] = study.joint.dofs;
-         results["seconds"] = watch.seconds();
-         results["seconds_condensation"] = condensed;
-         results["counters"] = miniapp::to_json(study.counters);
-         results["references"] = study.table.json();
-         miniapp::write_json(results, json);
-         miniapp::output(study.panels, csv, plot);
+         output.write(results, study.counters, study.table, study.panels);
          return code;
       });
 }

@@ -13,9 +13,8 @@
 //                plane_receding -overhang 0.8 -friction 1.4
 //                plane_receding -map "0.4 0.8 1.2 1.6 2 3" -spacing 0.05 -corner 0.01
 
-#include "common/figure.hpp"
-#include "common/miniapp.hpp"
 #include "common/receding.hpp"
+#include "common/study_output.hpp"
 
 #include <algorithm>
 #include <cattaneo/friction/march.hpp>
@@ -33,12 +32,6 @@ namespace
 {
 
 const double none = std::numeric_limits<double>::quiet_NaN();
-
-nlohmann::ordered_json json_number(double value)
-{
-   return std::isfinite(value) ? nlohmann::ordered_json(value)
-                               : nlohmann::ordered_json(nullptr);
-}
 
 /// Separation and border of stick, as the thesis counts them; NaN where there is none.
 struct Extent
@@ -74,8 +67,8 @@ nlohmann::ordered_json to_json(const Extent &extent, double overhang)
                       {"from", zone.from.position - overhang},
                       {"to", zone.to.position - overhang}});
    }
-   return {{"separation", json_number(extent.s)},
-           {"stick_slip", json_number(extent.e)},
+   return {{"separation", miniapp::json_number(extent.s)},
+           {"stick_slip", miniapp::json_number(extent.e)},
            {"separation_error", extent.s_error},
            {"stick_slip_error", extent.e_error},
            {"zones", list}};
@@ -201,9 +194,9 @@ void Study::bonded(double overhang, int pattern)
                   b.adhesion_x);
    }
    else { std::printf("  the bonded strip pulls: no friction keeps it together\n"); }
-   results["adhesion_friction"] = json_number(b.adhesion_friction);
+   results["adhesion_friction"] = miniapp::json_number(b.adhesion_friction);
    results["adhesion_x"] = b.adhesion_x;
-   results["corner_ratio"] = json_number(b.corner_ratio);
+   results["corner_ratio"] = miniapp::json_number(b.corner_ratio);
    results["corner_strength"] = {b.k1_pressure, b.k2_pressure};
    results["lowest_bonded_pressure"] = b.lowest_pressure;
    if (options.order >= 2 && options.corner <= 5e-4)
@@ -262,8 +255,8 @@ int Study::map(const std::vector<double> &overhangs, const std::vector<double> &
          std::printf("%7.3g %8.4g %8.4f %8.4f\n", f, overhangs[k], found.s, found.e);
          list.push_back({{"friction", f},
                          {"overhang", overhangs[k]},
-                         {"separation", json_number(found.s)},
-                         {"stick_slip", json_number(found.e)}});
+                         {"separation", miniapp::json_number(found.s)},
+                         {"stick_slip", miniapp::json_number(found.e)}});
          compare_loading(overhangs[k], f, found);
       }
       char label[32];
@@ -389,8 +382,8 @@ int Study::unload(FrictionSolver &solver, ContactState &state, double overhang, 
       slip_list.push_back({{"xi", h.xi},
                            {"level", h.level},
                            {"slip", h.slip},
-                           {"slips_from", json_number(h.slips_from)},
-                           {"separates_at", json_number(h.separates_at)}});
+                           {"slips_from", miniapp::json_number(h.slips_from)},
+                           {"separates_at", miniapp::json_number(h.separates_at)}});
       char label[32];
       std::snprintf(label, sizeof label, "ξ/t = %g", h.xi);
       slip_panel.add(label, h.level, h.slip);
@@ -456,12 +449,11 @@ int main(int argc, char *argv[])
    return miniapp::run(
       [&]
       {
-         const miniapp::Stopwatch watch;
+         miniapp::StudyOutput output;
          Study study;
          miniapp::RecedingOptions &options = study.options;
          const char *domain = "hp", *unload_list = "", *slip_list = "-0.5 0 0.5";
          const char *map_list = "", *map_friction_list = "0.3 0.5 0.7 1";
-         const char *json = "", *csv = "", *plot = "";
          double overhang = 4, friction = 0.7, length = 0, depth = 0, side = 0, lowest = 0.05;
          int steps = 50;
          bool study_domain = false;
@@ -496,9 +488,7 @@ int main(int argc, char *argv[])
                         "Map of s and e: list of f.");
          args.AddOption(&study_domain, "-domain-study", "--domain-study", "-no-domain-study",
                         "--no-domain-study", "Print s and e for growing domains.");
-         args.AddOption(&json, "-json", "--json", "File for the results.");
-         args.AddOption(&csv, "-csv", "--csv", "Prefix of CSV files for the figures.");
-         args.AddOption(&plot, "-plot", "--plot", "Picture of the results (png, pdf, svg).");
+         output.add_options(args);
          miniapp::parse(args);
 
          miniapp::check_choice("--domain", domain, {"hp", "th0"});
@@ -535,9 +525,7 @@ int main(int argc, char *argv[])
          ReducedProblem &problem = scene.reduction.problem;
          study.problem = &problem;
          study.counters = scene.reduction.counters;
-         const double condensed = watch.seconds();
-         std::cout << "Condensed " << scene.dofs << " dofs to " << 2 * problem.nodes() << " in "
-                   << condensed << " s" << std::endl;
+         output.reduced(problem, scene.dofs);
          study.bonded(overhang, 0);
 
          set_friction(problem, friction);
@@ -569,17 +557,8 @@ int main(int argc, char *argv[])
                "(compare --domain hp and th0); s is less sensitive, and its values "
                "were read off figures.");
          }
-         study.table.print();
-         nlohmann::ordered_json &results = study.results;
-         results["status"] = name(report.status);
-         results["contact_nodes"] = problem.nodes();
-         results["dofs"] = scene.dofs;
-         results["seconds"] = watch.seconds();
-         results["seconds_condensation"] = condensed;
-         results["counters"] = miniapp::to_json(study.counters);
-         results["references"] = study.table.json();
-         miniapp::write_json(results, json);
-         miniapp::output(study.panels, csv, plot);
+         study.results["status"] = name(report.status);
+         output.write(study.results, study.counters, study.table, study.panels);
          return code;
       });
 }

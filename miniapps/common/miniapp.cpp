@@ -137,6 +137,12 @@ nlohmann::ordered_json to_json(const cattaneo::Counters &counters)
    return j;
 }
 
+nlohmann::ordered_json json_number(double value)
+{
+   return std::isfinite(value) ? nlohmann::ordered_json(value)
+                               : nlohmann::ordered_json(nullptr);
+}
+
 void write_json(const nlohmann::ordered_json &results, const std::string &file)
 {
    if (!file.empty()) { cattaneo::write_whole(file, results.dump(2) + '\n'); }

@@ -34,6 +34,9 @@ int exit_code(const cattaneo::MarchReport &report);
 
 nlohmann::ordered_json to_json(const cattaneo::Counters &counters);
 
+/// JSON has no infinity or NaN: unknown or unbounded is null.
+nlohmann::ordered_json json_number(double value);
+
 /// Writes results as JSON, whole or not at all; nothing if the file name is empty.
 void write_json(const nlohmann::ordered_json &results, const std::string &file);
 
