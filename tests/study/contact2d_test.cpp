@@ -172,6 +172,15 @@ TEST_F(Contact2D, RoundedPunchReachesASteadyCycle)
    EXPECT_LT(std::abs(run.results["energy_imbalance"].get<double>()), 1e-11);
 }
 
+/// Moves the contact candidates onto a cylinder of radius 100, with curved elements: facets
+/// cost K_T one per cent.
+void lift_to_the_cylinder(const mfem::Vector &x, mfem::Vector &moved)
+{
+   moved = x;
+   const bool surface = std::abs(x[1]) < 1e-12 && std::abs(x[0]) < 1.67 + 1e-9;
+   if (surface) { moved[1] = x[0] * x[0] / 200; }
+}
+
 TEST_F(Contact2D, EdgesOfAHertzContactHaveTheClosedForms)
 {
    using namespace cattaneo;
@@ -192,10 +201,13 @@ TEST_F(Contact2D, EdgesOfAHertzContactHaveTheClosedForms)
       for (int v = 0; v < mesh.GetNV(); ++v)
       {
          double *x = mesh.GetVertex(v);
-         const bool surface = x[1] == 0 && std::abs(x[0]) <= line.back();
          x[0] *= turn;
          x[1] *= turn;
-         if (turn < 0 && surface) { x[1] = x[0] * x[0] / (2 * radius); }
+      }
+      if (turn < 0)
+      {
+         mesh.SetCurvature(2);
+         mesh.Transform(lift_to_the_cylinder);
       }
       files.push_back(write(turn < 0 ? "pad.mesh" : "plane.mesh", mesh));
    }
