@@ -8,6 +8,7 @@
 //                square_punch -obstacle half-plane --shear "0.25 0.75"
 //                square_punch -order 1 -nodes 201 -grading 0.02
 //                square_punch -obstacle half-plane -nodes 65 -cycles 3 -amplitude 0.6
+//                square_punch -obstacle half-plane -nodes 65 -cycles 3 -march exact
 //                square_punch -friction 0 -nodes 33 -shear none
 
 #include "common/figure.hpp"
@@ -60,7 +61,7 @@ int main(int argc, char *argv[])
          int cycles = 0;
          double amplitude = 0.8;
          int increments = 20;
-         const char *json = "", *csv = "", *plot = "";
+         const char *march_by = "advancing", *json = "", *csv = "", *plot = "";
 
          mfem::OptionsParser args(argc, argv);
          args.AddOption(&obstacle, "-obstacle", "--obstacle",
@@ -84,6 +85,7 @@ int main(int argc, char *argv[])
                         "Amplitude of the cycles in Q/fP.");
          args.AddOption(&increments, "-increments", "--increments",
                         "Load increments between two values of the shear.");
+         args.AddOption(&march_by, "-march", "--march", miniapp::stepping_help);
          args.AddOption(&json, "-json", "--json", "File for the results.");
          args.AddOption(&csv, "-csv", "--csv", "Prefix of CSV files for the figures.");
          args.AddOption(&plot, "-plot", "--plot", "Picture of the results (png, pdf, svg).");
@@ -108,6 +110,7 @@ int main(int argc, char *argv[])
          auto x = [](const Edge &edge) { return edge.position - 1; };
          MarchSettings settings;
          settings.increments = increments;
+         settings.stepping = miniapp::stepping("--march", march_by);
          FrictionSolver solver(problem, settings.friction);
          const Counters made = solver.counters();
          ContactState state = ContactState::virgin(problem);
@@ -221,6 +224,7 @@ int main(int argc, char *argv[])
             report = march(solver, history, cyclic, settings);
             counters += report.counters;
             code = miniapp::exit_code(report);
+            miniapp::add_exact_path(report, settings, results);
             nlohmann::ordered_json losses = nlohmann::ordered_json::array();
             std::cout << "\n cycle   dissipation   external work   slip change\n";
             for (std::size_t k = 0; k < report.cycles.size(); ++k)

@@ -83,9 +83,11 @@ NodeState wanted(const Rows &rows, const VectorXd &friction, Choice choice, Inde
 } // namespace
 
 ComplementarityReport solve_by_newton(StateEquations &equations, const VectorXd &friction,
-                                      const ComplementarityProblem &problem, int max_steps)
+                                      const ComplementarityProblem &problem, int max_steps,
+                                      ComplementarityReport start)
 {
-   ComplementarityReport report;
+   ComplementarityReport report = std::move(start);
+   bool known = report.x.size() == problem.b.size();
    const Index n = friction.size();
    const Rows rows(friction, problem.b.size() > n);
    const VectorXd &stiffness = equations.diagonal();
@@ -93,8 +95,12 @@ ComplementarityReport solve_by_newton(StateEquations &equations, const VectorXd 
    while (report.newton_steps < max_steps)
    {
       if (!visited.insert(equations.states()).second) { break; } // it cycles
-      ++report.newton_steps;
-      if (!equations.solve(problem.b, report.x, report.F)) { break; }
+      if (!known)
+      {
+         ++report.newton_steps;
+         if (!equations.solve(problem.b, report.x, report.F)) { break; }
+      }
+      known = false;
       const double tiny = equations.round_off(problem.b, report.x);
       std::vector<NodeState> next = equations.states();
       for (Index i = 0; i < n; ++i)
