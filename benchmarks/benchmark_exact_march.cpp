@@ -1,11 +1,13 @@
 //  benchmark_exact_march: the exact path against increments, time and error
 //
-//  The lap joint in cycles of the remote load and the sheared square punches, marched from one
-//  change of state to the next and in equal increments: how much longer increments take, and
-//  the error they leave in the slip at the points of the history and in the dissipation.
+//  The lap joint in cycles of the remote load, the sheared square punches and the unloading of
+//  a receding contact, marched from one change of state to the next and in equal increments:
+//  how much longer increments take, and the error they leave in the slip at the points of the
+//  history and in the dissipation.
 
 #include "common/lap_joint_scene.hpp"
 #include "common/punch.hpp"
+#include "common/receding.hpp"
 
 #include <cattaneo/friction/march.hpp>
 #include <cmath>
@@ -100,5 +102,14 @@ int main()
                                      : "punch on a rigid plane, Q = ± 0.8 fP",
                           punch.reduction.problem, cycles(-Q, Q));
    }
+   miniapp::RecedingOptions options;
+   options.spacing = 0.05;
+   const miniapp::Receding scene = miniapp::make_receding(options);
+   ReducedProblem problem = scene.reduction.problem;
+   set_friction(problem, 0.7);
+   complete &=
+      compare("receding contact, unloaded to a tenth and loaded again", problem,
+              LoadHistory::through({VectorXd::Zero(1), VectorXd::Constant(1, 1.0),
+                                    VectorXd::Constant(1, 0.1), VectorXd::Constant(1, 1.0)}));
    return complete ? 0 : 1;
 }
