@@ -291,8 +291,7 @@ int main(int argc, char *argv[])
                   "How often the cycle is marched (fewer once it is steady).");
          args.add(&increments, "increments",
                   "Load increments between two points of the history.");
-         args.add(&stepping, "stepping", Text::word,
-                  "advancing (finer where contact advances) or fixed.");
+         args.add(&stepping, "stepping", Text::word, miniapp::stepping_help);
          args.add(&edge_times, "edges", Text::numbers,
                   "Times of two states: pressed, and at the peak of the cyclic loads. Reports "
                   "K_N, K_T and slip at the contact edges; a third time is the other end of "
@@ -320,7 +319,6 @@ int main(int argc, char *argv[])
                  pairing_tolerance, ", must be above 0 and below 0.5");
          require(increments >= 1, "option increments is ", increments, ", must be at least 1");
          miniapp::check_choice("gap", gap, {"geometry", "closed"});
-         miniapp::check_choice("stepping", stepping, {"advancing", "fixed"});
          const std::string prefix = csv, folder = paraview;
          if (json[0]) { require_writable(json); }
          if (save_file[0]) { require_writable(save_file); }
@@ -391,8 +389,7 @@ int main(int argc, char *argv[])
 
          MarchSettings settings;
          settings.increments = increments;
-         settings.stepping =
-            std::string(stepping) == "fixed" ? Stepping::fixed : Stepping::advancing;
+         settings.stepping = miniapp::stepping("stepping", stepping);
          const bool recording = csv[0] || paraview[0];
          HistoryTable table;
          std::vector<ContactState> recorded;
@@ -522,6 +519,7 @@ int main(int argc, char *argv[])
          Counters counters = reduction.counters;
          counters += report.counters;
          results["counters"] = miniapp::to_json(counters);
+         miniapp::add_exact_path(report, settings, results);
          results["seconds"] = watch.seconds();
          results["seconds_condensation"] = condensed;
          miniapp::write_json(results, json);

@@ -9,6 +9,7 @@
 //
 //  Sample runs:  plane_receding
 //                plane_receding -friction 0.7 -unload "0.9 0.5 0.2 0.1" -steps 50
+//                plane_receding -friction 0.7 -unload "0.9 0.5 0.2 0.1" -march exact
 //                plane_receding -domain th0 -friction 0.3 -order 1 -spacing 0.04 -corner 0.001
 //                plane_receding -overhang 0.8 -friction 1.4
 //                plane_receding -map "0.4 0.8 1.2 1.6 2 3" -spacing 0.05 -corner 0.01
@@ -145,6 +146,7 @@ struct Study
    miniapp::RecedingOptions options;
    bool half_plane = false, thesis_block = false;
    ReducedProblem *problem = nullptr;
+   Stepping stepping = Stepping::advancing;
    Counters counters;
    miniapp::ReferenceTable table;
    nlohmann::ordered_json results;
@@ -367,11 +369,13 @@ int Study::unload(FrictionSolver &solver, ContactState &state, double overhang, 
    };
    MarchSettings settings;
    settings.increments = 1;
+   settings.stepping = stepping;
    state.time = 0;
    const MarchReport report =
       march(solver, LoadHistory::through(loads), state, settings, observe);
    counters += report.counters;
    if (const int code = miniapp::exit_code(report)) { return code; }
+   miniapp::add_exact_path(report, settings, results);
    results["levels"] = list;
    results["unloading_increments"] = report.increments.size();
    nlohmann::ordered_json slip_list = nlohmann::ordered_json::array();
@@ -454,6 +458,7 @@ int main(int argc, char *argv[])
          miniapp::RecedingOptions &options = study.options;
          const char *domain = "hp", *unload_list = "", *slip_list = "-0.5 0 0.5";
          const char *map_list = "", *map_friction_list = "0.3 0.5 0.7 1";
+         const char *march_by = "advancing";
          double overhang = 4, friction = 0.7, length = 0, depth = 0, side = 0, lowest = 0.05;
          int steps = 50;
          bool study_domain = false;
@@ -479,6 +484,7 @@ int main(int argc, char *argv[])
          args.AddOption(&unload_list, "-unload", "--unload",
                         "Unloading: list of p/p0 to report (empty: none).");
          args.AddOption(&steps, "-steps", "--steps", "Unloading: steps of 1/steps of p0.");
+         args.AddOption(&march_by, "-march", "--march", miniapp::stepping_help);
          args.AddOption(&lowest, "-lowest", "--lowest",
                         "Unloading: p/p0 at which it ends; steps shrink toward it.");
          args.AddOption(&slip_list, "-slip", "--slip",
@@ -511,6 +517,7 @@ int main(int argc, char *argv[])
                     " must be between 0 and 1");
          }
          const std::vector<double> points = miniapp::numbers("--slip", slip_list);
+         study.stepping = miniapp::stepping("--march", march_by);
          const std::vector<double> map_n = miniapp::numbers("--map", map_list);
          const std::vector<double> map_f =
             miniapp::numbers("--map-friction", map_friction_list);

@@ -8,6 +8,7 @@
 //                square_punch -obstacle half-plane --shear "0.25 0.75"
 //                square_punch -order 1 -nodes 201 -grading 0.02
 //                square_punch -obstacle half-plane -nodes 65 -cycles 3 -amplitude 0.6
+//                square_punch -obstacle half-plane -nodes 65 -cycles 3 -march exact
 //                square_punch -friction 0 -nodes 33 -shear none
 
 #include "common/punch.hpp"
@@ -59,6 +60,7 @@ int main(int argc, char *argv[])
          int cycles = 0;
          double amplitude = 0.8;
          int increments = 20;
+         const char *march_by = "advancing";
 
          mfem::OptionsParser args(argc, argv);
          args.AddOption(&obstacle, "-obstacle", "--obstacle",
@@ -74,6 +76,7 @@ int main(int argc, char *argv[])
                         "Amplitude of the cycles in Q/fP.");
          args.AddOption(&increments, "-increments", "--increments",
                         "Load increments between two values of the shear.");
+         args.AddOption(&march_by, "-march", "--march", miniapp::stepping_help);
          output.add_options(args);
          miniapp::parse(args);
 
@@ -94,6 +97,7 @@ int main(int argc, char *argv[])
          auto x = [](const Edge &edge) { return edge.position - 1; };
          MarchSettings settings;
          settings.increments = increments;
+         settings.stepping = miniapp::stepping("--march", march_by);
          FrictionSolver solver(problem, settings.friction);
          const Counters made = solver.counters();
          ContactState state = ContactState::virgin(problem);
@@ -207,6 +211,7 @@ int main(int argc, char *argv[])
             report = march(solver, history, cyclic, settings);
             counters += report.counters;
             code = miniapp::exit_code(report);
+            miniapp::add_exact_path(report, settings, results);
             nlohmann::ordered_json losses = nlohmann::ordered_json::array();
             std::cout << "\n cycle   dissipation   external work   slip change\n";
             for (std::size_t k = 0; k < report.cycles.size(); ++k)

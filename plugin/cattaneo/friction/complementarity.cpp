@@ -83,9 +83,11 @@ NodeState wanted(const Rows &rows, const VectorXd &friction, Choice choice, Inde
 } // namespace
 
 ComplementarityReport solve_by_newton(StateEquations &equations, const VectorXd &friction,
-                                      const ComplementarityProblem &problem, int max_steps)
+                                      const ComplementarityProblem &problem, int max_steps,
+                                      ComplementarityReport start)
 {
-   ComplementarityReport report;
+   ComplementarityReport report = std::move(start);
+   bool known = report.x.size() == problem.b.size();
    const Index n = friction.size();
    const Rows rows(friction, problem.b.size() > n);
    const VectorXd &stiffness = equations.diagonal();
@@ -93,8 +95,12 @@ ComplementarityReport solve_by_newton(StateEquations &equations, const VectorXd 
    while (report.newton_steps < max_steps)
    {
       if (!visited.insert(equations.states()).second) { break; } // it cycles
-      ++report.newton_steps;
-      if (!equations.solve(problem.b, report.x, report.F)) { break; }
+      if (!known)
+      {
+         ++report.newton_steps;
+         if (!equations.solve(problem.b, report.x, report.F)) { break; }
+      }
+      known = false;
       const double tiny = equations.round_off(problem.b, report.x);
       std::vector<NodeState> next = equations.states();
       for (Index i = 0; i < n; ++i)
@@ -338,8 +344,18 @@ bool Path::follow(ComplementarityReport &report)
    }
    // The equations of the final states leave no drift; nothing holds nodes in separation now.
    std::vector<NodeState> states = equations_.states();
-   if (!equations_.set(states)) { return false; }
-   return equations_.solve(problem_.b, report.x, report.F) && meets_all(report.x, report.F);
+   if (!equations_.set(states) || !equations_.solve(problem_.b, report.x, report.F))
+   {
+      return false;
+   }
+   for (Index i = 0; i < n_; ++i)
+   {
+      if (closed(states[i]) && rows_.smooth(i))
+      {
+         states[i] = rows_.smooth_contact(i, report.x);
+      }
+   }
+   return equations_.set(states) && meets_all(report.x, report.F);
 }
 
 } // namespace
@@ -349,6 +365,14 @@ ComplementarityReport solve_by_path(StateEquations &equations, const VectorXd &f
                                     const VectorXd &F, double slack, unsigned seed)
 {
    ComplementarityReport report;
+   // Without friction there is no stick.
+   const Rows rows(friction, problem.b.size() > friction.size());
+   std::vector<NodeState> states = equations.states();
+   for (Index i = 0; i < friction.size(); ++i)
+   {
+      if (closed(states[i]) && rows.smooth(i)) { states[i] = rows.smooth_contact(i, x); }
+   }
+   if (!equations.set(states)) { return report; }
    report.solved = Path(equations, friction, problem, x, F, slack, seed).follow(report);
    return report;
 }

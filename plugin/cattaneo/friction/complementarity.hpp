@@ -35,9 +35,11 @@ struct ComplementarityReport
 };
 
 /// Semismooth Newton steps from the states of `equations`, which hold the solution's if solved.
+/// `start` may bring x and F of these states, to save their solution.
 ComplementarityReport solve_by_newton(StateEquations &equations,
                                       const Eigen::VectorXd &friction,
-                                      const ComplementarityProblem &problem, int max_steps);
+                                      const ComplementarityProblem &problem, int max_steps,
+                                      ComplementarityReport start = {});
 
 /** Lemke's method with a free start: from displacements and forces that meet all laws with the
     present states of `equations` at some other b, follows the solutions while b is moved to

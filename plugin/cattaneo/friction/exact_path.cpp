@@ -47,15 +47,24 @@ void ExactPath::find_choices(const ContactState &state)
    }
 }
 
-bool ExactPath::find_rates(const ContactState &state)
+bool ExactPath::find_rates(const ContactState &state, const VectorXd &multipliers)
 {
+   const bool same_way = target_.size() == multipliers.size() && target_ == multipliers &&
+                         reached_ == state.multipliers && equations_.states() == state.status;
+   target_.resize(0);
    if (!equations_.set(state.status))
    {
       failure_ = "the equations of the present states are singular";
       return false;
    }
+   ComplementarityReport known;
+   if (same_way)
+   {
+      known.x = u_rate_;
+      known.F = F_rate_;
+   }
    ComplementarityReport found =
-      solve_by_newton(equations_, problem_.friction, rates_, newton_steps);
+      solve_by_newton(equations_, problem_.friction, rates_, newton_steps, std::move(known));
    counters_.newton_steps += found.newton_steps;
    for (unsigned seed = 1; seed <= 8 && !found.solved; ++seed)
    {
@@ -132,7 +141,7 @@ bool ExactPath::advance(ContactState &state, double time, const VectorXd &multip
    rates_.b = f_end - f;
    find_choices(state);
    const long factored = equations_.factorisations();
-   const bool found = find_rates(state);
+   const bool found = find_rates(state, multipliers);
    counters_.dense_factorisations += equations_.factorisations() - factored;
    if (!found) { return false; }
    const std::vector<NodeState> &states = equations_.states();
@@ -145,6 +154,8 @@ bool ExactPath::advance(ContactState &state, double time, const VectorXd &multip
    const double way = way_to_event();
    u_ += way * u_rate_;
    F_ += way * F_rate_;
+   u_rate_ *= 1 - way; // the rest of the piece is shorter now
+   F_rate_ *= 1 - way;
    const bool arrived = way == 1;
    state.multipliers =
       arrived ? multipliers
@@ -157,6 +168,8 @@ bool ExactPath::advance(ContactState &state, double time, const VectorXd &multip
       const VectorXd forces = problem_.clamped_forces(state.multipliers) + K_ * u_;
       if (equations_.solve(forces, correction, F_)) { u_ += correction; }
    }
+   reached_ = state.multipliers;
+   target_ = multipliers;
    state.time = arrived ? time : state.time + way * (time - state.time);
    state.peak_force = std::max(peak, state.peak_force);
    state.status = states;

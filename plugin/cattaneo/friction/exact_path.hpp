@@ -44,7 +44,7 @@ public:
 
 private:
    void find_choices(const ContactState &state);
-   bool find_rates(const ContactState &state);
+   bool find_rates(const ContactState &state, const Eigen::VectorXd &multipliers);
    double way_to_event() const;
 
    const ReducedProblem &problem_;
@@ -52,6 +52,8 @@ private:
    StateEquations equations_;
    Eigen::VectorXd u_, F_;           // displacements {v; w} and forces {q; p}
    Eigen::VectorXd u_rate_, F_rate_; // over the rest of the piece
+   // Where u_rate_ and F_rate_ hold with the states of the equations, as long as those stay.
+   Eigen::VectorXd reached_, target_;
    ComplementarityProblem rates_;
    double noise_ = 0; // forces below this are round-off
    int uncorrected_ = 0;
