@@ -225,6 +225,39 @@ TEST(AxisymmetricReceding, LargeDiscsReachTheLayer)
    }
 }
 
+/// A large disc that is bonded is part of the half-space: Love's (1929) stresses at depth t
+/// under a uniform pressure, by their Hankel integrals.
+TEST(AxisymmetricReceding, BondedDiscCarriesLovesStresses)
+{
+   miniapp::DiscOptions options;
+   options.disc_radius = 10;
+   options.load_radii = {2.1};
+   const miniapp::Disc scene = miniapp::make_disc(options);
+   const ReducedProblem &problem = scene.reduction.problem;
+   const VectorXd p = tractions(problem, problem.patterns[0].p),
+                  q = tractions(problem, problem.patterns[0].q);
+   const double a = 2.1;
+   int compared = 0;
+   for (Index i = 10; i < problem.nodes(); i += 25)
+   {
+      const double r = problem.position(i, 0);
+      if (r > 4) { break; } // further out the shear feels the rim: 1e-3 of its peak
+      double normal = 0, shear = 0;
+      const double step = 0.02;
+      for (double k = 0.5 * step; k < 40; k += step)
+      {
+         const double weight = a * std::exp(-k) * std::cyl_bessel_j(1, k * a) * step;
+         normal += (1 + k) * weight * std::cyl_bessel_j(0, k * r);
+         shear += k * weight * std::cyl_bessel_j(1, k * r);
+      }
+      ++compared;
+      EXPECT_NEAR(p[i], normal, 2e-4) << r;
+      // The half-space pulls the disc's underside inward.
+      EXPECT_NEAR(q[i], -shear, 2e-4) << r;
+   }
+   EXPECT_GT(compared, 7);
+}
+
 TEST(AxisymmetricReceding, DiscOfStudiesD)
 {
    miniapp::DiscOptions options;
