@@ -1,4 +1,5 @@
 #include "elastic_support.hpp"
+#include <cattaneo/elastic/axisymmetric.hpp>
 #include <cattaneo/elastic/stress.hpp>
 
 // Bodies of revolution: operators, loads, contact lines, and torsion as a third block.
@@ -549,6 +550,80 @@ TEST(Torsion, TorqueOfStressAndOfContactForcesAgree)
    }
    EXPECT_GT(torque, 0);
    EXPECT_NEAR(section, torque, 1e-12 * torque);
+}
+
+TEST(Axisymmetric, IntegratorsServeAnOperatorOfTheUsersOwn)
+{
+   const Material material{2.6, 0.3};
+   mfem::Mesh mesh = cylinder("triangles");
+   for (auto geometry : {Geometry::axisymmetric, Geometry::torsion})
+   {
+      ElasticBody body(mesh, 2, material, geometry);
+      mfem::H1_FECollection collection(2, 2);
+      mfem::FiniteElementSpace space(&mesh, &collection, body.components(),
+                                     mfem::Ordering::byNODES);
+      mfem::ConstantCoefficient lambda(material.lambda()), mu(material.mu());
+      mfem::BilinearForm form(&space);
+      mfem::BilinearFormIntegrator *integrator = nullptr;
+      if (geometry == Geometry::torsion) { integrator = new TorsionIntegrator(mu); }
+      else { integrator = new AxisymmetricElasticityIntegrator(lambda, mu); }
+      form.AddDomainIntegrator(integrator);
+      form.Assemble();
+      form.Finalize();
+      ElasticBody own(space, form.SpMat(), geometry);
+      EXPECT_EQ(own.essential_dofs().Size(), body.essential_dofs().Size());
+      for (ElasticBody *one : {&body, &own})
+      {
+         one->fix(3, one->components() - 1);
+         if (geometry == Geometry::torsion) { one->add_traction("t", 2, 1.0); }
+         else { one->add_pressure("t", 2, 1.0); }
+      }
+      const CondensedBody a = condense(body, contact_line(body, 1)),
+                          b = condense(own, contact_line(own, 1));
+      EXPECT_LT(difference(a.S, b.S), 1e-12);
+      EXPECT_LT(difference(a.patterns[0].q, b.patterns[0].q), 1e-11);
+   }
+   mfem::H1_FECollection collection(2, 2);
+   mfem::FiniteElementSpace two(&mesh, &collection, 2);
+   expect_input_error([&] { ElasticBody(two, mfem::SparseMatrix(), Geometry::torsion); },
+                      "must have 1");
+}
+
+TEST(Axisymmetric, NumberingOfTheMeshDoesNotMatter)
+{
+   for (auto geometry : {Geometry::axisymmetric, Geometry::torsion})
+   {
+      mfem::Mesh mesh = cylinder("quads"), other = cylinder("quads");
+      mfem::Array<int> order(other.GetNE());
+      for (int e = 0; e < order.Size(); ++e) { order[e] = (5 * e + 3) % order.Size(); }
+      other.ReorderElements(order);
+      const auto condensed = [&](mfem::Mesh &one)
+      {
+         ElasticBody body(one, 3, Material{}, geometry);
+         body.fix(3, body.components() - 1);
+         return condense(body, contact_line(body, 1));
+      };
+      const CondensedBody a = condensed(mesh), b = condensed(other);
+      EXPECT_EQ(a.line.position, b.line.position);
+      EXPECT_LT(difference(a.S, b.S), 1e-12);
+   }
+}
+
+/// A body that is moved along its axis is an equal one; only its factor is shared.
+TEST(Axisymmetric, EqualBodiesShareOneFactor)
+{
+   mfem::Mesh here = rectangle_mesh(uniform(0, 2, 4), uniform(0, 1, 4)),
+              there = rectangle_mesh(uniform(0, 2, 4), uniform(8, 9, 4));
+   for (auto geometry : {Geometry::axisymmetric, Geometry::torsion})
+   {
+      ElasticBody a(here, 2, Material{}, geometry), b(there, 2, Material{}, geometry);
+      for (ElasticBody *body : {&a, &b}) { body->fix(3, body->components() - 1); }
+      const CondensedBody first = condense(a, contact_line(a, 1));
+      EXPECT_EQ(first.counters.factorisations, 1);
+      const CondensedBody second = condense(b, contact_line(b, 1), {}, &first);
+      EXPECT_EQ(second.counters.factorisations, 0);
+      EXPECT_EQ(first.S, second.S);
+   }
 }
 
 /// Half-space meshes are the right half of half-plane ones.
