@@ -1,6 +1,6 @@
 #include "elastic_support.hpp"
 #include <cattaneo/elastic/axisymmetric.hpp>
-#include <cattaneo/elastic/stress.hpp>
+#include <cattaneo/elastic/point_stress.hpp>
 
 // Bodies of revolution: operators, loads, contact lines, and torsion as a third block.
 

@@ -258,6 +258,29 @@ TEST(AxisymmetricReceding, BondedDiscCarriesLovesStresses)
    EXPECT_GT(compared, 7);
 }
 
+/// However the disc is turned, the bonded contact carries the torque.
+TEST(AxisymmetricReceding, TorqueOfTheContactIsThatOfTheTwist)
+{
+   using miniapp::Twist;
+   for (Twist twist : {Twist::top, Twist::loaded, Twist::rim, Twist::traction})
+   {
+      miniapp::DiscOptions options;
+      options.spacing = 0.1;
+      options.twist = twist;
+      const miniapp::Disc scene = miniapp::make_disc(options);
+      const ReducedProblem &problem = scene.reduction.problem;
+      ASSERT_EQ(problem.components(), 2);
+      EXPECT_EQ(scene.reduction.counters.assemblies, 4);
+      const LoadPattern &pattern = problem.patterns.back();
+      const Index n = problem.nodes();
+      // Friction, or the bond, holds the disc back.
+      const double torque = -pattern.q.tail(n).dot(problem.position.col(0));
+      const bool rotation = pattern.control == Control::displacement;
+      EXPECT_EQ(rotation, twist != Twist::traction);
+      EXPECT_NEAR(torque, rotation ? problem.H(1, 1) : 1.0, 1e-10 * torque);
+   }
+}
+
 TEST(AxisymmetricReceding, DiscOfStudiesD)
 {
    miniapp::DiscOptions options;

@@ -1,4 +1,4 @@
-#include <cattaneo/elastic/stress.hpp>
+#include <cattaneo/elastic/point_stress.hpp>
 #include <cattaneo/friction/zones.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/output/paraview.hpp>
