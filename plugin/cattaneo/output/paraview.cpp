@@ -1,3 +1,4 @@
+#include <array>
 #include <cattaneo/elastic/point_stress.hpp>
 #include <cattaneo/friction/zones.hpp>
 #include <cattaneo/input_error.hpp>
@@ -105,7 +106,7 @@ void BodyFields::evaluate_stress()
       for (int i = 0; i < dofs.Size(); ++i)
       {
          transformation.SetIntPoint(&nodes.IntPoint(i));
-         std::vector<double> values;
+         std::array<double, 5> values{};
          if (body_.geometry() == Geometry::torsion)
          {
             const TorsionStress s = torsion_stress_at(body_, u, transformation);
@@ -116,7 +117,7 @@ void BodyFields::evaluate_stress()
             const Stress s = stress_at(body_, u, transformation);
             values = {s.xx, s.yy, s.zz, s.xy, s.von_mises()};
          }
-         for (std::size_t c = 0; c < values.size(); ++c)
+         for (std::size_t c = 0; c < component.size(); ++c)
          {
             (*component[c])(dofs[i]) = values[c];
          }
