@@ -8,7 +8,7 @@
 //  = 1.
 //
 //  Sample runs:  axisymmetric_receding
-//                axisymmetric_receding -unload "0.9 0.5 0.3 0.1" -steps 50
+//                axisymmetric_receding -unload "0.9 0.5 0.3 0.1" -spacing 0.04
 //                axisymmetric_receding -torque "0.3 0.5 0.7" -spacing 0.04
 
 #include "common/figure.hpp"
