@@ -77,11 +77,31 @@ Disc make_disc(const DiscOptions &options)
    const ContactLine upper = line_of_disc(disc), lower = line_below(below);
    scene.reduction =
       reduce(condense(disc, upper), condense(below, lower), pair_lines(upper, lower));
-   if (options.twist)
+   if (options.twist != Twist::none)
    {
       add_bodies(scene.torsion, Geometry::torsion);
       ElasticBody &twisting = *scene.torsion[0], &held = *scene.torsion[1];
-      twisting.add_displacement("twist", top, 0, 1.0);
+      const double a = *std::max_element(options.load_radii.begin(), options.load_radii.end());
+      const BoundaryPart loaded({top}, 0, 0, a);
+      switch (options.twist)
+      {
+      case Twist::none:
+         break;
+      case Twist::top:
+         twisting.add_displacement("twist", top, 0, 1.0);
+         break;
+      case Twist::loaded:
+         twisting.add_displacement("twist", loaded, 0, 1.0);
+         break;
+      case Twist::rim:
+         // Above the contact, whose last node is at the rim and must be free.
+         twisting.add_displacement("twist", BoundaryPart({side}, 1, 0.4 * h, 1), 0, 1.0);
+         break;
+      case Twist::traction:
+         twisting.add_traction(
+            "twist", loaded, [a](double r, double) { return 2 * r / (M_PI * std::pow(a, 4)); });
+         break;
+      }
       scene.reduction.add_torsion(condense(twisting, line_of_disc(twisting)),
                                   condense(held, line_below(held)));
    }
