@@ -11,9 +11,8 @@
 //                axisymmetric_receding -unload "0.9 0.5 0.3 0.1" -spacing 0.04
 //                axisymmetric_receding -torque "0.3 0.5 0.7" -spacing 0.04
 
-#include "common/figure.hpp"
+#include "common/disc_scene.hpp"
 #include "common/miniapp.hpp"
-#include "common/revolved_receding.hpp"
 
 #include <algorithm>
 #include <cattaneo/friction/march.hpp>
@@ -106,8 +105,8 @@ struct Study
 VectorXd Study::loads(double load, double rotation) const
 {
    VectorXd at = VectorXd::Zero(problem->patterns.size());
-   at[problem->pattern("load")] = load;
-   if (at.size() > 1) { at[problem->pattern("rotation")] = rotation; }
+   at[0] = load;
+   if (at.size() > 1) { at[problem->pattern("twist")] = rotation; }
    return at;
 }
 
@@ -217,7 +216,7 @@ int Study::twist(FrictionSolver &solver, ContactState state, const std::vector<d
    }
    MarchSettings settings;
    settings.increments = 1;
-   const Index rotation = problem->pattern("rotation");
+   const Index rotation = problem->pattern("twist");
    const double bonded =
       -r.dot(problem->patterns[rotation].q.tail(n)); // torque of a unit angle
    double stiffness = bonded, angle = 0, greatest = 0;
@@ -304,13 +303,13 @@ int main(int argc, char *argv[])
       {
          const miniapp::Stopwatch watch;
          Study study;
-         miniapp::RevolvedOptions options;
+         miniapp::DiscOptions options;
          const char *unload_list = "", *torque_list = "", *json = "";
-         double friction = 0.5;
+         double friction = 0.5, load_radius = 2.5;
          int steps = 40;
          mfem::OptionsParser args(argc, argv);
          args.AddOption(&options.disc_radius, "-disc-radius", "--disc-radius", "b, in t.");
-         args.AddOption(&options.load_radius, "-load-radius", "--load-radius", "a, in t.");
+         args.AddOption(&load_radius, "-load-radius", "--load-radius", "a, in t.");
          args.AddOption(&friction, "-friction", "--friction", "Coefficient of friction.");
          args.AddOption(&options.poisson, "-poisson", "--poisson",
                         "Poisson's ratio of both bodies.");
@@ -343,13 +342,14 @@ int main(int argc, char *argv[])
          std::sort(levels.rbegin(), levels.rend());
          std::sort(torques.begin(), torques.end());
 
-         options.torsion = !torques.empty();
-         miniapp::RevolvedReceding scene = miniapp::make_receding(options);
+         options.load_radii = {load_radius};
+         if (!torques.empty()) { options.twist = miniapp::Twist::top; }
+         miniapp::Disc scene = miniapp::make_disc(options);
          ReducedProblem &problem = scene.reduction.problem;
          set_friction(problem, friction);
          study.problem = &problem;
          study.counters = scene.reduction.counters;
-         study.a = options.load_radius;
+         study.a = load_radius;
          study.b = options.disc_radius;
          study.f = friction;
          study.standard = options.poisson == 0.3 && options.domain == 100;
