@@ -91,8 +91,11 @@ Mechanism find_mechanism(const ReducedProblem &problem, const MatrixXd &Z,
    }
    const VectorXd g = Z.transpose() * clamped_forces;
    VectorXd r = nonnegative_residual(G, g);
+   // The least squares are solved to 1e-12 of the slope; r goes as its root where edges are
+   // only approached.
+   const double least = (c == 2 ? 1e-5 : 1e-9) * g.norm();
    bool proven = c == 1;
-   for (int round = 0; round < 50 && !proven && r.norm() > 1e-9 * g.norm(); ++round)
+   for (int round = 0; round < 50 && !proven && r.norm() > least; ++round)
    {
       // Edge of each round cone that points most along the residual.
       std::vector<VectorXd> edges;
@@ -113,7 +116,7 @@ Mechanism find_mechanism(const ReducedProblem &problem, const MatrixXd &Z,
       for (std::size_t k = 0; k < edges.size(); ++k) { G.col(G.cols() - 1 - k) = edges[k]; }
       r = nonnegative_residual(G, g);
    }
-   if (!proven || r.norm() <= 1e-9 * g.norm() || g.norm() == 0) { return mechanism; }
+   if (!proven || r.norm() <= least || g.norm() == 0) { return mechanism; }
    mechanism.exists = true;
    mechanism.motion = Z * r;
    mechanism.motion /= mechanism.motion.cwiseAbs().maxCoeff();
