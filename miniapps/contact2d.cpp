@@ -6,20 +6,24 @@
 //  describes them. Units are the user's: forces are per unit thickness.
 //
 //  Sample runs:  contact2d -case meshes/dovetail.json
-//                contact2d -case meshes/rounded_punch.json --cycles 2
+//                contact2d -case meshes/rounded_punch.json --cycles 2 -edges "1 2 3"
 //                contact2d -mesh1 meshes/rounded_punch.msh -contact1 3 -load1 "P pressure 2 .1"
 
 #include "common/case_options.hpp"
-#include "common/miniapp.hpp"
+#include "common/contact_edges.hpp"
+#include "common/filled_corner.hpp"
 #include "common/statements.hpp"
+#include "common/study_output.hpp"
 
 #include <algorithm>
 #include <cattaneo/condense/reduction.hpp>
+#include <cattaneo/fretting/calibration.hpp>
 #include <cattaneo/friction/march.hpp>
 #include <cattaneo/friction/zones.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/output/history.hpp>
 #include <cattaneo/output/paraview.hpp>
+#include <cattaneo/reduced/reduced_file.hpp>
 #include <cattaneo/whole_file.hpp>
 #include <cmath>
 #include <filesystem>
@@ -43,6 +47,7 @@ struct BodyOptions
 struct Side
 {
    std::unique_ptr<mfem::Mesh> mesh;
+   std::vector<Material> materials; ///< one, or one for each element attribute
    std::unique_ptr<ElasticBody> body;
    CondensedBody condensed;
 };
@@ -110,7 +115,8 @@ Side make_side(const BodyOptions &options, const std::string &k, int order, bool
               " is empty, must name boundary attributes");
       Side side;
       side.mesh = read_mesh(options.mesh);
-      const std::vector<Material> list = materials(options, k, plane_stress);
+      side.materials = materials(options, k, plane_stress);
+      const std::vector<Material> &list = side.materials;
       side.body = list.size() == 1 ? std::make_unique<ElasticBody>(*side.mesh, order, list[0])
                                    : std::make_unique<ElasticBody>(*side.mesh, order, list);
       miniapp::add_supports(*side.body, "support" + k, options.support);
@@ -136,6 +142,65 @@ Reduction on_rigid_line(const CondensedBody &body)
    return reduce(body,
                  [=](double x, double y) { return normal.dot(Eigen::Vector2d(x, y)) - level; });
 }
+
+struct Wedge
+{
+   double angle; ///< that the body fills
+   Material material;
+};
+
+Wedge wedge_at(const Side &side, Eigen::Index node)
+{
+   const miniapp::FilledCorner corner =
+      miniapp::filled_corner(*side.mesh, side.condensed.line.position.row(node).transpose());
+   const std::size_t last = side.materials.size() - 1;
+   return {corner.angle, side.materials[std::min<std::size_t>(corner.attribute - 1, last)]};
+}
+
+bool similar(const Material &a, const Material &b)
+{
+   return a.young == b.young && a.poisson == b.poisson;
+}
+
+/// The corner at the first (1) or the last (-1) node of body 1's line; the lines of the two
+/// bodies run against each other.
+fretting::CornerModes corner_at(const std::vector<Side> &sides, int end)
+{
+   const Eigen::Index last = sides[0].condensed.line.size() - 1;
+   const Wedge pad = wedge_at(sides[0], end > 0 ? 0 : last);
+   if (sides.size() == 1)
+   {
+      return fretting::corner_modes(fretting::RigidCorner{
+         pad.angle, pad.material.poisson, pad.material.state == PlaneState::stress});
+   }
+   const Wedge body = wedge_at(sides[1], end > 0 ? last : 0);
+   require(similar(pad.material, body.material),
+           "the bodies differ in material there, whose exponents are not known here");
+   const double gap = 2 * std::acos(-1.0) - pad.angle - body.angle;
+   require(gap > 1e-6, "the surfaces of both bodies run on smoothly there: the contact line is "
+                       "cut off, lengthen it");
+   return fretting::corner_modes(fretting::Corner{pad.angle, body.angle});
+}
+
+/// States of a march at given times, each the first one that reaches its time.
+struct Snapshots
+{
+   std::vector<double> times;
+   std::vector<ContactState> states;
+
+   void note(const ContactState &reached)
+   {
+      for (std::size_t k = 0; k < times.size(); ++k)
+      {
+         if (states[k].status.empty() && reached.time >= times[k]) { states[k] = reached; }
+      }
+   }
+   bool complete() const
+   {
+      return std::none_of(states.begin(), states.end(),
+                          [](const ContactState &s) { return s.status.empty(); });
+   }
+};
 
 void add_options(miniapp::CaseOptions &args, BodyOptions &body, const std::string &k,
                  const char *mesh_help)
@@ -201,9 +266,10 @@ int main(int argc, char *argv[])
          int order = 2, cycle_start = -1, cycles = 1, increments = 20;
          bool plane_stress = false;
          double friction = 0, pairing_tolerance = 1e-6;
-         const char *gap = "geometry", *history_text = "", *stepping = "advancing";
+         const char *gap = "geometry", *history_text = "", *stepping = "advancing",
+                    *edge_times = "";
          const char *json = "", *csv = "", *paraview = "", *frames = "", *save_file = "",
-                    *load_file = "";
+                    *load_file = "", *reduced_file = "";
 
          miniapp::CaseOptions args(argc, argv);
          add_options(args, options[0], "1", "Mesh of body 1 (MFEM, or Gmsh 2.2).");
@@ -225,8 +291,11 @@ int main(int argc, char *argv[])
                   "How often the cycle is marched (fewer once it is steady).");
          args.add(&increments, "increments",
                   "Load increments between two points of the history.");
-         args.add(&stepping, "stepping", Text::word,
-                  "advancing (finer where contact advances) or fixed.");
+         args.add(&stepping, "stepping", Text::word, miniapp::stepping_help);
+         args.add(&edge_times, "edges", Text::numbers,
+                  "Times of two states: pressed, and at the peak of the cyclic loads. Reports "
+                  "K_N, K_T and slip at the contact edges; a third time is the other end of "
+                  "the cycle, for the energy.");
          mfem::OptionsParser &line = args.command_line();
          line.AddOption(&json, "-json", "--json", "File for the results.");
          line.AddOption(&csv, "-csv", "--csv",
@@ -236,6 +305,7 @@ int main(int argc, char *argv[])
                         "Times to be written besides the last one, or all (every increment).");
          line.AddOption(&save_file, "-save-state", "--save-state", "File for the last state.");
          line.AddOption(&load_file, "-load-state", "--load-state", "State to go on from.");
+         miniapp::add_save_option(line, &reduced_file);
          args.parse();
 
          require(options[0].mesh[0], "option mesh1 is empty, must name a mesh file");
@@ -249,7 +319,6 @@ int main(int argc, char *argv[])
                  pairing_tolerance, ", must be above 0 and below 0.5");
          require(increments >= 1, "option increments is ", increments, ", must be at least 1");
          miniapp::check_choice("gap", gap, {"geometry", "closed"});
-         miniapp::check_choice("stepping", stepping, {"advancing", "fixed"});
          const std::string prefix = csv, folder = paraview;
          if (json[0]) { require_writable(json); }
          if (save_file[0]) { require_writable(save_file); }
@@ -262,6 +331,14 @@ int main(int argc, char *argv[])
          std::vector<double> wanted =
             all_frames ? std::vector<double>() : miniapp::numbers("frames", frames);
          std::sort(wanted.begin(), wanted.end());
+         Snapshots snapshots{miniapp::numbers("edges", edge_times), {}};
+         snapshots.states.resize(snapshots.times.size());
+         require(snapshots.times.empty() || snapshots.times.size() == 2 ||
+                    snapshots.times.size() == 3,
+                 "option edges has ", snapshots.times.size(),
+                 " times, must have two (pressed, peak) or three (the other end of the cycle)");
+         require(snapshots.times.empty() || friction > 0,
+                 "option edges needs friction: without it nothing is stuck");
 
          std::vector<Side> sides;
          int dofs = 0;
@@ -281,6 +358,7 @@ int main(int argc, char *argv[])
          if (std::string(gap) == "closed") { problem.gap.setZero(); }
          require(!problem.patterns.empty(),
                  "there is no load: option load1 or load2 must name one");
+         if (reduced_file[0] && miniapp::writes()) { save(problem, reduced_file); }
          LoadHistory history = miniapp::load_history("history", history_text, problem.patterns);
          history.cycle_start = cycle_start;
          history.cycles = cycles;
@@ -297,17 +375,21 @@ int main(int argc, char *argv[])
             state.validate(problem);
             check_start(state, history);
          }
-         for (double time : wanted)
+         const auto check_times = [&](const char *option, const std::vector<double> &times)
          {
-            const double end = history.end_time(history.segments() - 1);
-            require(time > state.time && time <= end, "option frames: time ", time,
-                    " is outside of the march from ", state.time, " to ", end);
-         }
+            for (double time : times)
+            {
+               const double end = history.end_time(history.segments() - 1);
+               require(time > state.time && time <= end, "option ", option, ": time ", time,
+                       " is outside of the march from ", state.time, " to ", end);
+            }
+         };
+         check_times("frames", wanted);
+         check_times("edges", snapshots.times);
 
          MarchSettings settings;
          settings.increments = increments;
-         settings.stepping =
-            std::string(stepping) == "fixed" ? Stepping::fixed : Stepping::advancing;
+         settings.stepping = miniapp::stepping("stepping", stepping);
          const bool recording = csv[0] || paraview[0];
          HistoryTable table;
          std::vector<ContactState> recorded;
@@ -316,6 +398,7 @@ int main(int argc, char *argv[])
             problem, history, state, settings,
             [&](const ContactState &reached, const IncrementRecord &record)
             {
+               snapshots.note(reached);
                if (!recording) { return; }
                table.add(reached, record);
                bool frame = all_frames;
@@ -394,6 +477,27 @@ int main(int argc, char *argv[])
             std::cout << "steady from cycle " << report.steady_cycle << ", period "
                       << report.steady_period << std::endl;
          }
+         if (!snapshots.times.empty() && snapshots.complete())
+         {
+            const bool cycle = snapshots.times.size() == 3 && !report.cycles.empty();
+            miniapp::EdgeStudy study{problem, snapshots.states[0], snapshots.states[1]};
+            if (cycle)
+            {
+               study.opposite = &snapshots.states[2];
+               study.cycle = &report.cycles.back();
+            }
+            if (sides.size() == 1) { study.cracked = fretting::CrackedBody::first; }
+            else if (sides[0].materials.size() == 1 && sides[1].materials.size() == 1 &&
+                     similar(sides[0].materials[0], sides[1].materials[0]))
+            {
+               const Material &m = sides[0].materials[0];
+               study.modulus = fretting::contact_modulus(m.young, m.poisson, plane_stress);
+            }
+            study.corner = [&](int end) { return corner_at(sides, end); };
+            const miniapp::EdgeReport edges = miniapp::read_edges(study);
+            miniapp::print(edges, [](double s) { return s; });
+            results["edges"] = miniapp::to_json(edges);
+         }
          results["status"] = name(report.status);
          if (code != 0)
          {
@@ -418,6 +522,7 @@ int main(int argc, char *argv[])
          Counters counters = reduction.counters;
          counters += report.counters;
          results["counters"] = miniapp::to_json(counters);
+         miniapp::add_exact_path(report, settings, results);
          results["seconds"] = watch.seconds();
          results["seconds_condensation"] = condensed;
          miniapp::write_json(results, json);

@@ -19,6 +19,8 @@
 //                fretting -Q 5 -bs 10 -plot results/fretting
 //                fretting -plot results/fretting -rec miniapps/data/fretting_records.csv
 
+#include "common/contact_edges.hpp"
+#include "common/figure.hpp"
 #include "common/hertz_scene.hpp"
 #include "common/miniapp.hpp"
 
@@ -33,7 +35,6 @@
 #include <cattaneo/whole_file.hpp>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -87,11 +88,9 @@ struct Contact
 };
 
 /// One edge of the finite element contact over one steady cycle.
-struct SolvedEdge
+struct SolvedEdge : miniapp::SolvedEdge
 {
-   ContactEdge edge;
    double reversed_slip_zone = 0.0; ///< computed, back at peak load
-   EnergyComparison energy;
 };
 
 struct SolvedContact
@@ -129,6 +128,7 @@ SolvedContact solve_contact(const Design &design, const Setting &setting,
                        setting.plane_stress ? PlaneState::stress : PlaneState::strain};
    options.load = design.normal;
    options.bulk = bulk_of(design) != 0;
+   options.bulk_pad = design.bulk_pad != 0;
    // The far size costs the bulk's equilibrium digits; the contact does not feel it.
    options.domain = 1e3;
    miniapp::HertzScene scene = make_scene(options);
@@ -141,6 +141,7 @@ SolvedContact solve_contact(const Design &design, const Setting &setting,
    Eigen::VectorXd cyclic = none;
    cyclic[problem.pattern("Q")] = design.shear / design.normal;
    if (options.bulk) { cyclic[problem.pattern("bulk")] = bulk_of(design); }
+   if (options.bulk_pad) { cyclic[problem.pattern("bulk pad")] = design.bulk_pad; }
 
    SolvedContact solved;
    solved.dofs = scene.dofs;
@@ -173,11 +174,13 @@ SolvedContact solve_contact(const Design &design, const Setting &setting,
            edges.size(), " edges instead of 2: refine it with --nodes.");
    for (const std::size_t e : {0, 1})
    {
-      const double k_t_range = (1 - design.load_ratio) * std::abs(edges[e].k_t.value);
       // Shear on the specimen points into the contact at its left edge if Q > 0.
-      SolvedEdge &edge = e == 0 ? solved.trailing : solved.leading;
-      edge = {edges[e], reversed[e].slip_zone,
-              compare_energy(problem, edges[e], report.cycles.back(), k_t_range, modulus)};
+      SolvedEdge &solution = e == 0 ? solved.trailing : solved.leading;
+      solution.edge = edges[e];
+      solution.reversed_slip_zone = reversed[e].slip_zone;
+      solution.k_t_range = (1 - design.load_ratio) * std::abs(edges[e].k_t.value);
+      solution.energy =
+         compare_energy(problem, edges[e], report.cycles.back(), solution.k_t_range, modulus);
    }
    solved.half_width = edges[0].half_width;
    solved.spacing = 2 * options.span * options.half_width / (options.nodes - 1);
@@ -196,8 +199,8 @@ miniapp::ReferenceTable compare(const Design &design, const Setting &setting,
    const double limit = design.friction * design.normal, x = std::abs(design.shear) / limit;
    const double peak_pressure = 2 * design.normal / (pi * a);
    const double stick = a * std::sqrt(1 - x);
-   const double shift =
-      a * bulk_of(design) * (design.shear < 0 ? -1 : 1) / (4 * design.friction * peak_pressure);
+   const double shift = a * (bulk_of(design) - design.bulk_pad) * (design.shear < 0 ? -1 : 1) /
+                        (4 * design.friction * peak_pressure);
    miniapp::ReferenceTable table;
    // Read-out between the nodes: a tenth of a spacing beside the estimate of its error.
    const double read_out = 0.1 * solved.spacing;
@@ -235,13 +238,13 @@ miniapp::ReferenceTable compare(const Design &design, const Setting &setting,
          const double energy =
             0.5 * hertz_slip_energy(design.friction, design.normal, y, modulus);
          table.add("energy per cycle, N" + where, energy, 0.02 * energy, unset,
-                   edge.energy.computed_total);
+                   edge.energy->computed_total);
          const Edge exact{closed_form.k_n, closed_form.k_t.trailing, design.friction};
          const double ratio =
             slip_energy_total(exact, (1 - design.load_ratio) * std::abs(exact.k_t), modulus) /
             energy;
          table.add("predicted / computed energy" + where, ratio, 0.05 * ratio, unset,
-                   edge.energy.predicted_total / edge.energy.computed_total);
+                   edge.energy->predicted_total / edge.energy->computed_total);
       }
    }
    return table;
@@ -521,12 +524,6 @@ void print_page(const Design &design, const Setting &setting, const EdgeAssessme
 // --- JSON
 // ---------------------------------------------------------------------------------------
 
-/// JSON has no infinity or NaN: unknown or unbounded is null.
-Json value(double number)
-{
-   return std::isfinite(number) ? Json(number) : Json(nullptr);
-}
-
 Json to_json(const Design &design, const Setting &setting, const EdgeAssessment &judged)
 {
    const FrettingReport &r = judged.report;
@@ -535,72 +532,57 @@ Json to_json(const Design &design, const Setting &setting, const EdgeAssessment 
    Json validity = Json::array();
    for (const Validity &item : r.validity)
    {
-      validity.push_back({{"measure", item.measure},
-                          {"value", item.measure.empty() ? Json(nullptr) : value(item.value)},
-                          {"trust", to_string(item.trust)},
-                          {"text", item.text}});
+      validity.push_back(
+         {{"measure", item.measure},
+          {"value", item.measure.empty() ? Json(nullptr) : miniapp::json_number(item.value)},
+          {"trust", to_string(item.trust)},
+          {"text", item.text}});
    }
-   return {{"units", "N, mm, MPa, forces per mm of thickness"},
-           {"pad", design.pad},
-           {"material", setting.material.name},
-           {"friction", design.friction},
-           {"load_ratio", design.load_ratio},
-           {"half_width", value(contact.half_width > 0 ? contact.half_width : unset)},
-           {"edge_width", value(width > 0 ? width : unset)},
-           {"k_n", contact.k_n},
-           {"k_t_trailing", contact.k_t.trailing},
-           {"k_t_leading", value(contact.k_t.leading)},
-           {"judged_edge", judged.edge},
-           {"k_t_range", r.k_t_range},
-           {"slip_zone", r.slip_zone},
-           {"edge_stress", r.edge_stress},
-           {"edge_stress_range", r.edge_stress_range},
-           {"yield_ratio_first", r.yield_ratio_first},
-           {"yield_ratio_full", r.yield_ratio_full},
-           {"critical_length", r.critical_length},
-           {"k_i_max", r.k_i_max},
-           {"k_i_min", r.k_i_min},
-           {"k_threshold", setting.material.threshold},
-           {"fatigue_limit", setting.material.fatigue_limit.low},
-           {"mode_two_k_t",
-            setting.criteria.mode_two_ratio * setting.material.threshold / mode_two_range(1)},
-           {"criterion", criterion_name(setting.criteria.criterion)},
-           {"drive", r.threshold.drive},
-           {"threshold_x", r.abscissa},
-           {"threshold_y", r.threshold_ordinate},
-           {"design_y", r.ordinate},
-           {"verdict", to_string(r.threshold.verdict)},
-           {"arrest_depth", value(r.threshold.arrest_depth)},
-           {"mode_two_utilisation", r.mode_two_utilisation},
-           {"energy_max", r.energy_max},
-           {"energy_total", r.energy_total},
-           {"trust", to_string(r.trust)},
-           {"validity", validity}};
-}
-
-Json to_json(const FittedIntensity &fitted)
-{
-   return {{"value", fitted.value},
-           {"relative_error", fitted.relative_error},
-           {"window", {fitted.window.nearest, fitted.window.farthest}},
-           {"nodes", fitted.nodes}};
+   return {
+      {"units", "N, mm, MPa, forces per mm of thickness"},
+      {"pad", design.pad},
+      {"material", setting.material.name},
+      {"friction", design.friction},
+      {"load_ratio", design.load_ratio},
+      {"half_width", miniapp::json_number(contact.half_width > 0 ? contact.half_width : unset)},
+      {"edge_width", miniapp::json_number(width > 0 ? width : unset)},
+      {"k_n", contact.k_n},
+      {"k_t_trailing", contact.k_t.trailing},
+      {"k_t_leading", miniapp::json_number(contact.k_t.leading)},
+      {"judged_edge", judged.edge},
+      {"k_t_range", r.k_t_range},
+      {"slip_zone", r.slip_zone},
+      {"edge_stress", r.edge_stress},
+      {"edge_stress_range", r.edge_stress_range},
+      {"yield_ratio_first", r.yield_ratio_first},
+      {"yield_ratio_full", r.yield_ratio_full},
+      {"critical_length", r.critical_length},
+      {"k_i_max", r.k_i_max},
+      {"k_i_min", r.k_i_min},
+      {"k_threshold", setting.material.threshold},
+      {"fatigue_limit", setting.material.fatigue_limit.low},
+      {"mode_two_k_t",
+       setting.criteria.mode_two_ratio * setting.material.threshold / mode_two_range(1)},
+      {"criterion", criterion_name(setting.criteria.criterion)},
+      {"drive", r.threshold.drive},
+      {"threshold_x", r.abscissa},
+      {"threshold_y", r.threshold_ordinate},
+      {"design_y", r.ordinate},
+      {"verdict", to_string(r.threshold.verdict)},
+      {"arrest_depth", miniapp::json_number(r.threshold.arrest_depth)},
+      {"mode_two_utilisation", r.mode_two_utilisation},
+      {"energy_max", r.energy_max},
+      {"energy_total", r.energy_total},
+      {"trust", to_string(r.trust)},
+      {"validity", validity}};
 }
 
 Json to_json(const SolvedEdge &solved, bool resolved)
 {
-   const ContactEdge &edge = solved.edge;
-   return {{"k_n", to_json(edge.k_n)},
-           {"k_t", to_json(edge.k_t)},
-           {"slip_zone", edge.slip_zone},
-           {"slip_zone_error", edge.slip_zone_error},
-           {"slip_zone_predicted", slip_zone(edge.near_edge())},
-           {"slip_zone_reversed", solved.reversed_slip_zone},
-           {"slides", edge.slides},
-           {"resolved", resolved},
-           {"energy", solved.energy.computed_total},
-           {"energy_predicted", solved.energy.predicted_total},
-           {"energy_max", solved.energy.computed_max},
-           {"energy_max_predicted", solved.energy.predicted_max}};
+   Json j = miniapp::to_json(solved);
+   j["slip_zone_reversed"] = solved.reversed_slip_zone;
+   j["resolved"] = resolved;
+   return j;
 }
 
 Json to_json(const SolvedContact &solved)
@@ -636,10 +618,10 @@ void print_solution(const SolvedContact &solved, const miniapp::ReferenceTable &
                  "± " + number(edge.slip_zone_error, "mm") + "; from K_N and K_T " +
                     number(slip_zone(edge.near_edge()), "mm") +
                     (edge.slides ? "; the whole contact slides" : ""));
-      print_line("energy per cycle", number(solution.energy.computed_total, "N"),
-                 "from K_N and K_T " + number(solution.energy.predicted_total, "N"));
-      print_line("largest per area", number(solution.energy.computed_max, "N/mm"),
-                 "from K_T " + number(solution.energy.predicted_max, "N/mm"));
+      print_line("energy per cycle", number(solution.energy->computed_total, "N"),
+                 "from K_N and K_T " + number(solution.energy->predicted_total, "N"));
+      print_line("largest per area", number(solution.energy->computed_max, "N/mm"),
+                 "from K_T " + number(solution.energy->predicted_max, "N/mm"));
       if (edge.k_t.value != 0 && !resolved(solution, solved))
       {
          std::cout << wrap("The slip zone is shorter than two spacings of the contact nodes (" +
@@ -841,8 +823,12 @@ std::string correlate(const std::string &file, const Design &common, const Setti
               "; it must be 0 or 1.");
       try
       {
-         const FrettingReport report =
-            assess_design(design, setting, calibrate(design, setting)).report;
+         Contact contact = calibrate(design, setting);
+         if (design.pad == "fe")
+         {
+            contact = replace_intensities(contact, solve_contact(design, setting, contact));
+         }
+         const FrettingReport report = assess_design(design, setting, contact).report;
          table.row(series, cycles, runout, design.friction, report.edge_stress_range,
                    report.abscissa, report.ordinate, report.k_t_range, report.energy_max,
                    report.energy_total, to_string(report.trust));
@@ -855,25 +841,6 @@ std::string correlate(const std::string &file, const Design &common, const Setti
    }
    require(tests > 0, "there are no tests in ", file, ".");
    return table.text();
-}
-
-std::string shell_quoted(const std::string &text)
-{
-   std::string quoted = "'";
-   for (const char c : text) { quoted += c == '\'' ? std::string("'\\''") : std::string(1, c); }
-   return quoted + "'";
-}
-
-void draw(const std::string &directory)
-{
-   const std::string script = std::string(CATTANEO_SOURCE_DIR) + "/miniapps/plot/fretting.py";
-   // The first python3 that has matplotlib: the one in the path may be bare.
-   const std::string command = "for p in python3 /usr/bin/python3; do $p -c 'import "
-                               "matplotlib' 2>/dev/null && exec $p " +
-                               shell_quoted(script) + " " + shell_quoted(directory) +
-                               "; done; exit 1";
-   require(std::system(command.c_str()) == 0, "the data are in ", directory,
-           ", but the figures could not be drawn; this needs python3 with matplotlib.");
 }
 
 // --- options
@@ -962,9 +929,6 @@ int program(int argc, char *argv[])
    require(records.empty() || !plot.empty(), "--records needs --plot for its figures.");
 
    const bool solve = design.pad == "fe";
-   require(!solve || records.empty(),
-           "--records are assessed by the closed forms: not with the pad 'fe'.");
-   require(!solve || design.bulk_pad == 0, "the pad 'fe' takes no --bulk-pad.");
    if (!json.empty()) { require_writable(json); }
 
    Contact contact = calibrate(design, setting);
@@ -1002,7 +966,11 @@ int program(int argc, char *argv[])
    }
    print_page(design, setting, judged);
    if (solve) { print_solution(solved, table); }
-   if (!plot.empty()) { draw(plot); }
+   if (!plot.empty())
+   {
+      require(miniapp::run_plot_script("fretting.py", {plot}), "the data are in ", plot,
+              ", but the figures could not be drawn; this needs python3 with matplotlib.");
+   }
    return 0;
 }
 

@@ -11,9 +11,8 @@
 //                hertz -shear "0.3 0.6 0.9"
 //                hertz -body block -ratio 0.8 -shear none
 
-#include "common/figure.hpp"
 #include "common/hertz_scene.hpp"
-#include "common/miniapp.hpp"
+#include "common/study_output.hpp"
 
 #include <algorithm>
 #include <cattaneo/friction/march.hpp>
@@ -86,9 +85,8 @@ int main(int argc, char *argv[])
    return miniapp::run(
       [&]
       {
-         const miniapp::Stopwatch watch;
-         const char *body = "half-plane", *shear_list = "0.6", *json = "", *csv = "",
-                    *plot = "";
+         miniapp::StudyOutput output;
+         const char *body = "half-plane", *shear_list = "0.6";
          double friction = 0.4, poisson = 0.3, ratio = 0.4, domain = 1e4, span = 1.67;
          int order = 2, nodes = 101, increments = 20;
          mfem::OptionsParser args(argc, argv);
@@ -107,9 +105,7 @@ int main(int argc, char *argv[])
                         "Monotonic shear after P: list of Q/fP, or none.");
          args.AddOption(&increments, "-increments", "--increments",
                         "Load increments between two values (more where contact advances).");
-         args.AddOption(&json, "-json", "--json", "File for the results.");
-         args.AddOption(&csv, "-csv", "--csv", "Prefix of CSV files for the figures.");
-         args.AddOption(&plot, "-plot", "--plot", "Picture of the results (png, pdf, svg).");
+         output.add_options(args);
          miniapp::parse(args);
          miniapp::check_choice("--body", body, {"half-plane", "block"});
          const bool on_block = std::string(body) == "block";
@@ -130,14 +126,12 @@ int main(int argc, char *argv[])
          miniapp::HertzScene scene =
             on_block ? make_scene(miniapp::BlockOnHalfPlane{order, nodes, domain, material, P})
                      : make_scene(miniapp::HalfPlanes{order, nodes, b, span, domain, material,
-                                                      P, false});
+                                                      P, false, false});
          ReducedProblem &problem = scene.reduction.problem;
          set_friction(problem, friction);
          const VectorXd x = problem.position.col(0);
          problem.gap = x.array().square() / (2 * radius);
-         const double condensed = watch.seconds();
-         std::cout << "Condensed " << scene.dofs << " dofs to " << 2 * problem.nodes() << " in "
-                   << condensed << " s" << std::endl;
+         output.reduced(problem, scene.dofs);
 
          MarchSettings settings;
          settings.increments = increments;
@@ -253,16 +247,8 @@ int main(int argc, char *argv[])
             results["levels"] = levels;
             results["stick_half_width"] = levels.back()["stick_half_width"];
          }
-         table.print();
          results["status"] = name(report.status);
-         results["contact_nodes"] = problem.nodes();
-         results["dofs"] = scene.dofs;
-         results["seconds"] = watch.seconds();
-         results["seconds_condensation"] = condensed;
-         results["counters"] = miniapp::to_json(counters);
-         results["references"] = table.json();
-         miniapp::write_json(results, json);
-         miniapp::output({profiles}, csv, plot);
+         output.write(results, counters, table, {profiles});
          return code;
       });
 }

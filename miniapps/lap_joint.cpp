@@ -8,14 +8,15 @@
 //
 //  Sample runs:  lap_joint
 //                lap_joint -friction 0.5 -load -0.04 -touch
+//                lap_joint -march exact
 //                lap_joint -sweep-load "-0.03 0.04" -sweep-friction "0.2 0.8"
 //                lap_joint -sweep-load 0.04 -sweep-width "0.5 1 2" -spacing 0.01
 //                lap_joint -bolts "-1.5 0 1.5" -friction 0.4 -load 0.2 -spacing 0.025
 //                lap_joint -bolts "-1.2 0 1.2" -lower-thickness 2 -load 0.1 -spacing 0.025
 
-#include "common/figure.hpp"
+#include "common/contact_edges.hpp"
 #include "common/lap_joint_scene.hpp"
-#include "common/miniapp.hpp"
+#include "common/study_output.hpp"
 
 #include <algorithm>
 #include <cattaneo/friction/march.hpp>
@@ -34,12 +35,6 @@ namespace
 {
 
 const double none = std::numeric_limits<double>::quiet_NaN();
-
-nlohmann::ordered_json json_number(double value)
-{
-   return std::isfinite(value) ? nlohmann::ordered_json(value)
-                               : nlohmann::ordered_json(nullptr);
-}
 
 double half_width(const Zone &zone)
 {
@@ -87,7 +82,7 @@ using Observer = std::function<void(const ContactState &)>;
 
 /// Marches through the tightening points, then cycles the remote load between 0 and `load`.
 Outcome run(FrictionSolver &solver, std::vector<VectorXd> points, int remote, double load,
-            int cycles, int increments, bool stop, const Observer &observe = {})
+            int cycles, const MarchSettings &settings, const Observer &observe = {})
 {
    Outcome outcome;
    const ReducedProblem &problem = solver.problem();
@@ -98,9 +93,6 @@ Outcome run(FrictionSolver &solver, std::vector<VectorXd> points, int remote, do
    LoadHistory history = LoadHistory::through(points);
    history.cycle_start = tightened;
    history.cycles = cycles;
-   MarchSettings settings;
-   settings.increments = increments;
-   settings.stop_at_steady_state = stop;
    ContactState state = ContactState::virgin(problem);
    auto note = [&](const ContactState &now, const IncrementRecord &)
    {
@@ -205,8 +197,8 @@ struct Study
    miniapp::LapJointOptions options;
    miniapp::LapJoint joint;
    double friction = 0.2, load = 0.04, snug = 0.05;
-   int cycles = 3, increments = 40;
-   bool stop = true;
+   int cycles = 3;
+   MarchSettings settings;
    Counters counters;
    miniapp::ReferenceTable table;
    nlohmann::ordered_json results;
@@ -259,7 +251,7 @@ void Study::compare(const Outcome &o)
    table.add("peak pressure / p0", 1.0468, 2e-4, 1.05, o.peak_pressure);
    if (load == 0.04) { table.add("a/t, T = 0.04 P0", 0.6596, 0.0005 + edge, 0.67, o.a); }
    if (load == -0.04) { table.add("a/t, T = -0.04 P0", 0.763, 0.001 + edge, none, o.a); }
-   const bool fine = options.spacing <= 0.00625 && increments >= 20 && cycles >= 2;
+   const bool fine = options.spacing <= 0.00625 && settings.increments >= 20 && cycles >= 2;
    if (load == 0.04 && friction == 0.2)
    {
       table.add("c/a, first loading, T = 0.04, f = 0.2", 0.760, 0.0005 + edge, 0.78,
@@ -351,8 +343,9 @@ int Study::single()
    const std::vector<VectorXd> points = tightening({0});
    const miniapp::Stopwatch watch;
    const Outcome o =
-      run(solver, points, joint.remote(), load * P0(), cycles, increments, stop, observe);
+      run(solver, points, joint.remote(), load * P0(), cycles, settings, observe);
    counters += o.report.counters;
+   miniapp::add_exact_path(o.report, settings, results);
    if (o.code != 0)
    {
       results["event_load"] = o.report.event_multipliers[joint.remote()] / P0();
@@ -396,6 +389,14 @@ int Study::single()
    results["steady_period"] = o.report.steady_period;
    results["zones"] = evolution;
    results["seconds_march"] = o.report.seconds;
+   // The remote load goes from none to its peak: the pressed state is the cycle's other end.
+   miniapp::EdgeStudy edges{problem(), o.tightened, o.first_peak};
+   edges.opposite = &edges.pressed;
+   edges.cycle = &o.report.cycles.back();
+   edges.modulus = 0.5; // E*, with E' = 1 of both laps
+   const miniapp::EdgeReport report = miniapp::read_edges(edges);
+   miniapp::print(report, [&](double s) { return x(s); });
+   results["edges"] = miniapp::to_json(report);
    compare(o);
    draw(o, diagram);
    return 0;
@@ -424,6 +425,8 @@ int Study::sweep(const std::vector<double> &loads, const std::vector<double> &fr
       set_friction(problem(), f);
       FrictionSolver solver(problem());
       // Of the first width: a and c over T, and D over T of either sign.
+      MarchSettings to_steady = settings;
+      to_steady.stop_at_steady_state = true;
       std::vector<double> T, a, c, tension, compression, D_tension, D_compression;
       std::vector<std::vector<double>> by_p0(loads.size()), by_P0(loads.size());
       for (double width : widths)
@@ -437,7 +440,7 @@ int Study::sweep(const std::vector<double> &loads, const std::vector<double> &fr
             for (std::size_t k = 0; k < loads.size(); ++k)
             {
                const Outcome o = run(solver, tightening({0}, index, pressure), joint.remote(),
-                                     loads[k] * P0(), cycles, increments, true);
+                                     loads[k] * P0(), cycles, to_steady);
                counters += o.report.counters;
                // Gross sliding is a result of a sweep, not its end.
                const double first = o.code ? none : o.first() / unit;
@@ -453,8 +456,8 @@ int Study::sweep(const std::vector<double> &loads, const std::vector<double> &fr
                                {"a", o.a},
                                {"c_first", o.c_first},
                                {"c_steady", o.c_steady},
-                               {"dissipation_first", json_number(first)},
-                               {"dissipation_steady", json_number(steady)},
+                               {"dissipation_first", miniapp::json_number(first)},
+                               {"dissipation_steady", miniapp::json_number(steady)},
                                {"status", name(o.report.status)}});
                if (pressure == 1) { by_p0[k].push_back(steady); }
                if (pressure != 1 || width == P0()) { by_P0[k].push_back(steady); }
@@ -510,7 +513,7 @@ int Study::row(const std::vector<std::vector<int>> &all)
    for (const std::vector<int> &order : all)
    {
       const Outcome o =
-         run(solver, tightening(order), joint.remote(), load * P0(), cycles, increments, stop);
+         run(solver, tightening(order), joint.remote(), load * P0(), cycles, settings);
       counters += o.report.counters;
       if (o.code != 0) { return o.code; }
       std::string label;
@@ -547,12 +550,12 @@ int main(int argc, char *argv[])
    return miniapp::run(
       [&]
       {
-         const miniapp::Stopwatch watch;
+         miniapp::StudyOutput output;
          Study study;
          miniapp::LapJointOptions &options = study.options;
          options.spacing = 0.005;
          const char *bolts = "0", *tightening = "", *sweep_load = "", *sweep_friction = "",
-                    *sweep_width = "", *json = "", *csv = "", *plot = "";
+                    *sweep_width = "", *march_by = "advancing";
          bool touch = false, all_cycles = false;
          mfem::OptionsParser args(argc, argv);
          args.AddOption(&options.widths[0], "-width", "--width",
@@ -569,8 +572,9 @@ int main(int argc, char *argv[])
                         "Cycles at most; the march stops when steady.");
          args.AddOption(&all_cycles, "-all-cycles", "--all-cycles", "-stop-when-steady",
                         "--stop-when-steady", "March all cycles.");
-         args.AddOption(&study.increments, "-increments", "--increments",
+         args.AddOption(&study.settings.increments, "-increments", "--increments",
                         "Load increments from 0 to Tmax, and as many back.");
+         args.AddOption(&march_by, "-march", "--march", miniapp::stepping_help);
          args.AddOption(&touch, "-touch", "--touch", "-no-touch", "--no-touch",
                         "Find the compression at which the free ends touch.");
          args.AddOption(&bolts, "-bolts", "--bolts", "Positions of the bolts, in t.");
@@ -590,20 +594,19 @@ int main(int argc, char *argv[])
                         "Distance of the contact nodes, in t.");
          args.AddOption(&options.poisson, "-poisson", "--poisson",
                         "Poisson's ratio of both laps.");
-         args.AddOption(&json, "-json", "--json", "File for the results.");
-         args.AddOption(&csv, "-csv", "--csv", "Prefix of CSV files for the figures.");
-         args.AddOption(&plot, "-plot", "--plot", "Picture of the results (png, pdf, svg).");
+         output.add_options(args);
          miniapp::parse(args);
 
          require(study.friction > 0, "option --friction is ", study.friction,
                  ", must be positive");
          require(study.cycles >= 1, "option --cycles is ", study.cycles,
                  ", must be at least 1");
-         require(study.increments >= 1, "option --increments is ", study.increments,
-                 ", must be at least 1");
+         require(study.settings.increments >= 1, "option --increments is ",
+                 study.settings.increments, ", must be at least 1");
          require(study.snug >= 0 && study.snug < 1, "option --snug is ", study.snug,
                  ", must be 0 or more and below 1");
-         study.stop = !all_cycles;
+         study.settings.stepping = miniapp::stepping("--march", march_by);
+         study.settings.stop_at_steady_state = !all_cycles;
          options.bolts = miniapp::numbers("--bolts", bolts);
          const std::vector<double> loads = miniapp::numbers("--sweep-load", sweep_load);
          std::vector<double> frictions = miniapp::numbers("--sweep-friction", sweep_friction);
@@ -623,10 +626,7 @@ int main(int argc, char *argv[])
 
          study.joint = miniapp::make_lap_joint(options);
          study.counters = study.joint.reduction.counters;
-         const double condensed = watch.seconds();
-         std::cout << "Condensed " << study.joint.dofs << " dofs to "
-                   << 2 * study.problem().nodes() << " in " << condensed << " s ("
-                   << study.counters.factorisations << " factorisations)" << std::endl;
+         output.reduced(study.problem(), study.joint.dofs);
          int code = single ? study.single() : study.row(all);
          nlohmann::ordered_json &results = study.results;
          if (code == 0 && touch)
@@ -638,7 +638,7 @@ int main(int argc, char *argv[])
                touch_load(solver, study.tightening(all[0]).back(), study.joint.remote(), limit);
             const double ratio = load / study.P0();
             std::printf("\nThe free ends touch at T/P0 = %.5f\n", ratio);
-            results["touch_load"] = json_number(ratio);
+            results["touch_load"] = miniapp::json_number(ratio);
             if (!study.table.empty())
             {
                study.table.add("T/P0 at which the free ends touch", -0.0402, 3e-4, -0.04,
@@ -646,16 +646,8 @@ int main(int argc, char *argv[])
             }
          }
          if (code == 0 && !loads.empty()) { code = study.sweep(loads, frictions, widths); }
-         study.table.print();
          results["code"] = code;
-         results["contact_nodes"] = study.problem().nodes();
-         results["dofs"] = study.joint.dofs;
-         results["seconds"] = watch.seconds();
-         results["seconds_condensation"] = condensed;
-         results["counters"] = miniapp::to_json(study.counters);
-         results["references"] = study.table.json();
-         miniapp::write_json(results, json);
-         miniapp::output(study.panels, csv, plot);
+         output.write(results, study.counters, study.table, study.panels);
          return code;
       });
 }

@@ -9,13 +9,13 @@
 //
 //  Sample runs:  plane_receding
 //                plane_receding -friction 0.7 -unload "0.9 0.5 0.2 0.1" -steps 50
+//                plane_receding -friction 0.7 -unload "0.9 0.5 0.2 0.1" -march exact
 //                plane_receding -domain th0 -friction 0.3 -order 1 -spacing 0.04 -corner 0.001
 //                plane_receding -overhang 0.8 -friction 1.4
 //                plane_receding -map "0.4 0.8 1.2 1.6 2 3" -spacing 0.05 -corner 0.01
 
-#include "common/figure.hpp"
-#include "common/miniapp.hpp"
 #include "common/receding.hpp"
+#include "common/study_output.hpp"
 
 #include <algorithm>
 #include <cattaneo/friction/march.hpp>
@@ -33,12 +33,6 @@ namespace
 {
 
 const double none = std::numeric_limits<double>::quiet_NaN();
-
-nlohmann::ordered_json json_number(double value)
-{
-   return std::isfinite(value) ? nlohmann::ordered_json(value)
-                               : nlohmann::ordered_json(nullptr);
-}
 
 /// Separation and border of stick, as the thesis counts them; NaN where there is none.
 struct Extent
@@ -74,8 +68,8 @@ nlohmann::ordered_json to_json(const Extent &extent, double overhang)
                       {"from", zone.from.position - overhang},
                       {"to", zone.to.position - overhang}});
    }
-   return {{"separation", json_number(extent.s)},
-           {"stick_slip", json_number(extent.e)},
+   return {{"separation", miniapp::json_number(extent.s)},
+           {"stick_slip", miniapp::json_number(extent.e)},
            {"separation_error", extent.s_error},
            {"stick_slip_error", extent.e_error},
            {"zones", list}};
@@ -152,6 +146,7 @@ struct Study
    miniapp::RecedingOptions options;
    bool half_plane = false, thesis_block = false;
    ReducedProblem *problem = nullptr;
+   Stepping stepping = Stepping::advancing;
    Counters counters;
    miniapp::ReferenceTable table;
    nlohmann::ordered_json results;
@@ -201,9 +196,9 @@ void Study::bonded(double overhang, int pattern)
                   b.adhesion_x);
    }
    else { std::printf("  the bonded strip pulls: no friction keeps it together\n"); }
-   results["adhesion_friction"] = json_number(b.adhesion_friction);
+   results["adhesion_friction"] = miniapp::json_number(b.adhesion_friction);
    results["adhesion_x"] = b.adhesion_x;
-   results["corner_ratio"] = json_number(b.corner_ratio);
+   results["corner_ratio"] = miniapp::json_number(b.corner_ratio);
    results["corner_strength"] = {b.k1_pressure, b.k2_pressure};
    results["lowest_bonded_pressure"] = b.lowest_pressure;
    if (options.order >= 2 && options.corner <= 5e-4)
@@ -262,8 +257,8 @@ int Study::map(const std::vector<double> &overhangs, const std::vector<double> &
          std::printf("%7.3g %8.4g %8.4f %8.4f\n", f, overhangs[k], found.s, found.e);
          list.push_back({{"friction", f},
                          {"overhang", overhangs[k]},
-                         {"separation", json_number(found.s)},
-                         {"stick_slip", json_number(found.e)}});
+                         {"separation", miniapp::json_number(found.s)},
+                         {"stick_slip", miniapp::json_number(found.e)}});
          compare_loading(overhangs[k], f, found);
       }
       char label[32];
@@ -374,11 +369,13 @@ int Study::unload(FrictionSolver &solver, ContactState &state, double overhang, 
    };
    MarchSettings settings;
    settings.increments = 1;
+   settings.stepping = stepping;
    state.time = 0;
    const MarchReport report =
       march(solver, LoadHistory::through(loads), state, settings, observe);
    counters += report.counters;
    if (const int code = miniapp::exit_code(report)) { return code; }
+   miniapp::add_exact_path(report, settings, results);
    results["levels"] = list;
    results["unloading_increments"] = report.increments.size();
    nlohmann::ordered_json slip_list = nlohmann::ordered_json::array();
@@ -389,8 +386,8 @@ int Study::unload(FrictionSolver &solver, ContactState &state, double overhang, 
       slip_list.push_back({{"xi", h.xi},
                            {"level", h.level},
                            {"slip", h.slip},
-                           {"slips_from", json_number(h.slips_from)},
-                           {"separates_at", json_number(h.separates_at)}});
+                           {"slips_from", miniapp::json_number(h.slips_from)},
+                           {"separates_at", miniapp::json_number(h.separates_at)}});
       char label[32];
       std::snprintf(label, sizeof label, "ξ/t = %g", h.xi);
       slip_panel.add(label, h.level, h.slip);
@@ -456,12 +453,12 @@ int main(int argc, char *argv[])
    return miniapp::run(
       [&]
       {
-         const miniapp::Stopwatch watch;
+         miniapp::StudyOutput output;
          Study study;
          miniapp::RecedingOptions &options = study.options;
          const char *domain = "hp", *unload_list = "", *slip_list = "-0.5 0 0.5";
          const char *map_list = "", *map_friction_list = "0.3 0.5 0.7 1";
-         const char *json = "", *csv = "", *plot = "";
+         const char *march_by = "advancing";
          double overhang = 4, friction = 0.7, length = 0, depth = 0, side = 0, lowest = 0.05;
          int steps = 50;
          bool study_domain = false;
@@ -487,6 +484,7 @@ int main(int argc, char *argv[])
          args.AddOption(&unload_list, "-unload", "--unload",
                         "Unloading: list of p/p0 to report (empty: none).");
          args.AddOption(&steps, "-steps", "--steps", "Unloading: steps of 1/steps of p0.");
+         args.AddOption(&march_by, "-march", "--march", miniapp::stepping_help);
          args.AddOption(&lowest, "-lowest", "--lowest",
                         "Unloading: p/p0 at which it ends; steps shrink toward it.");
          args.AddOption(&slip_list, "-slip", "--slip",
@@ -496,9 +494,7 @@ int main(int argc, char *argv[])
                         "Map of s and e: list of f.");
          args.AddOption(&study_domain, "-domain-study", "--domain-study", "-no-domain-study",
                         "--no-domain-study", "Print s and e for growing domains.");
-         args.AddOption(&json, "-json", "--json", "File for the results.");
-         args.AddOption(&csv, "-csv", "--csv", "Prefix of CSV files for the figures.");
-         args.AddOption(&plot, "-plot", "--plot", "Picture of the results (png, pdf, svg).");
+         output.add_options(args);
          miniapp::parse(args);
 
          miniapp::check_choice("--domain", domain, {"hp", "th0"});
@@ -521,6 +517,7 @@ int main(int argc, char *argv[])
                     " must be between 0 and 1");
          }
          const std::vector<double> points = miniapp::numbers("--slip", slip_list);
+         study.stepping = miniapp::stepping("--march", march_by);
          const std::vector<double> map_n = miniapp::numbers("--map", map_list);
          const std::vector<double> map_f =
             miniapp::numbers("--map-friction", map_friction_list);
@@ -535,9 +532,7 @@ int main(int argc, char *argv[])
          ReducedProblem &problem = scene.reduction.problem;
          study.problem = &problem;
          study.counters = scene.reduction.counters;
-         const double condensed = watch.seconds();
-         std::cout << "Condensed " << scene.dofs << " dofs to " << 2 * problem.nodes() << " in "
-                   << condensed << " s" << std::endl;
+         output.reduced(problem, scene.dofs);
          study.bonded(overhang, 0);
 
          set_friction(problem, friction);
@@ -569,17 +564,8 @@ int main(int argc, char *argv[])
                "(compare --domain hp and th0); s is less sensitive, and its values "
                "were read off figures.");
          }
-         study.table.print();
-         nlohmann::ordered_json &results = study.results;
-         results["status"] = name(report.status);
-         results["contact_nodes"] = problem.nodes();
-         results["dofs"] = scene.dofs;
-         results["seconds"] = watch.seconds();
-         results["seconds_condensation"] = condensed;
-         results["counters"] = miniapp::to_json(study.counters);
-         results["references"] = study.table.json();
-         miniapp::write_json(results, json);
-         miniapp::output(study.panels, csv, plot);
+         study.results["status"] = name(report.status);
+         output.write(study.results, study.counters, study.table, study.panels);
          return code;
       });
 }

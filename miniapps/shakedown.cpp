@@ -8,7 +8,7 @@
 //
 //  Also for any contact saved with --save (or save() of a reduced problem): name the pattern
 //  that is held and the one that is cycled; --closed keeps the nodes that stay closed in a
-//  march.
+//  march at the limit, and marches the whole contact on both sides of it.
 //
 //  Sample runs:  shakedown
 //                shakedown -nodes 101 -find load -friction 1 -reversal -1 -march -cycles 30
@@ -17,8 +17,8 @@
 //                shakedown -nodes 33 -mismatch "0.1 1 10"
 //                shakedown -obstacle rigid -nodes 65 -friction 0.6 -starts 4
 
-#include "common/miniapp.hpp"
 #include "common/punch.hpp"
+#include "common/study_output.hpp"
 
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
@@ -29,7 +29,6 @@
 #include <cattaneo/shakedown/monolith.hpp>
 #include <cattaneo/shakedown/transient.hpp>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -51,12 +50,6 @@ constexpr double corner_friction = 0.543075578837;
 /// the distance. The roots of sin(3πλ/2) = ± λ, the third of which is complex.
 constexpr double corner_mode_1 = 0.544483736782, corner_mode_2 = 0.908529189846,
                  corner_mode_3 = 1.629257376760, corner_mode_3_imaginary = 0.231250545117;
-
-/// JSON has no infinity.
-ordered_json number(double value)
-{
-   return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
-}
 
 void print_limit(const char *what, const LimitReport &report)
 {
@@ -150,23 +143,6 @@ void write_csv(const std::string &file, const std::vector<std::string> &header,
    require(out.good(), "cannot write file '", file, "'");
 }
 
-/// Runs the script that draws the tables of a directory.
-void draw(const std::string &folder)
-{
-   std::string quoted;
-   for (const char c : folder)
-   {
-      quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-   }
-   // The first python3 that has matplotlib: the one in the path may be bare.
-   const std::string command = "for p in python3 /usr/bin/python3; do $p -c 'import "
-                               "matplotlib' 2>/dev/null && exec $p '" +
-                               std::string(CATTANEO_SOURCE_DIR) +
-                               "/miniapps/plot/shakedown.py' '" + quoted + "'; done; exit 1";
-   require(std::system(command.c_str()) == 0, "the tables are in '", folder,
-           "', but the figures could not be drawn: it needs python3 with matplotlib");
-}
-
 /// What a march came to.
 const char *outcome(const TransientReport &run)
 {
@@ -221,22 +197,15 @@ struct Options
          "Stiffnesses of the half-plane over the block's to repeat the limits with.");
       args.AddOption(&obstacle, "-obstacle", "--obstacle",
                      "What the block stands on: rigid or half-plane.");
-      args.AddOption(&punch.poisson, "-poisson", "--poisson",
-                     "Poisson's ratio of both bodies.");
-      args.AddOption(&punch.order, "-order", "--order", "Order of the elements.");
-      args.AddOption(&punch.nodes, "-nodes", "--nodes", "Contact nodes.");
-      args.AddOption(
-         &punch.grading, "-grading", "--grading",
-         "Size of the contact elements at the corners over the middle ones (1: uniform).");
-      args.AddOption(&punch.domain, "-domain", "--domain",
-                     "Half-width and depth of the half-plane's block, in a.");
+      add_options(args, punch);
       args.AddOption(&reduced, "-reduced", "--reduced",
                      "A saved reduced problem instead of the punch.");
       args.AddOption(&held, "-held", "--held", "Load pattern that is held at 1.");
       args.AddOption(&cycled, "-cycled", "--cycled", "Load pattern that is cycled.");
       args.AddOption(&closed, "-closed", "--closed", "-no-closed", "--no-closed",
-                     "Keep only the nodes that stay closed in a march of three cycles.");
-      args.AddOption(&save, "-save", "--save", "File for the reduced problem.");
+                     "Keep only the nodes that stay closed in three cycles at the largest load "
+                     "(--lambda-max, or with --find load the limit).");
+      miniapp::add_save_option(args, &save);
       args.AddOption(
          &plot, "-plot", "--plot",
          "Directory for tables and figures 4.3, 4.9 and 4.15 to 4.19; makes the maps "
@@ -278,11 +247,7 @@ public:
       prepare();
       monolith();
       if (options.finds_friction()) { smallest_friction(); }
-      if (options.finds_load() || options.march || options.starts > 0)
-      {
-         most = load_limit(limit);
-         note(most);
-      }
+      if (options.finds_load() || options.march || options.starts > 0) { largest_of_closed(); }
       if (options.finds_load()) { largest_load(); }
       if (*options.plot) { write_optimal(); }
       if (options.march) { marches(); }
@@ -305,7 +270,9 @@ public:
       if (*options.plot)
       {
          miniapp::write_json(results, std::string(options.plot) + "/results.json");
-         draw(options.plot);
+         require(miniapp::run_plot_script("shakedown.py", {options.plot}),
+                 "the tables are in '", options.plot,
+                 "', but the figures could not be drawn: it needs python3 with matplotlib");
       }
       return code;
    }
@@ -323,23 +290,41 @@ private:
       }
       set_friction(problem, options.friction);
       if (*options.save && miniapp::writes()) { save(problem, options.save); }
-      NodeList always_closed;
-      if (options.closed)
-      {
-         always_closed =
-            stay_closed(problem, cycle_of(problem, options.reversal), options.lambda_max, 3);
-      }
+      gapped = problem;
       if (!problem.gap.isZero(0)) { problem = absorb_gap(problem); }
-      if (options.closed)
-      {
-         part = closed_contact(problem, always_closed);
-         std::cout
-            << part.closed.size() << " of " << problem.nodes()
-            << " nodes stay closed; the limits assume that they do and that the others stay "
-               "open\n";
-         results["closed_nodes"] = part.closed.size();
-         problem = part.reduced;
-      }
+      whole = problem;
+      if (options.closed) { keep_closed(options.lambda_max); }
+      set_up();
+      std::printf(
+         "%ld contact nodes, condensed in %.2f s; degree of coupling %.4f (0: none, 1: "
+         "most)\n",
+         static_cast<long>(problem.nodes()), watch.seconds(), limit.coupling);
+      results["coupling"] = limit.coupling;
+      results["contact_nodes"] = problem.nodes();
+      standard = !saved && options.punch.half_plane && options.punch.order > 1 &&
+                 options.punch.domain >= 1e3;
+      thesis_loads =
+         standard && options.lambda_max == 0.8 && std::abs(options.reversal + 0.5) < 1e-12;
+      // What the mesh adds: the extremes lie between nodes, at second order in their spacing.
+      mesh_error = 30.0 / std::pow(static_cast<double>(problem.nodes() - 1), 2);
+   }
+
+   /// Leaves in the problem the nodes that stay closed in marches at this load.
+   void keep_closed(double load_factor)
+   {
+      const NodeList always_closed =
+         stay_closed(gapped, cycle_of(gapped, options.reversal), load_factor, 3);
+      part = closed_contact(whole, always_closed);
+      problem = part.reduced;
+      std::printf("%zu of %ld nodes stay closed at λ = %g; the limits assume that they do and "
+                  "that the others stay open\n",
+                  part.closed.size(), static_cast<long>(whole.nodes()), load_factor);
+      results["closed_nodes"] = part.closed.size();
+   }
+
+   /// What follows from the problem.
+   void set_up()
+   {
       cycle = cycle_of(problem, options.reversal);
       const Eigen::VectorXd &arc = problem.arc_length;
       const Eigen::Index n = problem.nodes();
@@ -348,6 +333,7 @@ private:
       const double length = arc[n - 1] - arc[0];
       // In the tables x runs from -a to a.
       x = arc.array() - (saved ? 0.0 : arc[0] + 0.5 * length);
+      inner.clear();
       for (Eigen::Index i = 0; i < n; ++i)
       {
          if (std::min(arc[i] - arc[0], arc[n - 1] - arc[i]) >= options.corner * length)
@@ -356,18 +342,22 @@ private:
          }
       }
       limit = limit_problem(problem, cycle);
-      std::printf(
-         "%ld contact nodes, condensed in %.2f s; degree of coupling %.4f (0: none, 1: "
-         "most)\n",
-         static_cast<long>(n), watch.seconds(), limit.coupling);
-      results["coupling"] = limit.coupling;
-      results["contact_nodes"] = n;
-      standard = !saved && options.punch.half_plane && options.punch.order > 1 &&
-                 options.punch.domain >= 1e3;
-      thesis_loads =
-         standard && options.lambda_max == 0.8 && std::abs(options.reversal + 0.5) < 1e-12;
-      // What the mesh adds: the extremes lie between nodes, at second order in their spacing.
-      mesh_error = 30.0 / std::pow(static_cast<double>(n - 1), 2);
+   }
+
+   /// The limit; if it alone is asked for, on the nodes that stay closed at the limit itself.
+   void largest_of_closed()
+   {
+      most = load_limit(limit);
+      const int repetitions = options.closed && !options.finds_friction() ? 10 : 0;
+      for (int k = 0; k < repetitions && most.status == LimitStatus::certified; ++k)
+      {
+         const NodeList before = part.closed;
+         keep_closed(most.limit);
+         if (part.closed == before) { break; }
+         set_up();
+         most = load_limit(limit);
+      }
+      note(most);
    }
 
    LoadCycle cycle_of(const ReducedProblem &of, double reversal) const
@@ -392,9 +382,9 @@ private:
 
    void record_bounds(const LimitReport &report)
    {
-      results["bound_lower"] = number(report.lower);
-      results["bound_upper"] = number(report.upper);
-      results["violation"] = number(report.violation);
+      results["bound_lower"] = miniapp::json_number(report.lower);
+      results["bound_upper"] = miniapp::json_number(report.upper);
+      results["violation"] = miniapp::json_number(report.violation);
       results["status"] = name(report.status);
    }
 
@@ -407,8 +397,8 @@ private:
       std::printf("; first opening at λ = %.4f", opening.load_factor);
       if (opening.node >= 0) { std::printf(", x = %.3f", x[opening.node]); }
       std::printf("\n");
-      results["first_slip"] = number(slip.load_factor);
-      results["first_opening"] = number(opening.load_factor);
+      results["first_slip"] = miniapp::json_number(slip.load_factor);
+      results["first_opening"] = miniapp::json_number(opening.load_factor);
       if (standard)
       {
          const double corner_opens = corner_opening(problem, problem.patterns[0].p,
@@ -419,7 +409,7 @@ private:
                         corner_opens);
             table.add("corner opens at λ", 0.865, 0.002 + mesh_error, none, corner_opens);
          }
-         results["corner_opening"] = number(corner_opens);
+         results["corner_opening"] = miniapp::json_number(corner_opens);
          const double expected[] = {0.7256, 1.1045, 1.5752};
          const auto points = adhesion_map(problem, cycle, 0, {0.4, 0.6, 0.8}, inner);
          for (int k = 0; k < 3; ++k)
@@ -442,7 +432,7 @@ private:
          const double place = at_corner ? 1.0 : x[point.node];
          std::printf("%6.3f   %12.4f   %12.3f\n", point.load_factor, point.friction, place);
          list.push_back({{"load_factor", point.load_factor},
-                         {"friction", number(point.friction)},
+                         {"friction", miniapp::json_number(point.friction)},
                          {"x", place}});
       }
       results["adhesion_map"] = list;
@@ -455,12 +445,12 @@ private:
       const PointwiseEstimate first =
          method1_friction(problem, cycle, options.lambda_max, inner);
       std::printf("%-28s %.5f at x = %.3f\n", "method 1 (4.9)", first.value, x[first.node]);
-      results["method1"] = number(first.value);
+      results["method1"] = miniapp::json_number(first.value);
       if (problem.components() == 1) { method2(); }
       least = friction_limit(limit, options.lambda_max);
       note(least);
       print_limit("exact, f", least);
-      results["friction_limit"] = number(least.limit);
+      results["friction_limit"] = miniapp::json_number(least.limit);
       record_bounds(least);
       if (!thesis_loads) { return; }
       table.add("method 1, f", 0.8385, 1e-4 + mesh_error, 0.83, first.value);
@@ -471,7 +461,7 @@ private:
       const LimitReport other =
          friction_limit(limit_problem(transposed, cycle), options.lambda_max);
       note(other);
-      results["friction_limit_transposed"] = number(other.limit);
+      results["friction_limit_transposed"] = miniapp::json_number(other.limit);
       table.add("exact with B transposed, f", 0.848, 1e-3 + mesh_error, 0.85, other.limit);
    }
 
@@ -486,9 +476,9 @@ private:
       }
       std::printf("%-28s %.5f … %.5f over all residual tractions, %.5f for one\n", "method 2",
                   second.low, second.high, second.natural);
-      results["method2_low"] = number(second.low);
-      results["method2_high"] = number(second.high);
-      results["method2_natural"] = number(second.natural);
+      results["method2_low"] = miniapp::json_number(second.low);
+      results["method2_high"] = miniapp::json_number(second.high);
+      results["method2_natural"] = miniapp::json_number(second.natural);
       if (thesis_loads)
       {
          table.add("method 2, least f", 0.783, 1e-3 + mesh_error, 0.87, second.low);
@@ -509,25 +499,13 @@ private:
       const PointwiseEstimate first = method1_load(problem, cycle, inner);
       std::printf("%-28s %.5f\n", "method 1 (4.9), λmax", first.value);
       print_limit("exact, λmax", most);
-      results["method1_load"] = number(first.value);
-      results["load_limit"] = number(most.limit);
-      results["load_limit_lower"] = number(most.lower);
-      results["load_limit_upper"] = number(most.upper);
+      results["method1_load"] = miniapp::json_number(first.value);
+      results["load_limit"] = miniapp::json_number(most.limit);
+      results["load_limit_lower"] = miniapp::json_number(most.lower);
+      results["load_limit_upper"] = miniapp::json_number(most.upper);
       if (!options.finds_friction()) { record_bounds(most); }
       if (most.status == LimitStatus::certified) { lower(); }
-      if (options.closed && most.slip.size() && !part.open.empty())
-      {
-         double smallest = std::numeric_limits<double>::infinity();
-         const Eigen::MatrixXd vertices = cycle.multipliers(most.limit);
-         for (Eigen::Index j = 0; j < vertices.cols(); ++j)
-         {
-            smallest =
-               std::min(smallest, part.open_gaps(most.slip, vertices.col(j)).minCoeff());
-         }
-         std::printf("%-28s %.3e: the assumption %s\n", "smallest gap of open nodes", smallest,
-                     smallest >= 0 ? "holds" : "FAILS");
-         results["smallest_open_gap"] = smallest;
-      }
+      if (options.closed && most.slip.size() && !part.open.empty()) { check_open_nodes(); }
       if (!standard) { return; }
       const double f = options.friction;
       table.add("exact, λ/f at R = -1, f = 0.85", 0.8040, 3e-4 + mesh_error, 0.68,
@@ -537,6 +515,53 @@ private:
                 ratio(-0.5, 0.85));
       table.add("method 1, λ/f at R = -1", 0.7273, 2e-4 + mesh_error, none,
                 method1_load(problem, cycle_of(problem, -1), inner).value / f);
+   }
+
+   /// Of the nodes taken to stay open: their gaps at the limit, and marches of the whole
+   /// contact in which they are free to close.
+   void check_open_nodes()
+   {
+      double smallest = std::numeric_limits<double>::infinity();
+      const Eigen::MatrixXd vertices = cycle.multipliers(most.limit);
+      for (Eigen::Index j = 0; j < vertices.cols(); ++j)
+      {
+         smallest = std::min(smallest, part.open_gaps(most.slip, vertices.col(j)).minCoeff());
+      }
+      std::printf("%-28s %.3e: the assumption %s\n", "smallest gap of open nodes", smallest,
+                  smallest >= 0 ? "holds" : "FAILS");
+      results["smallest_open_gap"] = smallest;
+      std::printf(
+         "%-28s where the pressure falls to zero at the end of the closed part, stuck "
+         "shear is singular\n%-28s and the limit falls with the distance of the nodes\n",
+         "", "");
+      const LimitProblem all = limit_problem(whole, cycle_of(whole, options.reversal));
+      FrictionSolver solver(whole);
+      TransientSettings settings;
+      settings.cycles = options.cycles;
+      Eigen::VectorXd start = Eigen::VectorXd::Zero(whole.A.rows());
+      for (std::size_t i = 0; i < part.closed.size(); ++i)
+      {
+         for (Eigen::Index c = 0; c < whole.components(); ++c)
+         {
+            start[c * whole.nodes() + part.closed[i]] =
+               most.slip[c * problem.nodes() + static_cast<Eigen::Index>(i)];
+         }
+      }
+      results["whole_contact"] = ordered_json::array();
+      for (const double side : {-0.01, 0.01})
+      {
+         const TransientReport run =
+            transient(solver, all, (1 + side) * most.limit, start, settings);
+         counters += run.counters;
+         const double loss = run.dissipation.empty() ? none : run.dissipation.back();
+         std::printf("%-28s %s (loss a cycle %.2e of the elastic energy, %zu cycles)\n",
+                     side < 0 ? "whole contact, 1 % below" : "whole contact, 1 % above",
+                     outcome(run), loss / run.energy, run.dissipation.size());
+         results["whole_contact"].push_back(
+            {{"load_factor", run.load_factor},
+             {"outcome", outcome(run)},
+             {"loss", miniapp::json_number(loss / run.energy)}});
+      }
    }
 
    /// λ/f of the exact limit; leaves cycle and friction as they were.
@@ -563,7 +588,15 @@ private:
          results["lower_limit"] = proven.value;
       }
       results["lower_limit_statement"] = proven.message;
-      if (options.starts == 0) { return; }
+      if (options.starts == 0)
+      {
+         if (proven.kind == LowerLimitKind::bound || proven.kind == LowerLimitKind::none)
+         {
+            std::printf("%-28s nothing was observed: --starts N marches from N random slips\n",
+                        "");
+         }
+         return;
+      }
       CounterExampleSettings search;
       search.starts = options.starts;
       search.transient.cycles = options.cycles;
@@ -572,7 +605,8 @@ private:
       std::printf("%-28s %s: %d marches", "", found.message.c_str(), found.marches);
       if (found.found) { std::printf(", smallest λ %.6f", found.load_factor); }
       std::printf("\n");
-      results["counter_example"] = found.found ? number(found.load_factor) : nullptr;
+      results["counter_example"] =
+         found.found ? miniapp::json_number(found.load_factor) : nullptr;
       results["quiet_up_to"] = found.quiet;
    }
 
@@ -631,7 +665,7 @@ private:
                          {"shaken_down", run.shaken_down},
                          {"decay", run.decay},
                          {"status", name(run.status)}});
-         if (k == 0) { results["dissipation_first_cycle"] = number(first); }
+         if (k == 0) { results["dissipation_first_cycle"] = miniapp::json_number(first); }
          if (any && thesis_loads && options.friction == 0.85 && options.finds_friction())
          {
             table.add(std::string("first loss from ") + names[k] + " slip", expected[k],
@@ -679,9 +713,9 @@ private:
             std::printf("   %9.5f", column[r].limit / f);
             list.push_back({{"friction", f},
                             {"reversal", reversals[r]},
-                            {"load_limit", number(column[r].limit)},
-                            {"lower", number(column[r].lower)},
-                            {"upper", number(column[r].upper)}});
+                            {"load_limit", miniapp::json_number(column[r].limit)},
+                            {"lower", miniapp::json_number(column[r].lower)},
+                            {"upper", miniapp::json_number(column[r].upper)}});
          }
          std::printf("\n");
       }
@@ -711,9 +745,9 @@ private:
       return {{"nodes", other.nodes},
               {"plane_stiffness", other.plane_stiffness},
               {"coupling", on.coupling},
-              {"friction_limit", number(f.limit)},
-              {"load_limit", number(load.limit)},
-              {"load_limit_reversed", number(reversed.limit)}};
+              {"friction_limit", miniapp::json_number(f.limit)},
+              {"load_limit", miniapp::json_number(load.limit)},
+              {"load_limit_reversed", miniapp::json_number(reversed.limit)}};
    }
 
    void print_repeat_header(const char *what) const
@@ -759,7 +793,9 @@ private:
    bool thesis_loads = false; ///< … under the loads of chapter 4
    double mesh_error = 0;
    miniapp::Punch punch;
-   ReducedProblem problem;
+   ReducedProblem problem; ///< of the nodes that stay closed, if asked for
+   ReducedProblem whole;   ///< with the others, …
+   ReducedProblem gapped;  ///< … and as it was given, with its gap
    ClosedContact part;
    LoadCycle cycle;
    Eigen::VectorXd x;

@@ -8,11 +8,11 @@
 //                square_punch -obstacle half-plane --shear "0.25 0.75"
 //                square_punch -order 1 -nodes 201 -grading 0.02
 //                square_punch -obstacle half-plane -nodes 65 -cycles 3 -amplitude 0.6
+//                square_punch -obstacle half-plane -nodes 65 -cycles 3 -march exact
 //                square_punch -friction 0 -nodes 33 -shear none
 
-#include "common/figure.hpp"
-#include "common/miniapp.hpp"
 #include "common/punch.hpp"
+#include "common/study_output.hpp"
 
 #include <cattaneo/friction/march.hpp>
 #include <cattaneo/friction/zones.hpp>
@@ -52,7 +52,7 @@ int main(int argc, char *argv[])
    return miniapp::run(
       [&]
       {
-         const miniapp::Stopwatch watch;
+         miniapp::StudyOutput output;
          miniapp::PunchOptions options;
          const char *obstacle = "rigid";
          double friction = -1;
@@ -60,22 +60,14 @@ int main(int argc, char *argv[])
          int cycles = 0;
          double amplitude = 0.8;
          int increments = 20;
-         const char *json = "", *csv = "", *plot = "";
+         const char *march_by = "advancing";
 
          mfem::OptionsParser args(argc, argv);
          args.AddOption(&obstacle, "-obstacle", "--obstacle",
                         "What the block stands on: rigid or half-plane.");
          args.AddOption(&friction, "-friction", "--friction",
                         "Coefficient of friction; default 0.2 (rigid), 0.4 (half-plane).");
-         args.AddOption(&options.poisson, "-poisson", "--poisson",
-                        "Poisson's ratio of both bodies.");
-         args.AddOption(&options.order, "-order", "--order", "Order of the elements.");
-         args.AddOption(&options.nodes, "-nodes", "--nodes", "Contact nodes.");
-         args.AddOption(
-            &options.grading, "-grading", "--grading",
-            "Size of the contact elements at the corners over the middle ones (1: uniform).");
-         args.AddOption(&options.domain, "-domain", "--domain",
-                        "Half-width and depth of the half-plane's block, in a.");
+         add_options(args, options);
          args.AddOption(&shear_list, "-shear", "--shear",
                         "Monotonic shear: list of Q/fP, or none.");
          args.AddOption(&cycles, "-cycles", "--cycles",
@@ -84,9 +76,8 @@ int main(int argc, char *argv[])
                         "Amplitude of the cycles in Q/fP.");
          args.AddOption(&increments, "-increments", "--increments",
                         "Load increments between two values of the shear.");
-         args.AddOption(&json, "-json", "--json", "File for the results.");
-         args.AddOption(&csv, "-csv", "--csv", "Prefix of CSV files for the figures.");
-         args.AddOption(&plot, "-plot", "--plot", "Picture of the results (png, pdf, svg).");
+         args.AddOption(&march_by, "-march", "--march", miniapp::stepping_help);
+         output.add_options(args);
          miniapp::parse(args);
 
          miniapp::check_choice("--obstacle", obstacle, {"rigid", "half-plane"});
@@ -100,14 +91,13 @@ int main(int argc, char *argv[])
          miniapp::Punch punch = miniapp::make_punch(options);
          ReducedProblem &problem = punch.reduction.problem;
          set_friction(problem, friction);
-         const double condensed = watch.seconds();
-         std::cout << "Condensed " << punch.dofs << " dofs to " << 2 * problem.nodes() << " in "
-                   << condensed << " s" << std::endl;
+         output.reduced(problem, punch.dofs);
 
          // Arc length runs from the left corner: x = s - 1 in the tables.
          auto x = [](const Edge &edge) { return edge.position - 1; };
          MarchSettings settings;
          settings.increments = increments;
+         settings.stepping = miniapp::stepping("--march", march_by);
          FrictionSolver solver(problem, settings.friction);
          const Counters made = solver.counters();
          ContactState state = ContactState::virgin(problem);
@@ -221,6 +211,7 @@ int main(int argc, char *argv[])
             report = march(solver, history, cyclic, settings);
             counters += report.counters;
             code = miniapp::exit_code(report);
+            miniapp::add_exact_path(report, settings, results);
             nlohmann::ordered_json losses = nlohmann::ordered_json::array();
             std::cout << "\n cycle   dissipation   external work   slip change\n";
             for (std::size_t k = 0; k < report.cycles.size(); ++k)
@@ -245,22 +236,13 @@ int main(int argc, char *argv[])
                          report.cycles.back().dissipation);
             }
          }
-         table.print();
-
          results["status"] = name(report.status);
          if (code != 0)
          {
             results["event_multipliers"] = {report.event_multipliers[0],
                                             report.event_multipliers[1]};
          }
-         results["contact_nodes"] = problem.nodes();
-         results["dofs"] = punch.dofs;
-         results["seconds"] = watch.seconds();
-         results["seconds_condensation"] = condensed;
-         results["counters"] = miniapp::to_json(counters);
-         results["references"] = table.json();
-         miniapp::write_json(results, json);
-         miniapp::output({slip, shear_traction}, csv, plot);
+         output.write(results, counters, table, {slip, shear_traction});
          return code;
       });
 }

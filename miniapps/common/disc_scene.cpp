@@ -1,5 +1,7 @@
 #include "common/disc_scene.hpp"
 
+#include "common/miniapp.hpp"
+
 #include <algorithm>
 #include <cattaneo/elastic/graded_mesh.hpp>
 #include <cattaneo/input_error.hpp>
@@ -43,10 +45,10 @@ Disc make_disc(const DiscOptions &options)
    for (int i = 0; i <= count; ++i) { contact.push_back(i == count ? b : b * i / count); }
    std::vector<double> depth = graded(0, -R, h, options.growth);
    std::reverse(depth.begin(), depth.end());
-   scene.meshes.push_back(std::make_unique<mfem::Mesh>(
-      rectangle_mesh(contact, graded(0, 1, h, options.growth, 0.1))));
-   scene.meshes.push_back(std::make_unique<mfem::Mesh>(
-      rectangle_mesh(joined({contact, graded(b, R, h, options.growth)}), depth)));
+   scene.meshes.push_back(
+      distribute(rectangle_mesh(contact, graded(0, 1, h, options.growth, 0.1))));
+   scene.meshes.push_back(
+      distribute(rectangle_mesh(joined({contact, graded(b, R, h, options.growth)}), depth)));
 
    const auto add_bodies = [&](auto &bodies, Geometry geometry)
    {
@@ -54,7 +56,7 @@ Disc make_disc(const DiscOptions &options)
       {
          bodies.push_back(
             std::make_unique<ElasticBody>(*mesh, options.order, material, geometry));
-         scene.dofs += bodies.back()->space().GetTrueVSize();
+         scene.dofs += bodies.back()->dofs();
       }
       for (int c = 0; c < components(geometry); ++c)
       {
@@ -77,11 +79,31 @@ Disc make_disc(const DiscOptions &options)
    const ContactLine upper = line_of_disc(disc), lower = line_below(below);
    scene.reduction =
       reduce(condense(disc, upper), condense(below, lower), pair_lines(upper, lower));
-   if (options.twist)
+   if (options.twist != Twist::none)
    {
       add_bodies(scene.torsion, Geometry::torsion);
       ElasticBody &twisting = *scene.torsion[0], &held = *scene.torsion[1];
-      twisting.add_displacement("twist", top, 0, 1.0);
+      const double a = *std::max_element(options.load_radii.begin(), options.load_radii.end());
+      const BoundaryPart loaded({top}, 0, 0, a);
+      switch (options.twist)
+      {
+      case Twist::none:
+         break;
+      case Twist::top:
+         twisting.add_displacement("twist", top, 0, 1.0);
+         break;
+      case Twist::loaded:
+         twisting.add_displacement("twist", loaded, 0, 1.0);
+         break;
+      case Twist::rim:
+         // Above the contact, whose last node is at the rim and must be free.
+         twisting.add_displacement("twist", BoundaryPart({side}, 1, 0.4 * h, 1), 0, 1.0);
+         break;
+      case Twist::traction:
+         twisting.add_traction(
+            "twist", loaded, [a](double r, double) { return 2 * r / (M_PI * std::pow(a, 4)); });
+         break;
+      }
       scene.reduction.add_torsion(condense(twisting, line_of_disc(twisting)),
                                   condense(held, line_below(held)));
    }

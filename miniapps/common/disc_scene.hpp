@@ -7,14 +7,23 @@
 namespace miniapp
 {
 
+/// What turns the disc about its axis.
+enum class Twist
+{
+   none,    ///< nothing: torsion is not built
+   top,     ///< u_θ = φ r on the whole top
+   loaded,  ///< the same on the top's nodes under the (largest) load only
+   rim,     ///< the same on the outer side
+   traction ///< t_θ proportional to r under the (largest) load; force control, unit torque
+};
+
 /** The axisymmetric receding contact of thesis chapter 7: a disc 0 < r < b, 0 < z < t on a
    cylinder r < R, -R < z < 0 of the same material, which stands for a half-space and is fixed
-   on its side and bottom. Dead pressure p0 on r < a of the disc's top; if it twists, u_θ = φ r
-   on the whole top.
+   on its side and bottom. Dead pressure p0 on r < a of the disc's top.
 
     Units t = p0 = E = 1. Every load radius is a load pattern of its own, in the given order, on
    one condensed pair: the end of the load need not be a mesh line. The twist is the pattern
-   after them, "twist", of angle φ = 1. */
+   after them, "twist", of angle φ = 1 or torque 1. */
 struct DiscOptions
 {
    double disc_radius = 5;                 ///< b, in t
@@ -24,7 +33,7 @@ struct DiscOptions
    double spacing = 0.02; ///< of the contact nodes (rounded so that elements end at b), in t
    double growth = 1.25;  ///< of the elements away from the contact
    double poisson = 0.3;
-   bool twist = false;
+   Twist twist = Twist::none;
 
    /// InputError naming the option, its value and what is allowed.
    void validate() const;

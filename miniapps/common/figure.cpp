@@ -112,34 +112,38 @@ std::string Panel::csv() const
    return comments_ + rows_;
 }
 
+bool run_plot_script(const std::string &script, const std::vector<std::string> &arguments)
+{
+   std::string command =
+      "for python in python3 /usr/bin/python3; do if $python -c 'import matplotlib' "
+      "2>/dev/null; "
+      "then exec $python " +
+      argument(std::string(CATTANEO_SOURCE_DIR) + "/miniapps/plot/" + script);
+   for (const std::string &text : arguments) { command += " " + argument(text); }
+   std::cout << std::flush;
+   return std::system((command + "; fi; done; exit 3").c_str()) == 0;
+}
+
 void output(const std::vector<Panel> &panels, const std::string &csv_prefix,
             const std::string &picture)
 {
    if (panels.empty() || (csv_prefix.empty() && picture.empty()) || !writes()) { return; }
    const std::string prefix = csv_prefix.empty() ? picture : csv_prefix;
-   std::string files;
    std::vector<std::string> names;
    for (const Panel &panel : panels)
    {
       names.push_back(prefix + "_" + panel.name() + ".csv");
       write_whole(names.back(), panel.csv());
-      files += " " + argument(names.back());
    }
    if (picture.empty()) { return; }
-   // Debian's own interpreter has Debian's matplotlib, whatever comes first in the path.
-   const std::string script =
-      argument(std::string(CATTANEO_SOURCE_DIR) + "/miniapps/plot/plot.py");
-   const std::string command =
-      "for python in python3 /usr/bin/python3; do if $python -c 'import "
-      "matplotlib' 2>/dev/null; then exec $python " +
-      script + files + " " + argument(picture) + "; fi; done; exit 3";
-   std::cout << std::flush;
-   const int code = std::system(command.c_str());
+   std::vector<std::string> arguments = names;
+   arguments.push_back(picture);
+   const bool drawn = run_plot_script("plot.py", arguments);
    if (csv_prefix.empty())
    {
       for (const std::string &name : names) { std::remove(name.c_str()); }
    }
-   require(code == 0, "option --plot: '", picture,
+   require(drawn, "option --plot: '", picture,
            "' was not drawn; it needs Python 3 with matplotlib (Debian: python3-matplotlib)");
 }
 

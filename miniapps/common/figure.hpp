@@ -57,6 +57,10 @@ private:
    std::string name_, comments_, rows_;
 };
 
+/// Runs a script of miniapps/plot with the first python3 that has matplotlib, as the one in the
+/// path may be bare; false if there is none or the script fails.
+bool run_plot_script(const std::string &script, const std::vector<std::string> &arguments);
+
 /** Writes what the options --csv PREFIX and --plot FILE.png ask for: PREFIX_<panel>.csv for
    every panel, and the picture, drawn by miniapps/plot/plot.py. InputError if a file cannot be
    written or the script fails. Nothing for empty names. */

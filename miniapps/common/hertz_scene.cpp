@@ -63,10 +63,12 @@ HertzScene make_scene(const HalfPlanes &options)
          std::make_unique<ElasticBody>(mesh, options.order, options.material));
       ElasticBody &body = *scene.bodies.back();
       load(body, far, domain, domain, options.load, -turn);
-      if (options.bulk && turn > 0)
+      const bool specimen = turn > 0;
+      if (specimen ? options.bulk : options.bulk_pad)
       {
          body.add_traction(
-            "bulk", sides, [](double x, double) { return x > 0 ? 1.0 : -1.0; }, 0.0);
+            specimen ? "bulk" : "bulk pad", sides,
+            [](double x, double) { return x > 0 ? 1.0 : -1.0; }, 0.0);
       }
       scene.dofs += body.dofs();
       const ContactLine line = contact_line(body, surface);

@@ -12,8 +12,8 @@ namespace miniapp
     set in the reduced problem. Any consistent units.
 
     Load patterns: "P", the normal force `load`; "Q", a shear of the same resultant, +x on the
-    pad, with the pressure that balances its moment; "bulk" if asked for, unit tension along x
-    in the specimen. */
+    pad, with the pressure that balances its moment; "bulk" and "bulk pad" if asked for, unit
+    tension along x in the specimen and in the pad. */
 struct HalfPlanes
 {
    int order = 2;
@@ -23,7 +23,7 @@ struct HalfPlanes
    double domain = 1e4;     ///< half-width and depth of each block that stands for a half-plane
    cattaneo::Material material;
    double load = 1.0; ///< per unit thickness
-   bool bulk = false;
+   bool bulk = false, bulk_pad = false;
 
    /// InputError naming the option, its value and what is allowed.
    void validate() const;

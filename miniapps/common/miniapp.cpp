@@ -178,8 +178,48 @@ void check_choice(const char *option, const std::string &value,
                     list);
 }
 
+const char *const stepping_help =
+   "advancing (increments, halved while contact advances by more than a node), fixed "
+   "(increments) or exact (from one change of state to the next).";
+
+cattaneo::Stepping stepping(const char *option, const std::string &value)
+{
+   check_choice(option, value, {"advancing", "fixed", "exact"});
+   return value == "exact"   ? cattaneo::Stepping::exact
+          : value == "fixed" ? cattaneo::Stepping::fixed
+                             : cattaneo::Stepping::advancing;
+}
+
+void add_exact_path(const cattaneo::MarchReport &report,
+                    const cattaneo::MarchSettings &settings, nlohmann::ordered_json &results)
+{
+   if (settings.stepping != cattaneo::Stepping::exact) { return; }
+   std::cout << "exact path: " << report.changes.size() << " changes of state" << std::endl;
+   nlohmann::ordered_json changes = nlohmann::ordered_json::array();
+   for (const cattaneo::StateChange &change : report.changes)
+   {
+      const Eigen::VectorXd &loads = change.multipliers;
+      changes.push_back(
+         {{"time", change.time},
+          {"loads", std::vector<double>(loads.data(), loads.data() + loads.size())},
+          {"node", change.node},
+          {"from", name(change.from)},
+          {"to", name(change.to)}});
+   }
+   results["state_changes"] = changes;
+   results["fallbacks"] = report.fallbacks;
+   results["fallback_reason"] = report.fallback_reason;
+}
+
 int exit_code(const cattaneo::MarchReport &report)
 {
+   if (report.fallbacks > 0)
+   {
+      std::cout << "\n"
+                << report.fallbacks
+                << " increments where there is no exact path: " << report.fallback_reason
+                << std::endl;
+   }
    if (report.status == cattaneo::FrictionStatus::converged) { return 0; }
    std::cout << "\nEnded with status '" << name(report.status) << "' at time "
              << report.event_time << ", load multipliers "
@@ -193,6 +233,12 @@ nlohmann::ordered_json to_json(const cattaneo::Counters &counters)
    cattaneo::Counters::for_each(counters,
                                 [&](const char *name, long value) { j[name] = value; });
    return j;
+}
+
+nlohmann::ordered_json json_number(double value)
+{
+   return std::isfinite(value) ? nlohmann::ordered_json(value)
+                               : nlohmann::ordered_json(nullptr);
 }
 
 void write_json(const nlohmann::ordered_json &results, const std::string &file)

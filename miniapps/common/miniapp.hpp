@@ -40,10 +40,22 @@ std::vector<double> numbers(const char *option, const std::string &text);
 void check_choice(const char *option, const std::string &value,
                   const std::vector<std::string> &allowed);
 
-/// Exit code of a march's outcome; prints where and why it ended early.
+/// How a march steps, by the name that option -march gives; InputError naming the option.
+cattaneo::Stepping stepping(const char *option, const std::string &value);
+extern const char *const stepping_help;
+
+/// Of an exact march: its changes of state, printed (their number) and added to the results
+/// (the list), and whether it had to fall back. Nothing for other marches.
+void add_exact_path(const cattaneo::MarchReport &report,
+                    const cattaneo::MarchSettings &settings, nlohmann::ordered_json &results);
+
+/// Exit code of a march's outcome; prints where and why it ended early, or left its exact path.
 int exit_code(const cattaneo::MarchReport &report);
 
 nlohmann::ordered_json to_json(const cattaneo::Counters &counters);
+
+/// JSON has no infinity or NaN: unknown or unbounded is null.
+nlohmann::ordered_json json_number(double value);
 
 /// Writes results as JSON, whole or not at all; nothing if the file name is empty.
 void write_json(const nlohmann::ordered_json &results, const std::string &file);

@@ -22,6 +22,18 @@ void PunchOptions::validate() const
    require(domain > 2, "option --domain is ", domain, ", must be above 2 (in a)");
 }
 
+void add_options(mfem::OptionsParser &args, PunchOptions &options)
+{
+   args.AddOption(&options.poisson, "-poisson", "--poisson", "Poisson's ratio of both bodies.");
+   args.AddOption(&options.order, "-order", "--order", "Order of the elements.");
+   args.AddOption(&options.nodes, "-nodes", "--nodes", "Contact nodes.");
+   args.AddOption(
+      &options.grading, "-grading", "--grading",
+      "Size of the contact elements at the corners over the middle ones (1: uniform).");
+   args.AddOption(&options.domain, "-domain", "--domain",
+                  "Half-width and depth of the half-plane's block, in a.");
+}
+
 Punch make_punch(const PunchOptions &options)
 {
    options.validate();

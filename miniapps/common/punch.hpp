@@ -38,6 +38,9 @@ struct Punch
    int dofs = 0; ///< of all bodies
 };
 
+/// The options --poisson, --order, --nodes, --grading and --domain.
+void add_options(mfem::OptionsParser &args, PunchOptions &options);
+
 Punch make_punch(const PunchOptions &options);
 
 } // namespace miniapp

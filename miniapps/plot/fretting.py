@@ -55,7 +55,7 @@ def save(figure, directory, name):
 
 def field(directory, design):
     data = table(directory / "field.csv")
-    frictions = list(dict.fromkeys(data["friction"]))
+    frictions = sorted(set(data["friction"]))
     figure, all_axes = plt.subplots(len(frictions), 1, sharex=True, squeeze=False,
                                     figsize=(6.4, 3.0 * len(frictions)), constrained_layout=True)
     levels = np.arange(0.1, 1.61, 0.1)
@@ -70,9 +70,10 @@ def field(directory, design):
                   label="slip zone")
         axes.plot([1, 2], [0, 0], color="black", lw=5, clip_on=False, solid_capstyle="butt",
                   label="stick zone")
-        axes.set(ylabel="depth $y/d$", ylim=(1.5, 0), xlim=(-1, 2), title=f"$f$ = {friction:g}")
+        own = " (design)" if np.isclose(friction, design["friction"]) else ""
+        axes.set(ylabel="depth $y/d$", ylim=(1.5, 0), xlim=(-1, 2), title=f"$f$ = {friction:g}{own}")
         axes.grid(False)
-    all_axes[0, 0].legend(loc="lower left", labelcolor="white")
+    all_axes[-1, 0].legend(loc="upper center", bbox_to_anchor=(0.5, -0.18), ncol=2)
     all_axes[-1, 0].set_xlabel("distance into the contact $t/d$")
     figure.colorbar(shades, ax=all_axes, label=r"von Mises stress $\sigma_{vM}/(K_N\sqrt{d})$")
     save(figure, directory, "fig_2_2_field.png")

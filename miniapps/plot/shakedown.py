@@ -32,8 +32,8 @@ def table(name):
 def finish(figure, axes, name, xlabel, ylabel):
     axes.set_xlabel(xlabel)
     axes.set_ylabel(ylabel)
-    if axes.get_legend() is None and axes.get_legend_handles_labels()[0]:
-        axes.legend()
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1))
     figure.savefig(folder / name, bbox_inches="tight")
     plt.close(figure)
 
@@ -94,7 +94,6 @@ if "map" in results:
         own = [row for row in rows if row["reversal"] == reversal]
         axes.plot(values(own, "load_limit") / values(own, "friction"), values(own, "friction"),
                   linestyle=STYLES[k % 4], color=COLOURS[k % 4], label=f"$R$ = {reversal:g}")
-    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1))
     finish(figure, axes, "figure_4_18_map.png", r"$Q_{max}/fP$", r"friction coefficient $f$")
 
 if "marches" in results:

@@ -3,6 +3,9 @@
 #include "common/punch.hpp"
 
 #include <algorithm>
+#include <cattaneo/elastic/graded_mesh.hpp>
+#include <cattaneo/fretting/calibration.hpp>
+#include <cattaneo/fretting/measures.hpp>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -167,6 +170,131 @@ TEST_F(Contact2D, RoundedPunchReachesASteadyCycle)
    EXPECT_EQ(run.results["steady_period"], 1);
    EXPECT_GT(run.results["dissipation"].back(), 0);
    EXPECT_LT(std::abs(run.results["energy_imbalance"].get<double>()), 1e-11);
+}
+
+/// Moves the contact candidates onto a cylinder of radius 100, with curved elements: facets
+/// cost K_T one per cent.
+void lift_to_the_cylinder(const mfem::Vector &x, mfem::Vector &moved)
+{
+   moved = x;
+   const bool surface = std::abs(x[1]) < 1e-12 && std::abs(x[0]) < 1.67 + 1e-9;
+   if (surface) { moved[1] = x[0] * x[0] / 200; }
+}
+
+TEST_F(Contact2D, EdgesOfAHertzContactHaveTheClosedForms)
+{
+   using namespace cattaneo;
+   // A cylinder of radius 100 that touches a half-plane over |x| < 1, E* = 1/2. A block that
+   // stands for a half-plane has a remote tension Q/domain, which K_T feels.
+   const double radius = 100, domain = 1000, friction = 0.5, share = 0.3;
+   const fretting::HertzContact hertz =
+      fretting::hertz_contact(std::acos(-1.0) / (8 * radius), radius, 0.5);
+   ASSERT_NEAR(hertz.half_width, 1, 1e-12);
+   const double P = hertz.peak_pressure * std::acos(-1.0) / 2;
+   const auto line = graded_to_ends(1.67, 80, 1);
+   const double h = line[1] - line[0];
+   std::vector<std::string> files;
+   for (const double turn : {-1.0, 1.0})
+   {
+      mfem::Mesh mesh = half_plane_mesh(line, graded(0, 1.67, h, 1.25, 0.3),
+                                        ring_scales(1.67, domain, h, 1.25));
+      for (int v = 0; v < mesh.GetNV(); ++v)
+      {
+         double *x = mesh.GetVertex(v);
+         x[0] *= turn;
+         x[1] *= turn;
+      }
+      if (turn < 0)
+      {
+         mesh.SetCurvature(2);
+         mesh.Transform(lift_to_the_cylinder);
+      }
+      files.push_back(write(turn < 0 ? "pad.mesh" : "plane.mesh", mesh));
+   }
+   char loads[200];
+   std::snprintf(loads, sizeof loads,
+                 "P pressure 3 %.16g; Q traction 3 %.16g 0; Q pressure 3 %.16g*x",
+                 P / (2 * domain), P / (2 * domain), -1.5 * P / (domain * domain));
+   char rest[300];
+   std::snprintf(
+      rest, sizeof rest,
+      "' -young1 .91 -young2 .91 -contact1 1 -contact2 1 -support2 3:xy -friction %g "
+      "-pairing .01 -history 'P=0; P=1; Q=%g; Q=%g; Q=0' -cycle-start 1 -cycles 3 "
+      "-edges '1 2 3'",
+      friction, share * friction, -share * friction);
+   const auto run =
+      contact2d("-mesh1 '" + files[0] + "' -mesh2 '" + files[1] + "' -load1 '" + loads + rest);
+   ASSERT_EQ(run.code, 0) << run.output;
+   const auto &edges = run.results["edges"];
+   ASSERT_EQ(edges.size(), 2u) << run.output;
+   const double k_t = fretting::shear_intensities(1, share * friction * P, 0).trailing;
+   // The sheet: the slip zone is underestimated by this factor.
+   const double factor = 0.5 * (1 + std::sqrt(1 - share));
+   const double energy =
+      0.5 * fretting::hertz_slip_energy(friction, P, share, 0.5); // of one edge
+   const double near =
+      fretting::slip_energy_total({hertz.k_n, k_t, friction}, 2 * k_t, 0.5) / energy;
+   for (const auto &edge : edges)
+   {
+      EXPECT_FALSE(edge["complete"].get<bool>());
+      EXPECT_NEAR(edge["k_n"]["value"].get<double>(), hertz.k_n, 0.01 * hertz.k_n);
+      EXPECT_NEAR(std::abs(edge["k_t"]["value"].get<double>()), k_t, 0.01 * k_t);
+      EXPECT_NEAR(edge["k_t_range"].get<double>(), 2 * k_t, 0.02 * k_t);
+      const double d = edge["slip_zone"];
+      EXPECT_NEAR(d, 1 - std::sqrt(1 - share), 0.2 * h);
+      EXPECT_NEAR(edge["slip_zone_predicted"].get<double>() / d, factor, 0.05);
+      EXPECT_NEAR(edge["energy"].get<double>(), energy, 0.03 * energy);
+      EXPECT_NEAR(edge["energy_predicted"].get<double>() / energy, near, 0.05 * near);
+   }
+}
+
+TEST_F(Contact2D, CornersHaveIntensitiesOfTheirOwn)
+{
+   // A square block on a similar one, bonded by friction, and on a rigid line.
+   const auto x = cattaneo::graded_to_ends(1, 60, 0.02);
+   const double smallest = x[1] - x[0];
+   const auto depth = cattaneo::graded(0, 1, smallest, 1.3, 0.2);
+   mfem::Mesh block = cattaneo::rectangle_mesh(x, cattaneo::graded(0, 2, smallest, 1.3, 0.2));
+   mfem::Mesh plane =
+      cattaneo::half_plane_mesh(x, depth, cattaneo::ring_scales(1, 1e3, smallest, 1.3));
+   const std::string pad = "-mesh1 '" + write("block.mesh", block) +
+                           "' -young1 0.91 -contact1 1 -load1 'P pressure 3 0.5; Q traction 3 "
+                           "0.5 0; Q pressure 3 -3*x' -friction 3 -history 'P=0; P=1; Q=0.1' "
+                           "-edges '1 2' ";
+   const std::string body =
+      "-mesh2 '" + write("plane.mesh", plane) + "' -contact2 1 -support2 3:xy ";
+   const auto similar = contact2d(pad + body + "-young2 0.91");
+   ASSERT_EQ(similar.code, 0) << similar.output;
+   ASSERT_EQ(similar.results["edges"].size(), 2u) << similar.output;
+   for (const auto &edge : similar.results["edges"])
+   {
+      EXPECT_TRUE(edge["complete"].get<bool>());
+      EXPECT_FALSE(edge.contains("k_n"));
+      EXPECT_NE(edge["notes"][0].get<std::string>().find("corner"), std::string::npos);
+      ASSERT_TRUE(edge.contains("k_one")) << edge["notes"];
+      EXPECT_NEAR(edge["eigenvalues"][0].get<double>(), 0.544483736782, 1e-9);
+      EXPECT_NEAR(edge["eigenvalues"][1].get<double>(), 0.908529189846, 1e-9);
+      EXPECT_NEAR(edge["least_friction"].get<double>(), 0.543075578837, 1e-9);
+      EXPECT_GT(edge["k_one"]["value"].get<double>(), 0);
+      EXPECT_LT(edge["k_one"]["relative_error"].get<double>(), 0.02);
+   }
+   const auto rigid = contact2d(pad);
+   ASSERT_EQ(rigid.code, 0) << rigid.output;
+   for (const auto &edge : rigid.results["edges"])
+   {
+      ASSERT_EQ(edge["eigenvalues"].size(), 1u) << edge["notes"];
+      EXPECT_NEAR(edge["eigenvalues"][0].get<double>(), 0.7112, 1e-4);
+      EXPECT_LT(edge["k_one"]["relative_error"].get<double>(), 0.05);
+   }
+   // Another material has exponents that are not known; the edge is refused all the same.
+   const auto other = contact2d(pad + body + "-young2 2");
+   ASSERT_EQ(other.code, 0) << other.output;
+   for (const auto &edge : other.results["edges"])
+   {
+      EXPECT_FALSE(edge.contains("k_one"));
+      ASSERT_EQ(edge["notes"].size(), 2u);
+      EXPECT_NE(edge["notes"][1].get<std::string>().find("material"), std::string::npos);
+   }
 }
 
 TEST_F(Contact2D, EqualsTheSquarePunch)

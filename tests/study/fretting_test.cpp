@@ -6,6 +6,9 @@
 #include <cattaneo/fretting/from_contact.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
 
 namespace
 {
@@ -54,6 +57,40 @@ TEST(Fretting, FiniteElementsWithBulkTensionMeetTheClosedForms)
    EXPECT_GT(run.results["k_t_trailing"].get<double>(),
              -run.results["k_t_leading"].get<double>());
    EXPECT_EQ(run.results["judged_edge"], "trailing");
+}
+
+TEST(Fretting, FiniteElementsTakeBulkInThePadAndTestRecords)
+{
+   // K_T feels the difference of both bulk stresses only.
+   const auto both = run_miniapp("fretting", "-p fe -Q 50 -bs 10 -bp -20");
+   expect_references_met(both, 5);
+   const auto one = run_miniapp("fretting", "-p fe -Q 50 -bs 30");
+   const double k_t = one.results["k_t_trailing"];
+   EXPECT_NEAR(both.results["k_t_trailing"].get<double>(), k_t, 1e-6 * k_t);
+
+   const std::string folder = testing::TempDir() + "cattaneo_fretting_records";
+   std::filesystem::create_directories(folder);
+   std::ofstream(folder + "/tests.csv") << "P,Q,bulk,cycles\n400,60,20,1e6\n300,40,0,2e5\n";
+   run_miniapp("fretting", "-p fe -plot '" + folder + "' -rec '" + folder + "/tests.csv'");
+   std::ifstream in(folder + "/records.csv");
+   ASSERT_TRUE(in.good());
+   std::string line, cell;
+   std::getline(in, line);
+   for (const char *test : {"-P 400 -Q 60 -bs 20", "-P 300 -Q 40 -bs 0"})
+   {
+      const auto closed_form = run_miniapp("fretting", test);
+      ASSERT_TRUE(std::getline(in, line));
+      std::istringstream row(line);
+      // … threshold_x is the sixth, k_t_range the eighth.
+      for (int k = 0; std::getline(row, cell, ','); ++k)
+      {
+         if (k != 5 && k != 7) { continue; }
+         const double exact = closed_form.results[k == 5 ? "threshold_x" : "k_t_range"];
+         EXPECT_NEAR(std::stod(cell), exact, 0.01 * exact) << line;
+         EXPECT_NE(std::stod(cell), exact) << "not solved";
+      }
+   }
+   std::filesystem::remove_all(folder);
 }
 
 TEST(Fretting, SampleDesignsHaveTheSheetsValues)
@@ -153,7 +190,6 @@ TEST(Fretting, BadOptionsAreOneSentenceAndExitCodeOne)
                                "-p fe -order 0",
                                "-p fe -nodes 5",
                                "-p fe -Q 1000",
-                               "-p fe -bp 3",
                                "--unknown",
                                "-Q many",
                                "-Q"})
@@ -195,7 +231,8 @@ TEST(Fretting, SquarePunchIsACornerWithIntensitiesOfItsOwn)
          EXPECT_TRUE(edge.complete);
          EXPECT_THROW(edge.near_edge(), InputError);
          const fretting::CornerFit fit =
-            fretting::fit_corner({pi / 2, pi}, fretting::edge_tractions(problem, state, edge));
+            fretting::fit_corner(fretting::corner_modes(fretting::Corner{pi / 2, pi}),
+                                 fretting::edge_tractions(problem, state, edge));
          // Symmetric: both corners alike, K_II included, as shear counts into the contact.
          if (edge.side > 0)
          {
@@ -217,6 +254,50 @@ TEST(Fretting, SquarePunchIsACornerWithIntensitiesOfItsOwn)
       }
       std::copy(found, found + 2, before);
       RecordProperty("k_one", std::to_string(found[0]));
+   }
+}
+
+TEST(Fretting, SquarePunchOnARigidPlaneHasItsOwnExponent)
+{
+   using namespace cattaneo;
+   const fretting::CornerModes modes =
+      fretting::corner_modes(fretting::RigidCorner{pi / 2, 0.3});
+   double before = 0;
+   for (const int nodes : {101, 201})
+   {
+      miniapp::PunchOptions options;
+      options.nodes = nodes;
+      options.grading = 1e-3;
+      miniapp::Punch punch = miniapp::make_punch(options);
+      ReducedProblem &problem = punch.reduction.problem;
+      set_friction(problem, 2); // nothing slips
+      ContactState state = ContactState::virgin(problem);
+      march(problem, LoadHistory::through({Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 0)}),
+            state);
+      const auto edges = fretting::contact_edges(problem, state, state);
+      ASSERT_EQ(edges.size(), 2u);
+      const fretting::EdgeTractions tractions =
+         fretting::edge_tractions(problem, state, edges[0]);
+      const fretting::CornerFit fit = fretting::fit_corner(modes, tractions);
+      EXPECT_LT(fit.k_one.relative_error, 0.02);
+      EXPECT_EQ(fit.k_two.nodes, 0);
+      if (nodes == 201) { EXPECT_NEAR(fit.k_one.value, before, 0.005 * before); }
+      before = fit.k_one.value;
+      // Pressure and shear fall as r^{λ-1} with the mode's ratio: a slope over a decade, far
+      // from the element at the corner and from the middle of the punch.
+      std::vector<std::size_t> near;
+      for (std::size_t i = 0; i < tractions.position.size(); i++)
+      {
+         const double r = tractions.position[i] - tractions.edge;
+         if (r > 2e-3 && r < 2e-2) { near.push_back(i); }
+      }
+      ASSERT_GT(near.size(), 6u);
+      const std::size_t i = near.front(), k = near.back();
+      const double slope = std::log(tractions.pressure[k] / tractions.pressure[i]) /
+                           std::log((tractions.position[k] - tractions.edge) /
+                                    (tractions.position[i] - tractions.edge));
+      EXPECT_NEAR(slope, modes.one.eigenvalue - 1, 0.01);
+      EXPECT_NEAR(tractions.shear[i] / tractions.pressure[i], modes.one.shear, 0.01);
    }
 }
 

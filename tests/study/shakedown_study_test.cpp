@@ -18,6 +18,10 @@ TEST(ShakedownStudy, MeetsItsReferences)
    EXPECT_LE(results["bound_upper"].get<double>() - results["bound_lower"].get<double>(), 1e-6);
    EXPECT_LE(results["violation"].get<double>(), 0);
    EXPECT_LE(results["method2_low"], results["method2_high"]);
+   // An admissible slip can empty a corner: nothing is proven of the lower limit, and said so.
+   EXPECT_FALSE(results.contains("lower_limit"));
+   EXPECT_NE(results["lower_limit_statement"].get<std::string>().find("no bound"),
+             std::string::npos);
    for (const auto &march : results["marches"])
    {
       EXPECT_TRUE(march["shaken_down"].get<bool>()) << march["start"];
@@ -46,6 +50,18 @@ TEST(ShakedownStudy, ConvergesWithTheMesh)
    EXPECT_NEAR(study[0]["coupling"].get<double>(), study[2]["coupling"].get<double>(), 0.01);
 }
 
+TEST(ShakedownStudy, LowerLimitIsProvenForLittleFriction)
+{
+   const Outcome run =
+      run_miniapp("shakedown", "-nodes 65 -find load -friction 0.55 -starts 2 -cycles 60");
+   ASSERT_EQ(run.code, 0) << run.output;
+   const double lower = run.results["lower_limit"];
+   EXPECT_GT(lower, 0);
+   EXPECT_LT(lower, run.results["load_limit"].get<double>());
+   // No march contradicts it.
+   EXPECT_GE(run.results["quiet_up_to"].get<double>(), lower);
+}
+
 TEST(ShakedownStudy, ReadsWhatItSaves)
 {
    const std::string file = testing::TempDir() + "shakedown_study.json";
@@ -60,6 +76,38 @@ TEST(ShakedownStudy, ReadsWhatItSaves)
       "shakedown", "-reduced '" + file + "' -closed -lambda-max 0.2 -reversal -0.5");
    EXPECT_EQ(closed.results["closed_nodes"], 33) << closed.output;
    EXPECT_EQ(closed.results["load_limit"], saved.results["load_limit"]);
+   std::remove(file.c_str());
+}
+
+TEST(ShakedownStudy, LimitOfASavedLapJoint)
+{
+   // Pinched and pulled: the contact recedes. Below the limit the whole joint, whose open nodes
+   // are free to close, shakes down from the optimal slip; above it does not.
+   const std::string file = testing::TempDir() + "shakedown_lap_joint.json";
+   double limit = 0;
+   for (const char *spacing : {"0.04", "0.02"})
+   {
+      const Outcome joint =
+         run_miniapp("lap_joint", std::string("-load 0.01 -increments 5 -spacing ") + spacing +
+                                     " -save '" + file + "'");
+      ASSERT_EQ(joint.code, 0) << joint.output;
+      const Outcome run = run_miniapp(
+         "shakedown", "-reduced '" + file +
+                         "' -held 'bolt 1, w = 1' -cycled T -closed -find load -friction 0.2 "
+                         "-lambda-max 0.01 -reversal 0 -cycles 30");
+      ASSERT_EQ(run.code, 0) << run.output;
+      EXPECT_LT(run.results["closed_nodes"].get<int>(),
+                joint.results["contact_nodes"].get<int>());
+      EXPECT_GE(run.results["smallest_open_gap"].get<double>(), 0);
+      const auto &whole = run.results["whole_contact"];
+      ASSERT_EQ(whole.size(), 2u);
+      EXPECT_EQ(whole[0]["outcome"], "shaken down") << run.output;
+      EXPECT_EQ(whole[1]["outcome"], "cyclic slip") << run.output;
+      // Stuck shear is singular at a receding edge: no mesh has the last word.
+      const double own = run.results["load_limit"];
+      if (limit > 0) { EXPECT_LT(own, 0.75 * limit); }
+      limit = own;
+   }
    std::remove(file.c_str());
 }
 

@@ -1,5 +1,6 @@
 #include "elastic_support.hpp"
-#include <cattaneo/elastic/stress.hpp>
+#include <cattaneo/elastic/axisymmetric.hpp>
+#include <cattaneo/elastic/point_stress.hpp>
 
 // Bodies of revolution: operators, loads, contact lines, and torsion as a third block.
 
@@ -471,6 +472,193 @@ TEST(Torsion, RefusesWhatDoesNotBelongTogether)
       [&]
       { reduce(condense(plane, contact_line(plane, 1)), condense(bottom, line), Pairing()); },
       "both axisymmetric");
+}
+
+/// Stress at a point, and on the axis, of fields that the elements hold exactly.
+TEST(Axisymmetric, StressIsRecovered)
+{
+   const Material material{2.6, 0.3}; // μ = 1, λ = 1.5
+   for (const char *kind : {"quads", "triangles"})
+   {
+      mfem::Mesh mesh = cylinder(kind);
+      const ElasticBody body(mesh, 2, material, Geometry::axisymmetric),
+         torsion(mesh, 2, material, Geometry::torsion);
+      // u_r = r z, u_z = r² : ε_rr = ε_θθ = z, ε_zz = 0, γ = r + 2 r.
+      mfem::GridFunction u(&body.space()), twist(&torsion.space());
+      const VectorXd nodes =
+         nodal(body, [](double r, double z, int c) { return c == 0 ? r * z : r * r; });
+      // ψ = r z: τ_rθ = r z, τ_θz = r².
+      const VectorXd angles = nodal(torsion, [](double r, double z, int) { return r * z; });
+      for (int k = 0; k < u.Size(); ++k) { u(k) = nodes[k]; }
+      for (int k = 0; k < twist.Size(); ++k) { twist(k) = angles[k]; }
+      mfem::Vector x;
+      int on_axis = 0;
+      for (int e = 0; e < mesh.GetNE(); ++e)
+      {
+         mfem::ElementTransformation &transformation = *mesh.GetElementTransformation(e);
+         const mfem::IntegrationRule &points = body.space().GetFE(e)->GetNodes();
+         for (int k = 0; k < points.GetNPoints(); ++k)
+         {
+            transformation.SetIntPoint(&points.IntPoint(k));
+            transformation.Transform(points.IntPoint(k), x);
+            const double r = x(0), z = x(1);
+            on_axis += r == 0;
+            const Stress s = stress_at(body, u, transformation);
+            const TorsionStress t = torsion_stress_at(torsion, twist, transformation);
+            EXPECT_NEAR(s.xx, 5 * z, 1e-12);
+            EXPECT_NEAR(s.yy, 3 * z, 1e-12);
+            EXPECT_NEAR(s.zz, 5 * z, 1e-12);
+            EXPECT_NEAR(s.xy, 3 * r, 1e-12);
+            EXPECT_NEAR(t.r_theta, r * z, 1e-12);
+            EXPECT_NEAR(t.theta_z, r * r, 1e-12);
+         }
+      }
+      EXPECT_GT(on_axis, 0);
+   }
+}
+
+/// The contact's torque is that of the stress on a cross-section: exactly on a grid, since
+/// functions of z alone are among the test functions.
+TEST(Torsion, TorqueOfStressAndOfContactForcesAgree)
+{
+   const int elements = 4;
+   mfem::Mesh mesh = rectangle_mesh(uniform(0, 1, elements), uniform(0, 1, elements));
+   ElasticBody body(mesh, 2, Material{2.6, 0.3}, Geometry::torsion);
+   body.fix(3, 0);
+   CondensedBody condensed = condense(body, contact_line(body, 1));
+   // A contact that does not turn as one: u_θ = r³.
+   const VectorXd r = condensed.line.position.col(0), v = r.array().cube();
+   const double torque = r.dot(condensed.S * v);
+   mfem::GridFunction twist(&body.space());
+   twist = condensed.recover(v, VectorXd(0));
+   double section = 0; // at z = 1/2, seen from above
+   for (int e = 0; e < mesh.GetNE(); ++e)
+   {
+      mfem::ElementTransformation &transformation = *mesh.GetElementTransformation(e);
+      const mfem::IntegrationRule &rule = mfem::IntRules.Get(mfem::Geometry::SEGMENT, 8);
+      for (int k = 0; k < rule.GetNPoints(); ++k)
+      {
+         mfem::IntegrationPoint ip;
+         ip.Set2(rule.IntPoint(k).x, 0.0);
+         transformation.SetIntPoint(&ip);
+         mfem::Vector x;
+         transformation.Transform(ip, x);
+         if (std::abs(x(1) - 0.5) > 1e-9) { continue; }
+         section -= rule.IntPoint(k).weight / elements * 2 * M_PI * x(0) * x(0) *
+                    torsion_stress_at(body, twist, transformation).theta_z;
+      }
+   }
+   EXPECT_GT(torque, 0);
+   EXPECT_NEAR(section, torque, 1e-12 * torque);
+}
+
+TEST(Axisymmetric, IntegratorsServeAnOperatorOfTheUsersOwn)
+{
+   const Material material{2.6, 0.3};
+   mfem::Mesh mesh = cylinder("triangles");
+   for (auto geometry : {Geometry::axisymmetric, Geometry::torsion})
+   {
+      ElasticBody body(mesh, 2, material, geometry);
+      mfem::H1_FECollection collection(2, 2);
+      mfem::FiniteElementSpace space(&mesh, &collection, body.components(),
+                                     mfem::Ordering::byNODES);
+      mfem::ConstantCoefficient lambda(material.lambda()), mu(material.mu());
+      mfem::BilinearForm form(&space);
+      mfem::BilinearFormIntegrator *integrator = nullptr;
+      if (geometry == Geometry::torsion) { integrator = new TorsionIntegrator(mu); }
+      else { integrator = new AxisymmetricElasticityIntegrator(lambda, mu); }
+      form.AddDomainIntegrator(integrator);
+      form.Assemble();
+      form.Finalize();
+      ElasticBody own(space, form.SpMat(), geometry);
+      EXPECT_EQ(own.essential_dofs().Size(), body.essential_dofs().Size());
+      for (ElasticBody *one : {&body, &own})
+      {
+         one->fix(3, one->components() - 1);
+         if (geometry == Geometry::torsion) { one->add_traction("t", 2, 1.0); }
+         else { one->add_pressure("t", 2, 1.0); }
+      }
+      const CondensedBody a = condense(body, contact_line(body, 1)),
+                          b = condense(own, contact_line(own, 1));
+      EXPECT_LT(difference(a.S, b.S), 1e-12);
+      EXPECT_LT(difference(a.patterns[0].q, b.patterns[0].q), 1e-11);
+   }
+   mfem::H1_FECollection collection(2, 2);
+   mfem::FiniteElementSpace two(&mesh, &collection, 2);
+   expect_input_error([&] { ElasticBody(two, mfem::SparseMatrix(), Geometry::torsion); },
+                      "must have 1");
+}
+
+TEST(Axisymmetric, NumberingOfTheMeshDoesNotMatter)
+{
+   for (auto geometry : {Geometry::axisymmetric, Geometry::torsion})
+   {
+      mfem::Mesh mesh = cylinder("quads"), other = cylinder("quads");
+      mfem::Array<int> order(other.GetNE());
+      for (int e = 0; e < order.Size(); ++e) { order[e] = (5 * e + 3) % order.Size(); }
+      other.ReorderElements(order);
+      const auto condensed = [&](mfem::Mesh &one)
+      {
+         ElasticBody body(one, 3, Material{}, geometry);
+         body.fix(3, body.components() - 1);
+         return condense(body, contact_line(body, 1));
+      };
+      const CondensedBody a = condensed(mesh), b = condensed(other);
+      EXPECT_EQ(a.line.position, b.line.position);
+      EXPECT_LT(difference(a.S, b.S), 1e-12);
+   }
+}
+
+/// A body that is moved along its axis is an equal one; only its factor is shared.
+TEST(Axisymmetric, EqualBodiesShareOneFactor)
+{
+   mfem::Mesh here = rectangle_mesh(uniform(0, 2, 4), uniform(0, 1, 4)),
+              there = rectangle_mesh(uniform(0, 2, 4), uniform(8, 9, 4));
+   for (auto geometry : {Geometry::axisymmetric, Geometry::torsion})
+   {
+      ElasticBody a(here, 2, Material{}, geometry), b(there, 2, Material{}, geometry);
+      for (ElasticBody *body : {&a, &b}) { body->fix(3, body->components() - 1); }
+      const CondensedBody first = condense(a, contact_line(a, 1));
+      EXPECT_EQ(first.counters.factorisations, 1);
+      const CondensedBody second = condense(b, contact_line(b, 1), {}, &first);
+      EXPECT_EQ(second.counters.factorisations, 0);
+      EXPECT_EQ(first.S, second.S);
+   }
+}
+
+/// Half-space meshes are the right half of half-plane ones.
+TEST(Axisymmetric, HalfSpaceMesh)
+{
+   mfem::Mesh mesh = half_space_mesh(uniform(0, 1, 3), uniform(0, 1, 2), {1, 2, 5});
+   EXPECT_EQ(mesh.GetNE(), 3 * 2 + 2 * 5);
+   double area = 0;
+   for (int e = 0; e < mesh.GetNE(); ++e) { area += mesh.GetElementVolume(e); }
+   EXPECT_NEAR(area, 25, 1e-12);
+   double length[6] = {};
+   for (int i = 0; i < mesh.GetNBE(); ++i)
+   {
+      mfem::ElementTransformation &edge = *mesh.GetBdrElementTransformation(i);
+      mfem::IntegrationPoint middle;
+      middle.Set1w(0.5, 1.0);
+      edge.SetIntPoint(&middle);
+      length[mesh.GetBdrAttribute(i)] += edge.Weight();
+      mfem::Vector x;
+      edge.Transform(middle, x);
+      const int attribute = mesh.GetBdrAttribute(i);
+      EXPECT_TRUE(attribute == 5   ? x(0) == 0
+                  : attribute == 3 ? x(1) == -5
+                  : attribute == 4 ? x(0) == 5
+                                   : x(1) == 0);
+   }
+   for (int attribute = 1; attribute <= 5; ++attribute)
+   {
+      EXPECT_NEAR(length[attribute], attribute == 1 ? 1 : attribute == 2 ? 4 : 5, 1e-12);
+   }
+   expect_input_error(
+      [] {
+         half_space_mesh(uniform(-1, 1, 3), uniform(0, 1, 2), {1, 2});
+      },
+      "must start on the axis");
 }
 
 TEST(Axisymmetric, OnlyTranslationAlongTheAxisIsRigid)

@@ -164,6 +164,77 @@ TEST(LowerLimit, BoundHoldsInMarches)
    }
 }
 
+TEST(LowerLimit, LeastPressureIsThatOfTheWorstState)
+{
+   // The pressures of all admissible states: extreme where every node is about to slip, in one
+   // of the two senses.
+   const int n = 6;
+   for (const unsigned seed : {3u, 4u, 5u})
+   {
+      ReducedProblem problem = random_contact(seed, n, 1, false);
+      problem.B *= 0.3;
+      const ResidualForces residual = residual_forces(problem);
+      const Eigen::VectorXd load = Eigen::VectorXd::Ones(n);
+      const LeastPressure least = least_pressure(problem, residual, load);
+      ASSERT_TRUE(least.exists);
+      const Eigen::MatrixXd &M = residual.transfer;
+      std::mt19937 random(seed);
+      const Eigen::VectorXd shear = 0.1 * random_matrix(random, n, 1);
+      const Eigen::VectorXd h = load - M * shear;
+      Eigen::VectorXd lowest = Eigen::VectorXd::Constant(n, 1e9);
+      for (int senses = 0; senses < (1 << n); ++senses)
+      {
+         Eigen::MatrixXd slipping = Eigen::MatrixXd::Identity(n, n);
+         for (int k = 0; k < n; ++k)
+         {
+            const double sign = senses & (1 << k) ? 1 : -1;
+            slipping.col(k) -= sign * problem.friction[k] * M.col(k);
+         }
+         const Eigen::VectorXd p = slipping.partialPivLu().solve(h);
+         ASSERT_GT(p.minCoeff(), 0);
+         lowest = lowest.cwiseMin(p);
+      }
+      const Eigen::VectorXd bound = least.by_normal * load + least.by_shear * shear;
+      EXPECT_LT((bound - lowest).cwiseAbs().maxCoeff(), 1e-11) << seed;
+   }
+}
+
+TEST(LowerLimit, LeastPressureHoldsForFreeBodiesAndDiscs)
+{
+   for (const int components : {1, 2})
+   {
+      const int n = 6;
+      ReducedProblem problem = random_contact(7, n, components, true);
+      problem.B *= 0.3;
+      const ResidualForces residual = residual_forces(problem);
+      const Eigen::VectorXd load = Eigen::VectorXd::Ones(n);
+      const LeastPressure least = least_pressure(problem, residual, load);
+      ASSERT_TRUE(least.exists);
+      std::mt19937 random(8);
+      const Eigen::VectorXd shear = 0.05 * random_matrix(random, components * n, 1);
+      const Eigen::VectorXd bound = least.by_normal * load + least.by_shear * shear;
+      int admissible = 0;
+      double nearest = 1e9;
+      for (int k = 0; k < 20000; ++k)
+      {
+         const Eigen::VectorXd slip =
+            residual.flexibility * (0.4 * random_matrix(random, components * n, 1));
+         const Eigen::VectorXd q = shear + problem.A * slip, p = load + problem.B * slip;
+         bool inside = p.minCoeff() > 0;
+         for (int i = 0; i < n; ++i)
+         {
+            const double size = components == 1 ? std::abs(q[i]) : std::hypot(q[i], q[n + i]);
+            inside = inside && size <= problem.friction[i] * p[i];
+         }
+         if (!inside) { continue; }
+         admissible++;
+         nearest = std::min(nearest, (p - bound).minCoeff());
+      }
+      EXPECT_GT(admissible, 20);
+      EXPECT_GE(nearest, 0);
+   }
+}
+
 TEST(LowerLimit, OfAnUncoupledContactIsTheUpper)
 {
    const ReducedProblem problem = punch_like(33, 0);

@@ -25,7 +25,12 @@ namespace cattaneo
    and a node on the axis is left out: its weight is exactly zero from order 2 on (that of order
    1, πh²/3, is added to its neighbour's), so that it carries no pressure that could be told,
    and its tangential displacements are zero by symmetry. In the reduced problem it moves
-   freely, which opens it or lets it overlap by O(h³) (order 1: O(h)). */
+   freely,   which opens it or lets it overlap by O(h³) of the indentation (order 1, whose first
+   node then shows 7 % too little pressure on any mesh, is better avoided there). Pressures,
+   force over weight, are right from the first node on; tractions that grow with r are not: a
+   shear c r reads 1.2 and 0.9 times as large at the first two nodes of quadratic elements, a
+   torsional one 1.6 and 0.7 times, an error of 0.3 c h that dies out as 1/r². Resultants and
+   torques of nodal forces are exact. */
 struct ContactLine
 {
    std::vector<int> scalar_dofs;              ///< node of the space; -1 if another rank has it

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cattaneo/elastic/body.hpp>
 #include <cattaneo/elastic/material.hpp>
 
 namespace cattaneo
@@ -35,14 +34,5 @@ struct TorsionStress
 /// τ_rθ = G r ∂ψ/∂r and τ_θz = G r ∂ψ/∂z of the twist ψ = u_θ/r.
 TorsionStress torsion_stress(const Material &material, double r, double dtwist_dr,
                              double dtwist_dz);
-
-/// Stress at a point of a body, not one of torsion, from its displacement: `transformation` of
-/// the point's element with the point set. On the axis ε_θθ is its limit ε_rr.
-Stress stress_at(const ElasticBody &body, const mfem::GridFunction &displacement,
-                 mfem::ElementTransformation &transformation);
-
-/// The same of a torsion body, from its twist.
-TorsionStress torsion_stress_at(const ElasticBody &body, const mfem::GridFunction &twist,
-                                mfem::ElementTransformation &transformation);
 
 } // namespace cattaneo

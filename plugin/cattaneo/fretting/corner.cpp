@@ -4,6 +4,7 @@
 #include <cattaneo/fretting/root.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
+#include <complex>
 
 namespace cattaneo::fretting
 {
@@ -41,42 +42,49 @@ struct Sample
    double distance, pressure, shear; ///< both over r^{λ_I-1}
 };
 
+/// Strength and relative error of each mode.
 struct Solution
 {
-   double one, two, error_one, error_two; ///< errors relative
-   double largest() const { return std::max(error_one, error_two); }
+   std::vector<double> strength, error;
+   double largest() const { return *std::max_element(error.begin(), error.end()); }
 };
 
 Solution fit(const std::vector<Sample> &samples, std::size_t first, std::size_t last,
-             const CornerModes &modes)
+             const std::vector<CornerMode> &modes)
 {
-   const Eigen::Index n = last - first;
+   const Eigen::Index n = last - first, m = modes.size();
    const double scale = samples[last - 1].distance;
-   const double between = modes.two.eigenvalue - modes.one.eigenvalue;
-   Eigen::MatrixXd terms = Eigen::MatrixXd::Zero(2 * n, 4);
+   Eigen::MatrixXd terms = Eigen::MatrixXd::Zero(2 * n, m + 2);
    Eigen::VectorXd values(2 * n);
    for (Eigen::Index i = 0; i < n; i++)
    {
       const Sample &sample = samples[first + i];
       const double r = sample.distance / scale;
-      const double second = std::pow(r, between);
-      terms.row(i) << modes.one.pressure, modes.two.pressure * second, r, 0;
-      terms.row(n + i) << modes.one.shear, modes.two.shear * second, 0, r;
+      for (Eigen::Index k = 0; k < m; k++)
+      {
+         const double power = std::pow(r, modes[k].eigenvalue - modes[0].eigenvalue);
+         terms(i, k) = modes[k].pressure * power;
+         terms(n + i, k) = modes[k].shear * power;
+      }
+      terms(i, m) = terms(n + i, m + 1) = r;
       values[i] = sample.pressure;
       values[n + i] = sample.shear;
    }
-   const Eigen::MatrixXd modal = terms.leftCols(2);
-   const Eigen::Vector2d plain = modal.colPivHouseholderQr().solve(values);
+   const Eigen::MatrixXd modal = terms.leftCols(m);
+   const Eigen::VectorXd plain = modal.colPivHouseholderQr().solve(values);
    const Eigen::VectorXd more = terms.colPivHouseholderQr().solve(values);
-   const double variance = (values - terms * more).squaredNorm() / (2 * n - 4);
+   const double variance = (values - terms * more).squaredNorm() / (2 * n - m - 2);
    const Eigen::MatrixXd inverse = (terms.transpose() * terms).inverse();
-   const auto error = [&](int k)
+   Solution solution;
+   for (Eigen::Index k = 0; k < m; k++)
    {
       const double absolute =
          std::max(std::sqrt(variance * inverse(k, k)), std::abs(more[k] - plain[k]));
-      return absolute > 0 ? absolute / std::abs(more[k]) : 0.0;
-   };
-   return {more[0], more[1] * std::pow(scale, -between), error(0), error(1)};
+      solution.strength.push_back(more[k] *
+                                  std::pow(scale, modes[0].eigenvalue - modes[k].eigenvalue));
+      solution.error.push_back(absolute > 0 ? absolute / std::abs(more[k]) : 0.0);
+   }
+   return solution;
 }
 
 } // namespace
@@ -88,12 +96,12 @@ CornerModes corner_modes(const Corner &corner)
            "the pad fills ", corner.pad_angle, " and the body ", corner.body_angle,
            " radians at the corner; both must be positive, and their sum above π, where the "
            "stress becomes singular, and at most 2π.");
-   CornerModes modes;
+   CornerMode one, two;
    const double half = 0.5 * sum;
-   modes.one.eigenvalue =
+   one.eigenvalue =
       find_root([&](double l) { return std::sin(l * sum) + l * std::sin(sum); }, 0.5, pi / sum);
    // λ = 1, a rotation of the whole corner, is divided out.
-   const auto two = [&](double l)
+   const auto remainder = [&](double l)
    {
       const double step = l - 1;
       if (std::abs(step) < 1e-7)
@@ -102,29 +110,66 @@ CornerModes corner_modes(const Corner &corner)
       }
       return (std::sin(l * sum) - l * std::sin(sum)) / step;
    };
-   modes.two.eigenvalue = sum == 2 * pi ? 0.5 : find_root(two, pi / sum, 2 * pi / sum);
+   two.eigenvalue = sum == 2 * pi ? 0.5 : find_root(remainder, pi / sum, 2 * pi / sum);
 
    // From the body's free face over the interface to the pad's: the bisector is at
    // (pad - body)/2 from the interface.
    const double interface = 0.5 * (corner.body_angle - corner.pad_angle);
-   const RayStress one = ray_stress(true, modes.one.eigenvalue, half, interface);
-   modes.one.pressure = one.normal; // K_I > 0 is compression
-   modes.one.shear = -one.shear;
-   const RayStress two_stress = ray_stress(false, modes.two.eigenvalue, half, interface);
-   modes.two.pressure = -two_stress.normal;
-   modes.two.shear = two_stress.shear;
+   const RayStress symmetric = ray_stress(true, one.eigenvalue, half, interface);
+   one.pressure = symmetric.normal; // K_I > 0 is compression
+   one.shear = -symmetric.shear;
+   const RayStress skew = ray_stress(false, two.eigenvalue, half, interface);
+   two.pressure = -skew.normal;
+   two.shear = skew.shear;
+   return {one, two};
+}
+
+CornerModes corner_modes(const RigidCorner &corner)
+{
+   const double angle = corner.pad_angle, nu = corner.poisson;
+   require(angle > 0 && angle < pi, "the pad fills ", angle,
+           " radians at the corner on the rigid body; it must be above 0 and below π.");
+   require(nu >= 0 && nu < 0.5, "Poisson's ratio is ", nu, "; it must be in [0, 0.5).");
+   const double kappa = corner.plane_stress ? (3 - nu) / (1 + nu) : 3 - 4 * nu;
+   const double sine = std::sin(angle);
+   const auto residual = [&](double l)
+   {
+      const double s = std::sin(l * angle);
+      return kappa * s * s + l * l * sine * sine - 0.25 * (kappa + 1) * (kappa + 1);
+   };
+   const auto slope = [&](double l)
+   { return kappa * angle * std::sin(2 * l * angle) + 2 * l * sine * sine; };
+   // Negative at 0, the residual rises to at most one maximum below 1, beyond λ = π/2α.
+   const double top = slope(1) < 0 ? find_root(slope, 0.5 * pi / angle, 1) : 1.0;
+   require(residual(top) > 0, "the corner of ", angle,
+           " radians on a rigid body, Poisson's ratio ", nu,
+           top < 1
+              ? ": the eigenvalues are complex, the tractions oscillate towards the corner "
+                "and have no intensity."
+              : ": the stress is not singular.");
+   // On the interface σ_yy - iσ_xy ~ A z^{λ-1}, and the free face makes
+   // A (κ + e^{2iλα}) = λ conj(A) (1 - e^{2iα}).
+   const auto mode = [&](double lambda)
+   {
+      const std::complex<double> i(0, 1);
+      const double phase = 0.5 * std::arg((1.0 - std::exp(2.0 * angle * i)) /
+                                          (kappa + std::exp(2 * lambda * angle * i)));
+      return CornerMode{lambda, 1, std::tan(phase)};
+   };
+   CornerModes modes;
+   modes.one = mode(find_root(residual, 0, top));
+   if (residual(1) < 0) { modes.two = mode(find_root(residual, top, 1)); }
    return modes;
 }
 
-CornerFit fit_corner(const Corner &corner, const EdgeTractions &tractions,
+CornerFit fit_corner(const CornerModes &modes, const EdgeTractions &tractions,
                      const FitSettings &settings)
 {
    settings.validate();
    CornerFit result;
-   result.modes = corner_modes(corner);
-   require(result.modes.two.eigenvalue < 1, "the angles at the corner add up to ",
-           corner.pad_angle + corner.body_angle,
-           " radians: below 4.4934 mode II is not singular and regular terms hide it.");
+   result.modes = modes;
+   std::vector<CornerMode> fitted{modes.one};
+   if (modes.two) { fitted.push_back(*modes.two); }
    const std::size_t n = tractions.position.size();
    require(tractions.pressure.size() == n && tractions.shear.size() == n, "there are ", n,
            " positions, ", tractions.pressure.size(), " pressures and ", tractions.shear.size(),
@@ -142,7 +187,7 @@ CornerFit fit_corner(const Corner &corner, const EdgeTractions &tractions,
       if (side == 0) { side = x > 0 ? 1 : -1; }
       require(x * side > 0, "node ", i, " at ", tractions.position[i],
               " is on the other side of the corner at ", tractions.edge, ".");
-      const double weight = std::pow(std::abs(x), 1 - result.modes.one.eigenvalue);
+      const double weight = std::pow(std::abs(x), 1 - modes.one.eigenvalue);
       samples.push_back({std::abs(x), p * weight, side * q * weight});
    }
    std::sort(samples.begin(), samples.end(),
@@ -162,10 +207,10 @@ CornerFit fit_corner(const Corner &corner, const EdgeTractions &tractions,
    require(last >= first + least_nodes, "there are ", last > first ? last - first : 0,
            " nodes in the window of the fit near the corner; it needs ", least_nodes, ".");
    std::size_t to = chosen ? first + least_nodes : last;
-   Solution best = fit(samples, first, to, result.modes);
+   Solution best = fit(samples, first, to, fitted);
    for (std::size_t next = to + 1; chosen && next <= last; next++)
    {
-      const Solution solution = fit(samples, first, next, result.modes);
+      const Solution solution = fit(samples, first, next, fitted);
       if (solution.largest() < best.largest())
       {
          best = solution;
@@ -174,10 +219,9 @@ CornerFit fit_corner(const Corner &corner, const EdgeTractions &tractions,
    }
    const FitWindow window{samples[first].distance, samples[to - 1].distance};
    const int nodes = static_cast<int>(to - first);
-   result.k_one = {best.one, best.error_one, window, nodes};
-   result.k_two = {best.two, best.error_two, window, nodes};
-   const CornerMode &dominant = best.one != 0 ? result.modes.one : result.modes.two;
-   result.least_friction = std::abs(dominant.traction_ratio());
+   result.k_one = {best.strength[0], best.error[0], window, nodes};
+   if (modes.two) { result.k_two = {best.strength[1], best.error[1], window, nodes}; }
+   result.least_friction = std::abs(modes.one.traction_ratio());
    return result;
 }
 

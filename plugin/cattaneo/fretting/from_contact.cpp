@@ -90,6 +90,19 @@ void check(const ReducedProblem &problem, const ContactState &pressed,
    loaded.validate(problem);
 }
 
+/// Chains of nodes follow each other in the arc length, where one ends and the next begins.
+void check_one_chain(const ReducedProblem &problem)
+{
+   for (Index i = 1; i < problem.nodes(); i++)
+   {
+      require(problem.arc_length[i] > problem.arc_length[i - 1],
+              "the contact line has separate "
+              "pieces, one ends at node ",
+              i - 1, " at arc length ", problem.arc_length[i - 1],
+              "; edges can be read from a line of one piece only.");
+   }
+}
+
 /// Where a quantity that is smooth across an edge vanishes, with an estimate of the error.
 struct Zero
 {
@@ -279,6 +292,7 @@ std::vector<ContactEdge> contact_edges(const ReducedProblem &problem,
                                        CrackedBody cracked, const FitSettings &settings)
 {
    check(problem, pressed, loaded);
+   check_one_chain(problem);
    settings.validate();
    const Index n = problem.nodes();
    const std::vector<Zone> all = zones(problem, loaded);
@@ -394,7 +408,19 @@ EnergyComparison compare_energy(const ReducedProblem &problem, const ContactEdge
    EnergyComparison result;
    result.predicted_total = slip_energy_total(edge.near_edge(), k_t_range, modulus);
    result.predicted_max = slip_energy_max(k_t_range, modulus);
-   for (Index i = edge.first; i <= edge.last; i++)
+   // Beyond the edge lies what is in contact, and rubs, at other times of the cycle.
+   Index first = edge.first, last = edge.last;
+   const auto rubs = [&](Index i)
+   { return i >= 0 && i < problem.nodes() && cycle.node_dissipation[i] != 0; };
+   if (edge.side > 0)
+   {
+      while (rubs(first - 1)) { first--; }
+   }
+   else
+   {
+      while (rubs(last + 1)) { last++; }
+   }
+   for (Index i = first; i <= last; i++)
    {
       result.computed_total += cycle.node_dissipation[i];
       if (problem.weights[i] > 0)

@@ -62,8 +62,8 @@ ContactState fully_stuck(const ReducedProblem &problem, const ContactState &pres
 
     @param pressed state after the normal load alone, before the cyclic loads
     @param loaded state at peak load: frictional, or fully stuck
-    InputError for a problem that is not plane or has no friction, and for a contact with too
-    few nodes for the fit. */
+    InputError for a problem that is not plane or has no friction, for a contact line of several
+    pieces, and for a contact with too few nodes for the fit. */
 std::vector<ContactEdge> contact_edges(const ReducedProblem &problem,
                                        const ContactState &pressed, const ContactState &loaded,
                                        CrackedBody cracked = CrackedBody::second,
@@ -77,7 +77,9 @@ EdgeTractions edge_tractions(const ReducedProblem &problem, const ContactState &
 /// Frictional energy of one marched cycle, computed and as the near-edge field predicts it.
 struct EnergyComparison
 {
-   double computed_total = 0.0;  ///< per cycle and thickness, this edge's half of the contact
+   /// Per cycle and thickness: this edge's half of the contact, and what is beyond the edge at
+   /// the peak load but in contact at other times of the cycle.
+   double computed_total = 0.0;
    double predicted_total = 0.0; ///< slip_energy_total()
    double computed_max = 0.0;    ///< per area: largest nodal value over its weight
    double predicted_max = 0.0;   ///< slip_energy_max()

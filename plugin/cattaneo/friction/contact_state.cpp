@@ -19,6 +19,8 @@ const char *name(NodeState state)
       return "forward slip";
    case NodeState::backward_slip:
       return "backward slip";
+   case NodeState::slip:
+      return "slip";
    }
    return "";
 }
@@ -120,8 +122,8 @@ ContactState load_contact_state(const std::string &file)
       state.multipliers = vector(j.at("multipliers"));
       for (int s : j.at("status").get<std::vector<int>>())
       {
-         require(s >= 0 && s <= 3, "contact state: status ", s, " in file '", file,
-                 "', must be 0 to 3");
+         require(s >= 0 && s <= 4, "contact state: status ", s, " in file '", file,
+                 "', must be 0 to 4");
          state.status.push_back(static_cast<NodeState>(s));
       }
       for (const nlohmann::json &v : j.at("cycle_slip"))

@@ -11,10 +11,11 @@ namespace cattaneo
 /// State of a contact node (thesis 3.5 and 3.6, with an initial gap g).
 enum class NodeState : signed char
 {
-   stick,        ///< w + g = 0, v̇ = 0, |q| <= f p
-   separation,   ///< p = q = 0, w + g > 0
-   forward_slip, ///< w + g = 0, q = -f p, v̇ > 0
-   backward_slip ///< w + g = 0, q = +f p, v̇ < 0
+   stick,         ///< w + g = 0, v̇ = 0, |q| <= f p
+   separation,    ///< p = q = 0, w + g > 0
+   forward_slip,  ///< w + g = 0, q = -f p, v̇ > 0
+   backward_slip, ///< w + g = 0, q = +f p, v̇ < 0
+   slip ///< two tangential components: w + g = 0, q = -f p v̇/|v̇|, so that q tells its direction
 };
 
 const char *name(NodeState state);
@@ -25,10 +26,11 @@ inline bool closed(NodeState state)
 }
 inline bool slips(NodeState state)
 {
-   return state == NodeState::forward_slip || state == NodeState::backward_slip;
+   return closed(state) && state != NodeState::stick;
 }
 
-/// Sense of slip: +1 forward (q = -f p), -1 backward (q = +f p), 0 in stick and separation.
+/// Sense of slip: +1 forward (q = -f p), -1 backward (q = +f p), 0 in stick and separation and
+/// where slip has a direction in the plane of contact.
 inline double sense(NodeState state)
 {
    return state == NodeState::forward_slip    ? 1.0
@@ -44,8 +46,9 @@ struct ContactState
    Eigen::VectorXd w; ///< relative normal displacement
    Eigen::VectorXd q; ///< tangential nodal forces
    Eigen::VectorXd p; ///< normal nodal forces, compression positive
-   /// Slip v at which each node last stuck, opened or turned round: v - slip_origin is the way
-   /// it has slipped since, and vanishes at an advancing slip front. Size c·n.
+   /// Slip v at which each node last stuck, opened or turned round (with two components: by
+   /// more than a right angle in one increment): v - slip_origin is the way it has slipped
+   /// since, and vanishes at an advancing slip front. Size c·n.
    Eigen::VectorXd slip_origin;
    std::vector<NodeState> status; ///< of each node, at the end of the last increment
    Eigen::VectorXd multipliers;   ///< of the load patterns

@@ -1,3 +1,5 @@
+#include <cattaneo/friction/complementarity.hpp>
+#include <cattaneo/friction/friction_disc.hpp>
 #include <cattaneo/friction/friction_solver.hpp>
 #include <cattaneo/friction/lemke.hpp>
 #include <cattaneo/friction/mechanism.hpp>
@@ -13,6 +15,7 @@ namespace cattaneo
 
 using Eigen::Index;
 using Eigen::MatrixXd;
+using Eigen::Vector2d;
 using Eigen::VectorXd;
 
 const char *name(FrictionStatus status)
@@ -66,6 +69,18 @@ struct CachedFactor
    }
 };
 
+/// Stiffness of the closed nodes when the open ones are free, kept likewise.
+struct EliminatedNodes
+{
+   std::vector<signed char> key;
+   std::vector<Index> open, kept; // rows of K: all components of the open, closed nodes
+   std::vector<Index> place;      // of a closed node's first component among `kept`
+   Eigen::LLT<MatrixXd> factor;   // L Lᵀ of the open ones
+   MatrixXd X;                    // L⁻¹ K(open, kept)
+   MatrixXd K;                    // K(kept, kept) - Xᵀ X
+   bool singular = false;
+};
+
 } // namespace
 
 struct FrictionSolver::Implementation
@@ -74,15 +89,17 @@ struct FrictionSolver::Implementation
    FrictionSettings settings;
    Counters counters;
 
-   Index n = 0;
+   Index n = 0, c = 0; // nodes and tangential components (frictionless: none)
    bool frictionless = false, uncoupled = false;
-   VectorXd ktt, ktn, knn; // each node's own stiffness block
+   VectorXd ktt, ktn, knn; // each node's own stiffness block (disc: ktt is its mean)
+   VectorXd critical;      // friction of each node
    MatrixXd K;             // [A Bᵀ; B C], or the normal stiffness alone if frictionless
    double K_norm = 0;      // row-sum norm
    double critical_friction = std::numeric_limits<double>::infinity();
    Index critical_node = 0;
    std::unique_ptr<SemidefiniteSolver> tangential; // frictionless: A⁻¹
    CachedFactor coupled_factor, normal_factor, tangential_factor;
+   EliminatedNodes eliminated;
    std::unique_ptr<MatrixXd> motions; // rigid motions, found when first needed
    Mechanism mechanism;
 
@@ -91,23 +108,37 @@ struct FrictionSolver::Implementation
    VectorXd u, F; // displacements {v; w} and forces {q; p} (frictionless: w, p)
    VectorXd v_old;
    std::vector<NodeState> status;
-   double reference = 0; // largest clamped force so far
+   std::vector<DiscSlip> direction; // disc: of the slipping nodes, as last linearised
+   double reference = 0;            // largest clamped force so far
 
    Implementation(const ReducedProblem &given, const FrictionSettings &chosen);
 
+   bool disc() const { return c == 2; } // friction force in the disc |q| <= f p
    Index t(Index i) const { return i; } // row of node i's tangential entry
-   Index m(Index i) const { return frictionless ? i : n + i; } // row of its normal entry
+   Index t(Index i, Index k) const { return k * n + i; } // and of its k-th
+   Index m(Index i) const { return c * n + i; }          // row of its normal entry
    double gap(Index i) const { return u[m(i)] + problem.gap[i]; }
    double slip(Index i) const { return u[t(i)] - v_old[i]; }
+   Vector2d disc_slip(Index i) const { return at(u, i) - at(v_old, i); }
+   Vector2d disc_trial(Index i) const { return at(F, i) - ktt[i] * disc_slip(i); }
+   /// The two tangential entries of node i.
+   Vector2d at(const VectorXd &x, Index i) const { return {x[i], x[n + i]}; }
+   double bound(Index i) const { return problem.friction[i] * std::max(F[m(i)], 0.0); }
 
    void start(const ContactState &state, const VectorXd &multipliers);
    void finish(ContactState &state, const VectorXd &multipliers);
    void sweep();
    void set_node(Index i, double x, double y, NodeState state);
+   DiscNode disc_node(Index i) const; // without its forces
+   void move_disc_node(Index i);
    bool newton(int steps);
+   bool newton_disc(int steps);
    bool solve_for_states();
    bool solve_coupled();
+   bool solve_normal();
    bool solve_uncoupled();
+   bool eliminate_open();
+   bool solve_disc();
    bool solve_frictionless();
    bool update_states();
    bool lemke_start();
@@ -115,6 +146,7 @@ struct FrictionSolver::Implementation
    bool accepted(const IncrementReport &report) const;
    bool runs_away(const IncrementReport &report, const VectorXd &multipliers);
    bool finds_mechanism(const VectorXd &multipliers);
+   bool spins(const VectorXd &multipliers);
    void explain_failure(IncrementReport &report) const;
    double noise() const
    {
@@ -125,9 +157,13 @@ struct FrictionSolver::Implementation
       return 4 * eps * (K_norm * u.cwiseAbs().maxCoeff() + f.cwiseAbs().maxCoeff());
    }
    IncrementReport solve(ContactState &state, const VectorXd &multipliers);
+   IncrementReport uniqueness(const std::vector<NodeState> &states) const;
    bool run_gauss_seidel(IncrementReport &report);
-   bool run_automatic(IncrementReport &report, const VectorXd &multipliers);
+   bool run_automatic(IncrementReport &report, const ContactState &state,
+                      const VectorXd &multipliers);
    bool run_lemke(IncrementReport &report);
+   bool run_path(IncrementReport &report, const ContactState &state);
+   bool polished(IncrementReport &report);
 };
 
 FrictionSolver::Implementation::Implementation(const ReducedProblem &given,
@@ -136,9 +172,13 @@ FrictionSolver::Implementation::Implementation(const ReducedProblem &given,
 {
    settings.validate();
    problem.validate();
-   require(problem.components() <= 1, "friction solver: the reduced problem has ",
-           problem.components(), " tangential components a node, at most 1 is supported");
+   require(problem.components() <= 2, "friction solver: the reduced problem has ",
+           problem.components(), " tangential components a node, at most 2 are supported");
    frictionless = problem.components() == 0 || problem.friction.maxCoeff() == 0;
+   c = frictionless ? 0 : problem.components();
+   require(!disc() || settings.method != FrictionMethod::lemke,
+           "friction solver: method lemke needs one tangential component a node, the reduced "
+           "problem has 2");
    knn = problem.C.diagonal();
    if (frictionless)
    {
@@ -155,8 +195,8 @@ FrictionSolver::Implementation::Implementation(const ReducedProblem &given,
    }
    else
    {
-      counters.tangential_unknowns = n;
-      ktt = problem.A.diagonal();
+      counters.tangential_unknowns = c * n;
+      ktt = problem.A.diagonal().head(n);
       ktn = problem.B.diagonal();
       const double scale =
          std::sqrt(problem.A.cwiseAbs().maxCoeff() * problem.C.cwiseAbs().maxCoeff());
@@ -168,12 +208,18 @@ FrictionSolver::Implementation::Implementation(const ReducedProblem &given,
          ktn.setZero();
       }
       K = problem.stiffness();
+      critical = ktt.cwiseQuotient(ktn.cwiseAbs());
       for (Index i = 0; i < n; ++i)
       {
-         const double critical = ktt[i] / std::abs(ktn[i]);
-         if (critical < critical_friction)
+         if (disc())
          {
-            critical_friction = critical;
+            const DiscNode node = disc_node(i);
+            ktt[i] = std::sqrt(node.A.determinant());
+            critical[i] = cattaneo::critical_friction(node.A, node.b);
+         }
+         if (critical[i] < critical_friction)
+         {
+            critical_friction = critical[i];
             critical_node = i;
          }
       }
@@ -194,13 +240,13 @@ void FrictionSolver::Implementation::start(const ContactState &state,
    {
       reference = std::max(reference, (problem.A * v_old).cwiseAbs().maxCoeff());
       f = clamped;
-      u.resize(2 * n);
+      u.resize((c + 1) * n);
       u << state.v, state.w;
    }
    else
    {
       f = clamped.tail(n);
-      if (tangential) { f -= problem.B * tangential->solve(clamped.head(n)); }
+      if (tangential) { f -= problem.B * tangential->solve(clamped.head(problem.A.rows())); }
       u = state.w;
    }
    for (Index i = 0; i < n; ++i)
@@ -208,6 +254,7 @@ void FrictionSolver::Implementation::start(const ContactState &state,
       if (closed(status[i])) { u[m(i)] = -problem.gap[i]; }
    }
    F = f + K * u;
+   direction.resize(disc() ? n : 0);
 }
 
 void FrictionSolver::Implementation::finish(ContactState &state, const VectorXd &multipliers)
@@ -218,21 +265,20 @@ void FrictionSolver::Implementation::finish(ContactState &state, const VectorXd 
    state.p = F.tail(n);
    if (!frictionless)
    {
-      state.v = u.head(n);
-      state.q = F.head(n);
+      state.v = u.head(c * n);
+      state.q = F.head(c * n);
    }
    else if (tangential)
    {
-      const VectorXd clamped = problem.clamped_forces(multipliers).head(n);
+      const VectorXd clamped = problem.clamped_forces(multipliers).head(problem.A.rows());
       state.v = -tangential->solve(problem.B.transpose() * state.w + clamped);
       state.q.setZero();
       for (Index i = 0; i < n; ++i)
       {
-         if (closed(status[i]))
-         {
-            status[i] =
-               state.v[i] >= v_old[i] ? NodeState::forward_slip : NodeState::backward_slip;
-         }
+         if (!closed(status[i])) { continue; }
+         if (problem.components() == 2) { status[i] = NodeState::slip; }
+         else if (state.v[i] >= v_old[i]) { status[i] = NodeState::forward_slip; }
+         else { status[i] = NodeState::backward_slip; }
       }
    }
    state.status = status;
@@ -243,7 +289,7 @@ void FrictionSolver::Implementation::finish(ContactState &state, const VectorXd 
       if (!closed(status[i]))
       {
          state.p[i] = 0;
-         if (state.q.size()) { state.q[i] = 0; }
+         for (Index k = i; k < state.q.size(); k += n) { state.q[k] = 0; }
       }
    }
 }
@@ -270,6 +316,41 @@ void FrictionSolver::Implementation::set_node(Index i, double x, double y, NodeS
    status[i] = state;
 }
 
+DiscNode FrictionSolver::Implementation::disc_node(Index i) const
+{
+   const Index r = t(i, 0), s = t(i, 1);
+   DiscNode node;
+   node.A << problem.A(r, r), problem.A(r, s), problem.A(s, r), problem.A(s, s);
+   node.b << problem.B(i, r), problem.B(i, s);
+   node.c = knn[i];
+   node.friction = problem.friction[i];
+   return node;
+}
+
+void FrictionSolver::Implementation::move_disc_node(Index i)
+{
+   DiscNode node = disc_node(i);
+   const Vector2d x = disc_slip(i);
+   node.q0 = at(F, i) - node.A * x - gap(i) * node.b;
+   node.p0 = F[m(i)] - node.b.dot(x) - node.c * gap(i);
+   const DiscMove move = solve_node(node);
+   if (!move.found) { return; } // as in the plane
+   const Vector2d step = move.slip - x;
+   for (Index k = 0; k < 2; ++k)
+   {
+      if (step[k] == 0) { continue; }
+      F.noalias() += step[k] * K.col(t(i, k));
+      u[t(i, k)] = v_old[t(i, k)] + move.slip[k];
+   }
+   const double lift = move.gap - gap(i);
+   if (lift != 0)
+   {
+      F.noalias() += lift * K.col(m(i));
+      u[m(i)] = move.gap - problem.gap[i];
+   }
+   status[i] = move.state;
+}
+
 /// One pass over all nodes, each solved exactly with the others held (thesis 3.5): separation
 /// if the free node opens, else stick if friction suffices, else slip.
 void FrictionSolver::Implementation::sweep()
@@ -281,6 +362,11 @@ void FrictionSolver::Implementation::sweep()
       {
          const double y = gap(i) - F[i] / knn[i];
          set_node(i, 0, std::max(y, 0.0), y > 0 ? NodeState::separation : NodeState::stick);
+         continue;
+      }
+      if (disc())
+      {
+         move_disc_node(i);
          continue;
       }
       const double x = slip(i), y = gap(i), fi = problem.friction[i];
@@ -319,8 +405,10 @@ void FrictionSolver::Implementation::sweep()
 bool FrictionSolver::Implementation::solve_for_states()
 {
    ++counters.newton_steps;
-   const bool solvable =
-      frictionless ? solve_frictionless() : (uncoupled ? solve_uncoupled() : solve_coupled());
+   const bool solvable = frictionless ? solve_frictionless()
+                         : disc()     ? solve_disc()
+                         : uncoupled  ? solve_uncoupled()
+                                      : solve_coupled();
    if (solvable) { F = f + K * u; }
    return solvable && u.allFinite();
 }
@@ -351,38 +439,48 @@ bool FrictionSolver::Implementation::solve_frictionless()
    return true;
 }
 
-/// B = 0: normal equations of the open nodes, then tangential ones with the pressure known.
-bool FrictionSolver::Implementation::solve_uncoupled()
+/// B = 0: gaps from the normal equations of the open nodes alone.
+bool FrictionSolver::Implementation::solve_normal()
 {
-   std::vector<Index> open, moving;
-   std::vector<signed char> open_key(n, 0), moving_key(n, 0);
+   std::vector<Index> open;
+   std::vector<signed char> open_key(n, 0);
    for (Index i = 0; i < n; ++i)
    {
-      u[t(i)] = v_old[i];
       u[m(i)] = closed(status[i]) ? -problem.gap[i] : 0.0;
       if (!closed(status[i]))
       {
          open.push_back(i);
          open_key[i] = 1;
       }
+   }
+   if (open.empty()) { return true; }
+   if (normal_factor.key != open_key)
+   {
+      ++counters.dense_factorisations;
+      normal_factor.compute(problem.C(open, open));
+      normal_factor.key = open_key;
+   }
+   if (normal_factor.singular) { return false; }
+   VectorXd base = f.tail(n) + problem.C * u.tail(n);
+   const VectorXd w = -normal_factor.lu.solve(base(open));
+   for (std::size_t k = 0; k < open.size(); ++k) { u[m(open[k])] = w[k]; }
+   return true;
+}
+
+/// B = 0: normal equations of the open nodes, then tangential ones with the pressure known.
+bool FrictionSolver::Implementation::solve_uncoupled()
+{
+   if (!solve_normal()) { return false; }
+   std::vector<Index> moving;
+   std::vector<signed char> moving_key(n, 0);
+   for (Index i = 0; i < n; ++i)
+   {
+      u[t(i)] = v_old[i];
       if (status[i] != NodeState::stick)
       {
          moving.push_back(i);
          moving_key[i] = 1;
       }
-   }
-   if (!open.empty())
-   {
-      if (normal_factor.key != open_key)
-      {
-         ++counters.dense_factorisations;
-         normal_factor.compute(problem.C(open, open));
-         normal_factor.key = open_key;
-      }
-      if (normal_factor.singular) { return false; }
-      VectorXd base = f.tail(n) + problem.C * u.tail(n);
-      const VectorXd w = -normal_factor.lu.solve(base(open));
-      for (std::size_t k = 0; k < open.size(); ++k) { u[m(open[k])] = w[k]; }
    }
    if (moving.empty()) { return true; }
    if (tangential_factor.key != moving_key)
@@ -464,6 +562,114 @@ bool FrictionSolver::Implementation::solve_coupled()
    return true;
 }
 
+/// Eliminates the open nodes, where all forces are zero; kept for as long as they are the same.
+bool FrictionSolver::Implementation::eliminate_open()
+{
+   std::vector<signed char> key(n);
+   for (Index i = 0; i < n; ++i) { key[i] = closed(status[i]) ? 0 : 1; }
+   if (eliminated.key == key) { return !eliminated.singular; }
+   eliminated.key = key;
+   eliminated.open.clear();
+   eliminated.kept.clear();
+   eliminated.place.assign(n, 0);
+   // B = 0: the gaps are found apart from the rest, and slip does not change the pressure.
+   for (Index k = 0; k < (uncoupled ? 2 : 3); ++k)
+   {
+      for (Index i = 0; i < n; ++i)
+      {
+         auto &dofs = key[i] ? eliminated.open : eliminated.kept;
+         if (k == 0 && !key[i]) { eliminated.place[i] = static_cast<Index>(dofs.size()); }
+         dofs.push_back(t(i, k));
+      }
+   }
+   ++counters.dense_factorisations;
+   eliminated.K = K(eliminated.kept, eliminated.kept);
+   eliminated.singular = false;
+   if (eliminated.open.empty()) { return true; }
+   eliminated.factor.compute(K(eliminated.open, eliminated.open));
+   eliminated.singular = eliminated.factor.info() != Eigen::Success;
+   if (eliminated.singular) { return false; }
+   eliminated.X = K(eliminated.open, eliminated.kept);
+   eliminated.factor.matrixL().solveInPlace(eliminated.X);
+   eliminated.K.selfadjointView<Eigen::Lower>().rankUpdate(eliminated.X.transpose(), -1);
+   eliminated.K.triangularView<Eigen::StrictlyUpper>() = eliminated.K.transpose();
+   return true;
+}
+
+/// Newton's equations of the disc, for the slip of the slipping nodes.
+bool FrictionSolver::Implementation::solve_disc()
+{
+   if (uncoupled && !solve_normal()) { return false; }
+   if (!eliminate_open()) { return false; }
+   std::vector<Index> slipping;
+   for (Index i = 0; i < n; ++i)
+   {
+      for (Index k = 0; k < 2; ++k) { u[t(i, k)] = v_old[t(i, k)]; }
+      if (!uncoupled) { u[m(i)] = closed(status[i]) ? -problem.gap[i] : 0.0; }
+      if (slips(status[i])) { slipping.push_back(i); }
+   }
+   const std::vector<Index> &open = eliminated.open;
+   VectorXd base = f + K * u;
+   VectorXd lift;
+   if (!open.empty())
+   {
+      lift = base(open);
+      eliminated.factor.matrixL().solveInPlace(lift);
+      base(eliminated.kept) -= eliminated.X.transpose() * lift;
+   }
+   const auto count = static_cast<Index>(slipping.size());
+   if (count > 0)
+   {
+      const auto closed_nodes =
+         static_cast<Index>(eliminated.kept.size()) / (uncoupled ? 2 : 3);
+      // Rows n·q - f p and (1 - β) t·q of the slipping nodes, then their own β k t·x.
+      MatrixXd M(2 * count, 2 * count);
+      VectorXd rhs(2 * count);
+      for (Index r = 0; r < count; ++r)
+      {
+         const Index i = slipping[r];
+         const DiscSlip &to = direction[i];
+         const Vector2d across = (1 - to.share) * to.t(), own = to.share * ktt[i] * to.t();
+         const Vector2d q = at(base, i);
+         rhs[r] = to.n[0] * q[0] + to.n[1] * q[1] - problem.friction[i] * base[m(i)];
+         rhs[count + r] = across[0] * q[0] + across[1] * q[1];
+         const Index row = eliminated.place[i];
+         for (Index col = 0; col < 2 * count; ++col)
+         {
+            const Index from =
+               eliminated.place[slipping[col % count]] + (col < count ? 0 : closed_nodes);
+            const double *column = eliminated.K.col(from).data() + row;
+            const double radial = column[0], circumferential = column[closed_nodes];
+            M(r, col) = to.n[0] * radial + to.n[1] * circumferential;
+            if (!uncoupled) { M(r, col) -= problem.friction[i] * column[2 * closed_nodes]; }
+            M(count + r, col) = across[0] * radial + across[1] * circumferential;
+         }
+         M(count + r, r) += own[0];
+         M(count + r, count + r) += own[1];
+      }
+      ++counters.dense_factorisations;
+      CachedFactor factor;
+      factor.compute(M);
+      if (factor.singular) { return false; }
+      const VectorXd x = factor.lu.solve(rhs);
+      for (Index r = 0; r < 2 * count; ++r)
+      {
+         const Index k = r / count, i = slipping[r % count];
+         u[t(i, k)] -= x[r];
+         if (!open.empty())
+         {
+            lift -= x[r] * eliminated.X.col(eliminated.place[i] + k * closed_nodes);
+         }
+      }
+   }
+   if (!open.empty())
+   {
+      eliminated.factor.matrixU().solveInPlace(lift);
+      u(open) -= lift;
+   }
+   return true;
+}
+
 /// The states that the present displacements and forces ask for. True if none changed.
 /// Violations within round-off change nothing, lest states flicker where two of them meet.
 bool FrictionSolver::Implementation::update_states()
@@ -479,13 +685,20 @@ bool FrictionSolver::Implementation::update_states()
          if (knn[i] * gap(i) < -tiny) { next = NodeState::stick; }
       }
       else if (F[m(i)] < -tiny) { next = NodeState::separation; }
+      else if (disc())
+      {
+         const Vector2d trial = disc_trial(i);
+         const double size = std::hypot(trial[0], trial[1]);
+         const bool stays = size <= bound(i) + (slips(status[i]) ? -tiny : tiny);
+         next = stays || size == 0 ? NodeState::stick : NodeState::slip;
+         if (next == NodeState::slip) { direction[i] = DiscSlip(trial, bound(i)); }
+      }
       else if (!frictionless)
       {
-         const double bound = problem.friction[i] * std::max(F[m(i)], 0.0);
          const double trial = F[t(i)] - ktt[i] * slip(i);
          const double margin = slips(status[i]) ? -tiny : tiny;
-         if (trial < -bound - margin) { next = NodeState::forward_slip; }
-         else if (trial > bound + margin) { next = NodeState::backward_slip; }
+         if (trial < -bound(i) - margin) { next = NodeState::forward_slip; }
+         else if (trial > bound(i) + margin) { next = NodeState::backward_slip; }
          else { next = NodeState::stick; }
       }
       if (next != status[i])
@@ -497,8 +710,33 @@ bool FrictionSolver::Implementation::update_states()
    return same;
 }
 
+/// In the disc the directions of slip change from step to step as well: done when the residual
+/// is small enough, given up when it has stopped falling.
+bool FrictionSolver::Implementation::newton_disc(int steps)
+{
+   IncrementReport now;
+   double best = std::numeric_limits<double>::infinity();
+   int patience = 8;
+   update_states(); // finds the directions
+   for (int k = 0; k < steps && patience > 0; ++k)
+   {
+      if (!solve_for_states()) { return false; }
+      residuals(now);
+      if (update_states() && accepted(now)) { return true; }
+      const double size = std::max(now.residual_normal, now.residual_tangential);
+      if (size < 0.5 * best)
+      {
+         best = size;
+         patience = 8;
+      }
+      else { --patience; }
+   }
+   return false;
+}
+
 bool FrictionSolver::Implementation::newton(int steps)
 {
+   if (disc()) { return newton_disc(steps); }
    std::set<std::vector<NodeState>> visited;
    for (int k = 0; k < steps; ++k)
    {
@@ -519,9 +757,17 @@ void FrictionSolver::Implementation::residuals(IncrementReport &report) const
       const double p = F[m(i)];
       normal = std::max(normal, std::abs(std::min(knn[i] * gap(i), p)));
       if (frictionless) { continue; }
-      const double bound = problem.friction[i] * std::max(p, 0.0);
+      const double limit = bound(i);
+      if (disc())
+      {
+         const Vector2d trial = disc_trial(i);
+         const double size = std::hypot(trial[0], trial[1]);
+         const Vector2d held = size > limit ? Vector2d(limit / size * trial) : trial;
+         tangent = std::max(tangent, (at(F, i) - held).norm());
+         continue;
+      }
       const double trial = F[t(i)] - ktt[i] * slip(i);
-      tangent = std::max(tangent, std::abs(F[t(i)] - std::clamp(trial, -bound, bound)));
+      tangent = std::max(tangent, std::abs(F[t(i)] - std::clamp(trial, -limit, limit)));
    }
    const double scale = reference > 0 ? reference : 1.0;
    report.residual_normal = normal / scale;
@@ -541,7 +787,7 @@ bool FrictionSolver::Implementation::accepted(const IncrementReport &report) con
 bool FrictionSolver::Implementation::runs_away(const IncrementReport &report,
                                                const VectorXd &multipliers)
 {
-   return report.round_off > 1e-10 && finds_mechanism(multipliers);
+   return report.round_off > 1e-10 && (finds_mechanism(multipliers) || spins(multipliers));
 }
 
 bool FrictionSolver::Implementation::lemke_start()
@@ -617,20 +863,69 @@ bool FrictionSolver::Implementation::lemke_start()
 
 bool FrictionSolver::Implementation::run_lemke(IncrementReport &report)
 {
-   if (!lemke_start()) { return false; }
-   const VectorXd u_lemke = u, F_lemke = F;
-   const std::vector<NodeState> status_lemke = status;
-   // The pivots leave round-off of their own; the equations of the final states remove it.
+   return !disc() && lemke_start() && polished(report);
+}
+
+/// Pivots leave round-off of their own; the equations of the final states remove it.
+bool FrictionSolver::Implementation::polished(IncrementReport &report)
+{
+   const VectorXd u_found = u, F_found = F;
+   const std::vector<NodeState> status_found = status;
    if (newton(settings.max_newton))
    {
       residuals(report);
       if (accepted(report)) { return true; }
    }
-   u = u_lemke;
-   F = F_lemke;
-   status = status_lemke;
+   u = u_found;
+   F = F_found;
+   status = status_found;
    residuals(report);
    return accepted(report);
+}
+
+/// Follows the solutions from the old loads to the new ones, one node's state at a time.
+bool FrictionSolver::Implementation::run_path(IncrementReport &report,
+                                              const ContactState &state)
+{
+   if (disc()) { return false; } // its states are not linear
+   const Index N = K.rows();
+   VectorXd stuck(N), forces(N), friction = problem.friction;
+   stuck.tail(n) = -problem.gap;
+   forces.tail(n) = state.p;
+   if (frictionless) { friction.setZero(); }
+   else
+   {
+      stuck.head(n) = v_old;
+      forces.head(n) = state.q;
+   }
+   ComplementarityProblem increment;
+   increment.b = f + K * stuck;
+   increment.choice.assign(n, Choice::any);
+   VectorXd x = VectorXd::Zero(N);
+   x.tail(n) = state.w + problem.gap;
+   std::vector<NodeState> states = state.status;
+   for (NodeState &s : states)
+   {
+      if (slips(s)) { s = NodeState::stick; }
+   }
+   // Small departures follow the physical path; larger ones pass by its dead ends.
+   const double slacks[] = {1e-3, 1e-2, 0.1, 1, 10, 1, 0.1, 1};
+   unsigned seed = 0;
+   for (double slack : slacks)
+   {
+      StateEquations equations(K, friction);
+      if (!equations.set(states)) { states.assign(n, NodeState::stick); }
+      const ComplementarityReport path =
+         solve_by_path(equations, friction, increment, x, forces, slack, ++seed);
+      counters.pivots += path.pivots;
+      counters.dense_factorisations += equations.factorisations();
+      if (!path.solved) { continue; }
+      u = stuck + path.x;
+      F = f + K * u;
+      status = equations.states();
+      if (polished(report)) { return true; }
+   }
+   return false;
 }
 
 bool FrictionSolver::Implementation::run_gauss_seidel(IncrementReport &report)
@@ -653,6 +948,7 @@ bool FrictionSolver::Implementation::run_gauss_seidel(IncrementReport &report)
 }
 
 bool FrictionSolver::Implementation::run_automatic(IncrementReport &report,
+                                                   const ContactState &state,
                                                    const VectorXd &multipliers)
 {
    int sweeps = settings.sweeps;
@@ -672,7 +968,7 @@ bool FrictionSolver::Implementation::run_automatic(IncrementReport &report,
       F = f + K * u;
       sweeps = std::max(4, 2 * sweeps);
    }
-   return run_lemke(report);
+   return run_path(report, state);
 }
 
 /// True if no admissible contact forces can balance the loads: there is nothing to search for.
@@ -687,6 +983,19 @@ bool FrictionSolver::Implementation::finds_mechanism(const VectorXd &multipliers
    return mechanism.exists;
 }
 
+/// True if the loads drive a steady rotation.
+bool FrictionSolver::Implementation::spins(const VectorXd &multipliers)
+{
+   if (!disc()) { return false; }
+   ReducedProblem smooth = problem;
+   set_friction(smooth, 0);
+   FrictionSolver solver(smooth);
+   ContactState state = ContactState::virgin(smooth);
+   if (solver.solve(state, multipliers).status != FrictionStatus::converged) { return false; }
+   mechanism = find_spinning(problem, state.p, problem.clamped_forces(multipliers));
+   return mechanism.exists;
+}
+
 void FrictionSolver::Implementation::explain_failure(IncrementReport &report) const
 {
    std::ostringstream message;
@@ -694,8 +1003,10 @@ void FrictionSolver::Implementation::explain_failure(IncrementReport &report) co
    {
       report.status =
          mechanism.slides ? FrictionStatus::gross_sliding : FrictionStatus::no_solution;
-      message << (mechanism.slides ? "the loads exceed what friction can hold: a body slides"
-                                   : "the loads pull the contact apart: a body lifts off");
+      message << (mechanism.spins
+                     ? "the torque exceeds what friction can hold: a body spins about its axis"
+                  : mechanism.slides ? "the loads exceed what friction can hold: a body slides"
+                                     : "the loads pull the contact apart: a body lifts off");
    }
    else if (!frictionless && problem.friction[critical_node] >= critical_friction)
    {
@@ -724,7 +1035,7 @@ IncrementReport FrictionSolver::Implementation::solve(ContactState &state,
    switch (settings.method)
    {
    case FrictionMethod::automatic:
-      solved = run_automatic(report, multipliers);
+      solved = run_automatic(report, state, multipliers);
       break;
    case FrictionMethod::gauss_seidel:
       solved = run_gauss_seidel(report);
@@ -736,20 +1047,29 @@ IncrementReport FrictionSolver::Implementation::solve(ContactState &state,
    if (solved && runs_away(report, multipliers)) { solved = false; }
    if (!solved)
    {
-      if (!mechanism.exists) { finds_mechanism(multipliers); }
+      if (!mechanism.exists && !finds_mechanism(multipliers)) { spins(multipliers); }
       explain_failure(report);
       return report;
    }
    finish(state, multipliers);
+   const IncrementReport unique = uniqueness(status);
+   report.status = unique.status;
+   report.message = unique.message;
+   return report;
+}
+
+IncrementReport
+FrictionSolver::Implementation::uniqueness(const std::vector<NodeState> &states) const
+{
+   IncrementReport report;
    report.status = FrictionStatus::converged;
    for (Index i = 0; !frictionless && i < n; ++i)
    {
-      const double critical = ktt[i] / std::abs(ktn[i]);
-      if (closed(status[i]) && problem.friction[i] >= critical)
+      if (closed(states[i]) && problem.friction[i] >= critical[i])
       {
          std::ostringstream message;
          message << "friction " << problem.friction[i] << " at node " << i
-                 << " is above its critical value " << critical;
+                 << " is above its critical value " << critical[i];
          report.status = FrictionStatus::not_unique;
          report.message = message.str();
          break;
@@ -790,6 +1110,10 @@ double FrictionSolver::critical_friction() const
 Index FrictionSolver::critical_node() const
 {
    return impl_->critical_node;
+}
+IncrementReport FrictionSolver::uniqueness(const std::vector<NodeState> &states) const
+{
+   return impl_->uniqueness(states);
 }
 const Counters &FrictionSolver::counters() const
 {

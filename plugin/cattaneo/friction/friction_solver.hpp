@@ -11,9 +11,10 @@ namespace cattaneo
 
 enum class FrictionMethod
 {
-   automatic,    ///< a few Gauss–Seidel sweeps, active-set finish, Lemke if both fail
+   automatic,    ///< a few Gauss–Seidel sweeps, active-set finish; a path if both fail
    gauss_seidel, ///< node by node only (thesis 3.5, appendix D)
-   lemke         ///< the complementarity problem on (w, v⁺, v⁻), then one active-set solve
+   lemke ///< the complementarity problem on (w, v⁺, v⁻) by a dense tableau, then one
+         ///< active-set solve: slow, a check of the others (one tangential component only)
 };
 
 struct FrictionSettings
@@ -24,7 +25,7 @@ struct FrictionSettings
    /// (reported).
    double tolerance = 1e-12;
    int sweeps = 2;       ///< Gauss–Seidel sweeps before the first active-set attempt
-   int max_attempts = 6; ///< active-set attempts, each after twice the sweeps of the one before
+   int max_attempts = 3; ///< active-set attempts, each after twice the sweeps of the one before
    int max_newton = 60;  ///< active-set steps of one attempt
    long max_sweeps = 100000; ///< sweeps of the pure Gauss–Seidel method
 
@@ -44,6 +45,10 @@ struct IncrementReport
 /** Solves increments of the frictional contact of a reduced problem: given the state at the
    start of an increment and the loads at its end, finds the state at its end (thesis 3.5
    and 3.6).
+
+    With two tangential components a node the friction force is a vector in the disc
+    |q| <= f p, opposed to the slip increment; what differs from the plane is in
+    friction_disc.hpp.
 
     The rate is replaced by the difference over the increment. Nothing is remembered between
     increments but factors of matrices, which depend on the set of node states only: the same
@@ -66,9 +71,12 @@ public:
    /// True if B is zero to round-off: the normal problem does not know of friction.
    bool uncoupled() const;
    /// Least critical friction A_ii/|B_ii| of any node, above which the rate problem of that
-   /// node has no unique answer, and the node.
+   /// node has no unique answer (with two components: need not have one), and the node.
    double critical_friction() const;
    Eigen::Index critical_node() const;
+   /// converged; or not_unique, with the node in the message, if a node that is closed in these
+   /// states has friction above its critical value.
+   IncrementReport uniqueness(const std::vector<NodeState> &states) const;
    const Counters &counters() const;
 
 private:

@@ -56,6 +56,12 @@ VectorXd conjugates(const ReducedProblem &problem, const ContactState &state)
    return g;
 }
 
+bool solved(const IncrementReport &increment)
+{
+   return increment.status == FrictionStatus::converged ||
+          increment.status == FrictionStatus::not_unique;
+}
+
 /// One march in progress.
 class March
 {
@@ -71,6 +77,9 @@ public:
 
 private:
    bool march_piece(int piece);
+   bool march_exactly(int piece);
+   int increments(int piece) const;
+   void stop(const IncrementReport &failure);
    bool exact_in_one(int piece) const;
    bool advances_too_far(const ContactState &next) const;
    VectorXd loads(int piece, double time) const;
@@ -86,6 +95,7 @@ private:
    const MarchObserver &observer_;
    MarchReport report_;
    CycleRecord cycle_;
+   std::unique_ptr<ExactPath> path_; // Stepping::exact, made when first needed
    double external_work_ = 0, dissipation_ = 0, normal_work_ = 0;
 };
 
@@ -154,18 +164,32 @@ void March::accept(ContactState &&next, int piece, const IncrementReport &increm
       case NodeState::backward_slip:
          ++record.backward_slip;
          break;
+      case NodeState::slip:
+         ++record.slip;
+         break;
       }
    }
    const Index n = problem_.nodes();
-   for (Index i = 0; i < next.v.size(); ++i)
+   for (Index i = 0; i < n; ++i)
    {
-      const NodeState before = state_.status[i % n], now = next.status[i % n];
-      if (!slips(now)) { next.slip_origin[i] = next.v[i]; }
-      else if (slips(before) && before != now) { next.slip_origin[i] = state_.v[i]; }
+      const NodeState before = state_.status[i], now = next.status[i];
+      double along = 0; // old shear along the new: negative if slip has turned round
+      for (Index k = i; now == NodeState::slip && k < next.q.size(); k += n)
+      {
+         along += state_.q[k] * next.q[k];
+      }
+      const bool turned = slips(before) && (before != now || along < 0);
+      for (Index k = i; k < next.v.size(); k += n)
+      {
+         if (!slips(now)) { next.slip_origin[k] = next.v[k]; }
+         else if (turned) { next.slip_origin[k] = state_.v[k]; }
+      }
    }
-   const VectorXd lost = -0.5 * (state_.q + next.q).cwiseProduct(next.v - state_.v);
+   VectorXd lost = -0.5 * (state_.q + next.q).cwiseProduct(next.v - state_.v);
    const double normal_work = -0.5 * (state_.p + next.p).dot(next.w - state_.w);
    record.dissipation = lost.sum();
+   for (Index k = 1; k < problem_.components(); ++k) { lost.head(n) += lost.segment(k * n, n); }
+   lost.conservativeResize(std::min(lost.size(), n));
    const VectorXd g0 = conjugates(problem_, state_), g1 = conjugates(problem_, next);
    for (std::size_t k = 0; k < problem_.patterns.size(); ++k)
    {
@@ -216,32 +240,103 @@ void March::bisect_event(int piece, double failed, const IncrementReport &failur
       next.time = 0.5 * (state_.time + failed);
       if (next.time <= state_.time || next.time >= failed) { break; }
       const IncrementReport increment = solver_.solve(next, loads(piece, next.time));
-      const bool solved = increment.status == FrictionStatus::converged ||
-                          increment.status == FrictionStatus::not_unique;
-      if (solved) { accept(std::move(next), piece, increment); }
+      if (solved(increment)) { accept(std::move(next), piece, increment); }
       else
       {
          failed = next.time;
          ++report_.counters.rejected_increments;
       }
    }
+   stop(failure);
+}
+
+/// The state stands at the last load with an equilibrium.
+void March::stop(const IncrementReport &failure)
+{
    report_.status = failure.status;
    report_.message = failure.message;
    report_.event_time = state_.time;
    report_.event_multipliers = state_.multipliers;
 }
 
+int March::increments(int piece) const
+{
+   const auto point = static_cast<std::size_t>(history_.point(piece));
+   return point < settings_.increments_of_piece.size() ? settings_.increments_of_piece[point]
+                                                       : settings_.increments;
+}
+
+/// From event to event, to the end of the piece.
+bool March::march_exactly(int piece)
+{
+   const double t0 = history_.start_time(piece), t1 = history_.end_time(piece);
+   if (!path_) { path_ = std::make_unique<ExactPath>(problem_); }
+   // Events without progress: nodes that change their states at the same load, one after the
+   // other. More than there are nodes and states go round in a circle.
+   const long patience = 4 * problem_.nodes() + 16;
+   long halted = 0;
+   while (state_.time < t1)
+   {
+      ContactState next = state_;
+      next.step = 0;
+      if (halted < patience && path_->advance(next, t1, history_.end(piece), report_.changes))
+      {
+         halted = next.time > state_.time ? 0 : halted + 1;
+         const IncrementReport reached = solver_.uniqueness(next.status);
+         accept(std::move(next), piece, reached);
+         continue;
+      }
+      // No rates are an answer if there is no equilibrium at any load beyond; this load is then
+      // the exact one.
+      next = state_;
+      next.time = state_.time + 1e-6 * (t1 - t0);
+      IncrementReport increment;
+      if (next.time < t1)
+      {
+         increment = solver_.solve(next, loads(piece, next.time));
+         if (!solved(increment))
+         {
+            stop(increment);
+            return false;
+         }
+      }
+      next = state_;
+      next.time = t1;
+      const int count = increments(piece);
+      for (int k = count - 1; k > 0; --k)
+      {
+         const double grid = t0 + (t1 - t0) * k / count;
+         if (grid > state_.time) { next.time = grid; }
+      }
+      const double target = next.time;
+      increment = solver_.solve(next, loads(piece, target));
+      if (!solved(increment))
+      {
+         bisect_event(piece, target, increment);
+         return false;
+      }
+      if (report_.fallbacks++ == 0)
+      {
+         report_.fallback_reason =
+            halted < patience ? path_->failure() : "states change back and forth at one load";
+      }
+      halted = 0;
+      accept(std::move(next), piece, increment);
+   }
+   return true;
+}
+
 bool March::march_piece(int piece)
 {
    const double t0 = history_.start_time(piece), t1 = history_.end_time(piece);
-   const auto point = static_cast<std::size_t>(history_.point(piece));
-   int count = settings_.increments;
-   if (point < settings_.increments_of_piece.size())
-   {
-      count = settings_.increments_of_piece[point];
-   }
    const bool exact = exact_in_one(piece);
-   if (exact) { count = 1; }
+   if (!exact && settings_.stepping == Stepping::exact)
+   {
+      if (problem_.components() == 1) { return march_exactly(piece); }
+      ++report_.fallbacks;
+      report_.fallback_reason = "slip has a direction: two tangential components";
+   }
+   const int count = exact ? 1 : increments(piece);
    const double smallest = (t1 - t0) / count * std::ldexp(1.0, -settings_.max_halvings);
    auto grid = [&](int k) { return k >= count ? t1 : t0 + (t1 - t0) * k / count; };
    int k = 1;
@@ -261,9 +356,7 @@ bool March::march_piece(int piece)
          next = state_;
          next.time = target;
          increment = solver_.solve(next, loads(piece, target));
-         const bool solved = increment.status == FrictionStatus::converged ||
-                             increment.status == FrictionStatus::not_unique;
-         if (!solved)
+         if (!solved(increment))
          {
             bisect_event(piece, target, increment);
             return false;
@@ -276,6 +369,15 @@ bool March::march_piece(int piece)
       }
       next.step = state_.step > 0 ? 2 * state_.step : 0;
       if (next.time == grid(k) && next.step >= grid(k) - grid(k - 1)) { next.step = 0; }
+      if (exact && settings_.stepping == Stepping::exact)
+      {
+         for (Index i = 0; i < problem_.nodes(); ++i)
+         {
+            if (next.status[i] == state_.status[i]) { continue; }
+            report_.changes.push_back(
+               {state_.time, state_.multipliers, i, state_.status[i], next.status[i]});
+         }
+      }
       accept(std::move(next), piece, increment);
    }
    return true;
@@ -339,6 +441,7 @@ MarchReport March::run()
    }
    report_.counters += solver_.counters();
    report_.counters -= before;
+   if (path_) { report_.counters += path_->counters(); }
    report_.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
    return report_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cattaneo/friction/exact_path.hpp>
 #include <cattaneo/friction/friction_solver.hpp>
 #include <cattaneo/friction/load_history.hpp>
 #include <functional>
@@ -16,7 +17,11 @@ enum class Stepping
    fixed,
    /// As fixed, and an increment is halved while contact advances by more than one layer of
    /// nodes (each newly closed node must have had a closed neighbour).
-   advancing
+   advancing,
+   /// No increments: from one change of state to the next, exactly (see ExactPath). Pieces that
+   /// one increment solves exactly take that one. Where there is no path to follow, the next of
+   /// the equal increments is taken instead: counted, with the reason, in the report.
+   exact
 };
 
 struct MarchSettings
@@ -42,6 +47,7 @@ struct IncrementRecord
    double time = 0;
    int cycle = 0;                                                      ///< 0: opening part
    int stick = 0, separation = 0, forward_slip = 0, backward_slip = 0; ///< numbers of nodes
+   int slip = 0; ///< with two tangential components: nodes that slip in whatever direction
    double dissipation = 0;   ///< -½(q_old + q_new)·Δv, summed over nodes
    double external_work = 0; ///< work of the loads, trapezoidal (exact for linear increments)
    double residual_normal = 0, residual_tangential = 0;
@@ -52,9 +58,9 @@ struct CycleRecord
 {
    double dissipation = 0;
    double external_work = 0;
-   double normal_work = 0; ///< -½(p_old + p_new)·Δw: vanishes as increments shrink
-   double slip_change = 0; ///< largest |v - v one cycle before|
-   Eigen::VectorXd node_dissipation;
+   double normal_work = 0;           ///< -½(p_old + p_new)·Δw: vanishes as increments shrink
+   double slip_change = 0;           ///< largest |v - v one cycle before|
+   Eigen::VectorXd node_dissipation; ///< size n
 };
 
 struct MarchReport
@@ -68,8 +74,13 @@ struct MarchReport
    Eigen::VectorXd event_multipliers;
    std::vector<IncrementRecord> increments;
    std::vector<CycleRecord> cycles;
-   int steady_cycle = 0;  ///< first cycle of the steady state; 0: not reached
-   int steady_period = 0; ///< 1 or 2
+   /// Stepping::exact: every change of state, in the order of the path. A piece that took one
+   /// increment lists its changes at its start.
+   std::vector<StateChange> changes;
+   int fallbacks = 0;           ///< increments taken because there was no exact path to follow
+   std::string fallback_reason; ///< of the first of them
+   int steady_cycle = 0;        ///< first cycle of the steady state; 0: not reached
+   int steady_period = 0;       ///< 1 or 2
    /// Energy balance of the march: external work - change of elastic energy - dissipation -
    /// normal work, over the largest of them. Round-off if all is well.
    double energy_imbalance = 0;

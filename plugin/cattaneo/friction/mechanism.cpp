@@ -1,5 +1,6 @@
 #include <cattaneo/friction/mechanism.hpp>
 #include <cattaneo/friction/semidefinite.hpp>
+#include <cmath>
 #include <vector>
 
 namespace cattaneo
@@ -74,23 +75,75 @@ Mechanism find_mechanism(const ReducedProblem &problem, const MatrixXd &Z,
    Mechanism mechanism;
    if (Z.cols() == 0) { return mechanism; }
    const Index n = problem.nodes(), m = problem.A.rows();
-   // Equilibrium along the rigid motions: Zᵀ{q; p} = Zᵀ f^w. Columns of G: the two edges
-   // (± f, 1) of every node's friction cone.
-   MatrixXd G(Z.cols(), 2 * n);
-   for (Index i = 0; i < n; ++i)
+   // Equilibrium along the rigid motions: Zᵀ{q; p} = Zᵀ f^w. Columns of G: the edges (± f, 1)
+   // of every node's friction cone, for each tangential component.
+   const Index c = std::max<Index>(problem.components(), 1);
+   MatrixXd G(Z.cols(), 2 * c * n);
+   for (Index k = 0; k < c; ++k)
    {
-      const VectorXd normal = Z.row(m + i);
-      const VectorXd tangential = m ? VectorXd(Z.row(i)) : VectorXd::Zero(Z.cols());
-      G.col(2 * i) = normal + problem.friction[i] * tangential;
-      G.col(2 * i + 1) = normal - problem.friction[i] * tangential;
+      for (Index i = 0; i < n; ++i)
+      {
+         const VectorXd normal = Z.row(m + i);
+         const VectorXd tangential = m ? VectorXd(Z.row(k * n + i)) : VectorXd::Zero(Z.cols());
+         G.col(2 * (k * n + i)) = normal + problem.friction[i] * tangential;
+         G.col(2 * (k * n + i) + 1) = normal - problem.friction[i] * tangential;
+      }
    }
    const VectorXd g = Z.transpose() * clamped_forces;
-   const VectorXd r = nonnegative_residual(G, g);
-   if (r.norm() <= 1e-9 * g.norm() || g.norm() == 0) { return mechanism; }
+   VectorXd r = nonnegative_residual(G, g);
+   // The least squares are solved to 1e-12 of the slope; r goes as its root where edges are
+   // only approached.
+   const double least = (c == 2 ? 1e-5 : 1e-9) * g.norm();
+   bool proven = c == 1;
+   for (int round = 0; round < 50 && !proven && r.norm() > least; ++round)
+   {
+      // Edge of each round cone that points most along the residual.
+      std::vector<VectorXd> edges;
+      for (Index i = 0; i < n; ++i)
+      {
+         const MatrixXd tangential = Z({i, n + i}, Eigen::all);
+         const VectorXd along = tangential * r;
+         VectorXd edge = Z.row(m + i);
+         if (along.norm() > 0)
+         {
+            edge += problem.friction[i] / along.norm() * tangential.transpose() * along;
+         }
+         if (edge.dot(r) > 1e-12 * edge.norm() * g.norm()) { edges.push_back(edge); }
+      }
+      proven = edges.empty();
+      if (proven) { break; }
+      G.conservativeResize(Eigen::NoChange, G.cols() + static_cast<Index>(edges.size()));
+      for (std::size_t k = 0; k < edges.size(); ++k) { G.col(G.cols() - 1 - k) = edges[k]; }
+      r = nonnegative_residual(G, g);
+   }
+   if (!proven || r.norm() <= least || g.norm() == 0) { return mechanism; }
    mechanism.exists = true;
    mechanism.motion = Z * r;
    mechanism.motion /= mechanism.motion.cwiseAbs().maxCoeff();
    mechanism.slides = m > 0 && mechanism.motion.head(m).cwiseAbs().maxCoeff() > 1e-6;
+   mechanism.spins = c == 2 && mechanism.motion.segment(n, n).cwiseAbs().maxCoeff() > 1e-6;
+   return mechanism;
+}
+
+Mechanism find_spinning(const ReducedProblem &problem, const VectorXd &frictionless_pressure,
+                        const VectorXd &clamped_forces)
+{
+   Mechanism mechanism;
+   const Index n = problem.nodes();
+   if (problem.components() != 2) { return mechanism; }
+   const MatrixXd Z = SemidefiniteSolver(problem.A).null_space();
+   if (Z.cols() != 1) { return mechanism; }
+   double resistance = 0;
+   for (Index i = 0; i < n; ++i)
+   {
+      resistance +=
+         problem.friction[i] * frictionless_pressure[i] * std::hypot(Z(i, 0), Z(n + i, 0));
+   }
+   const double drive = Z.col(0).dot(clamped_forces.head(2 * n));
+   if (std::abs(drive) < (1 - 1e-9) * resistance) { return mechanism; }
+   mechanism.exists = mechanism.slides = mechanism.spins = true;
+   mechanism.motion = VectorXd::Zero(3 * n);
+   mechanism.motion.head(2 * n) = (drive > 0 ? 1 : -1) / Z.cwiseAbs().maxCoeff() * Z.col(0);
    return mechanism;
 }
 

@@ -11,6 +11,7 @@ struct Mechanism
    bool exists = false;
    Eigen::VectorXd motion; ///< {v; w} of the contact nodes, largest entry 1
    bool slides = false;    ///< moves along the contact somewhere (else it only lifts off)
+   bool spins = false;     ///< slides in the circumferential direction somewhere
 };
 
 /// Orthonormal basis of the rigid motions {v; w} of a reduced problem: the null space of its
@@ -20,9 +21,21 @@ Eigen::MatrixXd rigid_motions(const ReducedProblem &problem);
 /** Can contact forces inside the friction cones (p >= 0, |q| <= f p) balance the given clamped
     forces {q; p} along the rigid motions? By Farkas' lemma either they can, or there is a
     mechanism: the residual of a non-negative least-squares problem in the edges of the cones.
-   That they can is necessary for equilibrium; that they cannot is the cause when there is none.
+    A round cone (two tangential components) has edges in all directions; those that the
+    residual points at are added until none points at it any more. That they can is necessary
+   for equilibrium; that they cannot is the cause when there is none.
  */
 Mechanism find_mechanism(const ReducedProblem &problem, const Eigen::MatrixXd &rigid_motions,
                          const Eigen::VectorXd &clamped_forces);
+
+/** Do the clamped forces drive a steady rotation about the axis? It meets f p at every node,
+    with the pressure of a contact without friction: all of friction is circumferential then,
+    and moves no node in its plane. Torques between this and the greatest that a contact can
+    carry at rest have both a steady rotation and an equilibrium, so that this is the cause
+    only where no equilibrium was found. False if not just one rigid motion is tangential, with
+    two components. */
+Mechanism find_spinning(const ReducedProblem &problem,
+                        const Eigen::VectorXd &frictionless_pressure,
+                        const Eigen::VectorXd &clamped_forces);
 
 } // namespace cattaneo

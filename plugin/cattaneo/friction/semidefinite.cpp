@@ -8,8 +8,21 @@ SemidefiniteSolver::SemidefiniteSolver(const Eigen::MatrixXd &A)
 {
    // Rigid motions of a condensed body come out at 1e-15 to 1e-14 of the stiffness, the softest
    // elastic motion of a body a million times the contact's size at 1e-2.
-   const double floor = 1e-11 * inverse_pivots_.cwiseAbs().maxCoeff();
-   for (double &d : inverse_pivots_) { d = d > floor ? 1 / d : 0.0; }
+   const double largest = inverse_pivots_.cwiseAbs().maxCoeff();
+   const double floor = 1e-11 * largest;
+   for (Eigen::Index k = 0; k < inverse_pivots_.size(); ++k)
+   {
+      double &d = inverse_pivots_[k];
+      double size = 1; // of the motion with the energy d, 1 at the pivot: a rotation's pivot
+                       // can lie near the axis, where it hardly moves
+      if (d > floor && d < 1e-5 * largest)
+      {
+         Eigen::VectorXd motion = Eigen::VectorXd::Unit(inverse_pivots_.size(), k);
+         ldlt_.matrixU().solveInPlace(motion);
+         size = motion.squaredNorm();
+      }
+      d = d > floor * size ? 1 / d : 0.0;
+   }
 }
 
 Eigen::MatrixXd SemidefiniteSolver::solve(const Eigen::MatrixXd &rhs) const

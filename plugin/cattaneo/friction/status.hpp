@@ -8,7 +8,8 @@ namespace cattaneo
 enum class FrictionStatus
 {
    converged,
-   gross_sliding, ///< a body slides (or rolls) away: no equilibrium beyond the reported load
+   gross_sliding, ///< a body slides (or rolls, or spins) away: no equilibrium beyond the
+                  ///< reported load
    not_unique,    ///< solved, but friction is above its critical value at the named node
    no_solution,   ///< no equilibrium was found, with friction above critical or the body lifted
                   ///< off

@@ -24,6 +24,15 @@ VectorXd tractions(const ReducedProblem &problem, const VectorXd &nodal_forces)
 namespace
 {
 
+/// Lengths of the tangential vectors of n nodes; zero without tangential components.
+VectorXd lengths(const VectorXd &x, Index n)
+{
+   if (x.size() == n) { return x.cwiseAbs(); }
+   VectorXd length = VectorXd::Zero(n);
+   for (Index i = 0; i < n && x.size() > 0; ++i) { length[i] = std::hypot(x[i], x[n + i]); }
+   return length;
+}
+
 /// Least-squares polynomial c0 + c1 x + … of the given degree.
 VectorXd fit(const std::vector<double> &x, const std::vector<double> &y, int degree)
 {
@@ -140,24 +149,19 @@ Edge stick_edge(const Bracket &bracket, const VectorXd &reserve2)
 std::vector<Zone> zones(const ReducedProblem &problem, const ContactState &state)
 {
    const Index n = problem.nodes();
-   require(problem.components() <= 1, "zones: plane problems only, this one has ",
-           problem.components(), " tangential components");
    require(problem.arc_length.size() == n && problem.weights.size() == n,
            "zones: the reduced problem has no arc length or weights");
    const VectorXd &s = problem.arc_length;
    const VectorXd p = tractions(problem, state.p);
-   const VectorXd q = state.q.size() ? tractions(problem, state.q) : VectorXd::Zero(n);
+   const VectorXd q = tractions(problem, lengths(state.q, n));
    const VectorXd pressure2 = p.cwiseAbs2();
-   VectorXd reserve2(n), opening(n), way = VectorXd::Zero(n);
+   VectorXd reserve2(n), opening(n), way = lengths(state.v - state.slip_origin, n);
    for (Index i = 0; i < n; ++i)
    {
-      const double reserve = std::max(problem.friction[i] * p[i] - std::abs(q[i]), 0.0);
+      const double reserve = std::max(problem.friction[i] * p[i] - q[i], 0.0);
       reserve2[i] = reserve * reserve;
       opening[i] = std::pow(std::max(state.w[i] + problem.gap[i], 0.0), 2.0 / 3);
-      if (state.v.size())
-      {
-         way[i] = std::pow(std::abs(state.v[i] - state.slip_origin[i]), 2.0 / 3);
-      }
+      way[i] = std::pow(way[i], 2.0 / 3);
    }
    std::vector<Zone> result;
    for (Index i = 0; i < n; ++i)
@@ -212,8 +216,8 @@ std::vector<Zone> zones(const ReducedProblem &problem, const ContactState &state
       else
       {
          // Opposite slip on both sides: shear changes sign.
-         const double total = std::abs(q[i]) + std::abs(q[j]);
-         const double fraction = total > 0 ? std::abs(q[i]) / total : 0.5;
+         const double total = q[i] + q[j];
+         const double fraction = total > 0 ? q[i] / total : 0.5;
          edge = {s[i] + fraction * (s[j] - s[i]), 0.5 * (s[j] - s[i])};
       }
       left.to = right.from = edge;

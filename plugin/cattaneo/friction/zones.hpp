@@ -37,7 +37,10 @@ struct Zone
     0.2. The error estimate is the change when other nodes are used; where the extrapolation
     leaves the interval between the nodes, the edge is its middle, ± half of it.
 
-    Needs the problem's arc_length and weights. Plane problems (one tangential component). */
+    With two tangential components |v - slip_origin| and |q| are lengths of vectors, and nodes
+    that slip form one zone whatever their directions.
+
+    Needs the problem's arc_length and weights. */
 std::vector<Zone> zones(const ReducedProblem &problem, const ContactState &state);
 
 /// The widest zone in the given state; first > last if there is none.

@@ -10,8 +10,8 @@ namespace cattaneo
 /** Table of a march with one row an increment, as CSV:
 
        time, cycle, load multipliers (column "load NAME" each), numbers of nodes in stick,
-       separation, forward and backward slip, dissipation and external work of the increment,
-       relative residuals normal and tangential.
+       separation, forward and backward slip (with torsion: slip), dissipation and external work
+   of the increment, relative residuals normal and tangential.
 
     add() is made to be a MarchObserver. Numbers are written so that they are read back to the
    last bit. */
@@ -35,9 +35,10 @@ private:
 /** Writes the contact nodes of some states, as CSV, one row a node and state:
 
        time, node, arc_length, x, y, state, p, q (tractions: nodal forces over consistent
-   weights), slip v, opening w + g.
+   weights), slip v, opening w + g; with torsion q and slip have a radial and a
+   circumferential column each.
 
-    Plane problems with arc length, positions and weights. InputError if the file cannot be
+    Needs arc length, positions and weights. InputError if the file cannot be
    written or a state does not fit; whole or not at all. */
 void write_nodes(const std::string &file, const ReducedProblem &problem,
                  const std::vector<ContactState> &states);

@@ -1,4 +1,5 @@
-#include <cattaneo/elastic/stress.hpp>
+#include <array>
+#include <cattaneo/elastic/point_stress.hpp>
 #include <cattaneo/friction/zones.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/output/paraview.hpp>
@@ -19,7 +20,24 @@ void make_folder(const std::string &folder)
    require(!error, "ParaView output: cannot make the folder '", folder, "': ", error.message());
 }
 
-const char *const stress_names[] = {"sigma_xx", "sigma_yy", "sigma_zz", "tau_xy", "von_mises"};
+std::vector<std::string> stress_names(Geometry geometry)
+{
+   switch (geometry)
+   {
+   case Geometry::plane:
+      break;
+   case Geometry::axisymmetric:
+      return {"sigma_rr", "sigma_zz", "sigma_tt", "tau_rz", "von_mises"};
+   case Geometry::torsion:
+      return {"tau_rt", "tau_tz"};
+   }
+   return {"sigma_xx", "sigma_yy", "sigma_zz", "tau_xy", "von_mises"};
+}
+
+const char *unknown(Geometry geometry)
+{
+   return geometry == Geometry::torsion ? "twist" : "displacement";
+}
 
 } // namespace
 
@@ -29,14 +47,14 @@ BodyFields::BodyFields(const ElasticBody &body, const std::string &directory,
 {
    mfem::FiniteElementSpace &space = body.space();
    const int order = space.GetMaxElementOrder();
-   fields_["displacement"] = std::make_unique<mfem::GridFunction>(&space);
+   fields_[unknown(body.geometry())] = std::make_unique<mfem::GridFunction>(&space);
    if (body.has_material())
    {
       collection_ =
          std::make_unique<mfem::L2_FECollection>(order, 2, mfem::BasisType::GaussLobatto);
       stress_space_ =
          std::make_unique<mfem::FiniteElementSpace>(space.GetMesh(), collection_.get());
-      for (const char *component : stress_names)
+      for (const std::string &component : stress_names(body.geometry()))
       {
          fields_[component] = std::make_unique<mfem::GridFunction>(stress_space_.get());
       }
@@ -57,7 +75,7 @@ void BodyFields::write(const mfem::Vector &displacement, double time)
    require(displacement.Size() == body_.space().GetTrueVSize(),
            "ParaView output: ", displacement.Size(), " displacements, the body has ",
            body_.space().GetTrueVSize(), " true dofs");
-   mfem::GridFunction &field = *fields_.at("displacement");
+   mfem::GridFunction &field = *fields_.at(unknown(body_.geometry()));
    if (const mfem::Operator *P = body_.space().GetProlongationMatrix())
    {
       P->Mult(displacement, field);
@@ -76,27 +94,38 @@ void BodyFields::write(const mfem::Vector &displacement, double time)
 /// interpolated there, exactly where it is a polynomial of the elements' order.
 void BodyFields::evaluate_stress()
 {
-   const mfem::GridFunction &u = *fields_.at("displacement");
+   const mfem::GridFunction &u = *fields_.at(unknown(body_.geometry()));
    mfem::Mesh &mesh = *stress_space_->GetMesh();
-   mfem::GridFunction *component[5];
-   for (int c = 0; c < 5; ++c) { component[c] = fields_.at(stress_names[c]).get(); }
+   std::vector<mfem::GridFunction *> component;
+   for (const std::string &field_name : stress_names(body_.geometry()))
+   {
+      component.push_back(fields_.at(field_name).get());
+   }
    mfem::IsoparametricTransformation transformation;
-   mfem::DenseMatrix gradient;
    mfem::Array<int> dofs;
    for (int e = 0; e < mesh.GetNE(); ++e)
    {
-      const Material &material = body_.material(mesh.GetAttribute(e));
       mesh.GetElementTransformation(e, &transformation);
       stress_space_->GetElementDofs(e, dofs);
       const mfem::IntegrationRule &nodes = stress_space_->GetFE(e)->GetNodes();
       for (int i = 0; i < dofs.Size(); ++i)
       {
          transformation.SetIntPoint(&nodes.IntPoint(i));
-         u.GetVectorGradient(transformation, gradient);
-         const Stress s =
-            stress(material, gradient(0, 0), gradient(1, 1), gradient(0, 1) + gradient(1, 0));
-         const double values[] = {s.xx, s.yy, s.zz, s.xy, s.von_mises()};
-         for (int c = 0; c < 5; ++c) { (*component[c])(dofs[i]) = values[c]; }
+         std::array<double, 5> values{};
+         if (body_.geometry() == Geometry::torsion)
+         {
+            const TorsionStress s = torsion_stress_at(body_, u, transformation);
+            values = {s.r_theta, s.theta_z};
+         }
+         else
+         {
+            const Stress s = stress_at(body_, u, transformation);
+            values = {s.xx, s.yy, s.zz, s.xy, s.von_mises()};
+         }
+         for (std::size_t c = 0; c < component.size(); ++c)
+         {
+            (*component[c])(dofs[i]) = values[c];
+         }
       }
    }
 }

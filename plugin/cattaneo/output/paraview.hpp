@@ -14,8 +14,9 @@ namespace cattaneo
 /** Series of a body's fields for ParaView (5.5 or newer), in the folder `directory`/`name`:
    open `name`.pvd. Fields: "displacement"; "sigma_xx", "sigma_yy", "sigma_zz", "tau_xy"
    (tension positive) and "von_mises" on discontinuous elements of the body's own order, from
-   each element's own material. A body with a user's operator has no material: displacement
-   only.
+   each element's own material. Axisymmetric: "sigma_rr", "sigma_zz", "sigma_tt" (hoop) and
+   "tau_rz"; a torsion body has "twist", "tau_rt" and "tau_tz" instead. A body with a user's
+   operator has no material: displacement only.
 
     The body must outlive this. Nothing is computed or written before write(). */
 class BodyFields

@@ -87,47 +87,85 @@ double two_node_limit(const ReducedProblem &problem, const StuckForces &loads,
    return lowest;
 }
 
-/// |M| f with blocks of two components replaced by their length; shifted, where there is one
-/// rigid motion t, by multiples of tᵀ, which the forces of every state annihilate: the smaller,
-/// the better. Returns the shift of each row.
+/// Lengths of the nodes' blocks of the rows of M; shifted, where there is one rigid motion t,
+/// by multiples of tᵀ so that their sum over the nodes, weighted, is smallest. Returns the
+/// shift of each row.
 Eigen::MatrixXd magnitude(const Eigen::MatrixXd &M, const Eigen::VectorXd &t,
                           const Eigen::VectorXd &weight, Eigen::VectorXd &shift)
 {
-   const Eigen::Index n = M.rows(), m = M.cols();
-   Eigen::MatrixXd result(n, n);
+   const Eigen::Index n = M.rows();
    shift = Eigen::VectorXd::Zero(n);
+   if (M.cols() == 2 * n)
+   {
+      return (M.leftCols(n).array().square() + M.rightCols(n).array().square()).sqrt();
+   }
+   if (t.size() == 0) { return M.cwiseAbs(); }
+   Eigen::MatrixXd result(n, n);
    for (Eigen::Index i = 0; i < n; ++i)
    {
-      if (t.size() && m == n)
-      {
-         // The weighted median of M_ik / t_k makes Σ_k weight_k |M_ik - shift t_k| smallest.
-         std::vector<std::pair<double, double>> ratios;
-         double total = 0;
-         for (Eigen::Index k = 0; k < n; ++k)
-         {
-            if (t[k] == 0) { continue; }
-            ratios.emplace_back(M(i, k) / t[k], weight[k] * std::abs(t[k]));
-            total += ratios.back().second;
-         }
-         std::sort(ratios.begin(), ratios.end());
-         double passed = 0;
-         for (const auto &[ratio, share] : ratios)
-         {
-            shift[i] = ratio;
-            passed += share;
-            if (passed >= 0.5 * total) { break; }
-         }
-      }
+      // The weighted median of M_ik / t_k makes Σ_k weight_k |M_ik - shift t_k| smallest.
+      std::vector<std::pair<double, double>> ratios;
+      double total = 0;
       for (Eigen::Index k = 0; k < n; ++k)
       {
-         result(i, k) = m == n ? std::abs(M(i, k) - (t.size() ? shift[i] * t[k] : 0.0))
-                               : std::hypot(M(i, k), M(i, n + k));
+         if (t[k] == 0) { continue; }
+         ratios.emplace_back(M(i, k) / t[k], weight[k] * std::abs(t[k]));
+         total += ratios.back().second;
       }
+      std::sort(ratios.begin(), ratios.end());
+      double passed = 0;
+      for (const auto &[ratio, share] : ratios)
+      {
+         shift[i] = ratio;
+         passed += share;
+         if (passed >= 0.5 * total) { break; }
+      }
+      result.row(i) = (M.row(i) - shift[i] * t.transpose()).cwiseAbs();
    }
    return result;
 }
 
 } // namespace
+
+LeastPressure least_pressure(const ReducedProblem &problem, const ResidualForces &residual,
+                             const Eigen::VectorXd &pressure)
+{
+   const Eigen::Index n = problem.nodes();
+   const Eigen::MatrixXd &M = residual.transfer;
+   const auto f = problem.friction.asDiagonal();
+   const Eigen::VectorXd t = residual.rigid.cols() == 1 && M.cols() == n
+                                ? Eigen::VectorXd(residual.rigid.col(0))
+                                : Eigen::VectorXd();
+   const Eigen::VectorXd weight = problem.friction.cwiseProduct(pressure);
+   LeastPressure least;
+
+   // A row z > 0 with z ≥ 1 + |z f M| lifts a y that misses its condition by δ to y + δ z,
+   // which meets it. z (I - F) = 1 has a positive solution exactly if the repetition contracts.
+   Eigen::VectorXd first_shift, shift;
+   const Eigen::MatrixXd F = f * magnitude(M, t, weight, first_shift);
+   const Eigen::RowVectorXd ones = Eigen::RowVectorXd::Ones(n);
+   const Eigen::MatrixXd contraction = Eigen::MatrixXd::Identity(n, n) - F;
+   const Eigen::RowVectorXd z = contraction.transpose().partialPivLu().solve(ones.transpose());
+   if (!z.allFinite() || z.minCoeff() <= 0 || (z - z * F).minCoeff() < 0.5) { return least; }
+
+   Eigen::MatrixXd y = magnitude(M, t, weight, shift);
+   double excess = infinity;
+   for (int repetition = 0; repetition < 1000; ++repetition)
+   {
+      const Eigen::MatrixXd next = magnitude(M - y * f * M, t, weight, shift);
+      excess = std::max((next - y).maxCoeff(), 0.0);
+      if ((next - y).cwiseAbs().maxCoeff() <= 1e-13 * y.maxCoeff()) { break; }
+      y = next;
+   }
+   // Twice: z meets its own condition to round-off.
+   y += Eigen::VectorXd::Constant(n, 2 * excess) * z;
+   shift.array() -= 2 * excess * z.transpose().cwiseProduct(problem.friction).dot(first_shift);
+   least.exists = true;
+   least.by_normal = Eigen::MatrixXd::Identity(n, n) - y * f;
+   least.by_shear = -least.by_normal * M;
+   if (t.size()) { least.by_shear += shift * t.transpose(); }
+   return least;
+}
 
 LowerLimitReport lower_limit(const LimitProblem &problem, const LimitReport &upper,
                              const LimitSettings &settings)
@@ -163,34 +201,16 @@ LowerLimitReport lower_limit(const LimitProblem &problem, const LimitReport &upp
       return report;
    }
 
-   // The smallest F for pressures like those of the constant loads.
-   const Eigen::VectorXd pressure = loads.p0.col(0).cwiseMax(1e-3 * loads.p0.maxCoeff());
-   const Eigen::VectorXd t =
-      residual.rigid.cols() == 1 ? Eigen::VectorXd(residual.rigid.col(0)) : Eigen::VectorXd();
-   Eigen::VectorXd shift;
-   const Eigen::MatrixXd F =
-      magnitude(residual.transfer, t, reduced.friction.cwiseProduct(pressure), shift) *
-      reduced.friction.asDiagonal();
-   Eigen::MatrixXd M = residual.transfer;
-   if (t.size() && M.cols() == n) { M -= shift * t.transpose(); }
-
-   // I - F has a nonnegative inverse exactly if it maps some positive vector to a positive one.
-   const Eigen::PartialPivLU<Eigen::MatrixXd> factor(Eigen::MatrixXd::Identity(n, n) - F);
-   const Eigen::VectorXd witness = factor.solve(pressure);
-   if (!witness.allFinite() || witness.minCoeff() <= 0 ||
-       (witness - F * witness).minCoeff() <= 0)
+   const LeastPressure least =
+      least_pressure(reduced, residual, loads.p0.col(0).cwiseMax(1e-3 * loads.p0.maxCoeff()));
+   if (!least.exists)
    {
       report.message = "no bound: coupling times friction is too large to bound the pressure";
       return report;
    }
-   const auto lowest_pressure = [&](const Eigen::MatrixXd &p, const Eigen::MatrixXd &q)
-   {
-      const Eigen::MatrixXd h = p - M * q;
-      return Eigen::MatrixXd(2 * h - factor.solve(h));
-   };
    StuckForces lowest = loads;
-   lowest.p0 = lowest_pressure(loads.p0, loads.q0);
-   lowest.p1 = lowest_pressure(loads.p1, loads.q1);
+   lowest.p0 = least.by_normal * loads.p0 + least.by_shear * loads.q0;
+   lowest.p1 = least.by_normal * loads.p1 + least.by_shear * loads.q1;
    ReducedProblem uncoupled = reduced;
    uncoupled.B.setZero();
    ResidualForces shear = residual;
@@ -203,11 +223,20 @@ LowerLimitReport lower_limit(const LimitProblem &problem, const LimitReport &upp
    report.status = bound.status;
    if (bound.status != LimitStatus::certified && bound.status != LimitStatus::bracketed)
    {
-      report.message =
-         bound.status == LimitStatus::no_solution
-            ? "no bound: some admissible slip may take so much pressure away that "
-              "not even the constant loads are sure to stick"
-            : bound.message;
+      report.message = bound.message;
+      Eigen::Index node = 0;
+      if (bound.status == LimitStatus::no_solution && lowest.p0.col(0).minCoeff(&node) <= 0)
+      {
+         report.message =
+            "no bound: an admissible slip may take all pressure from node " +
+            std::to_string(node) +
+            " even under the constant loads, and the proof needs some at every node";
+      }
+      else if (bound.status == LimitStatus::no_solution)
+      {
+         report.message = "no bound: some admissible slip may take so much pressure away that "
+                          "not even the constant loads are sure to stick";
+      }
       return report;
    }
    report.kind = LowerLimitKind::bound;

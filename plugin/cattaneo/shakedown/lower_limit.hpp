@@ -14,6 +14,31 @@ enum class LowerLimitKind
    none       ///< no statement: coupling times friction is too large for the bound
 };
 
+/** Lower bounds of the pressures of all admissible closed states, whatever their slip: if
+    |q| ≤ f p with p = h + M q, h = p^w - M q^w, then
+
+       p ≥ by_normal p^w + by_shear q^w.
+
+    M is the transfer of residual to normal forces. By weak duality: for a row a of M and any
+    y ≥ 0 with |a - s tᵀ - y f M| ≤ y at every node,
+
+       a q ≥ s tᵀ q - y f h,
+
+    t a rigid motion, on which every state has the load's resultant. Repeating
+    y ← |a - s tᵀ - y f M| ends where this bound is also attained (the linear programme's
+    optimum), the same y for all loads. */
+struct LeastPressure
+{
+   bool exists = false; ///< coupling times friction is small enough for the repetition to end
+   Eigen::MatrixXd by_normal; ///< n × n
+   Eigen::MatrixXd by_shear;  ///< n × c·n
+};
+
+/// @a pressure: typical normal forces, size n, positive: among the many s those for it are
+/// chosen.
+LeastPressure least_pressure(const ReducedProblem &problem, const ResidualForces &residual,
+                             const Eigen::VectorXd &pressure);
+
 /** The lower limit λ1 of a coupled contact: for load factors below it every initial slip ends
    in shakedown; between λ1 and λ2 that depends on the start (thesis 4.1).
 
@@ -23,20 +48,19 @@ enum class LowerLimitKind
    the same node meet in a corner of that region. λ1 is the smallest λ at which that is so.
    Assumes that the contact stays closed and that the rate problem is unique (f |B_ii| < A_ii).
 
-    More nodes (proven bound). Let F = |M| f with M the transfer of residual to normal forces.
-   In any admissible closed state |q| ≤ f p and p = h + M q with h = p^w - M q^w, so that
-
-       p ≤ (I - F)⁻¹ h =: p_high,    p ≥ h - F p_high = 2 h - p_high =: p_low,
-
-    if F has a spectral radius below one. If some slip v* keeps |q*| ≤ f p_low at every vertex,
-    then for every evolution v(t) from any admissible closed start
+    More nodes (proven bound). Let p_low bound the pressures of every admissible closed state
+    from below (LeastPressure). If some slip v* keeps |q*| ≤ f p_low at every vertex, then for
+    every evolution v(t) from any admissible closed start
 
        d/dt ½ (v - v*)ᵀ A (v - v*) = Σ (q - q*)·v̇ ≤ -Σ (f p - |q*|) |v̇| ≤ 0,
 
     p never falls to zero, and with a load factor strictly below the bound the total slip is
-   finite: the contact shakes down. p_low is linear in the loads, so the bound is one more limit
-    programme, of an uncoupled contact with pressures p_low. |M| grows like the logarithm of the
-    number of nodes: the bound is true on each mesh but weakens as the mesh is refined. */
+    finite: the contact shakes down. p_low is linear in the loads, so the bound is one more
+   limit programme, of an uncoupled contact with pressures p_low.
+
+    It is the best that pressures alone can prove. Where an admissible state has a node without
+    pressure, as the corners of a square punch on a similar half-plane above f = 0.6, nothing is
+    proven, and marches (find_counter_example) are all there is. */
 struct LowerLimitReport
 {
    LowerLimitKind kind = LowerLimitKind::none;

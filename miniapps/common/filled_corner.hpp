@@ -1,0 +1,20 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <mfem.hpp>
+
+namespace miniapp
+{
+
+/// What a body fills around one of the vertices of its mesh.
+struct FilledCorner
+{
+   double angle = 0;  ///< radians; π on a smooth boundary
+   int attribute = 0; ///< of the elements there
+};
+
+/// The corner at a point, which must be a vertex. InputError if it is none, or if elements of
+/// several attributes meet there.
+FilledCorner filled_corner(mfem::Mesh &mesh, const Eigen::Vector2d &point);
+
+} // namespace miniapp

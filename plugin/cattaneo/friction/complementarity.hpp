@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cattaneo/friction/state_equations.hpp>
+
+namespace cattaneo
+{
+
+/// What a node may choose between: everything, or, where only the rates are sought, what the
+/// present gap and forces leave it.
+enum class Choice : signed char
+{
+   any,      ///< x_n >= 0, p >= 0, one of them zero; in contact |q| <= f p and Coulomb's law
+   open,     ///< separation
+   held,     ///< stick
+   forward,  ///< x_n = 0; x_t >= 0, q + f p >= 0, one of them zero: stick or forward slip
+   backward, ///< x_n = 0; x_t <= 0, f p - q >= 0, one of them zero: stick or backward slip
+   sliding   ///< x_n = 0, q = 0: contact without friction; the state says the sense only
+};
+
+/** Finds node states whose equations (see StateEquations) have a solution that meets the laws
+    of contact and friction: the frictional contact problem with the displacements x counted
+    from stick and the forces F = b + K x. It is that of an increment, and that of the rates. */
+struct ComplementarityProblem
+{
+   Eigen::VectorXd b;
+   std::vector<Choice> choice;
+};
+
+struct ComplementarityReport
+{
+   bool solved = false;
+   long newton_steps = 0; ///< semismooth Newton steps (all nodes change at once)
+   long pivots = 0;       ///< exchanges of single nodes by the path
+   Eigen::VectorXd x, F;
+};
+
+/// Semismooth Newton steps from the states of `equations`, which hold the solution's if solved.
+/// `start` may bring x and F of these states, to save their solution.
+ComplementarityReport solve_by_newton(StateEquations &equations,
+                                      const Eigen::VectorXd &friction,
+                                      const ComplementarityProblem &problem, int max_steps,
+                                      ComplementarityReport start = {});
+
+/** Lemke's method with a free start: from displacements and forces that meet all laws with the
+    present states of `equations` at some other b, follows the solutions while b is moved to
+    the problem's, exchanging the state of one node at a time; the path may turn back on its
+    way. x and F are the wish for the start (the solution of a neighbouring problem, say); they
+    are moved into the inside of all inequalities by the random fraction `slack` of the largest
+    force, so that no two nodes exchange at once. The friction law of a contact closing makes
+    the problem more than a plain LCP, and above critical friction a path may end in a ray: it
+    is then worth trying another start. */
+ComplementarityReport solve_by_path(StateEquations &equations, const Eigen::VectorXd &friction,
+                                    const ComplementarityProblem &problem,
+                                    const Eigen::VectorXd &x, const Eigen::VectorXd &F,
+                                    double slack, unsigned seed);
+
+} // namespace cattaneo

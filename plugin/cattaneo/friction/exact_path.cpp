@@ -1,0 +1,188 @@
+#include <algorithm>
+#include <cattaneo/friction/exact_path.hpp>
+#include <cmath>
+
+namespace cattaneo
+{
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace
+{
+
+const int events_between_corrections = 16;
+const int newton_steps = 30;
+
+} // namespace
+
+ExactPath::ExactPath(const ReducedProblem &problem)
+   : problem_(problem), K_(problem.stiffness()), equations_(K_, problem.friction)
+{
+}
+
+/// What the present gaps and forces leave each node to choose.
+void ExactPath::find_choices(const ContactState &state)
+{
+   const Index n = problem_.nodes();
+   rates_.choice.resize(n);
+   for (Index i = 0; i < n; ++i)
+   {
+      Choice &choice = rates_.choice[i];
+      const double f = problem_.friction[i], q = F_[i], p = F_[n + i];
+      if (!closed(state.status[i]))
+      {
+         const double gap = u_[n + i] + problem_.gap[i];
+         choice = K_(n + i, n + i) * gap > noise_ ? Choice::open : Choice::any;
+         continue;
+      }
+      if (p <= noise_) { choice = Choice::any; }
+      else if (f == 0) { choice = Choice::sliding; }
+      else if (slips(state.status[i]))
+      {
+         choice = sense(state.status[i]) > 0 ? Choice::forward : Choice::backward;
+      }
+      else if (f * p - std::abs(q) > noise_) { choice = Choice::held; }
+      else { choice = q < 0 ? Choice::forward : Choice::backward; }
+   }
+}
+
+bool ExactPath::find_rates(const ContactState &state, const VectorXd &multipliers)
+{
+   const bool same_way = target_.size() == multipliers.size() && target_ == multipliers &&
+                         reached_ == state.multipliers && equations_.states() == state.status;
+   target_.resize(0);
+   if (!equations_.set(state.status))
+   {
+      failure_ = "the equations of the present states are singular";
+      return false;
+   }
+   ComplementarityReport known;
+   if (same_way)
+   {
+      known.x = u_rate_;
+      known.F = F_rate_;
+   }
+   ComplementarityReport found =
+      solve_by_newton(equations_, problem_.friction, rates_, newton_steps, std::move(known));
+   counters_.newton_steps += found.newton_steps;
+   for (unsigned seed = 1; seed <= 8 && !found.solved; ++seed)
+   {
+      const VectorXd rest = VectorXd::Zero(K_.rows());
+      if (!equations_.set(state.status)) { break; }
+      found = solve_by_path(equations_, problem_.friction, rates_, rest, rest, 1.0, seed);
+      counters_.pivots += found.pivots;
+   }
+   if (!found.solved)
+   {
+      failure_ = "no rates meet the laws of contact and friction";
+      return false;
+   }
+   u_rate_ = found.x;
+   F_rate_ = found.F;
+   return true;
+}
+
+/// Fraction of the rest of the piece until a node reaches a boundary of its state; 1: none
+/// does.
+double ExactPath::way_to_event() const
+{
+   const Index n = problem_.nodes();
+   double way = 1;
+   auto meet = [&](double value, double rate)
+   {
+      if (rate < 0) { way = std::min(way, std::max(value, 0.0) / -rate); }
+   };
+   for (Index i = 0; i < n; ++i)
+   {
+      const double f = problem_.friction[i];
+      const double p = F_[n + i], p_rate = F_rate_[n + i];
+      auto forward = [&] { meet(f * p + F_[i], f * p_rate + F_rate_[i]); };
+      auto backward = [&] { meet(f * p - F_[i], f * p_rate - F_rate_[i]); };
+      const Choice choice = rates_.choice[i];
+      switch (choice)
+      {
+      case Choice::any: // on the boundary: the rates lead away from it
+         break;
+      case Choice::open:
+         meet(u_[n + i] + problem_.gap[i], u_rate_[n + i]);
+         break;
+      case Choice::held:
+         forward();
+         backward();
+         break;
+      case Choice::sliding:
+         meet(p, p_rate);
+         break;
+      case Choice::forward:
+      case Choice::backward:
+         if (slips(equations_.states()[i])) { meet(p, p_rate); }
+         else if (choice == Choice::forward) { backward(); }
+         else { forward(); }
+         break;
+      }
+   }
+   return way;
+}
+
+bool ExactPath::advance(ContactState &state, double time, const VectorXd &multipliers,
+                        std::vector<StateChange> &changes)
+{
+   const Index n = problem_.nodes();
+   const VectorXd f = problem_.clamped_forces(state.multipliers);
+   const VectorXd f_end = problem_.clamped_forces(multipliers);
+   const double peak =
+      std::max({state.peak_force, f.cwiseAbs().maxCoeff(), f_end.cwiseAbs().maxCoeff()});
+   u_.resize(2 * n);
+   F_.resize(2 * n);
+   u_ << state.v, state.w;
+   F_ << state.q, state.p;
+   noise_ = std::max(1e-13 * peak, equations_.round_off(f, u_));
+   rates_.b = f_end - f;
+   find_choices(state);
+   const long factored = equations_.factorisations();
+   const bool found = find_rates(state, multipliers);
+   counters_.dense_factorisations += equations_.factorisations() - factored;
+   if (!found) { return false; }
+   const std::vector<NodeState> &states = equations_.states();
+   for (Index i = 0; i < n; ++i)
+   {
+      if (states[i] == state.status[i]) { continue; }
+      changes.push_back({state.time, state.multipliers, i, state.status[i], states[i]});
+   }
+
+   const double way = way_to_event();
+   u_ += way * u_rate_;
+   F_ += way * F_rate_;
+   u_rate_ *= 1 - way; // the rest of the piece is shorter now
+   F_rate_ *= 1 - way;
+   const bool arrived = way == 1;
+   state.multipliers =
+      arrived ? multipliers
+              : VectorXd(state.multipliers + way * (multipliers - state.multipliers));
+   if (arrived || ++uncorrected_ == events_between_corrections)
+   {
+      // Round-off gathers over events: the states' own equations remove it.
+      uncorrected_ = 0;
+      VectorXd correction;
+      const VectorXd forces = problem_.clamped_forces(state.multipliers) + K_ * u_;
+      if (equations_.solve(forces, correction, F_)) { u_ += correction; }
+   }
+   reached_ = state.multipliers;
+   target_ = multipliers;
+   state.time = arrived ? time : state.time + way * (time - state.time);
+   state.peak_force = std::max(peak, state.peak_force);
+   state.status = states;
+   state.v = u_.head(n);
+   state.w = u_.tail(n);
+   state.q = F_.head(n);
+   state.p = F_.tail(n);
+   for (Index i = 0; i < n; ++i)
+   {
+      if (closed(states[i])) { state.w[i] = -problem_.gap[i]; }
+      else { state.q[i] = state.p[i] = 0; }
+   }
+   return true;
+}
+
+} // namespace cattaneo

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cattaneo/counters.hpp>
+#include <cattaneo/friction/complementarity.hpp>
+#include <cattaneo/reduced/reduced_problem.hpp>
+#include <string>
+
+namespace cattaneo
+{
+
+/// A node changes its state on the exact path.
+struct StateChange
+{
+   double time = 0;
+   Eigen::VectorXd multipliers; ///< of the load patterns
+   Eigen::Index node = 0;
+   NodeState from = NodeState::stick, to = NodeState::stick;
+};
+
+/** The exact path of frictional contact: where loads change linearly, displacements and forces
+    do too, until a node reaches a boundary of its state (a gap closes, a pressure vanishes,
+    friction is exhausted). There, and where the loads turn, the nodes on a boundary choose new
+    states such that the rates meet the laws of contact and friction: a small complementarity
+    problem. One inverse is kept through all changes by low-rank updates; there is no step
+    size.
+
+    The state alone says which nodes are on a boundary (to round-off), so that a path can be cut
+    at any event and resumed: the result is the same to round-off. */
+class ExactPath
+{
+public:
+   /// A problem with friction, one tangential component a node; it must outlive the path.
+   explicit ExactPath(const ReducedProblem &problem);
+
+   /** Advances `state` along loads that change linearly to `multipliers` at `time`, as far as
+       the next event or to there, and appends the changes of state with which it set out.
+       False, with the state unchanged, if no rates meet the laws (see failure()): the loads
+       cannot rise further, or not slowly. */
+   bool advance(ContactState &state, double time, const Eigen::VectorXd &multipliers,
+                std::vector<StateChange> &changes);
+
+   const std::string &failure() const { return failure_; }
+   const Counters &counters() const { return counters_; }
+
+private:
+   void find_choices(const ContactState &state);
+   bool find_rates(const ContactState &state, const Eigen::VectorXd &multipliers);
+   double way_to_event() const;
+
+   const ReducedProblem &problem_;
+   const Eigen::MatrixXd K_;
+   StateEquations equations_;
+   Eigen::VectorXd u_, F_;           // displacements {v; w} and forces {q; p}
+   Eigen::VectorXd u_rate_, F_rate_; // over the rest of the piece
+   // Where u_rate_ and F_rate_ hold with the states of the equations, as long as those stay.
+   Eigen::VectorXd reached_, target_;
+   ComplementarityProblem rates_;
+   double noise_ = 0; // forces below this are round-off
+   int uncorrected_ = 0;
+   std::string failure_;
+   Counters counters_;
+};
+
+} // namespace cattaneo

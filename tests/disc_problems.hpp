@@ -1,0 +1,37 @@
+#pragma once
+
+#include "random_problem.hpp"
+
+namespace cattaneo_test
+{
+
+/// A random reduced problem with two tangential components a node and three load patterns:
+/// "press" (mostly normal), "shear" (all) and "twist" (second component only).
+inline cattaneo::ReducedProblem random_disc_problem(int n, double friction, double coupling,
+                                                    std::mt19937 &random)
+{
+   std::normal_distribution<double> normal;
+   auto matrix = [&](int rows, int cols)
+   {
+      return Eigen::MatrixXd(
+         Eigen::MatrixXd::NullaryExpr(rows, cols, [&] { return normal(random); }));
+   };
+   cattaneo::ReducedProblem problem = random_problem(n, friction, coupling, random);
+   const Eigen::MatrixXd R = matrix(2 * n, 2 * n);
+   problem.A = Eigen::MatrixXd::Identity(2 * n, 2 * n) + R * R.transpose() / (2 * n);
+   problem.B = coupling / std::sqrt(n) * matrix(n, 2 * n);
+   for (cattaneo::LoadPattern &pattern : problem.patterns)
+   {
+      const Eigen::VectorXd radial = pattern.q;
+      pattern.q.resize(2 * n);
+      pattern.q << radial, 0.3 * matrix(n, 1);
+   }
+   Eigen::VectorXd twist = Eigen::VectorXd::Zero(2 * n);
+   twist.tail(n) = matrix(n, 1);
+   problem.patterns.push_back(
+      {"twist", cattaneo::Control::force, twist, Eigen::VectorXd::Zero(n)});
+   problem.H = Eigen::MatrixXd::Identity(3, 3);
+   return problem;
+}
+
+} // namespace cattaneo_test

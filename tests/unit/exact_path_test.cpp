@@ -1,0 +1,333 @@
+#include "random_problem.hpp"
+
+#include <cattaneo/friction/march.hpp>
+#include <cmath>
+#include <cstdio>
+#include <gtest/gtest.h>
+#include <tuple>
+
+namespace
+{
+
+using namespace cattaneo;
+using cattaneo_test::random_problem;
+using Eigen::Index;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+
+MarchSettings exact_settings()
+{
+   MarchSettings settings;
+   settings.stepping = Stepping::exact;
+   return settings;
+}
+
+LoadHistory press_then_shear(double amplitude, int cycles)
+{
+   LoadHistory history =
+      LoadHistory::through({Vector2d(0, 0), Vector2d(1, 0), Vector2d(1, amplitude),
+                            Vector2d(0.7, -amplitude), Vector2d(1, 0)});
+   history.cycle_start = 1;
+   history.cycles = cycles;
+   return history;
+}
+
+/// Largest violation along the straight way between two states, in plain words from v, w alone:
+/// the laws of contact and friction at its end, and Coulomb's way of slipping on it.
+double violation(const ReducedProblem &problem, const ContactState &before,
+                 const ContactState &now)
+{
+   const VectorXd f = problem.clamped_forces(now.multipliers);
+   const Index n = problem.nodes();
+   const VectorXd q = problem.A * now.v + problem.B.transpose() * now.w + f.head(n);
+   const VectorXd p = problem.B * now.v + problem.C * now.w + f.tail(n);
+   double worst =
+      std::max((now.q - q).cwiseAbs().maxCoeff(), (now.p - p).cwiseAbs().maxCoeff());
+   for (Index i = 0; i < n; ++i)
+   {
+      const double gap = now.w[i] + problem.gap[i], way = now.v[i] - before.v[i];
+      const double spare = problem.friction[i] * p[i] - std::abs(q[i]);
+      const double s = sense(now.status[i]);
+      worst = std::max({worst, -gap, -p[i], -spare});
+      if (closed(now.status[i])) { worst = std::max(worst, std::abs(gap)); }
+      if (!closed(now.status[i])) { worst = std::max({worst, std::abs(p[i]), std::abs(q[i])}); }
+      if (now.status[i] == NodeState::stick) { worst = std::max(worst, std::abs(way)); }
+      if (slips(now.status[i]))
+      {
+         worst = std::max({worst, -s * way, std::abs(q[i] + s * problem.friction[i] * p[i])});
+      }
+   }
+   return worst;
+}
+
+TEST(StateEquations, UpdatesAgreeWithAFreshFactor)
+{
+   std::mt19937 random(31);
+   const int n = 12;
+   const ReducedProblem problem = random_problem(n, 0.6, 0.15, random);
+   const Eigen::MatrixXd K = problem.stiffness();
+   StateEquations equations(K, problem.friction);
+   const VectorXd b = problem.clamped_forces(Vector2d(1, 0.4));
+   VectorXd x, F, x_fresh, F_fresh;
+   for (int k = 0; k < 400; ++k)
+   {
+      const auto node = static_cast<Index>(random() % n);
+      ASSERT_TRUE(equations.set(node, static_cast<NodeState>(random() % 4)));
+      ASSERT_TRUE(equations.solve(b, x, F));
+      StateEquations fresh(K, problem.friction);
+      ASSERT_TRUE(fresh.set(equations.states()));
+      ASSERT_TRUE(fresh.solve(b, x_fresh, F_fresh));
+      EXPECT_LT((x - x_fresh).cwiseAbs().maxCoeff(), 1e-13);
+      for (Index i = 0; i < n; ++i)
+      {
+         const NodeState s = equations.states()[i];
+         const double f = problem.friction[i];
+         if (s == NodeState::stick) { EXPECT_EQ(x[i], 0); }
+         else { EXPECT_NEAR(F[i] + sense(s) * f * F[n + i], 0, 1e-13); }
+         EXPECT_NEAR(closed(s) ? x[n + i] : F[n + i], 0, 1e-13);
+      }
+   }
+   EXPECT_GT(equations.updates(), 400);
+   EXPECT_LE(equations.factorisations(), 5);
+}
+
+TEST(StateEquations, RefusesStatesWithoutSupport)
+{
+   const Eigen::Matrix2d stiffness{{1, -1}, {-1, 1}}; // free to move along and away
+   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(4, 4);
+   K.topLeftCorner(2, 2) = K.bottomRightCorner(2, 2) = stiffness;
+   const VectorXd friction = VectorXd::Constant(2, 0.5);
+   StateEquations equations(K, friction);
+   EXPECT_TRUE(equations.set(0, NodeState::forward_slip));
+   EXPECT_FALSE(equations.set(1, NodeState::forward_slip));
+   EXPECT_EQ(equations.states()[1], NodeState::stick);
+   VectorXd x, F;
+   EXPECT_TRUE(equations.solve(VectorXd::Ones(4), x, F));
+   EXPECT_NEAR(F[0] + 0.5 * F[2], 0, 1e-15);
+}
+
+TEST(ExactPath, OneBlockCycleInClosedForm)
+{
+   // q = 2 v + λ, |q| <= f p, f p = 0.4: slip from λ = 0.4 to 1, back from 0.2 to -1, and so
+   // on.
+   ReducedProblem problem;
+   problem.A = Eigen::MatrixXd::Constant(1, 1, 2.0);
+   problem.B = Eigen::MatrixXd::Zero(1, 1);
+   problem.C = Eigen::MatrixXd::Constant(1, 1, 3.0);
+   problem.patterns = {{"press", Control::force, VectorXd::Zero(1), VectorXd::Ones(1)},
+                       {"shear", Control::force, VectorXd::Ones(1), VectorXd::Zero(1)}};
+   problem.H = Eigen::Matrix2d::Zero();
+   problem.gap = VectorXd::Zero(1);
+   set_friction(problem, 0.4);
+   LoadHistory history = LoadHistory::through(
+      {Vector2d(0, 0), Vector2d(1, 0), Vector2d(1, 1), Vector2d(1, -1), Vector2d(1, 0)});
+   history.cycle_start = 1;
+   history.cycles = 20;
+   ContactState state = ContactState::virgin(problem);
+   const MarchReport report = march(problem, history, state, exact_settings());
+   EXPECT_EQ(report.status, FrictionStatus::converged);
+   ASSERT_EQ(report.cycles.size(), 2u); // the other 18 are not computed
+   EXPECT_EQ(report.steady_cycle, 2);
+   EXPECT_NEAR(report.cycles[1].dissipation, 0.48, 1e-15);
+   const NodeState stick = NodeState::stick, ahead = NodeState::backward_slip,
+                   back = NodeState::forward_slip; // q > 0 drives v < 0
+   const std::vector<std::tuple<double, NodeState, NodeState>> expected = {
+      {0.4, stick, ahead}, {1, ahead, stick},    {0.2, stick, back},
+      {-1, back, stick},   {-0.2, stick, ahead}, {1, ahead, stick},
+      {0.2, stick, back},  {-1, back, stick},    {-0.2, stick, ahead}};
+   ASSERT_EQ(report.changes.size(), expected.size());
+   for (std::size_t k = 0; k < expected.size(); ++k)
+   {
+      EXPECT_NEAR(report.changes[k].multipliers[1], std::get<0>(expected[k]), 1e-15);
+      EXPECT_EQ(report.changes[k].from, std::get<1>(expected[k]));
+      EXPECT_EQ(report.changes[k].to, std::get<2>(expected[k]));
+   }
+   EXPECT_EQ(report.changes[0].time, 1.4);
+}
+
+TEST(ExactPath, LawsHoldOnEveryStretchOfRandomProblems)
+{
+   std::mt19937 random(32);
+   int changes = 0, stretches = 0;
+   for (int k = 0; k < 60; ++k)
+   {
+      const int n = 2 + k % 25;
+      ReducedProblem problem = random_problem(n, 0.05 + 0.02 * k, 0.2, random);
+      if (k % 4 == 0) { problem.friction[k % n] = 0; }
+      problem.patterns[1].control = Control::displacement;
+      problem.H = Eigen::Matrix2d{{1.3, 0.4}, {-0.4, 2.1}};
+      ContactState state = ContactState::virgin(problem), before = state;
+      std::vector<NodeState> states = state.status;
+      const MarchReport report =
+         march(problem, press_then_shear(0.8, 3), state, exact_settings(),
+               [&](const ContactState &now, const IncrementRecord &record)
+               {
+                  EXPECT_LT(violation(problem, before, now), 1e-12) << "problem " << k;
+                  EXPECT_GT(record.dissipation, -1e-13);
+                  before = now;
+                  ++stretches;
+               });
+      ASSERT_EQ(report.status, FrictionStatus::converged) << "problem " << k;
+      EXPECT_EQ(report.fallbacks, 0) << report.fallback_reason;
+      EXPECT_LT(std::abs(report.energy_imbalance), 1e-13);
+      double time = 0;
+      for (const StateChange &change : report.changes)
+      {
+         EXPECT_EQ(states[change.node], change.from);
+         EXPECT_NE(change.from, change.to);
+         EXPECT_GE(change.time, time);
+         states[change.node] = change.to;
+         time = change.time;
+      }
+      EXPECT_EQ(states, state.status);
+      changes += static_cast<int>(report.changes.size());
+   }
+   EXPECT_GT(changes, 1000);
+   EXPECT_GT(stretches, 1000);
+}
+
+TEST(ExactPath, SteppingConvergesToItInFirstOrder)
+{
+   std::mt19937 random(33);
+   for (int n : {8, 24})
+   {
+      const ReducedProblem problem = random_problem(n, 0.3, 0.12, random);
+      const LoadHistory history = LoadHistory::through(
+         {Vector2d(0, 0), Vector2d(1, 0.1), Vector2d(0.8, 0.9), Vector2d(0.9, -0.5),
+          Vector2d(0.6, 0.1), Vector2d(1.1, 0.8), Vector2d(0.7, -0.7)});
+      // Slip at the points of the history.
+      auto slip = [&](const MarchSettings &settings)
+      {
+         Eigen::MatrixXd v(n, history.segments());
+         ContactState state = ContactState::virgin(problem);
+         const MarchReport report =
+            march(problem, history, state, settings,
+                  [&](const ContactState &now, const IncrementRecord &)
+                  { v.col(static_cast<Index>(std::ceil(now.time)) - 1) = now.v; });
+         EXPECT_EQ(report.fallbacks, 0);
+         return v;
+      };
+      const Eigen::MatrixXd exact = slip(exact_settings());
+      std::vector<double> errors;
+      for (int increments : {10, 100, 1000, 10000})
+      {
+         MarchSettings settings;
+         settings.stepping = Stepping::fixed;
+         settings.increments = increments;
+         errors.push_back((slip(settings) - exact).cwiseAbs().maxCoeff() /
+                          exact.cwiseAbs().maxCoeff());
+      }
+      EXPECT_GT(errors[0], 1e-6) << "nodes " << n;
+      // First order, up to the luck of where increments end.
+      for (std::size_t k = 1; k < errors.size(); ++k)
+      {
+         EXPECT_LT(errors[k], 3 * errors[0] * std::pow(0.1, k)) << "nodes " << n;
+      }
+   }
+}
+
+TEST(ExactPath, CutAtAnyEventGivesTheSameToRoundOff)
+{
+   std::mt19937 random(34);
+   const ReducedProblem problem = random_problem(12, 0.3, 0.1, random);
+   const LoadHistory history = press_then_shear(0.8, 2);
+   ContactState whole = ContactState::virgin(problem);
+   std::vector<ContactState> passed;
+   march(problem, history, whole, exact_settings(),
+         [&](const ContactState &state, const IncrementRecord &) { passed.push_back(state); });
+   const std::string file = testing::TempDir() + "cattaneo_exact_state.json";
+   ASSERT_GT(passed.size(), 20u);
+   for (const ContactState &cut : passed)
+   {
+      save(cut, file);
+      ContactState rest = load_contact_state(file);
+      const MarchReport report = march(problem, history, rest, exact_settings());
+      EXPECT_EQ(report.fallbacks, 0);
+      EXPECT_LT((rest.v - whole.v).cwiseAbs().maxCoeff(), 1e-13) << "cut at " << cut.time;
+      EXPECT_LT((rest.p - whole.p).cwiseAbs().maxCoeff(), 1e-13);
+      EXPECT_EQ(rest.status, whole.status);
+      EXPECT_NEAR(rest.dissipation, whole.dissipation, 1e-13);
+      EXPECT_EQ(rest.time, whole.time);
+   }
+   std::remove(file.c_str());
+}
+
+TEST(ExactPath, UnitsDoNotMatter)
+{
+   std::mt19937 random(35);
+   const ReducedProblem problem = random_problem(15, 0.4, 0.12, random);
+   ReducedProblem scaled = problem;
+   const double length = std::ldexp(1.0, -20), force = std::ldexp(1.0, 27); // exact in binary
+   scaled.A *= force / length;
+   scaled.B *= force / length;
+   scaled.C *= force / length;
+   scaled.gap *= length;
+   for (LoadPattern &pattern : scaled.patterns)
+   {
+      pattern.q *= force;
+      pattern.p *= force;
+   }
+   ContactState a = ContactState::virgin(problem), b = ContactState::virgin(scaled);
+   const MarchReport ra = march(problem, press_then_shear(0.8, 2), a, exact_settings());
+   const MarchReport rb = march(scaled, press_then_shear(0.8, 2), b, exact_settings());
+   ASSERT_EQ(ra.changes.size(), rb.changes.size());
+   for (std::size_t k = 0; k < ra.changes.size(); ++k)
+   {
+      EXPECT_EQ(ra.changes[k].time, rb.changes[k].time);
+      EXPECT_EQ(ra.changes[k].node, rb.changes[k].node);
+      EXPECT_EQ(ra.changes[k].to, rb.changes[k].to);
+   }
+   EXPECT_EQ(a.v * length, b.v);
+   EXPECT_EQ(a.p * force, b.p);
+   EXPECT_EQ(ra.counters.newton_steps, rb.counters.newton_steps);
+}
+
+TEST(ExactPath, GrossSlidingAtItsExactLoad)
+{
+   ReducedProblem problem;
+   problem.A = Eigen::Matrix2d{{1, -1}, {-1, 1}};
+   problem.B = Eigen::Matrix2d::Zero();
+   problem.C = Eigen::Matrix2d{{1, -1}, {-1, 1}};
+   problem.patterns = {{"press", Control::force, Vector2d(0, 0), Vector2d(0.5, 0.5)},
+                       {"shear", Control::force, Vector2d(0.8, 0.2), Vector2d(0, 0)}};
+   problem.H = Eigen::Matrix2d::Zero();
+   problem.gap = Vector2d(0, 0);
+   set_friction(problem, 0.4);
+   ContactState state = ContactState::virgin(problem);
+   const MarchReport report =
+      march(problem, LoadHistory::through({Vector2d(0, 0), Vector2d(1, 0), Vector2d(1, 1)}),
+            state, exact_settings());
+   EXPECT_EQ(report.status, FrictionStatus::gross_sliding);
+   EXPECT_NEAR(report.event_multipliers[1], 0.4, 1e-15); // Q = f P
+   ASSERT_EQ(report.changes.size(), 1u); // the first node slips, the second cannot but slide
+   EXPECT_NEAR(report.changes[0].multipliers[1], 0.25, 1e-15); // 0.8 Q = 0.5 f P
+   EXPECT_EQ(report.fallbacks, 0);
+}
+
+TEST(ExactPath, AboveCriticalFrictionNothingIsSilent)
+{
+   std::mt19937 random(36);
+   int converged = 0, not_unique = 0;
+   for (int k = 0; k < 60; ++k)
+   {
+      ReducedProblem problem = random_problem(6, 1.0 + 0.2 * k, 0.35, random);
+      ContactState state = ContactState::virgin(problem), before = state;
+      const MarchReport report =
+         march(problem, press_then_shear(0.8, 1), state, exact_settings(),
+               [&](const ContactState &now, const IncrementRecord &)
+               {
+                  EXPECT_LT(violation(problem, before, now), 1e-10) << "problem " << k;
+                  before = now;
+               });
+      EXPECT_EQ(report.fallbacks > 0, !report.fallback_reason.empty());
+      converged += report.status == FrictionStatus::converged;
+      not_unique += report.status == FrictionStatus::not_unique;
+      if (report.status == FrictionStatus::converged) { continue; }
+      EXPECT_FALSE(report.message.empty());
+      EXPECT_EQ(report.event_multipliers.size(), 2);
+   }
+   EXPECT_GT(converged, 0);
+   EXPECT_GT(not_unique, 0);
+}
+
+} // namespace

@@ -1,0 +1,558 @@
+#include "disc_problems.hpp"
+
+#include <cattaneo/friction/friction_disc.hpp>
+#include <cattaneo/friction/march.hpp>
+#include <cattaneo/friction/mechanism.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cattaneo/output/history.hpp>
+#include <cstdio>
+#include <fstream>
+#include <gtest/gtest.h>
+
+namespace
+{
+
+using namespace cattaneo;
+using cattaneo_test::random_disc_problem;
+using Eigen::Index;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+/// Largest violation of the laws of contact and friction, in plain words from v and w alone:
+/// no penetration, no tension, |q| <= f p, and power q·Δv = -f p |Δv| of friction.
+double violation(const ReducedProblem &problem, const ContactState &state,
+                 const VectorXd &v_old)
+{
+   const VectorXd f = problem.clamped_forces(state.multipliers);
+   const Index n = problem.nodes();
+   const VectorXd q = problem.A * state.v + problem.B.transpose() * state.w + f.head(2 * n);
+   const VectorXd p = problem.B * state.v + problem.C * state.w + f.tail(n);
+   double worst =
+      std::max((q - state.q).cwiseAbs().maxCoeff(), (p - state.p).cwiseAbs().maxCoeff());
+   for (Index i = 0; i < n; ++i)
+   {
+      const double gap = state.w[i] + problem.gap[i];
+      const Vector2d slip(state.v[i] - v_old[i], state.v[n + i] - v_old[n + i]);
+      const Vector2d shear(q[i], q[n + i]);
+      const double fp = problem.friction[i] * p[i];
+      worst = std::max({worst, -gap, -p[i], std::abs(gap * p[i])});
+      worst =
+         std::max({worst, shear.norm() - fp, std::abs(shear.dot(slip) + fp * slip.norm())});
+      if (state.status[i] == NodeState::stick) { worst = std::max(worst, slip.norm()); }
+      if (state.status[i] == NodeState::separation) { worst = std::max(worst, p[i]); }
+      else { worst = std::max(worst, gap); }
+   }
+   return worst;
+}
+
+TEST(FrictionDisc, OneNodeObeysTheLawInEveryState)
+{
+   std::mt19937 random(1);
+   std::uniform_real_distribution<double> uniform(-1, 1);
+   int seen[5] = {0, 0, 0, 0, 0};
+   for (int k = 0; k < 5000; ++k)
+   {
+      DiscNode node;
+      node.A << 1 + uniform(random) / 2, 0, 0, 1 + uniform(random) / 2;
+      node.A(0, 1) = node.A(1, 0) = 0.3 * uniform(random);
+      node.b << 0.2 * uniform(random), 0.2 * uniform(random);
+      node.c = 1.5;
+      node.friction = 1 + uniform(random);
+      node.q0 << uniform(random), uniform(random);
+      node.p0 = uniform(random);
+      if (node.friction >= critical_friction(node.A, node.b)) { continue; }
+      const DiscMove move = solve_node(node);
+      ASSERT_TRUE(move.found);
+      const Vector2d q = node.q0 + node.A * move.slip + node.b * move.gap;
+      const double p = node.p0 + node.b.dot(move.slip) + node.c * move.gap;
+      const double fp = node.friction * p;
+      switch (move.state)
+      {
+      case NodeState::separation:
+         EXPECT_LT(q.norm() + std::abs(p), 1e-14);
+         EXPECT_GT(move.gap, 0);
+         break;
+      case NodeState::stick:
+         EXPECT_TRUE(move.slip.isZero(0) && move.gap == 0 && q.norm() <= fp);
+         break;
+      default:
+         EXPECT_EQ(move.state, NodeState::slip);
+         EXPECT_EQ(move.gap, 0);
+         EXPECT_GE(p, 0);
+         EXPECT_LT((q * move.slip.norm() + fp * move.slip).norm(), 1e-14) << k;
+      }
+      ++seen[static_cast<int>(move.state)];
+   }
+   for (int state : {0, 1, 4}) { EXPECT_GT(seen[state], 500); }
+}
+
+TEST(FrictionDisc, BothMethodsObeyTheLawOnRandomProblems)
+{
+   std::mt19937 random(2);
+   std::uniform_real_distribution<double> uniform(0, 1);
+   long solves = 0, steps = 0;
+   int slipping = 0;
+   for (int k = 0; k < 200; ++k)
+   {
+      const int n = 3 + k % 38;
+      const ReducedProblem problem =
+         random_disc_problem(n, 0.1 + 1.9 * k / 199.0, k % 3 ? 0.12 : 0.0, random);
+      ContactState states[2];
+      const FrictionMethod methods[] = {FrictionMethod::automatic,
+                                        FrictionMethod::gauss_seidel};
+      for (int method = 0; method < 2; ++method)
+      {
+         FrictionSettings settings;
+         settings.method = methods[method];
+         FrictionSolver solver(problem, settings);
+         EXPECT_EQ(solver.counters().tangential_unknowns, 2 * n);
+         ContactState &state = states[method];
+         state = ContactState::virgin(problem);
+         for (const Vector3d &loads : {Vector3d(1, 0, 0), Vector3d(1, 0.7, 0.2),
+                                       Vector3d(1, 0.7, 0.9), Vector3d(0.8, -0.6, 0.1)})
+         {
+            const VectorXd v_old = state.v;
+            const IncrementReport report = solver.solve(state, loads);
+            ASSERT_EQ(report.status, FrictionStatus::converged)
+               << "problem " << k << " method " << method << ": " << report.message;
+            EXPECT_LT(violation(problem, state, v_old), 1e-10) << "problem " << k;
+            for (NodeState s : state.status) { slipping += s == NodeState::slip; }
+            if (method == 0) { ++solves; }
+         }
+         if (method == 0) { steps += solver.counters().newton_steps; }
+      }
+      EXPECT_LT((states[0].v - states[1].v).cwiseAbs().maxCoeff(), 1e-9) << "problem " << k;
+      EXPECT_LT((states[0].w - states[1].w).cwiseAbs().maxCoeff(), 1e-9) << "problem " << k;
+   }
+   EXPECT_GT(slipping, 2000);
+   std::printf("%.2f Newton steps an increment\n", double(steps) / solves);
+   EXPECT_LT(double(steps) / solves, 8);
+}
+
+/// Press, then twist up and down; three patterns as in random_disc_problem.
+LoadHistory press_then_twist(double amplitude, int cycles)
+{
+   LoadHistory history =
+      LoadHistory::through({Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(1, 0, amplitude),
+                            Vector3d(1, 0, -amplitude), Vector3d(1, 0, 0)});
+   history.cycle_start = 1;
+   history.cycles = cycles;
+   return history;
+}
+
+/// A problem whose second component is coupled to nothing and not loaded but by "twist".
+ReducedProblem with_separate_twist(int n, double friction, double coupling,
+                                   std::mt19937 &random)
+{
+   ReducedProblem problem = random_disc_problem(n, friction, coupling, random);
+   problem.A.topRightCorner(n, n).setZero();
+   problem.A.bottomLeftCorner(n, n).setZero();
+   problem.B.rightCols(n).setZero();
+   for (int k : {0, 1}) { problem.patterns[k].q.tail(n).setZero(); }
+   return problem;
+}
+
+ReducedProblem first_component(const ReducedProblem &problem)
+{
+   const Index n = problem.nodes();
+   ReducedProblem plane = problem;
+   plane.A = problem.A.topLeftCorner(n, n);
+   plane.B = problem.B.leftCols(n);
+   for (LoadPattern &pattern : plane.patterns) { pattern.q = VectorXd(pattern.q.head(n)); }
+   return plane;
+}
+
+TEST(FrictionDisc, WithoutTorsionItIsThePlane)
+{
+   std::mt19937 random(3);
+   for (int k = 0; k < 20; ++k)
+   {
+      const int n = 5 + k;
+      const ReducedProblem problem = with_separate_twist(n, 0.5, k % 2 ? 0.15 : 0.0, random);
+      const ReducedProblem plane = first_component(problem);
+      LoadHistory history = LoadHistory::through(
+         {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(1, 0.8, 0), Vector3d(0.7, -0.8, 0)});
+      ContactState disc_state = ContactState::virgin(problem),
+                   plane_state = ContactState::virgin(plane);
+      ASSERT_EQ(march(problem, history, disc_state).status, FrictionStatus::converged);
+      ASSERT_EQ(march(plane, history, plane_state).status, FrictionStatus::converged);
+      EXPECT_LT((disc_state.v.head(n) - plane_state.v).cwiseAbs().maxCoeff(), 1e-12);
+      EXPECT_LT((disc_state.p - plane_state.p).cwiseAbs().maxCoeff(), 1e-12);
+      EXPECT_LT((disc_state.q.head(n) - plane_state.q).cwiseAbs().maxCoeff(), 1e-12);
+      EXPECT_TRUE(disc_state.v.tail(n).isZero(0));
+      EXPECT_TRUE(disc_state.q.tail(n).isZero(0));
+      EXPECT_NEAR(disc_state.dissipation, plane_state.dissipation, 1e-12);
+      for (int i = 0; i < n; ++i)
+      {
+         EXPECT_EQ(closed(disc_state.status[i]), closed(plane_state.status[i]));
+         EXPECT_EQ(slips(disc_state.status[i]), slips(plane_state.status[i]));
+      }
+   }
+}
+
+/// An axis node: its tangential rows are coupled to nothing and carry nothing.
+TEST(FrictionDisc, AnUncoupledNodeStaysInStick)
+{
+   std::mt19937 random(4);
+   ReducedProblem problem = random_disc_problem(12, 0.4, 0.1, random);
+   problem.gap[0] = 0;
+   for (int r : {0, 12})
+   {
+      problem.A.row(r).setZero();
+      problem.A.col(r).setZero();
+      problem.A(r, r) = 2;
+      problem.B.col(r).setZero();
+      for (LoadPattern &pattern : problem.patterns) { pattern.q[r] = 0; }
+   }
+   problem.patterns[0].p[0] = 3;
+   ContactState state = ContactState::virgin(problem);
+   ASSERT_EQ(march(problem, press_then_twist(1.0, 2), state).status, FrictionStatus::converged);
+   EXPECT_EQ(state.status[0], NodeState::stick);
+   EXPECT_TRUE(state.v[0] == 0 && state.v[12] == 0 && state.q[0] == 0 && state.q[12] == 0);
+   EXPECT_GT(state.p[0], 0);
+}
+
+/// Turns the tangential plane at every node by the same angle.
+VectorXd turned(const VectorXd &x, double angle)
+{
+   const Index n = x.size() / 2;
+   VectorXd y(2 * n);
+   y << std::cos(angle) * x.head(n) - std::sin(angle) * x.tail(n),
+      std::sin(angle) * x.head(n) + std::cos(angle) * x.tail(n);
+   return y;
+}
+
+TEST(FrictionDisc, TurningThePlaneTurnsTheAnswer)
+{
+   std::mt19937 random(5);
+   const int n = 15;
+   ReducedProblem problem = random_disc_problem(n, 0.6, 0.0, random);
+   problem.A.topRightCorner(n, n).setZero();
+   problem.A.bottomLeftCorner(n, n).setZero();
+   problem.A.bottomRightCorner(n, n) = problem.A.topLeftCorner(n, n);
+   ReducedProblem other = problem;
+   for (LoadPattern &pattern : other.patterns) { pattern.q = turned(pattern.q, 0.7); }
+   ContactState state = ContactState::virgin(problem), image = state;
+   ASSERT_EQ(march(problem, press_then_twist(1.2, 1), state).status, FrictionStatus::converged);
+   ASSERT_EQ(march(other, press_then_twist(1.2, 1), image).status, FrictionStatus::converged);
+   EXPECT_GT(state.v.cwiseAbs().maxCoeff(), 0.1);
+   EXPECT_LT((turned(state.v, 0.7) - image.v).cwiseAbs().maxCoeff(), 1e-11);
+   EXPECT_LT((turned(state.q, 0.7) - image.q).cwiseAbs().maxCoeff(), 1e-11);
+   EXPECT_EQ(state.status, image.status);
+}
+
+TEST(FrictionDisc, OppositeTorqueMirrorsToTheLastBit)
+{
+   std::mt19937 random(6);
+   const int n = 20;
+   const ReducedProblem problem = with_separate_twist(n, 0.5, 0.15, random);
+   ContactState state = ContactState::virgin(problem), image = state;
+   MarchReport reports[2];
+   reports[0] = march(problem, press_then_twist(0.9, 2), state);
+   reports[1] = march(problem, press_then_twist(-0.9, 2), image);
+   ASSERT_EQ(reports[0].status, FrictionStatus::converged);
+   EXPECT_GT(state.v.tail(n).cwiseAbs().maxCoeff(), 0.01);
+   EXPECT_EQ(state.v.head(n), image.v.head(n));
+   EXPECT_EQ(state.v.tail(n), -image.v.tail(n));
+   EXPECT_EQ(state.q.head(n), image.q.head(n));
+   EXPECT_EQ(state.q.tail(n), -image.q.tail(n));
+   EXPECT_EQ(state.w, image.w);
+   EXPECT_EQ(state.p, image.p);
+   EXPECT_EQ(state.status, image.status);
+   EXPECT_EQ(state.dissipation, image.dissipation);
+   EXPECT_EQ(reports[0].counters.newton_steps, reports[1].counters.newton_steps);
+}
+
+TEST(FrictionDisc, UnitsDoNotMatter)
+{
+   std::mt19937 random(7);
+   const ReducedProblem problem = random_disc_problem(18, 0.5, 0.12, random);
+   ContactState state = ContactState::virgin(problem);
+   const MarchReport report = march(problem, press_then_twist(0.9, 1), state);
+   ASSERT_EQ(report.status, FrictionStatus::converged);
+   for (double force : {1e-9, 1e9})
+   {
+      for (double length : {1e-9, 1e9})
+      {
+         ReducedProblem other = problem;
+         other.A *= force / length;
+         other.B *= force / length;
+         other.C *= force / length;
+         other.gap *= length;
+         for (LoadPattern &pattern : other.patterns)
+         {
+            pattern.q *= force;
+            pattern.p *= force;
+         }
+         other.H *= length / force;
+         ContactState scaled = ContactState::virgin(other);
+         const MarchReport same = march(other, press_then_twist(0.9, 1), scaled);
+         EXPECT_EQ(same.status, FrictionStatus::converged);
+         EXPECT_EQ(same.counters.newton_steps, report.counters.newton_steps);
+         EXPECT_EQ(same.counters.sweeps, report.counters.sweeps);
+         EXPECT_EQ(scaled.status, state.status);
+         EXPECT_LT((scaled.v / length - state.v).cwiseAbs().maxCoeff(), 1e-11);
+         EXPECT_LT((scaled.q / force - state.q).cwiseAbs().maxCoeff(), 1e-11);
+      }
+   }
+}
+
+TEST(FrictionDisc, SavedAndResumedToTheLastBit)
+{
+   std::mt19937 random(8);
+   const ReducedProblem problem = random_disc_problem(16, 0.4, 0.12, random);
+   const LoadHistory history = press_then_twist(0.8, 2);
+   ContactState whole = ContactState::virgin(problem), cut = whole;
+   ASSERT_EQ(march(problem, history, whole).status, FrictionStatus::converged);
+   ContactState kept;
+   march(problem, history, cut, {},
+         [&](const ContactState &state, const IncrementRecord &)
+         {
+            if (state.time <= 2.5) { kept = state; }
+         });
+   int slipping = 0;
+   for (NodeState s : kept.status) { slipping += s == NodeState::slip; }
+   EXPECT_GT(slipping, 0);
+   const std::string file = testing::TempDir() + "disc_state.json";
+   save(kept, file);
+   ContactState resumed = load_contact_state(file);
+   std::remove(file.c_str());
+   EXPECT_EQ(resumed.status, kept.status);
+   march(problem, history, resumed);
+   EXPECT_EQ(resumed.v, whole.v);
+   EXPECT_EQ(resumed.q, whole.q);
+   EXPECT_EQ(resumed.slip_origin, whole.slip_origin);
+   EXPECT_EQ(resumed.dissipation, whole.dissipation);
+}
+
+TEST(FrictionDisc, StepsConvergeAtFirstOrderAndEnergyBalances)
+{
+   // Shear first, so that the torque has slip to turn. Each node that changes its state
+   // disturbs the error of one problem: that of ten together is of first order.
+   const LoadHistory history =
+      LoadHistory::through({Vector3d(0, 0, 0), Vector3d(1, 0.6, 0), Vector3d(1, 0.6, 1.1)});
+   const int steps[] = {40, 80, 160, 320, 5120};
+   double error[4] = {0, 0, 0, 0};
+   for (unsigned seed = 0; seed < 10; ++seed)
+   {
+      std::mt19937 random(seed);
+      ReducedProblem problem = with_separate_twist(10, 0.5, 0.12, random);
+      problem.gap.setZero();
+      VectorXd slip[5];
+      for (int k = 0; k < 5; ++k)
+      {
+         ContactState state = ContactState::virgin(problem);
+         MarchSettings settings;
+         settings.increments = steps[k];
+         const MarchReport report = march(problem, history, state, settings);
+         ASSERT_EQ(report.status, FrictionStatus::converged);
+         EXPECT_LT(std::abs(report.energy_imbalance), 1e-12);
+         EXPECT_LE(report.largest_residual, 1e-12);
+         EXPECT_GT(state.dissipation, 0);
+         slip[k] = state.v;
+      }
+      for (int k = 0; k < 4; ++k) { error[k] += (slip[k] - slip[4]).norm(); }
+   }
+   for (int k = 0; k < 3; ++k) { EXPECT_NEAR(error[k] / error[k + 1], 2, 0.3) << k; }
+   EXPECT_GT(error[3], 1e-5); // of slip: not round-off
+}
+
+TEST(FrictionDisc, ProportionalLoadingIsExactInOneIncrement)
+{
+   std::mt19937 random(10);
+   ReducedProblem problem = random_disc_problem(17, 0.5, 0.12, random);
+   problem.gap.setZero();
+   const LoadHistory history = LoadHistory::through({Vector3d(0, 0, 0), Vector3d(1, 0.5, 0.8)});
+   MarchSettings cut;
+   cut.single_increment_if_exact = false;
+   cut.increments = 13;
+   ContactState one = ContactState::virgin(problem), many = one;
+   const MarchReport report = march(problem, history, one);
+   march(problem, history, many, cut);
+   EXPECT_EQ(report.increments.size(), 1u);
+   EXPECT_GT(report.increments[0].slip, 0);
+   EXPECT_LT((one.v - many.v).cwiseAbs().maxCoeff(), 1e-11);
+   EXPECT_NEAR(one.dissipation, many.dissipation, 1e-11);
+   // A torque added to a held pressure is not proportional.
+   const LoadHistory torque =
+      LoadHistory::through({Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(1, 0, 0.5)});
+   one = ContactState::virgin(problem);
+   EXPECT_EQ(march(problem, torque, one).increments.size(), 21u);
+}
+
+TEST(FrictionDisc, WithoutFrictionThereAreNoTangentialUnknowns)
+{
+   std::mt19937 random(11);
+   const int n = 13;
+   const ReducedProblem problem = random_disc_problem(n, 0.0, 0.12, random);
+   ContactState state = ContactState::virgin(problem);
+   FrictionSolver solver(problem);
+   ASSERT_EQ(march(solver, press_then_twist(0.5, 1), state).status, FrictionStatus::converged);
+   EXPECT_EQ(solver.counters().tangential_unknowns, 0);
+   const VectorXd f = problem.clamped_forces(state.multipliers);
+   EXPECT_LT((problem.A * state.v + problem.B.transpose() * state.w + f.head(2 * n))
+                .cwiseAbs()
+                .maxCoeff(),
+             1e-12);
+   EXPECT_EQ(state.dissipation, 0);
+}
+
+TEST(FrictionDisc, RefusesWhatNeedsThePlane)
+{
+   std::mt19937 random(12);
+   FrictionSettings settings;
+   settings.method = FrictionMethod::lemke;
+   EXPECT_THROW(FrictionSolver(random_disc_problem(4, 0.5, 0, random), settings), InputError);
+}
+
+/// A disc on a foundation of springs, free to rotate and to rise: circumferential springs only
+/// resist motion relative to a rigid rotation v_θ = r φ, normal ones relative to a rise.
+ReducedProblem free_disc(int n, double friction, double coupling)
+{
+   ReducedProblem problem;
+   const VectorXd r = VectorXd::LinSpaced(n, 0.2, 1.0), one = VectorXd::Ones(n);
+   const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(n, n);
+   problem.A = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+   problem.A.topLeftCorner(n, n) = 2 * I;
+   problem.A.bottomRightCorner(n, n) = I - r * r.transpose() / r.squaredNorm();
+   problem.C = I - one * one.transpose() / n;
+   problem.B = Eigen::MatrixXd::Zero(n, 2 * n);
+   // A rise moves nothing else: rows of B that add up to zero.
+   for (int i = 0; i + 1 < n; ++i)
+   {
+      problem.B(i, i) += coupling;
+      problem.B(i + 1, i) -= coupling;
+   }
+   LoadPattern press{"press", Control::force, VectorXd::Zero(2 * n), VectorXd::Zero(n)};
+   press.p = one / n + 0.3 / n * (one - 2 * r);
+   press.p *= 1 / press.p.sum();
+   LoadPattern torque{"torque", Control::force, VectorXd::Zero(2 * n), VectorXd::Zero(n)};
+   torque.q[2 * n - 1] = 1 / r[n - 1];
+   problem.patterns = {press, torque};
+   problem.H = Eigen::Matrix2d::Zero();
+   problem.gap = VectorXd::Zero(n);
+   problem.arc_length = r;
+   set_friction(problem, friction);
+   return problem;
+}
+
+TEST(FrictionDisc, SpinsAtTheFrictionTorque)
+{
+   const int n = 12;
+   const ReducedProblem problem = free_disc(n, 0.4, 0.0);
+   FrictionSolver solver(problem);
+   const LoadHistory history =
+      LoadHistory::through({Vector2d(0, 0), Vector2d(1, 0), Vector2d(1, -1)});
+   ContactState state = ContactState::virgin(problem);
+   const MarchReport report = march(solver, history, state);
+   EXPECT_EQ(report.status, FrictionStatus::gross_sliding);
+   EXPECT_NE(report.message.find("spins"), std::string::npos) << report.message;
+   // Uncoupled: the pressure is that of the press alone, whatever the torque.
+   ContactState pressed = ContactState::virgin(problem);
+   solver.solve(pressed, Vector2d(1, 0));
+   const double limit = 0.4 * problem.arc_length.dot(pressed.p);
+   EXPECT_NEAR(-report.event_multipliers[1], limit, 1e-8 * limit);
+   EXPECT_LE(-report.event_multipliers[1], limit * (1 + 1e-9));
+}
+
+TEST(FrictionDisc, SpinsBeyondTheGreatestTorqueOfACoupledContact)
+{
+   const ReducedProblem problem = free_disc(12, 0.4, 0.15);
+   FrictionSolver solver(problem);
+   ASSERT_FALSE(solver.uncoupled());
+   MarchSettings settings;
+   settings.increments = 60;
+   ContactState state = ContactState::virgin(problem);
+   const MarchReport report =
+      march(solver, LoadHistory::through({Vector2d(0, 0), Vector2d(1, 0), Vector2d(1, 1)}),
+            state, settings);
+   EXPECT_EQ(report.status, FrictionStatus::gross_sliding);
+   EXPECT_NE(report.message.find("spins"), std::string::npos) << report.message;
+   ReducedProblem smooth = problem;
+   set_friction(smooth, 0);
+   ContactState pressed = ContactState::virgin(smooth);
+   ASSERT_EQ(FrictionSolver(smooth).solve(pressed, Vector2d(1, 0)).status,
+             FrictionStatus::converged);
+   const double steady = 0.4 * problem.arc_length.dot(pressed.p);
+   std::printf("greatest torque over that of steady rotation: %.6f\n",
+               report.event_multipliers[1] / steady);
+   EXPECT_GE(report.event_multipliers[1], steady * (1 - 1e-6));
+}
+
+/// A rigid block on springs between its nodes only, free to move in the plane of contact.
+TEST(FrictionDisc, SlidesInTheDirectionOfTheLoad)
+{
+   const int n = 3;
+   const double f = 0.3;
+   ReducedProblem problem;
+   const Eigen::MatrixXd relative =
+      Eigen::MatrixXd::Identity(n, n) - Eigen::MatrixXd::Constant(n, n, 1.0 / n);
+   problem.A = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+   problem.A.topLeftCorner(n, n) = problem.A.bottomRightCorner(n, n) = relative;
+   problem.B = Eigen::MatrixXd::Zero(n, 2 * n);
+   problem.C = relative;
+   problem.patterns = {
+      {"press", Control::force, VectorXd::Zero(2 * n), VectorXd::Constant(n, 1.0 / n)}};
+   for (double angle : {0.0, 0.3, 0.9, 2.0, 4.5})
+   {
+      VectorXd q(2 * n);
+      q << VectorXd::Constant(n, std::cos(angle) / n),
+         VectorXd::Constant(n, std::sin(angle) / n);
+      problem.patterns.resize(1);
+      problem.patterns.push_back({"pull", Control::force, q, VectorXd::Zero(n)});
+      problem.H = Eigen::Matrix2d::Zero();
+      problem.gap = VectorXd::Zero(n);
+      set_friction(problem, f);
+      ContactState state = ContactState::virgin(problem);
+      const MarchReport report =
+         march(problem,
+               LoadHistory::through({Vector2d(0, 0), Vector2d(1, 0), Vector2d(1, 0.7)}), state);
+      EXPECT_EQ(report.status, FrictionStatus::gross_sliding) << angle;
+      EXPECT_NEAR(report.event_multipliers[1], f, 1e-8) << angle; // whatever the direction
+      const Eigen::MatrixXd Z = rigid_motions(problem);
+      auto pulled = [&](double force)
+      { return find_mechanism(problem, Z, problem.clamped_forces(Vector2d(1, force))); };
+      EXPECT_FALSE(pulled(f * (1 - 1e-4)).exists);
+      EXPECT_TRUE(pulled(f * (1 + 1e-4)).exists);
+      const VectorXd motion = pulled(1.1 * f).motion;
+      EXPECT_NEAR(motion[0] * std::sin(angle), motion[n] * std::cos(angle), 1e-4) << angle;
+   }
+}
+
+/// Files of a march with torsion: columns of their own, and every row complete.
+TEST(FrictionDisc, TablesHaveBothComponents)
+{
+   std::mt19937 random(13);
+   ReducedProblem problem = random_disc_problem(6, 0.5, 0.1, random);
+   problem.arc_length = VectorXd::LinSpaced(6, 0, 1);
+   problem.position = Eigen::MatrixXd::Zero(6, 2);
+   ContactState state = ContactState::virgin(problem);
+   HistoryTable table;
+   march(problem, press_then_twist(0.8, 1), state, {},
+         [&](const ContactState &now, const IncrementRecord &record)
+         { table.add(now, record); });
+   const std::string file = testing::TempDir() + "disc_table.csv";
+   auto check = [&](const std::string &column)
+   {
+      std::ifstream in(file);
+      std::string line;
+      std::getline(in, line);
+      EXPECT_NE(line.find(column), std::string::npos) << line;
+      const auto columns = std::count(line.begin(), line.end(), ',');
+      int rows = 0;
+      while (std::getline(in, line))
+      {
+         EXPECT_EQ(std::count(line.begin(), line.end(), ','), columns);
+         ++rows;
+      }
+      EXPECT_GT(rows, 5);
+      std::remove(file.c_str());
+   };
+   table.write(file, problem);
+   check(",stick,separation,slip,dissipation");
+   write_nodes(file, problem, {state});
+   check("q_radial,q_circumferential,slip_radial,slip_circumferential");
+}
+
+} // namespace
