@@ -955,7 +955,7 @@ int program(int argc, char *argv[])
       if (!records.empty()) { files["records.csv"] = correlate(records, design, setting); }
    }
    miniapp::write_json(document, json);
-   if (!plot.empty())
+   if (!plot.empty() && miniapp::writes())
    {
       std::error_code error;
       std::filesystem::create_directories(plot, error);
@@ -966,7 +966,7 @@ int program(int argc, char *argv[])
    }
    print_page(design, setting, judged);
    if (solve) { print_solution(solved, table); }
-   if (!plot.empty())
+   if (!plot.empty() && miniapp::writes())
    {
       require(miniapp::run_plot_script("fretting.py", {plot}), "the data are in ", plot,
               ", but the figures could not be drawn; this needs python3 with matplotlib.");

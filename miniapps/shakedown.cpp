@@ -128,6 +128,7 @@ double corner_opening(const ReducedProblem &problem, const Eigen::VectorXd &held
 void write_csv(const std::string &file, const std::vector<std::string> &header,
                const std::vector<Eigen::VectorXd> &columns)
 {
+   if (!miniapp::writes()) { return; }
    std::ofstream out(file);
    out.precision(10);
    for (std::size_t k = 0; k < header.size(); ++k) { out << (k ? "," : "") << header[k]; }
