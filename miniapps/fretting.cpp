@@ -966,7 +966,7 @@ int program(int argc, char *argv[])
    }
    print_page(design, setting, judged);
    if (solve) { print_solution(solved, table); }
-   if (!plot.empty() && miniapp::writes())
+   if (!plot.empty())
    {
       require(miniapp::run_plot_script("fretting.py", {plot}), "the data are in ", plot,
               ", but the figures could not be drawn; this needs python3 with matplotlib.");
