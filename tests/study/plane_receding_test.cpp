@@ -25,7 +25,7 @@ TEST(PlaneReceding, LoadingAndUnloadingMeetTheReferencesOnAHalfPlane)
       before = level["separation"];
       EXPECT_EQ(level["zones"].size(), 5u) << level;
    }
-   EXPECT_EQ(run.results["counters"]["lemke_pivots"], 0);
+   EXPECT_EQ(run.results["counters"]["pivots"], 0);
 }
 
 TEST(PlaneReceding, FiniteBlockOfTheThesis)

@@ -89,9 +89,11 @@ double ExactPath::way_to_event() const
 {
    const Index n = problem_.nodes();
    double way = 1;
+   // What is met at the very end, to round-off, is not an event of this piece: a node that
+   // comes back to its friction limit where the load turns has not slipped.
    auto meet = [&](double value, double rate)
    {
-      if (rate < 0) { way = std::min(way, std::max(value, 0.0) / -rate); }
+      if (value + rate < -noise_) { way = std::min(way, std::max(value, 0.0) / -rate); }
    };
    for (Index i = 0; i < n; ++i)
    {
@@ -105,7 +107,8 @@ double ExactPath::way_to_event() const
       case Choice::any: // on the boundary: the rates lead away from it
          break;
       case Choice::open:
-         meet(u_[n + i] + problem_.gap[i], u_rate_[n + i]);
+         meet(K_(n + i, n + i) * (u_[n + i] + problem_.gap[i]),
+              K_(n + i, n + i) * u_rate_[n + i]);
          break;
       case Choice::held:
          forward();
