@@ -170,6 +170,8 @@ TEST(ExactPath, LawsHoldOnEveryStretchOfRandomProblems)
       ASSERT_EQ(report.status, FrictionStatus::converged) << "problem " << k;
       EXPECT_EQ(report.fallbacks, 0) << report.fallback_reason;
       EXPECT_LT(std::abs(report.energy_imbalance), 1e-13);
+      EXPECT_LT(report.largest_residual, 1e-13);
+      EXPECT_GT(report.largest_residual, 0);
       double time = 0;
       for (const StateChange &change : report.changes)
       {

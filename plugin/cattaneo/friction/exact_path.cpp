@@ -169,6 +169,7 @@ bool ExactPath::advance(ContactState &state, double time, const VectorXd &multip
       uncorrected_ = 0;
       VectorXd correction;
       const VectorXd forces = problem_.clamped_forces(state.multipliers) + K_ * u_;
+      drift_ = peak > 0 ? (forces - F_).cwiseAbs().maxCoeff() / peak : 0.0;
       if (equations_.solve(forces, correction, F_)) { u_ += correction; }
    }
    reached_ = state.multipliers;
