@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cattaneo/friction/exact_path.hpp>
+#include <cattaneo/input_error.hpp>
 #include <cmath>
 
 namespace cattaneo
@@ -19,6 +20,8 @@ const int newton_steps = 30;
 ExactPath::ExactPath(const ReducedProblem &problem)
    : problem_(problem), K_(problem.stiffness()), equations_(K_, problem.friction)
 {
+   require(problem.components() == 1, "exact path: the reduced problem has ",
+           problem.components(), " tangential components a node, must have 1");
 }
 
 /// What the present gaps and forces leave each node to choose.

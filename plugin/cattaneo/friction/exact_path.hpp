@@ -29,7 +29,8 @@ struct StateChange
 class ExactPath
 {
 public:
-   /// A problem with friction, one tangential component a node; it must outlive the path.
+   /// A problem with friction, which must outlive the path. InputError unless it has one
+   /// tangential component a node: the disc of two has no straight sides.
    explicit ExactPath(const ReducedProblem &problem);
 
    /** Advances `state` along loads that change linearly to `multipliers` at `time`, as far as

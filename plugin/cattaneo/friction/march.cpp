@@ -2,6 +2,7 @@
 #include <cattaneo/input_error.hpp>
 #include <chrono>
 #include <cmath>
+#include <memory>
 
 namespace cattaneo
 {
