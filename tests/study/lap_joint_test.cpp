@@ -32,6 +32,16 @@ TEST(LapJoint, TensionMeetsTheReferences)
    expect_symmetric_and_balanced(run);
 }
 
+TEST(LapJoint, ExactPathMeetsTheReferences)
+{
+   const auto run = run_miniapp("lap_joint", "-march exact");
+   expect_references_met(run, 7);
+   expect_symmetric_and_balanced(run);
+   EXPECT_EQ(run.results["fallbacks"], 0);
+   EXPECT_GT(run.results["state_changes"].size(), 100u);
+   EXPECT_LT(run.results["work_error"].get<double>(), 1e-13);
+}
+
 TEST(LapJoint, CompressionMeetsTheReferences)
 {
    const auto run = run_miniapp("lap_joint", "-friction 0.5 -load -0.04");

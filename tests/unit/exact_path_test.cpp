@@ -170,6 +170,8 @@ TEST(ExactPath, LawsHoldOnEveryStretchOfRandomProblems)
       ASSERT_EQ(report.status, FrictionStatus::converged) << "problem " << k;
       EXPECT_EQ(report.fallbacks, 0) << report.fallback_reason;
       EXPECT_LT(std::abs(report.energy_imbalance), 1e-13);
+      EXPECT_LT(report.largest_residual, 1e-13);
+      EXPECT_GT(report.largest_residual, 0);
       double time = 0;
       for (const StateChange &change : report.changes)
       {
@@ -224,6 +226,42 @@ TEST(ExactPath, SteppingConvergesToItInFirstOrder)
          EXPECT_LT(errors[k], 3 * errors[0] * std::pow(0.1, k)) << "nodes " << n;
       }
    }
+}
+
+TEST(ExactPath, ReturnToTheLimitWhereTheLoadTurnsIsNotSlip)
+{
+   // Nodes that slip in the first loading and not back in unloading are at their limit again at
+   // the end of the second loading, and only there.
+   std::mt19937 random(37);
+   int back_at_limit = 0;
+   for (int k = 0; k < 20; ++k)
+   {
+      const ReducedProblem problem = random_problem(12, 0.5, 0.1, random);
+      LoadHistory history = LoadHistory::through(
+         {Vector2d(0, 0), Vector2d(1, 0), Vector2d(1, 0.7), Vector2d(1, 0)});
+      history.cycle_start = 1;
+      history.cycles = 4;
+      MarchSettings settings = exact_settings();
+      settings.stop_at_steady_state = false;
+      ContactState state = ContactState::virgin(problem), trough = state, first;
+      march(problem, history, state, settings,
+            [&](const ContactState &now, const IncrementRecord &record)
+            {
+               const double pieces = now.time - 1;
+               if (pieces == 1) { first = now; }
+               if (pieces > 0 && std::fmod(pieces, 2) == 0) { trough = now; }
+               if (std::fmod(pieces, 2) != 1 || record.cycle < 2) { return; }
+               for (int i = 0; i < 12; ++i)
+               {
+                  if (slips(now.status[i]))
+                  {
+                     EXPECT_GT(std::abs(now.v[i] - trough.v[i]), 1e-12) << "problem " << k;
+                  }
+                  else if (slips(first.status[i])) { ++back_at_limit; }
+               }
+            });
+   }
+   EXPECT_GT(back_at_limit, 20);
 }
 
 TEST(ExactPath, CutAtAnyEventGivesTheSameToRoundOff)

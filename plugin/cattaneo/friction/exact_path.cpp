@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cattaneo/friction/exact_path.hpp>
+#include <cattaneo/input_error.hpp>
 #include <cmath>
 
 namespace cattaneo
@@ -19,6 +20,8 @@ const int newton_steps = 30;
 ExactPath::ExactPath(const ReducedProblem &problem)
    : problem_(problem), K_(problem.stiffness()), equations_(K_, problem.friction)
 {
+   require(problem.components() == 1, "exact path: the reduced problem has ",
+           problem.components(), " tangential components a node, must have 1");
 }
 
 /// What the present gaps and forces leave each node to choose.
@@ -89,9 +92,11 @@ double ExactPath::way_to_event() const
 {
    const Index n = problem_.nodes();
    double way = 1;
+   // What is met at the very end, to round-off, is not an event of this piece: a node that
+   // comes back to its friction limit where the load turns has not slipped.
    auto meet = [&](double value, double rate)
    {
-      if (rate < 0) { way = std::min(way, std::max(value, 0.0) / -rate); }
+      if (value + rate < -noise_) { way = std::min(way, std::max(value, 0.0) / -rate); }
    };
    for (Index i = 0; i < n; ++i)
    {
@@ -105,7 +110,8 @@ double ExactPath::way_to_event() const
       case Choice::any: // on the boundary: the rates lead away from it
          break;
       case Choice::open:
-         meet(u_[n + i] + problem_.gap[i], u_rate_[n + i]);
+         meet(K_(n + i, n + i) * (u_[n + i] + problem_.gap[i]),
+              K_(n + i, n + i) * u_rate_[n + i]);
          break;
       case Choice::held:
          forward();
@@ -166,6 +172,7 @@ bool ExactPath::advance(ContactState &state, double time, const VectorXd &multip
       uncorrected_ = 0;
       VectorXd correction;
       const VectorXd forces = problem_.clamped_forces(state.multipliers) + K_ * u_;
+      drift_ = peak > 0 ? (forces - F_).cwiseAbs().maxCoeff() / peak : 0.0;
       if (equations_.solve(forces, correction, F_)) { u_ += correction; }
    }
    reached_ = state.multipliers;

@@ -29,7 +29,8 @@ struct StateChange
 class ExactPath
 {
 public:
-   /// A problem with friction, one tangential component a node; it must outlive the path.
+   /// A problem with friction, which must outlive the path. InputError unless it has one
+   /// tangential component a node: the disc of two has no straight sides.
    explicit ExactPath(const ReducedProblem &problem);
 
    /** Advances `state` along loads that change linearly to `multipliers` at `time`, as far as
@@ -40,6 +41,9 @@ public:
                 std::vector<StateChange> &changes);
 
    const std::string &failure() const { return failure_; }
+   /// Round-off that had gathered in the forces when it was last removed (at the end of a piece
+   /// and every few events), over the largest clamped force.
+   double drift() const { return drift_; }
    const Counters &counters() const { return counters_; }
 
 private:
@@ -56,6 +60,7 @@ private:
    Eigen::VectorXd reached_, target_;
    ComplementarityProblem rates_;
    double noise_ = 0; // forces below this are round-off
+   double drift_ = 0;
    int uncorrected_ = 0;
    std::string failure_;
    Counters counters_;

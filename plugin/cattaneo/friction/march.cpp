@@ -2,6 +2,7 @@
 #include <cattaneo/input_error.hpp>
 #include <chrono>
 #include <cmath>
+#include <memory>
 
 namespace cattaneo
 {
@@ -282,7 +283,8 @@ bool March::march_exactly(int piece)
       if (halted < patience && path_->advance(next, t1, history_.end(piece), report_.changes))
       {
          halted = next.time > state_.time ? 0 : halted + 1;
-         const IncrementReport reached = solver_.uniqueness(next.status);
+         IncrementReport reached = solver_.uniqueness(next.status);
+         reached.residual_normal = reached.residual_tangential = path_->drift();
          accept(std::move(next), piece, reached);
          continue;
       }

@@ -93,7 +93,8 @@ struct MarchReport
 using MarchObserver = std::function<void(const ContactState &, const IncrementRecord &)>;
 
 /** Marches the state along a load history. The state's own time says where it stands, so that a
-    march can be cut and resumed: the result is the same to the last bit. Stops early, with the
+    march can be cut and resumed: the result is the same to the last bit (Stepping::exact: to
+    round-off). Stops early, with the
     status in the report, when there is no equilibrium; the state is then the last one found. */
 MarchReport march(const ReducedProblem &problem, const LoadHistory &history,
                   ContactState &state, const MarchSettings &settings = {},
