@@ -1,9 +1,9 @@
 //  benchmark_ranks: condensation on several ranks, time, iterations and memory against dofs
 //
-//  A square block, quadratic elements, fixed at the top, with the contact nodes on a sixteenth of
-//  its lower side. Run it under --mpi with -np 1 and 2: on one rank the direct factor condenses,
-//  on several conjugate gradients with BoomerAMG, one solve a contact dof. -weak multiplies the
-//  dofs by the number of ranks.
+//  A square block, quadratic elements, fixed at the top, with the contact nodes on a sixteenth
+//  of its lower side. Run it under --mpi with -np 1 and 2: on one rank the direct factor
+//  condenses, on several conjugate gradients with BoomerAMG, one solve a contact dof. -weak
+//  multiplies the dofs by the number of ranks.
 //
 //     ./run --mpi benchmark_ranks -np 1
 //     ./run --mpi benchmark_ranks -np 2
@@ -51,14 +51,13 @@ int main(int argc, char *argv[])
             const double seconds = watch.seconds();
             rusage usage{};
             getrusage(RUSAGE_SELF, &usage);
-            const double memory =
-               body.ranks().max(static_cast<double>(usage.ru_maxrss) / 1024);
+            const double memory = body.ranks().max(static_cast<double>(usage.ru_maxrss) / 1024);
             const long columns_solved = 2 * line.size();
             const double iterations =
                static_cast<double>(condensed.counters.krylov_iterations) / columns_solved;
             const int dofs = body.dofs();
-            std::printf("%6d %9d %8ld %8.2f %15.4f %18.1f %10.0f\n", ranks, dofs, columns_solved,
-                        seconds, seconds / columns_solved, iterations, memory);
+            std::printf("%6d %9d %8ld %8.2f %15.4f %18.1f %10.0f\n", ranks, dofs,
+                        columns_solved, seconds, seconds / columns_solved, iterations, memory);
             std::cout << std::flush;
             list.push_back({{"ranks", ranks},
                             {"dofs", dofs},

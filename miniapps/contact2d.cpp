@@ -11,6 +11,7 @@
 
 #include "common/case_options.hpp"
 #include "common/contact_edges.hpp"
+#include "common/fields.hpp"
 #include "common/filled_corner.hpp"
 #include "common/statements.hpp"
 #include "common/study_output.hpp"
@@ -22,7 +23,6 @@
 #include <cattaneo/friction/zones.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/output/history.hpp>
-#include <cattaneo/output/paraview.hpp>
 #include <cattaneo/reduced/reduced_file.hpp>
 #include <cattaneo/whole_file.hpp>
 #include <cmath>
@@ -323,10 +323,7 @@ int main(int argc, char *argv[])
          if (json[0]) { require_writable(json); }
          if (save_file[0]) { require_writable(save_file); }
          if (csv[0]) { require_writable(prefix + "_nodes.csv"); }
-         if (paraview[0] && !std::filesystem::is_directory(folder))
-         {
-            require_writable(folder);
-         }
+         if (paraview[0]) { miniapp::check_folder(folder); }
          const bool all_frames = std::string(frames) == "all";
          std::vector<double> wanted =
             all_frames ? std::vector<double>() : miniapp::numbers("frames", frames);
@@ -416,21 +413,9 @@ int main(int argc, char *argv[])
 
          if (paraview[0])
          {
-            ContactLineFields contact_fields(problem, contact.chain, folder, "contact");
-            for (const ContactState &frame : recorded)
-            {
-               if (miniapp::writes()) { contact_fields.write(frame); }
-            }
-            for (std::size_t k = 0; k < sides.size(); ++k)
-            {
-               BodyFields fields(*sides[k].body, folder, "body" + std::to_string(k + 1));
-               for (const ContactState &frame : recorded)
-               {
-                  fields.write(reduction.displacement(static_cast<int>(k), frame.v, frame.w,
-                                                      frame.multipliers),
-                               frame.time);
-               }
-            }
+            std::vector<const ElasticBody *> bodies;
+            for (const Side &side : sides) { bodies.push_back(side.body.get()); }
+            miniapp::write_paraview(folder, reduction, bodies, recorded);
          }
          if (csv[0] && miniapp::writes())
          {

@@ -15,6 +15,7 @@
 //                lap_joint -bolts "-1.2 0 1.2" -lower-thickness 2 -load 0.1 -spacing 0.025
 
 #include "common/contact_edges.hpp"
+#include "common/fields.hpp"
 #include "common/lap_joint_scene.hpp"
 #include "common/study_output.hpp"
 
@@ -212,7 +213,11 @@ struct Study
    std::vector<VectorXd> tightening(const std::vector<int> &order, int width = 0,
                                     double pressure = 1);
 
+   std::string paraview; ///< folder for the frames of the first cycle; none if empty
+   int frames = 8;
+
    int single();
+   void write_frames(const std::vector<ContactState> &states);
    int sweep(const std::vector<double> &loads, const std::vector<double> &frictions,
              const std::vector<double> &widths);
    int row(const std::vector<std::vector<int>> &all);
@@ -317,6 +322,20 @@ void Study::draw(const Outcome &o, const miniapp::Panel &diagram)
    panels.insert(panels.end(), {profiles, zones, density});
 }
 
+/// Some states of the first cycle, evenly spaced, the first and the last among them.
+void Study::write_frames(const std::vector<ContactState> &states)
+{
+   std::vector<ContactState> shown;
+   const std::size_t last = states.size() - 1;
+   const auto count = std::min(static_cast<std::size_t>(frames), last);
+   for (std::size_t k = 0; k <= count; ++k) { shown.push_back(states[k * last / count]); }
+   counters -= joint.reduction.counters; // what the frames cost is added
+   miniapp::write_paraview(paraview, joint.reduction,
+                           {joint.bodies[0].get(), joint.bodies[1].get()}, shown);
+   counters += joint.reduction.counters;
+   std::cout << shown.size() << " frames of the first cycle in " << paraview << "\n";
+}
+
 /// One bolt: the thesis' study.
 int Study::single()
 {
@@ -328,6 +347,7 @@ int Study::single()
    auto observe = [&](const ContactState &state)
    {
       if (state.time < 1) { return; }
+      if (!paraview.empty() && state.time <= 3) { states.push_back(state); }
       const std::vector<Zone> all = zones(problem(), state);
       diagram.add(state.time, all, [&](double s) { return x(s); });
       nlohmann::ordered_json list = nlohmann::ordered_json::array();
@@ -340,6 +360,7 @@ int Study::single()
       evolution.push_back(
          {{"time", state.time}, {"load", state.multipliers[joint.remote()]}, {"zones", list}});
    };
+   std::vector<ContactState> states; // of the first cycle, for the frames
    const std::vector<VectorXd> points = tightening({0});
    const miniapp::Stopwatch watch;
    const Outcome o =
@@ -399,6 +420,7 @@ int Study::single()
    results["edges"] = miniapp::to_json(report);
    compare(o);
    draw(o, diagram);
+   if (!paraview.empty()) { write_frames(states); }
    return 0;
 }
 
@@ -555,7 +577,7 @@ int main(int argc, char *argv[])
          miniapp::LapJointOptions &options = study.options;
          options.spacing = 0.005;
          const char *bolts = "0", *tightening = "", *sweep_load = "", *sweep_friction = "",
-                    *sweep_width = "", *march_by = "advancing";
+                    *sweep_width = "", *march_by = "advancing", *paraview = "";
          bool touch = false, all_cycles = false;
          mfem::OptionsParser args(argc, argv);
          args.AddOption(&options.widths[0], "-width", "--width",
@@ -594,9 +616,17 @@ int main(int argc, char *argv[])
                         "Distance of the contact nodes, in t.");
          args.AddOption(&options.poisson, "-poisson", "--poisson",
                         "Poisson's ratio of both laps.");
+         args.AddOption(&paraview, "-paraview", "--paraview",
+                        "Folder for ParaView files of the first cycle (one bolt).");
+         args.AddOption(&study.frames, "-frames", "--frames",
+                        "Intervals between the frames of --paraview.");
          output.add_options(args);
          miniapp::parse(args);
 
+         require(study.frames >= 1, "option --frames is ", study.frames,
+                 ", must be at least 1");
+         study.paraview = paraview;
+         if (paraview[0]) { miniapp::check_folder(paraview); }
          require(study.friction > 0, "option --friction is ", study.friction,
                  ", must be positive");
          require(study.cycles >= 1, "option --cycles is ", study.cycles,
@@ -619,6 +649,8 @@ int main(int argc, char *argv[])
             if (std::find(all.begin(), all.end(), w) == all.end()) { all.push_back(w); }
          }
          const bool single = options.bolts.size() == 1;
+         require(single || !paraview[0],
+                 "option --paraview: frames are of one bolt, there are ", options.bolts.size());
          require(single || loads.empty(),
                  "option --sweep-load: sweeps are of one bolt, there are ",
                  options.bolts.size());

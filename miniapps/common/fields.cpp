@@ -1,0 +1,41 @@
+#include "common/fields.hpp"
+
+#include "common/miniapp.hpp"
+
+#include <cattaneo/output/paraview.hpp>
+#include <cattaneo/whole_file.hpp>
+#include <filesystem>
+
+namespace miniapp
+{
+
+using namespace cattaneo;
+
+void check_folder(const std::string &folder)
+{
+   if (!std::filesystem::is_directory(folder)) { require_writable(folder); }
+}
+
+void write_paraview(const std::string &folder, Reduction &reduction,
+                    const std::vector<const ElasticBody *> &bodies,
+                    const std::vector<ContactState> &states)
+{
+   ContactLineFields contact(reduction.problem, reduction.bodies[0].line.chain, folder,
+                             "contact");
+   for (const ContactState &state : states)
+   {
+      if (writes()) { contact.write(state); }
+   }
+   for (std::size_t k = 0; k < bodies.size(); ++k)
+   {
+      BodyFields fields(*bodies[k], folder, "body" + std::to_string(k + 1));
+      for (const ContactState &state : states)
+      {
+         fields.write(
+            reduction.displacement(static_cast<int>(k), state.v, state.w, state.multipliers),
+            state.time);
+      }
+   }
+}
+
+} // namespace miniapp
