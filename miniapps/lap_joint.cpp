@@ -344,6 +344,7 @@ int Study::single()
    miniapp::Panel diagram = miniapp::Panel::zones(
       "zones", "Zones in time (1: pinched, then T: 0 → Tmax → 0)", "load step", "x/t");
    nlohmann::ordered_json evolution = nlohmann::ordered_json::array();
+   std::vector<ContactState> states; // of the first cycle, for the frames
    auto observe = [&](const ContactState &state)
    {
       if (state.time < 1) { return; }
@@ -360,7 +361,6 @@ int Study::single()
       evolution.push_back(
          {{"time", state.time}, {"load", state.multipliers[joint.remote()]}, {"zones", list}});
    };
-   std::vector<ContactState> states; // of the first cycle, for the frames
    const std::vector<VectorXd> points = tightening({0});
    const miniapp::Stopwatch watch;
    const Outcome o =
