@@ -44,7 +44,7 @@ int main()
    }
    const miniapp::Stopwatch watch;
    double condensing = 0;
-   for (double b : {2, 3, 4, 5, 6, 7, 8})
+   for (double b : {3.0, 3.5, 4.0, 5.0, 6.0, 7.0, 8.0})
    {
       miniapp::DiscOptions options;
       options.disc_radius = b;
