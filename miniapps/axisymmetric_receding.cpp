@@ -531,9 +531,17 @@ int Study::turn(FrictionSolver &solver, Turning &now, Stop stop, double value,
       if (const int code = advance(solver, next, step, observe)) { return code; }
       if (stop == Stop::torque && next.torque > value)
       {
-         const double part = (value - now.torque) / (next.torque - now.torque);
-         next = now;
-         if (const int code = advance(solver, next, part * step, observe)) { return code; }
+         // The part of the step that meets the value: false position.
+         double low = 0, high = step, low_torque = now.torque, high_torque = next.torque;
+         while (std::abs(next.torque - value) > 1e-6 * limit)
+         {
+            const double by =
+               low + (high - low) * (value - low_torque) / (high_torque - low_torque);
+            next = now;
+            if (const int code = advance(solver, next, by, observe)) { return code; }
+            (next.torque < value ? low : high) = by;
+            (next.torque < value ? low_torque : high_torque) = next.torque;
+         }
          now = next;
          return 0;
       }
@@ -884,8 +892,13 @@ int main(int argc, char *argv[])
                      solving.seconds(), study.counters.increments, study.counters.newton_steps);
          if (!study.table.empty())
          {
-            study.table.note("The thesis has bilinear elements, no domain and no ν; its values "
-                             "were read off figures.");
+            study.table.note("The thesis names neither ν nor the extent of its half-space, and "
+                             "its values were read off figures.");
+         }
+         if (!torques.empty())
+         {
+            study.table.note("Its slip directions are those of the total slip; friction is "
+                             "opposed to the rate, tens of degrees away.");
          }
          if (!bonded.empty())
          {
