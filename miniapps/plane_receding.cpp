@@ -92,25 +92,6 @@ LoadHistory loading(const ReducedProblem &problem, int pattern)
    return LoadHistory::through({zero, full});
 }
 
-/// Levels of p/p0 from below 1 down to `lowest`: steps of 1/steps that shrink with the load,
-/// and all of `wanted`.
-std::vector<double> unloading_levels(int steps, double lowest, std::vector<double> wanted)
-{
-   double level = 1;
-   while (level > lowest)
-   {
-      level = std::max(lowest, level - std::min(1.0 / steps, 0.2 * level));
-      wanted.push_back(level);
-   }
-   std::sort(wanted.rbegin(), wanted.rend());
-   std::vector<double> levels;
-   for (double p : wanted)
-   {
-      if (p < 1 && (levels.empty() || levels.back() - p > 1e-9)) { levels.push_back(p); }
-   }
-   return levels;
-}
-
 double interpolate(const VectorXd &x, const VectorXd &y, double at)
 {
    Index k = 1;
@@ -285,7 +266,7 @@ int Study::unload(FrictionSolver &solver, ContactState &state, double overhang, 
    const VectorXd x = problem->arc_length;
    const VectorXd xi = x.array() - overhang;
    std::vector<VectorXd> loads{full.multipliers};
-   const std::vector<double> levels = unloading_levels(steps, lowest, wanted);
+   const std::vector<double> levels = miniapp::unloading_levels(steps, lowest, wanted);
    for (double level : levels) { loads.push_back(level * full.multipliers); }
 
    std::vector<PointHistory> histories;

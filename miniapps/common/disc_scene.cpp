@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cattaneo/elastic/graded_mesh.hpp>
+#include <cattaneo/friction/friction_solver.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 namespace miniapp
 {
@@ -83,7 +85,7 @@ Disc make_disc(const DiscOptions &options)
    {
       add_bodies(scene.torsion, Geometry::torsion);
       ElasticBody &twisting = *scene.torsion[0], &held = *scene.torsion[1];
-      const double a = *std::max_element(options.load_radii.begin(), options.load_radii.end());
+      const double a = options.load_radii.front();
       const BoundaryPart loaded({top}, 0, 0, a);
       switch (options.twist)
       {
@@ -108,6 +110,63 @@ Disc make_disc(const DiscOptions &options)
                                   condense(held, line_below(held)));
    }
    return scene;
+}
+
+CriticalLoad::CriticalLoad(DiscOptions options) : options_(std::move(options))
+{
+   const double b = options_.disc_radius, low = std::max(0.1 * b, b - 2.5);
+   // A cubic needs four patterns.
+   const int count = std::max(3, static_cast<int>(std::ceil((b - low) / 0.1)));
+   options_.load_radii.clear();
+   for (int k = 0; k <= count; ++k)
+   {
+      options_.load_radii.push_back(k == count ? b : low + (b - low) * k / count);
+   }
+   scene_ = make_disc(options_);
+   counters_ = scene_.reduction.counters;
+}
+
+double CriticalLoad::radius(double friction)
+{
+   ReducedProblem &problem = scene_.reduction.problem;
+   set_friction(problem, friction);
+   FrictionSolver solver(problem);
+   const std::vector<double> &grid = options_.load_radii;
+   const auto separates = [&](double a)
+   {
+      const int above = std::lower_bound(grid.begin(), grid.end(), a) - grid.begin();
+      const int first = std::clamp(above - 2, 0, static_cast<int>(grid.size()) - 4);
+      Eigen::VectorXd load = Eigen::VectorXd::Zero(problem.patterns.size());
+      for (int i = first; i < first + 4; ++i)
+      {
+         load[i] = 1;
+         for (int j = first; j < first + 4; ++j)
+         {
+            if (j != i) { load[i] *= (a - grid[j]) / (grid[i] - grid[j]); }
+         }
+      }
+      ContactState state = ContactState::virgin(problem);
+      if (!guess_.empty()) { state.status = guess_; }
+      const IncrementReport report = solver.solve(state, load); // self-similar: one increment
+      require(report.status == FrictionStatus::converged,
+              "critical load radius, f = ", friction, ", a = ", a, ": ", report.message);
+      guess_ = state.status;
+      return std::any_of(state.status.begin(), state.status.end(),
+                         [](NodeState status) { return !closed(status); });
+   };
+   double low = grid.front(), high = grid.back(), result = high;
+   if (!separates(low)) { result = std::numeric_limits<double>::quiet_NaN(); }
+   else if (!separates(high))
+   {
+      while (high - low > 1e-5)
+      {
+         const double middle = 0.5 * (low + high);
+         (separates(middle) ? low : high) = middle;
+      }
+      result = high;
+   }
+   counters_ += solver.counters();
+   return result;
 }
 
 } // namespace miniapp

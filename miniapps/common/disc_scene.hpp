@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cattaneo/condense/reduction.hpp>
+#include <cattaneo/friction/contact_state.hpp>
 #include <memory>
 #include <vector>
 
@@ -12,9 +13,9 @@ enum class Twist
 {
    none,    ///< nothing: torsion is not built
    top,     ///< u_θ = φ r on the whole top
-   loaded,  ///< the same on the top's nodes under the (largest) load only
+   loaded,  ///< the same on the top's nodes under the (first) load only
    rim,     ///< the same on the outer side
-   traction ///< t_θ proportional to r under the (largest) load; force control, unit torque
+   traction ///< t_θ proportional to r under the (first) load; force control, unit torque
 };
 
 /** The axisymmetric receding contact of thesis chapter 7: a disc 0 < r < b, 0 < z < t on a
@@ -50,5 +51,25 @@ struct Disc
 };
 
 Disc make_disc(const DiscOptions &options);
+
+/** Radius of the load above which no node of a disc separates, for any friction, on one
+   condensed pair. The clamped forces are smooth in the load's radius: those of a radius in
+   between are interpolated by a cubic through patterns 0.1 t apart. */
+class CriticalLoad
+{
+public:
+   /// Friction and the load radii of the options are not used.
+   explicit CriticalLoad(DiscOptions options);
+   /// Bisected to 1e-5; NaN if the disc stays closed under the smallest load (b - 2.5 t, but
+   /// not less than b/10), 0 … b else. InputError if an increment fails.
+   double radius(double friction);
+   const cattaneo::Counters &counters() const { return counters_; }
+
+private:
+   DiscOptions options_;
+   Disc scene_;
+   cattaneo::Counters counters_;
+   std::vector<cattaneo::NodeState> guess_; ///< of the last state: where the next search starts
+};
 
 } // namespace miniapp

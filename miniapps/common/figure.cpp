@@ -60,6 +60,12 @@ Panel Panel::zones(const std::string &name, const std::string &title,
    return {name, comments("zones", title, x_label, y_label), "time,state,from,to\n"};
 }
 
+Panel Panel::plan(const std::string &name, const std::string &title, const std::string &x_label,
+                  const std::string &y_label)
+{
+   return {name, comments("plan", title, x_label, y_label), "item,from,to\n"};
+}
+
 void Panel::add(const std::string &series, const VectorXd &x, const VectorXd &y,
                 const std::string &style)
 {
@@ -85,6 +91,20 @@ void Panel::add(double time, const std::vector<Zone> &zones,
                number(coordinate(zone.from.position)) + ',' +
                number(coordinate(zone.to.position)) + '\n';
    }
+}
+
+void Panel::add(const std::vector<Zone> &rings)
+{
+   for (const Zone &ring : rings)
+   {
+      rows_ += std::string(cattaneo::name(ring.state)) + ',' + number(ring.from.position) +
+               ',' + number(ring.to.position) + '\n';
+   }
+}
+
+void Panel::arrow(const std::string &kind, double radius, double angle)
+{
+   rows_ += kind + ',' + number(radius) + ',' + number(angle) + '\n';
 }
 
 void Panel::mark(double time, double coordinate)

@@ -13,8 +13,9 @@ namespace miniapp
 
 /** One panel of a figure, which is also one CSV file: comment lines that name it and its axes
     ("# kind: lines", "# title: …", "# x: …", "# y: …"), then a tidy table with one row a point
-    (series, style, x, y) or one row a zone (time, state, from, to). miniapps/plot/plot.py draws
-    any list of such files. */
+    (series, style, x, y), one row a zone (time, state, from, to), or one row a ring (its state,
+    from, to) or arrow (rate or total, radius, angle) of a plan. miniapps/plot/plot.py draws any
+    list of such files. */
 class Panel
 {
 public:
@@ -25,6 +26,10 @@ public:
    static Panel zones(const std::string &name, const std::string &title,
                       const std::string &x_label, const std::string &y_label);
 
+   /// A surface of revolution from above: rings in their states, arrows of slip.
+   static Panel plan(const std::string &name, const std::string &title,
+                     const std::string &x_label, const std::string &y_label);
+
    /// A curve; `style` is line, dashed (closed forms, comparisons), points, or thesis (the
    /// thesis' values, marked). Values that are not finite leave a gap.
    void add(const std::string &series, const Eigen::VectorXd &x, const Eigen::VectorXd &y,
@@ -34,6 +39,12 @@ public:
    /// The zones of one state at a time; `coordinate` maps arc length to what is shown.
    void add(double time, const std::vector<cattaneo::Zone> &zones,
             const std::function<double(double)> &coordinate);
+
+   /// Rings of a plan; positions are radii.
+   void add(const std::vector<cattaneo::Zone> &rings);
+   /// An arrow of a plan, shown all around: "rate" (of slip) or "total" (slip), at a radius, by
+   /// its angle from the radial direction, radians.
+   void arrow(const std::string &kind, double radius, double angle);
 
    /// A value of the thesis on a zone diagram.
    void mark(double time, double coordinate);

@@ -1,5 +1,6 @@
 #include "common/miniapp.hpp"
 
+#include <algorithm>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/whole_file.hpp>
 #include <cmath>
@@ -209,6 +210,23 @@ void add_exact_path(const cattaneo::MarchReport &report,
    results["state_changes"] = changes;
    results["fallbacks"] = report.fallbacks;
    results["fallback_reason"] = report.fallback_reason;
+}
+
+std::vector<double> unloading_levels(int steps, double lowest, std::vector<double> wanted)
+{
+   double level = 1;
+   while (level > lowest)
+   {
+      level = std::max(lowest, level - std::min(1.0 / steps, 0.2 * level));
+      wanted.push_back(level);
+   }
+   std::sort(wanted.rbegin(), wanted.rend());
+   std::vector<double> levels;
+   for (double p : wanted)
+   {
+      if (p < 1 && (levels.empty() || levels.back() - p > 1e-9)) { levels.push_back(p); }
+   }
+   return levels;
 }
 
 int exit_code(const cattaneo::MarchReport &report)

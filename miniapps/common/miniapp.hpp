@@ -49,6 +49,11 @@ extern const char *const stepping_help;
 void add_exact_path(const cattaneo::MarchReport &report,
                     const cattaneo::MarchSettings &settings, nlohmann::ordered_json &results);
 
+/// Levels of a load that is taken back, descending from below 1 to `lowest`: steps of 1/steps
+/// that shrink with the load, and all of `wanted`. None is a round-off away from another: the
+/// states of so small a step would be noise.
+std::vector<double> unloading_levels(int steps, double lowest, std::vector<double> wanted);
+
 /// Exit code of a march's outcome; prints where and why it ended early, or left its exact path.
 int exit_code(const cattaneo::MarchReport &report);
 

@@ -24,8 +24,9 @@ void StudyOutput::reduced(const cattaneo::ReducedProblem &problem, int dofs)
 {
    nodes_ = problem.nodes();
    dofs_ = dofs;
+   const Eigen::Index unknowns = (problem.components() + 1) * nodes_;
    seconds_ = watch_.seconds();
-   std::cout << "Condensed " << dofs << " dofs to " << 2 * nodes_ << " in " << seconds_ << " s"
+   std::cout << "Condensed " << dofs << " dofs to " << unknowns << " in " << seconds_ << " s"
              << std::endl;
    if (*save_ && writes()) { save(problem, save_); }
 }

@@ -5,17 +5,20 @@ usage: plot.py PANEL.csv [PANEL.csv ...] FILE.png     (also .pdf, .svg)
 
 A panel is a CSV file with comment lines that name it and its axes:
 
-    # kind: lines            or zones
+    # kind: lines            or zones, or plan
     # title: ...             # x: label    # y: label
     # limits x: lo,hi        an empty side is left to the data; also "limits y"
     # reversed: x            # scale: loglog
     series,style,x,y         lines; style: line, dashed, points or thesis
     time,state,from,to       zones; one row a zone, times in order
+    item,from,to             plan of a body of revolution: rings (state, radii) and arrows (rate or total, radius,
+                             angle from the radial direction)
 
 Colours are Okabe and Ito's, which the colour-blind can tell apart; lines differ in dashes and zones
 in hatching as well, so that a black-and-white print can be read.
 """
 import csv
+import math
 import sys
 from collections import OrderedDict
 
@@ -23,7 +26,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
-from matplotlib.patches import Patch, Polygon
+from matplotlib.patches import Annulus, Patch, Polygon
 
 COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000"]
 DASHES = ["-", (0, (6, 2)), (0, (2, 1.5)), (0, (7, 2, 1.5, 2)), (0, (1, 1)), (0, (9, 3)), "-"]
@@ -31,6 +34,7 @@ STATES = OrderedDict([
     ("stick", ("#F2F2F2", "")),
     ("forward slip", ("#E69F00", "////")),
     ("backward slip", ("#56B4E9", "\\\\\\\\")),
+    ("slip", ("#E69F00", "////")),
     ("separation", ("#FFFFFF", "....")),
 ])
 
@@ -121,6 +125,40 @@ def draw_zones(axes, rows):
                 frameon=False, handlelength=1.6, columnspacing=1.2)
 
 
+def draw_plan(axes, rows):
+    rings = [row for row in rows if row["item"] in STATES]
+    outer = max(value(row["to"]) for row in rings)
+    for row in rings:
+        lo, hi = value(row["from"]), value(row["to"])
+        colour, hatch = STATES[row["item"]]
+        for face, edge, pattern in ((colour, "black", None), ("none", "#00000033", hatch)):
+            axes.add_patch(Annulus((0, 0), hi, (hi - lo) * 0.9999, facecolor=face, edgecolor=edge, hatch=pattern,
+                                   linewidth=0.7))
+    handles = [Patch(facecolor=STATES[s][0], edgecolor="#00000066", hatch=STATES[s][1], label=s)
+               for s in STATES if any(row["item"] == s for row in rings)]
+    for kind, colour, spokes in (("rate", "black", range(0, 12)), ("total", "#0072B2", range(0, 12))):
+        arrows = [(value(row["from"]), value(row["to"])) for row in rows if row["item"] == kind]
+        if not arrows:
+            continue
+        # Four radii of the annulus, on twelve spokes; the two kinds on spokes of their own.
+        chosen = [arrows[round((len(arrows) - 1) * share)] for share in (0.1, 0.37, 0.63, 0.9)]
+        for spoke in spokes:
+            turn = (spoke + (0.5 if kind == "total" else 0)) * math.pi / 6
+            for radius, angle in chosen:
+                axes.annotate("", xytext=(radius * math.cos(turn), radius * math.sin(turn)),
+                              xy=(radius * math.cos(turn) + 0.09 * outer * math.cos(turn + angle),
+                                  radius * math.sin(turn) + 0.09 * outer * math.sin(turn + angle)),
+                              arrowprops={"arrowstyle": "->", "color": colour, "linewidth": 1.0, "shrinkA": 0,
+                                          "shrinkB": 0})
+        handles.append(plt.Line2D([], [], color=colour, marker=">", markersize=4,
+                                  label="rate of slip" if kind == "rate" else "total slip"))
+    axes.set_xlim(-1.05 * outer, 1.05 * outer)
+    axes.set_ylim(-1.05 * outer, 1.05 * outer)
+    axes.set_aspect("equal")
+    axes.legend(handles=handles, fontsize=8, ncol=3, loc="lower center", bbox_to_anchor=(0.5, 1.0), frameon=False,
+                handlelength=1.6, columnspacing=1.2)
+
+
 def main(arguments):
     if len(arguments) < 2:
         sys.exit(__doc__)
@@ -136,11 +174,13 @@ def main(arguments):
         kind = comments.get("kind", "")
         if kind == "zones":
             draw_zones(axes, data)
+        elif kind == "plan":
+            draw_plan(axes, data)
         elif kind == "lines":
             draw_lines(axes, data)
         else:
-            sys.exit(f"plot.py: {path}: there is no line '# kind: lines' or '# kind: zones'")
-        axes.set_title(comments.get("title", ""), pad=20 if kind == "zones" else 6)
+            sys.exit(f"plot.py: {path}: there is no line '# kind: lines', '# kind: zones' or '# kind: plan'")
+        axes.set_title(comments.get("title", ""), pad={"zones": 20, "plan": 34}.get(kind, 6))
         axes.set_xlabel(comments.get("x", ""))
         axes.set_ylabel(comments.get("y", ""))
         if comments.get("scale") == "loglog":

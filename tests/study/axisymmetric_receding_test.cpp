@@ -1,0 +1,153 @@
+#include "run_miniapp.hpp"
+
+#include <cmath>
+
+namespace
+{
+
+using cattaneo_test::expect_references_met;
+using Result = cattaneo_test::Run;
+using cattaneo_test::run_miniapp;
+
+double number(const nlohmann::json &j)
+{
+   return j.is_number() ? j.get<double>() : std::nan("");
+}
+
+Result run(const std::string &options)
+{
+   return run_miniapp("axisymmetric_receding", options);
+}
+
+TEST(AxisymmetricReceding, LoadedTwistedAndBondedDiscMeetsTheReferences)
+{
+   const auto result = run("-torque '0.3 0.5 0.7' -bonded '2.1 3.75 4.25 4.7'");
+   expect_references_met(result, 23);
+   EXPECT_EQ(result.results["status"], "converged");
+   EXPECT_GT(result.results["torque_max"], result.results["torque_limit"]);
+   // Coupling: d recedes as the torque grows, and slip eats the stick zone.
+   double d = result.results["separation"], c = result.results["stick"];
+   for (const auto &row : result.results["torsion"])
+   {
+      EXPECT_LT(number(row["separation"]), d);
+      EXPECT_LT(number(row["stick"]), c);
+      d = row["separation"];
+      c = row["stick"];
+   }
+}
+
+TEST(AxisymmetricReceding, UnloadingMeetsTheReferencesWhateverTheSteps)
+{
+   // 1 - 40/80 is not 0.5 to the last bit: that must not become a step of its own.
+   for (const char *steps : {"40", "80"})
+   {
+      const auto result = run(std::string("-unload '0.9 0.5 0.3' -steps ") + steps);
+      expect_references_met(result, 8);
+      double d = result.results["separation"];
+      for (const auto &row : result.results["unloading"])
+      {
+         EXPECT_EQ(row["zones"].size(), 5u) << row;
+         EXPECT_LT(number(row["separation"]), d);
+         d = row["separation"];
+      }
+   }
+}
+
+TEST(AxisymmetricReceding, WhatDoesNotTwistHasNoCircumferentialUnknowns)
+{
+   const std::string mesh = "-spacing 0.1 ";
+   const auto smooth = run(mesh + "-friction 0"), rough = run(mesh),
+              twisted = run(mesh + "-torque 0.5 -steps 10");
+   for (const Result *one : {&smooth, &rough, &twisted})
+   {
+      ASSERT_EQ(one->code, 0) << one->output;
+   }
+   const long nodes = rough.results["contact_nodes"];
+   auto count = [](const Result &one, const char *name)
+   { return one.results["counters"][name].get<long>(); };
+   EXPECT_EQ(count(smooth, "tangential_unknowns"), 0);
+   EXPECT_EQ(count(rough, "tangential_unknowns"), nodes);
+   EXPECT_EQ(count(twisted, "tangential_unknowns"), 2 * nodes);
+   for (const Result *one : {&smooth, &rough})
+   {
+      EXPECT_EQ(count(*one, "assemblies"), 2);
+      EXPECT_EQ(count(*one, "factorisations"), 2);
+   }
+   EXPECT_EQ(count(twisted, "assemblies"), 4);
+   EXPECT_EQ(count(twisted, "factorisations"), 4);
+}
+
+TEST(AxisymmetricReceding, MapsCondenseOncePerDisc)
+{
+   const auto result = run("-spacing 0.05 -map '0.5 1.5 2.5 3.5' -critical '3 5'");
+   ASSERT_EQ(result.code, 0) << result.output;
+   EXPECT_EQ(result.results["counters"]["factorisations"], 2 * 3);
+   EXPECT_EQ(result.results["map"].size(), 8u);
+   EXPECT_EQ(result.results["critical_load_radius"].size(), 6u);
+   expect_references_met(result, 10);
+}
+
+TEST(AxisymmetricReceding, CyclesBalanceTheirEnergy)
+{
+   for (const char *twist : {"top", "traction"})
+   {
+      const auto result =
+         run(std::string("-spacing 0.1 -steps 20 -cycles 3 -amplitude 0.6 -twist ") + twist);
+      ASSERT_EQ(result.code, 0) << result.output;
+      EXPECT_LT(std::abs(number(result.results["energy_imbalance"])), 1e-9) << twist;
+      ASSERT_EQ(result.results["cycles"].size(), 3u);
+      double d = result.results["separation"];
+      for (const auto &cycle : result.results["cycles"])
+      {
+         EXPECT_GT(number(cycle["dissipation"]), 0);
+         // Ratchetting: the contact shrinks from cycle to cycle.
+         EXPECT_LT(number(cycle["separation"][1]), d);
+         d = cycle["separation"][1];
+      }
+   }
+}
+
+TEST(AxisymmetricReceding, NoTorqueBeyondTheSpinningLimit)
+{
+   const auto result = run("-spacing 0.1 -steps 40 -twist traction -torque '0.5 1.1'");
+   EXPECT_EQ(result.code, 2) << result.output;
+   EXPECT_EQ(result.results["status"], "gross sliding");
+   EXPECT_EQ(result.results["torsion"].size(), 1u);
+   EXPECT_EQ(result.results["event_load"], 1);
+   EXPECT_NEAR(number(result.results["event_twist"]) / number(result.results["torque_limit"]),
+               1.0, 0.01);
+}
+
+TEST(AxisymmetricReceding, EveryWayOfTwistingMeetsTheSameLimit)
+{
+   for (const char *twist : {"top", "loaded", "rim"})
+   {
+      const auto result =
+         run(std::string("-spacing 0.1 -steps 20 -torque 0.5 -twist ") + twist);
+      ASSERT_EQ(result.code, 0) << result.output;
+      EXPECT_NEAR(number(result.results["torsion"][0]["torque"]), 0.5, 2e-6) << twist;
+      EXPECT_NEAR(number(result.results["torque_max"]) / number(result.results["torque_limit"]),
+                  1.0, 0.01)
+         << twist;
+   }
+   const auto turned = run("-spacing 0.1 -steps 20 -rotation '1 20'");
+   ASSERT_EQ(turned.code, 0) << turned.output;
+   EXPECT_EQ(turned.results["torsion"][1]["rotation"], 20);
+}
+
+TEST(AxisymmetricReceding, BadOptionsAreOneSentence)
+{
+   for (const char *options :
+        {"-torque 0.5 -rotation 1", "-friction -1", "-load-radius 6", "-twist sideways",
+         "-rotation 1 -twist traction", "-amplitude 2", "-unload 1.5", "-map 7",
+         "-friction 0 -torque 0.5", "-domain 3", "-steps 1"})
+   {
+      const auto result = run(options);
+      EXPECT_EQ(result.code, 1) << options;
+      const auto at = result.output.find("error: ");
+      ASSERT_NE(at, std::string::npos) << options;
+      EXPECT_EQ(result.output.find('\n', at), result.output.size() - 1) << result.output;
+   }
+}
+
+} // namespace
