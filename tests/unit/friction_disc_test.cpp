@@ -130,6 +130,42 @@ TEST(FrictionDisc, BothMethodsObeyTheLawOnRandomProblems)
    EXPECT_LT(double(steps) / solves, 8);
 }
 
+/// Few Newton steps without a sweep before them seldom reach the end of a large increment; the
+/// answer of the others, node by node, is reached in several steps of the load.
+TEST(FrictionDisc, AnIncrementOutOfReachIsReachedInStepsOfItsLoad)
+{
+   std::mt19937 random(14);
+   std::uniform_real_distribution<double> uniform(-1, 1);
+   FrictionSettings few;
+   few.sweeps = 0;
+   few.max_attempts = 1;
+   few.max_newton = 8;
+   int out_of_reach = 0;
+   for (int k = 0; k < 300; ++k)
+   {
+      const ReducedProblem problem =
+         random_disc_problem(3 + k % 30, 0.1 + 0.9 * k / 299.0, 0.25, random);
+      FrictionSolver solver(problem, few), usual(problem);
+      ContactState state = ContactState::virgin(problem);
+      for (int j = 0; j < 6; ++j)
+      {
+         const ContactState before = state;
+         const Vector3d loads(1 + 0.5 * uniform(random), uniform(random), uniform(random));
+         const long steps = solver.counters().newton_steps;
+         const IncrementReport report = solver.solve(state, loads);
+         ASSERT_EQ(report.status, FrictionStatus::converged)
+            << "problem " << k << ": " << report.message;
+         out_of_reach += solver.counters().newton_steps - steps > few.max_newton;
+         EXPECT_LT(violation(problem, state, before.v), 1e-10) << "problem " << k;
+         ContactState same = before;
+         ASSERT_EQ(usual.solve(same, loads).status, FrictionStatus::converged);
+         EXPECT_LT((state.v - same.v).cwiseAbs().maxCoeff(), 1e-9) << "problem " << k;
+         EXPECT_LT((state.w - same.w).cwiseAbs().maxCoeff(), 1e-9) << "problem " << k;
+      }
+   }
+   EXPECT_GT(out_of_reach, 100);
+}
+
 /// Press, then twist up and down; three patterns as in random_disc_problem.
 LoadHistory press_then_twist(double amplitude, int cycles)
 {

@@ -163,6 +163,39 @@ TEST(March, GrossSlidingIsReportedWithItsLoad)
 }
 
 /// A row of nodes with a parabolic gap: contact advances.
+/// Sweeps that are one too few for a whole increment are enough for shorter ones, which start
+/// nearer to their end.
+TEST(March, PassesAnIncrementThatStalls)
+{
+   std::mt19937 random(21);
+   for (int k = 0; k < 10; ++k)
+   {
+      const ReducedProblem problem = random_problem(15, 0.5, 0.15, random);
+      ContactState pressed = ContactState::virgin(problem);
+      MarchSettings settings;
+      settings.increments = 1;
+      settings.stepping = Stepping::fixed;
+      settings.friction.method = FrictionMethod::gauss_seidel;
+      const LoadHistory press = LoadHistory::through({Vector2d(0, 0), Vector2d(1, 0)}),
+                        shear = LoadHistory::through({Vector2d(1, 0), Vector2d(1, 0.6)});
+      ASSERT_EQ(march(problem, press, pressed, settings).status, FrictionStatus::converged);
+      pressed.time = 0;
+      ContactState whole = pressed, cut = pressed;
+      const MarchReport enough = march(problem, shear, whole, settings);
+      ASSERT_EQ(enough.status, FrictionStatus::converged);
+      EXPECT_EQ(enough.stalled, 0);
+      settings.friction.max_sweeps = enough.counters.sweeps - 1;
+      const MarchReport report = march(problem, shear, cut, settings);
+      EXPECT_EQ(report.status, FrictionStatus::converged) << report.message;
+      EXPECT_EQ(report.time, 1);
+      EXPECT_GT(report.stalled, 0);
+      EXPECT_EQ(report.counters.rejected_increments, report.stalled);
+      EXPECT_GT(report.increments.size(), 1u);
+      EXPECT_LE(report.largest_residual, 1e-12);
+      EXPECT_LT(std::abs(report.energy_imbalance), 1e-10);
+   }
+}
+
 TEST(March, AdvancingContactClosesALayerAtATime)
 {
    const int n = 41;

@@ -102,6 +102,7 @@ struct FrictionSolver::Implementation
    EliminatedNodes eliminated;
    std::unique_ptr<MatrixXd> motions; // rigid motions, found when first needed
    Mechanism mechanism;
+   std::unique_ptr<FrictionSolver> smooth; // disc: the contact without friction, likewise
 
    // One increment's working set.
    VectorXd f;    // forces with v = w = 0 at the new loads
@@ -163,6 +164,7 @@ struct FrictionSolver::Implementation
                       const VectorXd &multipliers);
    bool run_lemke(IncrementReport &report);
    bool run_path(IncrementReport &report, const ContactState &state);
+   bool run_loading(IncrementReport &report, const ContactState &state);
    bool polished(IncrementReport &report);
 };
 
@@ -717,7 +719,6 @@ bool FrictionSolver::Implementation::newton_disc(int steps)
    IncrementReport now;
    double best = std::numeric_limits<double>::infinity();
    int patience = 8;
-   update_states(); // finds the directions
    for (int k = 0; k < steps && patience > 0; ++k)
    {
       if (!solve_for_states()) { return false; }
@@ -736,7 +737,11 @@ bool FrictionSolver::Implementation::newton_disc(int steps)
 
 bool FrictionSolver::Implementation::newton(int steps)
 {
-   if (disc()) { return newton_disc(steps); }
+   if (disc())
+   {
+      update_states(); // finds the directions
+      return newton_disc(steps);
+   }
    std::set<std::vector<NodeState>> visited;
    for (int k = 0; k < steps; ++k)
    {
@@ -883,11 +888,59 @@ bool FrictionSolver::Implementation::polished(IncrementReport &report)
    return accepted(report);
 }
 
+/// Follows the solutions from the old loads to the new ones, in steps that Newton's method can
+/// take. Only the guess moves: slip counts from the start of the increment all the way, so that
+/// what is found is the answer of the whole increment. Extra pressure at the start, which fades
+/// on the way, holds the nodes that stand between two states (a contact that carries nothing
+/// yet): however short the step, they all change theirs in the first.
+bool FrictionSolver::Implementation::run_loading(IncrementReport &report,
+                                                 const ContactState &state)
+{
+   const VectorXd f_new = f;
+   for (double extra : {0.0, 0.01, 1.0})
+   {
+      u << state.v, state.w;
+      F << state.q, state.p;
+      status = state.status;
+      for (Index i = 0; i < n && extra > 0; ++i)
+      {
+         if (!closed(status[i])) { continue; }
+         F[m(i)] += extra * reference;
+         status[i] = NodeState::stick;
+      }
+      const VectorXd f_old = F - K * u;
+      double reached = 0, step = 0.5;
+      while (reached < 1 && step > 1e-4)
+      {
+         const VectorXd u_reached = u, F_reached = F;
+         const std::vector<NodeState> status_reached = status;
+         update_states(); // directions of the solution reached
+         const double next = std::min(1.0, reached + step);
+         f = next < 1 ? VectorXd((1 - next) * f_old + next * f_new) : f_new;
+         if (newton_disc(settings.max_newton))
+         {
+            reached = next;
+            step *= 2;
+            continue;
+         }
+         u = u_reached;
+         F = F_reached;
+         status = status_reached;
+         step *= 0.5;
+      }
+      if (reached < 1) { continue; }
+      residuals(report);
+      return true; // accepted by newton_disc
+   }
+   f = f_new;
+   F = f + K * u;
+   return false;
+}
+
 /// Follows the solutions from the old loads to the new ones, one node's state at a time.
 bool FrictionSolver::Implementation::run_path(IncrementReport &report,
                                               const ContactState &state)
 {
-   if (disc()) { return false; } // its states are not linear
    const Index N = K.rows();
    VectorXd stuck(N), forces(N), friction = problem.friction;
    stuck.tail(n) = -problem.gap;
@@ -962,13 +1015,16 @@ bool FrictionSolver::Implementation::run_automatic(IncrementReport &report,
          residuals(report);
          if (accepted(report)) { return true; }
       }
-      if (attempt == 1 && finds_mechanism(multipliers)) { return false; }
+      if (attempt == 1 && (spins(multipliers) || finds_mechanism(multipliers)))
+      {
+         return false;
+      }
       u = u_swept;
       status = status_swept;
       F = f + K * u;
       sweeps = std::max(4, 2 * sweeps);
    }
-   return run_path(report, state);
+   return disc() ? run_loading(report, state) : run_path(report, state);
 }
 
 /// True if no admissible contact forces can balance the loads: there is nothing to search for.
@@ -987,11 +1043,14 @@ bool FrictionSolver::Implementation::finds_mechanism(const VectorXd &multipliers
 bool FrictionSolver::Implementation::spins(const VectorXd &multipliers)
 {
    if (!disc()) { return false; }
-   ReducedProblem smooth = problem;
-   set_friction(smooth, 0);
-   FrictionSolver solver(smooth);
-   ContactState state = ContactState::virgin(smooth);
-   if (solver.solve(state, multipliers).status != FrictionStatus::converged) { return false; }
+   if (!smooth)
+   {
+      ReducedProblem without = problem;
+      set_friction(without, 0);
+      smooth = std::make_unique<FrictionSolver>(without);
+   }
+   ContactState state = ContactState::virgin(problem);
+   if (smooth->solve(state, multipliers).status != FrictionStatus::converged) { return false; }
    mechanism = find_spinning(problem, state.p, problem.clamped_forces(multipliers));
    return mechanism.exists;
 }

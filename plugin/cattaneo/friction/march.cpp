@@ -358,13 +358,16 @@ bool March::march_piece(int piece)
          next = state_;
          next.time = target;
          increment = solver_.solve(next, loads(piece, target));
-         if (!solved(increment))
+         const double step = target - state_.time;
+         // The loads next to one that the solver cannot finish are often no trouble.
+         const bool stalled = increment.status == FrictionStatus::stalled && step > smallest;
+         if (!solved(increment) && !stalled)
          {
             bisect_event(piece, target, increment);
             return false;
          }
-         const double step = target - state_.time;
-         if (exact || step <= smallest || !advances_too_far(next)) { break; }
+         if (!stalled && (exact || step <= smallest || !advances_too_far(next))) { break; }
+         report_.stalled += stalled;
          ++report_.counters.rejected_increments;
          state_.step = 0.5 * step;
          target = state_.time + state_.step;

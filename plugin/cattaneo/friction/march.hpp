@@ -79,8 +79,9 @@ struct MarchReport
    std::vector<StateChange> changes;
    int fallbacks = 0;           ///< increments taken because there was no exact path to follow
    std::string fallback_reason; ///< of the first of them
-   int steady_cycle = 0;        ///< first cycle of the steady state; 0: not reached
-   int steady_period = 0;       ///< 1 or 2
+   int stalled = 0;       ///< increments that the solver did not finish, passed by shorter ones
+   int steady_cycle = 0;  ///< first cycle of the steady state; 0: not reached
+   int steady_period = 0; ///< 1 or 2
    /// Energy balance of the march: external work - change of elastic energy - dissipation -
    /// normal work, over the largest of them. Round-off if all is well.
    double energy_imbalance = 0;
