@@ -11,8 +11,8 @@
 //  Sample runs:  axisymmetric_receding
 //                axisymmetric_receding -unload "0.9 0.5 0.3 0.1" -spacing 0.04
 //                axisymmetric_receding -torque "0.3 0.5 0.7" -spacing 0.04
-//                axisymmetric_receding -torque "0.5 1.1" -twist traction -spacing 0.1
-//                axisymmetric_receding -cycles 3 -amplitude 0.6 -spacing 0.1 -steps 40
+//                axisymmetric_receding -torque "0.5 0.9" -twist traction -spacing 0.05
+//                axisymmetric_receding -cycles 3 -amplitude 0.6 -spacing 0.05 -steps 40
 //                axisymmetric_receding -bonded "2.1 3.75 4.25 4.7" -map "0.5 1 2 3 4"
 //                axisymmetric_receding -critical "1 3 5" -spacing 0.05
 
