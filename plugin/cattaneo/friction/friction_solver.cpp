@@ -890,9 +890,11 @@ bool FrictionSolver::Implementation::polished(IncrementReport &report)
 
 /// Follows the solutions from the old loads to the new ones, in steps that Newton's method can
 /// take. Only the guess moves: slip counts from the start of the increment all the way, so that
-/// what is found is the answer of the whole increment. Extra pressure at the start, which fades
-/// on the way, holds the nodes that stand between two states (a contact that carries nothing
-/// yet): however short the step, they all change theirs in the first.
+/// what is found is the answer of the whole increment. Where a step fails, sweeps find the
+/// direction in which a node begins to slip: no step is short enough to know it. Extra pressure
+/// at the start, which fades on the way, holds the nodes that stand between two states (a
+/// contact that carries nothing yet): however short the step, they all change theirs in the
+/// first.
 bool FrictionSolver::Implementation::run_loading(IncrementReport &report,
                                                  const ContactState &state)
 {
@@ -910,6 +912,7 @@ bool FrictionSolver::Implementation::run_loading(IncrementReport &report,
       }
       const VectorXd f_old = F - K * u;
       double reached = 0, step = 0.5;
+      bool failed = false;
       while (reached < 1 && step > 1e-4)
       {
          const VectorXd u_reached = u, F_reached = F;
@@ -917,7 +920,14 @@ bool FrictionSolver::Implementation::run_loading(IncrementReport &report,
          update_states(); // directions of the solution reached
          const double next = std::min(1.0, reached + step);
          f = next < 1 ? VectorXd((1 - next) * f_old + next * f_new) : f_new;
-         if (newton_disc(settings.max_newton))
+         if (failed)
+         {
+            F = f + K * u;
+            for (int k = 0; k < std::max(4, 2 * settings.sweeps); ++k) { sweep(); }
+            update_states();
+         }
+         failed = !newton_disc(settings.max_newton);
+         if (!failed)
          {
             reached = next;
             step *= 2;
