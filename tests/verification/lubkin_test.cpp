@@ -1,6 +1,8 @@
 // Torsion of two equal spheres (Lubkin 1951): a contact of Hertz' pressure in which an annulus
 // slips circumferentially. The reduced problem is made here from the half-space's kernel.
 
+#include <cattaneo/condense/reduction.hpp>
+#include <cattaneo/elastic/graded_mesh.hpp>
 #include <cattaneo/friction/march.hpp>
 #include <cattaneo/friction/zones.hpp>
 #include <cmath>
@@ -251,6 +253,66 @@ TEST(Lubkin, SpinsAtThreeSixteenthsOfPi)
    EXPECT_NEAR(-spheres.arm.dot(state.q.tail(n)), limit, 1e-12);
    EXPECT_EQ(going.increments.back().slip, n);
    EXPECT_LT(std::abs(going.energy_imbalance), 1e-12);
+}
+
+/// The same by finite elements: two bodies that meet in r < 1 with a gap r²/(2 R), pressed to a
+/// contact of radius 0.7 and turned against each other at their far ends.
+TEST(Lubkin, FiniteElements)
+{
+   const double f = 0.3, a = 0.7, far = 1000, sphere = 5, poisson = 0.3, h = 1.0 / 32;
+   const int bottom = 1, side = 2, top = 3;
+   std::vector<double> contact;
+   for (int i = 0; i <= 32; ++i) { contact.push_back(i * h); }
+   const std::vector<double> r = joined({contact, graded(1, far, h, 1.25)}),
+                             up = graded(0, far, h, 1.25);
+   std::vector<double> down;
+   for (auto z = up.rbegin(); z != up.rend(); ++z) { down.push_back(-*z); }
+   mfem::Mesh upper_mesh = rectangle_mesh(r, up), lower_mesh = rectangle_mesh(r, down);
+   const BoundaryPart upper_far({side, top}), lower_far({bottom, side}),
+      above({bottom}, 0, 0, 1), below({top}, 0, 0, 1);
+   const Material material{1.0, poisson};
+   ElasticBody upper(upper_mesh, 2, material, Geometry::axisymmetric),
+      lower(lower_mesh, 2, material, Geometry::axisymmetric),
+      turned(upper_mesh, 2, material, Geometry::torsion),
+      held(lower_mesh, 2, material, Geometry::torsion);
+   upper.fix(upper_far, 0);
+   upper.add_displacement("approach", upper_far, 1, -1.0);
+   lower.fix(lower_far, 0);
+   lower.fix(lower_far, 1);
+   turned.add_displacement("twist", upper_far, 0, 1.0);
+   held.fix(lower_far, 0);
+   const ContactLine one = contact_line(upper, above), other = contact_line(lower, below);
+   Reduction reduction =
+      reduce(condense(upper, one), condense(lower, other), pair_lines(one, other));
+   reduction.add_torsion(condense(turned, contact_line(turned, above)),
+                         condense(held, contact_line(held, below)));
+   ReducedProblem &problem = reduction.problem;
+   const Index n = problem.nodes();
+   const VectorXd radius = problem.position.col(0);
+   problem.gap = radius.cwiseAbs2() / (2 * sphere);
+   set_friction(problem, f);
+   FrictionSolver solver(problem);
+   const double approach = a * a / sphere, G = 0.5 / (1 + poisson);
+   ContactState pressed = ContactState::virgin(problem);
+   ASSERT_EQ(solver.solve(pressed, Vector2d(approach, 0)).status, FrictionStatus::converged);
+   const double load = pressed.p.sum();
+   EXPECT_NEAR(load, 4.0 / 3 * 0.5 / (1 - poisson * poisson) * a * a * a / sphere, 4e-4 * load);
+   EXPECT_LT(pressed.q.cwiseAbs().maxCoeff(), 1e-9 * load); // equal bodies: B = 0
+   for (double c : {0.9, 0.7, 0.5, 0.3})
+   {
+      ContactState state = pressed;
+      const double rotation = f * load / (G * a * a) * lubkin_rotation(1, c);
+      ASSERT_EQ(solver.solve(state, Vector2d(approach, rotation)).status,
+                FrictionStatus::converged);
+      const double torque = -radius.dot(state.q.tail(n)) / (load * a);
+      const Zone stick = widest_zone(problem, state, NodeState::stick);
+      const double found = (radius[0] + stick.to.position - problem.arc_length[0]) / a;
+      std::printf("c = %.1f: stick radius %+.2e, torque %+.2e\n", c, found - c,
+                  torque / lubkin_torque(f, c) - 1);
+      EXPECT_NEAR(found, c, 0.1 * 0.5 * h / a);
+      EXPECT_NEAR(torque, lubkin_torque(f, c), 1e-3 * torque);
+      EXPECT_LT((state.p - pressed.p).cwiseAbs().maxCoeff(), 1e-9 * load); // d stays
+   }
 }
 
 } // namespace
