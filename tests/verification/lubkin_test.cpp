@@ -259,7 +259,7 @@ TEST(Lubkin, SpinsAtThreeSixteenthsOfPi)
 /// contact of radius 0.7 and turned against each other at their far ends.
 TEST(Lubkin, FiniteElements)
 {
-   const double f = 0.3, a = 0.7, far = 1000, sphere = 5, poisson = 0.3, h = 1.0 / 32;
+   const double f = 0.3, a = 0.7, far = 1e4, sphere = 5, poisson = 0.3, h = 1.0 / 32;
    const int bottom = 1, side = 2, top = 3;
    std::vector<double> contact;
    for (int i = 0; i <= 32; ++i) { contact.push_back(i * h); }
@@ -309,8 +309,10 @@ TEST(Lubkin, FiniteElements)
       const double found = (radius[0] + stick.to.position - problem.arc_length[0]) / a;
       std::printf("c = %.1f: stick radius %+.2e, torque %+.2e\n", c, found - c,
                   torque / lubkin_torque(f, c) - 1);
-      EXPECT_NEAR(found, c, 0.1 * 0.5 * h / a);
-      EXPECT_NEAR(torque, lubkin_torque(f, c), 1e-3 * torque);
+      // Edges are right to a tenth of the spacing, and the torque to as much of the radius.
+      const double read_out = 0.1 * 0.5 * h / a;
+      EXPECT_NEAR(found, c, read_out);
+      EXPECT_NEAR(torque, lubkin_torque(f, c), read_out * torque);
       EXPECT_LT((state.p - pressed.p).cwiseAbs().maxCoeff(), 1e-9 * load); // d stays
    }
 }
