@@ -65,7 +65,8 @@ build_mpi_mfem()
    cmake -S "$source" -B "$courier/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX="$MFEM_DIR.part" \
       -DMFEM_USE_MPI=ON -DMFEM_USE_METIS=ON -DMFEM_USE_METIS_5=ON -DMFEM_USE_SUITESPARSE=ON -DMFEM_USE_EXCEPTIONS=ON \
       -DMFEM_ENABLE_EXAMPLES=OFF -DMFEM_ENABLE_MINIAPPS=OFF -DMFEM_ENABLE_TESTING=OFF \
-      -DHYPRE_DIR=/usr -DHYPRE_INCLUDE_DIRS=/usr/include/hypre -DMETIS_DIR=/usr -DSuiteSparse_DIR=/usr \
+      -DHYPRE_DIR=/usr -DHYPRE_INCLUDE_DIRS=/usr/include/hypre \
+      -DHYPRE_LIBRARIES="$(g++ -print-file-name=libHYPRE.so)" -DMETIS_DIR=/usr -DSuiteSparse_DIR=/usr \
       $(launcher) >"$log" 2>&1 || { cat "$log" >&2; die "MFEM could not be configured"; }
    ninja -C "$courier/build" install >&2 || die "MFEM could not be built"
    # The package files name the prefix they were made for.

@@ -177,9 +177,11 @@ std::vector<int> boundary_elements(const mfem::Mesh &mesh, const BoundaryPart &p
       {
          continue;
       }
-      int face = 0, orientation = 0;
-      mesh.GetBdrElementFace(i, &face, &orientation);
-      require(!mesh.FaceIsInterior(face), where, ": boundary element ", i, " (attribute ",
+      int element = 0, info = 0;
+      mesh.GetBdrElementAdjacentElement(i, element, info);
+      mfem::Array<int> edges, orientations;
+      mesh.GetElementEdges(element, edges, orientations);
+      require(!mesh.FaceIsInterior(edges[info / 64]), where, ": boundary element ", i, " (attribute ",
               attribute, ") lies between two elements, must be on the outer boundary");
       elements.push_back(i);
    }
