@@ -181,8 +181,9 @@ std::vector<int> boundary_elements(const mfem::Mesh &mesh, const BoundaryPart &p
       mesh.GetBdrElementAdjacentElement(i, element, info);
       mfem::Array<int> edges, orientations;
       mesh.GetElementEdges(element, edges, orientations);
-      require(!mesh.FaceIsInterior(edges[info / 64]), where, ": boundary element ", i, " (attribute ",
-              attribute, ") lies between two elements, must be on the outer boundary");
+      require(!mesh.FaceIsInterior(edges[info / 64]), where, ": boundary element ", i,
+              " (attribute ", attribute,
+              ") lies between two elements, must be on the outer boundary");
       elements.push_back(i);
    }
    return elements;
