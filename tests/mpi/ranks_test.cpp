@@ -85,13 +85,12 @@ TEST_P(OnRanks, GiveTheSameNumbers)
    }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-   Studies, OnRanks,
-   testing::Values(Study{"square_punch", "-order 1 -nodes 33"},
-                   Study{"square_punch", "-obstacle half-plane -nodes 33 -domain 50"},
-                   Study{"hertz", "-nodes 41 -domain 50"},
-                   Study{"lap_joint", "-spacing 0.05 -increments 8"},
-                   Study{"plane_receding", "-spacing 0.1"}, Study{"shakedown", "-nodes 33"}));
+INSTANTIATE_TEST_SUITE_P(Studies, OnRanks,
+                         testing::Values(Study{"square_punch", "-order 1 -nodes 33"},
+                                         Study{"square_punch",
+                                               "-obstacle half-plane -nodes 33 -domain 50"},
+                                         Study{"hertz", "-nodes 41 -domain 50"},
+                                         Study{"lap_joint", "-spacing 0.05 -increments 8"}));
 
 TEST(Ranks, AnErrorOnOneEndsAllWithOneMessage)
 {
