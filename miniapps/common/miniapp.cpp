@@ -238,6 +238,12 @@ int exit_code(const cattaneo::MarchReport &report)
                 << " increments where there is no exact path: " << report.fallback_reason
                 << std::endl;
    }
+   if (report.stalled > 0)
+   {
+      std::cout << "\n"
+                << report.stalled << " increments stalled and were passed by shorter ones"
+                << std::endl;
+   }
    if (report.status == cattaneo::FrictionStatus::converged) { return 0; }
    std::cout << "\nEnded with status '" << name(report.status) << "' at time "
              << report.event_time << ", load multipliers "

@@ -51,7 +51,7 @@ double sphere_fraction(int elements)
    settings.increments = 2 * elements;
    std::vector<double> fractions;
    ContactState state = ContactState::virgin(problem);
-   march(
+   const MarchReport report = march(
       problem, LoadHistory::through({VectorXd::Zero(1), VectorXd::Constant(1, 0.81 * toward)}),
       state, settings,
       [&](const ContactState &now, const IncrementRecord &)
@@ -60,6 +60,7 @@ double sphere_fraction(int elements)
          if (a < 0.5) { return; }
          fractions.push_back(radius(problem, widest_zone(problem, now, NodeState::stick)) / a);
       });
+   EXPECT_EQ(report.status, FrictionStatus::converged) << report.message;
    EXPECT_GT(fractions.size(), 10u);
    double mean = 0;
    for (double fraction : fractions) { mean += fraction / fractions.size(); }
