@@ -4,20 +4,14 @@
 namespace cattaneo
 {
 
-namespace
+const mfem::IntegrationRule &
+rule_of_revolution(const mfem::FiniteElement &element,
+                   const mfem::ElementTransformation &transformation, Geometry geometry)
 {
-
-/// Exact on straight triangles and on quads for any gradient of a shape function times r to the
-/// given power, and for the product of two of them on elements with parallel sides.
-const mfem::IntegrationRule &rule(const mfem::FiniteElement &element,
-                                  const mfem::ElementTransformation &transformation, int power)
-{
-   const int degree = transformation.Order();
+   const int power = geometry == Geometry::torsion ? 3 : 1;
    return mfem::IntRules.Get(element.GetGeomType(),
-                             2 * element.GetOrder() + (power + 1) * degree);
+                             2 * element.GetOrder() + (power + 1) * transformation.Order());
 }
-
-} // namespace
 
 void AxisymmetricElasticityIntegrator::AssembleElementMatrix(
    const mfem::FiniteElement &element, mfem::ElementTransformation &transformation,
@@ -29,7 +23,8 @@ void AxisymmetricElasticityIntegrator::AssembleElementMatrix(
    position_.SetSize(2);
    matrix.SetSize(2 * n);
    matrix = 0.0;
-   const mfem::IntegrationRule &points = rule(element, transformation, 1);
+   const mfem::IntegrationRule &points =
+      rule_of_revolution(element, transformation, Geometry::axisymmetric);
    for (int k = 0; k < points.GetNPoints(); ++k)
    {
       const mfem::IntegrationPoint &point = points.IntPoint(k);
@@ -84,7 +79,7 @@ void TorsionIntegrator::AssembleElementMatrix(const mfem::FiniteElement &element
                                               mfem::ElementTransformation &transformation,
                                               mfem::DenseMatrix &matrix)
 {
-   SetIntRule(&rule(element, transformation, 3));
+   SetIntRule(&rule_of_revolution(element, transformation, Geometry::torsion));
    mfem::DiffusionIntegrator::AssembleElementMatrix(element, transformation, matrix);
 }
 

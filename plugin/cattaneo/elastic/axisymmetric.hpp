@@ -1,10 +1,18 @@
 #pragma once
 
+#include <cattaneo/elastic/geometry.hpp>
 #include <memory>
 #include <mfem.hpp>
 
 namespace cattaneo
 {
+
+/// Exact on straight triangles and on quads for any gradient of a shape function times the
+/// radii of the operator (r, in torsion r³), and for the product of two of them on elements
+/// with parallel sides. Its points lie inside the element.
+const mfem::IntegrationRule &
+rule_of_revolution(const mfem::FiniteElement &element,
+                   const mfem::ElementTransformation &transformation, Geometry geometry);
 
 /** Isotropic elasticity of a body of revolution, x = r and y = z, unknowns (u_r, u_z):
 

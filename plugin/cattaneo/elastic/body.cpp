@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <cattaneo/elastic/axisymmetric.hpp>
+#include <cattaneo/elastic/assembly.hpp>
 #include <cattaneo/elastic/body.hpp>
 #include <cattaneo/elastic/boundary_edge.hpp>
 #include <cattaneo/input_error.hpp>
@@ -38,17 +38,6 @@ double value_at(const ScalarField &field, double x, double y, const std::string 
    require(std::isfinite(value), where, ": the value at (", x, ", ", y, ") is ", value,
            ", must be finite");
    return value;
-}
-
-std::unique_ptr<mfem::BilinearForm> new_form(mfem::FiniteElementSpace &space)
-{
-#ifdef MFEM_USE_MPI
-   if (auto *shared = dynamic_cast<mfem::ParFiniteElementSpace *>(&space))
-   {
-      return std::make_unique<mfem::ParBilinearForm>(shared);
-   }
-#endif
-   return std::make_unique<mfem::BilinearForm>(&space);
 }
 
 const char *name(Control control)
@@ -244,40 +233,17 @@ void ElasticBody::check_component(const std::string &where, int component) const
 
 void ElasticBody::assemble()
 {
-   mfem::Vector lambda(static_cast<int>(materials_.size())), mu(lambda.Size());
-   for (int k = 0; k < lambda.Size(); ++k)
-   {
-      lambda(k) = materials_[k].lambda();
-      mu(k) = materials_[k].mu();
-   }
-   mfem::PWConstCoefficient lambda_field(lambda), mu_field(mu);
-   std::unique_ptr<mfem::BilinearForm> made = new_form(*space_);
-   mfem::BilinearForm &form = *made;
-   mfem::BilinearFormIntegrator *integrator = nullptr;
-   switch (geometry_)
-   {
-   case Geometry::plane:
-      integrator = new mfem::ElasticityIntegrator(lambda_field, mu_field);
-      break;
-   case Geometry::axisymmetric:
-      integrator = new AxisymmetricElasticityIntegrator(lambda_field, mu_field);
-      break;
-   case Geometry::torsion:
-      integrator = new TorsionIntegrator(mu_field);
-      break;
-   }
-   form.AddDomainIntegrator(integrator);
-   form.Assemble(0);
-   form.Finalize(0);
+   std::unique_ptr<mfem::SparseMatrix> local =
+      assemble_stiffness(*space_, materials_, geometry_);
    ++counters_.assemblies;
 #ifdef MFEM_USE_MPI
    if (ranks_.several())
    {
-      distributed_.reset(dynamic_cast<mfem::ParBilinearForm &>(form).ParallelAssemble());
+      mfem::ParBilinearForm form(dynamic_cast<mfem::ParFiniteElementSpace *>(space_));
+      distributed_.reset(form.ParallelAssemble(local.get()));
       return;
    }
 #endif
-   std::unique_ptr<mfem::SparseMatrix> local(form.LoseMat());
    if (const mfem::SparseMatrix *P = space_->GetConformingProlongation())
    {
       local.reset(mfem::RAP(*P, *local, *P));

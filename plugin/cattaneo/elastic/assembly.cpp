@@ -1,0 +1,315 @@
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cattaneo/elastic/assembly.hpp>
+#include <cattaneo/elastic/axisymmetric.hpp>
+#include <limits>
+
+namespace cattaneo
+{
+
+namespace
+{
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Which nodes share an element: columns of node i are column[start[i] … start[i+1]), sorted.
+struct NodeGraph
+{
+   std::vector<int> start, column;
+
+   explicit NodeGraph(const mfem::FiniteElementSpace &space)
+   {
+      const int nodes = space.GetNDofs(), elements = space.GetNE();
+      std::vector<int> first(elements + 1, 0), list, of_node(nodes + 1, 0);
+      mfem::Array<int> dofs;
+      for (int e = 0; e < elements; ++e)
+      {
+         space.GetElementDofs(e, dofs);
+         list.insert(list.end(), dofs.begin(), dofs.end());
+         first[e + 1] = static_cast<int>(list.size());
+      }
+      for (int node : list) { ++of_node[node + 1]; }
+      for (int i = 0; i < nodes; ++i) { of_node[i + 1] += of_node[i]; }
+      std::vector<int> element(list.size()), next(of_node.begin(), of_node.end() - 1);
+      for (int e = 0; e < elements; ++e)
+      {
+         for (int k = first[e]; k < first[e + 1]; ++k) { element[next[list[k]]++] = e; }
+      }
+      start.assign(nodes + 1, 0);
+      std::vector<int> seen(nodes, -1);
+      for (int i = 0; i < nodes; ++i)
+      {
+         for (int k = of_node[i]; k < of_node[i + 1]; ++k)
+         {
+            for (int m = first[element[k]]; m < first[element[k] + 1]; ++m)
+            {
+               if (seen[list[m]] == i) { continue; }
+               seen[list[m]] = i;
+               column.push_back(list[m]);
+            }
+         }
+         start[i + 1] = static_cast<int>(column.size());
+         std::sort(column.begin() + start[i], column.end());
+      }
+   }
+};
+
+/// Shape functions of the space and of the element's geometry at the points of a rule, one
+/// column a point, and the integrals that affine elements share.
+struct ReferenceElement
+{
+   VectorXd weight;
+   MatrixXd shape, by_xi, by_eta;             // of the space
+   MatrixXd place, place_by_xi, place_by_eta; // of the geometry
+   MatrixXd xi_xi, xi_eta, eta_eta;           // ∫ ∂φi/∂ξ ∂φj/∂η …
+
+   ReferenceElement(const mfem::FiniteElement &element, const mfem::FiniteElement &geometry,
+                    const mfem::IntegrationRule &rule)
+      : weight(rule.GetNPoints())
+   {
+      tabulate(element, rule, shape, by_xi, by_eta);
+      tabulate(geometry, rule, place, place_by_xi, place_by_eta);
+      for (int k = 0; k < rule.GetNPoints(); ++k) { weight[k] = rule.IntPoint(k).weight; }
+      const MatrixXd xi = by_xi * weight.asDiagonal(), eta = by_eta * weight.asDiagonal();
+      xi_xi = xi * by_xi.transpose();
+      xi_eta = xi * by_eta.transpose();
+      eta_eta = eta * by_eta.transpose();
+   }
+
+private:
+   static void tabulate(const mfem::FiniteElement &element, const mfem::IntegrationRule &rule,
+                        MatrixXd &value, MatrixXd &by_x, MatrixXd &by_y)
+   {
+      const int n = element.GetDof(), points = rule.GetNPoints();
+      value.resize(n, points);
+      by_x.resize(n, points);
+      by_y.resize(n, points);
+      mfem::Vector shape(n);
+      mfem::DenseMatrix gradient(n, 2);
+      for (int k = 0; k < points; ++k)
+      {
+         element.CalcShape(rule.IntPoint(k), shape);
+         element.CalcDShape(rule.IntPoint(k), gradient);
+         for (int i = 0; i < n; ++i)
+         {
+            value(i, k) = shape(i);
+            by_x(i, k) = gradient(i, 0);
+            by_y(i, k) = gradient(i, 1);
+         }
+      }
+   }
+};
+
+const mfem::IntegrationRule &rule(const mfem::FiniteElement &element,
+                                  const mfem::IsoparametricTransformation &transformation,
+                                  Geometry geometry)
+{
+   if (geometry != Geometry::plane)
+   {
+      return rule_of_revolution(element, transformation, geometry);
+   }
+   return mfem::IntRules.Get(element.GetGeomType(), 2 * transformation.OrderGrad(&element));
+}
+
+/// Element matrices, nodes × nodes a block: block[c][d] is of component c of the row's node and
+/// d of the column's.
+class Elements
+{
+public:
+   MatrixXd block[2][2];
+
+   Elements(const mfem::FiniteElementSpace &space, const std::vector<Material> &materials,
+            Geometry geometry)
+      : space_(space), mesh_(*space.GetMesh()), materials_(materials), geometry_(geometry)
+   {
+   }
+
+   void compute(int e)
+   {
+      mesh_.GetElementTransformation(e, &transformation_);
+      const mfem::FiniteElement &element = *space_.GetFE(e);
+      auto &kept = references_[element.GetGeomType()];
+      if (!kept)
+      {
+         kept = std::make_unique<ReferenceElement>(element, *transformation_.GetFE(),
+                                                   rule(element, transformation_, geometry_));
+      }
+      const ReferenceElement &reference = *kept;
+      const mfem::DenseMatrix &points = transformation_.GetPointMat();
+      const Eigen::Map<const MatrixXd> corners(points.Data(), 2, points.Width());
+      by_xi_.noalias() = corners * reference.place_by_xi;
+      by_eta_.noalias() = corners * reference.place_by_eta;
+      const Material &material = materials_[mesh_.GetAttribute(e) - 1];
+      const double lambda = material.lambda(), mu = material.mu();
+      if (geometry_ == Geometry::plane && affine(corners)) { integrate_affine(reference); }
+      else { integrate(reference, corners); }
+
+      if (geometry_ == Geometry::torsion)
+      {
+         block[0][0] = mu * (xx_ + yy_);
+         mirror(block[0][0]);
+         return;
+      }
+      block[0][0] = (lambda + 2 * mu) * xx_ + mu * yy_;
+      block[1][1] = (lambda + 2 * mu) * yy_ + mu * xx_;
+      block[0][1] = lambda * xy_ + mu * xy_.transpose();
+      if (geometry_ == Geometry::axisymmetric)
+      {
+         block[0][0] += (lambda + 2 * mu) * hh_ + lambda * (xh_ + xh_.transpose());
+         block[0][1] += lambda * hy_;
+      }
+      mirror(block[0][0]);
+      mirror(block[1][1]);
+      block[1][0] = block[0][1].transpose();
+   }
+
+private:
+   const mfem::FiniteElementSpace &space_;
+   mfem::Mesh &mesh_;
+   const std::vector<Material> &materials_;
+   const Geometry geometry_;
+   std::array<std::unique_ptr<ReferenceElement>, mfem::Geometry::NUM_GEOMETRIES> references_;
+   mfem::IsoparametricTransformation transformation_;
+   MatrixXd by_xi_, by_eta_; // of x and y (rows) at the points (columns)
+   MatrixXd gx_, gy_, h_;    // ∂φ/∂x, ∂φ/∂y and φ/r
+   MatrixXd weighted_;
+   MatrixXd xx_, xy_, yy_, xh_, hy_, hh_; // integrals of their products, first by second
+
+   /// To the last bit, whatever the order of the sums.
+   static void mirror(MatrixXd &symmetric)
+   {
+      symmetric.triangularView<Eigen::StrictlyUpper>() = symmetric.transpose();
+   }
+
+   /// The mapping is linear to the round-off of the coordinates.
+   bool affine(const Eigen::Map<const MatrixXd> &corners) const
+   {
+      const double round_off =
+         8 * std::numeric_limits<double>::epsilon() * corners.cwiseAbs().maxCoeff();
+      for (Eigen::Index k = 1; k < by_xi_.cols(); ++k)
+      {
+         for (Eigen::Index c = 0; c < 2; ++c)
+         {
+            if (!(std::abs(by_xi_(c, k) - by_xi_(c, 0)) <= round_off) ||
+                !(std::abs(by_eta_(c, k) - by_eta_(c, 0)) <= round_off))
+            {
+               return false;
+            }
+         }
+      }
+      return true;
+   }
+
+   void integrate_affine(const ReferenceElement &reference)
+   {
+      const double a = by_xi_(0, 0), b = by_eta_(0, 0), c = by_xi_(1, 0), d = by_eta_(1, 0);
+      const double area = a * d - b * c;
+      // ∂/∂x = (d ∂/∂ξ - c ∂/∂η)/area, ∂/∂y = (a ∂/∂η - b ∂/∂ξ)/area.
+      const auto &xi = reference.xi_xi, &mixed = reference.xi_eta, &eta = reference.eta_eta;
+      xx_ = (d * d / area) * xi + (c * c / area) * eta -
+            (c * d / area) * (mixed + mixed.transpose());
+      yy_ = (b * b / area) * xi + (a * a / area) * eta -
+            (a * b / area) * (mixed + mixed.transpose());
+      xy_ = (a * d / area) * mixed + (b * c / area) * mixed.transpose() - (b * d / area) * xi -
+            (a * c / area) * eta;
+   }
+
+   void integrate(const ReferenceElement &reference, const Eigen::Map<const MatrixXd> &corners)
+   {
+      const Eigen::Index points = reference.weight.size();
+      gx_.resizeLike(reference.by_xi);
+      gy_.resizeLike(reference.by_xi);
+      VectorXd weight(points), radius;
+      if (geometry_ != Geometry::plane)
+      {
+         radius = (corners.row(0) * reference.place).transpose();
+         h_.resizeLike(reference.shape);
+      }
+      for (Eigen::Index k = 0; k < points; ++k)
+      {
+         const double a = by_xi_(0, k), b = by_eta_(0, k), c = by_xi_(1, k), d = by_eta_(1, k);
+         const double area = a * d - b * c;
+         gx_.col(k) =
+            (d / area) * reference.by_xi.col(k) - (c / area) * reference.by_eta.col(k);
+         gy_.col(k) =
+            (a / area) * reference.by_eta.col(k) - (b / area) * reference.by_xi.col(k);
+         weight[k] = reference.weight[k] * area;
+         if (geometry_ == Geometry::plane) { continue; }
+         const double r = radius[k], arm = lever(geometry_, r);
+         weight[k] *= measure(geometry_, r) * arm * arm;
+         h_.col(k) = reference.shape.col(k) / r;
+      }
+      weighted_.noalias() = gx_ * weight.asDiagonal();
+      xx_.noalias() = weighted_ * gx_.transpose();
+      if (geometry_ != Geometry::torsion) { xy_.noalias() = weighted_ * gy_.transpose(); }
+      if (geometry_ == Geometry::axisymmetric) { xh_.noalias() = weighted_ * h_.transpose(); }
+      weighted_.noalias() = gy_ * weight.asDiagonal();
+      yy_.noalias() = weighted_ * gy_.transpose();
+      if (geometry_ == Geometry::axisymmetric)
+      {
+         hy_.noalias() = h_ * weighted_.transpose();
+         weighted_.noalias() = h_ * weight.asDiagonal();
+         hh_.noalias() = weighted_ * h_.transpose();
+      }
+   }
+};
+
+} // namespace
+
+std::unique_ptr<mfem::SparseMatrix> assemble_stiffness(const mfem::FiniteElementSpace &space,
+                                                       const std::vector<Material> &materials,
+                                                       Geometry geometry)
+{
+   const NodeGraph graph(space);
+   const int nodes = space.GetNDofs(), components = cattaneo::components(geometry);
+   const int size = components * nodes;
+   const std::size_t entries = graph.column.size() * components * components;
+   MFEM_VERIFY(entries <= static_cast<std::size_t>(std::numeric_limits<int>::max()),
+               "elastic body: the stiffness has too many entries");
+   // Owned by the matrix.
+   int *I = new int[size + 1], *J = new int[entries];
+   double *data = new double[entries];
+   std::fill(data, data + entries, 0.0);
+   I[0] = 0;
+   for (int i = 0; i < nodes; ++i)
+   {
+      for (int c = 0; c < components; ++c)
+      {
+         int at = I[components * i + c];
+         for (int k = graph.start[i]; k < graph.start[i + 1]; ++k)
+         {
+            for (int d = 0; d < components; ++d) { J[at++] = components * graph.column[k] + d; }
+         }
+         I[components * i + c + 1] = at;
+      }
+   }
+   auto K = std::make_unique<mfem::SparseMatrix>(I, J, data, size, size, true, true, true);
+
+   Elements elements(space, materials, geometry);
+   mfem::Array<int> dofs;
+   for (int e = 0; e < space.GetNE(); ++e)
+   {
+      space.GetElementDofs(e, dofs);
+      elements.compute(e);
+      for (int a = 0; a < dofs.Size(); ++a)
+      {
+         const int i = dofs[a];
+         const int *row = graph.column.data() + graph.start[i],
+                   *end = graph.column.data() + graph.start[i + 1];
+         for (int b = 0; b < dofs.Size(); ++b)
+         {
+            const auto at = components * (std::lower_bound(row, end, dofs[b]) - row);
+            for (int c = 0; c < components; ++c)
+            {
+               double *entry = data + I[components * i + c] + at;
+               for (int d = 0; d < components; ++d) { entry[d] += elements.block[c][d](a, b); }
+            }
+         }
+      }
+   }
+   return K;
+}
+
+} // namespace cattaneo

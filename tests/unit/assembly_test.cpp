@@ -1,0 +1,108 @@
+#include "elastic_support.hpp"
+#include <cattaneo/elastic/assembly.hpp>
+#include <cattaneo/elastic/axisymmetric.hpp>
+
+using namespace cattaneo;
+using namespace support;
+
+namespace
+{
+
+/// What MFEM makes of the same integrators, element by element.
+MatrixXd by_bilinear_form(mfem::FiniteElementSpace &space,
+                          const std::vector<Material> &materials, Geometry geometry)
+{
+   mfem::Vector lambda(static_cast<int>(materials.size())), mu(lambda.Size());
+   for (int k = 0; k < lambda.Size(); ++k)
+   {
+      lambda(k) = materials[k].lambda();
+      mu(k) = materials[k].mu();
+   }
+   mfem::PWConstCoefficient lambda_field(lambda), mu_field(mu);
+   mfem::BilinearForm form(&space);
+   switch (geometry)
+   {
+   case Geometry::plane:
+      form.AddDomainIntegrator(new mfem::ElasticityIntegrator(lambda_field, mu_field));
+      break;
+   case Geometry::axisymmetric:
+      form.AddDomainIntegrator(new AxisymmetricElasticityIntegrator(lambda_field, mu_field));
+      break;
+   case Geometry::torsion:
+      form.AddDomainIntegrator(new TorsionIntegrator(mu_field));
+      break;
+   }
+   form.Assemble();
+   form.Finalize();
+   return dense(form.SpMat());
+}
+
+/// Two materials; quads that are rectangles, parallelograms and neither, triangles, curved
+/// sides.
+std::vector<mfem::Mesh> meshes()
+{
+   std::vector<mfem::Mesh> list;
+   for (auto type : {mfem::Element::QUADRILATERAL, mfem::Element::TRIANGLE})
+   {
+      for (const char *shape : {"rectangles", "parallelograms", "skew", "curved"})
+      {
+         mfem::Mesh mesh = mfem::Mesh::MakeCartesian2D(4, 3, type, true, 2.0, 1.5);
+         const std::string kind = shape;
+         if (kind == "curved") { mesh.SetCurvature(2); }
+         for (int e = 0; e < mesh.GetNE(); e += 3) { mesh.SetAttribute(e, 2); }
+         mesh.SetAttributes();
+         mesh.Transform(
+            [kind](const mfem::Vector &x, mfem::Vector &y)
+            {
+               y = x;
+               y(0) += 0.5;
+               if (kind == "parallelograms") { y(0) += 0.3 * x(1); }
+               if (kind == "parallelograms") { y(1) += 0.2 * x(0); }
+               if (kind == "skew" || kind == "curved") { y(0) += 0.1 * x(0) * x(1) * x(1); }
+               if (kind == "curved") { y(1) += 0.1 * std::sin(2 * x(0)); }
+            });
+         list.push_back(std::move(mesh));
+      }
+   }
+   return list;
+}
+
+} // namespace
+
+TEST(Assembly, IsThatOfTheIntegratorsOnElementsOfAnyShape)
+{
+   const std::vector<Material> materials{{2.0, 0.3}, {0.7, 0.45}};
+   for (mfem::Mesh &mesh : meshes())
+   {
+      for (auto geometry : {Geometry::plane, Geometry::axisymmetric, Geometry::torsion})
+      {
+         for (int order = 1; order <= 4; ++order)
+         {
+            mfem::H1_FECollection collection(order, 2);
+            mfem::FiniteElementSpace space(&mesh, &collection, components(geometry),
+                                           mfem::Ordering::byVDIM);
+            const std::unique_ptr<mfem::SparseMatrix> K =
+               assemble_stiffness(space, materials, geometry);
+            const MatrixXd D = dense(*K);
+            EXPECT_LT(difference(D, by_bilinear_form(space, materials, geometry)), 1e-13);
+            EXPECT_EQ(D, D.transpose());
+         }
+      }
+   }
+}
+
+/// Elements of one shape share integrals; far from the origin their corners carry round-off.
+TEST(Assembly, DoesNotDependOnWhereTheBodyIs)
+{
+   const std::vector<Material> materials{{1.0, 0.3}};
+   for (double far : {0.0, 1e3, 1e6})
+   {
+      mfem::Mesh mesh = rectangle_mesh(uniform(far, far + 1, 4), uniform(-far, 1 - far, 4));
+      mfem::H1_FECollection collection(2, 2);
+      mfem::FiniteElementSpace space(&mesh, &collection, 2, mfem::Ordering::byVDIM);
+      const std::unique_ptr<mfem::SparseMatrix> K =
+         assemble_stiffness(space, materials, Geometry::plane);
+      EXPECT_LT(difference(dense(*K), by_bilinear_form(space, materials, Geometry::plane)),
+                1e-13 + 1e-15 * far);
+   }
+}
