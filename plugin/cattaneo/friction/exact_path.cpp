@@ -131,6 +131,33 @@ double ExactPath::way_to_event() const
    return way;
 }
 
+bool ExactPath::starts_from(const ContactState &state) const
+{
+   const Index n = problem_.nodes();
+   VectorXd u(2 * n);
+   u << state.v, state.w;
+   const VectorXd f = problem_.clamped_forces(state.multipliers), F = f + K_ * u;
+   // The same leave as an increment of the solver has.
+   const double noise = std::max(1e-11 * std::max(state.peak_force, f.cwiseAbs().maxCoeff()),
+                                 4 * equations_.round_off(f, u));
+   for (Index i = 0; i < n; ++i)
+   {
+      const double q = F[i], p = F[n + i],
+                   gap = K_(n + i, n + i) * (u[n + i] + problem_.gap[i]);
+      const bool open = !closed(state.status[i]);
+      const double off = sense(state.status[i])
+                            ? std::abs(q + sense(state.status[i]) * problem_.friction[i] * p)
+                            : 0.0;
+      if (std::abs(q - state.q[i]) > noise || std::abs(p - state.p[i]) > noise ||
+          gap < -noise || (!open && gap > noise) || p < -noise || off > noise ||
+          std::abs(q) > problem_.friction[i] * std::max(p, 0.0) + noise)
+      {
+         return false;
+      }
+   }
+   return true;
+}
+
 bool ExactPath::advance(ContactState &state, double time, const VectorXd &multipliers,
                         std::vector<StateChange> &changes)
 {
@@ -151,6 +178,7 @@ bool ExactPath::advance(ContactState &state, double time, const VectorXd &multip
    counters_.dense_factorisations += equations_.factorisations() - factored;
    if (!found) { return false; }
    const std::vector<NodeState> &states = equations_.states();
+   const std::size_t listed = changes.size();
    for (Index i = 0; i < n; ++i)
    {
       if (states[i] == state.status[i]) { continue; }
@@ -158,6 +186,13 @@ bool ExactPath::advance(ContactState &state, double time, const VectorXd &multip
    }
 
    const double way = way_to_event();
+   // Where the present states hardly hold the bodies, round-off hides what is not balanced.
+   if (equations_.round_off(way * rates_.b, way * u_rate_) > 1e-6 * peak)
+   {
+      changes.resize(listed);
+      failure_ = "the present states do not hold the bodies";
+      return false;
+   }
    u_ += way * u_rate_;
    F_ += way * F_rate_;
    u_rate_ *= 1 - way; // the rest of the piece is shorter now

@@ -33,6 +33,10 @@ public:
    /// tangential component a node: the disc of two has no straight sides.
    explicit ExactPath(const ReducedProblem &problem);
 
+   /// Is the state an equilibrium that meets the laws (to round-off)? A path can only start
+   /// from one; an initial slip or interference is none.
+   bool starts_from(const ContactState &state) const;
+
    /** Advances `state` along loads that change linearly to `multipliers` at `time`, as far as
        the next event or to there, and appends the changes of state with which it set out.
        False, with the state unchanged, if no rates meet the laws (see failure()): the loads

@@ -148,6 +148,7 @@ struct FrictionSolver::Implementation
    bool runs_away(const IncrementReport &report, const VectorXd &multipliers);
    bool finds_mechanism(const VectorXd &multipliers);
    bool spins(const VectorXd &multipliers);
+   Index above_critical() const;
    void explain_failure(IncrementReport &report) const;
    double noise() const
    {
@@ -193,6 +194,8 @@ FrictionSolver::Implementation::Implementation(const ReducedProblem &given,
          K -= problem.B * tangential->solve(problem.B.transpose());
          K = (0.5 * (K + K.transpose())).eval();
          knn = K.diagonal();
+         // What little is left where a body is free to slide away up a slope is round-off.
+         K_norm = problem.C.cwiseAbs().rowwise().sum().maxCoeff();
       }
    }
    else
@@ -226,7 +229,7 @@ FrictionSolver::Implementation::Implementation(const ReducedProblem &given,
          }
       }
    }
-   K_norm = K.cwiseAbs().rowwise().sum().maxCoeff();
+   K_norm = std::max(K_norm, K.cwiseAbs().rowwise().sum().maxCoeff());
 }
 
 void FrictionSolver::Implementation::start(const ContactState &state,
@@ -1015,7 +1018,7 @@ bool FrictionSolver::Implementation::run_automatic(IncrementReport &report,
                                                    const VectorXd &multipliers)
 {
    int sweeps = settings.sweeps;
-   for (int attempt = 0; attempt < settings.max_attempts; ++attempt)
+   auto attempt = [&]
    {
       for (int k = 0; k < sweeps; ++k) { sweep(); }
       const VectorXd u_swept = u;
@@ -1025,16 +1028,35 @@ bool FrictionSolver::Implementation::run_automatic(IncrementReport &report,
          residuals(report);
          if (accepted(report)) { return true; }
       }
-      if (attempt == 1 && (spins(multipliers) || finds_mechanism(multipliers)))
-      {
-         return false;
-      }
       u = u_swept;
       status = status_swept;
       F = f + K * u;
       sweeps = std::max(4, 2 * sweeps);
+      return false;
+   };
+   for (int k = 0; k < settings.max_attempts; ++k)
+   {
+      if (attempt()) { return true; }
+      if (k == 1 && (spins(multipliers) || finds_mechanism(multipliers))) { return false; }
    }
-   return disc() ? run_loading(report, state) : run_path(report, state);
+   if (disc())
+   {
+      const VectorXd u_swept = u;
+      const std::vector<NodeState> status_swept = status;
+      if (run_loading(report, state)) { return true; }
+      // Sweeps are slow but steady.
+      u = u_swept;
+      status = status_swept;
+      F = f + K * u;
+      while (sweeps <= 1024)
+      {
+         if (attempt()) { return true; }
+      }
+      return false;
+   }
+   // Where paths from the old state end in rays, those of the dense tableau may not; its size
+   // allows for small problems only.
+   return run_path(report, state) || (n <= 32 && run_lemke(report));
 }
 
 /// True if no admissible contact forces can balance the loads: there is nothing to search for.
@@ -1065,6 +1087,16 @@ bool FrictionSolver::Implementation::spins(const VectorXd &multipliers)
    return mechanism.exists;
 }
 
+/// The first node with friction above its critical value, -1 if there is none.
+Index FrictionSolver::Implementation::above_critical() const
+{
+   for (Index i = 0; !frictionless && i < n; ++i)
+   {
+      if (problem.friction[i] >= critical[i]) { return i; }
+   }
+   return -1;
+}
+
 void FrictionSolver::Implementation::explain_failure(IncrementReport &report) const
 {
    std::ostringstream message;
@@ -1077,11 +1109,12 @@ void FrictionSolver::Implementation::explain_failure(IncrementReport &report) co
                   : mechanism.slides ? "the loads exceed what friction can hold: a body slides"
                                      : "the loads pull the contact apart: a body lifts off");
    }
-   else if (!frictionless && problem.friction[critical_node] >= critical_friction)
+   else if (const Index node = above_critical(); node >= 0)
    {
       report.status = FrictionStatus::no_solution;
-      message << "friction " << problem.friction[critical_node] << " at node " << critical_node
-              << " is above its critical value " << critical_friction;
+      message << "no equilibrium was found, and there may be none: friction "
+              << problem.friction[node] << " at node " << node
+              << " is above its critical value " << critical[node];
    }
    else
    {

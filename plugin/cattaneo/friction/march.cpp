@@ -271,7 +271,19 @@ int March::increments(int piece) const
 bool March::march_exactly(int piece)
 {
    const double t0 = history_.start_time(piece), t1 = history_.end_time(piece);
-   if (!path_) { path_ = std::make_unique<ExactPath>(problem_); }
+   bool settled = true;
+   if (!path_)
+   {
+      path_ = std::make_unique<ExactPath>(problem_);
+      settled = path_->starts_from(state_);
+      ContactState next = state_;
+      if (!settled)
+      {
+         const IncrementReport increment = solver_.solve(next, loads(piece, state_.time));
+         settled = solved(increment);
+         if (settled) { accept(std::move(next), piece, increment); }
+      }
+   }
    // Events without progress: nodes that change their states at the same load, one after the
    // other. More than there are nodes and states go round in a circle.
    const long patience = 4 * problem_.nodes() + 16;
@@ -280,7 +292,8 @@ bool March::march_exactly(int piece)
    {
       ContactState next = state_;
       next.step = 0;
-      if (halted < patience && path_->advance(next, t1, history_.end(piece), report_.changes))
+      if (settled && halted < patience &&
+          path_->advance(next, t1, history_.end(piece), report_.changes))
       {
          halted = next.time > state_.time ? 0 : halted + 1;
          IncrementReport reached = solver_.uniqueness(next.status);
@@ -293,10 +306,11 @@ bool March::march_exactly(int piece)
       next = state_;
       next.time = state_.time + 1e-6 * (t1 - t0);
       IncrementReport increment;
-      if (next.time < t1)
+      if (settled && next.time < t1)
       {
          increment = solver_.solve(next, loads(piece, next.time));
-         if (!solved(increment))
+         // A stall is no proof: so small a load can be hidden in round-off.
+         if (!solved(increment) && increment.status != FrictionStatus::stalled)
          {
             stop(increment);
             return false;
@@ -319,10 +333,13 @@ bool March::march_exactly(int piece)
       }
       if (report_.fallbacks++ == 0)
       {
-         report_.fallback_reason =
-            halted < patience ? path_->failure() : "states change back and forth at one load";
+         report_.fallback_reason = !settled ? "the state at the start is no equilibrium"
+                                   : halted < patience
+                                      ? path_->failure()
+                                      : "states change back and forth at one load";
       }
       halted = 0;
+      settled = true;
       accept(std::move(next), piece, increment);
    }
    return true;

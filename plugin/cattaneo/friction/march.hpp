@@ -20,7 +20,9 @@ enum class Stepping
    advancing,
    /// No increments: from one change of state to the next, exactly (see ExactPath). Pieces that
    /// one increment solves exactly take that one. Where there is no path to follow, the next of
-   /// the equal increments is taken instead: counted, with the reason, in the report.
+   /// the equal increments is taken instead: counted, with the reason, in the report. A state
+   /// that is no equilibrium (an initial slip, an interference) is settled by an increment
+   /// first.
    exact
 };
 

@@ -1,4 +1,5 @@
 #include <cattaneo/friction/mechanism.hpp>
+#include <cattaneo/friction/nonnegative_fit.hpp>
 #include <cattaneo/friction/semidefinite.hpp>
 #include <cmath>
 #include <vector>
@@ -13,53 +14,13 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Residual g - G x of min |G x - g| over x >= 0 (Lawson and Hanson's active set; G has few
-/// rows).
-VectorXd nonnegative_residual(const MatrixXd &G, const VectorXd &g)
+/// Do the fit's residual r and all edges prove that there is no equilibrium (Farkas)? With
+/// edges·r <= 0 for all of them, rᵀG x <= 0 < rᵀg for any x >= 0; here they may be positive by
+/// round-off, which matters if forces as large as the fit's could then do the work of r.
+bool proves(const NonnegativeFit &fit, const MatrixXd &G)
 {
-   const double scale = g.norm();
-   std::vector<Index> used;
-   VectorXd x = VectorXd::Zero(G.cols());
-   VectorXd r = g;
-   for (Index step = 0; step < 30 * G.rows() + 30; ++step)
-   {
-      Index best = 0;
-      const double slope = (G.transpose() * r).maxCoeff(&best);
-      if (r.norm() <= 1e-12 * scale || slope <= 1e-12 * scale * G.col(best).norm()) { break; }
-      if (x[best] > 0) { break; }
-      used.push_back(best);
-      while (true)
-      {
-         const MatrixXd active = G(Eigen::all, used);
-         const VectorXd trial = active.completeOrthogonalDecomposition().solve(g);
-         if (trial.minCoeff() > 0)
-         {
-            for (std::size_t k = 0; k < used.size(); ++k) { x[used[k]] = trial[k]; }
-            break;
-         }
-         double fraction = 1;
-         for (std::size_t k = 0; k < used.size(); ++k)
-         {
-            if (trial[k] <= 0)
-            {
-               fraction = std::min(fraction, x[used[k]] / (x[used[k]] - trial[k] + 1e-300));
-            }
-         }
-         std::vector<Index> kept;
-         for (std::size_t k = 0; k < used.size(); ++k)
-         {
-            double &value = x[used[k]];
-            value += fraction * (trial[k] - value);
-            if (trial[k] > 0 || value > 1e-14 * x.maxCoeff()) { kept.push_back(used[k]); }
-            else { value = 0; }
-         }
-         if (kept.size() == used.size()) { return g - G * x; } // no progress: round-off
-         used = kept;
-         if (used.empty()) { break; }
-      }
-      r = g - G * x;
-   }
-   return r;
+   const double slope = (G.transpose() * fit.residual).maxCoeff();
+   return slope * fit.x.sum() < 0.1 * fit.residual.squaredNorm();
 }
 
 } // namespace
@@ -90,12 +51,15 @@ Mechanism find_mechanism(const ReducedProblem &problem, const MatrixXd &Z,
       }
    }
    const VectorXd g = Z.transpose() * clamped_forces;
-   VectorXd r = nonnegative_residual(G, g);
-   // The least squares are solved to 1e-12 of the slope; r goes as its root where edges are
-   // only approached.
-   const double least = (c == 2 ? 1e-5 : 1e-9) * g.norm();
-   bool proven = c == 1;
-   for (int round = 0; round < 50 && !proven && r.norm() > least; ++round)
+   NonnegativeFit fit = fit_nonnegative(G, g);
+   VectorXd &r = fit.residual;
+   // What the motions lack to be rigid does work too. The least squares are solved to 1e-13 of
+   // the slope; r goes as its root where edges are only approached.
+   const MatrixXd K = problem.stiffness();
+   const double lack = (K * Z).cwiseAbs().maxCoeff() / K.cwiseAbs().maxCoeff();
+   const double least = (c == 2 ? 1e-5 : std::max(1e-12, 100 * lack)) * g.norm();
+   bool proven = c == 1 && proves(fit, G);
+   for (int round = 0; c == 2 && round < 50 && !proven && r.norm() > least; ++round)
    {
       // Edge of each round cone that points most along the residual.
       std::vector<VectorXd> edges;
@@ -114,7 +78,7 @@ Mechanism find_mechanism(const ReducedProblem &problem, const MatrixXd &Z,
       if (proven) { break; }
       G.conservativeResize(Eigen::NoChange, G.cols() + static_cast<Index>(edges.size()));
       for (std::size_t k = 0; k < edges.size(); ++k) { G.col(G.cols() - 1 - k) = edges[k]; }
-      r = nonnegative_residual(G, g);
+      fit = fit_nonnegative(G, g);
    }
    if (!proven || r.norm() <= least || g.norm() == 0) { return mechanism; }
    mechanism.exists = true;

@@ -1,0 +1,74 @@
+#include <cattaneo/friction/nonnegative_fit.hpp>
+#include <vector>
+
+namespace cattaneo
+{
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+NonnegativeFit fit_nonnegative(const MatrixXd &G, const VectorXd &g)
+{
+   const double scale = g.norm();
+   std::vector<Index> used;
+   VectorXd x = VectorXd::Zero(G.cols());
+   VectorXd r = g;
+   // The residual may be tiny: at right angles to the edges used for its own size.
+   auto polished = [&]() -> NonnegativeFit
+   {
+      r = g - G * x;
+      if (!used.empty())
+      {
+         const MatrixXd active = G(Eigen::all, used);
+         r -= active * active.completeOrthogonalDecomposition().solve(r);
+      }
+      return {x, r};
+   };
+   for (Index step = 0; step < 30 * G.rows() + 30; ++step)
+   {
+      Index best = 0;
+      const double slope = (G.transpose() * r).maxCoeff(&best);
+      // By the size of the residual: where friction is small the edges are almost at right
+      // angles to it.
+      if (r.norm() <= 1e-13 * scale || slope <= 1e-13 * r.norm() * G.col(best).norm())
+      {
+         break;
+      }
+      if (x[best] > 0) { break; }
+      used.push_back(best);
+      while (true)
+      {
+         const MatrixXd active = G(Eigen::all, used);
+         const VectorXd trial = active.completeOrthogonalDecomposition().solve(g);
+         if (trial.minCoeff() > 0)
+         {
+            for (std::size_t k = 0; k < used.size(); ++k) { x[used[k]] = trial[k]; }
+            break;
+         }
+         double fraction = 1;
+         for (std::size_t k = 0; k < used.size(); ++k)
+         {
+            if (trial[k] <= 0)
+            {
+               fraction = std::min(fraction, x[used[k]] / (x[used[k]] - trial[k] + 1e-300));
+            }
+         }
+         std::vector<Index> kept;
+         for (std::size_t k = 0; k < used.size(); ++k)
+         {
+            double &value = x[used[k]];
+            value += fraction * (trial[k] - value);
+            if (trial[k] > 0 || value > 1e-14 * x.maxCoeff()) { kept.push_back(used[k]); }
+            else { value = 0; }
+         }
+         if (kept.size() == used.size()) { return polished(); } // no progress: round-off
+         used = kept;
+         if (used.empty()) { break; }
+      }
+      r = g - G * x;
+   }
+   return polished();
+}
+
+} // namespace cattaneo

@@ -1,0 +1,151 @@
+#pragma once
+
+#include <algorithm>
+#include <cattaneo/friction/contact_state.hpp>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace cattaneo_test
+{
+
+/** Is a state a solution? The laws of contact and friction in plain words, from displacements
+    alone (forces are formed anew), for one and two tangential components. All violations are
+    forces: displacements count by the node's own stiffness. */
+class LawChecker
+{
+public:
+   explicit LawChecker(const cattaneo::ReducedProblem &problem)
+      : problem_(problem), n_(problem.nodes()), c_(problem.components()),
+        K_(problem.stiffness())
+   {
+      norm_ = K_.cwiseAbs().rowwise().sum().maxCoeff();
+      for (Eigen::Index i = 0; i < n_; ++i)
+      {
+         peak_ = std::max(peak_, -problem.gap[i] * problem.C(i, i));
+      }
+      const double coupling = problem.B.cwiseAbs().maxCoeff();
+      const double scale =
+         std::sqrt(problem.A.cwiseAbs().maxCoeff() * problem.C.cwiseAbs().maxCoeff());
+      // Coupling at the round-off of condensation counts as none.
+      neglected_ = coupling <= 1e-11 * scale ? 2.0 * static_cast<double>(n_) * coupling : 0.0;
+   }
+
+   /// Largest violation of an increment from slip `v_old` to `state`, over what is allowed, ten
+   /// times the solvers' tolerance (1e-12 of the largest load so far) and round-off: a solution
+   /// if at most 1. Displacements so large that round-off hides the forces are none.
+   double violation(const Eigen::VectorXd &v_old, const cattaneo::ContactState &state)
+   {
+      using namespace cattaneo;
+      const Eigen::VectorXd f = problem_.clamped_forces(state.multipliers);
+      Eigen::VectorXd u(K_.rows());
+      u << state.v, state.w;
+      const Eigen::VectorXd F = f + K_ * u;
+      peak_ = std::max({peak_, f.cwiseAbs().maxCoeff(),
+                        v_old.size() ? (problem_.A * v_old).cwiseAbs().maxCoeff() : 0.0});
+      const double size = u.cwiseAbs().maxCoeff();
+      const double round_off = 16 * std::sqrt(static_cast<double>(n_)) *
+                               std::numeric_limits<double>::epsilon() *
+                               (norm_ * size + f.cwiseAbs().maxCoeff());
+      const double allowed = 1e-11 * peak_ + neglected_ * size + round_off;
+      worst_ = 0;
+      what_ = "";
+      for (Eigen::Index i = 0; i < n_; ++i)
+      {
+         const Eigen::Index m = c_ * n_ + i;
+         const double p = F[m], y = problem_.C(i, i) * (u[m] + problem_.gap[i]);
+         const double fp = problem_.friction[i] * std::max(p, 0.0);
+         Eigen::VectorXd q(c_), x(c_);
+         double reported = std::abs(p - state.p[i]), kt = 0;
+         for (Eigen::Index k = 0; k < c_; ++k)
+         {
+            const Eigen::Index t = k * n_ + i;
+            q[k] = F[t];
+            kt = k ? std::min(kt, problem_.A(t, t)) : problem_.A(t, t);
+            x[k] = u[t] - v_old[t];
+            reported = std::max(reported, std::abs(q[k] - state.q[t]));
+         }
+         x *= kt;
+         note(reported, i, "reported forces are not those of the displacements");
+         switch (state.status[i])
+         {
+         case NodeState::separation:
+            note(-y, i, "open and penetrating");
+            note(std::max(std::abs(p), q.norm()), i, "open and loaded");
+            break;
+         case NodeState::stick:
+            note(std::abs(y), i, "stuck but not closed");
+            note(-p, i, "stuck in tension");
+            note(x.norm(), i, "stuck and moving");
+            note(q.norm() - fp, i, "stuck beyond the friction limit");
+            break;
+         case NodeState::forward_slip:
+         case NodeState::backward_slip:
+            note(std::abs(y), i, "slipping but not closed");
+            note(-p, i, "slipping in tension");
+            note(std::abs(q[0] + sense(state.status[i]) * fp), i, "slipping off the limit");
+            note(-sense(state.status[i]) * x[0], i, "slipping the wrong way");
+            break;
+         case NodeState::slip:
+            note(std::abs(y), i, "slipping but not closed");
+            note(-p, i, "slipping in tension");
+            note(std::abs(q.norm() - fp), i, "slipping off the limit");
+            // The angle between force and slip counts by the smaller of the two.
+            if (x.norm() > 0 && q.norm() > 0)
+            {
+               note((q / q.norm() + x / x.norm()).norm() * fp * x.norm() / (fp + x.norm()), i,
+                    "slipping the wrong way");
+            }
+            break;
+         }
+      }
+      if (!u.allFinite() || round_off > 1e-4 * peak_)
+      {
+         what_ = "moved so far that round-off hides the forces";
+         return std::numeric_limits<double>::infinity();
+      }
+      return allowed > 0 ? worst_ / allowed : worst_ > 0 ? 1e300 : 0;
+   }
+   /// What was worst, and at which node.
+   const std::string &what() const { return what_; }
+
+private:
+   void note(double violation, Eigen::Index node, const char *what)
+   {
+      if (!(violation > worst_)) { return; }
+      worst_ = violation;
+      what_ = "node " + std::to_string(node) + " is " + what;
+   }
+
+   const cattaneo::ReducedProblem &problem_;
+   const Eigen::Index n_, c_;
+   const Eigen::MatrixXd K_;
+   double norm_ = 0, peak_ = 0, neglected_ = 0, worst_ = 0;
+   std::string what_;
+};
+
+/// True if `motion` {v; w} proves that there is no equilibrium under these clamped forces: it
+/// costs no elastic energy, the loads drive it, and no force inside any friction cone opposes
+/// it enough (Farkas). Independent of how the motion was found.
+inline bool proves_mechanism(const cattaneo::ReducedProblem &problem,
+                             const Eigen::VectorXd &motion,
+                             const Eigen::VectorXd &clamped_forces)
+{
+   const Eigen::MatrixXd K = problem.stiffness();
+   const Eigen::Index n = problem.nodes(), c = problem.components();
+   const double size = motion.cwiseAbs().maxCoeff();
+   const double norm = K.cwiseAbs().rowwise().sum().maxCoeff();
+   if ((K * motion).cwiseAbs().maxCoeff() > 1e-9 * norm * size) { return false; }
+   const double work = motion.dot(clamped_forces);
+   double most = 0; // work against the motion per unit of pressure; none may be done for it
+   for (Eigen::Index i = 0; i < n; ++i)
+   {
+      double slip = 0;
+      for (Eigen::Index k = 0; k < c; ++k) { slip = std::hypot(slip, motion[k * n + i]); }
+      most = std::max(most, motion[c * n + i] + problem.friction[i] * slip);
+   }
+   const double pressure = clamped_forces.cwiseAbs().sum();
+   return work > 0 && most * pressure < 0.1 * work;
+}
+
+} // namespace cattaneo_test

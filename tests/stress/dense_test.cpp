@@ -1,0 +1,252 @@
+// Random dense reduced problems of one tangential component: every answer is verified, and for
+// up to six nodes every "no" is checked by trying all states of all nodes.
+
+#include "contact_laws.hpp"
+#include "enumeration.hpp"
+#include "outcomes.hpp"
+#include "random_problem.hpp"
+
+#include <cattaneo/friction/friction_solver.hpp>
+#include <cattaneo/friction/mechanism.hpp>
+#include <gtest/gtest.h>
+
+namespace
+{
+
+using namespace cattaneo;
+using namespace cattaneo_test;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+
+enum class Stiffness
+{
+   coupled,         ///< condition 10 to 1000, A, B and C alike
+   nearly_singular, ///< one or two eigenvalues of 1e-6 to 1e-10
+   singular         ///< one or two rigid motions
+};
+
+/// A stiffness with random eigenvectors: coupled as strongly as can be.
+ReducedProblem dense_problem(int n, Stiffness kind, std::mt19937 &random)
+{
+   std::normal_distribution<double> normal;
+   std::uniform_real_distribution<double> uniform(0, 1);
+   ReducedProblem problem = random_problem(n, 0.0, 0.0, random);
+   const MatrixXd R = MatrixXd::NullaryExpr(2 * n, 2 * n, [&] { return normal(random); });
+   const MatrixXd Q = R.householderQr().householderQ();
+   const double decades = 1 + 2 * uniform(random);
+   VectorXd eigenvalues =
+      VectorXd::NullaryExpr(2 * n, [&] { return std::pow(10, -decades * uniform(random)); });
+   if (kind != Stiffness::coupled)
+   {
+      const int few = n == 1 ? 1 : 1 + static_cast<int>(random() % 2);
+      for (int k = 0; k < few; ++k)
+      {
+         eigenvalues[k] =
+            kind == Stiffness::singular ? 0 : std::pow(10, -6 - 4 * uniform(random));
+      }
+   }
+   MatrixXd K = Q * eigenvalues.asDiagonal() * Q.transpose();
+   K = (0.5 * (K + K.transpose())).eval();
+   problem.A = K.topLeftCorner(n, n);
+   problem.B = K.bottomLeftCorner(n, n);
+   problem.C = K.bottomRightCorner(n, n);
+   return problem;
+}
+
+/// Friction at `times` the critical value of each node, at most 10.
+void set_friction_near_critical(ReducedProblem &problem, double times)
+{
+   problem.friction =
+      (times * problem.A.diagonal().cwiseQuotient(problem.B.diagonal().cwiseAbs()))
+         .cwiseMin(10.0);
+}
+
+Outcome outcome_of(FrictionStatus status)
+{
+   switch (status)
+   {
+   case FrictionStatus::converged:
+      return Outcome::verified;
+   case FrictionStatus::not_unique:
+      return Outcome::not_unique;
+   case FrictionStatus::gross_sliding:
+      return Outcome::gross_sliding;
+   case FrictionStatus::no_solution:
+      return Outcome::no_solution;
+   case FrictionStatus::stalled:
+      break;
+   }
+   return Outcome::stalled;
+}
+
+struct Check
+{
+   Verdict verdict;
+   std::size_t solutions = 0; ///< sure ones, found by trying all states
+   bool none = false;         ///< stalled, and there is no solution either
+   bool missed = false;       ///< no solution was found, but there is one
+};
+
+/// One increment, verified; with `enumerate` against all states.
+Check check_increment(const ReducedProblem &problem, FrictionMethod method, ContactState &state,
+                      const VectorXd &loads, bool enumerate)
+{
+   FrictionSettings settings;
+   settings.method = method;
+   FrictionSolver solver(problem, settings);
+   const VectorXd v_old = state.v;
+   const IncrementReport report = solver.solve(state, loads);
+   Check check;
+   Verdict &verdict = check.verdict;
+   verdict.outcome = outcome_of(report.status);
+   verdict.what = report.message;
+   const bool solved =
+      verdict.outcome == Outcome::verified || verdict.outcome == Outcome::not_unique;
+   if (solved)
+   {
+      LawChecker laws(problem);
+      verdict.violation = laws.violation(v_old, state);
+      if (!(verdict.violation <= 1))
+      {
+         verdict.outcome = Outcome::wrong;
+         verdict.what = laws.what();
+      }
+   }
+   else if (report.message.empty())
+   {
+      verdict.outcome = Outcome::wrong;
+      verdict.what = "failed without a reason";
+   }
+   if (!enumerate) { return check; }
+   const std::vector<EnumeratedSolution> found = enumerate_solutions(problem, v_old, loads);
+   for (const EnumeratedSolution &solution : found)
+   {
+      check.solutions += solution.margin > 1e-7;
+   }
+   check.none = verdict.outcome == Outcome::stalled && found.empty();
+   if (solved || check.solutions == 0) { return check; }
+   // "None was found" is no proof and does not claim to be; a mechanism is.
+   check.missed = verdict.outcome == Outcome::stalled ||
+                  verdict.what.find("no equilibrium was found") != std::string::npos;
+   if (!check.missed)
+   {
+      verdict.what += ": but " + std::to_string(check.solutions) + " solutions exist";
+      verdict.outcome = Outcome::wrong;
+   }
+   return check;
+}
+
+struct Family
+{
+   std::string name;
+   Stiffness stiffness;
+   double least, most; ///< friction over the critical value of the node, log-uniform between
+};
+
+const Family families[] = {
+   {"below critical friction", Stiffness::coupled, 0.01, 0.95},
+   {"near critical friction", Stiffness::coupled, 0.95, 1.05},
+   {"above critical friction", Stiffness::coupled, 1.05, 30},
+   {"nearly singular", Stiffness::nearly_singular, 0.01, 0.95},
+   {"nearly singular, above critical", Stiffness::nearly_singular, 1.05, 30},
+   {"singular", Stiffness::singular, 0.01, 0.95},
+   {"singular, above critical", Stiffness::singular, 1.05, 30},
+};
+
+void run_family(const Family &family, FrictionMethod method, const std::string &row,
+                unsigned seed)
+{
+   std::mt19937 random(seed);
+   std::uniform_real_distribution<double> uniform(0, 1);
+   const int runs = cases(240, 4000);
+   long several = 0, none = 0, missed = 0;
+   for (int k = 0; k < runs; ++k)
+   {
+      // Six nodes have 4096 sets of states: a few of them.
+      const int n = k % 40 == 39 ? 6 : 1 + k % 5;
+      ReducedProblem problem = dense_problem(n, family.stiffness, random);
+      set_friction_near_critical(
+         problem, family.least * std::pow(family.most / family.least, uniform(random)));
+      if (k % 6 == 0) { problem.friction[0] = 0; }
+      if (k % 3 == 0) { problem.gap.setZero(); }
+      if (k % 5 == 0) { problem.gap[n - 1] = -0.2; } // interference
+      ContactState state = ContactState::virgin(problem);
+      if (k % 2)
+      {
+         state = ContactState::with_slip(
+            problem, VectorXd::NullaryExpr(n, [&] { return uniform(random) - 0.5; }));
+      }
+      for (const Vector2d &loads :
+           {Vector2d(1, 0), Vector2d(1, 0.8), Vector2d(0.7, -0.9), Vector2d(0.1, 0.3)})
+      {
+         const Check check = check_increment(problem, method, state, loads, true);
+         record(row, "seed " + std::to_string(seed) + " problem " + std::to_string(k),
+                check.verdict);
+         several += check.verdict.outcome == Outcome::verified && check.solutions > 1;
+         none += check.none;
+         missed += check.missed;
+      }
+   }
+   if (several || none || missed)
+   {
+      remark(row + ": " + std::to_string(several) +
+             " solutions were not said to be one of several; " + std::to_string(none) +
+             " stalled without there being one; " + std::to_string(missed) + " were missed");
+   }
+   // Those that are so large that round-off hides the forces; Lemke's rays.
+   const bool automatic = method == FrictionMethod::automatic;
+   EXPECT_LE(missed,
+             automatic && family.stiffness != Stiffness::nearly_singular ? 0 : 0.02 * runs);
+   if (family.stiffness == Stiffness::coupled) { EXPECT_EQ(count(row, Outcome::stalled), 0); }
+}
+
+class Dense : public testing::TestWithParam<int>
+{
+};
+
+TEST_P(Dense, AgreesWithTryingAllStates)
+{
+   const Family &family = families[GetParam()];
+   run_family(family, FrictionMethod::automatic, "dense <= 6 nodes, " + family.name,
+              100 + GetParam());
+}
+
+TEST_P(Dense, LemkeAgreesWithTryingAllStates)
+{
+   const Family &family = families[GetParam()];
+   run_family(family, FrictionMethod::lemke, "  by Lemke, " + family.name, 200 + GetParam());
+}
+
+/// More nodes: the path and Lemke's tableau each find an answer, and both are right.
+TEST(DenseLarge, BothMethodsAreVerified)
+{
+   std::mt19937 random(300);
+   std::uniform_real_distribution<double> uniform(0, 1);
+   const int runs = cases(60, 1000);
+   for (int k = 0; k < runs; ++k)
+   {
+      const Family &family = families[k % 5];
+      const int n = 7 + static_cast<int>(random() % 34);
+      ReducedProblem problem = dense_problem(n, family.stiffness, random);
+      set_friction_near_critical(
+         problem, family.least * std::pow(family.most / family.least, uniform(random)));
+      ContactState state = ContactState::virgin(problem);
+      for (const Vector2d &loads : {Vector2d(1, 0), Vector2d(1, 0.8), Vector2d(0.5, -0.9)})
+      {
+         ContactState other = state;
+         const std::string run = "problem " + std::to_string(k);
+         record("  by Lemke, 7 to 40 nodes", run,
+                check_increment(problem, FrictionMethod::lemke, other, loads, false).verdict);
+         record(
+            "dense, 7 to 40 nodes", run,
+            check_increment(problem, FrictionMethod::automatic, state, loads, false).verdict);
+      }
+   }
+   EXPECT_LE(count("dense, 7 to 40 nodes", Outcome::stalled), 0.01 * runs);
+}
+
+INSTANTIATE_TEST_SUITE_P(Stress, Dense, testing::Range(0, 7));
+
+} // namespace

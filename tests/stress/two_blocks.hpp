@@ -1,0 +1,77 @@
+#pragma once
+
+#include <algorithm>
+#include <cattaneo/condense/reduction.hpp>
+#include <cattaneo/elastic/graded_mesh.hpp>
+
+namespace cattaneo_test
+{
+
+/// A block |x| < size, of height 2 size, on a wider block held at its base.
+struct TwoBlocks
+{
+   double size = 1, young = 1;
+   double contrast = 1; ///< modulus of the upper block over that of the lower
+   double poisson = 0.3;
+   int order = 2;
+   int intervals = 8;      ///< elements along the contact
+   double end_ratio = 0.2; ///< end element over the middle one
+   double flat = 1;        ///< width over height of the contact's middle elements
+   double gap = 0;         ///< uniform gap over size
+   double curved_gap = 0;  ///< gap at the corners over size, parabolic
+   double balance = 1;     ///< share of the moment of "Q" that its pressure balances
+};
+
+/// Patterns "P", of resultant 2e-3 young·size, and "Q", with the same resultant along the
+/// contact and the pressure that balances its moment about the contact. Moduli of 1e-3 strain
+/// in the softer body.
+inline cattaneo::ReducedProblem reduce_two_blocks(const TwoBlocks &scene, double friction)
+{
+   using namespace cattaneo;
+   const double L = scene.size, soft = scene.young * std::min(1.0, scene.contrast);
+   std::vector<double> contact = graded_to_ends(L, scene.intervals, scene.end_ratio);
+   const double first = std::min(0.9 * L, 2 * L / scene.intervals / scene.flat);
+   const double growth = scene.flat > 100 ? 4 : 1.7;
+   const std::vector<double> up = graded(0, 2 * L, first, growth, 0.9 * L);
+   std::vector<double> down = graded(0, -3 * L, first, growth, 0.9 * L);
+   std::reverse(down.begin(), down.end());
+   std::vector<double> left = graded(-L, -3 * L, 0.2 * L, 1.7);
+   std::reverse(left.begin(), left.end());
+   mfem::Mesh upper_mesh = rectangle_mesh(contact, up);
+   mfem::Mesh lower_mesh =
+      rectangle_mesh(joined({left, contact, graded(L, 3 * L, 0.2 * L, 1.7)}), down);
+   for (int i = 0; i < lower_mesh.GetNBE(); ++i)
+   {
+      mfem::Array<int> vertices;
+      lower_mesh.GetBdrElementVertices(i, vertices);
+      const double middle =
+         0.5 * (lower_mesh.GetVertex(vertices[0])[0] + lower_mesh.GetVertex(vertices[1])[0]);
+      if (lower_mesh.GetBdrAttribute(i) == 3 && std::abs(middle) < L)
+      {
+         lower_mesh.SetBdrAttribute(i, 5);
+      }
+   }
+   lower_mesh.SetAttributes();
+   ElasticBody upper(upper_mesh, scene.order,
+                     Material{scene.young * scene.contrast, scene.poisson});
+   ElasticBody lower(lower_mesh, scene.order, Material{scene.young, scene.poisson});
+   const double pressure = 1e-3 * soft;
+   upper.add_pressure("P", 3, pressure);
+   upper.add_traction("Q", 3, pressure, 0.0);
+   upper.add_pressure("Q", 3,
+                      [=, balance = scene.balance](double x, double)
+                      { return -6 * balance * pressure * x / L; });
+   for (int component : {0, 1}) { lower.fix(1, component); }
+   const CondensedBody a = condense(upper, contact_line(upper, 1));
+   const CondensedBody b = condense(lower, contact_line(lower, 5));
+   ReducedProblem problem = reduce(a, b, pair_lines(a.line, b.line)).problem;
+   for (Eigen::Index i = 0; i < problem.nodes(); ++i)
+   {
+      const double x = problem.position(i, 0) / L;
+      problem.gap[i] = L * (scene.gap + scene.curved_gap * x * x);
+   }
+   set_friction(problem, friction);
+   return problem;
+}
+
+} // namespace cattaneo_test
