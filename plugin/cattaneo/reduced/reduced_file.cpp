@@ -1,6 +1,7 @@
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/reduced_file.hpp>
 #include <cattaneo/whole_file.hpp>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -63,7 +64,8 @@ void save(const ReducedProblem &problem, const std::string &file)
 ReducedProblem load_reduced_problem(const std::string &file)
 {
    std::ifstream in(file);
-   require(in.good(), "reduced problem: cannot read file '", file, "'");
+   require(in.good() && !std::filesystem::is_directory(file),
+           "reduced problem: cannot read file '", file, "'");
    ReducedProblem problem;
    try
    {
