@@ -13,6 +13,7 @@
 #include "common/contact_edges.hpp"
 #include "common/fields.hpp"
 #include "common/filled_corner.hpp"
+#include "common/mesh_file.hpp"
 #include "common/statements.hpp"
 #include "common/study_output.hpp"
 
@@ -52,40 +53,6 @@ struct Side
    CondensedBody condensed;
 };
 
-/// MFEM ends the process for some files that are no meshes: only the two formats are let
-/// through.
-std::unique_ptr<mfem::Mesh> read_mesh(const std::string &file)
-{
-   std::ifstream in(file);
-   require(in.good() && !std::filesystem::is_directory(file), "mesh file cannot be read");
-   std::string line;
-   std::getline(in, line);
-   if (line.rfind("$MeshFormat", 0) == 0)
-   {
-      std::string version;
-      in >> version;
-      require(version[0] == '2', "Gmsh file of format ", version,
-              ", must be 2.2 (gmsh -format msh22)");
-   }
-   else
-   {
-      require(line.rfind("MFEM ", 0) == 0,
-              "mesh file must begin with 'MFEM' or '$MeshFormat' (Gmsh), not with '",
-              line.substr(0, 20), "'");
-   }
-   in.close();
-   try
-   {
-      return miniapp::distribute(mfem::Mesh(file.c_str(), 1, 1));
-   }
-   catch (const std::exception &error)
-   {
-      std::string reason = error.what();
-      std::replace(reason.begin(), reason.end(), '\n', ' ');
-      throw InputError("mesh file cannot be read: " + reason);
-   }
-}
-
 std::vector<Material> materials(const BodyOptions &options, const std::string &k,
                                 bool plane_stress)
 {
@@ -114,7 +81,7 @@ Side make_side(const BodyOptions &options, const std::string &k, int order, bool
       require(options.contact[0], "option contact", k,
               " is empty, must name boundary attributes");
       Side side;
-      side.mesh = read_mesh(options.mesh);
+      side.mesh = miniapp::read_mesh(options.mesh);
       side.materials = materials(options, k, plane_stress);
       const std::vector<Material> &list = side.materials;
       side.body = list.size() == 1 ? std::make_unique<ElasticBody>(*side.mesh, order, list[0])
@@ -322,6 +289,7 @@ int main(int argc, char *argv[])
          const std::string prefix = csv, folder = paraview;
          if (json[0]) { require_writable(json); }
          if (save_file[0]) { require_writable(save_file); }
+         if (reduced_file[0]) { require_writable(reduced_file); }
          if (csv[0]) { require_writable(prefix + "_nodes.csv"); }
          if (paraview[0]) { miniapp::check_folder(folder); }
          const bool all_frames = std::string(frames) == "all";
@@ -355,7 +323,6 @@ int main(int argc, char *argv[])
          if (std::string(gap) == "closed") { problem.gap.setZero(); }
          require(!problem.patterns.empty(),
                  "there is no load: option load1 or load2 must name one");
-         if (reduced_file[0] && miniapp::writes()) { save(problem, reduced_file); }
          LoadHistory history = miniapp::load_history("history", history_text, problem.patterns);
          history.cycle_start = cycle_start;
          history.cycles = cycles;
@@ -405,6 +372,10 @@ int main(int argc, char *argv[])
                }
                if (frame) { recorded.push_back(reached); }
             });
+         require(
+            std::isfinite(report.energy_imbalance) && std::isfinite(state.dissipation),
+            "the energies of the march overflow: the loads or the moduli need other units");
+         if (reduced_file[0] && miniapp::writes()) { save(problem, reduced_file); }
          const int code = miniapp::exit_code(report);
          if (recording && (recorded.empty() || recorded.back().time != state.time))
          {

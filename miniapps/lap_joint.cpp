@@ -658,6 +658,7 @@ int main(int argc, char *argv[])
 
          study.joint = miniapp::make_lap_joint(options);
          study.counters = study.joint.reduction.counters;
+         set_friction(study.problem(), study.friction);
          output.reduced(study.problem(), study.joint.dofs);
          int code = single ? study.single() : study.row(all);
          nlohmann::ordered_json &results = study.results;

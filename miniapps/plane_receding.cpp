@@ -513,6 +513,7 @@ int main(int argc, char *argv[])
          ReducedProblem &problem = scene.reduction.problem;
          study.problem = &problem;
          study.counters = scene.reduction.counters;
+         set_friction(problem, friction);
          output.reduced(problem, scene.dofs);
          study.bonded(overhang, 0);
 

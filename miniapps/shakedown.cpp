@@ -290,12 +290,12 @@ private:
          counters += punch.reduction.counters;
       }
       set_friction(problem, options.friction);
-      if (*options.save && miniapp::writes()) { save(problem, options.save); }
       gapped = problem;
       if (!problem.gap.isZero(0)) { problem = absorb_gap(problem); }
       whole = problem;
       if (options.closed) { keep_closed(options.lambda_max); }
       set_up();
+      if (*options.save && miniapp::writes()) { save(gapped, options.save); }
       std::printf(
          "%ld contact nodes, condensed in %.2f s; degree of coupling %.4f (0: none, 1: "
          "most)\n",

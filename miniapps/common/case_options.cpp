@@ -115,7 +115,11 @@ void CaseOptions::set(const Key &key, const nlohmann::json &value, const std::st
                       const std::string &file)
 {
    const auto expect = [&](bool condition, const char *allowed)
-   { require(condition, where, " is ", value.dump(), ", must be ", allowed); };
+   {
+      // Nothing nested is shown: it may be too deep to be written.
+      require(condition, where, " is ",
+              value.is_structured() ? value.type_name() : value.dump(), ", must be ", allowed);
+   };
    const auto all = [&value](auto is)
    { return value.is_array() && std::all_of(value.begin(), value.end(), is); };
    const auto is_number = [](const nlohmann::json &v) { return v.is_number(); };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/whole_file.hpp>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
@@ -22,6 +23,16 @@ struct Leave
 {
    int code;
 };
+
+/// What a user typed or a file held may stand in a message: it must stay one line of text.
+std::string one_line(std::string message)
+{
+   for (char &c : message)
+   {
+      if (std::iscntrl(static_cast<unsigned char>(c))) { c = ' '; }
+   }
+   return message;
+}
 
 /// MFEM's text without the values that were not set: a number without a default is NaN, which
 /// says nothing to the reader.
@@ -103,10 +114,10 @@ int run(const std::function<int()> &body)
    {
       if (all_fail())
       {
-         if (writes()) { std::cerr << "error: " << error.what() << std::endl; }
+         if (writes()) { std::cerr << "error: " << one_line(error.what()) << std::endl; }
          return 1;
       }
-      std::cerr << "error: " << error.what() << std::endl;
+      std::cerr << "error: " << one_line(error.what()) << std::endl;
 #ifdef MFEM_USE_MPI
       MPI_Abort(MPI_COMM_WORLD, 1);
 #endif
@@ -134,7 +145,7 @@ void parse(mfem::OptionsParser &options)
       while (words >> word) { message += " " + word; }
       if (writes())
       {
-         std::cerr << "error:" << message << " (-h lists the options)" << std::endl;
+         std::cerr << "error:" << one_line(message) << " (-h lists the options)" << std::endl;
       }
       throw Leave{1};
    }

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 namespace miniapp
@@ -29,6 +30,19 @@ std::vector<std::string> split(const std::string &text, const char *separators)
       from = to + 1;
    }
    return pieces;
+}
+
+/// Text that JSON can hold.
+bool is_utf8(const std::string &text)
+{
+   try
+   {
+      return !nlohmann::json(text).dump().empty();
+   }
+   catch (const nlohmann::json::exception &)
+   {
+      return false;
+   }
 }
 
 double number(const std::string &where, const std::string &text)
@@ -156,6 +170,7 @@ void add_loads(ElasticBody &body, const std::string &option, const std::string &
       const std::string &pattern = words[0];
       require(pattern.find_first_of("=,\"") == std::string::npos, where, ": pattern name '",
               pattern, "' must not hold =, a comma or a quote");
+      require(is_utf8(pattern), where, ": the pattern name is not UTF-8");
       const Kind *kind = nullptr;
       std::string known;
       for (const Kind &k : kinds)

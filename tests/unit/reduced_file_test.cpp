@@ -1,6 +1,7 @@
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/reduced_file.hpp>
 #include <fstream>
+#include <functional>
 #include <gtest/gtest.h>
 #include <shakedown_problems.hpp>
 
@@ -49,6 +50,44 @@ TEST(ReducedFile, RefusesWhatItDidNotWrite)
    }
    EXPECT_THROW(save(shakedown_test::random_contact(1, 2, 1, false), "/nonexistent/x.json"),
                 InputError);
+}
+
+TEST(ReducedFile, RefusesWhatIsNoProblem)
+{
+   const ReducedProblem good = shakedown_test::random_contact(1, 5, 1, false);
+   const std::string file = ::testing::TempDir() + "reduced_file_test_wrong.json";
+   const auto refused =
+      [&](const char *word, const std::function<void(ReducedProblem &)> &spoil)
+   {
+      ReducedProblem bad = good;
+      spoil(bad);
+      save(bad, file);
+      try
+      {
+         load_reduced_problem(file);
+         ADD_FAILURE() << "not refused: " << word;
+      }
+      catch (const InputError &error)
+      {
+         EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+      }
+   };
+   refused("weights", [](ReducedProblem &p) { p.weights = Eigen::VectorXd::Ones(4); });
+   refused("arc_length", [](ReducedProblem &p) { p.arc_length = Eigen::VectorXd::Ones(6); });
+   refused("position", [](ReducedProblem &p) { p.position = Eigen::MatrixXd::Ones(5, 3); });
+   refused("dofs", [](ReducedProblem &p) { p.dofs = Eigen::MatrixXi::Zero(5, 3); });
+   refused("two load patterns are named 'press'",
+           [](ReducedProblem &p) { p.patterns[2].name = "press"; });
+   refused("3 tangential components",
+           [](ReducedProblem &p)
+           {
+              p.A = Eigen::MatrixXd::Identity(15, 15);
+              p.B = Eigen::MatrixXd::Zero(5, 15);
+           });
+   // Sizes whose product overflows to the number of entries.
+   std::ofstream(file) << R"({"format": "cattaneo reduced problem 1",
+      "A": {"rows": 4294967296, "cols": 4294967296, "values": []}})";
+   EXPECT_THROW(load_reduced_problem(file), InputError);
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include <cattaneo/friction/contact_state.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/whole_file.hpp>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -108,7 +109,8 @@ void save(const ContactState &state, const std::string &file)
 ContactState load_contact_state(const std::string &file)
 {
    std::ifstream in(file);
-   require(in.good(), "contact state: cannot read file '", file, "'");
+   require(in.good() && !std::filesystem::is_directory(file),
+           "contact state: cannot read file '", file, "'");
    try
    {
       const nlohmann::json j = nlohmann::json::parse(in);

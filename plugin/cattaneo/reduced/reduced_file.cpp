@@ -1,6 +1,7 @@
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/reduced_file.hpp>
-#include <cstdio>
+#include <cattaneo/whole_file.hpp>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -26,7 +27,10 @@ void from_json(const nlohmann::json &j, Matrix &M)
 {
    const auto values = j.at("values").get<std::vector<typename Matrix::Scalar>>();
    const Eigen::Index rows = j.at("rows"), cols = j.at("cols");
-   require(rows >= 0 && cols >= 0 && rows * cols == static_cast<Eigen::Index>(values.size()),
+   // Divided, so that no product overflows.
+   const auto count = static_cast<Eigen::Index>(values.size());
+   require(rows >= 0 && cols >= 0 &&
+              (cols == 0 ? count == 0 : count % cols == 0 && rows == count / cols),
            "reduced problem: ", values.size(), " entries for a matrix of ", rows, "×", cols);
    M.resize(rows, cols);
    std::copy(values.begin(), values.end(), M.data());
@@ -54,18 +58,14 @@ void save(const ReducedProblem &problem, const std::string &file)
                                {"q", to_json(pattern.q)},
                                {"p", to_json(pattern.p)}});
    }
-   const std::string part = file + ".part";
-   std::ofstream out(part);
-   out << j << '\n';
-   out.close();
-   require(out.good() && std::rename(part.c_str(), file.c_str()) == 0,
-           "reduced problem: cannot write file '", file, "'");
+   write_whole(file, j.dump() + '\n');
 }
 
 ReducedProblem load_reduced_problem(const std::string &file)
 {
    std::ifstream in(file);
-   require(in.good(), "reduced problem: cannot read file '", file, "'");
+   require(in.good() && !std::filesystem::is_directory(file),
+           "reduced problem: cannot read file '", file, "'");
    ReducedProblem problem;
    try
    {

@@ -1,5 +1,6 @@
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/reduced_problem.hpp>
+#include <set>
 
 namespace cattaneo
 {
@@ -74,11 +75,16 @@ void ReducedProblem::validate() const
    require(C.cols() == n && A.cols() == m && B.rows() == n && B.cols() == m && m % n == 0,
            "reduced problem: sizes of A (", A.rows(), "×", A.cols(), "), B (", B.rows(), "×",
            B.cols(), ") and C (", C.rows(), "×", C.cols(), ") do not fit");
+   require(m <= 2 * n, "reduced problem: ", m / n,
+           " tangential components a node, must be 0, 1 or 2");
    check_symmetric("A", A);
    check_symmetric("C", C);
    require(B.allFinite(), "reduced problem: B has an entry that is not finite");
+   std::set<std::string> names;
    for (const LoadPattern &pattern : patterns)
    {
+      require(names.insert(pattern.name).second,
+              "reduced problem: two load patterns are named '", pattern.name, "'");
       check_vector(("q of pattern '" + pattern.name + "'").c_str(), pattern.q, m);
       check_vector(("p of pattern '" + pattern.name + "'").c_str(), pattern.p, n);
    }
@@ -92,8 +98,17 @@ void ReducedProblem::validate() const
    const auto size = static_cast<Eigen::Index>(patterns.size());
    require(H.rows() == size && H.cols() == size, "reduced problem: H is ", H.rows(), "×",
            H.cols(), ", must be square of the number of load patterns ", size);
-   require(weights.size() == 0 || weights.size() == n, "reduced problem: ", weights.size(),
-           " weights for ", n, " nodes");
+   require(H.allFinite(), "reduced problem: H has an entry that is not finite");
+   // A problem without a mesh has none of these.
+   if (weights.size() > 0) { check_vector("weights", weights, n); }
+   if (arc_length.size() > 0) { check_vector("arc_length", arc_length, n); }
+   require(position.size() == 0 || (position.rows() == n && position.cols() == 2),
+           "reduced problem: position is ", position.rows(), "×", position.cols(), ", must be ",
+           n, "×2");
+   require(position.allFinite(), "reduced problem: position has an entry that is not finite");
+   require(dofs.size() == 0 || (dofs.rows() == n && dofs.cols() % 2 == 0),
+           "reduced problem: dofs is ", dofs.rows(), "×", dofs.cols(), ", must have ", n,
+           " rows and two columns for each body");
 }
 
 void set_friction(ReducedProblem &problem, double coefficient)

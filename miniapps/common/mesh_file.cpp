@@ -1,0 +1,259 @@
+#include "common/mesh_file.hpp"
+
+#include "common/miniapp.hpp"
+
+#include <cattaneo/input_error.hpp>
+#include <cerrno>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+
+namespace miniapp
+{
+
+using cattaneo::InputError;
+using cattaneo::require;
+
+namespace
+{
+
+/// The next word; those of comments (from # to the end of the line) are left out.
+bool next_word(std::istream &in, std::string &word)
+{
+   while (in >> word)
+   {
+      if (word[0] != '#') { return true; }
+      std::getline(in, word);
+   }
+   return false;
+}
+
+/// The next word as an integer.
+long integer(std::istream &in, const std::string &what)
+{
+   std::string word;
+   require(next_word(in, word), "mesh file ends where ", what, " should be");
+   char *end = nullptr;
+   errno = 0;
+   const long value = std::strtol(word.c_str(), &end, 10);
+   require(errno == 0 && *end == 0, "mesh file has '", word, "' for ", what,
+           ", must be an integer");
+   return value;
+}
+
+/// A count of things that are in the file, so that no more than its size can be right.
+long count(std::istream &in, const std::string &what, long most)
+{
+   const long value = integer(in, "the number of " + what);
+   require(value >= 0 && value <= most, "mesh file has ", value, " for the number of ", what,
+           ", must not be negative nor more than the file can hold");
+   return value;
+}
+
+void check_attribute(long attribute, const std::string &what)
+{
+   require(attribute > 0 && attribute < 1000000000, "mesh file has the attribute ", attribute,
+           " for ", what, ", must be positive");
+}
+
+/// MFEM mesh v1.x, up to the coordinates.
+void check_mfem(std::istream &in, long size)
+{
+   // Vertices of MFEM's geometries: segment, triangle, quadrilateral.
+   const auto corners = [](long geometry)
+   { return geometry < 1 || geometry > 3 ? 0 : geometry + 1; };
+   std::map<std::string, bool> found;
+   long highest = -1, lowest = 0;
+   std::string word;
+   while (next_word(in, word))
+   {
+      found[word] = true;
+      if (word == "dimension")
+      {
+         const long dimension = integer(in, "the dimension");
+         require(dimension == 2, "mesh is of dimension ", dimension, ", must be 2");
+      }
+      else if (word == "elements" || word == "boundary")
+      {
+         const bool boundary = word == "boundary";
+         const std::string kind = boundary ? "boundary element " : "element ";
+         const long elements = count(in, kind.substr(0, kind.size() - 1) + "s", size);
+         for (long k = 0; k < elements; ++k)
+         {
+            const std::string what = kind + std::to_string(k);
+            check_attribute(integer(in, "the attribute of " + what), what);
+            const long geometry = integer(in, "the geometry of " + what);
+            require(boundary ? geometry == 1 : geometry == 2 || geometry == 3,
+                    "mesh file has the geometry ", geometry, " for ", what, ", must be ",
+                    boundary ? "1 (segment)" : "2 (triangle) or 3 (square)");
+            std::set<long> own;
+            for (long v = 0; v < corners(geometry); ++v)
+            {
+               const long vertex = integer(in, "a vertex of " + what);
+               require(own.insert(vertex).second, "mesh file has vertex ", vertex, " twice in ",
+                       what);
+               highest = std::max(highest, vertex);
+               lowest = std::min(lowest, vertex);
+            }
+         }
+      }
+      else if (word == "vertices")
+      {
+         const long vertices = count(in, "vertices", size);
+         require(lowest >= 0 && highest < vertices, "mesh file has an element with vertex ",
+                 lowest < 0 ? lowest : highest, ", must be 0 to ", vertices - 1);
+         break;
+      }
+   }
+   for (const char *section : {"dimension", "elements", "boundary", "vertices"})
+   {
+      require(found.count(section), "mesh file has no section '", section, "'");
+   }
+}
+
+/// Numbers of nodes of Gmsh's element types: points, lines, triangles, quadrilaterals.
+const std::map<long, int> gmsh_nodes = {
+   {15, 1},  {1, 2},   {8, 3},   {26, 4}, {27, 5}, {28, 6},  {2, 3},   {9, 6},
+   {21, 10}, {23, 15}, {25, 21}, {3, 4},  {10, 9}, {36, 16}, {37, 25}, {38, 36}};
+
+/// Gmsh 2.2, ASCII, after $MeshFormat.
+void check_gmsh(std::istream &in, long size)
+{
+   const double version = [&]
+   {
+      std::string word;
+      in >> word;
+      require(word[0] == '2', "Gmsh file of format ", word,
+              ", must be 2.2 (gmsh -format msh22)");
+      return std::strtod(word.c_str(), nullptr);
+   }();
+   require(version == 2.2, "Gmsh file of format ", version,
+           ", must be 2.2 (gmsh -format msh22)");
+   require(integer(in, "the file type") == 0, "Gmsh file is binary, must be ASCII");
+   std::set<long> nodes;
+   bool has_elements = false;
+   std::string word;
+   while (in >> word)
+   {
+      if (word == "$Nodes")
+      {
+         const long expected = count(in, "nodes", size);
+         for (long k = 0; k < expected; ++k)
+         {
+            const long node = integer(in, "the number of a node");
+            require(nodes.insert(node).second, "mesh file has node ", node, " twice");
+            for (int c = 0; c < 3; ++c)
+            {
+               require(bool(in >> word), "mesh file ends within node ", node);
+               char *end = nullptr;
+               require(std::isfinite(std::strtod(word.c_str(), &end)) && *end == 0,
+                       "mesh file has the coordinate '", word, "' for node ", node);
+            }
+         }
+         require(in >> word && word == "$EndNodes", "mesh file has '", word, "' after ",
+                 expected, " nodes, must be $EndNodes");
+      }
+      else if (word == "$Elements")
+      {
+         has_elements = true;
+         require(!nodes.empty(), "mesh file has no nodes before its elements");
+         const long expected = count(in, "elements", size);
+         for (long k = 0; k < expected; ++k)
+         {
+            const std::string what =
+               "element " + std::to_string(integer(in, "the number of an element"));
+            const long type = integer(in, "the type of " + what);
+            const auto known = gmsh_nodes.find(type);
+            require(known != gmsh_nodes.end(), "mesh file has the type ", type, " for ", what,
+                    ", must be a line, triangle or quadrilateral of order 1 to 5");
+            const long tags = count(in, "tags of " + what, size);
+            require(tags >= 1, "mesh file has no physical group for ", what);
+            for (long t = 0; t < tags; ++t)
+            {
+               const long tag = integer(in, "a tag of " + what);
+               if (t == 0 && type != 15) { check_attribute(tag, what); }
+            }
+            std::set<long> own;
+            for (int v = 0; v < known->second; ++v)
+            {
+               const long node = integer(in, "a node of " + what);
+               require(own.insert(node).second, "mesh file has node ", node, " twice in ",
+                       what);
+               require(nodes.count(node), "mesh file has node ", node, " in ", what,
+                       ", which is not among its nodes");
+            }
+         }
+         require(in >> word && word == "$EndElements", "mesh file has '", word, "' after ",
+                 expected, " elements, must be $EndElements");
+      }
+   }
+   require(has_elements, "mesh file has no section $Elements");
+}
+
+/// Every boundary element must be an edge of an element; MFEM takes others, to use them later.
+void check_boundary(const mfem::Mesh &mesh)
+{
+   for (int k = 0; k < mesh.GetNBE(); ++k)
+   {
+      require(mesh.GetBdrElementFaceIndex(k) >= 0, "mesh file has the boundary element ", k,
+              ", which is no edge of an element");
+   }
+}
+
+/// What MFEM's message says, without the places in its source.
+std::string reason(std::string message)
+{
+   const std::size_t arrow = message.find("--> "), abort = message.find("abort: ");
+   if (arrow != std::string::npos) { message.erase(0, arrow + 4); }
+   else if (abort != std::string::npos) { message.erase(0, abort + 7); }
+   message.erase(std::min(message.find("\n ... in function"), message.size()));
+   return message;
+}
+
+/// Keeps MFEM from writing to stderr what it throws as well.
+class SilentErrors
+{
+public:
+   SilentErrors() { mfem::err.Disable(); }
+   ~SilentErrors() { mfem::err.Enable(); }
+};
+
+} // namespace
+
+std::unique_ptr<mfem::Mesh> read_mesh(const std::string &file)
+{
+   std::ifstream in(file);
+   require(in.good() && std::filesystem::is_regular_file(file), "mesh file cannot be read");
+   const long size = static_cast<long>(std::filesystem::file_size(file));
+   std::string line;
+   std::getline(in, line);
+   if (line.rfind("$MeshFormat", 0) == 0) { check_gmsh(in, size); }
+   else
+   {
+      require(line.rfind("MFEM mesh v1.", 0) == 0,
+              "mesh file must begin with 'MFEM mesh v1.' or '$MeshFormat' (Gmsh), not with '",
+              line.substr(0, 20), "'");
+      check_mfem(in, size);
+   }
+   in.close();
+   const SilentErrors silent;
+   try
+   {
+      mfem::Mesh mesh(file.c_str(), 1, 1);
+      check_boundary(mesh);
+      return distribute(std::move(mesh));
+   }
+   catch (const InputError &)
+   {
+      throw;
+   }
+   catch (const std::exception &error)
+   {
+      throw InputError("mesh file cannot be read: " + reason(error.what()));
+   }
+}
+
+} // namespace miniapp
