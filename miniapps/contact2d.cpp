@@ -54,7 +54,7 @@ struct Side
 
 /// MFEM ends the process for some files that are no meshes: only the two formats are let
 /// through.
-std::unique_ptr<mfem::Mesh> read_mesh(const std::string &file)
+std::unique_ptr<mfem::Mesh> read_mesh(const std::string &file, int order)
 {
    std::ifstream in(file);
    require(in.good() && !std::filesystem::is_directory(file), "mesh file cannot be read");
@@ -76,7 +76,7 @@ std::unique_ptr<mfem::Mesh> read_mesh(const std::string &file)
    in.close();
    try
    {
-      return miniapp::distribute(mfem::Mesh(file.c_str(), 1, 1));
+      return miniapp::distribute(mfem::Mesh(file.c_str(), 1, 1), order);
    }
    catch (const std::exception &error)
    {
@@ -114,7 +114,7 @@ Side make_side(const BodyOptions &options, const std::string &k, int order, bool
       require(options.contact[0], "option contact", k,
               " is empty, must name boundary attributes");
       Side side;
-      side.mesh = read_mesh(options.mesh);
+      side.mesh = read_mesh(options.mesh, order);
       side.materials = materials(options, k, plane_stress);
       const std::vector<Material> &list = side.materials;
       side.body = list.size() == 1 ? std::make_unique<ElasticBody>(*side.mesh, order, list[0])
@@ -123,7 +123,7 @@ Side make_side(const BodyOptions &options, const std::string &k, int order, bool
       miniapp::add_loads(*side.body, "load" + k, options.load);
       const ContactLine line =
          contact_line(*side.body, miniapp::boundary_part("contact" + k, options.contact));
-      side.condensed = condense(*side.body, line);
+      side.condensed = condense(*side.body, line, miniapp::condensation());
       return side;
    }
    catch (const InputError &error)

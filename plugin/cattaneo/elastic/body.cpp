@@ -89,7 +89,7 @@ ElasticBody::ElasticBody(mfem::Mesh &mesh, int order, const std::vector<Material
    }
    owned_collection_ = std::make_unique<mfem::H1_FECollection>(order, 2);
 #ifdef MFEM_USE_MPI
-   if (ranks_.several())
+   if (ranks_.distributed())
    {
       owned_space_ = std::make_unique<mfem::ParFiniteElementSpace>(
          dynamic_cast<mfem::ParMesh *>(&mesh), owned_collection_.get(), components(),
@@ -153,7 +153,7 @@ void ElasticBody::adopt_space()
    mfem::Mesh &mesh = *space.GetMesh();
    vdof_to_true_.assign(space.GetVSize(), -1);
 #ifdef MFEM_USE_MPI
-   if (ranks_.several())
+   if (ranks_.distributed())
    {
       const auto &shared = dynamic_cast<const mfem::ParFiniteElementSpace &>(space);
       first_global_dof_ = static_cast<int>(shared.GetMyTDofOffset());
@@ -271,7 +271,7 @@ void ElasticBody::assemble()
    form.Finalize(0);
    ++counters_.assemblies;
 #ifdef MFEM_USE_MPI
-   if (ranks_.several())
+   if (ranks_.distributed())
    {
       distributed_.reset(dynamic_cast<mfem::ParBilinearForm &>(form).ParallelAssemble());
       return;
@@ -582,7 +582,7 @@ int ElasticBody::dofs() const
 int ElasticBody::global_dof(int scalar_dof, int component) const
 {
 #ifdef MFEM_USE_MPI
-   if (ranks_.several())
+   if (ranks_.distributed())
    {
       const auto &shared = dynamic_cast<const mfem::ParFiniteElementSpace &>(*space_);
       return static_cast<int>(
