@@ -1,71 +1,132 @@
 //  benchmark_ranks: condensation on several ranks, time, iterations and memory against dofs
 //
-//  A square block, quadratic elements, fixed at the top, with the contact nodes on a sixteenth
-//  of its lower side. Run it under --mpi with -np 1 and 2: on one rank the direct factor
-//  condenses, on several conjugate gradients with BoomerAMG, one solve a contact dof. -weak
-//  multiplies the dofs by the number of ranks.
+//  A block of quadratic elements, held at the top, with a few contact nodes in the middle of
+//  its lower side, condensed by the factor of one rank and by conjugate gradients with
+//  BoomerAMG on all of them: one solve a contact dof, or one for each product with a stiffness
+//  that is applied and not formed. -weak multiplies the dofs by the number of ranks.
+//  docs/ranks.md explains what comes out; the largest there is -elements "112 224 354 500".
 //
 //     ./run --mpi benchmark_ranks -np 1
 //     ./run --mpi benchmark_ranks -np 2
+//     ./run --mpi benchmark_ranks -np 2 -weak
 
-#include <cattaneo/condense/condensed_body.hpp>
+#include <cattaneo/condense/applied_reduction.hpp>
 #include <common/miniapp.hpp>
 #include <cstdio>
+#include <fstream>
 #include <iostream>
-#include <sys/resource.h>
+#include <limits>
 
 using namespace cattaneo;
+
+namespace
+{
+
+/// Forgets the peak of memory so far, where the system allows.
+void forget_peak()
+{
+   std::ofstream("/proc/self/clear_refs") << 5;
+}
+
+/// Peak of this rank's memory, MB; NaN where the system does not tell.
+double peak()
+{
+   std::ifstream status("/proc/self/status");
+   for (std::string word; status >> word;)
+   {
+      double kilobytes = 0;
+      if (word == "VmHWM:" && status >> kilobytes) { return kilobytes / 1024; }
+   }
+   return std::numeric_limits<double>::quiet_NaN();
+}
+
+} // namespace
 
 int main(int argc, char *argv[])
 {
    return miniapp::run(
       [&]
       {
-         const char *sizes = "150 300 500", *json = "";
+         const char *sizes = "112 224", *method = "both", *json = "";
          bool weak = false;
+         int nodes = 5;
          mfem::OptionsParser args(argc, argv);
          args.AddOption(&sizes, "-elements", "--elements", "Elements a side: a list.");
+         args.AddOption(&nodes, "-nodes", "--nodes", "Contact nodes.");
+         args.AddOption(&method, "-method", "--method", "factor, iterations or both.");
          args.AddOption(&weak, "-weak", "--weak", "-strong", "--strong",
                         "Dofs in proportion to the ranks.");
          args.AddOption(&json, "-json", "--json", "File for the results.");
          miniapp::parse(args);
+         miniapp::check_choice("--method", method, {"factor", "iterations", "both"});
          nlohmann::ordered_json list = nlohmann::ordered_json::array();
-         std::printf("\n ranks      dofs  contact  seconds  seconds/column  iterations/column  "
-                     "MB of the largest rank\n");
+#ifdef MFEM_USE_MPI
+         std::printf("%5s %9s  %-10s %8s %10s %9s %9s %10s %8s\n", "ranks", "dofs", "method",
+                     "seconds", "s/column", "its/col", "s/product", "its/prod.", "MB/rank");
          for (double side : miniapp::numbers("--elements", sizes))
          {
-            const int ranks = Ranks(*miniapp::distribute(mfem::Mesh::MakeCartesian2D(
-                                       16, 16, mfem::Element::QUADRILATERAL)))
-                                 .size();
-            const int rows = static_cast<int>(side) * (weak ? ranks : 1),
-                      columns = static_cast<int>(side);
-            const auto mesh = miniapp::distribute(mfem::Mesh::MakeCartesian2D(
-               columns, rows, mfem::Element::QUADRILATERAL, true, 1.0, double(rows) / columns));
-            const miniapp::Stopwatch watch;
-            ElasticBody body(*mesh, 2, Material{1.0, 0.3});
+            const int ranks = mfem::Mpi::WorldSize(), columns = static_cast<int>(side),
+                      rows = columns * (weak ? ranks : 1);
+            mfem::Mesh whole = mfem::Mesh::MakeCartesian2D(
+               columns, rows, mfem::Element::QUADRILATERAL, true, 1.0, double(rows) / columns);
+            mfem::ParMesh mesh(MPI_COMM_WORLD, whole);
+            whole.Clear();
+            ElasticBody body(mesh, 2, Material{1.0, 0.3});
             for (int component : {0, 1}) { body.fix(3, component); }
-            const double half = 1.0 / 32;
+            const double half = (nodes - 1) / 4.0 / columns * (1 + 1e-6),
+                         middle = (columns / 2) / double(columns) +
+                                  ((nodes - 1) / 2 % 2 ? 0.5 / columns : 0.0);
             const ContactLine line =
-               contact_line(body, BoundaryPart({1}, 0, 0.5 - half, 0.5 + half));
-            const CondensedBody condensed = condense(body, line);
-            const double seconds = watch.seconds();
-            rusage usage{};
-            getrusage(RUSAGE_SELF, &usage);
-            const double memory = body.ranks().max(static_cast<double>(usage.ru_maxrss) / 1024);
-            const long columns_solved = 2 * line.size();
-            const double iterations =
-               static_cast<double>(condensed.counters.krylov_iterations) / columns_solved;
-            const int dofs = body.dofs();
-            std::printf("%6d %9d %8ld %8.2f %15.4f %18.1f %10.0f\n", ranks, dofs,
-                        columns_solved, seconds, seconds / columns_solved, iterations, memory);
-            std::cout << std::flush;
-            list.push_back({{"ranks", ranks},
-                            {"dofs", dofs},
-                            {"columns", columns_solved},
-                            {"seconds", seconds},
-                            {"iterations_per_column", iterations},
-                            {"megabytes", memory}});
+               contact_line(body, BoundaryPart({1}, 0, middle - half, middle + half));
+            for (const std::string name : {"factor", "iterations"})
+            {
+               if (method != name && std::string("both") != method) { continue; }
+               CondenseSettings settings = miniapp::condensation();
+               settings.direct_dofs = name == "factor" ? std::numeric_limits<int>::max() : 0;
+               forget_peak();
+               const auto count = static_cast<double>(2 * line.size());
+               miniapp::Stopwatch watch;
+               const CondensedBody condensed = condense(body, line, settings);
+               const double seconds = body.ranks().max(watch.seconds()),
+                            memory = body.ranks().max(peak());
+               nlohmann::ordered_json row = {
+                  {"ranks", ranks},     {"dofs", body.dofs()},
+                  {"method", name},     {"contact_dofs", count},
+                  {"seconds", seconds}, {"seconds_per_column", seconds / count},
+                  {"megabytes", memory}};
+               std::printf("%5d %9d  %-10s %8.2f %10.3f", ranks, body.dofs(), name.c_str(),
+                           seconds, seconds / count);
+               if (name == "iterations")
+               {
+                  Counters counters;
+                  const AppliedProblem applied =
+                     apply_reduction(body, line, 0.0, settings, &counters);
+                  counters = {};
+                  const int products = 2;
+                  watch = {};
+                  for (int k = 0; k < products; ++k)
+                  {
+                     applied.apply(Eigen::VectorXd::LinSpaced(2 * line.size(), k, 2));
+                  }
+                  const double product = body.ranks().max(watch.seconds()) / products;
+                  row["iterations_per_column"] =
+                     static_cast<double>(condensed.counters.krylov_iterations) / count;
+                  row["seconds_per_product"] = product;
+                  row["iterations_per_product"] =
+                     static_cast<double>(counters.krylov_iterations) / products;
+                  std::printf(" %9.1f %9.3f %10.1f", row["iterations_per_column"].get<double>(),
+                              product, row["iterations_per_product"].get<double>());
+               }
+               else { std::printf(" %9s %9s %10s", "-", "-", "-"); }
+               std::printf(" %8.0f\n", memory);
+               std::cout << std::flush;
+               std::fflush(stdout);
+               list.push_back(row);
+            }
          }
+#else
+         std::printf("This MFEM has no MPI: ./run --mpi benchmark_ranks -np 2\n");
+#endif
          miniapp::write_json({{"condensation", list}}, json);
          return 0;
       });

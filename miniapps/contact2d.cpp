@@ -81,7 +81,7 @@ Side make_side(const BodyOptions &options, const std::string &k, int order, bool
       require(options.contact[0], "option contact", k,
               " is empty, must name boundary attributes");
       Side side;
-      side.mesh = miniapp::read_mesh(options.mesh);
+      side.mesh = miniapp::distribute(miniapp::read_mesh(options.mesh), order);
       side.materials = materials(options, k, plane_stress);
       const std::vector<Material> &list = side.materials;
       side.body = list.size() == 1 ? std::make_unique<ElasticBody>(*side.mesh, order, list[0])
@@ -90,7 +90,7 @@ Side make_side(const BodyOptions &options, const std::string &k, int order, bool
       miniapp::add_loads(*side.body, "load" + k, options.load);
       const ContactLine line =
          contact_line(*side.body, miniapp::boundary_part("contact" + k, options.contact));
-      side.condensed = condense(*side.body, line);
+      side.condensed = condense(*side.body, line, miniapp::condensation());
       return side;
    }
    catch (const InputError &error)

@@ -48,9 +48,10 @@ Disc make_disc(const DiscOptions &options)
    std::vector<double> depth = graded(0, -R, h, options.growth);
    std::reverse(depth.begin(), depth.end());
    scene.meshes.push_back(
-      distribute(rectangle_mesh(contact, graded(0, 1, h, options.growth, 0.1))));
+      distribute(rectangle_mesh(contact, graded(0, 1, h, options.growth, 0.1)), options.order));
    scene.meshes.push_back(
-      distribute(rectangle_mesh(joined({contact, graded(b, R, h, options.growth)}), depth)));
+      distribute(rectangle_mesh(joined({contact, graded(b, R, h, options.growth)}), depth),
+                 options.order));
 
    const auto add_bodies = [&](auto &bodies, Geometry geometry)
    {
@@ -79,8 +80,8 @@ Disc make_disc(const DiscOptions &options)
       disc.add_pressure(name, BoundaryPart({top}, 0, 0, a), 1.0);
    }
    const ContactLine upper = line_of_disc(disc), lower = line_below(below);
-   scene.reduction =
-      reduce(condense(disc, upper), condense(below, lower), pair_lines(upper, lower));
+   scene.reduction = reduce(condense(disc, upper, condensation()),
+                            condense(below, lower, condensation()), pair_lines(upper, lower));
    if (options.twist != Twist::none)
    {
       add_bodies(scene.torsion, Geometry::torsion);
@@ -106,8 +107,8 @@ Disc make_disc(const DiscOptions &options)
             "twist", loaded, [a](double r, double) { return 2 * r / (M_PI * std::pow(a, 4)); });
          break;
       }
-      scene.reduction.add_torsion(condense(twisting, line_of_disc(twisting)),
-                                  condense(held, line_below(held)));
+      scene.reduction.add_torsion(condense(twisting, line_of_disc(twisting), condensation()),
+                                  condense(held, line_below(held), condensation()));
    }
    return scene;
 }

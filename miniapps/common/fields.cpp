@@ -28,6 +28,8 @@ void write_paraview(const std::string &folder, Reduction &reduction,
    }
    for (std::size_t k = 0; k < bodies.size(); ++k)
    {
+      // A body that every rank has for itself is written by one.
+      if (!writes() && !bodies[k]->ranks().several()) { continue; }
       BodyFields fields(*bodies[k], folder, "body" + std::to_string(k + 1));
       for (const ContactState &state : states)
       {

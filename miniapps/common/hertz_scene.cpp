@@ -52,7 +52,7 @@ HertzScene make_scene(const HalfPlanes &options)
    std::vector<CondensedBody> condensed;
    for (double turn : {-1.0, 1.0}) // the mesh is the lower body, its half-turn the upper one
    {
-      scene.meshes.push_back(distribute(half_plane_mesh(contact, depth, rings)));
+      scene.meshes.push_back(distribute(half_plane_mesh(contact, depth, rings), options.order));
       mfem::Mesh &mesh = *scene.meshes.back();
       for (int v = 0; v < mesh.GetNV(); ++v)
       {
@@ -72,8 +72,8 @@ HertzScene make_scene(const HalfPlanes &options)
       }
       scene.dofs += body.dofs();
       const ContactLine line = contact_line(body, surface);
-      condensed.push_back(
-         condense(body, line, {}, condensed.empty() ? nullptr : &condensed.front()));
+      condensed.push_back(condense(body, line, condensation(),
+                                   condensed.empty() ? nullptr : &condensed.front()));
    }
    const Pairing pairing = pair_lines(condensed[0].line, condensed[1].line);
    scene.reduction = reduce(condensed[0], condensed[1], pairing);
@@ -88,12 +88,14 @@ HertzScene make_scene(const BlockOnHalfPlane &options)
       graded_to_ends(1.0, (options.nodes - 1) / options.order, 1.0);
    const double h = contact[1] - contact[0];
    const int bottom = 1, top = 3;
-   scene.meshes.push_back(distribute(rectangle_mesh(contact, graded(0, 2, h, growth, 0.1))));
+   scene.meshes.push_back(
+      distribute(rectangle_mesh(contact, graded(0, 2, h, growth, 0.1)), options.order));
    scene.bodies.push_back(
       std::make_unique<ElasticBody>(*scene.meshes[0], options.order, options.material));
    load(*scene.bodies[0], top, 1, 2, options.load, 1);
-   scene.meshes.push_back(distribute(half_plane_mesh(
-      contact, graded(0, 1, h, growth, 0.1), ring_scales(1, options.domain, h, growth))));
+   scene.meshes.push_back(distribute(half_plane_mesh(contact, graded(0, 1, h, growth, 0.1),
+                                                     ring_scales(1, options.domain, h, growth)),
+                                     options.order));
    scene.bodies.push_back(
       std::make_unique<ElasticBody>(*scene.meshes[1], options.order, options.material));
    ElasticBody &plane = *scene.bodies[1];
@@ -102,8 +104,8 @@ HertzScene make_scene(const BlockOnHalfPlane &options)
    for (const auto &body : scene.bodies) { scene.dofs += body->dofs(); }
    const ContactLine above = contact_line(*scene.bodies[0], bottom);
    const ContactLine below = contact_line(plane, surface);
-   scene.reduction = reduce(condense(*scene.bodies[0], above), condense(plane, below),
-                            pair_lines(above, below));
+   scene.reduction = reduce(condense(*scene.bodies[0], above, condensation()),
+                            condense(plane, below, condensation()), pair_lines(above, below));
    return scene;
 }
 

@@ -74,7 +74,7 @@ LapJoint make_lap_joint(const LapJointOptions &options)
       std::vector<double> y = graded(0, half, h, options.growth, 0.05);
       const std::size_t lower_half = y.size() - 1;
       for (std::size_t k = lower_half; k-- > 0;) { y.push_back(thickness - y[k]); }
-      joint.meshes.push_back(distribute(rectangle_mesh(x, y)));
+      joint.meshes.push_back(distribute(rectangle_mesh(x, y), options.order));
       mfem::Mesh &mesh = *joint.meshes.back();
       for (int v = 0; v < mesh.GetNV(); ++v)
       {
@@ -98,8 +98,8 @@ LapJoint make_lap_joint(const LapJointOptions &options)
       joint.dofs += lap.dofs();
       const ContactLine line =
          contact_line(lap, BoundaryPart({interface}, 0, -free_end, free_end));
-      condensed.push_back(
-         condense(lap, line, {}, condensed.empty() || !equal ? nullptr : &condensed.front()));
+      condensed.push_back(condense(lap, line, condensation(),
+                                   condensed.empty() || !equal ? nullptr : &condensed.front()));
    }
    const Pairing pairing = pair_lines(condensed[0].line, condensed[1].line);
    joint.reduction = reduce(std::move(condensed[0]), std::move(condensed[1]), pairing);

@@ -223,7 +223,7 @@ public:
 
 } // namespace
 
-std::unique_ptr<mfem::Mesh> read_mesh(const std::string &file)
+mfem::Mesh read_mesh(const std::string &file)
 {
    std::ifstream in(file);
    require(in.good() && std::filesystem::is_regular_file(file), "mesh file cannot be read");
@@ -244,7 +244,7 @@ std::unique_ptr<mfem::Mesh> read_mesh(const std::string &file)
    {
       mfem::Mesh mesh(file.c_str(), 1, 1);
       check_boundary(mesh);
-      return distribute(std::move(mesh));
+      return mesh;
    }
    catch (const InputError &)
    {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <mfem.hpp>
 #include <string>
 
@@ -8,10 +7,10 @@ namespace miniapp
 {
 
 /** The plane mesh in a user's file: MFEM's format ("MFEM mesh v1.…", conforming), or Gmsh's 2.2
-    in ASCII, of triangles and quadrilaterals. On several ranks an mfem::ParMesh.
+    in ASCII, of triangles and quadrilaterals.
 
     MFEM's reader trusts its file: a node number that is out of range reads foreign memory. The
     file is therefore checked first, section by section. InputError saying what is wrong. */
-std::unique_ptr<mfem::Mesh> read_mesh(const std::string &file);
+mfem::Mesh read_mesh(const std::string &file);
 
 } // namespace miniapp

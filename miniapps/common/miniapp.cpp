@@ -18,6 +18,8 @@ using cattaneo::InputError;
 namespace
 {
 
+cattaneo::CondenseSettings condense_settings;
+
 /// Leaves the body with an exit code.
 struct Leave
 {
@@ -81,10 +83,13 @@ bool writes()
 #endif
 }
 
-std::unique_ptr<mfem::Mesh> distribute(mfem::Mesh mesh)
+std::unique_ptr<mfem::Mesh> distribute(mfem::Mesh mesh, [[maybe_unused]] int order)
 {
 #ifdef MFEM_USE_MPI
-   if (mfem::Mpi::WorldSize() > 1)
+   const mfem::H1_FECollection elements(order, mesh.Dimension());
+   if (mfem::Mpi::WorldSize() > 1 &&
+       mfem::FiniteElementSpace(&mesh, &elements, 2).GetTrueVSize() >
+          condense_settings.direct_dofs)
    {
       cattaneo::require(mesh.GetNE() >= mfem::Mpi::WorldSize(), "the mesh has ", mesh.GetNE(),
                         " elements for ", mfem::Mpi::WorldSize(),
@@ -127,6 +132,17 @@ int run(const std::function<int()> &body)
 
 void parse(mfem::OptionsParser &options)
 {
+#ifdef MFEM_USE_MPI
+   if (mfem::Mpi::WorldSize() > 1)
+   {
+      options.AddOption(
+         &condense_settings.direct_dofs, "-direct-dofs", "--direct-dofs",
+         "Bodies of more dofs than this are distributed and condensed by iterations, "
+         "others factored by every rank.");
+      options.AddOption(&condense_settings.max_iterations, "-max-iterations",
+                        "--max-iterations", "Most iterations for a right-hand side.");
+   }
+#endif
    options.Parse();
    if (options.Help())
    {
@@ -175,6 +191,11 @@ std::vector<double> numbers(const char *option, const std::string &text)
       word.clear();
    }
    return values;
+}
+
+cattaneo::CondenseSettings condensation()
+{
+   return condense_settings;
 }
 
 void check_choice(const char *option, const std::string &value,

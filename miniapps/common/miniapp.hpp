@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cattaneo/condense/condensed_body.hpp>
 #include <cattaneo/counters.hpp>
 #include <cattaneo/friction/march.hpp>
 #include <chrono>
@@ -24,13 +25,19 @@ int run(const std::function<int()> &body);
 /// True on the rank that writes files.
 bool writes();
 
-/// A mesh for bodies to be made on: on several ranks an mfem::ParMesh of the given one, which
-/// every rank must have.
-std::unique_ptr<mfem::Mesh> distribute(mfem::Mesh mesh);
+/// A mesh for bodies of this order to be made on, of the given one, which every rank must have.
+/// On several ranks an mfem::ParMesh if a body of two components is too large for a factor (see
+/// condensation()); smaller ones every rank has for itself, so that it does what one alone
+/// would do, to the same bits.
+std::unique_ptr<mfem::Mesh> distribute(mfem::Mesh mesh, int order);
 
 /// Parses the options, echoes them, prints help for -h. Leaves through run() with exit code 0
-/// after help and 1, with one sentence, after a bad option.
+/// after help and 1, with one sentence, after a bad option. On several ranks there are two more
+/// options, which say how bodies are condensed.
 void parse(mfem::OptionsParser &options);
+
+/// How bodies are to be condensed, as the options say.
+cattaneo::CondenseSettings condensation();
 
 /// Numbers of a list option, separated by spaces or commas, or "none"; InputError naming the
 /// option.

@@ -52,7 +52,7 @@ Punch make_punch(const PunchOptions &options)
    const double growth = options.order == 1 ? 1.1 : 1.25;
    const double coarsest = std::max(options.order == 1 ? 0.04 : 0.2, largest);
    const std::vector<double> height = graded(0, 2, smallest, growth, coarsest);
-   punch.meshes.push_back(distribute(rectangle_mesh(contact, height)));
+   punch.meshes.push_back(distribute(rectangle_mesh(contact, height), options.order));
    punch.bodies.push_back(
       std::make_unique<ElasticBody>(*punch.meshes[0], options.order, material));
    ElasticBody &block = *punch.bodies[0];
@@ -60,7 +60,7 @@ Punch make_punch(const PunchOptions &options)
    block.add_pressure("P", top, 0.5);
    block.add_traction("Q", top, 0.5, 0.0);
    block.add_pressure("Q", top, [](double x, double) { return -3 * x; });
-   CondensedBody condensed = condense(block, contact_line(block, bottom));
+   CondensedBody condensed = condense(block, contact_line(block, bottom), condensation());
    punch.dofs = block.dofs();
    if (!options.half_plane)
    {
@@ -70,7 +70,8 @@ Punch make_punch(const PunchOptions &options)
 
    punch.meshes.push_back(
       distribute(half_plane_mesh(contact, graded(0, 1, smallest, growth, coarsest),
-                                 ring_scales(1, options.domain, smallest, growth))));
+                                 ring_scales(1, options.domain, smallest, growth)),
+                 options.order));
    punch.bodies.push_back(
       std::make_unique<ElasticBody>(*punch.meshes[1], options.order, plane_material));
    ElasticBody &plane = *punch.bodies[1];
@@ -79,7 +80,8 @@ Punch make_punch(const PunchOptions &options)
    const ContactLine facing = contact_line(plane, surface);
    const Pairing pairing = pair_lines(condensed.line, facing);
    punch.dofs += plane.dofs();
-   punch.reduction = reduce(std::move(condensed), condense(plane, facing), pairing);
+   punch.reduction =
+      reduce(std::move(condensed), condense(plane, facing, condensation()), pairing);
    return punch;
 }
 

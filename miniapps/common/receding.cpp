@@ -69,7 +69,7 @@ Receding make_receding(const RecedingOptions &options)
    if (fine_end < L) { contact = joined({contact, graded(fine_end, L, h, growth)}); }
 
    scene.meshes.push_back(
-      distribute(rectangle_mesh(contact, graded(0, 1, h_corner, growth, 0.1))));
+      distribute(rectangle_mesh(contact, graded(0, 1, h_corner, growth, 0.1)), options.order));
    scene.bodies.push_back(
       std::make_unique<ElasticBody>(*scene.meshes[0], options.order, material));
    ElasticBody &strip = *scene.bodies[0];
@@ -88,7 +88,8 @@ Receding make_receding(const RecedingOptions &options)
    std::reverse(outside.begin(), outside.end());
    std::vector<double> depth = graded(0, -options.depth, h_corner, growth);
    std::reverse(depth.begin(), depth.end());
-   scene.meshes.push_back(distribute(rectangle_mesh(joined({outside, contact}), depth)));
+   scene.meshes.push_back(
+      distribute(rectangle_mesh(joined({outside, contact}), depth), options.order));
    scene.bodies.push_back(
       std::make_unique<ElasticBody>(*scene.meshes[1], options.order, material));
    ElasticBody &block = *scene.bodies[1];
@@ -97,8 +98,8 @@ Receding make_receding(const RecedingOptions &options)
 
    const ContactLine above = contact_line(strip, bottom);
    const ContactLine below = contact_line(block, BoundaryPart({top}, 0, 0, L));
-   scene.reduction =
-      reduce(condense(strip, above), condense(block, below), pair_lines(above, below));
+   scene.reduction = reduce(condense(strip, above, condensation()),
+                            condense(block, below, condensation()), pair_lines(above, below));
    for (const auto &body : scene.bodies) { scene.dofs += body->dofs(); }
    return scene;
 }

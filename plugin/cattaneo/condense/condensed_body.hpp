@@ -46,12 +46,24 @@ public:
 struct CondenseSettings
 {
    SparseFactor::Backend backend = SparseFactor::Backend::automatic;
+   /// Of a body on an mfem::ParMesh: with more dofs than this it is condensed by conjugate
+   /// gradients on all of them, below it is gathered and factored by the first. At the default
+   /// a factor takes about a gigabyte (docs/ranks.md).
+   int direct_dofs = 500000;
+   /// Of conjugate gradients, for each right-hand side; an InputError beyond.
+   int max_iterations = 2000;
+
+   /// InputError naming the setting, its value and what is allowed.
+   void validate() const;
 };
 
 /** Condenses a body to the nodes of a contact line: one factorisation, contact dofs last, one
-   solve a load pattern. If `alike` was condensed from an equal operator (entries equal to 1e-12
-   of the largest, same supports, same contact dofs in the same order, as for the second of two
-   equal bodies turned by 180° or shifted) its factor is used and nothing is factored.
+   solve a load pattern. A distributed body is gathered on the first rank, or (see the settings)
+   condensed by one iterative solve for each contact dof and load pattern; the counters tell
+   which. Either way S and the loads have the same bits on all ranks. If `alike` was condensed
+   from an equal operator (entries equal to 1e-12 of the largest, same supports, same contact
+   dofs in the same order, as for the second of two equal bodies turned by 180° or shifted) its
+   factor is used and nothing is factored.
 
     InputError, before factoring, if the supports and the contact nodes together leave a rigid
    motion of the body (or of a part that is connected to nothing) free, or if a contact dof is

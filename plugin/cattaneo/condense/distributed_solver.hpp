@@ -34,7 +34,7 @@ public:
    /// `contact`: global true dofs. InputError, on all ranks, if a solve needs more than
    /// `max_iterations`.
    DistributedSolver(const ElasticBody &body, const std::vector<int> &contact,
-                     int max_iterations = 2000);
+                     int max_iterations);
    ~DistributedSolver();
 
    /// Schur complement of the contact dofs, the same bits on every rank.
@@ -45,6 +45,10 @@ public:
    /// prescribed displacements.
    mfem::Vector recover(const Eigen::VectorXd &contact, const mfem::Vector &forces,
                         const mfem::Vector &prescribed, Counters &counters) const;
+   /// Forces at the contact dofs of a field on this rank's true dofs, on all ranks.
+   Eigen::VectorXd forces(const mfem::Vector &field) const;
+   /// Diagonal entries of the stiffness at the contact dofs, on all ranks.
+   Eigen::VectorXd diagonal() const;
    int size() const; ///< true dofs of this rank
    /// True on every rank if the other stands for an equal operator, supports and contact.
    bool equals(const DistributedSolver &other) const;

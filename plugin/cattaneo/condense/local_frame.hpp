@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <cattaneo/contact/contact_line.hpp>
 
 namespace cattaneo
 {
@@ -25,6 +26,12 @@ struct FrameChange
    static FrameChange to_circumference(const Eigen::VectorXd &r)
    {
       return {r.cwiseInverse(), {}, {}, {}};
+   }
+   /// Of the nodes of a contact line.
+   static FrameChange of(const ContactLine &line, Geometry geometry)
+   {
+      return geometry == Geometry::torsion ? to_circumference(line.position.col(0))
+                                           : to_local(line.tangent, line.normal);
    }
    FrameChange transposed() const { return {a, c, b, d}; }
 

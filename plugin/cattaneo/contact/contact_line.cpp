@@ -15,7 +15,7 @@ namespace
 /// A number of a scalar node that all ranks share.
 int number(const ElasticBody &body, int scalar_dof)
 {
-   return body.ranks().several() ? body.global_dof(scalar_dof, 0) : scalar_dof;
+   return body.ranks().distributed() ? body.global_dof(scalar_dof, 0) : scalar_dof;
 }
 
 /// Nodes (their numbers) of one boundary element, in the direction with the body on the left.

@@ -78,7 +78,7 @@ ElasticBody::ElasticBody(mfem::Mesh &mesh, int order, const std::vector<Material
    }
    owned_collection_ = std::make_unique<mfem::H1_FECollection>(order, 2);
 #ifdef MFEM_USE_MPI
-   if (ranks_.several())
+   if (ranks_.distributed())
    {
       owned_space_ = std::make_unique<mfem::ParFiniteElementSpace>(
          dynamic_cast<mfem::ParMesh *>(&mesh), owned_collection_.get(), components(),
@@ -142,7 +142,7 @@ void ElasticBody::adopt_space()
    mfem::Mesh &mesh = *space.GetMesh();
    vdof_to_true_.assign(space.GetVSize(), -1);
 #ifdef MFEM_USE_MPI
-   if (ranks_.several())
+   if (ranks_.distributed())
    {
       const auto &shared = dynamic_cast<const mfem::ParFiniteElementSpace &>(space);
       first_global_dof_ = static_cast<int>(shared.GetMyTDofOffset());
@@ -237,7 +237,7 @@ void ElasticBody::assemble()
       assemble_stiffness(*space_, materials_, geometry_);
    ++counters_.assemblies;
 #ifdef MFEM_USE_MPI
-   if (ranks_.several())
+   if (ranks_.distributed())
    {
       mfem::ParBilinearForm form(dynamic_cast<mfem::ParFiniteElementSpace *>(space_));
       distributed_.reset(form.ParallelAssemble(local.get()));
@@ -548,7 +548,7 @@ int ElasticBody::dofs() const
 int ElasticBody::global_dof(int scalar_dof, int component) const
 {
 #ifdef MFEM_USE_MPI
-   if (ranks_.several())
+   if (ranks_.distributed())
    {
       const auto &shared = dynamic_cast<const mfem::ParFiniteElementSpace &>(*space_);
       return static_cast<int>(

@@ -31,7 +31,7 @@ namespace cattaneo
     Everything that is named by a BoundaryPart throws InputError if the attribute does not exist
    or nothing lies in the interval.
 
-    On an mfem::ParMesh of several ranks every call is collective, dofs are those that the rank
+    On an mfem::ParMesh every call is collective, dofs are those that the rank
     owns, and the stiffness is a hypre matrix. */
 class ElasticBody
 {
@@ -92,12 +92,12 @@ public:
    const Ranks &ranks() const { return ranks_; }
    /// True dofs of all ranks.
    int dofs() const;
-   /// Of a body on one rank.
+   /// Of a body that is not distributed.
    const mfem::SparseMatrix &stiffness() const { return *stiffness_; }
    /// The same matrix, to be kept beyond the life of the body (never changed).
    std::shared_ptr<const mfem::SparseMatrix> shared_stiffness() const { return stiffness_; }
 #ifdef MFEM_USE_MPI
-   /// Of a body on several ranks, to be kept beyond its life.
+   /// Of a distributed body, to be kept beyond its life.
    std::shared_ptr<const mfem::HypreParMatrix> distributed_stiffness() const
    {
       return distributed_;

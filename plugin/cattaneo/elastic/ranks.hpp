@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <functional>
 #include <mfem.hpp>
 #include <vector>
 
@@ -18,6 +19,9 @@ public:
    int size() const { return size_; }
    int rank() const { return rank_; }
    bool several() const { return size_ > 1; }
+   /// True if the mesh is a conforming mfem::ParMesh, be it on one rank.
+   bool distributed() const { return distributed_; }
+   bool first() const { return rank_ == 0; }
 
    /// True if it is on any rank.
    bool any(bool here) const;
@@ -29,8 +33,20 @@ public:
    /// The values of all ranks, in the order of the ranks.
    std::vector<double> gather(const std::vector<double> &here) const;
 
+   /// Work that only the first rank does; its InputError is thrown on all.
+   void on_first(const std::function<void()> &work) const;
+   /// The values of all ranks, in the order of the ranks, on the first; none elsewhere.
+   std::vector<double> collect(const std::vector<double> &here) const;
+   std::vector<int> collect(const std::vector<int> &here) const;
+   /// The first rank's matrix on all, whatever its shape.
+   void share(Eigen::MatrixXd &matrix) const;
+   /// Deals the first rank's values to all, `count` of them to this one, in the order of the
+   /// ranks.
+   void deal(const Eigen::VectorXd &all, int count, double *here) const;
+
 private:
    int size_ = 1, rank_ = 0;
+   bool distributed_ = false;
 #ifdef MFEM_USE_MPI
    MPI_Comm comm_ = MPI_COMM_SELF;
 #endif

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cattaneo/condense/whole_body.hpp>
+#include <cattaneo/contact/contact_line.hpp>
+
+namespace cattaneo
+{
+
+/// Rigid motions that the supports leave free.
+struct FreeMotions
+{
+   int count = 0;             ///< by geometry; those that K does not resist follow
+   Eigen::MatrixXd contact;   ///< at the contact dofs, one column a motion
+   Eigen::MatrixXd resultant; ///< work of each pattern's forces (columns) on each motion
+};
+
+/// Of a whole body whose contact dofs are given. InputError if some motions are left with the
+/// contact nodes held as well. Motions that a user's operator resists (it has no material) are
+/// not free.
+FreeMotions find_free_motions(const WholeBody &body, bool has_material,
+                              const std::vector<int> &contact);
+
+/// Of a body on several ranks, taken for connected, from what holds it: the places of the
+/// supports and of the contact nodes. The same error.
+FreeMotions find_free_motions(const ElasticBody &body, const ContactLine &line);
+
+/** What is known of a free body: rigid motions meet no resistance, and the clamped contact
+    balances the loads. In exact arithmetic imposing it changes nothing. In floating point a
+   motion that is large far from the contact (turning a half-plane of 10⁴ contact widths) would
+   leave round-off of 10⁻⁴ of the stiffness. All in global components. */
+class Equilibrium
+{
+public:
+   explicit Equilibrium(const FreeMotions &free);
+   /// On contact forces of the clamped loads, one column a pattern.
+   void impose_on_forces(Eigen::MatrixXd &f) const;
+   /// On the reduced stiffness S.
+   void impose_on_stiffness(Eigen::MatrixXd &S) const;
+   /// x without its part along the free motions: S x is P S P x, P this projection.
+   Eigen::VectorXd without_motions(const Eigen::VectorXd &x) const;
+
+private:
+   Eigen::MatrixXd Q_;       ///< the motions of the contact dofs, orthonormal
+   Eigen::MatrixXd balance_; ///< Qᵀ f
+};
+
+} // namespace cattaneo

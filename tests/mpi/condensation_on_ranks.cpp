@@ -1,0 +1,281 @@
+// Bodies on several ranks, gathered and factored or condensed by iterations, against the same
+// body on one: stiffness, loads, fields, and contact with a stiffness that is applied. Exit
+// code 1, with a sentence for each, where they differ.
+
+#include <algorithm>
+#include <cattaneo/condense/applied_reduction.hpp>
+#include <cattaneo/condense/reduction.hpp>
+#include <cattaneo/friction/applied_solver.hpp>
+#include <cattaneo/friction/friction_solver.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cstdio>
+#include <map>
+#include <vector>
+
+using namespace cattaneo;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace
+{
+
+int failures = 0;
+
+void expect(bool good, const std::string &scene, const std::string &what, double found = 0)
+{
+   if (good) { return; }
+   ++failures;
+   std::printf("rank %d of %d: %s: %s (%g)\n", mfem::Mpi::WorldRank(), mfem::Mpi::WorldSize(),
+               scene.c_str(), what.c_str(), found);
+}
+
+void expect_close(const MatrixXd &a, const MatrixXd &b, double tolerance,
+                  const std::string &scene, const std::string &what)
+{
+   const bool shapes = a.rows() == b.rows() && a.cols() == b.cols();
+   expect(shapes, scene, what + ": shapes differ");
+   if (!shapes || a.size() == 0) { return; }
+   const double worst = (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
+   expect(worst <= tolerance, scene, what + " differs", worst);
+}
+
+mfem::Mesh mesh()
+{
+   // Wide elements, unequal ones, and (r > 0 too) no symmetry.
+   mfem::Mesh mesh =
+      mfem::Mesh::MakeCartesian2D(10, 6, mfem::Element::QUADRILATERAL, true, 2.0, 1.0);
+   for (int v = 0; v < mesh.GetNV(); ++v)
+   {
+      double *x = mesh.GetVertex(v);
+      x[0] += 0.1 * x[0] * (2 - x[0]) + 0.02 * x[1];
+      x[1] *= 1 + 0.3 * x[1];
+   }
+   return mesh;
+}
+
+const int bottom = 1, right = 2, top = 3, left = 4;
+
+struct Scene
+{
+   std::string name;
+   Geometry geometry;
+   bool held;
+};
+
+std::unique_ptr<ElasticBody> make_body(mfem::Mesh &mesh, const Scene &scene)
+{
+   auto body = std::make_unique<ElasticBody>(mesh, 2, Material{2.0, 0.3}, scene.geometry);
+   if (scene.geometry == Geometry::torsion)
+   {
+      body->add_traction("T", right, 1.0);
+      if (scene.held) { body->add_displacement("D", top, 0, 0.1); }
+      return body;
+   }
+   body->add_pressure("P", scene.held ? right : top,
+                      [](double x, double y) { return 1 + 0.2 * x - 0.1 * y; });
+   body->add_traction("Q", right, 0.1, 0.3);
+   if (!scene.held) { return body; }
+   if (scene.geometry == Geometry::plane) { body->fix(BoundaryPart({left}, 1, 0.2, 2.0), 0); }
+   body->add_displacement("D", top, 1, [](double x, double) { return -0.1 - 0.02 * x; });
+   return body;
+}
+
+/// Field values by place and component.
+using Field = std::map<std::tuple<long, long, int>, double>;
+
+Field field(const ElasticBody &body, const mfem::Vector &values)
+{
+   Field result;
+   const mfem::DenseMatrix &x = body.node_coordinates();
+   for (int node = 0; node < x.Width(); ++node)
+   {
+      for (int c = 0; c < body.components(); ++c)
+      {
+         const int dof = body.true_dof(node, c);
+         if (dof < 0) { continue; }
+         result[{std::lround(1e7 * x(0, node)), std::lround(1e7 * x(1, node)), c}] =
+            values(dof);
+      }
+   }
+   return result;
+}
+
+void compare(const Scene &scene, int direct_dofs)
+{
+   const std::string name =
+      scene.name + (direct_dofs ? ", gathered" : ", by conjugate gradients");
+   // Energies of fields, and what is read off a field.
+   const double tolerance = direct_dofs ? 1e-12 : 1e-10;
+   mfem::Mesh whole = mesh();
+   mfem::ParMesh shared(MPI_COMM_WORLD, whole);
+   const auto alone = make_body(whole, scene), parts = make_body(shared, scene);
+   CondenseSettings settings;
+   settings.direct_dofs = direct_dofs;
+   CondensedBody expected = condense(*alone, contact_line(*alone, bottom));
+   const ContactLine line = contact_line(*parts, bottom);
+   CondensedBody found = condense(*parts, line, settings);
+   expect(parts->dofs() == alone->dofs(), name, "dofs differ");
+   expect(found.rigid_modes == expected.rigid_modes, name, "rigid modes differ");
+   expect((found.counters.krylov_iterations > 0) == (direct_dofs == 0), name,
+          "it was not condensed as asked");
+   expect_close(found.line.position, expected.line.position, 1e-14, name, "position");
+   expect_close(found.S, expected.S, tolerance, name, "S");
+   expect_close(found.H, expected.H, tolerance, name, "H");
+   for (std::size_t k = 0; k < expected.patterns.size(); ++k)
+   {
+      expect_close(found.patterns[k].q, expected.patterns[k].q, tolerance, name, "q");
+      expect_close(found.patterns[k].p, expected.patterns[k].p, tolerance, name, "p");
+   }
+   // The same bits on all ranks.
+   MatrixXd first = found.S;
+   parts->ranks().share(first);
+   expect(!parts->ranks().any(first != found.S), name, "S is not the same on all ranks");
+
+   const VectorXd u = VectorXd::LinSpaced(expected.S.rows(), 1, 2).array().sin();
+   const VectorXd multipliers =
+      VectorXd::LinSpaced(static_cast<Eigen::Index>(expected.patterns.size()), 1, 2);
+   const Field reference = field(*alone, expected.recover(u, multipliers));
+   double largest = 0, worst = 0;
+   for (const auto &entry : reference) { largest = std::max(largest, std::abs(entry.second)); }
+   for (const auto &[place, value] : field(*parts, found.recover(u, multipliers)))
+   {
+      const auto there = reference.find(place);
+      expect(there != reference.end(), name, "a node is not one of the whole mesh");
+      if (there != reference.end())
+      {
+         worst = std::max(worst, std::abs(value - there->second));
+      }
+   }
+   expect(worst <= 1e-10 * largest, name, "the field differs", worst / largest);
+
+   // An equal body shares the factor, or what was iterated.
+   const CondensedBody again = condense(*parts, line, settings, &found);
+   expect(again.counters.factorisations == 0, name, "an equal body was condensed again");
+   expect(again.S == found.S, name, "an equal body has another stiffness");
+}
+
+/// A parabola pressed and sheared, with the stiffness applied and with it formed on one rank.
+void applied_contact(const Scene &scene, const std::vector<double> &shears)
+{
+   const std::string name = scene.name + ", applied";
+   mfem::Mesh whole = mesh();
+   mfem::ParMesh shared(MPI_COMM_WORLD, whole);
+   const auto alone = make_body(whole, scene), parts = make_body(shared, scene);
+   const auto gap = [](double x, double) { return 0.2 * (x - 0.9) * (x - 0.9); };
+   ReducedProblem expected =
+      reduce(condense(*alone, contact_line(*alone, bottom)), gap).problem;
+   CondenseSettings settings;
+   settings.direct_dofs = 0;
+   Counters counters;
+   AppliedProblem found =
+      apply_reduction(*parts, contact_line(*parts, bottom), gap, settings, &counters);
+   const VectorXd u = VectorXd::LinSpaced(2 * expected.nodes(), 1, 3).array().sin();
+   expect_close(found.apply(u), expected.stiffness() * u, 1e-10, name, "S u");
+   expect(counters.krylov_iterations > 0, name, "nothing was iterated");
+
+   set_friction(expected, 0.3);
+   found.friction = expected.friction;
+   FrictionSolver solver(expected);
+   ContactState dense = ContactState::virgin(expected), state = virgin(found);
+   for (const double shear : shears)
+   {
+      // Pressed by what is prescribed at the top, or by the pressure there.
+      const Eigen::Vector3d loads(scene.held ? 0.0 : 0.1, scene.held ? shear : 0.1 * shear,
+                                  1.0);
+      const VectorXd multipliers = loads.head(static_cast<Eigen::Index>(found.patterns.size()));
+      const FrictionStatus formed = solver.solve(dense, multipliers).status;
+      expect(formed == FrictionStatus::converged, name,
+             std::string("formed: ") + cattaneo::name(formed));
+      const AppliedReport report = solve(found, state, multipliers);
+      expect(report.status == FrictionStatus::converged, name, report.message);
+      expect(state.status == dense.status, name, "node states differ");
+      expect(std::count(dense.status.begin(), dense.status.end(), NodeState::separation) > 0,
+             name, "all nodes are closed");
+      const double worst = std::max((state.p - dense.p).cwiseAbs().maxCoeff(),
+                                    (state.q - dense.q).cwiseAbs().maxCoeff());
+      expect(worst <= 1e-8 * dense.peak_force, name, "forces differ", worst / dense.peak_force);
+   }
+}
+
+void expect_error(const std::string &part, const std::function<void()> &act)
+{
+   std::string message = "nothing";
+   try
+   {
+      act();
+   }
+   catch (const InputError &error)
+   {
+      message = error.what();
+   }
+   expect(message.find(part) != std::string::npos, "error '" + part + "'", message);
+}
+
+/// On all ranks alike.
+void errors()
+{
+   mfem::Mesh whole = mesh();
+   mfem::ParMesh shared(MPI_COMM_WORLD, whole);
+   ElasticBody body(shared, 2, Material{2.0, 0.3});
+   const ContactLine line = contact_line(body, bottom);
+   CondenseSettings settings;
+   settings.direct_dofs = -1;
+   expect_error("direct_dofs", [&] { condense(body, line, settings); });
+   settings.direct_dofs = 0;
+   settings.max_iterations = 0;
+   expect_error("max_iterations", [&] { condense(body, line, settings); });
+   settings.max_iterations = 1;
+   expect_error("1 iterations of conjugate gradients", [&] { condense(body, line, settings); });
+   settings = {};
+   body.fix(bottom, 0);
+   for (int direct_dofs : {0, 1000000})
+   {
+      settings.direct_dofs = direct_dofs;
+      expect_error("is fixed or prescribed", [&] { condense(body, line, settings); });
+   }
+   ElasticBody loose(shared, 2, Material{2.0, 0.3});
+   ContactLine point = contact_line(loose, bottom);
+   const auto keep_first = [](Eigen::MatrixXd &list) { list.conservativeResize(1, 2); };
+   for (Eigen::MatrixXd *list : {&point.position, &point.tangent, &point.normal})
+   {
+      keep_first(*list);
+   }
+   point.true_dofs.resize(1);
+   for (Eigen::VectorXd *list : {&point.arc_length, &point.weights, &point.lumped_weights})
+   {
+      list->conservativeResize(1);
+   }
+   for (int direct_dofs : {0, 1000000})
+   {
+      settings.direct_dofs = direct_dofs;
+      expect_error("unsupported body", [&] { condense(loose, point, settings); });
+   }
+}
+
+} // namespace
+
+int main()
+{
+   mfem::Mpi::Init();
+   mfem::Hypre::Init();
+   for (const Scene &scene : {Scene{"held plane body", Geometry::plane, true},
+                              Scene{"free plane body", Geometry::plane, false},
+                              Scene{"held body of revolution", Geometry::axisymmetric, true},
+                              Scene{"free body of revolution", Geometry::axisymmetric, false},
+                              Scene{"held twisting body", Geometry::torsion, true},
+                              Scene{"free twisting body", Geometry::torsion, false}})
+   {
+      for (int direct_dofs : {0, 1000000}) { compare(scene, direct_dofs); }
+   }
+   applied_contact({"held plane body", Geometry::plane, true}, {0, 0.1, -0.05});
+   applied_contact({"free plane body", Geometry::plane, false}, {0});
+   applied_contact({"held body of revolution", Geometry::axisymmetric, true}, {0});
+   errors();
+   int all = 0;
+   MPI_Allreduce(&failures, &all, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
+   if (mfem::Mpi::Root())
+   {
+      std::printf("%d failures on %d ranks\n", all, mfem::Mpi::WorldSize());
+   }
+   return all == 0 ? 0 : 1;
+}

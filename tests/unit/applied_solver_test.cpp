@@ -1,0 +1,155 @@
+#include "punch_problem.hpp"
+#include "random_problem.hpp"
+
+#include <cattaneo/friction/applied_solver.hpp>
+#include <cattaneo/friction/friction_solver.hpp>
+#include <cattaneo/input_error.hpp>
+#include <gtest/gtest.h>
+
+namespace
+{
+
+using namespace cattaneo;
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// The same increments with the stiffness applied and, the other way, with it factored.
+void expect_same(const ReducedProblem &problem, const std::vector<VectorXd> &loads)
+{
+   const AppliedProblem only_applied = applied(problem);
+   FrictionSolver solver(problem);
+   ContactState state = virgin(only_applied), dense = ContactState::virgin(problem);
+   for (const VectorXd &load : loads)
+   {
+      const AppliedReport report = solve(only_applied, state, load);
+      ASSERT_EQ(report.status, FrictionStatus::converged) << report.message;
+      EXPECT_LE(report.residual, 1e-9);
+      EXPECT_GT(report.applications, 0);
+      ASSERT_EQ(solver.solve(dense, load).status, FrictionStatus::converged);
+      EXPECT_EQ(state.status, dense.status);
+      const double force = dense.p.cwiseAbs().maxCoeff();
+      EXPECT_LE((state.p - dense.p).cwiseAbs().maxCoeff(), 1e-8 * force);
+      EXPECT_LE((state.q - dense.q).cwiseAbs().maxCoeff(), 1e-8 * force);
+      const double moved = dense.v.cwiseAbs().maxCoeff() + dense.w.cwiseAbs().maxCoeff();
+      EXPECT_LE((state.v - dense.v).cwiseAbs().maxCoeff(), 1e-8 * moved);
+      EXPECT_LE((state.w - dense.w).cwiseAbs().maxCoeff(), 1e-8 * moved);
+   }
+}
+
+VectorXd loads(double P, double Q)
+{
+   return Eigen::Vector2d(P, Q);
+}
+
+TEST(AppliedSolver, PunchIsPressedAndSheared)
+{
+   for (bool half_plane : {false, true})
+   {
+      SCOPED_TRACE(half_plane);
+      ReducedProblem problem = cattaneo_test::punch_problem(33, half_plane);
+      set_friction(problem, 0.3);
+      expect_same(problem,
+                  {loads(1, 0), loads(1, 0.1), loads(1, 0.2), loads(1, 0.1), loads(1, -0.15)});
+   }
+}
+
+TEST(AppliedSolver, ParabolaIsPressedSlidesAndOpens)
+{
+   ReducedProblem problem = cattaneo_test::punch_problem(65, true);
+   problem.gap = 0.8 * problem.position.col(0).cwiseAbs2();
+   set_friction(problem, 0.25);
+   expect_same(problem, {loads(0.2, 0), loads(0.4, 0), loads(0.4, 0.04), loads(0.4, 0.08),
+                         loads(0.2, 0.02)});
+}
+
+TEST(AppliedSolver, NoFriction)
+{
+   ReducedProblem problem = cattaneo_test::punch_problem(65, true);
+   problem.gap = 0.8 * problem.position.col(0).cwiseAbs2();
+   const AppliedProblem only_applied = applied(problem);
+   ContactState state = virgin(only_applied);
+   ASSERT_EQ(solve(only_applied, state, loads(0.4, 0)).status, FrictionStatus::converged);
+   FrictionSolver solver(problem);
+   ContactState dense = ContactState::virgin(problem);
+   ASSERT_EQ(solver.solve(dense, loads(0.4, 0)).status, FrictionStatus::converged);
+   EXPECT_LE((state.p - dense.p).cwiseAbs().maxCoeff(), 1e-8 * dense.p.maxCoeff());
+   EXPECT_LE(state.q.cwiseAbs().maxCoeff(), 1e-8 * dense.p.maxCoeff());
+}
+
+TEST(AppliedSolver, RandomProblems)
+{
+   std::mt19937 random(7);
+   for (int k = 0; k < 30; ++k)
+   {
+      SCOPED_TRACE(k);
+      expect_same(cattaneo_test::random_problem(12, 0.3, 0.2, random),
+                  {loads(1, 0), loads(1, 0.2), loads(0.8, -0.3)});
+   }
+}
+
+TEST(AppliedSolver, UnitsDoNotMatter)
+{
+   ReducedProblem problem = cattaneo_test::punch_problem(33, false);
+   set_friction(problem, 0.3);
+   const AppliedProblem plain = applied(problem);
+   ContactState state = virgin(plain);
+   const AppliedReport report = solve(plain, state, loads(1, 0.1));
+   for (const double length : {1e-9, 1e9})
+   {
+      AppliedProblem scaled = plain; // displacements in another unit, a power of two near
+      const double unit = std::exp2(std::round(std::log2(length)));
+      scaled.apply = [&](const VectorXd &u) -> VectorXd { return plain.apply(u) / unit; };
+      scaled.diagonal /= unit;
+      ContactState other = virgin(scaled);
+      const AppliedReport its = solve(scaled, other, loads(1, 0.1));
+      EXPECT_EQ(its.newton_steps, report.newton_steps);
+      EXPECT_EQ(its.applications, report.applications);
+      EXPECT_LE((other.p - state.p).cwiseAbs().maxCoeff(), 1e-12 * state.p.maxCoeff());
+      EXPECT_LE((other.v - unit * state.v).cwiseAbs().maxCoeff(),
+                1e-12 * unit * state.v.cwiseAbs().maxCoeff());
+   }
+}
+
+TEST(AppliedSolver, SaysWhenItStalls)
+{
+   ReducedProblem problem = cattaneo_test::punch_problem(33, false);
+   set_friction(problem, 0.3);
+   const AppliedProblem only_applied = applied(problem);
+   ContactState state = virgin(only_applied);
+   const ContactState before = state;
+   AppliedSettings settings;
+   settings.max_newton = 1;
+   AppliedReport report = solve(only_applied, state, loads(1, 0.1), settings);
+   EXPECT_EQ(report.status, FrictionStatus::stalled);
+   EXPECT_NE(report.message.find("cut the increment"), std::string::npos);
+   EXPECT_EQ(state.status, before.status);
+   EXPECT_EQ(state.v, before.v);
+   settings = {};
+   settings.max_iterations = 1;
+   report = solve(only_applied, state, loads(1, 0.1), settings);
+   EXPECT_EQ(report.status, FrictionStatus::stalled);
+   EXPECT_NE(report.message.find("iterations"), std::string::npos);
+   // More than friction can hold: no answer, and none is made up.
+   EXPECT_EQ(solve(only_applied, state, loads(1, 0.5)).status, FrictionStatus::stalled);
+}
+
+TEST(AppliedSolver, RefusesBadInput)
+{
+   ReducedProblem problem = cattaneo_test::punch_problem(9, false);
+   AppliedProblem bad = applied(problem);
+   ContactState state = virgin(bad);
+   EXPECT_THROW(solve(bad, state, VectorXd::Ones(3)), InputError);
+   AppliedSettings settings;
+   settings.tolerance = 0;
+   EXPECT_THROW(solve(bad, state, loads(1, 0), settings), InputError);
+   bad.diagonal[2] = 0;
+   EXPECT_THROW(solve(bad, state, loads(1, 0)), InputError);
+   bad = applied(problem);
+   bad.apply = nullptr;
+   EXPECT_THROW(bad.validate(), InputError);
+   bad = applied(problem);
+   bad.friction[0] = -1;
+   EXPECT_THROW(bad.validate(), InputError);
+}
+
+} // namespace
