@@ -4,28 +4,17 @@
 //  contact nodes, and the map of figure 4.18, 4 reversals by 12 friction coefficients, with 145
 //  nodes.
 
+#include "common/miniapp.hpp"
+
 #include <cattaneo/condense/reduction.hpp>
 #include <cattaneo/elastic/graded_mesh.hpp>
 #include <cattaneo/shakedown/limit.hpp>
-#include <chrono>
 #include <cstdio>
 
 using namespace cattaneo;
 
 namespace
 {
-
-class Stopwatch
-{
-public:
-   double seconds() const
-   {
-      return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-   }
-
-private:
-   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
-};
 
 ReducedProblem punch(int nodes)
 {
@@ -50,7 +39,7 @@ int main()
    for (const int nodes : {101, 201, 513})
    {
       const ReducedProblem reduced = punch(nodes);
-      const Stopwatch watch;
+      const miniapp::Stopwatch watch;
       const LimitProblem problem =
          limit_problem(reduced, held_and_cycled(reduced, "P", 1, "Q", -0.5));
       const double preparation = watch.seconds();
@@ -62,7 +51,7 @@ int main()
                   friction.upper - friction.lower, name(load.status), name(friction.status));
    }
 
-   const Stopwatch watch;
+   const miniapp::Stopwatch watch;
    const ReducedProblem reduced = punch(145);
    LimitProblem problem = limit_problem(reduced, held_and_cycled(reduced, "P", 1, "Q", -1));
    int certified = 0, iterations = 0;

@@ -32,52 +32,6 @@ namespace
 const double none = std::numeric_limits<double>::quiet_NaN();
 const double E_star = 0.5, radius = 100;
 
-/// Peak pressure: top of the parabola p²(x) (exact for Hertz) fitted within half a half-width
-/// of the largest nodal value, with the nodes' weights. Nodal values of quadratic elements
-/// alternate about the smooth profile, by 0.03 % here, in the proportion of their weights.
-double peak_pressure(const ReducedProblem &problem, const ContactState &state,
-                     double half_width)
-{
-   const VectorXd p = tractions(problem, state.p), x = problem.position.col(0);
-   Eigen::Index top = 0;
-   p.maxCoeff(&top);
-   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-   Eigen::Vector3d rhs = Eigen::Vector3d::Zero();
-   for (Eigen::Index i = 0; i < x.size(); ++i)
-   {
-      const double s = (x[i] - x[top]) / half_width;
-      if (std::abs(s) > 0.5) { continue; }
-      const Eigen::Vector3d row(1, s, s * s);
-      normal += problem.weights[i] * row * row.transpose();
-      rhs += problem.weights[i] * p[i] * p[i] * row;
-   }
-   const Eigen::Vector3d c = normal.ldlt().solve(rhs);
-   return std::sqrt(c[0] - c[1] * c[1] / (4 * c[2]));
-}
-
-/// Deviation of nodal tractions from a closed form, in units of `scale`.
-struct Deviation
-{
-   double largest =
-      0; ///< of any node; at the edge it depends on where the edge lies in its element
-   double mean = 0; ///< root of the mean square over the contact line
-};
-
-Deviation deviation(const ReducedProblem &problem, const VectorXd &nodal_forces, double scale,
-                    const std::function<double(double)> &exact)
-{
-   const VectorXd traction = tractions(problem, nodal_forces), x = problem.position.col(0);
-   Deviation result;
-   for (Eigen::Index i = 0; i < x.size(); ++i)
-   {
-      const double d = std::abs(traction[i] - exact(x[i])) / scale;
-      result.largest = std::max(result.largest, d);
-      result.mean += problem.weights[i] / problem.weights.sum() * d * d;
-   }
-   result.mean = std::sqrt(result.mean);
-   return result;
-}
-
 } // namespace
 
 int main(int argc, char *argv[])
@@ -159,12 +113,11 @@ int main(int argc, char *argv[])
             profiles.add("Hertz: p", x / b, exact, "dashed");
             const Zone contact = contact_zone(problem, state);
             const double half_width = 0.5 * (contact.to.position - contact.from.position);
-            const double peak = peak_pressure(problem, state, half_width);
-            const Deviation pressure =
-               deviation(problem, state.p, p0,
-                         [&](double s) {
-                            return std::abs(s) < b ? p0 * std::sqrt(1 - s * s / (b * b)) : 0.0;
-                         });
+            const double peak = miniapp::peak_pressure(problem, state, half_width);
+            const miniapp::Deviation pressure = miniapp::deviation(
+               problem, state.p, p0,
+               [&](double s)
+               { return std::abs(s) < b ? p0 * std::sqrt(1 - s * s / (b * b)) : 0.0; });
             results["half_width"] = half_width / b;
             results["half_width_error"] = std::max(contact.to.error, contact.from.error) / b;
             results["peak_pressure"] = peak / p0;
@@ -214,7 +167,7 @@ int main(int argc, char *argv[])
             const double c = any ? 0.5 * (stick.to.position - stick.from.position) / b : 0.0;
             const double exact_c = std::sqrt(std::max(0.0, 1 - shear[k]));
             // Shear +Q acts on body 1 above: the force of the contact on it is -q.
-            const Deviation shearing = deviation(
+            const miniapp::Deviation shearing = miniapp::deviation(
                problem, state.q, friction * p0,
                [&](double s)
                {

@@ -1,5 +1,6 @@
 #include "common/disc_scene.hpp"
 
+#include "common/contact_grid.hpp"
 #include "common/miniapp.hpp"
 
 #include <algorithm>
@@ -41,16 +42,23 @@ Disc make_disc(const DiscOptions &options)
    const int bottom = 1, side = 2, top = 3;
    const double b = options.disc_radius, R = options.domain;
    // Elements hold as many intervals between nodes as their order says.
-   const double h = options.spacing * options.order;
+   double h = options.spacing * options.order, h_end = h;
    const int count = std::max(1, static_cast<int>(std::lround(b / h)));
    std::vector<double> contact;
    for (int i = 0; i <= count; ++i) { contact.push_back(i == count ? b : b * i / count); }
+   if (!options.grid.empty())
+   {
+      contact = options.grid;
+      h = smallest_step(contact);
+      h_end = contact.back() - contact[contact.size() - 2];
+   }
    std::vector<double> depth = graded(0, -R, h, options.growth);
    std::reverse(depth.begin(), depth.end());
+   scene.meshes.push_back(distribute(
+      rectangle_mesh(contact, graded(0, 1, h, options.growth, 0.4 * (options.growth - 1))),
+      options.order));
    scene.meshes.push_back(
-      distribute(rectangle_mesh(contact, graded(0, 1, h, options.growth, 0.1)), options.order));
-   scene.meshes.push_back(
-      distribute(rectangle_mesh(joined({contact, graded(b, R, h, options.growth)}), depth),
+      distribute(rectangle_mesh(joined({contact, graded(b, R, h_end, options.growth)}), depth),
                  options.order));
 
    const auto add_bodies = [&](auto &bodies, Geometry geometry)

@@ -32,7 +32,11 @@ struct DiscOptions
    double domain = 100;                    ///< R, in t
    int order = 2;
    double spacing = 0.02; ///< of the contact nodes (rounded so that elements end at b), in t
-   double growth = 1.25;  ///< of the elements away from the contact
+   /// Of the elements away from the contact; those of the disc are 0.4 (growth - 1) t high at
+   /// most.
+   double growth = 1.25;
+   /// Grid lines of the contact from 0 to the disc's radius in place of `spacing`.
+   std::vector<double> grid = {};
    double poisson = 0.3;
    Twist twist = Twist::none;
 

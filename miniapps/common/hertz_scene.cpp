@@ -1,9 +1,12 @@
 #include "common/hertz_scene.hpp"
 
+#include "common/contact_grid.hpp"
 #include "common/miniapp.hpp"
 
 #include <cattaneo/elastic/graded_mesh.hpp>
+#include <cattaneo/friction/zones.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cmath>
 
 namespace miniapp
 {
@@ -29,8 +32,8 @@ void load(ElasticBody &body, int top, double L, double H, double P, double turn)
 void HalfPlanes::validate() const
 {
    require(order >= 1 && order <= 8, "option --order is ", order, ", must be 1 to 8");
-   require(nodes >= 9 && (nodes - 1) % order == 0, "option --nodes is ", nodes,
-           ", must be at least 9 and one more than a multiple of the order ", order);
+   require(!grid.empty() || (nodes >= 9 && (nodes - 1) % order == 0), "option --nodes is ",
+           nodes, ", must be at least 9 and one more than a multiple of the order ", order);
    require(span > 1, "option --span is ", span, ", must be above 1");
    require(domain > 10, "option --domain is ", domain, ", must be above 10");
    require(half_width > 0 && load > 0, "the half-width ", half_width, " and the load ", load,
@@ -41,12 +44,13 @@ HertzScene make_scene(const HalfPlanes &options)
 {
    options.validate();
    HertzScene scene;
-   const int elements = (options.nodes - 1) / options.order;
-   const double span = options.span * options.half_width;
    const double domain = options.domain * options.half_width;
-   const std::vector<double> contact = graded_to_ends(span, elements, 1.0);
-   const double h = contact[1] - contact[0], growth = 1.25;
-   const std::vector<double> depth = graded(0, span, h, growth, 0.2 * span);
+   const std::vector<double> contact =
+      options.grid.empty() ? graded_to_ends(options.span * options.half_width,
+                                            (options.nodes - 1) / options.order, 1.0)
+                           : options.grid;
+   const double span = contact.back(), h = smallest_step(contact), growth = options.growth;
+   const std::vector<double> depth = graded(0, span, h, growth, 0.8 * (growth - 1) * span);
    const std::vector<double> rings = ring_scales(span, domain, h, growth);
    const int surface = 1, far = 3, sides = 4;
    std::vector<CondensedBody> condensed;
@@ -107,6 +111,42 @@ HertzScene make_scene(const BlockOnHalfPlane &options)
    scene.reduction = reduce(condense(*scene.bodies[0], above, condensation()),
                             condense(plane, below, condensation()), pair_lines(above, below));
    return scene;
+}
+
+double peak_pressure(const ReducedProblem &problem, const ContactState &state,
+                     double half_width)
+{
+   const Eigen::VectorXd p = tractions(problem, state.p), x = problem.position.col(0);
+   Eigen::Index top = 0;
+   p.maxCoeff(&top);
+   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+   Eigen::Vector3d rhs = Eigen::Vector3d::Zero();
+   for (Eigen::Index i = 0; i < x.size(); ++i)
+   {
+      const double s = (x[i] - x[top]) / half_width;
+      if (std::abs(s) > 0.5) { continue; }
+      const Eigen::Vector3d row(1, s, s * s);
+      normal += problem.weights[i] * row * row.transpose();
+      rhs += problem.weights[i] * p[i] * p[i] * row;
+   }
+   const Eigen::Vector3d c = normal.ldlt().solve(rhs);
+   return std::sqrt(c[0] - c[1] * c[1] / (4 * c[2]));
+}
+
+Deviation deviation(const ReducedProblem &problem, const Eigen::VectorXd &nodal_forces,
+                    double scale, const std::function<double(double)> &exact)
+{
+   const Eigen::VectorXd traction = tractions(problem, nodal_forces),
+                         x = problem.position.col(0);
+   Deviation result;
+   for (Eigen::Index i = 0; i < x.size(); ++i)
+   {
+      const double d = std::abs(traction[i] - exact(x[i])) / scale;
+      result.largest = std::max(result.largest, d);
+      result.mean += problem.weights[i] / problem.weights.sum() * d * d;
+   }
+   result.mean = std::sqrt(result.mean);
+   return result;
 }
 
 } // namespace miniapp

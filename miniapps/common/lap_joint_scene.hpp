@@ -28,7 +28,12 @@ struct LapJointOptions
    double lower_thickness = 1.0;
    int order = 2;
    double spacing = 0.0125; ///< of the contact nodes where the contact is expected, in t
-   double growth = 1.25;    ///< of the elements away from it
+   /// Of the elements away from it, which are 0.4, 1 and 0.2 (growth - 1) t at most along the
+   /// overlap, beyond it and across.
+   double growth = 1.25;
+   /// Grid lines of the overlap from 0 to its end in place of `spacing`; its mirror image is
+   /// the other half.
+   std::vector<double> grid = {};
    double poisson = 0.3;
 
    /// InputError naming the option, its value and what is allowed.

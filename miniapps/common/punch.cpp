@@ -1,5 +1,6 @@
 #include "common/punch.hpp"
 
+#include "common/contact_grid.hpp"
 #include "common/miniapp.hpp"
 
 #include <cattaneo/elastic/graded_mesh.hpp>
@@ -13,8 +14,8 @@ using namespace cattaneo;
 void PunchOptions::validate() const
 {
    require(order >= 1 && order <= 8, "option --order is ", order, ", must be 1 to 8");
-   require(nodes >= 3 && (nodes - 1) % order == 0, "option --nodes is ", nodes,
-           ", must be at least 3 and one more than a multiple of the order ", order);
+   require(!grid.empty() || (nodes >= 3 && (nodes - 1) % order == 0), "option --nodes is ",
+           nodes, ", must be at least 3 and one more than a multiple of the order ", order);
    require(grading > 0 && grading <= 1, "option --grading is ", grading,
            ", must be above 0 and at most 1");
    require(plane_stiffness > 0, "stiffness of the half-plane over the block's is ",
@@ -43,16 +44,26 @@ Punch make_punch(const PunchOptions &options)
    Material plane_material = material;
    plane_material.young *= options.plane_stiffness;
    const std::vector<double> contact =
-      graded_to_ends(1.0, (options.nodes - 1) / options.order, options.grading);
-   const double smallest = contact[1] - contact[0];
-   const double largest = contact[contact.size() / 2 + 1] - contact[contact.size() / 2];
+      options.grid.empty()
+         ? graded_to_ends(1.0, (options.nodes - 1) / options.order, options.grading)
+         : options.grid;
+   const double smallest = smallest_step(contact), largest = largest_step(contact);
 
    // Away from the contact elements grow, more slowly where the order is low: a bilinear mesh
    // that is coarse above the contact misses the block's compliance.
-   const double growth = options.order == 1 ? 1.1 : 1.25;
-   const double coarsest = std::max(options.order == 1 ? 0.04 : 0.2, largest);
+   const bool chosen = options.growth > 0;
+   const double growth = chosen ? options.growth : options.order == 1 ? 1.1 : 1.25;
+   const double coarsest = std::max(chosen               ? 0.8 * (growth - 1)
+                                    : options.order == 1 ? 0.04
+                                                         : 0.2,
+                                    largest);
+   const auto refined = [&](mfem::Mesh mesh, int body)
+   {
+      if (options.refine) { options.refine(mesh, body); }
+      return distribute(std::move(mesh), options.order);
+   };
    const std::vector<double> height = graded(0, 2, smallest, growth, coarsest);
-   punch.meshes.push_back(distribute(rectangle_mesh(contact, height), options.order));
+   punch.meshes.push_back(refined(rectangle_mesh(contact, height), 0));
    punch.bodies.push_back(
       std::make_unique<ElasticBody>(*punch.meshes[0], options.order, material));
    ElasticBody &block = *punch.bodies[0];
@@ -69,9 +80,9 @@ Punch make_punch(const PunchOptions &options)
    }
 
    punch.meshes.push_back(
-      distribute(half_plane_mesh(contact, graded(0, 1, smallest, growth, coarsest),
-                                 ring_scales(1, options.domain, smallest, growth)),
-                 options.order));
+      refined(half_plane_mesh(contact, graded(0, 1, smallest, growth, coarsest),
+                              ring_scales(1, options.domain, smallest, growth)),
+              1));
    punch.bodies.push_back(
       std::make_unique<ElasticBody>(*punch.meshes[1], options.order, plane_material));
    ElasticBody &plane = *punch.bodies[1];

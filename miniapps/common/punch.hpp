@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cattaneo/condense/reduction.hpp>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,6 +25,13 @@ struct PunchOptions
       0.01; ///< size of the contact elements at the corners over those in the middle
    double plane_stiffness = 1; ///< E' of the half-plane over that of the block
    double domain = 1e4;        ///< half-width and depth of the half-plane's block, in a
+   /// Of the elements away from the contact, the largest of which are 0.8 (growth - 1) a;
+   /// 0: 1.25, or 1.1 up to half that size where the order is 1.
+   double growth = 0;
+   /// Grid lines of the contact from -1 to 1 in place of `nodes` and `grading`.
+   std::vector<double> grid = {};
+   /// Refines the mesh of a body (0 or 1) before it is made; both alike along the contact.
+   std::function<void(mfem::Mesh &, int)> refine = {};
 
    /// InputError naming the option, its value and what is allowed.
    void validate() const;

@@ -1,5 +1,6 @@
 #include "common/receding.hpp"
 
+#include "common/contact_grid.hpp"
 #include "common/miniapp.hpp"
 
 #include <algorithm>
@@ -60,16 +61,27 @@ Receding make_receding(const RecedingOptions &options)
    const int bottom = 1, right = 2, top = 3;
    const double L = options.length, growth = options.growth;
    // Elements hold as many intervals between nodes as their order says.
-   const double h = options.spacing * options.order, h_corner = options.corner * options.order;
+   const double h = options.spacing * options.order;
+   double h_corner = options.corner * options.order;
 
    // Slip and separation lie within 2 t of the load's edge.
    const double n_max = *std::max_element(options.overhangs.begin(), options.overhangs.end());
    const double fine_end = std::min(L, n_max + 2.5);
    std::vector<double> contact = graded(0, fine_end, h_corner, growth, h);
    if (fine_end < L) { contact = joined({contact, graded(fine_end, L, h, growth)}); }
+   if (!options.grid.empty())
+   {
+      contact = options.grid;
+      h_corner = smallest_step(contact);
+   }
+   const auto refined = [&](mfem::Mesh mesh, int body)
+   {
+      if (options.refine) { options.refine(mesh, body); }
+      return distribute(std::move(mesh), options.order);
+   };
 
    scene.meshes.push_back(
-      distribute(rectangle_mesh(contact, graded(0, 1, h_corner, growth, 0.1)), options.order));
+      refined(rectangle_mesh(contact, graded(0, 1, h_corner, growth, 0.4 * (growth - 1))), 0));
    scene.bodies.push_back(
       std::make_unique<ElasticBody>(*scene.meshes[0], options.order, material));
    ElasticBody &strip = *scene.bodies[0];
@@ -81,15 +93,14 @@ Receding make_receding(const RecedingOptions &options)
    }
    // The contact node at the end of the line stays free: a contact dof cannot be fixed, and L
    // is far from the zones of interest.
-   const double clear = 0.4 * options.corner;
+   const double clear = 0.4 * h_corner / options.order;
    strip.fix(BoundaryPart({right}, 1, clear, 1), 0);
 
-   std::vector<double> outside = graded(0, -options.side, h_corner, growth);
+   std::vector<double> outside = graded(0, -options.side, contact[1] - contact[0], growth);
    std::reverse(outside.begin(), outside.end());
    std::vector<double> depth = graded(0, -options.depth, h_corner, growth);
    std::reverse(depth.begin(), depth.end());
-   scene.meshes.push_back(
-      distribute(rectangle_mesh(joined({outside, contact}), depth), options.order));
+   scene.meshes.push_back(refined(rectangle_mesh(joined({outside, contact}), depth), 1));
    scene.bodies.push_back(
       std::make_unique<ElasticBody>(*scene.meshes[1], options.order, material));
    ElasticBody &block = *scene.bodies[1];

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cattaneo/condense/reduction.hpp>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,8 +24,14 @@ struct RecedingOptions
    double spacing =
       0.02; ///< of the contact nodes from the corner to beyond the edge of the load
    double corner = 0.0005; ///< of the contact nodes at the strip's end
-   double growth = 1.25;   ///< of the elements away from the contact and the corner
+   /// Of the elements away from the contact and the corner; those of the strip are 0.4 (growth
+   /// - 1) t high at most.
+   double growth = 1.25;
    double poisson = 0.3;
+   /// Grid lines of the contact from 0 to `length` in place of `spacing` and `corner`.
+   std::vector<double> grid = {};
+   /// Refines the mesh of a body (0 or 1) before it is made; both alike along the contact.
+   std::function<void(mfem::Mesh &, int)> refine = {};
 
    /// The limit of a half-plane, or the finite block that comes close to what the thesis used.
    void half_plane_domain();

@@ -244,7 +244,8 @@ std::vector<double> ring_scales(double a, double domain, double first, double gr
    require(domain > 4 * a, "ring scales: the domain is ", domain, ", must be above ", 4 * a);
    std::vector<double> radii = graded(a, 3 * a, first, growth);
    const double last = radii.back() - radii[radii.size() - 2];
-   radii = joined({radii, graded(3 * a, domain, std::max(last, 0.1 * a), 1.5)});
+   radii =
+      joined({radii, graded(3 * a, domain, std::max(last, 0.1 * a), 1 + 2 * (growth - 1))});
    for (double &radius : radii) { radius /= a; }
    radii.front() = 1;
    return radii;

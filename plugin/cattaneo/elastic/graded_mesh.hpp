@@ -45,8 +45,8 @@ mfem::Mesh half_space_mesh(const std::vector<double> &contact, const std::vector
                            const std::vector<double> &scale);
 
 /// Scales 1 … domain/a for half_plane_mesh() and half_space_mesh(): rings that start with the
-/// thickness `first` and grow by `growth` up to 3a, and by 1.5 beyond, where the field is
-/// smooth.
+/// thickness `first` and grow by `growth` up to 3a, and twice as fast beyond, by 1 + 2 (growth
+/// - 1), where the field is smooth.
 std::vector<double> ring_scales(double a, double domain, double first, double growth);
 
 } // namespace cattaneo
