@@ -123,7 +123,7 @@ struct Problem
    std::vector<Quantity> quantities;
    double spacing;        ///< of the coarsest level
    double finest, corner; ///< of graded meshes
-   int shown;             ///< quantity of the picture
+   int fine;              ///< level of the first of the two reference meshes
    std::function<Answer(const Resolution &)> solve;
    bool nested = false;
    bool standard = true; ///< there is a miniapp with a default mesh
@@ -540,7 +540,7 @@ const std::vector<Problem> &problems()
        0.1,
        1,
        1.0 / 64,
-       0,
+       3,
        punch,
        true},
       {"strip",
@@ -549,7 +549,7 @@ const std::vector<Problem> &problems()
        0.2,
        1.0 / 16,
        1,
-       0,
+       2,
        strip,
        true},
       {"disc",
@@ -560,7 +560,7 @@ const std::vector<Problem> &problems()
        0.2,
        1.0 / 16,
        1,
-       0,
+       2,
        disc},
       {"lap_joint",
        "Lap joint",
@@ -570,7 +570,7 @@ const std::vector<Problem> &problems()
        0.05,
        1.0 / 16,
        1,
-       0,
+       2,
        lap_joint},
       {"shakedown",
        "Shakedown limits of a punch",
@@ -578,7 +578,7 @@ const std::vector<Problem> &problems()
        0.1,
        1,
        1.0 / 64,
-       0,
+       2,
        shakedown},
    };
    return all;
@@ -630,7 +630,7 @@ struct Reference
    double value, uncertainty;
 };
 
-std::vector<Reference> references(const Problem &problem, int level)
+std::vector<Reference> references(const Problem &problem)
 {
    std::vector<Reference> result;
    const bool closed = std::all_of(problem.quantities.begin(), problem.quantities.end(),
@@ -638,7 +638,7 @@ std::vector<Reference> references(const Problem &problem, int level)
    Measured runs[2];
    for (int k = 0; k < 2 && !closed; ++k)
    {
-      Resolution r = resolution(problem, Family::graded, 5 + k, level + k);
+      Resolution r = resolution(problem, Family::graded, 5 + k, problem.fine + k);
       r.finest = problem.finest / 4;
       r.corner = problem.corner / 16;
       r.growth = 1.12 - 0.03 * k;
@@ -695,7 +695,7 @@ void print_rates(const std::vector<Run> &runs, const Problem &problem,
 /// takes.
 void print_buys(const std::vector<Run> &runs, const Problem &problem)
 {
-   const std::size_t q = problem.shown;
+   const std::size_t q = 0;
    std::printf("cheapest for %s:", problem.quantities[q].name);
    for (double wanted : {1e-2, 1e-3, 1e-4, 1e-5})
    {
@@ -729,8 +729,7 @@ int main(int argc, char *argv[])
       [&]
       {
          const char *wanted = "", *orders = "1 2 3 4", *csv = "", *picture = "";
-         int levels = 3, samples = 3;
-         int reference_level = 3;
+         int levels = 3, samples = 2;
          mfem::OptionsParser args(argc, argv);
          args.AddOption(&wanted, "-problems", "--problems",
                         "Names: hertz lubkin punch strip disc lap_joint shakedown (all).");
@@ -738,8 +737,7 @@ int main(int argc, char *argv[])
          args.AddOption(&levels, "-levels", "--levels", "Meshes of each kind and order.");
          args.AddOption(&samples, "-samples", "--samples",
                         "Meshes of slightly different spacing for each error.");
-         args.AddOption(&reference_level, "-reference-level", "--reference-level",
-                        "Level of the first of the two reference meshes.");
+
          args.AddOption(&csv, "-csv", "--csv", "File for the table.");
          args.AddOption(&picture, "-plot", "--plot", "File for the picture (needs --csv).");
          miniapp::parse(args);
@@ -754,7 +752,12 @@ int main(int argc, char *argv[])
                {"hertz", "lubkin", "punch", "strip", "disc", "lap_joint", "shakedown"});
             names.push_back(word);
          }
-         std::ostringstream table;
+         std::ofstream table;
+         if (*csv)
+         {
+            table.open(csv);
+            require(table.is_open(), "file '", csv, "' cannot be written");
+         }
          table << "problem,title,quantity,mesh,order,level,nodes,dofs,seconds,megabytes,error,"
                   "uncertainty\n";
          const miniapp::Stopwatch watch;
@@ -767,7 +770,7 @@ int main(int argc, char *argv[])
                continue;
             }
             std::printf("\n%s\n", problem.title);
-            const std::vector<Reference> reference = references(problem, reference_level);
+            const std::vector<Reference> reference = references(problem);
             std::printf("%-8s %5s %6s %7s %8s %6s", "mesh", "order", "nodes", "dofs", "seconds",
                         "MB");
             for (const Quantity &q : problem.quantities) { std::printf(" %18s", q.name); }
@@ -827,7 +830,7 @@ int main(int argc, char *argv[])
                         << "\"," << name(family) << "," << order << "," << level << ","
                         << result.nodes << "," << result.dofs << "," << result.seconds << ","
                         << result.megabytes << "," << error << ","
-                        << reference[q].uncertainty / scale << "\n";
+                        << reference[q].uncertainty / scale << std::endl;
                }
                std::printf("\n");
                std::fflush(stdout);
@@ -851,13 +854,8 @@ int main(int argc, char *argv[])
             print_buys(all, problem);
          }
          std::printf("\n%.0f s in all\n", watch.seconds());
-         if (*csv)
-         {
-            std::ofstream file(csv);
-            file << table.str();
-            file.close();
-            require(!file.fail(), "file '", csv, "' cannot be written");
-         }
+         table.close();
+         require(!*csv || !table.fail(), "file '", csv, "' cannot be written");
          require(!*picture || miniapp::run_plot_script("work_precision.py", {csv, picture}),
                  "the picture '", picture, "' could not be drawn");
          if (failed) { std::printf("%d runs failed\n", failed); }

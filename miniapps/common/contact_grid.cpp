@@ -55,6 +55,17 @@ std::vector<double> mirrored(const std::vector<double> &grid)
    return both;
 }
 
+double element_growth(double chosen, int order)
+{
+   return chosen > 0 ? chosen : order == 1 ? 1.25 : 1.5;
+}
+
+void check_growth(double chosen)
+{
+   cattaneo::require(chosen == 0 || (chosen > 1 && chosen <= 2), "growth is ", chosen,
+                     ", must be above 1 and at most 2, or 0 for the usual one");
+}
+
 double smallest_step(const std::vector<double> &grid)
 {
    double smallest = grid[1] - grid[0];

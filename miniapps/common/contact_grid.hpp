@@ -21,6 +21,12 @@ std::vector<double> focused_grid(double from, double to, int order, double growt
 /// Of grid lines from 0 on, those of both sides of 0, symmetric to the last bit.
 std::vector<double> mirrored(const std::vector<double> &grid);
 
+/// Growth of the elements away from a contact: the one chosen or, if that is 0, the largest
+/// that does not cost accuracy (docs/benchmarks.md): 1.5, and 1.25 for bilinear elements.
+double element_growth(double chosen, int order);
+/// InputError unless it is 0 or above 1 and at most 2.
+void check_growth(double chosen);
+
 double smallest_step(const std::vector<double> &grid);
 double largest_step(const std::vector<double> &grid);
 

@@ -21,7 +21,7 @@ void DiscOptions::validate() const
    require(order >= 1 && order <= 8, "option --order is ", order, ", must be 1 to 8");
    require(spacing > 0 && spacing <= 0.5, "option --spacing is ", spacing,
            ", must be above 0 and at most 0.5 (in t)");
-   require(growth > 1 && growth <= 2, "growth is ", growth, ", must be above 1 and at most 2");
+   check_growth(growth);
    require(disc_radius >= spacing * order, "option --disc-radius is ", disc_radius,
            ", must be at least one element, ", spacing * order, " (in t)");
    require(domain > disc_radius + 1, "option --domain is ", domain, ", must be above ",
@@ -41,6 +41,7 @@ Disc make_disc(const DiscOptions &options)
    const Material material{1.0, options.poisson};
    const int bottom = 1, side = 2, top = 3;
    const double b = options.disc_radius, R = options.domain;
+   const double growth = element_growth(options.growth, options.order);
    // Elements hold as many intervals between nodes as their order says.
    double h = options.spacing * options.order, h_end = h;
    const int count = std::max(1, static_cast<int>(std::lround(b / h)));
@@ -52,14 +53,12 @@ Disc make_disc(const DiscOptions &options)
       h = smallest_step(contact);
       h_end = contact.back() - contact[contact.size() - 2];
    }
-   std::vector<double> depth = graded(0, -R, h, options.growth);
+   std::vector<double> depth = graded(0, -R, h, growth);
    std::reverse(depth.begin(), depth.end());
    scene.meshes.push_back(distribute(
-      rectangle_mesh(contact, graded(0, 1, h, options.growth, 0.4 * (options.growth - 1))),
-      options.order));
-   scene.meshes.push_back(
-      distribute(rectangle_mesh(joined({contact, graded(b, R, h_end, options.growth)}), depth),
-                 options.order));
+      rectangle_mesh(contact, graded(0, 1, h, growth, 0.4 * (growth - 1))), options.order));
+   scene.meshes.push_back(distribute(
+      rectangle_mesh(joined({contact, graded(b, R, h_end, growth)}), depth), options.order));
 
    const auto add_bodies = [&](auto &bodies, Geometry geometry)
    {

@@ -34,7 +34,7 @@ struct DiscOptions
    double spacing = 0.02; ///< of the contact nodes (rounded so that elements end at b), in t
    /// Of the elements away from the contact; those of the disc are 0.4 (growth - 1) t high at
    /// most.
-   double growth = 1.25;
+   double growth = 0; ///< 0: the usual (element_growth())
    /// Grid lines of the contact from 0 to the disc's radius in place of `spacing`.
    std::vector<double> grid = {};
    double poisson = 0.3;

@@ -36,6 +36,7 @@ void HalfPlanes::validate() const
            nodes, ", must be at least 9 and one more than a multiple of the order ", order);
    require(span > 1, "option --span is ", span, ", must be above 1");
    require(domain > 10, "option --domain is ", domain, ", must be above 10");
+   check_growth(growth);
    require(half_width > 0 && load > 0, "the half-width ", half_width, " and the load ", load,
            " of the contact must be positive");
 }
@@ -49,7 +50,8 @@ HertzScene make_scene(const HalfPlanes &options)
       options.grid.empty() ? graded_to_ends(options.span * options.half_width,
                                             (options.nodes - 1) / options.order, 1.0)
                            : options.grid;
-   const double span = contact.back(), h = smallest_step(contact), growth = options.growth;
+   const double span = contact.back(), h = smallest_step(contact),
+                growth = element_growth(options.growth, options.order);
    const std::vector<double> depth = graded(0, span, h, growth, 0.8 * (growth - 1) * span);
    const std::vector<double> rings = ring_scales(span, domain, h, growth);
    const int surface = 1, far = 3, sides = 4;

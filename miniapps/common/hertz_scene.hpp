@@ -26,7 +26,8 @@ struct HalfPlanes
    cattaneo::Material material;
    double load = 1.0; ///< per unit thickness
    bool bulk = false, bulk_pad = false;
-   double growth = 1.25; ///< of the elements away from the contact
+   double growth =
+      0; ///< of the elements away from the contact; 0: the usual (element_growth())
    /// Grid lines of the contact (symmetric, increasing) in place of `nodes` and `span`.
    std::vector<double> grid = {};
 

@@ -49,22 +49,22 @@ LapJoint make_lap_joint(const LapJointOptions &options)
    // Grid lines common to both laps on the overlap, symmetric about the middle; fine where the
    // contact is expected, a little beyond the outermost pinch.
    double h = options.order * options.spacing;
-   const double coarse = options.growth - 1;
+   const double growth = options.growth, coarse = growth - 1;
    const double fine = std::min(free_end, d + 0.5 * w_max + 0.3);
    const int count = 2 * static_cast<int>(std::ceil(fine / h));
    std::vector<double> right;
    for (int k = 0; k <= count / 2; ++k) { right.push_back(2 * fine * k / count); }
    if (fine < free_end)
    {
-      right = joined({right, graded(fine, free_end, h, options.growth, 0.4 * coarse)});
+      right = joined({right, graded(fine, free_end, h, growth, 0.4 * coarse)});
    }
    if (!options.grid.empty())
    {
       right = options.grid;
       h = smallest_step(right);
    }
-   std::vector<double> x = graded(-free_end, loaded_end, right.back() - right[right.size() - 2],
-                                  options.growth, coarse);
+   std::vector<double> x =
+      graded(-free_end, loaded_end, right.back() - right[right.size() - 2], growth, coarse);
    std::reverse(x.begin(), x.end());
    for (std::size_t k = right.size() - 1; k-- > 0;) { x.push_back(-right[k]); }
    x.insert(x.end(), right.begin() + 1, right.end());
@@ -78,7 +78,7 @@ LapJoint make_lap_joint(const LapJointOptions &options)
       // An even number of layers, symmetric about the middle, so that the supported node is a
       // vertex.
       const double half = 0.5 * thickness;
-      std::vector<double> y = graded(0, half, h, options.growth, 0.2 * coarse);
+      std::vector<double> y = graded(0, half, h, growth, 0.2 * coarse);
       const std::size_t lower_half = y.size() - 1;
       for (std::size_t k = lower_half; k-- > 0;) { y.push_back(thickness - y[k]); }
       joint.meshes.push_back(distribute(rectangle_mesh(x, y), options.order));

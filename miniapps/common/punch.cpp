@@ -18,6 +18,7 @@ void PunchOptions::validate() const
            nodes, ", must be at least 3 and one more than a multiple of the order ", order);
    require(grading > 0 && grading <= 1, "option --grading is ", grading,
            ", must be above 0 and at most 1");
+   check_growth(growth);
    require(plane_stiffness > 0, "stiffness of the half-plane over the block's is ",
            plane_stiffness, ", must be positive");
    require(domain > 2, "option --domain is ", domain, ", must be above 2 (in a)");
@@ -51,12 +52,9 @@ Punch make_punch(const PunchOptions &options)
 
    // Away from the contact elements grow, more slowly where the order is low: a bilinear mesh
    // that is coarse above the contact misses the block's compliance.
-   const bool chosen = options.growth > 0;
-   const double growth = chosen ? options.growth : options.order == 1 ? 1.1 : 1.25;
-   const double coarsest = std::max(chosen               ? 0.8 * (growth - 1)
-                                    : options.order == 1 ? 0.04
-                                                         : 0.2,
-                                    largest);
+   const bool low = options.order == 1 && options.growth == 0;
+   const double growth = low ? 1.1 : element_growth(options.growth, options.order);
+   const double coarsest = std::max(low ? 0.04 : 0.8 * (growth - 1), largest);
    const auto refined = [&](mfem::Mesh mesh, int body)
    {
       if (options.refine) { options.refine(mesh, body); }
