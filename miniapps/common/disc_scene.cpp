@@ -1,5 +1,6 @@
 #include "common/disc_scene.hpp"
 
+#include "common/locking.hpp"
 #include "common/miniapp.hpp"
 
 #include <algorithm>
@@ -52,6 +53,7 @@ Disc make_disc(const DiscOptions &options)
    scene.meshes.push_back(
       distribute(rectangle_mesh(joined({contact, graded(b, R, h, options.growth)}), depth)));
 
+   warn_of_locking(options.order, material);
    const auto add_bodies = [&](auto &bodies, Geometry geometry)
    {
       for (const auto &mesh : scene.meshes)

@@ -1,5 +1,6 @@
 #include "common/hertz_scene.hpp"
 
+#include "common/locking.hpp"
 #include "common/miniapp.hpp"
 
 #include <cattaneo/elastic/graded_mesh.hpp>
@@ -41,6 +42,7 @@ HertzScene make_scene(const HalfPlanes &options)
 {
    options.validate();
    HertzScene scene;
+   warn_of_locking(options.order, options.material);
    const int elements = (options.nodes - 1) / options.order;
    const double span = options.span * options.half_width;
    const double domain = options.domain * options.half_width;
@@ -83,6 +85,7 @@ HertzScene make_scene(const HalfPlanes &options)
 HertzScene make_scene(const BlockOnHalfPlane &options)
 {
    HertzScene scene;
+   warn_of_locking(options.order, options.material);
    const double growth = 1.25;
    const std::vector<double> contact =
       graded_to_ends(1.0, (options.nodes - 1) / options.order, 1.0);

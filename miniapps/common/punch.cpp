@@ -1,5 +1,6 @@
 #include "common/punch.hpp"
 
+#include "common/locking.hpp"
 #include "common/miniapp.hpp"
 
 #include <cattaneo/elastic/graded_mesh.hpp>
@@ -53,6 +54,7 @@ Punch make_punch(const PunchOptions &options)
    const double coarsest = std::max(options.order == 1 ? 0.04 : 0.2, largest);
    const std::vector<double> height = graded(0, 2, smallest, growth, coarsest);
    punch.meshes.push_back(distribute(rectangle_mesh(contact, height)));
+   warn_of_locking(options.order, material);
    punch.bodies.push_back(
       std::make_unique<ElasticBody>(*punch.meshes[0], options.order, material));
    ElasticBody &block = *punch.bodies[0];

@@ -1,5 +1,6 @@
 #include "common/receding.hpp"
 
+#include "common/locking.hpp"
 #include "common/miniapp.hpp"
 
 #include <algorithm>
@@ -70,6 +71,7 @@ Receding make_receding(const RecedingOptions &options)
 
    scene.meshes.push_back(
       distribute(rectangle_mesh(contact, graded(0, 1, h_corner, growth, 0.1))));
+   warn_of_locking(options.order, material);
    scene.bodies.push_back(
       std::make_unique<ElasticBody>(*scene.meshes[0], options.order, material));
    ElasticBody &strip = *scene.bodies[0];
