@@ -14,12 +14,14 @@
 #include "common/fields.hpp"
 #include "common/filled_corner.hpp"
 #include "common/mesh_file.hpp"
+#include "common/locking.hpp"
 #include "common/statements.hpp"
 #include "common/study_output.hpp"
 
 #include <algorithm>
 #include <cattaneo/condense/reduction.hpp>
 #include <cattaneo/fretting/calibration.hpp>
+#include <cattaneo/friction/critical_friction.hpp>
 #include <cattaneo/friction/march.hpp>
 #include <cattaneo/friction/zones.hpp>
 #include <cattaneo/input_error.hpp>
@@ -86,6 +88,12 @@ Side make_side(const BodyOptions &options, const std::string &k, int order, bool
       const std::vector<Material> &list = side.materials;
       side.body = list.size() == 1 ? std::make_unique<ElasticBody>(*side.mesh, order, list[0])
                                    : std::make_unique<ElasticBody>(*side.mesh, order, list);
+      for (const Material &material : list)
+      {
+         if (!miniapp::locks(order, material)) { continue; }
+         miniapp::warn_of_locking(order, material);
+         break;
+      }
       miniapp::add_supports(*side.body, "support" + k, options.support);
       miniapp::add_loads(*side.body, "load" + k, options.load);
       const ContactLine line =
@@ -454,6 +462,15 @@ int main(int argc, char *argv[])
             miniapp::print(edges, [](double s) { return s; });
             results["edges"] = miniapp::to_json(edges);
          }
+         const CriticalFriction critical = critical_friction(problem);
+         std::cout << "Critical friction: a node alone " << critical.node << " (node "
+                   << critical.weakest_node << "), the contact can lock itself above "
+                   << critical.locking << ", one answer for sure below "
+                   << critical.unique_below << std::endl;
+         results["critical_friction"] = {
+            {"node", miniapp::json_number(critical.node)},
+            {"locking", miniapp::json_number(critical.locking)},
+            {"unique_below", miniapp::json_number(critical.unique_below)}};
          results["status"] = name(report.status);
          if (code != 0)
          {

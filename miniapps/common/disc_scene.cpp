@@ -1,6 +1,7 @@
 #include "common/disc_scene.hpp"
 
 #include "common/contact_grid.hpp"
+#include "common/locking.hpp"
 #include "common/miniapp.hpp"
 
 #include <algorithm>
@@ -60,6 +61,7 @@ Disc make_disc(const DiscOptions &options)
    scene.meshes.push_back(distribute(
       rectangle_mesh(joined({contact, graded(b, R, h_end, growth)}), depth), options.order));
 
+   warn_of_locking(options.order, material);
    const auto add_bodies = [&](auto &bodies, Geometry geometry)
    {
       for (const auto &mesh : scene.meshes)

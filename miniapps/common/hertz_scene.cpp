@@ -1,6 +1,7 @@
 #include "common/hertz_scene.hpp"
 
 #include "common/contact_grid.hpp"
+#include "common/locking.hpp"
 #include "common/miniapp.hpp"
 
 #include <cattaneo/elastic/graded_mesh.hpp>
@@ -45,6 +46,7 @@ HertzScene make_scene(const HalfPlanes &options)
 {
    options.validate();
    HertzScene scene;
+   warn_of_locking(options.order, options.material);
    const double domain = options.domain * options.half_width;
    const std::vector<double> contact =
       options.grid.empty() ? graded_to_ends(options.span * options.half_width,
@@ -89,6 +91,7 @@ HertzScene make_scene(const HalfPlanes &options)
 HertzScene make_scene(const BlockOnHalfPlane &options)
 {
    HertzScene scene;
+   warn_of_locking(options.order, options.material);
    const double growth = 1.25;
    const std::vector<double> contact =
       graded_to_ends(1.0, (options.nodes - 1) / options.order, 1.0);

@@ -1,6 +1,7 @@
 #include "common/lap_joint_scene.hpp"
 
 #include "common/contact_grid.hpp"
+#include "common/locking.hpp"
 #include "common/miniapp.hpp"
 
 #include <algorithm>
@@ -87,6 +88,7 @@ LapJoint make_lap_joint(const LapJointOptions &options)
       {
          for (int c = 0; c < 2; ++c) { mesh.GetVertex(v)[c] *= turn; }
       }
+      warn_of_locking(options.order, material);
       joint.bodies.push_back(std::make_unique<ElasticBody>(mesh, options.order, material));
       ElasticBody &lap = *joint.bodies.back();
       for (double w : options.widths)

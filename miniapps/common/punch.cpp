@@ -1,6 +1,7 @@
 #include "common/punch.hpp"
 
 #include "common/contact_grid.hpp"
+#include "common/locking.hpp"
 #include "common/miniapp.hpp"
 
 #include <cattaneo/elastic/graded_mesh.hpp>
@@ -62,6 +63,7 @@ Punch make_punch(const PunchOptions &options)
    };
    const std::vector<double> height = graded(0, 2, smallest, growth, coarsest);
    punch.meshes.push_back(refined(rectangle_mesh(contact, height), 0));
+   warn_of_locking(options.order, material);
    punch.bodies.push_back(
       std::make_unique<ElasticBody>(*punch.meshes[0], options.order, material));
    ElasticBody &block = *punch.bodies[0];

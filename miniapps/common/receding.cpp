@@ -1,6 +1,7 @@
 #include "common/receding.hpp"
 
 #include "common/contact_grid.hpp"
+#include "common/locking.hpp"
 #include "common/miniapp.hpp"
 
 #include <algorithm>
@@ -82,6 +83,7 @@ Receding make_receding(const RecedingOptions &options)
 
    scene.meshes.push_back(
       refined(rectangle_mesh(contact, graded(0, 1, h_corner, growth, 0.4 * (growth - 1))), 0));
+   warn_of_locking(options.order, material);
    scene.bodies.push_back(
       std::make_unique<ElasticBody>(*scene.meshes[0], options.order, material));
    ElasticBody &strip = *scene.bodies[0];

@@ -1,0 +1,111 @@
+#include <cattaneo/friction/critical_friction.hpp>
+#include <cattaneo/friction/friction_disc.hpp>
+#include <cattaneo/friction/mechanism.hpp>
+#include <cattaneo/friction/nonnegative_fit.hpp>
+#include <cmath>
+#include <limits>
+
+namespace cattaneo
+{
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace
+{
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Do forces inside the cones of friction f balance each other? Z: rigid motions, as rows of
+/// which each contact force does its work. In the direction of each edge alike, so that zero is
+/// in the convex hull of the edges or is not.
+bool locks(const ReducedProblem &problem, const MatrixXd &Z, double f)
+{
+   const Index n = problem.nodes(), c = problem.components();
+   MatrixXd G(Z.cols() + 1, 2 * c * n);
+   Index used = 0;
+   for (Index k = 0; k < 2 * c * n; ++k)
+   {
+      const Index i = k % n, t = k % (c * n);
+      const double side = k < c * n ? f : -f;
+      VectorXd edge = Z.row(c * n + i) + side * Z.row(t);
+      // A force that no rigid motion feels is balanced by itself: by supports.
+      if (edge.norm() > 1e-12 * (1 + f)) { G.col(used++) << edge / edge.norm(), 1; }
+   }
+   G.conservativeResize(Eigen::NoChange, used);
+   const VectorXd target = VectorXd::Unit(Z.cols() + 1, Z.cols());
+   return used > 0 && fit_nonnegative(G, target).residual.norm() < 1e-9;
+}
+
+/// Cones grow with friction: bisection.
+double locking_friction(const ReducedProblem &problem)
+{
+   const MatrixXd Z = rigid_motions(problem);
+   double low = 1e-6, high = 1e6;
+   if (Z.cols() == 0 || !locks(problem, Z, high)) { return infinity; }
+   while (high > (1 + 1e-12) * low)
+   {
+      const double middle = std::sqrt(low * high);
+      (locks(problem, Z, middle) ? high : low) = middle;
+   }
+   return high;
+}
+
+double uniqueness_bound(const ReducedProblem &problem)
+{
+   const double scale =
+      std::sqrt(problem.A.cwiseAbs().maxCoeff() * problem.C.cwiseAbs().maxCoeff());
+   if (problem.B.cwiseAbs().maxCoeff() <= 1e-11 * scale) { return infinity; }
+   const Index n = problem.nodes(), m = problem.A.rows();
+   const VectorXd s = problem.C.diagonal().cwiseSqrt().cwiseInverse(),
+                  st = s.replicate(m / n, 1);
+   const MatrixXd C = s.asDiagonal() * problem.C * s.asDiagonal();
+   const Eigen::LLT<MatrixXd> factor(C);
+   if (factor.info() != Eigen::Success || factor.rcond() < 1e-11) { return 0; }
+   MatrixXd X = s.asDiagonal() * problem.B * st.asDiagonal();
+   factor.matrixL().solveInPlace(X);
+   const MatrixXd coupling = X.transpose() * X;
+   const MatrixXd rest = st.asDiagonal() * problem.A * st.asDiagonal() - coupling;
+   using Eigenvalues = Eigen::SelfAdjointEigenSolver<MatrixXd>;
+   auto eigenvalues = [](const MatrixXd &M) -> VectorXd
+   { return Eigenvalues(M, Eigen::EigenvaluesOnly).eigenvalues(); };
+   const VectorXd of_rest = eigenvalues(rest);
+   const double a = of_rest.minCoeff(), c = std::sqrt(eigenvalues(C).maxCoeff()),
+                b = std::sqrt(eigenvalues(coupling).maxCoeff());
+   if (a <= 1e-11 * of_rest.maxCoeff()) { return 0; }
+   const double worst = std::min(b, std::sqrt(a));
+   return (a + worst * worst) / (c * worst);
+}
+
+} // namespace
+
+CriticalFriction critical_friction(const ReducedProblem &problem)
+{
+   problem.validate();
+   CriticalFriction result;
+   result.node = result.locking = result.unique_below = infinity;
+   const Index n = problem.nodes(), c = problem.components();
+   if (c == 0) { return result; }
+   for (Index i = 0; i < n; ++i)
+   {
+      double own = problem.A(i, i) / std::abs(problem.B(i, i));
+      if (c == 2)
+      {
+         Eigen::Matrix2d A;
+         A << problem.A(i, i), problem.A(i, n + i), problem.A(n + i, i),
+            problem.A(n + i, n + i);
+         own = critical_friction(A, Eigen::Vector2d(problem.B(i, i), problem.B(i, n + i)));
+      }
+      if (own < result.node)
+      {
+         result.node = own;
+         result.weakest_node = i;
+      }
+   }
+   result.locking = locking_friction(problem);
+   result.unique_below = uniqueness_bound(problem);
+   return result;
+}
+
+} // namespace cattaneo

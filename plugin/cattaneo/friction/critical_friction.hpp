@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cattaneo/reduced/reduced_problem.hpp>
+
+namespace cattaneo
+{
+
+/** Coefficients of friction, the same at every node, at which a contact changes its character.
+    Properties of the stiffness alone: the loads and the problem's own friction play no part. */
+struct CriticalFriction
+{
+   /// Least A_ii/|B_ii| of any node (two components: smallest eigenvalue of the node's block of
+   /// A over |b|), and the node: above it the rate problem of that node alone has no unique
+   /// answer, or none. Infinite without coupling.
+   double node = 0;
+   Eigen::Index weakest_node = 0;
+
+   /** The contact can lock itself: above it there are contact forces inside the friction cones,
+       not all zero, that balance each other on the bodies without any load (a wedge that stays
+       where it was driven in); below it there are none, whatever the elasticity. It depends on
+       the directions of the contact as the rigid motions see them: tan α for a wedge with
+       flanks at ±α to its axis, infinite for a flat contact. Infinite as well if both bodies
+       are held: supports then balance any forces.
+
+       By Gordan's theorem either such forces exist, or there is a rigid motion that all edges
+       of all cones oppose. */
+   double locking = 0;
+
+   /** Below it an increment, and the rates, have at most one answer, for any loads, initial gap
+       and slip (proven); above it they may still have only one. Zero if nothing can be said (a
+       body that is free to slide).
+
+       For two answers, Δ their difference: Δyᵀ Δp <= 0 by complementarity, so that with
+       Δp = B Δx + C Δy the pressure meets |Δp|² <= Δpᵀ C⁻¹ B Δx in the norm π² = Δpᵀ C⁻¹ Δp;
+      and Coulomb's law gives Δxᵀ Δq <= f Σ |Δp_i| |Δx_i|. With Δq = (A - Bᵀ C⁻¹ B) Δx + Bᵀ C⁻¹
+      Δp both together are
+
+           Δxᵀ (A - Bᵀ C⁻¹ B) Δx + π² <= f Σ |Δp_i| |Δx_i| <= f c π ξ,   ξ = |S⁻¹ Δx|,
+
+       for any diagonal S (here C_ii^-½), c² = λ_max(S C S), hence a ξ² + π² <= f c π ξ with
+       a = λ_min(S (A - Bᵀ C⁻¹ B) S), while π <= b ξ, b² = λ_max(S Bᵀ C⁻¹ B S). There is no such
+       difference if
+
+           f < min over 0 < τ <= b of (a + τ²)/(c τ),
+
+       which for one node with weak coupling (2 B² < A C) is A/|B| itself. */
+   double unique_below = 0;
+};
+
+/// Validates the problem. Cost: three symmetric eigenvalue problems of its size.
+CriticalFriction critical_friction(const ReducedProblem &problem);
+
+} // namespace cattaneo
