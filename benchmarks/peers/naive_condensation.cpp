@@ -8,11 +8,13 @@
 
 #include "common/miniapp.hpp"
 
+#include <algorithm>
 #include <cattaneo/condense/condensed_body.hpp>
 #include <cattaneo/condense/sparse_factor.hpp>
 #include <cattaneo/contact/contact_line.hpp>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 
 using namespace cattaneo;
 using Eigen::MatrixXd;
@@ -53,17 +55,20 @@ MatrixXd usual_way(const mfem::SparseMatrix &K, const ContactLine &line)
          else { coupling(place[other], c) += K.GetData()[k]; }
       }
    }
-   // One right-hand side at a time, as the sparse rows of the coupling allow.
-   for (Eigen::Index c = 0; c < nc; ++c)
+   // In blocks, which is faster than one right-hand side at a time.
+   constexpr Eigen::Index block = 32;
+   for (Eigen::Index first = 0; first < nc; first += block)
    {
-      const MatrixXd x = factor.solve(coupling.col(c));
+      const Eigen::Index width = std::min(block, nc - first);
+      const MatrixXd X = factor.solve(coupling.middleCols(first, width));
       for (Eigen::Index r = 0; r < nc; ++r)
       {
          const int row = contact[r];
          for (int k = K.GetI()[row]; k < K.GetI()[row + 1]; ++k)
          {
             const int other = K.GetJ()[k];
-            if (!touches[other]) { S(r, c) -= K.GetData()[k] * x(place[other], 0); }
+            if (touches[other]) { continue; }
+            S.row(r).segment(first, width) -= K.GetData()[k] * X.row(place[other]);
          }
       }
    }
@@ -85,12 +90,12 @@ int main()
                columns, columns, mfem::Element::QUADRILATERAL, true, 2.0, 2.0);
             ElasticBody body(mesh, 1, Material{0.91, 0.3});
             const ContactLine line = contact_line(body, 1);
-            const miniapp::Stopwatch usual;
+            const std::clock_t began = std::clock(); // of the processor: others may compute too
             const MatrixXd S = usual_way(body.stiffness(), line);
-            const double usual_seconds = usual.seconds();
-            const miniapp::Stopwatch ours;
+            const std::clock_t between = std::clock();
             const CondensedBody condensed = condense(body, line);
-            const double our_seconds = ours.seconds();
+            const double usual_seconds = double(between - began) / CLOCKS_PER_SEC;
+            const double our_seconds = double(std::clock() - between) / CLOCKS_PER_SEC;
             std::printf("%10d %8ld %12.3f %12.3f %8.1f %12.1e\n", body.dofs(),
                         static_cast<long>(S.rows()), usual_seconds, our_seconds,
                         usual_seconds / our_seconds,
