@@ -1,0 +1,145 @@
+#!/usr/bin/env python3
+"""This library and other programs on the same problems: runs the peers that are installed, says which are not, prints
+tables. docs/peers.md says what is compared, and how fairly.
+
+    python3 benchmarks/peers/peers.py [--build build/release] [--picture profile.png] [condensation|studies|solvers]...
+
+Peers: CalculiX (Debian: calculix-ccx), Siconos numerics (libsiconos-numerics-dev). Times are CPU seconds of whole
+processes with one thread; python3-matplotlib draws the picture."""
+import argparse
+import glob
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.dirname(os.path.dirname(HERE))
+sys.path.insert(0, HERE)
+import calculix  # noqa: E402
+
+PUNCH = {"stick half-width": 0.471, "corner slip": 0.0496, "stick end at Q": -0.203}
+LAP = {"contact half-length": 0.7011, "contact half-length at T": 0.6596, "stick half-length at T": 0.760 * 0.6596}
+LIMIT = 240  # seconds of CPU for one run of a peer
+
+
+def ours(build, program, options, keys):
+    """One of our studies as a process: CPU seconds, MB, dofs, and the named results."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = os.path.join(folder, "r.json")
+        process = subprocess.Popen([os.path.join(build, "miniapps", program)] + options.split() + ["--json", file],
+                                   stdout=subprocess.DEVNULL, env=dict(os.environ, OPENBLAS_NUM_THREADS="1"))
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = status
+        with open(file) as f:
+            results = json.load(f)
+    return usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024, results["dofs"], {k: get(results) for k, get in keys.items()}
+
+
+def line(program, mesh, seconds, memory, dofs, values, references):
+    errors = "  ".join("%9.4f %+6.2f%%" % (values[k], 100 * (values[k] / r - 1)) for k, r in references.items())
+    print("%-10s %-26s %8d %9.3f %7.0f  %s" % (program, mesh, dofs, seconds, memory, errors), flush=True)
+
+
+def table(title, references):
+    """Values beside the reference and their difference from it."""
+    title += "; references: " + ", ".join("%s %g" % (k, r) for k, r in references.items())
+    print("\n%s\n%-10s %-26s %8s %9s %7s  %s" % (title, "", "mesh", "dofs", "CPU s", "MB",
+          "  ".join("%18s" % k[:18] for k in references)))
+
+
+def peer(deck, read, name, folder):
+    position = deck(folder, name)
+    result, output = calculix.run(folder, name, LIMIT)
+    if result is None:
+        errors = [text.strip() for text in output.split("\n") if "*ERROR" in text]
+        return None, errors[0] if errors else "ended without results"
+    return result, read(result, position)
+
+
+def studies(build):
+    has_ccx = shutil.which("ccx") is not None
+    if not has_ccx:
+        print("CalculiX (ccx) is not installed: its rows are missing")
+    table("Square punch on a rigid plane, f = 0.2: P in 5 increments, then Q = 0.5 fP in 10", PUNCH)
+    keys = {"stick half-width": lambda r: r["stick_right"], "corner slip": lambda r: abs(r["slip_edge"]),
+            "stick end at Q": lambda r: r["levels"][0]["stick_right"]}
+    for order, intervals in ((1, 20), (1, 40), (1, 80), (2, 20), (2, 40), (2, 80)):
+        seconds, memory, dofs, values = ours(build, "square_punch", "-shear 0.5 -increments 10 -grading 0.05 -order %d -nodes %d"
+                                             % (order, order * intervals + 1), keys)
+        line("ours", "order %d, %d edges" % (order, intervals), seconds, memory, dofs, values, PUNCH)
+    cases = ((1, 20, 50), (1, 40, 50), (1, 40, 500), (1, 80, 50), (2, 20, 50))
+    for order, intervals, penalty in cases if has_ccx else ():
+        calculix.PENALTY = penalty
+        with tempfile.TemporaryDirectory() as folder:
+            result, values = peer(lambda f, n: calculix.punch(f, order, intervals, n), calculix.punch_results, "punch", folder)
+        mesh = "order %d, %d edges, k %d" % (order, intervals, penalty)
+        if result is None:
+            print("%-10s %-26s %s" % ("CalculiX", mesh, values))
+        else:
+            line("CalculiX", mesh, result["seconds"], result["MB"], result["dofs"], values, PUNCH)
+    table("Lap joint, f = 0.2: pinched in 5 increments, pulled by T = 0.04 in 10 (ours: 20, and back)", LAP)
+    keys = {"contact half-length": lambda r: r["a0"], "contact half-length at T": lambda r: r["a"],
+            "stick half-length at T": lambda r: r["c_first"]}
+    for order, spacing in ((1, 0.05), (1, 0.025), (2, 0.05), (2, 0.025)):
+        seconds, memory, dofs, values = ours(build, "lap_joint", "-cycles 1 -order %d -spacing %g" % (order, spacing), keys)
+        line("ours", "order %d, h = %g" % (order, spacing), seconds, memory, dofs, values, LAP)
+    calculix.PENALTY = 50
+    for order, spacing in ((1, 0.05), (1, 0.025), (2, 0.05)) if has_ccx else ():
+        with tempfile.TemporaryDirectory() as folder:
+            result, values = peer(lambda f, n: calculix.lap_joint(f, order, spacing, n), calculix.lap_joint_results, "lap", folder)
+        mesh = "order %d, h = %g, k 50" % (order, spacing)
+        if result is None:
+            print("%-10s %-26s %s" % ("CalculiX", mesh, values))
+        else:
+            line("CalculiX", mesh, result["seconds"], result["MB"], result["dofs"], values, LAP)
+
+
+def condensation(build):
+    print("\nStatic condensation: the usual way (a solve for each contact unknown) and ours", flush=True)
+    subprocess.run([os.path.join(build, "benchmarks", "peers", "naive_condensation")],
+                   env=dict(os.environ, OPENBLAS_NUM_THREADS="1"), check=True)
+
+
+def solvers(build, picture):
+    program = os.path.join(build, "benchmarks", "peers", "siconos_peer")
+    if not os.path.exists(program):
+        print("\nSiconos: %s is not built (needs libsiconos-numerics-dev; then ninja -C %s siconos_peer)" % (program, build))
+        return
+    problems = sorted(set(glob.glob(os.path.join(ROOT, "problems", "*.json"))) - set(glob.glob(os.path.join(ROOT, "problems", "*.solution.json"))))
+    panels = []
+    with tempfile.TemporaryDirectory() as folder:
+        for title, arguments in (("public set", problems), ("public set, held by springs", ["--held"] + problems),
+                                 ("random, dense, definite", ["--random"])):
+            file = os.path.join(folder, "%d.csv" % len(panels))
+            subprocess.run([program, file] + arguments, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                           env=dict(os.environ, OPENBLAS_NUM_THREADS="1"))
+            panels.append("%s=%s" % (title, file))
+        print(flush=True)
+        for python in (sys.executable, "/usr/bin/python3"):
+            if not picture or subprocess.run([python, "-c", "import matplotlib"], stderr=subprocess.DEVNULL).returncode == 0:
+                break
+        subprocess.run([python, os.path.join(HERE, "performance_profile.py"), picture] + panels, check=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", default=os.path.join(ROOT, "build", "release"))
+    parser.add_argument("--picture", default="", help="file for the performance profile")
+    parser.add_argument("what", nargs="*", default=["condensation", "studies", "solvers"])
+    options = parser.parse_args()
+    for what in options.what:
+        if what == "condensation":
+            condensation(options.build)
+        elif what == "studies":
+            studies(options.build)
+        elif what == "solvers":
+            solvers(options.build, options.picture)
+        else:
+            sys.exit("error: '%s' is none of condensation, studies, solvers" % what)
+
+
+if __name__ == "__main__":
+    main()
