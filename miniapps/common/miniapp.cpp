@@ -54,6 +54,16 @@ std::string without_unset(const std::string &text)
    return result;
 }
 
+/// Tests make scenes without starting MPI.
+int world_size()
+{
+#ifdef MFEM_USE_MPI
+   return mfem::Mpi::IsInitialized() ? mfem::Mpi::WorldSize() : 1;
+#else
+   return 1;
+#endif
+}
+
 /// True if the other ranks come here too, within a second: most errors are seen by all alike.
 bool all_fail()
 {
@@ -77,7 +87,7 @@ bool all_fail()
 bool writes()
 {
 #ifdef MFEM_USE_MPI
-   return mfem::Mpi::Root();
+   return !mfem::Mpi::IsInitialized() || mfem::Mpi::Root();
 #else
    return true;
 #endif
@@ -87,12 +97,11 @@ std::unique_ptr<mfem::Mesh> distribute(mfem::Mesh mesh, [[maybe_unused]] int ord
 {
 #ifdef MFEM_USE_MPI
    const mfem::H1_FECollection elements(order, mesh.Dimension());
-   if (mfem::Mpi::WorldSize() > 1 &&
-       mfem::FiniteElementSpace(&mesh, &elements, 2).GetTrueVSize() >
-          condense_settings.direct_dofs)
+   if (world_size() > 1 && mfem::FiniteElementSpace(&mesh, &elements, 2).GetTrueVSize() >
+                              condense_settings.direct_dofs)
    {
-      cattaneo::require(mesh.GetNE() >= mfem::Mpi::WorldSize(), "the mesh has ", mesh.GetNE(),
-                        " elements for ", mfem::Mpi::WorldSize(),
+      cattaneo::require(mesh.GetNE() >= world_size(), "the mesh has ", mesh.GetNE(),
+                        " elements for ", world_size(),
                         " ranks, there must be at least one for each");
       return std::make_unique<mfem::ParMesh>(MPI_COMM_WORLD, mesh);
    }
@@ -132,8 +141,7 @@ int run(const std::function<int()> &body)
 
 void parse(mfem::OptionsParser &options)
 {
-#ifdef MFEM_USE_MPI
-   if (mfem::Mpi::WorldSize() > 1)
+   if (world_size() > 1)
    {
       options.AddOption(
          &condense_settings.direct_dofs, "-direct-dofs", "--direct-dofs",
@@ -142,7 +150,6 @@ void parse(mfem::OptionsParser &options)
       options.AddOption(&condense_settings.max_iterations, "-max-iterations",
                         "--max-iterations", "Most iterations for a right-hand side.");
    }
-#endif
    options.Parse();
    if (options.Help())
    {

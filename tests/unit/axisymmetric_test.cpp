@@ -23,12 +23,10 @@ mfem::Mesh cylinder(const std::string &kind, double inner = 0.0, int nr = 4, int
    if (kind == "curved")
    {
       mesh.SetCurvature(2);
-      mesh.Transform(
-         [&](const mfem::Vector &x, mfem::Vector &y)
-         {
-            y.SetSize(2);
-            distort(x(0), x(1), y.GetData());
-         });
+      // MFEM 4.6 takes no lambda that captures.
+      mfem::VectorFunctionCoefficient distorted(2, [&](const mfem::Vector &x, mfem::Vector &y)
+                                                { distort(x(0), x(1), y.GetData()); });
+      mesh.Transform(distorted);
       return mesh;
    }
    for (int v = 0; v < mesh.GetNV(); ++v)

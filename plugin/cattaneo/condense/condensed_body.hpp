@@ -48,7 +48,7 @@ struct CondenseSettings
    SparseFactor::Backend backend = SparseFactor::Backend::automatic;
    /// Of a body on an mfem::ParMesh: with more dofs than this it is condensed by conjugate
    /// gradients on all of them, below it is gathered and factored by the first. At the default
-   /// a factor takes about a gigabyte (docs/ranks.md).
+   /// a factor takes some 1.4 GB (docs/ranks.md).
    int direct_dofs = 500000;
    /// Of conjugate gradients, for each right-hand side; an InputError beyond.
    int max_iterations = 2000;
