@@ -13,6 +13,12 @@
 #endif
 #endif
 
+#ifdef CATTANEO_USE_LAPACK
+extern "C" void dgemm_(const char *, const char *, const int *, const int *, const int *,
+                       const double *, const double *, const int *, const double *, const int *,
+                       const double *, double *, const int *);
+#endif
+
 namespace cattaneo
 {
 
@@ -87,8 +93,16 @@ Eigen::MatrixXd times_own_transpose(const Eigen::MatrixXd &L)
    for (Eigen::Index j = 0; j < n; j += width)
    {
       const Eigen::Index w = std::min(width, n - j);
+#ifdef CATTANEO_USE_LAPACK
+      const int rows = static_cast<int>(n - j), columns = static_cast<int>(w),
+                inner = static_cast<int>(j + w), stride = static_cast<int>(n);
+      const double one = 1, zero = 0;
+      dgemm_("N", "T", &rows, &columns, &inner, &one, L.data() + j, &stride, L.data() + j,
+             &stride, &zero, &S(j, j), &stride);
+#else
       S.block(j, j, n - j, w).noalias() =
          L.block(j, 0, n - j, j + w) * L.block(j, 0, w, j + w).transpose();
+#endif
    }
    S.triangularView<Eigen::StrictlyUpper>() = S.transpose();
    return S;

@@ -54,22 +54,8 @@ namespace
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-/// LU factor of the active-set equations, kept for as long as the set of states is the same.
-struct CachedFactor
-{
-   std::vector<signed char> key;
-   Eigen::PartialPivLU<MatrixXd> lu;
-   bool singular = false;
-
-   void compute(const MatrixXd &M)
-   {
-      lu.compute(M);
-      const auto pivots = lu.matrixLU().diagonal().cwiseAbs();
-      singular = !(pivots.minCoeff() > 1e-14 * pivots.maxCoeff());
-   }
-};
-
-/// Stiffness of the closed nodes when the open ones are free, kept likewise.
+/// Stiffness of the closed nodes when the open ones are free, kept for as long as these are the
+/// same.
 struct EliminatedNodes
 {
    std::vector<signed char> key;
@@ -93,12 +79,14 @@ struct FrictionSolver::Implementation
    bool frictionless = false, uncoupled = false;
    VectorXd ktt, ktn, knn; // each node's own stiffness block (disc: ktt is its mean)
    VectorXd critical;      // friction of each node
+   VectorXd no_friction;   // zeros
    MatrixXd K;             // [A Bᵀ; B C], or the normal stiffness alone if frictionless
    double K_norm = 0;      // row-sum norm
    double critical_friction = std::numeric_limits<double>::infinity();
    Index critical_node = 0;
    std::unique_ptr<SemidefiniteSolver> tangential; // frictionless: A⁻¹
-   CachedFactor coupled_factor, normal_factor, tangential_factor;
+   // Equations of the states: all at once, or the gaps and then the slip (B = 0).
+   std::unique_ptr<StateEquations> coupled_equations, normal_equations, tangential_equations;
    EliminatedNodes eliminated;
    std::unique_ptr<MatrixXd> motions; // rigid motions, found when first needed
    Mechanism mechanism;
@@ -140,7 +128,10 @@ struct FrictionSolver::Implementation
    bool solve_uncoupled();
    bool eliminate_open();
    bool solve_disc();
-   bool solve_frictionless();
+   VectorXd closed_gaps() const;
+   bool solve_equations(std::unique_ptr<StateEquations> &equations, const MatrixXd &stiffness,
+                        const std::vector<NodeState> &states, const VectorXd &b, VectorXd &x,
+                        VectorXd &forces);
    bool update_states();
    bool lemke_start();
    void residuals(IncrementReport &report) const;
@@ -229,6 +220,7 @@ FrictionSolver::Implementation::Implementation(const ReducedProblem &given,
          }
       }
    }
+   no_friction = VectorXd::Zero(n);
    K_norm = std::max(K_norm, K.cwiseAbs().rowwise().sum().maxCoeff());
 }
 
@@ -260,6 +252,12 @@ void FrictionSolver::Implementation::start(const ContactState &state,
    }
    F = f + K * u;
    direction.resize(disc() ? n : 0);
+   // What comes out depends on the state and the loads, not on increments before: a march that
+   // is cut and resumed gives the same bits.
+   for (auto *equations : {&coupled_equations, &normal_equations, &tangential_equations})
+   {
+      if (*equations) { (*equations)->begin(); }
+   }
 }
 
 void FrictionSolver::Implementation::finish(ContactState &state, const VectorXd &multipliers)
@@ -410,65 +408,61 @@ void FrictionSolver::Implementation::sweep()
 bool FrictionSolver::Implementation::solve_for_states()
 {
    ++counters.newton_steps;
-   const bool solvable = frictionless ? solve_frictionless()
+   const bool solvable = frictionless ? solve_normal()
                          : disc()     ? solve_disc()
                          : uncoupled  ? solve_uncoupled()
                                       : solve_coupled();
-   if (solvable) { F = f + K * u; }
    return solvable && u.allFinite();
 }
 
-bool FrictionSolver::Implementation::solve_frictionless()
+/// Normal displacements to solve from: a gap that is large against the load would cost digits.
+VectorXd FrictionSolver::Implementation::closed_gaps() const
 {
-   std::vector<Index> open;
-   std::vector<signed char> key(n, 0);
+   VectorXd w = -problem.gap;
    for (Index i = 0; i < n; ++i)
    {
-      u[i] = closed(status[i]) ? -problem.gap[i] : 0.0;
-      if (!closed(status[i]))
-      {
-         open.push_back(i);
-         key[i] = 1;
-      }
+      if (!closed(status[i])) { w[i] = 0; }
    }
-   if (open.empty()) { return true; }
-   if (normal_factor.key != key)
-   {
-      ++counters.dense_factorisations;
-      normal_factor.compute(K(open, open));
-      normal_factor.key = key;
-   }
-   if (normal_factor.singular) { return false; }
-   const VectorXd base = f + K * u;
-   u(open) = -normal_factor.lu.solve(base(open));
-   return true;
+   return w;
 }
 
-/// B = 0: gaps from the normal equations of the open nodes alone.
+/// Solves for displacements x of the nodes that slip or are open, and the forces; b: with x =
+/// 0.
+bool FrictionSolver::Implementation::solve_equations(std::unique_ptr<StateEquations> &equations,
+                                                     const MatrixXd &stiffness,
+                                                     const std::vector<NodeState> &states,
+                                                     const VectorXd &b, VectorXd &x,
+                                                     VectorXd &forces)
+{
+   if (!equations)
+   {
+      equations = std::make_unique<StateEquations>(
+         stiffness, stiffness.rows() > n ? problem.friction : no_friction);
+   }
+   const long factorisations = equations->factorisations(), updates = equations->updates();
+   const bool solved = equations->set(states) && equations->solve(b, x, forces);
+   counters.dense_factorisations += equations->factorisations() - factorisations;
+   counters.dense_updates += equations->updates() - updates;
+   return solved;
+}
+
+/// Frictionless, or B = 0: gaps from the normal equations of the open nodes alone.
 bool FrictionSolver::Implementation::solve_normal()
 {
-   std::vector<Index> open;
-   std::vector<signed char> open_key(n, 0);
+   const MatrixXd &C = frictionless ? K : problem.C;
+   std::vector<NodeState> states(n);
    for (Index i = 0; i < n; ++i)
    {
-      u[m(i)] = closed(status[i]) ? -problem.gap[i] : 0.0;
-      if (!closed(status[i]))
-      {
-         open.push_back(i);
-         open_key[i] = 1;
-      }
+      states[i] = closed(status[i]) ? NodeState::stick : NodeState::separation;
    }
-   if (open.empty()) { return true; }
-   if (normal_factor.key != open_key)
+   const VectorXd from = closed_gaps();
+   VectorXd x, p;
+   if (!solve_equations(normal_equations, C, states, f.tail(n) + C * from, x, p))
    {
-      ++counters.dense_factorisations;
-      normal_factor.compute(problem.C(open, open));
-      normal_factor.key = open_key;
+      return false;
    }
-   if (normal_factor.singular) { return false; }
-   VectorXd base = f.tail(n) + problem.C * u.tail(n);
-   const VectorXd w = -normal_factor.lu.solve(base(open));
-   for (std::size_t k = 0; k < open.size(); ++k) { u[m(open[k])] = w[k]; }
+   u.tail(n) = from + x;
+   F.tail(n) = p;
    return true;
 }
 
@@ -476,94 +470,31 @@ bool FrictionSolver::Implementation::solve_normal()
 bool FrictionSolver::Implementation::solve_uncoupled()
 {
    if (!solve_normal()) { return false; }
-   std::vector<Index> moving;
-   std::vector<signed char> moving_key(n, 0);
+   std::vector<NodeState> states(n);
+   VectorXd resistance = VectorXd::Zero(n);
    for (Index i = 0; i < n; ++i)
    {
-      u[t(i)] = v_old[i];
-      if (status[i] != NodeState::stick)
-      {
-         moving.push_back(i);
-         moving_key[i] = 1;
-      }
+      const bool moves = status[i] != NodeState::stick;
+      states[i] = moves ? NodeState::separation : NodeState::stick;
+      if (moves) { resistance[i] = sense(status[i]) * problem.friction[i] * F[m(i)]; }
    }
-   if (moving.empty()) { return true; }
-   if (tangential_factor.key != moving_key)
+   VectorXd x, q;
+   if (!solve_equations(tangential_equations, problem.A, states,
+                        f.head(n) + problem.A * v_old + resistance, x, q))
    {
-      ++counters.dense_factorisations;
-      tangential_factor.compute(problem.A(moving, moving));
-      tangential_factor.key = moving_key;
+      return false;
    }
-   if (tangential_factor.singular) { return false; }
-   const VectorXd p = f.tail(n) + problem.C * u.tail(n);
-   const VectorXd q = f.head(n) + problem.A * v_old;
-   VectorXd rhs(moving.size());
-   for (std::size_t k = 0; k < moving.size(); ++k)
-   {
-      const Index i = moving[k];
-      rhs[k] = -(q[i] + sense(status[i]) * problem.friction[i] * p[i]);
-   }
-   const VectorXd x = tangential_factor.lu.solve(rhs);
-   for (std::size_t k = 0; k < moving.size(); ++k) { u[t(moving[k])] += x[k]; }
+   u.head(n) = v_old + x;
+   F.head(n) = q - resistance;
    return true;
 }
 
 bool FrictionSolver::Implementation::solve_coupled()
 {
-   // Unknown displacements and, row by row, the equations they answer to: q = 0 and p = 0 at
-   // open nodes, q ± f p = 0 at slipping ones.
-   struct Equation
-   {
-      Index row;     // of K
-      Index other;   // row added with `factor`
-      double factor; // ± f, or 0
-   };
-   std::vector<Index> unknowns;
-   std::vector<Equation> equations;
-   std::vector<signed char> key(n);
-   for (Index i = 0; i < n; ++i)
-   {
-      key[i] = static_cast<signed char>(status[i]);
-      u[t(i)] = v_old[i];
-      u[m(i)] = closed(status[i]) ? -problem.gap[i] : 0.0;
-      if (status[i] == NodeState::stick) { continue; }
-      unknowns.push_back(t(i));
-      equations.push_back({t(i), m(i), sense(status[i]) * problem.friction[i]});
-   }
-   for (Index i = 0; i < n; ++i)
-   {
-      if (closed(status[i])) { continue; }
-      unknowns.push_back(m(i));
-      equations.push_back({m(i), m(i), 0.0});
-   }
-   if (unknowns.empty()) { return true; }
-   const auto size = static_cast<Index>(unknowns.size());
-   if (coupled_factor.key != key)
-   {
-      ++counters.dense_factorisations;
-      MatrixXd M(size, size);
-      for (Index c = 0; c < size; ++c)
-      {
-         const double *column = K.col(unknowns[c]).data();
-         for (Index r = 0; r < size; ++r)
-         {
-            const Equation &e = equations[r];
-            M(r, c) = column[e.row] + e.factor * column[e.other];
-         }
-      }
-      coupled_factor.compute(M);
-      coupled_factor.key = key;
-   }
-   if (coupled_factor.singular) { return false; }
-   const VectorXd base = f + K * u;
-   VectorXd rhs(size);
-   for (Index r = 0; r < size; ++r)
-   {
-      const Equation &e = equations[r];
-      rhs[r] = -(base[e.row] + e.factor * base[e.other]);
-   }
-   const VectorXd x = coupled_factor.lu.solve(rhs);
-   for (Index c = 0; c < size; ++c) { u[unknowns[c]] += x[c]; }
+   VectorXd from(2 * n), x;
+   from << v_old, closed_gaps();
+   if (!solve_equations(coupled_equations, K, status, f + K * from, x, F)) { return false; }
+   u = from + x;
    return true;
 }
 
@@ -653,10 +584,10 @@ bool FrictionSolver::Implementation::solve_disc()
          M(count + r, count + r) += own[1];
       }
       ++counters.dense_factorisations;
-      CachedFactor factor;
-      factor.compute(M);
-      if (factor.singular) { return false; }
-      const VectorXd x = factor.lu.solve(rhs);
+      DenseLU factor;
+      if (!factor.compute(std::move(M))) { return false; }
+      VectorXd &x = rhs;
+      factor.solve(x);
       for (Index r = 0; r < 2 * count; ++r)
       {
          const Index k = r / count, i = slipping[r % count];
@@ -672,6 +603,7 @@ bool FrictionSolver::Implementation::solve_disc()
       eliminated.factor.matrixU().solveInPlace(lift);
       u(open) -= lift;
    }
+   F = f + K * u;
    return true;
 }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cattaneo/friction/state_equations.hpp>
 #include <cmath>
 #include <limits>
@@ -13,181 +14,269 @@ namespace
 {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
-/// A pivot this small against what it is the difference of is none.
-constexpr double least_pivot = 1e-11;
+/// Where the corner of the borders is nearer to singular, M₀ is factored anew.
+constexpr double least_corner = 1e-9;
 
 } // namespace
 
 StateEquations::StateEquations(const MatrixXd &K, const VectorXd &friction)
    : K_(K), friction_(friction), n_(friction.size()), tangential_(K.rows() > n_),
      diagonal_(K.diagonal()), norm_(K.cwiseAbs().colwise().sum().maxCoeff()),
-     states_(n_, NodeState::stick), held_(n_, false), slot_of_(K.rows(), -1)
+     states_(n_, NodeState::stick), held_(n_, false), slot_of_(K.rows(), -1),
+     border_of_(K.rows(), -1)
 {
 }
 
-std::vector<StateEquations::Equation> StateEquations::equations_of(Index node) const
+template <class Visitor>
+void StateEquations::for_each_equation(Index node, Visitor visit) const
 {
    const NodeState state = states_[node];
-   std::vector<Equation> equations;
    if (tangential_ && state != NodeState::stick && !held_[node])
    {
-      equations.push_back({node, normal_row(node), sense(state) * friction_[node]});
+      visit(Equation{node, normal_row(node), sense(state) * friction_[node]});
    }
-   if (!closed(state)) { equations.push_back({normal_row(node), normal_row(node), 0.0}); }
-   return equations;
+   if (!closed(state)) { visit(Equation{normal_row(node), normal_row(node), 0.0}); }
 }
 
+/// M₀ of the present states. Nothing changes if it is singular.
 bool StateEquations::factor()
 {
    ++factorisations_;
-   slots_.clear();
-   std::fill(slot_of_.begin(), slot_of_.end(), -1);
+   std::vector<Equation> slots;
    for (Index i = 0; i < n_; ++i)
    {
-      for (const Equation &e : equations_of(i))
-      {
-         slot_of_[e.row] = static_cast<Index>(slots_.size());
-         slots_.push_back(e);
-      }
+      for_each_equation(i, [&](const Equation &e) { slots.push_back(e); });
    }
-   const auto m = static_cast<Index>(slots_.size());
-   if (m == 0) { return true; }
+   const auto m = static_cast<Index>(slots.size());
    MatrixXd M(m, m);
    for (Index c = 0; c < m; ++c)
    {
-      const double *column = K_.col(slots_[c].row).data();
+      const double *column = K_.col(slots[c].row).data();
       for (Index r = 0; r < m; ++r)
       {
-         M(r, c) = column[slots_[r].row] + slots_[r].factor * column[slots_[r].other];
+         M(r, c) = column[slots[r].row] + slots[r].factor * column[slots[r].other];
       }
    }
-   const Eigen::PartialPivLU<MatrixXd> lu(M);
-   const auto pivots = lu.matrixLU().diagonal().cwiseAbs();
-   if (!(pivots.minCoeff() > 1e-14 * pivots.maxCoeff())) { return false; }
-   if (G_.rows() < m) { G_.resize(m, m); }
-   G_.topLeftCorner(m, m) = lu.inverse();
+   DenseLU lu;
+   if (!lu.compute(std::move(M))) { return false; }
+   lu_ = std::move(lu);
+   slots_ = std::move(slots);
+   std::fill(slot_of_.begin(), slot_of_.end(), -1);
+   for (Index k = 0; k < m; ++k) { slot_of_[slots_[k].row] = k; }
+   forget_borders();
    return true;
 }
 
-bool StateEquations::insert(const Equation &e)
+void StateEquations::forget_borders()
 {
-   const auto m = static_cast<Index>(slots_.size());
-   if (G_.rows() <= m)
-   {
-      const Index capacity = std::min(K_.rows(), 2 * m + 16);
-      G_.conservativeResize(capacity, capacity);
-   }
-   const double *column = K_.col(e.row).data(), *other = K_.col(e.other).data();
-   VectorXd down(m), right(m); // the new column and row of the matrix; K is symmetric
-   for (Index k = 0; k < m; ++k)
-   {
-      down[k] = column[slots_[k].row] + slots_[k].factor * column[slots_[k].other];
-      right[k] = column[slots_[k].row] + e.factor * other[slots_[k].row];
-   }
-   const double corner = column[e.row] + e.factor * column[e.other];
-   auto G = G_.topLeftCorner(m, m);
-   const VectorXd Gd = G * down;
-   const VectorXd rG = G.transpose() * right;
-   const double taken = right.dot(Gd), pivot = corner - taken;
-   if (!(std::abs(pivot) > least_pivot * (std::abs(corner) + std::abs(taken))))
-   {
-      return false;
-   }
-   G.noalias() += (Gd / pivot) * rG.transpose();
-   G_.col(m).head(m) = -Gd / pivot;
-   G_.row(m).head(m) = -rG.transpose() / pivot;
-   G_(m, m) = 1 / pivot;
-   slot_of_[e.row] = m;
-   slots_.push_back(e);
-   ++updates_;
-   return true;
+   borders_.clear();
+   std::fill(border_of_.begin(), border_of_.end(), -1);
+   active_.clear();
+   corner_ = DenseLU();
 }
 
-bool StateEquations::remove(Index row)
+/// Columns of P for these rows, solved together.
+void StateEquations::add_columns(const std::vector<Index> &rows)
 {
-   const auto m = static_cast<Index>(slots_.size());
-   const Index k = slot_of_[row], last = m - 1;
-   const double pivot = G_(k, k);
-   // 1/pivot is what the matrix without this slot leaves of its diagonal entry.
-   if (!(std::abs(pivot) * norm_ > least_pivot)) { return false; }
-   if (k != last)
+   const auto m = static_cast<Index>(slots_.size()),
+              first = static_cast<Index>(borders_.size()),
+              count = static_cast<Index>(rows.size()), size = first + count;
+   if (W_.rows() != m || W_.cols() < size)
    {
-      G_.col(k).head(m).swap(G_.col(last).head(m));
-      G_.row(k).head(m).swap(G_.row(last).head(m));
-      slots_[k] = slots_[last];
-      slot_of_[slots_[k].row] = k;
+      const Index capacity = std::max(size, std::min(K_.rows(), 2 * size));
+      W_.conservativeResize(m, capacity);
+      Q_.conservativeResize(m, capacity);
+      products_.conservativeResize(capacity, capacity);
    }
-   const VectorXd column = G_.col(last).head(last) / pivot;
-   const VectorXd across = G_.row(last).head(last);
-   G_.topLeftCorner(last, last).noalias() -= column * across.transpose();
-   slots_.pop_back();
-   slot_of_[row] = -1;
-   ++updates_;
-   return true;
-}
-
-bool StateEquations::update(Index node, NodeState state, bool held)
-{
-   const std::vector<Equation> old = equations_of(node);
-   states_[node] = state;
-   held_[node] = held;
-   const std::vector<Equation> now = equations_of(node);
-   // What stays is left alone: the normal equation, the tangential one if its factor stays.
-   auto among = [](const Equation &e, const std::vector<Equation> &list)
+   for (Index k = 0; k < count; ++k)
    {
-      for (const Equation &other : list)
+      const Index row = rows[k], slot = slot_of_[row];
+      border_of_[row] = first + k;
+      borders_.push_back(
+         {{row, row, 0.0}, false, slot >= 0, std::numeric_limits<double>::quiet_NaN()});
+      auto P = W_.col(first + k);
+      if (slot >= 0) // in units of displacement
       {
-         if (other.row == e.row && other.factor == e.factor) { return true; }
+         P.setZero();
+         P[slot] = diagonal_[row];
+         continue;
       }
-      return false;
-   };
-   for (const Equation &e : old)
-   {
-      if (!among(e, now) && !remove(e.row)) { return false; }
+      const double *column = K_.col(row).data();
+      for (Index r = 0; r < m; ++r)
+      {
+         P[r] = column[slots_[r].row] + slots_[r].factor * column[slots_[r].other];
+      }
    }
-   for (const Equation &e : now)
+   lu_.solve(W_.middleCols(first, count));
+   updates_ += count;
+   // D - Q M₀⁻¹ P of the rows that are there already.
+   for (Index a = 0; a < first; ++a)
    {
-      if (!among(e, old) && !insert(e)) { return false; }
+      const Border &border = borders_[a];
+      if (std::isnan(border.made_for)) { continue; }
+      for (Index b = first; b < size; ++b)
+      {
+         products_(a, b) = -Q_.col(a).dot(W_.col(b));
+         if (borders_[b].in_factor) { continue; }
+         const double *column = K_.col(borders_[b].now.row).data();
+         products_(a, b) +=
+            (column[border.now.row] + border.made_for * column[border.now.other]) /
+            diagonal_[border.now.row];
+      }
    }
-   return true;
+}
+
+/// The present states as borders of M₀. False if M₀ had better be factored anew.
+bool StateEquations::border()
+{
+   const auto m = static_cast<Index>(slots_.size());
+   std::vector<Equation> now(K_.rows(), Equation{-1, -1, 0.0});
+   for (Index i = 0; i < n_; ++i)
+   {
+      for_each_equation(i, [&](const Equation &e) { now[e.row] = e; });
+   }
+   std::vector<Index> rows, fresh;
+   for (Index row = 0; row < K_.rows(); ++row)
+   {
+      const Index slot = slot_of_[row];
+      const bool present = now[row].row >= 0;
+      if (slot < 0 ? !present : (present && now[row].factor == slots_[slot].factor))
+      {
+         continue;
+      }
+      rows.push_back(row);
+      if (border_of_[row] < 0) { fresh.push_back(row); }
+   }
+   // m² a border against m³/3.
+   const auto most = static_cast<std::size_t>(std::max<Index>(16, m / 8));
+   if (borders_.size() + fresh.size() > most) { return false; }
+   if (!fresh.empty()) { add_columns(fresh); }
+   active_.clear();
+   const auto size = static_cast<Index>(borders_.size());
+   for (Index row : rows)
+   {
+      const Index a = border_of_[row];
+      active_.push_back(a);
+      Border &border = borders_[a];
+      border.present = now[row].row >= 0;
+      if (!border.present || now[row].factor == border.made_for) { continue; }
+      border.now = now[row];
+      border.made_for = border.now.factor;
+      const double *column = K_.col(border.now.row).data(),
+                   *other = K_.col(border.now.other).data(); // K is symmetric
+      for (Index k = 0; k < m; ++k)
+      {
+         const Index at = slots_[k].row;
+         Q_(k, a) = (column[at] + border.made_for * other[at]) / diagonal_[row];
+      }
+      products_.row(a).head(size).noalias() = -Q_.col(a).transpose() * W_.leftCols(size);
+      for (Index b = 0; b < size; ++b)
+      {
+         if (borders_[b].in_factor) { continue; }
+         const Index at = borders_[b].now.row;
+         products_(a, b) += (column[at] + border.made_for * other[at]) / diagonal_[row];
+      }
+   }
+   const auto count = static_cast<Index>(active_.size());
+   MatrixXd corner(count, count);
+   for (Index a = 0; a < count; ++a)
+   {
+      const Border &border = borders_[active_[a]];
+      for (Index b = 0; b < count; ++b)
+      {
+         corner(a, b) = border.present ? products_(active_[a], active_[b])
+                                       : -W_(slot_of_[border.now.row], active_[b]);
+      }
+   }
+   return corner_.compute(std::move(corner)) && corner_.pivot_ratio() > least_corner;
+}
+
+/// True if M₀ is that of the present states.
+bool StateEquations::is_factored() const
+{
+   std::size_t count = 0;
+   bool same = true;
+   for (Index i = 0; i < n_; ++i)
+   {
+      for_each_equation(i,
+                        [&](const Equation &e)
+                        {
+                           const Index slot = slot_of_[e.row];
+                           same = same && slot >= 0 && slots_[slot].factor == e.factor;
+                           ++count;
+                        });
+   }
+   return same && count == slots_.size();
+}
+
+bool StateEquations::adopt()
+{
+   if (!anew_) { return border() || factor(); }
+   anew_ = false;
+   forget_borders();
+   return is_factored() || factor();
 }
 
 bool StateEquations::set(Index node, NodeState state, bool held)
 {
    const NodeState state_before = states_[node];
    const bool held_before = held_[node];
-   if (state_before == state && held_before == held) { return true; }
-   if (update(node, state, held) || factor()) { return true; }
+   if (!anew_ && state_before == state && held_before == held) { return true; }
+   states_[node] = state;
+   held_[node] = held;
+   if (adopt()) { return true; }
    states_[node] = state_before;
    held_[node] = held_before;
-   factor();
+   adopt();
    return false;
 }
 
 bool StateEquations::set(const std::vector<NodeState> &states)
 {
-   std::vector<Index> changed;
-   for (Index i = 0; i < n_; ++i)
+   if (!anew_ && states == states_ &&
+       std::find(held_.begin(), held_.end(), true) == held_.end())
    {
-      if (states[i] != states_[i] || held_[i]) { changed.push_back(i); }
+      return true;
    }
-   if (changed.empty()) { return true; }
    const std::vector<NodeState> states_before = states_;
    const std::vector<bool> held_before = held_;
-   // Some four rank-one updates of m² a node against 2 m³.
-   bool updated = 2 * changed.size() < slots_.size();
-   for (std::size_t k = 0; updated && k < changed.size(); ++k)
-   {
-      updated = update(changed[k], states[changed[k]], false);
-   }
-   if (updated) { return true; }
    states_ = states;
    held_.assign(n_, false);
-   if (factor()) { return true; }
+   if (adopt()) { return true; }
    states_ = states_before;
    held_ = held_before;
-   factor();
+   adopt();
    return false;
+}
+
+/// Takes from x what the forces of the equations amount to.
+void StateEquations::step(const VectorXd &F, VectorXd &x) const
+{
+   const auto m = static_cast<Index>(slots_.size()), count = static_cast<Index>(active_.size());
+   VectorXd y(m), z(count);
+   for (Index k = 0; k < m; ++k) { y[k] = force(slots_[k], F); }
+   for (Index a = 0; a < count; ++a)
+   {
+      const Border &border = borders_[active_[a]];
+      if (border.in_factor) { y[slot_of_[border.now.row]] = 0; } // the old equation is no more
+   }
+   lu_.solve(y);
+   for (Index a = 0; a < count; ++a)
+   {
+      const Border &border = borders_[active_[a]];
+      z[a] = border.present
+                ? force(border.now, F) / diagonal_[border.now.row] - Q_.col(active_[a]).dot(y)
+                : -y[slot_of_[border.now.row]];
+   }
+   corner_.solve(z);
+   for (Index a = 0; a < count; ++a) { y -= z[a] * W_.col(active_[a]); }
+   for (Index a = 0; a < count; ++a)
+   {
+      const Border &border = borders_[active_[a]];
+      if (!border.in_factor) { x[border.now.row] -= z[a]; }
+      else if (!border.present) { y[slot_of_[border.now.row]] = 0; }
+   }
+   for (Index k = 0; k < m; ++k) { x[slots_[k].row] -= y[k]; }
 }
 
 double StateEquations::round_off(const VectorXd &b, const VectorXd &x) const
@@ -199,17 +288,22 @@ bool StateEquations::solve(const VectorXd &b, VectorXd &x, VectorXd &F)
 {
    x.setZero(b.size());
    F = b;
-   if (slots_.empty()) { return true; }
+   std::vector<Equation> equations;
+   for (Index i = 0; i < n_; ++i)
+   {
+      for_each_equation(i, [&](const Equation &e) { equations.push_back(e); });
+   }
    double before = std::numeric_limits<double>::infinity();
-   bool fresh = false;
+   bool fresh = active_.empty();
    while (true)
    {
-      const auto m = static_cast<Index>(slots_.size());
-      VectorXd residual(m);
-      for (Index k = 0; k < m; ++k) { residual[k] = force(slots_[k], F); }
-      const double largest = residual.cwiseAbs().maxCoeff();
+      if (!F.allFinite()) { return false; }
+      double largest = 0;
+      for (const Equation &e : equations)
+      {
+         largest = std::max(largest, std::abs(force(e, F)));
+      }
       const double reachable = round_off(b, x);
-      if (!std::isfinite(largest)) { return false; }
       if (largest <= reachable) { return true; }
       if (largest > 0.1 * before) // refinement no longer helps
       {
@@ -222,13 +316,12 @@ bool StateEquations::solve(const VectorXd &b, VectorXd &x, VectorXd &F)
          continue;
       }
       before = largest;
-      const VectorXd step = G_.topLeftCorner(m, m) * residual;
-      for (Index k = 0; k < m; ++k) { x[slots_[k].row] -= step[k]; }
-      if (2 * m > K_.rows()) { F = b + K_ * x; }
+      step(F, x);
+      if (2 * static_cast<Index>(equations.size()) > K_.rows()) { F = b + K_ * x; }
       else
       {
          F = b;
-         for (const Equation &e : slots_) { F.noalias() += x[e.row] * K_.col(e.row); }
+         for (const Equation &e : equations) { F.noalias() += x[e.row] * K_.col(e.row); }
       }
    }
 }

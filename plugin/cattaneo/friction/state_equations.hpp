@@ -2,14 +2,14 @@
 
 #include <Eigen/Dense>
 #include <cattaneo/friction/contact_state.hpp>
+#include <cattaneo/friction/dense_lu.hpp>
 #include <vector>
 
 namespace cattaneo
 {
 
-/** The linear equations that a set of node states stands for, with their inverse, which follows
-    changes of single nodes by rank-one updates: O(m²) a change for m unknowns, where a
-    factorisation costs O(m³).
+/** The linear equations that a set of node states stands for, factored once and followed
+   through changes of states: O(m²) a change for m unknowns, where a factorisation costs O(m³).
 
     With the displacements x = {x_t; x_n} counted from stick (x = 0: no slip, closed) and forces
     F = {q; p} = b + K x, K = [A Bᵀ; B C]:
@@ -19,7 +19,12 @@ namespace cattaneo
         separation:  q = 0,   p = 0
         separation of a node that is held: x_t = 0, p = 0
 
-    A stiffness of n rows for n nodes has no tangential unknowns (no friction anywhere). */
+    A stiffness of n rows for n nodes has no tangential unknowns (no friction anywhere).
+
+    The equations M₀ of the states that were factored last are bordered by those that have
+    changed since, M₀ x + P z = r₀, Q x + D z = r₁: an unknown that is gone gets x = 0 for an
+    equation and its force for a z, one that is new is a z, an equation that is another gets
+    both. M₀⁻¹ P is kept for the life of M₀. */
 class StateEquations
 {
 public:
@@ -36,6 +41,10 @@ public:
    /// A node in separation that does not move along the contact.
    bool held(Eigen::Index node) const { return held_[node]; }
 
+   /// Lets what was factored or bordered before leave no trace, to the last bit, in what
+   /// follows: the next set() keeps the factor only if it is that of its states.
+   void begin() { anew_ = true; }
+
    /// Solves for x and F, both of the size of K, refined to round-off. False if they are not
    /// finite.
    bool solve(const Eigen::VectorXd &b, Eigen::VectorXd &x, Eigen::VectorXd &F);
@@ -44,6 +53,7 @@ public:
    double round_off(const Eigen::VectorXd &b, const Eigen::VectorXd &x) const;
 
    long factorisations() const { return factorisations_; }
+   /// Unknowns bordered.
    long updates() const { return updates_; }
 
 private:
@@ -53,17 +63,29 @@ private:
       Eigen::Index row, other;
       double factor;
    };
+   /// What may be bordered: an unknown that came, went, or answers to another equation.
+   struct Border
+   {
+      Equation now;    // if present
+      bool present;    // false: x = 0
+      bool in_factor;  // one of the unknowns of M₀
+      double made_for; // factor of the equation in Q_, NaN: none yet
+   };
 
    Eigen::Index normal_row(Eigen::Index node) const { return tangential_ ? n_ + node : node; }
-   std::vector<Equation> equations_of(Eigen::Index node) const;
+   template <class Visitor>
+   void for_each_equation(Eigen::Index node, Visitor visit) const;
+   bool is_factored() const;
    double force(const Equation &e, const Eigen::VectorXd &F) const
    {
       return F[e.row] + e.factor * F[e.other];
    }
    bool factor();
-   bool insert(const Equation &e);
-   bool remove(Eigen::Index row);
-   bool update(Eigen::Index node, NodeState state, bool held);
+   void forget_borders();
+   bool border();
+   bool adopt();
+   void add_columns(const std::vector<Eigen::Index> &rows);
+   void step(const Eigen::VectorXd &F, Eigen::VectorXd &x) const;
 
    const Eigen::MatrixXd &K_;
    const Eigen::VectorXd &friction_;
@@ -73,9 +95,19 @@ private:
    const double norm_; // row sums of K
    std::vector<NodeState> states_;
    std::vector<bool> held_;
-   std::vector<Equation> slots_;       // the unknown of a slot is x[row]
+
+   DenseLU lu_;                        // of M₀
+   std::vector<Equation> slots_;       // of M₀: the unknown of a slot is x[row]
    std::vector<Eigen::Index> slot_of_; // of each row of K, -1: no unknown
-   Eigen::MatrixXd G_;                 // its leading block is the inverse
+
+   std::vector<Border> borders_;         // all rows bordered since M₀ was factored
+   std::vector<Eigen::Index> border_of_; // of each row of K, -1: none
+   std::vector<Eigen::Index> active_;    // those that M₀ needs at present
+   Eigen::MatrixXd W_;                   // M₀⁻¹ P, a column a border
+   Eigen::MatrixXd Q_;                   // transposed, a column a border that is present
+   Eigen::MatrixXd products_;            // D - Q M₀⁻¹ P
+   DenseLU corner_;                      // of its active rows and columns
+   bool anew_ = true;
    long factorisations_ = 0, updates_ = 0;
 };
 

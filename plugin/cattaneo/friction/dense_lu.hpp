@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <vector>
+
+namespace cattaneo
+{
+
+/** LU factors of a dense square matrix, with row pivoting: LAPACK's, which at a thousand
+   unknowns is ten times faster than Eigen's portable one, or Eigen's if built without LAPACK.
+ */
+class DenseLU
+{
+public:
+   /// Replaces the factors. False if the matrix is singular: pivot_ratio() is not above 1e-14.
+   bool compute(Eigen::MatrixXd matrix);
+   /// Smallest by largest pivot, in size; 1 without rows.
+   double pivot_ratio() const;
+   /// Solves in place, one right-hand side a column; after a compute() that succeeded.
+   void solve(Eigen::Ref<Eigen::MatrixXd> x) const;
+   Eigen::Index rows() const { return factors_.rows(); }
+
+private:
+   Eigen::MatrixXd factors_;
+   std::vector<int> exchanges_; // of rows, LAPACK's; counted from 1
+};
+
+} // namespace cattaneo
