@@ -19,6 +19,8 @@
 
 using namespace cattaneo;
 
+#ifdef MFEM_USE_MPI
+
 namespace
 {
 
@@ -41,6 +43,8 @@ double peak()
 }
 
 } // namespace
+
+#endif
 
 int main(int argc, char *argv[])
 {

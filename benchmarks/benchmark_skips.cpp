@@ -3,9 +3,9 @@
 //  Each row runs one scene twice: as it is, and so that it needs what it would otherwise skip.
 //  Both counts are of the reports' counters; seconds are processor time, the best of several.
 
-#include "disc_scene.hpp"
-#include "hertz_scene.hpp"
-#include "punch.hpp"
+#include "common/disc_scene.hpp"
+#include "common/hertz_scene.hpp"
+#include "common/punch.hpp"
 #include <algorithm>
 #include <cattaneo/friction/march.hpp>
 #include <cstdio>
@@ -114,17 +114,6 @@ int main()
          return marched(rough, {none, pressed, sheared, back, pressed}, all_cycles, 100)
             .increments;
       });
-   MarchSettings exact;
-   exact.stepping = Stepping::exact;
-   row(
-      "exact march: no increments between changes of state", "increments",
-      [&] {
-         return marched(rough, {none, pressed, sheared, back}, exact).increments;
-      },
-      [&] {
-         return marched(rough, {none, pressed, sheared, back}).increments;
-      });
-
    row(
       "rigid obstacle: one body", "factorisations",
       [] { return punch().reduction.counters.factorisations; },
@@ -190,31 +179,12 @@ int main()
    coupled.B(0, 0) += 1e-9 * coupled.C.maxCoeff(); // of no consequence, but not zero
    const Eigen::VectorXd normal = Vector2d(1, 0), shear = Vector2d(1, 0.2);
    row(
-      "uncoupled bodies: gaps are solved apart from slip", "newton_steps",
+      "uncoupled bodies: pressed in one increment, gaps apart", "increments",
       [&] {
-         return marched(uncoupled, {none, normal, shear}).newton_steps;
+         return marched(uncoupled, {none, normal, shear}).increments;
       },
       [&] {
-         return marched(coupled, {none, normal, shear}).newton_steps;
+         return marched(coupled, {none, normal, shear}).increments;
       });
-   const auto increments = [&](bool forget)
-   {
-      long factorisations = 0;
-      ContactState state = ContactState::virgin(rough);
-      auto solver = std::make_unique<FrictionSolver>(rough);
-      for (int k = 0; k < 60; ++k)
-      {
-         if (forget)
-         {
-            factorisations += solver->counters().dense_factorisations;
-            solver = std::make_unique<FrictionSolver>(rough);
-         }
-         solver->solve(state, Vector2d(1, 0.15 * std::sin(0.2 * k)));
-      }
-      return factorisations + solver->counters().dense_factorisations;
-   };
-   row(
-      "states change little: the dense factor is kept and bordered", "dense_factorisations",
-      [&] { return increments(false); }, [&] { return increments(true); });
    return 0;
 }

@@ -13,8 +13,8 @@
 #include "common/contact_edges.hpp"
 #include "common/fields.hpp"
 #include "common/filled_corner.hpp"
-#include "common/mesh_file.hpp"
 #include "common/locking.hpp"
+#include "common/mesh_file.hpp"
 #include "common/statements.hpp"
 #include "common/study_output.hpp"
 
@@ -464,9 +464,13 @@ int main(int argc, char *argv[])
          }
          const CriticalFriction critical = critical_friction(problem);
          std::cout << "Critical friction: a node alone " << critical.node << " (node "
-                   << critical.weakest_node << "), the contact can lock itself above "
-                   << critical.locking << ", one answer for sure below "
-                   << critical.unique_below << std::endl;
+                   << critical.weakest_node << "), the contact can";
+         if (std::isfinite(critical.locking))
+         {
+            std::cout << " lock itself above " << critical.locking;
+         }
+         else { std::cout << "not lock itself"; }
+         std::cout << ", one answer for sure below " << critical.unique_below << std::endl;
          results["critical_friction"] = {
             {"node", miniapp::json_number(critical.node)},
             {"locking", miniapp::json_number(critical.locking)},

@@ -86,7 +86,7 @@ private:
    VectorXd loads(int piece, double time) const;
    void accept(ContactState &&next, int piece, const IncrementReport &increment);
    void end_cycle();
-   void bisect_event(int piece, double failed, const IncrementReport &failure);
+   void bisect_event(int piece, double failed, IncrementReport failure);
 
    FrictionSolver &solver_;
    const ReducedProblem &problem_;
@@ -232,9 +232,18 @@ void March::accept(ContactState &&next, int piece, const IncrementReport &increm
 }
 
 /// No equilibrium at `failed`: approaches the last load at which there is one.
-void March::bisect_event(int piece, double failed, const IncrementReport &failure)
+void March::bisect_event(int piece, double failed, IncrementReport failure)
 {
-   const double resolution = 1e-10 * (history_.end_time(piece) - history_.start_time(piece));
+   const double duration = history_.end_time(piece) - history_.start_time(piece);
+   const double beyond = failed + 1e-6 * duration, resolution = 1e-10 * duration;
+   if (failure.status == FrictionStatus::stalled && beyond < history_.end_time(piece))
+   {
+      // At the limit itself a node or two carry everything: what happens there shows beyond.
+      ContactState next = state_;
+      next.time = beyond;
+      const IncrementReport increment = solver_.solve(next, loads(piece, beyond));
+      if (!solved(increment)) { failure = increment; }
+   }
    while (failed - state_.time > resolution)
    {
       ContactState next = state_;
