@@ -196,9 +196,11 @@ void check_gmsh(std::istream &in, long size)
 /// Every boundary element must be an edge of an element; MFEM takes others, to use them later.
 void check_boundary(const mfem::Mesh &mesh)
 {
+   mfem::Array<int> edges, orientations;
    for (int k = 0; k < mesh.GetNBE(); ++k)
    {
-      require(mesh.GetBdrElementFaceIndex(k) >= 0, "mesh file has the boundary element ", k,
+      mesh.GetBdrElementEdges(k, edges, orientations);
+      require(edges[0] >= 0, "mesh file has the boundary element ", k,
               ", which is no edge of an element");
    }
 }
