@@ -6,9 +6,8 @@
 namespace cattaneo
 {
 
-/** LU factors of a dense square matrix, with row pivoting: LAPACK's, which at a thousand
-   unknowns is ten times faster than Eigen's portable one, or Eigen's if built without LAPACK.
- */
+/** LU factors of a dense square matrix, with row pivoting: LAPACK's, or Eigen's if built
+   without it. */
 class DenseLU
 {
 public:
