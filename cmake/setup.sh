@@ -75,8 +75,12 @@ build_mpi_mfem()
    rm -rf "$courier"
 }
 
-# The compiler cache, if this machine has one.
-launcher() { command -v ccache >/dev/null && echo -DCMAKE_CXX_COMPILER_LAUNCHER=ccache; }
+# The compiler cache, if this machine has one; precompiled headers need these words.
+launcher()
+{
+   command -v ccache >/dev/null &&
+      echo "-DCMAKE_CXX_COMPILER_LAUNCHER=env;CCACHE_SLOPPINESS=pch_defines,time_macros;ccache"
+}
 
 # The prebuilt serial MFEM that the Python package mfem carries; Python is only the courier.
 unpack_serial_mfem()

@@ -151,6 +151,12 @@ const char *outcome(const TransientReport &run)
    return run.shaken_down ? "shaken down" : run.steady_cycle ? "cyclic slip" : "still slipping";
 }
 
+/// False where the march ended early, for want of an equilibrium.
+bool ended(const TransientReport &run)
+{
+   return run.status == FrictionStatus::converged || run.status == FrictionStatus::not_unique;
+}
+
 struct Options
 {
    miniapp::PunchOptions punch;
@@ -242,7 +248,8 @@ class Study
 public:
    explicit Study(const Options &options) : options(options) {}
 
-   /// The exit code: 0, or 2 if a limit does not exist or was not certified.
+   /// The exit code: 0, or 2 if a limit does not exist or was not certified, or a march ended
+   /// early.
    int run()
    {
       prepare();
@@ -555,9 +562,15 @@ private:
             transient(solver, all, (1 + side) * most.limit, start, settings);
          counters += run.counters;
          const double loss = run.dissipation.empty() ? none : run.dissipation.back();
-         std::printf("%-28s %s (loss a cycle %.2e of the elastic energy, %zu cycles)\n",
+         std::printf("%-28s %s (",
                      side < 0 ? "whole contact, 1 % below" : "whole contact, 1 % above",
-                     outcome(run), loss / run.energy, run.dissipation.size());
+                     outcome(run));
+         if (run.dissipation.empty()) { std::printf("in the first cycle)\n"); }
+         else
+         {
+            std::printf("loss a cycle %.2e of the elastic energy, %zu cycles)\n",
+                        loss / run.energy, run.dissipation.size());
+         }
          results["whole_contact"].push_back(
             {{"load_factor", run.load_factor},
              {"outcome", outcome(run)},
@@ -658,9 +671,19 @@ private:
          counters += run.counters;
          const bool any = !run.dissipation.empty();
          const double first = any ? run.dissipation.front() : none;
-         std::printf("%18s %12.4e %12.4e %8.3f %7zu  %s\n", names[k], first,
-                     any ? run.dissipation.back() : none, run.decay, run.dissipation.size(),
-                     outcome(run));
+         if (any)
+         {
+            std::printf("%18s %12.4e %12.4e %8.3f %7zu  %s\n", names[k], first,
+                        run.dissipation.back(), run.decay, run.dissipation.size(),
+                        outcome(run));
+         }
+         else
+         {
+            std::printf("%18s %12s %12s %8s %7d  %s\n", names[k], "-", "-", "-", 0,
+                        outcome(run));
+         }
+         if (!run.message.empty()) { std::printf("%20s%s\n", "", run.message.c_str()); }
+         if (!ended(run)) { code = 2; }
          list.push_back({{"start", names[k]},
                          {"dissipation", run.dissipation},
                          {"shaken_down", run.shaken_down},

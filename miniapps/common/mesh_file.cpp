@@ -2,6 +2,7 @@
 
 #include "common/miniapp.hpp"
 
+#include <algorithm>
 #include <cattaneo/input_error.hpp>
 #include <cerrno>
 #include <cmath>
@@ -10,6 +11,7 @@
 #include <fstream>
 #include <map>
 #include <set>
+#include <vector>
 
 namespace miniapp
 {
@@ -59,9 +61,39 @@ void check_attribute(long attribute, const std::string &what)
            " for ", what, ", must be positive");
 }
 
+/// Edges of the elements, by their ends, and boundary elements, which must be among them.
+class Edges
+{
+public:
+   /// A segment is one of the boundary; of others the first vertices are the corners.
+   void add(const std::vector<long> &vertices, std::size_t corners, const std::string &what)
+   {
+      if (corners == 2) { boundary_.emplace_back(ends(vertices[0], vertices[1]), what); }
+      for (std::size_t k = 0; k < corners && corners > 2; ++k)
+      {
+         edges_.insert(ends(vertices[k], vertices[(k + 1) % corners]));
+      }
+   }
+   void check() const
+   {
+      for (const auto &[edge, what] : boundary_)
+      {
+         require(edges_.count(edge), "mesh file has the boundary ", what,
+                 ", which is no edge of an element");
+      }
+   }
+
+private:
+   using Ends = std::pair<long, long>;
+   static Ends ends(long a, long b) { return std::minmax(a, b); }
+   std::set<Ends> edges_;
+   std::vector<std::pair<Ends, std::string>> boundary_;
+};
+
 /// MFEM mesh v1.x, up to the coordinates.
 void check_mfem(std::istream &in, long size)
 {
+   Edges edges;
    // Vertices of MFEM's geometries: segment, triangle, quadrilateral.
    const auto corners = [](long geometry)
    { return geometry < 1 || geometry > 3 ? 0 : geometry + 1; };
@@ -89,15 +121,17 @@ void check_mfem(std::istream &in, long size)
             require(boundary ? geometry == 1 : geometry == 2 || geometry == 3,
                     "mesh file has the geometry ", geometry, " for ", what, ", must be ",
                     boundary ? "1 (segment)" : "2 (triangle) or 3 (square)");
-            std::set<long> own;
+            std::vector<long> own;
             for (long v = 0; v < corners(geometry); ++v)
             {
                const long vertex = integer(in, "a vertex of " + what);
-               require(own.insert(vertex).second, "mesh file has vertex ", vertex, " twice in ",
-                       what);
+               require(std::find(own.begin(), own.end(), vertex) == own.end(),
+                       "mesh file has vertex ", vertex, " twice in ", what);
+               own.push_back(vertex);
                highest = std::max(highest, vertex);
                lowest = std::min(lowest, vertex);
             }
+            edges.add(own, own.size(), "element " + std::to_string(k));
          }
       }
       else if (word == "vertices")
@@ -112,12 +146,22 @@ void check_mfem(std::istream &in, long size)
    {
       require(found.count(section), "mesh file has no section '", section, "'");
    }
+   edges.check();
 }
 
-/// Numbers of nodes of Gmsh's element types: points, lines, triangles, quadrilaterals.
-const std::map<long, int> gmsh_nodes = {
-   {15, 1},  {1, 2},   {8, 3},   {26, 4}, {27, 5}, {28, 6},  {2, 3},   {9, 6},
-   {21, 10}, {23, 15}, {25, 21}, {3, 4},  {10, 9}, {36, 16}, {37, 25}, {38, 36}};
+/// A type of element of Gmsh.
+struct GmshType
+{
+   int nodes;
+   std::size_t corners; ///< the first of its nodes
+   int order;
+};
+/// Points, lines, triangles, quadrilaterals.
+const std::map<long, GmshType> gmsh_types = {
+   {15, {1, 1, 0}},  {1, {2, 2, 1}},   {8, {3, 2, 2}},   {26, {4, 2, 3}},
+   {27, {5, 2, 4}},  {28, {6, 2, 5}},  {2, {3, 3, 1}},   {9, {6, 3, 2}},
+   {21, {10, 3, 3}}, {23, {15, 3, 4}}, {25, {21, 3, 5}}, {3, {4, 4, 1}},
+   {10, {9, 4, 2}},  {36, {16, 4, 3}}, {37, {25, 4, 4}}, {38, {36, 4, 5}}};
 
 /// Gmsh 2.2, ASCII, after $MeshFormat.
 void check_gmsh(std::istream &in, long size)
@@ -134,6 +178,8 @@ void check_gmsh(std::istream &in, long size)
            ", must be 2.2 (gmsh -format msh22)");
    require(integer(in, "the file type") == 0, "Gmsh file is binary, must be ASCII");
    std::set<long> nodes;
+   Edges edges;
+   int order = 0;
    bool has_elements = false;
    std::string word;
    while (in >> word)
@@ -166,9 +212,13 @@ void check_gmsh(std::istream &in, long size)
             const std::string what =
                "element " + std::to_string(integer(in, "the number of an element"));
             const long type = integer(in, "the type of " + what);
-            const auto known = gmsh_nodes.find(type);
-            require(known != gmsh_nodes.end(), "mesh file has the type ", type, " for ", what,
+            const auto known = gmsh_types.find(type);
+            require(known != gmsh_types.end(), "mesh file has the type ", type, " for ", what,
                     ", must be a line, triangle or quadrilateral of order 1 to 5");
+            const GmshType &shape = known->second;
+            if (order == 0) { order = shape.order; }
+            require(shape.order == 0 || shape.order == order, "mesh file has ", what,
+                    " of order ", shape.order, ", must be ", order, " as those before");
             const long tags = count(in, "tags of " + what, size);
             require(tags >= 1, "mesh file has no physical group for ", what);
             for (long t = 0; t < tags; ++t)
@@ -176,33 +226,24 @@ void check_gmsh(std::istream &in, long size)
                const long tag = integer(in, "a tag of " + what);
                if (t == 0 && type != 15) { check_attribute(tag, what); }
             }
-            std::set<long> own;
-            for (int v = 0; v < known->second; ++v)
+            std::vector<long> own;
+            for (int v = 0; v < shape.nodes; ++v)
             {
                const long node = integer(in, "a node of " + what);
-               require(own.insert(node).second, "mesh file has node ", node, " twice in ",
-                       what);
+               require(std::find(own.begin(), own.end(), node) == own.end(),
+                       "mesh file has node ", node, " twice in ", what);
+               own.push_back(node);
                require(nodes.count(node), "mesh file has node ", node, " in ", what,
                        ", which is not among its nodes");
             }
+            edges.add(own, shape.corners, what);
          }
          require(in >> word && word == "$EndElements", "mesh file has '", word, "' after ",
                  expected, " elements, must be $EndElements");
       }
    }
    require(has_elements, "mesh file has no section $Elements");
-}
-
-/// Every boundary element must be an edge of an element; MFEM takes others, to use them later.
-void check_boundary(const mfem::Mesh &mesh)
-{
-   mfem::Array<int> edges, orientations;
-   for (int k = 0; k < mesh.GetNBE(); ++k)
-   {
-      mesh.GetBdrElementEdges(k, edges, orientations);
-      require(edges[0] >= 0, "mesh file has the boundary element ", k,
-              ", which is no edge of an element");
-   }
+   edges.check();
 }
 
 /// What MFEM's message says, without the places in its source.
@@ -244,13 +285,7 @@ mfem::Mesh read_mesh(const std::string &file)
    const SilentErrors silent;
    try
    {
-      mfem::Mesh mesh(file.c_str(), 1, 1);
-      check_boundary(mesh);
-      return mesh;
-   }
-   catch (const InputError &)
-   {
-      throw;
+      return mfem::Mesh(file.c_str(), 1, 1);
    }
    catch (const std::exception &error)
    {

@@ -167,25 +167,37 @@ void applied_contact(const Scene &scene, const std::vector<double> &shears)
    CondenseSettings settings;
    settings.direct_dofs = 0;
    Counters counters;
+   // A contact set as small as this one is formed unless one asks.
+   AppliedProblem formed =
+      apply_reduction(*parts, contact_line(*parts, bottom), gap, settings, &counters);
+   expect(bool(formed.formed), name, "a small contact set is not formed");
+   settings.formed_nodes = 0;
+   counters = {};
    AppliedProblem found =
       apply_reduction(*parts, contact_line(*parts, bottom), gap, settings, &counters);
+   expect(!found.formed, name, "S was formed");
    const VectorXd u = VectorXd::LinSpaced(2 * expected.nodes(), 1, 3).array().sin();
    expect_close(found.apply(u), expected.stiffness() * u, 1e-10, name, "S u");
    expect(counters.krylov_iterations > 0, name, "nothing was iterated");
 
    set_friction(expected, 0.3);
-   found.friction = expected.friction;
+   found.friction = formed.friction = expected.friction;
    FrictionSolver solver(expected);
-   ContactState dense = ContactState::virgin(expected), state = virgin(found);
+   ContactState dense = ContactState::virgin(expected), state = virgin(found),
+                by_factors = virgin(formed);
    for (const double shear : shears)
    {
       // Pressed by what is prescribed at the top, or by the pressure there.
       const Eigen::Vector3d loads(scene.held ? 0.0 : 0.1, scene.held ? shear : 0.1 * shear,
                                   1.0);
       const VectorXd multipliers = loads.head(static_cast<Eigen::Index>(found.patterns.size()));
-      const FrictionStatus formed = solver.solve(dense, multipliers).status;
-      expect(formed == FrictionStatus::converged, name,
-             std::string("formed: ") + cattaneo::name(formed));
+      const FrictionStatus status = solver.solve(dense, multipliers).status;
+      expect(status == FrictionStatus::converged, name,
+             std::string("formed: ") + cattaneo::name(status));
+      const AppliedReport direct = solve(formed, by_factors, multipliers);
+      expect(direct.status == FrictionStatus::converged, name, direct.message);
+      expect(direct.applications == 0, name, "S is formed, but was applied");
+      expect(by_factors.status == dense.status, name, "node states differ with S formed");
       const AppliedReport report = solve(found, state, multipliers);
       expect(report.status == FrictionStatus::converged, name, report.message);
       expect(state.status == dense.status, name, "node states differ");

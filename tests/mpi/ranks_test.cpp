@@ -71,6 +71,11 @@ struct Study
    const char *name, *options;
 };
 
+std::ostream &operator<<(std::ostream &out, const Study &study)
+{
+   return out << study.name << " " << study.options;
+}
+
 class OnRanks : public testing::TestWithParam<Study>
 {
 };
@@ -91,6 +96,22 @@ TEST_P(OnRanks, GiveTheSameNumbers)
       ASSERT_EQ(shared.code, 0) << shared.output;
       expect_equal(alone.results, shared.results, 0, "");
    }
+}
+
+// Another version of MFEM, built with other flags.
+TEST_P(OnRanks, AgreesWithTheSerialFlavour)
+{
+   const char *serial = std::getenv("CATTANEO_SERIAL_MINIAPPS");
+   if (!serial || !*serial)
+   {
+      GTEST_SKIP() << "CATTANEO_SERIAL_MINIAPPS does not name the miniapps of a serial build";
+   }
+   const Study &study = GetParam();
+   const cattaneo_test::Run alone = run_miniapp(study.name, study.options, "", serial);
+   const cattaneo_test::Run shared = run_miniapp(study.name, study.options, ranks(2));
+   ASSERT_EQ(alone.code, 0) << alone.output;
+   ASSERT_EQ(shared.code, 0) << shared.output;
+   expect_equal(alone.results, shared.results, 1e-10, "");
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -20,16 +20,17 @@ struct Run
 };
 
 /// Runs a miniapp as a user would, with --json, in the source folder; `launcher` goes before
-/// its name (mpiexec and its options).
+/// its name (mpiexec and its options), `folder` is where the miniapp is.
 inline Run run_miniapp(const std::string &name, const std::string &options,
-                       const std::string &launcher = "")
+                       const std::string &launcher = "",
+                       const std::string &folder = CATTANEO_MINIAPP_DIR)
 {
    const std::string file =
       testing::TempDir() + "cattaneo_" + name + "_" + std::to_string(getpid()) + ".json";
    std::remove(file.c_str());
    const std::string command = std::string("cd '") + CATTANEO_SOURCE_DIR + "' && " + launcher +
-                               " '" + CATTANEO_MINIAPP_DIR + "/" + name + "' " + options +
-                               " --json '" + file + "' 2>&1";
+                               " '" + folder + "/" + name + "' " + options + " --json '" +
+                               file + "' 2>&1";
    Run run;
    FILE *pipe = popen(command.c_str(), "r");
    if (!pipe) { return run; }

@@ -51,16 +51,30 @@ std::vector<mfem::Mesh> meshes()
          if (kind == "curved") { mesh.SetCurvature(2); }
          for (int e = 0; e < mesh.GetNE(); e += 3) { mesh.SetAttribute(e, 2); }
          mesh.SetAttributes();
-         mesh.Transform(
-            [kind](const mfem::Vector &x, mfem::Vector &y)
-            {
-               y = x;
-               y(0) += 0.5;
-               if (kind == "parallelograms") { y(0) += 0.3 * x(1); }
-               if (kind == "parallelograms") { y(1) += 0.2 * x(0); }
-               if (kind == "skew" || kind == "curved") { y(0) += 0.1 * x(0) * x(1) * x(1); }
-               if (kind == "curved") { y(1) += 0.1 * std::sin(2 * x(0)); }
-            });
+         // A coefficient: both versions of MFEM know it.
+         mfem::VectorFunctionCoefficient deformed(2,
+                                                  [kind](const mfem::Vector &x, mfem::Vector &y)
+                                                  {
+                                                     y = x;
+                                                     y(0) += 0.5;
+                                                     if (kind == "parallelograms")
+                                                     {
+                                                        y(0) += 0.3 * x(1);
+                                                     }
+                                                     if (kind == "parallelograms")
+                                                     {
+                                                        y(1) += 0.2 * x(0);
+                                                     }
+                                                     if (kind == "skew" || kind == "curved")
+                                                     {
+                                                        y(0) += 0.1 * x(0) * x(1) * x(1);
+                                                     }
+                                                     if (kind == "curved")
+                                                     {
+                                                        y(1) += 0.1 * std::sin(2 * x(0));
+                                                     }
+                                                  });
+         mesh.Transform(deformed);
          list.push_back(std::move(mesh));
       }
    }

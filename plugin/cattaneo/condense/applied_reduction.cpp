@@ -75,16 +75,19 @@ AppliedProblem apply_reduction(const ElasticBody &body, const ContactLine &line,
    require(body.geometry() != Geometry::torsion,
            "apply reduction: the body is one of torsion, must be plane or axisymmetric");
 #ifdef MFEM_USE_MPI
-   if (body.ranks().distributed() && body.dofs() > settings.direct_dofs)
+   if (body.ranks().distributed() && body.dofs() > settings.direct_dofs &&
+       line.size() > settings.formed_nodes)
    {
       AppliedProblem result = distributed(body, line, gap, settings, counters);
       result.validate();
       return result;
    }
 #endif
-   const Reduction reduction = reduce(condense(body, line, settings), gap);
+   Reduction reduction = reduce(condense(body, line, settings), gap);
    if (counters) { *counters += reduction.counters; }
-   return applied(reduction.problem);
+   AppliedProblem result = applied(reduction.problem);
+   result.formed = std::make_shared<const ReducedProblem>(std::move(reduction.problem));
+   return result;
 }
 
 } // namespace cattaneo

@@ -12,6 +12,7 @@ namespace cattaneo
     contact sets so large that S does not fit (docs/ranks.md says when).
 
     A body that condense() would factor is, and its S is formed: with the factor it is at hand.
+    It is formed for small contact sets too (CondenseSettings::formed_nodes).
     Otherwise a product is collective: every rank must call it, with the same displacements.
    What it needs is kept alive by the result; what it did is added to `counters`, if given,
    which must then live as long. Errors as condense(). */

@@ -210,6 +210,8 @@ Eigen::MatrixXd load_by_load(const std::vector<ElasticBody::Pattern> &patterns,
 
 void CondenseSettings::validate() const
 {
+   require(formed_nodes >= 0, "condense: formed_nodes is ", formed_nodes,
+           ", must not be negative");
    require(direct_dofs >= 0, "condense: direct_dofs is ", direct_dofs,
            ", must not be negative");
    require(max_iterations >= 1, "condense: max_iterations is ", max_iterations,

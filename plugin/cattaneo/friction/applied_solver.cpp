@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cattaneo/friction/applied_solver.hpp>
+#include <cattaneo/friction/friction_solver.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
 #include <unsupported/Eigen/IterativeSolvers>
@@ -237,6 +238,23 @@ struct Increment
    }
 };
 
+AppliedReport solve_formed(const AppliedProblem &problem, ContactState &state,
+                           const VectorXd &multipliers)
+{
+   ReducedProblem formed = *problem.formed;
+   formed.gap = problem.gap;
+   formed.friction = problem.friction;
+   formed.patterns = problem.patterns;
+   FrictionSolver solver(formed);
+   const IncrementReport increment = solver.solve(state, multipliers);
+   AppliedReport report;
+   report.status = increment.status;
+   report.message = increment.message;
+   report.residual = std::max(increment.residual_normal, increment.residual_tangential);
+   report.newton_steps = solver.counters().newton_steps;
+   return report;
+}
+
 } // namespace
 
 AppliedReport solve(const AppliedProblem &problem, ContactState &state,
@@ -252,6 +270,7 @@ AppliedReport solve(const AppliedProblem &problem, ContactState &state,
               multipliers.allFinite(),
            "applied solver: ", multipliers.size(), " load multipliers, must be ",
            problem.patterns.size(), ", all finite");
+   if (problem.formed) { return solve_formed(problem, state, multipliers); }
    AppliedReport report;
    Increment at(problem, report, state, multipliers);
    // The equations of a set of states that will change are solved a hundredth of the way.

@@ -21,7 +21,7 @@ struct AppliedSettings
 
 struct AppliedReport
 {
-   FrictionStatus status = FrictionStatus::stalled; ///< converged or stalled
+   FrictionStatus status = FrictionStatus::stalled; ///< converged or stalled, if applied
    std::string message;                             ///< empty if converged
    double residual = 0;   ///< relative, as the tolerance: normal and tangential together
    long newton_steps = 0; ///< active sets solved for
@@ -33,9 +33,10 @@ struct AppliedReport
    open nodes, q ± f p = 0 at slipping ones), which GMRES solves for the displacements of these
    nodes, scaled by the diagonal; what comes out asks for states, until they stay.
 
-    FrictionSolver is faster while S fits the memory, and helps itself where active sets cycle;
-   here the increment is then to be cut. Critical friction and gross sliding are not told apart
-   from that: the status is then `stalled`. Unless converged, the state is left as it was. */
+    Where the problem brings S formed, FrictionSolver does it instead: it is faster, and helps
+   itself where active sets cycle; here the increment is then to be cut. Critical friction and
+   gross sliding are not told apart from that: the status is then `stalled`. Unless converged,
+   the state is left as it was. */
 AppliedReport solve(const AppliedProblem &problem, ContactState &state,
                     const Eigen::VectorXd &multipliers, const AppliedSettings &settings = {});
 

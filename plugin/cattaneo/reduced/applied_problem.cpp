@@ -17,6 +17,8 @@ void AppliedProblem::validate() const
    require(diagonal.allFinite() && diagonal.minCoeff() > 0,
            "applied problem: a diagonal entry is ", diagonal.minCoeff(),
            ", must be finite and positive");
+   require(!formed || formed->nodes() == n, "applied problem: ", n, " nodes, ",
+           formed ? formed->nodes() : 0, " in the stiffness that was formed, must be as many");
    for (const LoadPattern &pattern : patterns)
    {
       require(pattern.q.size() == n && pattern.p.size() == n && pattern.q.allFinite() &&

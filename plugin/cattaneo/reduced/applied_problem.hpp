@@ -2,6 +2,7 @@
 
 #include <cattaneo/reduced/reduced_problem.hpp>
 #include <functional>
+#include <memory>
 
 namespace cattaneo
 {
@@ -19,6 +20,9 @@ struct AppliedProblem
    std::vector<LoadPattern> patterns;
    Eigen::VectorXd gap;      ///< n
    Eigen::VectorXd friction; ///< n
+   /// Set where S was formed nevertheless: solve() then works with its factors. Gap, friction
+   /// and patterns are those above.
+   std::shared_ptr<const ReducedProblem> formed;
 
    Eigen::Index nodes() const { return gap.size(); }
 
