@@ -20,9 +20,9 @@ using Eigen::VectorXd;
 
 /// Right half of a wedge with flanks at the angle `alpha` to its axis, point down, in a rigid
 /// groove; pattern "P" of resultant 1 drives it in.
-ReducedProblem wedge(double alpha)
+ReducedProblem wedge(double alpha, int rows = 8)
 {
-   mfem::Mesh mesh = mfem::Mesh::MakeCartesian2D(6, 8, mfem::Element::QUADRILATERAL, true);
+   mfem::Mesh mesh = mfem::Mesh::MakeCartesian2D(6, rows, mfem::Element::QUADRILATERAL, true);
    for (int v = 0; v < mesh.GetNV(); ++v)
    {
       double *x = mesh.GetVertex(v);
@@ -82,6 +82,30 @@ TEST(CriticalFriction, AWedgeLocksAboveTheTangentOfItsFlank)
                                                 : NodeState::stick);
       }
       EXPECT_LE(laws.violation(state.v, free), 1) << laws.what();
+   }
+}
+
+// It holds until its last node slips. Beyond, no states of the nodes are an equilibrium: it
+// jumps.
+TEST(CriticalFriction, AWedgeThatIsPulledFreeSaysSo)
+{
+   ReducedProblem problem = wedge(0.2, 3);
+   set_friction(problem, 0.6);
+   for (auto stepping : {Stepping::fixed, Stepping::exact})
+   {
+      MarchSettings settings;
+      settings.stepping = stepping;
+      ContactState state = ContactState::virgin(problem);
+      const VectorXd none = VectorXd::Zero(1), pressed = VectorXd::Ones(1);
+      const MarchReport report =
+         march(problem, LoadHistory::through({none, pressed, -0.9 * pressed}), state, settings);
+      EXPECT_EQ(report.status, FrictionStatus::stalled);
+      EXPECT_NE(report.message.find("jumps free"), std::string::npos) << report.message;
+      EXPECT_LT(report.event_multipliers[0], -0.05);
+      EXPECT_GT(report.event_multipliers[0], -0.5);
+      const VectorXd beyond = report.event_multipliers.array() - 1e-3;
+      EXPECT_TRUE(enumerate_solutions(problem, state.v, beyond).empty());
+      EXPECT_FALSE(enumerate_solutions(problem, state.v, report.event_multipliers).empty());
    }
 }
 

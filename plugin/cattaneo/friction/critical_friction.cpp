@@ -108,4 +108,10 @@ CriticalFriction critical_friction(const ReducedProblem &problem)
    return result;
 }
 
+bool can_lock(const ReducedProblem &problem, const MatrixXd &rigid_motions)
+{
+   return rigid_motions.cols() > 0 && problem.components() > 0 &&
+          locks(problem, rigid_motions, problem.friction.maxCoeff());
+}
+
 } // namespace cattaneo

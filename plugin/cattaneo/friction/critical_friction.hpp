@@ -50,4 +50,8 @@ struct CriticalFriction
 /// Validates the problem. Cost: three symmetric eigenvalue problems of its size.
 CriticalFriction critical_friction(const ReducedProblem &problem);
 
+/// Can the contact lock itself with the friction it has, the largest everywhere?
+/// `rigid_motions` as found by rigid_motions().
+bool can_lock(const ReducedProblem &problem, const Eigen::MatrixXd &rigid_motions);
+
 } // namespace cattaneo

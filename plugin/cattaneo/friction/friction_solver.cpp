@@ -1,4 +1,5 @@
 #include <cattaneo/friction/complementarity.hpp>
+#include <cattaneo/friction/critical_friction.hpp>
 #include <cattaneo/friction/friction_disc.hpp>
 #include <cattaneo/friction/friction_solver.hpp>
 #include <cattaneo/friction/lemke.hpp>
@@ -1052,6 +1053,11 @@ void FrictionSolver::Implementation::explain_failure(IncrementReport &report) co
    {
       report.status = FrictionStatus::stalled;
       residuals(report);
+      if (motions && can_lock(problem, *motions))
+      {
+         message << "no equilibrium was found, and there may be none near the last one: the "
+                    "contact can lock itself, and where it loses its grip a body jumps free; ";
+      }
       message << "residuals " << report.residual_normal << " (normal) and "
               << report.residual_tangential << " (tangential), tolerance "
               << settings.tolerance;
