@@ -142,7 +142,6 @@ prepare()
       printf '%s' "$configuration" >"$build/configured"
    fi
    # A build that has something to do shows its progress; one that has not is silent.
-   if ninja -C "$build" -n "$@" 2>/dev/null | grep -q 'no work to do'; then return 0; fi
-   say "building ${*:-everything}"
-   ninja -C "$build" "$@" >&2 || die "the build failed"
+   ninja -C "$build" "$@" | sed -u '/: Entering directory/d; /Re-checking globbed/d; /no work to do/d' >&2
+   [ "${PIPESTATUS[0]}" = 0 ] || die "the build failed"
 }

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <set>
 #include <vector>
@@ -33,7 +34,7 @@ bool next_word(std::istream &in, std::string &word)
    return false;
 }
 
-/// The next word as an integer.
+/// The next word as an integer; MFEM's are of 32 bits.
 long integer(std::istream &in, const std::string &what)
 {
    std::string word;
@@ -41,8 +42,9 @@ long integer(std::istream &in, const std::string &what)
    char *end = nullptr;
    errno = 0;
    const long value = std::strtol(word.c_str(), &end, 10);
-   require(errno == 0 && *end == 0, "mesh file has '", word, "' for ", what,
-           ", must be an integer");
+   constexpr long most = std::numeric_limits<int>::max();
+   require(errno == 0 && *end == 0 && std::abs(value) <= most, "mesh file has '", word,
+           "' for ", what, ", must be an integer of 32 bits");
    return value;
 }
 

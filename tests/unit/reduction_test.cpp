@@ -299,6 +299,51 @@ TEST(Reduction, WhichBodyIsTheFirstChangesNothing)
    }
 }
 
+// Held bodies are springs in series, (S1⁻¹ + S2⁻¹)⁻¹: with twice as many digits.
+TEST(Reduction, StiffnessContrastsCostNoDigits)
+{
+   using Exact = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+   const std::vector<double> x = uniform(0, 2, 6);
+   mfem::Mesh upper = rectangle_mesh(x, uniform(0, 1, 4)),
+              lower = rectangle_mesh(x, uniform(-2, 0, 4));
+   for (double c : {1e-8, 1.0, 1e8})
+   {
+      ElasticBody one(upper, 2, Material{1.0, 0.3}), other(lower, 2, Material{c, 0.2});
+      for (int component : {0, 1})
+      {
+         one.fix(3, component);
+         other.fix(1, component);
+      }
+      one.add_traction("Q", 2, 0.3, [](double, double y) { return y; });
+      const CondensedBody above = condense(one, contact_line(one, 1)),
+                          below = condense(other, contact_line(other, 3));
+      const Eigen::Index n = above.line.size();
+      std::vector<Eigen::Index> reversed;
+      for (Eigen::Index k = 0; k < 2 * n; ++k)
+      {
+         reversed.push_back(k < n ? n - 1 - k : 3 * n - 1 - k);
+      }
+      const Exact S1 = above.S.cast<long double>(),
+                  S2 = below.S(reversed, reversed).cast<long double>();
+      const Exact S = (S1.inverse() + S2.inverse()).inverse(), way = S * S1.inverse();
+      VectorXd f(2 * n);
+      f << above.patterns[0].q, above.patterns[0].p;
+      f = (way * f.cast<long double>()).cast<double>();
+      const ReducedProblem first =
+                              reduce(above, below, pair_lines(above.line, below.line)).problem,
+                           second =
+                              reduce(below, above, pair_lines(below.line, above.line)).problem;
+      EXPECT_LT(difference(first.stiffness(), S.cast<double>()), 1e-13) << c;
+      EXPECT_LT(difference(second.stiffness()(reversed, reversed), S.cast<double>()), 1e-13)
+         << c;
+      VectorXd of_first(2 * n), of_second(2 * n);
+      of_first << first.patterns[0].q, first.patterns[0].p;
+      of_second << second.patterns[0].q, second.patterns[0].p;
+      EXPECT_LT(difference(of_first, f), 1e-13) << c;
+      EXPECT_LT(difference(of_second(reversed), f), 1e-13) << c;
+   }
+}
+
 TEST(Reduction, RotationOfBothBodiesChangesNothing)
 {
    const auto reduced = [](double angle)

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cattaneo/condense/free_motions.hpp>
+#include <cattaneo/dense_algebra.hpp>
 #include <cattaneo/input_error.hpp>
 #include <numeric>
 
@@ -176,11 +177,10 @@ Equilibrium::Equilibrium(const FreeMotions &free)
    const Eigen::Index count = free.contact.cols();
    Q_.resize(free.contact.rows(), count);
    if (count == 0) { return; }
-   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(free.contact);
-   Q_ = qr.householderQ() * Eigen::MatrixXd::Identity(free.contact.rows(), count);
-   const Eigen::MatrixXd R = qr.matrixQR().topRows(count).triangularView<Eigen::Upper>();
+   const ThinQR qr = thin_qr(free.contact);
+   Q_ = qr.Q;
    // Contact forces and loads together do no work: (Q R)ᵀ f = -resultant.
-   balance_ = -R.transpose().triangularView<Eigen::Lower>().solve(free.resultant);
+   balance_ = -qr.R.transpose().triangularView<Eigen::Lower>().solve(free.resultant);
 }
 
 void Equilibrium::impose_on_forces(Eigen::MatrixXd &f) const

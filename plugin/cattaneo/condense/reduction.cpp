@@ -1,5 +1,7 @@
+#include <cattaneo/condense/dense_cholesky.hpp>
 #include <cattaneo/condense/local_frame.hpp>
 #include <cattaneo/condense/reduction.hpp>
+#include <cattaneo/dense_algebra.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
 
@@ -8,9 +10,9 @@ namespace cattaneo
 
 struct Reduction::Union
 {
-   Eigen::LLT<Eigen::MatrixXd> sum; ///< of S1 + S2 (+ springs on common rigid motions)
-   Eigen::MatrixXd S2;              ///< body 2 in the order of body 1 and the opposite frames
-   Eigen::MatrixXd difference;      ///< f1 - f2 of each pattern
+   DenseCholesky sum;          ///< of S1 + S2 (+ springs on common rigid motions)
+   Eigen::MatrixXd S2;         ///< body 2 in the order of body 1 and the opposite frames
+   Eigen::MatrixXd difference; ///< f1 - f2 of each pattern
    std::vector<int> partner;
    FrameChange frames; ///< from body 2's own frames (in the order of body 1)
 
@@ -30,8 +32,8 @@ struct Reduction::Union
    Eigen::VectorXd own(int b, const Eigen::VectorXd &relative,
                        const Eigen::VectorXd &multipliers) const
    {
-      const Eigen::VectorXd loaded = difference * multipliers.head(difference.cols());
-      const Eigen::VectorXd u1 = sum.solve(S2 * relative - loaded);
+      Eigen::VectorXd u1 = S2 * relative - difference * multipliers.head(difference.cols());
+      sum.solve(u1);
       if (b == 0) { return u1; }
       Eigen::VectorXd u2(u1.size());
       u2(order(u1.size())) = frames.transposed().rows(relative - u1);
@@ -113,8 +115,9 @@ void fill(ReducedProblem &problem, const Block &block, const ContactLine &line)
    problem.position = line.position;
 }
 
-/// Rigid motions of the contact nodes that S1 + S2 does not resist, orthonormal.
-Eigen::MatrixXd common_motions(const CondensedBody &body1, const Eigen::MatrixXd &sum)
+/// Rigid motions of the contact nodes that a stiffness in body 1's frames does not resist,
+/// orthonormal.
+Eigen::MatrixXd free_motions(const CondensedBody &body1, const Eigen::MatrixXd &S)
 {
    const Eigen::Index n = body1.line.size();
    Eigen::MatrixXd Z = body1.rigid_motions();
@@ -128,15 +131,13 @@ Eigen::MatrixXd common_motions(const CondensedBody &body1, const Eigen::MatrixXd
       if (n == 1 || extent == 0) { Z.conservativeResize(Eigen::NoChange, 2); }
       else { Z.col(2) /= extent; }
    }
-   const Eigen::MatrixXd Q = Eigen::HouseholderQR<Eigen::MatrixXd>(Z).householderQ() *
-                             Eigen::MatrixXd::Identity(Z.rows(), Z.cols());
-   const Eigen::MatrixXd stiffness = Q.transpose() * sum * Q;
-   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(
-      0.5 * (stiffness + stiffness.transpose()));
-   const double allowed = 1e-11 * sum.diagonal().mean();
+   const Eigen::MatrixXd Q = thin_qr(Z).Q;
+   const Eigen::MatrixXd stiffness = Q.transpose() * S * Q;
+   const SymmetricModes modes = symmetric_modes(0.5 * (stiffness + stiffness.transpose()));
+   const double allowed = 1e-11 * S.diagonal().mean();
    Eigen::Index free = 0;
-   while (free < modes.eigenvalues().size() && modes.eigenvalues()[free] <= allowed) { ++free; }
-   return Q * modes.eigenvectors().leftCols(free);
+   while (free < modes.values.size() && modes.values[free] <= allowed) { ++free; }
+   return Q * modes.vectors.leftCols(free);
 }
 
 Block alone(const CondensedBody &body, const std::vector<int> &index, Eigen::Index count)
@@ -185,7 +186,7 @@ Block united(const CondensedBody &first, const CondensedBody &second,
    sum = S1 + shared->S2;
    if (first.rigid_modes > 0 && second.rigid_modes > 0)
    {
-      const Eigen::MatrixXd Z = common_motions(first, sum);
+      const Eigen::MatrixXd Z = free_motions(first, sum);
       for (Eigen::Index k = 0; k < shared->difference.cols(); ++k)
       {
          const double load =
@@ -199,18 +200,36 @@ Block united(const CondensedBody &first, const CondensedBody &second,
       shared->difference -= Z * (Z.transpose() * shared->difference);
       sum.noalias() += sum.diagonal().mean() * Z * Z.transpose();
    }
-   shared->sum.compute(sum);
-   require(shared->sum.info() == Eigen::Success,
+   require(shared->sum.compute(std::move(sum)),
            "reduce: the sum of the two condensed stiffnesses is not positive definite: the "
            "bodies can "
            "move together without resistance");
 
-   // With S1 + S2 = L Lᵀ: S = S1 - YᵀY, Y = L⁻¹ S1, and the same for the loads.
-   const Eigen::MatrixXd Y = shared->sum.matrixL().solve(S1);
-   const Eigen::MatrixXd D = shared->sum.matrixL().solve(shared->difference);
-   Block block{S1, f1 - Y.transpose() * D, Eigen::MatrixXd::Zero(count, count), nullptr};
-   block.S.selfadjointView<Eigen::Lower>().rankUpdate(Y.transpose(), -1.0);
-   block.S.triangularView<Eigen::StrictlyUpper>() = block.S.transpose();
+   // With S1 + S2 = L Lᵀ and Y = L⁻¹ S1: S = S1 - YᵀY, and the same for the loads; or with the
+   // bodies exchanged. From the softer one less is taken away, so that few digits are lost; but
+   // a free one's rigid motions stay without forces only if one begins with it.
+   const bool by_first = first.rigid_modes != second.rigid_modes
+                            ? first.rigid_modes > second.rigid_modes
+                            : S1.trace() <= shared->S2.trace();
+   const Eigen::MatrixXd &base = by_first ? S1 : shared->S2;
+   Eigen::MatrixXd Y = base, D = shared->difference;
+   shared->sum.solve_half(Y);
+   shared->sum.solve_half(D);
+   Block block{minus_square(base, Y), f1, Eigen::MatrixXd::Zero(count, count), nullptr};
+   if (by_first) { block.f -= Y.transpose() * D; }
+   else { block.f = f2 + Y.transpose() * D; }
+   // What moves freely relative to the other must do so to round-off of S, not of the stiffer,
+   // and feels its own loads only.
+   const auto release = [&](const Eigen::MatrixXd &stiffness, const Eigen::MatrixXd &loads)
+   {
+      const Eigen::MatrixXd Q = free_motions(first, stiffness);
+      block.S -= Q * (Q.transpose() * block.S);
+      block.S -= (block.S * Q) * Q.transpose();
+      block.S.triangularView<Eigen::StrictlyUpper>() = block.S.transpose();
+      block.f -= Q * (Q.transpose() * (block.f - loads));
+   };
+   if (first.rigid_modes > 0) { release(S1, f1); }
+   if (second.rigid_modes > 0) { release(shared->S2, f2); }
    add_response(first, index[0], block.H);
    add_response(second, index[1], block.H);
    // The contact nodes are clamped to each other now, and move together where the loads push

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cattaneo/condense/rigid_motion.hpp>
+#include <cattaneo/dense_algebra.hpp>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -127,18 +128,17 @@ Eigen::MatrixXd unresisted(const mfem::SparseMatrix &K, const std::vector<int> &
    }
    // Energy of each combination, against the energy of all entries taken positive.
    const Eigen::MatrixXd energy = motions.transpose() * forces;
-   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(0.5 *
-                                                              (energy + energy.transpose()));
+   const SymmetricModes modes = symmetric_modes(0.5 * (energy + energy.transpose()));
    const double allowed = 1e-12 * stiffness * static_cast<double>(dofs.size());
    std::vector<Eigen::Index> kept;
    for (Eigen::Index m = 0; m < motions.cols(); ++m)
    {
-      if (modes.eigenvalues()[m] <= allowed) { kept.push_back(m); }
+      if (modes.values[m] <= allowed) { kept.push_back(m); }
    }
    Eigen::MatrixXd result(motions.rows(), kept.size());
    for (std::size_t k = 0; k < kept.size(); ++k)
    {
-      result.col(k) = motions * modes.eigenvectors().col(kept[k]);
+      result.col(k) = motions * modes.vectors.col(kept[k]);
    }
    return result;
 }

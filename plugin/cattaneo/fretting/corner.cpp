@@ -1,5 +1,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cattaneo/dense_algebra.hpp>
 #include <cattaneo/fretting/corner.hpp>
 #include <cattaneo/fretting/root.hpp>
 #include <cattaneo/input_error.hpp>
@@ -71,8 +72,8 @@ Solution fit(const std::vector<Sample> &samples, std::size_t first, std::size_t 
       values[n + i] = sample.shear;
    }
    const Eigen::MatrixXd modal = terms.leftCols(m);
-   const Eigen::VectorXd plain = modal.colPivHouseholderQr().solve(values);
-   const Eigen::VectorXd more = terms.colPivHouseholderQr().solve(values);
+   const Eigen::VectorXd plain = least_squares(modal, values);
+   const Eigen::VectorXd more = least_squares(terms, values);
    const double variance = (values - terms * more).squaredNorm() / (2 * n - m - 2);
    const Eigen::MatrixXd inverse = (terms.transpose() * terms).inverse();
    Solution solution;

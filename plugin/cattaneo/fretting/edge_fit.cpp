@@ -1,5 +1,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cattaneo/dense_algebra.hpp>
 #include <cattaneo/fretting/edge_fit.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
@@ -28,10 +29,10 @@ FittedIntensity fit(const Samples &samples, std::size_t first, std::size_t last)
       values[i] = samples[first + i].second;
    }
    const Eigen::MatrixXd linear = terms.leftCols(2);
-   const Eigen::VectorXd solution = linear.colPivHouseholderQr().solve(values);
+   const Eigen::VectorXd solution = least_squares(linear, values);
    const double variance = (values - linear * solution).squaredNorm() / (n - 2);
    const double standard = std::sqrt(variance * (linear.transpose() * linear).inverse()(0, 0));
-   const double one_more = terms.colPivHouseholderQr().solve(values)[0];
+   const double one_more = least_squares(terms, values)[0];
 
    FittedIntensity result;
    result.value = solution[0];

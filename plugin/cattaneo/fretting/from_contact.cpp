@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cattaneo/dense_algebra.hpp>
 #include <cattaneo/fretting/from_contact.hpp>
 #include <cattaneo/fretting/measures.hpp>
 #include <cattaneo/input_error.hpp>
@@ -129,7 +130,7 @@ Zero nearest_zero(const std::vector<double> &t, const std::vector<double> &value
          rhs[k] = root * values[k];
       }
       const Eigen::MatrixXd parabola = terms.leftCols(3);
-      const Eigen::Vector3d c = parabola.colPivHouseholderQr().solve(rhs);
+      const Eigen::Vector3d c = least_squares(parabola, rhs);
       const double under = c[1] * c[1] - 4 * c[0] * c[2];
       if (!(under > 0 && c[1] > 0)) { continue; }
       const double zero = -2 * c[0] / (c[1] + std::sqrt(under));
@@ -139,7 +140,7 @@ Zero nearest_zero(const std::vector<double> &t, const std::vector<double> &value
       const double variance = (rhs - parabola * c).squaredNorm() / (count - 3);
       const double standard =
          std::sqrt(variance * at.dot((parabola.transpose() * parabola).ldlt().solve(at)));
-      const Eigen::Vector4d d = terms.colPivHouseholderQr().solve(rhs);
+      const Eigen::Vector4d d = least_squares(terms, rhs);
       const double other = d[0] + zero * (d[1] + zero * (d[2] + zero * d[3]));
       const double error = std::max(standard, std::abs(other)) / slope * scale;
       if (error < best.error) { best = {zero * scale, error}; }

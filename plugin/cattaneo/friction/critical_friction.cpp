@@ -1,3 +1,4 @@
+#include <cattaneo/dense_algebra.hpp>
 #include <cattaneo/friction/critical_friction.hpp>
 #include <cattaneo/friction/friction_disc.hpp>
 #include <cattaneo/friction/mechanism.hpp>
@@ -67,12 +68,9 @@ double uniqueness_bound(const ReducedProblem &problem)
    factor.matrixL().solveInPlace(X);
    const MatrixXd coupling = X.transpose() * X;
    const MatrixXd rest = st.asDiagonal() * problem.A * st.asDiagonal() - coupling;
-   using Eigenvalues = Eigen::SelfAdjointEigenSolver<MatrixXd>;
-   auto eigenvalues = [](const MatrixXd &M) -> VectorXd
-   { return Eigenvalues(M, Eigen::EigenvaluesOnly).eigenvalues(); };
-   const VectorXd of_rest = eigenvalues(rest);
-   const double a = of_rest.minCoeff(), c = std::sqrt(eigenvalues(C).maxCoeff()),
-                b = std::sqrt(eigenvalues(coupling).maxCoeff());
+   const VectorXd of_rest = symmetric_eigenvalues(rest);
+   const double a = of_rest.minCoeff(), c = std::sqrt(symmetric_eigenvalues(C).maxCoeff()),
+                b = std::sqrt(symmetric_eigenvalues(coupling).maxCoeff());
    if (a <= 1e-11 * of_rest.maxCoeff()) { return 0; }
    const double worst = std::min(b, std::sqrt(a));
    return (a + worst * worst) / (c * worst);

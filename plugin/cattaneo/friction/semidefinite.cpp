@@ -1,3 +1,4 @@
+#include <cattaneo/dense_algebra.hpp>
 #include <cattaneo/friction/semidefinite.hpp>
 
 namespace cattaneo
@@ -45,8 +46,7 @@ Eigen::MatrixXd SemidefiniteSolver::null_space() const
    if (Z.cols() == 0) { return Z; }
    ldlt_.matrixU().solveInPlace(Z);
    Z = (ldlt_.transpositionsP().transpose() * Z).eval();
-   return Eigen::HouseholderQR<Eigen::MatrixXd>(Z).householderQ() *
-          Eigen::MatrixXd::Identity(n, Z.cols());
+   return thin_qr(Z).Q;
 }
 
 } // namespace cattaneo

@@ -1,3 +1,4 @@
+#include <cattaneo/dense_algebra.hpp>
 #include <cattaneo/friction/zones.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
@@ -42,7 +43,7 @@ VectorXd fit(const std::vector<double> &x, const std::vector<double> &y, int deg
    {
       for (int d = 0; d <= degree; ++d) { V(k, d) = std::pow(x[k], d); }
    }
-   return V.householderQr().solve(Eigen::Map<const VectorXd>(y.data(), count));
+   return least_squares(V, Eigen::Map<const VectorXd>(y.data(), count));
 }
 
 /// Zero of c0 + c1 x + c2 x² nearest to x = 0; NaN if there is none.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cattaneo/dense_algebra.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/shakedown/residual_forces.hpp>
 #include <cmath>
@@ -24,10 +25,9 @@ struct Spectrum
    Spectrum(const char *name, const Eigen::MatrixXd &K)
       : scale(K.diagonal().cwiseSqrt().cwiseInverse())
    {
-      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scale.asDiagonal() * K *
-                                                                  scale.asDiagonal());
-      values = solver.eigenvalues();
-      vectors = solver.eigenvectors();
+      const SymmetricModes modes = symmetric_modes(scale.asDiagonal() * K * scale.asDiagonal());
+      values = modes.values;
+      vectors = modes.vectors;
       const double zero = rigid_share * values[values.size() - 1];
       require(values[0] > -zero, "reduced problem: ", name,
               " is not positive semidefinite: smallest eigenvalue ", values[0],
@@ -104,11 +104,10 @@ double degree_of_coupling(const ReducedProblem &problem)
    const Eigen::MatrixXd N = Spectrum("C", problem.C).inverse_root().transpose() * problem.B *
                              Spectrum("A", problem.A).inverse_root();
    const Eigen::MatrixXd gram = N * N.transpose();
-   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram, Eigen::EigenvaluesOnly);
    // A rigid motion that both slips and opens (rotation of a curved contact) correlates
    // exactly.
    double largest = 0;
-   for (const double value : solver.eigenvalues())
+   for (const double value : symmetric_eigenvalues(gram))
    {
       if (value < 1 - 1e-9) { largest = std::max(largest, value); }
    }

@@ -1,0 +1,88 @@
+#include <cattaneo/condense/dense_cholesky.hpp>
+
+#ifdef CATTANEO_USE_LAPACK
+extern "C"
+{
+   void dpotrf_(const char *triangle, const int *n, double *A, const int *stride, int *info);
+   void dpotrs_(const char *triangle, const int *n, const int *columns, const double *A,
+                const int *stride, double *x, const int *x_stride, int *info);
+   void dtrsm_(const char *side, const char *triangle, const char *transposed,
+               const char *diagonal, const int *rows, const int *columns, const double *factor,
+               const double *A, const int *stride, double *x, const int *x_stride);
+   void dsyrk_(const char *triangle, const char *transposed, const int *n, const int *inner,
+               const double *factor, const double *A, const int *stride, const double *keep,
+               double *C, const int *C_stride);
+}
+#endif
+
+namespace cattaneo
+{
+
+using Eigen::MatrixXd;
+
+#ifdef CATTANEO_USE_LAPACK
+
+bool DenseCholesky::compute(MatrixXd matrix)
+{
+   factor_ = std::move(matrix);
+   const int n = static_cast<int>(factor_.rows());
+   int info = 0;
+   if (n > 0) { dpotrf_("L", &n, factor_.data(), &n, &info); }
+   return info == 0 && factor_.diagonal().allFinite();
+}
+
+void DenseCholesky::solve(Eigen::VectorXd &x) const
+{
+   const int n = static_cast<int>(factor_.rows()), columns = 1;
+   if (n == 0) { return; }
+   int info = 0;
+   dpotrs_("L", &n, &columns, factor_.data(), &n, x.data(), &n, &info);
+}
+
+void DenseCholesky::solve_half(MatrixXd &x) const
+{
+   const int n = static_cast<int>(factor_.rows()), columns = static_cast<int>(x.cols());
+   if (x.size() == 0) { return; }
+   const double one = 1;
+   dtrsm_("L", "L", "N", "N", &n, &columns, &one, factor_.data(), &n, x.data(), &n);
+}
+
+#else
+
+bool DenseCholesky::compute(MatrixXd matrix)
+{
+   factor_ = std::move(matrix);
+   const Eigen::LLT<Eigen::Ref<MatrixXd>> llt(factor_); // in place
+   return llt.info() == Eigen::Success;
+}
+
+void DenseCholesky::solve(Eigen::VectorXd &x) const
+{
+   factor_.triangularView<Eigen::Lower>().solveInPlace(x);
+   factor_.transpose().triangularView<Eigen::Upper>().solveInPlace(x);
+}
+
+void DenseCholesky::solve_half(MatrixXd &x) const
+{
+   factor_.triangularView<Eigen::Lower>().solveInPlace(x);
+}
+
+#endif
+
+MatrixXd minus_square(MatrixXd S, const MatrixXd &Y)
+{
+#ifdef CATTANEO_USE_LAPACK
+   const int n = static_cast<int>(S.rows()), inner = static_cast<int>(Y.rows());
+   const double minus = -1, keep = 1;
+   if (Y.size() > 0)
+   {
+      dsyrk_("L", "T", &n, &inner, &minus, Y.data(), &inner, &keep, S.data(), &n);
+   }
+#else
+   S.selfadjointView<Eigen::Lower>().rankUpdate(Y.transpose(), -1.0);
+#endif
+   S.triangularView<Eigen::StrictlyUpper>() = S.transpose();
+   return S;
+}
+
+} // namespace cattaneo

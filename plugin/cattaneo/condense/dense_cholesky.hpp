@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Dense>
+
+namespace cattaneo
+{
+
+/** Cholesky factor L of a dense symmetric positive definite matrix, M = L Lᵀ: LAPACK's, or
+    Eigen's if built without it. */
+class DenseCholesky
+{
+public:
+   /// Replaces the factor; only the lower triangle is read. False if M is not positive
+   /// definite.
+   bool compute(Eigen::MatrixXd matrix);
+   /// x <- M⁻¹ x
+   void solve(Eigen::VectorXd &x) const;
+   /// x <- L⁻¹ x, one right-hand side a column.
+   void solve_half(Eigen::MatrixXd &x) const;
+
+private:
+   Eigen::MatrixXd factor_;
+};
+
+/// S - Yᵀ Y for a symmetric S, symmetric to the last bit.
+Eigen::MatrixXd minus_square(Eigen::MatrixXd S, const Eigen::MatrixXd &Y);
+
+} // namespace cattaneo

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Core>
+
+/// Decompositions of dense matrices by Eigen, compiled once: its templates take long to
+/// compile.
+namespace cattaneo
+{
+
+struct ThinQR
+{
+   Eigen::MatrixXd Q; ///< orthonormal columns, as many as the matrix has
+   Eigen::MatrixXd R; ///< upper triangular
+};
+/// Of a matrix with no more columns than rows.
+ThinQR thin_qr(const Eigen::MatrixXd &matrix);
+
+struct SymmetricModes
+{
+   Eigen::VectorXd values;  ///< ascending
+   Eigen::MatrixXd vectors; ///< orthonormal columns
+};
+SymmetricModes symmetric_modes(const Eigen::MatrixXd &matrix);
+/// The values alone.
+Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd &matrix);
+
+/// x with the least |A x - b|.
+Eigen::VectorXd least_squares(const Eigen::MatrixXd &A, const Eigen::VectorXd &b);
+
+} // namespace cattaneo
