@@ -32,6 +32,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <sstream>
 
 using namespace cattaneo;
 using Eigen::VectorXd;
@@ -463,14 +464,18 @@ int main(int argc, char *argv[])
             results["edges"] = miniapp::to_json(edges);
          }
          const CriticalFriction critical = critical_friction(problem);
-         std::cout << "Critical friction: a node alone " << critical.node << " (node "
-                   << critical.weakest_node << "), the contact can";
-         if (std::isfinite(critical.locking))
+         const auto text = [](double value, const char *if_infinite)
          {
-            std::cout << " lock itself above " << critical.locking;
-         }
-         else { std::cout << "not lock itself"; }
-         std::cout << ", one answer for sure below " << critical.unique_below << std::endl;
+            std::ostringstream out;
+            out << value;
+            return std::isfinite(value) ? out.str() : if_infinite;
+         };
+         std::cout << "Critical friction: of a node alone " << text(critical.node, "none")
+                   << ", locks itself above " << text(critical.locking, "none")
+                   << ", one answer for sure below "
+                   << (critical.unique_below > 0 ? text(critical.unique_below, "any")
+                                                 : "(nothing proven)")
+                   << std::endl;
          results["critical_friction"] = {
             {"node", miniapp::json_number(critical.node)},
             {"locking", miniapp::json_number(critical.locking)},

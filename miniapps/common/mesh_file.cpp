@@ -63,6 +63,14 @@ void check_attribute(long attribute, const std::string &what)
            " for ", what, ", must be positive");
 }
 
+void check_coordinate(const std::string &word, const std::string &what)
+{
+   char *end = nullptr;
+   const double value = std::strtod(word.c_str(), &end);
+   require(!word.empty() && *end == 0 && std::isfinite(value), "mesh file has the coordinate '",
+           word, "' for ", what, ", must be a finite number");
+}
+
 /// Edges of the elements, by their ends, and boundary elements, which must be among them.
 class Edges
 {
@@ -141,6 +149,14 @@ void check_mfem(std::istream &in, long size)
          const long vertices = count(in, "vertices", size);
          require(lowest >= 0 && highest < vertices, "mesh file has an element with vertex ",
                  lowest < 0 ? lowest : highest, ", must be 0 to ", vertices - 1);
+         if (!next_word(in, word) || word == "nodes") { break; } // curved: MFEM's to check
+         require(word == "2", "mesh file has '", word,
+                 "' for the number of coordinates, must be 2");
+         for (long k = 0; k < 2 * vertices; ++k)
+         {
+            check_coordinate(next_word(in, word) ? word : "",
+                             "vertex " + std::to_string(k / 2));
+         }
          break;
       }
    }
@@ -196,9 +212,7 @@ void check_gmsh(std::istream &in, long size)
             for (int c = 0; c < 3; ++c)
             {
                require(bool(in >> word), "mesh file ends within node ", node);
-               char *end = nullptr;
-               require(std::isfinite(std::strtod(word.c_str(), &end)) && *end == 0,
-                       "mesh file has the coordinate '", word, "' for node ", node);
+               check_coordinate(word, "node " + std::to_string(node));
             }
          }
          require(in >> word && word == "$EndNodes", "mesh file has '", word, "' after ",

@@ -195,10 +195,11 @@ void run_family(const Family &family, FrictionMethod method, const std::string &
              " solutions were not said to be one of several; " + std::to_string(none) +
              " stalled without there being one; " + std::to_string(missed) + " were missed");
    }
-   // Those that are so large that round-off hides the forces; Lemke's rays.
-   const bool automatic = method == FrictionMethod::automatic;
-   EXPECT_LE(missed,
-             automatic && family.stiffness != Stiffness::nearly_singular ? 0 : 0.02 * runs);
+   // Those that are so large that round-off hides the forces; Lemke's rays. One in fifty, or
+   // one of fewer.
+   const bool exact =
+      method == FrictionMethod::automatic && family.stiffness != Stiffness::nearly_singular;
+   EXPECT_LE(missed, exact ? 0 : std::max(1.0, 0.02 * runs));
    if (family.stiffness == Stiffness::coupled) { EXPECT_EQ(count(row, Outcome::stalled), 0); }
 }
 

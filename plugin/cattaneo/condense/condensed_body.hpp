@@ -50,8 +50,8 @@ struct CondenseSettings
    /// gradients on all of them, below it is gathered and factored by the first. At the default
    /// a factor takes some 1.4 GB (docs/ranks.md).
    int direct_dofs = 500000;
-   /// apply_reduction() forms S nevertheless for up to this many contact nodes: it costs less
-   /// time than a dozen increments without it, but 40 × (2n)² bytes a rank (docs/ranks.md).
+   /// apply_reduction() forms S nevertheless for up to this many contact nodes: it costs the
+   /// time of a few increments without it, but 40 × (2n)² bytes a rank (docs/ranks.md).
    int formed_nodes = 5000;
    /// Of conjugate gradients, for each right-hand side; an InputError beyond.
    int max_iterations = 2000;
