@@ -470,8 +470,12 @@ int main(int argc, char *argv[])
             out << value;
             return std::isfinite(value) ? out.str() : if_infinite;
          };
-         std::cout << "Critical friction: of a node alone " << text(critical.node, "none")
-                   << ", locks itself above " << text(critical.locking, "none")
+         std::cout << "Critical friction: of a node alone " << text(critical.node, "none");
+         if (std::isfinite(critical.node))
+         {
+            std::cout << " (node " << critical.weakest_node << ")";
+         }
+         std::cout << ", locks itself above " << text(critical.locking, "none")
                    << ", one answer for sure below "
                    << (critical.unique_below > 0 ? text(critical.unique_below, "any")
                                                  : "(nothing proven)")

@@ -7,6 +7,8 @@
 namespace cattaneo
 {
 
+/// Where S was formed FrictionSolver works to its own, tighter tolerance, and these have no
+/// say.
 struct AppliedSettings
 {
    /// Largest residual over the largest clamped nodal force so far. What applies the stiffness
