@@ -97,6 +97,7 @@ Check check_increment(const ReducedProblem &problem, FrictionMethod method, Cont
    settings.method = method;
    FrictionSolver solver(problem, settings);
    const VectorXd v_old = state.v;
+   LawChecker laws(problem, state);
    const IncrementReport report = solver.solve(state, loads);
    Check check;
    Verdict &verdict = check.verdict;
@@ -106,7 +107,6 @@ Check check_increment(const ReducedProblem &problem, FrictionMethod method, Cont
       verdict.outcome == Outcome::verified || verdict.outcome == Outcome::not_unique;
    if (solved)
    {
-      LawChecker laws(problem);
       verdict.violation = laws.violation(v_old, state);
       if (!(verdict.violation <= 1))
       {

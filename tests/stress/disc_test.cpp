@@ -66,13 +66,13 @@ void run_discs(const std::string &row, double decades, double least, double most
          state = ContactState::with_slip(
             problem, VectorXd::NullaryExpr(2 * n, [&] { return uniform(random) - 0.5; }));
       }
+      LawChecker laws(problem, state);
       for (const Vector3d &loads : {Vector3d(1, 0, 0), Vector3d(1, 0.7, 0.5),
                                     Vector3d(0.8, -0.6, 0.9), Vector3d(0.1, 0.2, -0.3)})
       {
          const VectorXd v_old = state.v;
          const ContactState before = state;
          const IncrementReport report = solver.solve(state, loads);
-         LawChecker laws(problem);
          Verdict verdict;
          verdict.what = report.message;
          if (report.status == FrictionStatus::converged ||

@@ -120,7 +120,7 @@ Verdict march_and_verify(const ReducedProblem &problem, const LoadHistory &histo
                          ContactState &state, const MarchSettings &settings)
 {
    Verdict verdict;
-   LawChecker laws(problem);
+   LawChecker laws(problem, state);
    Eigen::VectorXd v_old = state.v;
    verdict.report = march(problem, history, state, settings,
                           [&](const ContactState &now, const IncrementRecord &record)

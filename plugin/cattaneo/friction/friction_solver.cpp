@@ -114,11 +114,10 @@ void FrictionSolver::Implementation::start(const ContactState &state,
    v_old = state.v;
    status = state.status;
    reference = std::max(state.peak_force, clamped.cwiseAbs().maxCoeff());
-   // Initial interference and initial slip load the contact too.
+   // Initial interference loads the contact too.
    reference = std::max(reference, (-problem.gap.array() * knn.array()).maxCoeff());
    if (!frictionless)
    {
-      reference = std::max(reference, (problem.A * v_old).cwiseAbs().maxCoeff());
       f = clamped;
       u.resize((c + 1) * n);
       u << state.v, state.w;
@@ -133,7 +132,10 @@ void FrictionSolver::Implementation::start(const ContactState &state,
    {
       if (closed(status[i])) { u[m(i)] = -problem.gap[i]; }
    }
-   F = f + K * u;
+   F = K * u;
+   // So does initial slip; slip that displacements elsewhere follow does not.
+   reference = std::max(reference, F.cwiseAbs().maxCoeff());
+   F += f;
    direction.resize(disc() ? n : 0);
    // What comes out depends on the state and the loads, not on increments before: a march that
    // is cut and resumed gives the same bits.

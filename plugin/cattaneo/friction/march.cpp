@@ -83,6 +83,7 @@ private:
    void stop(const IncrementReport &failure);
    bool exact_in_one(int piece) const;
    bool advances_too_far(const ContactState &next) const;
+   double grid_time(int piece, double step) const;
    VectorXd loads(int piece, double time) const;
    void accept(ContactState &&next, int piece, const IncrementReport &increment);
    void end_cycle();
@@ -100,11 +101,22 @@ private:
    double external_work_ = 0, dissipation_ = 0, normal_work_ = 0;
 };
 
+/// End of an equal step of a piece.
+double March::grid_time(int piece, double step) const
+{
+   const double t0 = history_.start_time(piece), t1 = history_.end_time(piece);
+   const int count = increments(piece);
+   return step >= count ? t1 : t0 + (t1 - t0) * step / count;
+}
+
 VectorXd March::loads(int piece, double time) const
 {
    const double t0 = history_.start_time(piece), t1 = history_.end_time(piece);
    if (time == t1) { return history_.end(piece); }
-   const double fraction = (time - t0) / (t1 - t0);
+   // Late in a long history t0 hides the last digits of a time; equal steps have equal shares.
+   const int count = increments(piece);
+   const double share = (time - t0) / (t1 - t0), steps = std::round(share * count);
+   const double fraction = time == grid_time(piece, steps) ? steps / count : share;
    return history_.start(piece) + fraction * (history_.end(piece) - history_.start(piece));
 }
 
@@ -330,7 +342,7 @@ bool March::march_exactly(int piece)
       const int count = increments(piece);
       for (int k = count - 1; k > 0; --k)
       {
-         const double grid = t0 + (t1 - t0) * k / count;
+         const double grid = grid_time(piece, k);
          if (grid > state_.time) { next.time = grid; }
       }
       const double target = next.time;
@@ -366,7 +378,7 @@ bool March::march_piece(int piece)
    }
    const int count = exact ? 1 : increments(piece);
    const double smallest = (t1 - t0) / count * std::ldexp(1.0, -settings_.max_halvings);
-   auto grid = [&](int k) { return k >= count ? t1 : t0 + (t1 - t0) * k / count; };
+   auto grid = [&](int k) { return k >= count ? t1 : grid_time(piece, k); };
    int k = 1;
    while (state_.time < t1)
    {
