@@ -46,7 +46,8 @@ public:
       u << state.v, state.w;
       const Eigen::VectorXd F = f + K_ * u;
       peak_ = std::max(peak_, f.cwiseAbs().maxCoeff());
-      const double size = u.cwiseAbs().maxCoeff();
+      const double size =
+         std::max(u.cwiseAbs().maxCoeff(), v_old.size() ? v_old.cwiseAbs().maxCoeff() : 0.0);
       const double round_off = 16 * std::sqrt(static_cast<double>(n_)) *
                                std::numeric_limits<double>::epsilon() *
                                (norm_ * size + f.cwiseAbs().maxCoeff());

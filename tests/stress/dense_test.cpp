@@ -90,14 +90,13 @@ struct Check
 };
 
 /// One increment, verified; with `enumerate` against all states.
-Check check_increment(const ReducedProblem &problem, FrictionMethod method, ContactState &state,
-                      const VectorXd &loads, bool enumerate)
+Check check_increment(const ReducedProblem &problem, LawChecker &laws, FrictionMethod method,
+                      ContactState &state, const VectorXd &loads, bool enumerate)
 {
    FrictionSettings settings;
    settings.method = method;
    FrictionSolver solver(problem, settings);
    const VectorXd v_old = state.v;
-   LawChecker laws(problem, state);
    const IncrementReport report = solver.solve(state, loads);
    Check check;
    Verdict &verdict = check.verdict;
@@ -178,10 +177,11 @@ void run_family(const Family &family, FrictionMethod method, const std::string &
          state = ContactState::with_slip(
             problem, VectorXd::NullaryExpr(n, [&] { return uniform(random) - 0.5; }));
       }
+      LawChecker laws(problem, state);
       for (const Vector2d &loads :
            {Vector2d(1, 0), Vector2d(1, 0.8), Vector2d(0.7, -0.9), Vector2d(0.1, 0.3)})
       {
-         const Check check = check_increment(problem, method, state, loads, true);
+         const Check check = check_increment(problem, laws, method, state, loads, true);
          record(row, "seed " + std::to_string(seed) + " problem " + std::to_string(k),
                 check.verdict);
          several += check.verdict.outcome == Outcome::verified && check.solutions > 1;
@@ -234,15 +234,17 @@ TEST(DenseLarge, BothMethodsAreVerified)
       set_friction_near_critical(
          problem, family.least * std::pow(family.most / family.least, uniform(random)));
       ContactState state = ContactState::virgin(problem);
+      LawChecker laws(problem, state);
       for (const Vector2d &loads : {Vector2d(1, 0), Vector2d(1, 0.8), Vector2d(0.5, -0.9)})
       {
          ContactState other = state;
          const std::string run = "problem " + std::to_string(k);
-         record("  by Lemke, 7 to 40 nodes", run,
-                check_increment(problem, FrictionMethod::lemke, other, loads, false).verdict);
          record(
-            "dense, 7 to 40 nodes", run,
-            check_increment(problem, FrictionMethod::automatic, state, loads, false).verdict);
+            "  by Lemke, 7 to 40 nodes", run,
+            check_increment(problem, laws, FrictionMethod::lemke, other, loads, false).verdict);
+         record("dense, 7 to 40 nodes", run,
+                check_increment(problem, laws, FrictionMethod::automatic, state, loads, false)
+                   .verdict);
       }
    }
    EXPECT_LE(count("dense, 7 to 40 nodes", Outcome::stalled), 0.01 * runs);

@@ -66,7 +66,7 @@ TEST(CriticalFriction, AWedgeLocksAboveTheTangentOfItsFlank)
       EXPECT_GT(state.p.sum(), 0.1) << "alpha " << alpha;
       EXPECT_NEAR(balance, 0, 1e-11);
       // With no load and that slip there are two answers: locked, and free of all forces.
-      LawChecker laws(problem, ContactState::virgin(problem));
+      LawChecker laws(problem, state);
       for (NodeState &s : state.status)
       {
          if (slips(s)) { s = NodeState::stick; }

@@ -51,6 +51,7 @@ struct FrictionSolver::Implementation
    EliminatedNodes eliminated;
    std::unique_ptr<MatrixXd> motions; // rigid motions, found when first needed
    Mechanism mechanism;
+   double lost_in_round_off = 0; // round-off of a solution that moves too far; 0: none
    std::unique_ptr<FrictionSolver> smooth; // disc: the contact without friction, likewise
 
    // One increment's working set.
@@ -95,8 +96,12 @@ struct FrictionSolver::Implementation
                         VectorXd &forces);
    bool update_states();
    bool lemke_start();
+   VectorXd natural_map() const;
+   MatrixXd natural_map_derivative() const;
+   bool damped_newton();
+   void states_of_natural_map();
    void residuals(IncrementReport &report) const;
-   bool accepted(const IncrementReport &report) const;
+   bool accepted(const IncrementReport &report);
    bool runs_away(const IncrementReport &report, const VectorXd &multipliers);
    bool finds_mechanism(const VectorXd &multipliers);
    bool spins(const VectorXd &multipliers);
@@ -108,7 +113,10 @@ struct FrictionSolver::Implementation
    }
    double round_off() const
    {
-      return 4 * eps * (K_norm * u.cwiseAbs().maxCoeff() + f.cwiseAbs().maxCoeff());
+      // Slip is a difference: where it comes from counts as well as where it goes.
+      double size = u.cwiseAbs().maxCoeff();
+      if (!frictionless) { size = std::max(size, v_old.cwiseAbs().maxCoeff()); }
+      return 4 * eps * (K_norm * size + f.cwiseAbs().maxCoeff());
    }
    IncrementReport solve(ContactState &state, const VectorXd &multipliers);
    IncrementReport uniqueness(const std::vector<NodeState> &states) const;
@@ -116,8 +124,8 @@ struct FrictionSolver::Implementation
    bool run_automatic(IncrementReport &report, const ContactState &state,
                       const VectorXd &multipliers);
    bool run_lemke(IncrementReport &report);
+   bool run_damped_newton(IncrementReport &report, const ContactState &state);
    bool run_path(IncrementReport &report, const ContactState &state);
-   bool run_loading(IncrementReport &report, const ContactState &state);
    bool polished(IncrementReport &report);
 };
 

@@ -93,7 +93,7 @@ bool FrictionSolver::Implementation::run_lemke(IncrementReport &report)
 /// Pivots leave round-off of their own; the equations of the final states remove it.
 bool FrictionSolver::Implementation::polished(IncrementReport &report)
 {
-   const VectorXd u_found = u, F_found = F;
+   const VectorXd u_found = u;
    const std::vector<NodeState> status_found = status;
    if (newton(settings.max_newton))
    {
@@ -101,69 +101,10 @@ bool FrictionSolver::Implementation::polished(IncrementReport &report)
       if (accepted(report)) { return true; }
    }
    u = u_found;
-   F = F_found;
+   F = f + K * u;
    status = status_found;
    residuals(report);
    return accepted(report);
-}
-
-/// Follows the solutions from the old loads to the new ones, in steps that Newton's method can
-/// take. Only the guess moves: slip counts from the start of the increment all the way, so that
-/// what is found is the answer of the whole increment. Where a step fails, sweeps find the
-/// direction in which a node begins to slip: no step is short enough to know it. Extra pressure
-/// at the start, which fades on the way, holds the nodes that stand between two states (a
-/// contact that carries nothing yet): however short the step, they all change theirs in the
-/// first.
-bool FrictionSolver::Implementation::run_loading(IncrementReport &report,
-                                                 const ContactState &state)
-{
-   const VectorXd f_new = f;
-   for (double extra : {0.0, 0.01, 1.0})
-   {
-      u << state.v, state.w;
-      F << state.q, state.p;
-      status = state.status;
-      for (Index i = 0; i < n && extra > 0; ++i)
-      {
-         if (!closed(status[i])) { continue; }
-         F[m(i)] += extra * reference;
-         status[i] = NodeState::stick;
-      }
-      const VectorXd f_old = F - K * u;
-      double reached = 0, step = 0.5;
-      bool failed = false;
-      while (reached < 1 && step > 1e-4)
-      {
-         const VectorXd u_reached = u, F_reached = F;
-         const std::vector<NodeState> status_reached = status;
-         update_states(); // directions of the solution reached
-         const double next = std::min(1.0, reached + step);
-         f = next < 1 ? VectorXd((1 - next) * f_old + next * f_new) : f_new;
-         if (failed)
-         {
-            F = f + K * u;
-            for (int k = 0; k < std::max(4, 2 * settings.sweeps); ++k) { sweep(); }
-            update_states();
-         }
-         failed = !newton_disc(settings.max_newton);
-         if (!failed)
-         {
-            reached = next;
-            step *= 2;
-            continue;
-         }
-         u = u_reached;
-         F = F_reached;
-         status = status_reached;
-         step *= 0.5;
-      }
-      if (reached < 1) { continue; }
-      residuals(report);
-      return true; // accepted by newton_disc
-   }
-   f = f_new;
-   F = f + K * u;
-   return false;
 }
 
 /// Follows the solutions from the old loads to the new ones, one node's state at a time.

@@ -182,37 +182,17 @@ void FrictionSolver::Implementation::finish(ContactState &state, const VectorXd 
    }
 }
 
-void FrictionSolver::Implementation::residuals(IncrementReport &report) const
-{
-   double normal = 0, tangent = 0;
-   for (Index i = 0; i < n; ++i)
-   {
-      const double p = F[m(i)];
-      normal = std::max(normal, std::abs(std::min(knn[i] * gap(i), p)));
-      if (frictionless) { continue; }
-      const double limit = bound(i);
-      if (disc())
-      {
-         const Vector2d trial = disc_trial(i);
-         const double size = std::hypot(trial[0], trial[1]);
-         const Vector2d held = size > limit ? Vector2d(limit / size * trial) : trial;
-         tangent = std::max(tangent, (at(F, i) - held).norm());
-         continue;
-      }
-      const double trial = F[t(i)] - ktt[i] * slip(i);
-      tangent = std::max(tangent, std::abs(F[t(i)] - std::clamp(trial, -limit, limit)));
-   }
-   const double scale = reference > 0 ? reference : 1.0;
-   report.residual_normal = normal / scale;
-   report.residual_tangential = tangent / scale;
-   report.round_off = round_off() / scale;
-}
-
-bool FrictionSolver::Implementation::accepted(const IncrementReport &report) const
+/// Also remembers a solution that moves so far that its forces cannot be told from round-off.
+bool FrictionSolver::Implementation::accepted(const IncrementReport &report)
 {
    const double allowed = std::max(settings.tolerance, report.round_off);
-   return report.residual_normal <= allowed && report.residual_tangential <= allowed &&
-          report.round_off < 1e-6;
+   if (report.residual_normal > allowed || report.residual_tangential > allowed)
+   {
+      return false;
+   }
+   if (report.round_off < 1e-6) { return true; }
+   lost_in_round_off = report.round_off;
+   return false;
 }
 
 /// Displacements so large that round-off hides the forces may be a body that slides away, with
@@ -227,46 +207,33 @@ bool FrictionSolver::Implementation::run_automatic(IncrementReport &report,
                                                    const ContactState &state,
                                                    const VectorXd &multipliers)
 {
-   int sweeps = settings.sweeps;
-   auto attempt = [&]
+   VectorXd u_swept;
+   std::vector<NodeState> status_swept;
+   auto finds = [&](auto &&method)
    {
-      for (int k = 0; k < sweeps; ++k) { sweep(); }
-      const VectorXd u_swept = u;
-      const std::vector<NodeState> status_swept = status;
-      if (newton(settings.max_newton))
-      {
-         residuals(report);
-         if (accepted(report)) { return true; }
-      }
+      if (method()) { return true; }
       u = u_swept;
       status = status_swept;
       F = f + K * u;
-      sweeps = std::max(4, 2 * sweeps);
       return false;
    };
+   int sweeps = settings.sweeps;
    for (int k = 0; k < settings.max_attempts; ++k)
    {
-      if (attempt()) { return true; }
+      for (int j = 0; j < sweeps; ++j) { sweep(); }
+      u_swept = u;
+      status_swept = status;
+      if (finds([&] { return polished(report); })) { return true; }
       if (k == 1 && (spins(multipliers) || finds_mechanism(multipliers))) { return false; }
+      sweeps = std::max(4, 2 * sweeps);
    }
-   if (disc())
+   if (!disc() && finds([&] { return run_path(report, state); })) { return true; }
+   if (!frictionless && finds([&] { return run_damped_newton(report, state); }))
    {
-      const VectorXd u_swept = u;
-      const std::vector<NodeState> status_swept = status;
-      if (run_loading(report, state)) { return true; }
-      // Sweeps are slow but steady.
-      u = u_swept;
-      status = status_swept;
-      F = f + K * u;
-      while (sweeps <= 1024)
-      {
-         if (attempt()) { return true; }
-      }
-      return false;
+      return true;
    }
-   // Where paths from the old state end in rays, those of the dense tableau may not; its size
-   // allows for small problems only.
-   return run_path(report, state) || (n <= 32 && run_lemke(report));
+   // Where these fail, the dense tableau may not; its size allows for small problems only.
+   return n <= 32 && finds([&] { return run_lemke(report); });
 }
 
 /// True if no admissible contact forces can balance the loads: there is nothing to search for.
@@ -319,6 +286,12 @@ void FrictionSolver::Implementation::explain_failure(IncrementReport &report) co
                   : mechanism.slides ? "the loads exceed what friction can hold: a body slides"
                                      : "the loads pull the contact apart: a body lifts off");
    }
+   else if (lost_in_round_off > 0)
+   {
+      report.status = FrictionStatus::stalled;
+      message << "the contact moves so far that its forces are lost in round-off ("
+              << lost_in_round_off << " of the largest)";
+   }
    else if (const Index node = above_critical(); node >= 0)
    {
       report.status = FrictionStatus::no_solution;
@@ -347,6 +320,7 @@ IncrementReport FrictionSolver::Implementation::solve(ContactState &state,
 {
    IncrementReport report;
    mechanism = {};
+   lost_in_round_off = 0;
    start(state, multipliers);
    bool solved = false;
    switch (settings.method)
