@@ -126,9 +126,11 @@ Check check_increment(const ReducedProblem &problem, LawChecker &laws, FrictionM
    }
    check.none = verdict.outcome == Outcome::stalled && found.empty();
    if (solved || check.solutions == 0) { return check; }
-   // "None was found" is no proof and does not claim to be; a mechanism is.
-   check.missed = verdict.outcome == Outcome::stalled ||
-                  verdict.what.find("no equilibrium was found") != std::string::npos;
+   auto says = [&](const char *words) { return verdict.what.find(words) != std::string::npos; };
+   // Solutions that move so far that they cannot be told from round-off were found, and said
+   // to be useless. "None was found" is no proof and does not claim to be; a mechanism is.
+   if (says("lost in round-off")) { return check; }
+   check.missed = verdict.outcome == Outcome::stalled || says("no equilibrium was found");
    if (!check.missed)
    {
       verdict.what += ": but " + std::to_string(check.solutions) + " solutions exist";
@@ -195,11 +197,8 @@ void run_family(const Family &family, FrictionMethod method, const std::string &
              " solutions were not said to be one of several; " + std::to_string(none) +
              " stalled without there being one; " + std::to_string(missed) + " were missed");
    }
-   // Those that are so large that round-off hides the forces; Lemke's rays. One in fifty, or
-   // one of fewer.
-   const bool exact =
-      method == FrictionMethod::automatic && family.stiffness != Stiffness::nearly_singular;
-   EXPECT_LE(missed, exact ? 0 : std::max(1.0, 0.02 * runs));
+   // Lemke's rays may miss one in 800, or one of fewer.
+   EXPECT_LE(missed, method == FrictionMethod::automatic ? 0 : std::max(1.0, 4 * runs / 800.0));
    if (family.stiffness == Stiffness::coupled) { EXPECT_EQ(count(row, Outcome::stalled), 0); }
 }
 

@@ -295,4 +295,11 @@ bool FrictionSolver::Implementation::newton(int steps)
    return false;
 }
 
+bool FrictionSolver::Implementation::newton_accepted(IncrementReport &report)
+{
+   if (!newton(settings.max_newton)) { return false; }
+   residuals(report);
+   return accepted(report);
+}
+
 } // namespace cattaneo

@@ -83,6 +83,7 @@ struct FrictionSolver::Implementation
    DiscNode disc_node(Index i) const; // without its forces
    void move_disc_node(Index i);
    bool newton(int steps);
+   bool newton_accepted(IncrementReport &report);
    bool newton_disc(int steps);
    bool solve_for_states();
    bool solve_coupled();

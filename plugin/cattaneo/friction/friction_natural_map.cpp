@@ -118,8 +118,7 @@ bool FrictionSolver::Implementation::damped_newton()
       factor.solve(step);
       VectorXd next;
       double share = 2;
-      do
-      {
+      do {
          share *= 0.5;
          if (share < 1e-6) { return false; }
          u = from - share * step;
@@ -155,15 +154,16 @@ void FrictionSolver::Implementation::states_of_natural_map()
 }
 
 /// Damped Newton from the present displacements, from those at the start of the increment, and
-/// from others ever further away, in units of what the loads do to a node alone. The generator
-/// is seeded afresh, so that equal increments start alike.
+/// from random ones ever further away, in units of what the loads do to a node alone: as many
+/// as a few seconds allow. The generator is seeded afresh, so that equal increments start
+/// alike.
 bool FrictionSolver::Implementation::run_damped_newton(IncrementReport &report,
                                                        const ContactState &state)
 {
    VectorXd u_old(u.size());
    u_old << state.v, state.w;
    const VectorXd far = reference * K.diagonal().cwiseInverse();
-   const Index starts = std::clamp<Index>(4000000 / (n * n * n), 4, 1000);
+   const Index starts = std::clamp<Index>(4000000 / (n * n * n), 2, 1000);
    std::mt19937_64 random(1);
    for (Index start = 0; start < starts; ++start)
    {

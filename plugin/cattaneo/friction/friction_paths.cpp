@@ -28,7 +28,8 @@ bool FrictionSolver::Implementation::lemke_start()
    }
    const double scale = reference > 0 ? reference : 1.0;
    const VectorXd base = (f + K * base_u) / scale;
-   const VectorXd dn = knn.cwiseSqrt().cwiseInverse();
+   // Without friction a free body's node may have no stiffness of its own.
+   const VectorXd dn = knn.cwiseMax(1e-12 * K_norm).cwiseSqrt().cwiseInverse();
    VectorXd fs; // friction between rows scaled by dt and rows scaled by dn
    if (frictionless)
    {
@@ -95,11 +96,7 @@ bool FrictionSolver::Implementation::polished(IncrementReport &report)
 {
    const VectorXd u_found = u;
    const std::vector<NodeState> status_found = status;
-   if (newton(settings.max_newton))
-   {
-      residuals(report);
-      if (accepted(report)) { return true; }
-   }
+   if (newton_accepted(report)) { return true; }
    u = u_found;
    F = f + K * u;
    status = status_found;

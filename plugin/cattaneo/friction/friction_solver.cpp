@@ -191,7 +191,7 @@ bool FrictionSolver::Implementation::accepted(const IncrementReport &report)
       return false;
    }
    if (report.round_off < 1e-6) { return true; }
-   lost_in_round_off = report.round_off;
+   if (report.round_off < 1e-3) { lost_in_round_off = report.round_off; }
    return false;
 }
 
@@ -223,7 +223,7 @@ bool FrictionSolver::Implementation::run_automatic(IncrementReport &report,
       for (int j = 0; j < sweeps; ++j) { sweep(); }
       u_swept = u;
       status_swept = status;
-      if (finds([&] { return polished(report); })) { return true; }
+      if (finds([&] { return newton_accepted(report); })) { return true; }
       if (k == 1 && (spins(multipliers) || finds_mechanism(multipliers))) { return false; }
       sweeps = std::max(4, 2 * sweeps);
    }
