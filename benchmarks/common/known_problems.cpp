@@ -6,6 +6,7 @@
 #include "common/miniapp.hpp"
 #include "common/punch.hpp"
 #include "common/receding.hpp"
+#include "common/twisted_bodies.hpp"
 
 #include <cattaneo/elastic/graded_mesh.hpp>
 #include <cattaneo/friction/march.hpp>
@@ -135,39 +136,17 @@ double lubkin_torque(double c)
 /// Radius, torque and stick radius are compared for the force and the rotation that came out.
 Answer lubkin(const Resolution &r)
 {
-   const double f = 0.3, c = 0.5, far = 3e3, sphere = 5, poisson = 0.3;
-   const int bottom = 1, side = 2, top = 3;
-   const std::vector<double> contact = r.grid(1, r.foci(0, 1));
-   const double growth = r.element_growth(), h = miniapp::smallest_step(contact);
-   const std::vector<double> radii =
-      joined({contact, graded(1, far, contact.back() - contact[contact.size() - 2], growth)});
-   const std::vector<double> up = graded(0, far, h, growth);
-   std::vector<double> down;
-   for (auto z = up.rbegin(); z != up.rend(); ++z) { down.push_back(-*z); }
-   down.back() = 0;
-   mfem::Mesh upper_mesh = rectangle_mesh(radii, up), lower_mesh = rectangle_mesh(radii, down);
-   const BoundaryPart upper_far({side, top}), lower_far({bottom, side}),
-      above({bottom}, 0, 0, 1), below({top}, 0, 0, 1);
-   const Material material{1.0, poisson};
-   ElasticBody upper(upper_mesh, r.order, material, Geometry::axisymmetric),
-      lower(lower_mesh, r.order, material, Geometry::axisymmetric),
-      turned(upper_mesh, r.order, material, Geometry::torsion),
-      held(lower_mesh, r.order, material, Geometry::torsion);
-   upper.fix(upper_far, 0);
-   upper.add_displacement("approach", upper_far, 1, -1.0);
-   lower.fix(lower_far, 0);
-   lower.fix(lower_far, 1);
-   turned.add_displacement("twist", upper_far, 0, 1.0);
-   held.fix(lower_far, 0);
-   const ContactLine one = contact_line(upper, above), other = contact_line(lower, below);
-   Reduction reduction =
-      reduce(condense(upper, one), condense(lower, other), pair_lines(one, other));
-   reduction.add_torsion(condense(turned, contact_line(turned, above)),
-                         condense(held, contact_line(held, below)));
-   ReducedProblem &problem = reduction.problem;
+   const double f = 0.3, c = 0.5;
+   miniapp::TwistedBodies bodies;
+   bodies.contact = r.grid(1, r.foci(0, 1));
+   bodies.order = r.order;
+   bodies.growth = r.element_growth();
+   bodies.far = 3e3;
+   const double sphere = bodies.sphere, poisson = bodies.poisson;
+   miniapp::TwistedScene scene = miniapp::make_scene(bodies);
+   ReducedProblem &problem = scene.reduction.problem;
    const Index n = problem.nodes();
    const VectorXd radius = problem.position.col(0);
-   problem.gap = radius.cwiseAbs2() / (2 * sphere);
    set_friction(problem, f);
    FrictionSolver solver(problem);
    const double approach = 0.7 * 0.7 / sphere, G = 0.5 / (1 + poisson);
@@ -188,7 +167,7 @@ Answer lubkin(const Resolution &r)
    Answer answer;
    answer.values = {torque / lubkin_torque(c), stick / a / c, edge / a};
    answer.edges = {stick, edge};
-   answer.dofs = upper.dofs() + lower.dofs() + turned.dofs() + held.dofs();
+   answer.dofs = scene.dofs;
    answer.nodes = static_cast<double>(n);
    return answer;
 }
@@ -292,16 +271,22 @@ Answer punch(const Resolution &r)
    return answer;
 }
 
+/// The options of a study as its miniapp has them, or discretised otherwise.
+template <class Options>
+void discretise(Options &options, const Resolution &r, double length,
+                const std::vector<Focus> &foci)
+{
+   if (r.family == Family::standard) { return; }
+   options.order = r.order;
+   options.growth = r.element_growth();
+   options.grid = r.grid(length, foci);
+}
+
 Answer strip(const Resolution &r)
 {
    const double f = 0.7, n = 4;
    miniapp::RecedingOptions options;
-   if (r.family != Family::standard)
-   {
-      options.order = r.order;
-      options.growth = r.element_growth();
-      options.grid = r.grid(options.length, r.foci(0, n + 2.5));
-   }
+   discretise(options, r, options.length, r.foci(0, n + 2.5));
    if (r.family == Family::nested)
    {
       options.grid = base(r, 0.5).grid(options.length, base(r, 0.5).foci(0, n + 2.5));
@@ -327,12 +312,7 @@ Answer disc(const Resolution &r)
 {
    const double f = 0.5;
    miniapp::DiscOptions options;
-   if (r.family != Family::standard)
-   {
-      options.order = r.order;
-      options.growth = r.element_growth();
-      options.grid = r.grid(options.disc_radius, r.foci(0, options.disc_radius));
-   }
+   discretise(options, r, options.disc_radius, r.foci(0, options.disc_radius));
    miniapp::Disc scene = miniapp::make_disc(options);
    ReducedProblem &problem = scene.reduction.problem;
    Answer answer;
@@ -361,12 +341,7 @@ Answer lap_joint(const Resolution &r)
 {
    const double f = 0.2, T = 0.04;
    miniapp::LapJointOptions options;
-   if (r.family != Family::standard)
-   {
-      options.order = r.order;
-      options.growth = r.element_growth();
-      options.grid = r.grid(options.protrusion, r.foci(0, 0.8));
-   }
+   discretise(options, r, options.protrusion, r.foci(0, 0.8));
    miniapp::LapJoint joint = miniapp::make_lap_joint(options);
    ReducedProblem &problem = joint.reduction.problem;
    set_friction(problem, f);

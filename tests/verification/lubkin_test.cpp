@@ -1,8 +1,8 @@
 // Torsion of two equal spheres (Lubkin 1951): a contact of Hertz' pressure in which an annulus
 // slips circumferentially. The reduced problem is made here from the half-space's kernel.
 
-#include <cattaneo/condense/reduction.hpp>
-#include <cattaneo/elastic/graded_mesh.hpp>
+#include "common/twisted_bodies.hpp"
+
 #include <cattaneo/friction/march.hpp>
 #include <cattaneo/friction/zones.hpp>
 #include <cmath>
@@ -259,37 +259,14 @@ TEST(Lubkin, SpinsAtThreeSixteenthsOfPi)
 /// contact of radius 0.7 and turned against each other at their far ends.
 TEST(Lubkin, FiniteElements)
 {
-   const double f = 0.3, a = 0.7, far = 1e4, sphere = 5, poisson = 0.3, h = 1.0 / 32;
-   const int bottom = 1, side = 2, top = 3;
-   std::vector<double> contact;
-   for (int i = 0; i <= 32; ++i) { contact.push_back(i * h); }
-   const std::vector<double> r = joined({contact, graded(1, far, h, 1.25)}),
-                             up = graded(0, far, h, 1.25);
-   std::vector<double> down;
-   for (auto z = up.rbegin(); z != up.rend(); ++z) { down.push_back(-*z); }
-   mfem::Mesh upper_mesh = rectangle_mesh(r, up), lower_mesh = rectangle_mesh(r, down);
-   const BoundaryPart upper_far({side, top}), lower_far({bottom, side}),
-      above({bottom}, 0, 0, 1), below({top}, 0, 0, 1);
-   const Material material{1.0, poisson};
-   ElasticBody upper(upper_mesh, 2, material, Geometry::axisymmetric),
-      lower(lower_mesh, 2, material, Geometry::axisymmetric),
-      turned(upper_mesh, 2, material, Geometry::torsion),
-      held(lower_mesh, 2, material, Geometry::torsion);
-   upper.fix(upper_far, 0);
-   upper.add_displacement("approach", upper_far, 1, -1.0);
-   lower.fix(lower_far, 0);
-   lower.fix(lower_far, 1);
-   turned.add_displacement("twist", upper_far, 0, 1.0);
-   held.fix(lower_far, 0);
-   const ContactLine one = contact_line(upper, above), other = contact_line(lower, below);
-   Reduction reduction =
-      reduce(condense(upper, one), condense(lower, other), pair_lines(one, other));
-   reduction.add_torsion(condense(turned, contact_line(turned, above)),
-                         condense(held, contact_line(held, below)));
-   ReducedProblem &problem = reduction.problem;
+   const double f = 0.3, a = 0.7, h = 1.0 / 32;
+   miniapp::TwistedBodies bodies;
+   for (int i = 0; i <= 32; ++i) { bodies.contact.push_back(i * h); }
+   const double sphere = bodies.sphere, poisson = bodies.poisson;
+   miniapp::TwistedScene scene = miniapp::make_scene(bodies);
+   ReducedProblem &problem = scene.reduction.problem;
    const Index n = problem.nodes();
    const VectorXd radius = problem.position.col(0);
-   problem.gap = radius.cwiseAbs2() / (2 * sphere);
    set_friction(problem, f);
    FrictionSolver solver(problem);
    const double approach = a * a / sphere, G = 0.5 / (1 + poisson);

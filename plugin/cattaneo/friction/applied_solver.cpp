@@ -125,11 +125,13 @@ struct Increment
       {
          if (closed(status[i])) { u[n + i] = -problem.gap[i]; }
       }
-      reference = std::max(state.peak_force, f.cwiseAbs().maxCoeff());
+      F = times(u);
+      reference =
+         std::max({state.peak_force, f.cwiseAbs().maxCoeff(), F.cwiseAbs().maxCoeff()});
       reference = std::max(
          reference, -(problem.gap.array() * problem.diagonal.tail(n).array()).minCoeff());
       if (reference == 0) { reference = 1; }
-      F = f + times(u);
+      F += f;
    }
 
    VectorXd times(const VectorXd &x)

@@ -11,8 +11,8 @@ namespace cattaneo
 /// say.
 struct AppliedSettings
 {
-   /// Largest residual over the largest clamped nodal force so far. What applies the stiffness
-   /// must be more accurate than that.
+   /// Largest residual over the largest nodal force so far (FrictionSettings). What applies the
+   /// stiffness must be more accurate than that.
    double tolerance = 1e-9;
    int max_newton = 60;      ///< active sets tried
    int max_iterations = 500; ///< of GMRES for one of them

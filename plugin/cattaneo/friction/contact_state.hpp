@@ -54,8 +54,8 @@ struct ContactState
    Eigen::VectorXd multipliers;   ///< of the load patterns
    double time = 0.0;             ///< of the load history
    double step = 0.0;             ///< next trial increment of time; 0: not chosen yet
-   double peak_force = 0.0;  ///< largest clamped nodal force so far: the scale of residuals
-   double dissipation = 0.0; ///< frictional energy lost so far
+   double peak_force = 0.0;       ///< of a node so far, see FrictionSettings::tolerance
+   double dissipation = 0.0;      ///< frictional energy lost so far
    /// Slip at the end of the last two cycles (the latest last), to recognise a steady state.
    std::vector<Eigen::VectorXd> cycle_slip;
 

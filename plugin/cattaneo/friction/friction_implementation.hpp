@@ -60,7 +60,7 @@ struct FrictionSolver::Implementation
    VectorXd v_old;
    std::vector<NodeState> status;
    std::vector<DiscSlip> direction; // disc: of the slipping nodes, as last linearised
-   double reference = 0;            // largest clamped force so far
+   double reference = 0;            // largest force so far, the scale of residuals
 
    Implementation(const ReducedProblem &given, const FrictionSettings &chosen);
 

@@ -21,9 +21,9 @@ enum class FrictionMethod
 struct FrictionSettings
 {
    FrictionMethod method = FrictionMethod::automatic;
-   /// Largest residual of the natural map over the largest clamped nodal force so far, normal
-   /// and tangential apart. Where round-off is larger than this, round-off is the limit
-   /// (reported).
+   /// Largest residual of the natural map over the largest nodal force so far (of the loads
+   /// with the contact clamped, of initial slip or interference), normal and tangential apart.
+   /// Where round-off is larger than this, round-off is the limit (reported).
    double tolerance = 1e-12;
    int sweeps = 2;       ///< Gauss–Seidel sweeps before the first active-set attempt
    int max_attempts = 3; ///< active-set attempts, each after twice the sweeps of the one before
