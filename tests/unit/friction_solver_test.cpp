@@ -206,6 +206,59 @@ TEST(FrictionSolver, PathAloneAgreesWithActiveSet)
    EXPECT_GT(pivots, 10000);
 }
 
+/// One node on a slope that is nearly free to slide up it, `stiffness` against that.
+ReducedProblem node_on_a_slope(double stiffness)
+{
+   ReducedProblem problem;
+   const auto one = [](double x) { return Eigen::MatrixXd::Constant(1, 1, x); };
+   problem.A = one(1);
+   problem.B = one(-0.5);
+   problem.C = one(0.25 + stiffness);
+   problem.patterns = {{"press", Control::force, VectorXd::Zero(1), VectorXd::Ones(1)}};
+   problem.H = one(0);
+   problem.gap = VectorXd::Zero(1);
+   set_friction(problem, 0.1);
+   return problem;
+}
+
+TEST(FrictionSolver, SaysWhenRoundOffHidesTheForces)
+{
+   const VectorXd pull = -VectorXd::Ones(1);
+   for (auto method : {FrictionMethod::automatic, FrictionMethod::lemke})
+   {
+      FrictionSettings settings;
+      settings.method = method;
+      ReducedProblem problem = node_on_a_slope(1e-6);
+      ContactState state = ContactState::virgin(problem);
+      EXPECT_EQ(FrictionSolver(problem, settings).solve(state, pull).status,
+                FrictionStatus::converged);
+      EXPECT_NEAR(state.w[0], 1e6, 1e-3);
+      problem = node_on_a_slope(1e-10);
+      state = ContactState::virgin(problem);
+      const IncrementReport report = FrictionSolver(problem, settings).solve(state, pull);
+      EXPECT_EQ(report.status, FrictionStatus::stalled);
+      EXPECT_NE(report.message.find("lost in round-off"), std::string::npos) << report.message;
+      EXPECT_EQ(state.w[0], 0);
+   }
+}
+
+TEST(FrictionSolver, AFreeNodeWithoutFrictionCarriesWhatPressesIt)
+{
+   for (auto method : {FrictionMethod::automatic, FrictionMethod::lemke})
+   {
+      FrictionSettings settings;
+      settings.method = method;
+      ReducedProblem problem = node_on_a_slope(0);
+      problem.gap[0] = -0.2;
+      set_friction(problem, 0);
+      ContactState state = ContactState::virgin(problem);
+      EXPECT_EQ(FrictionSolver(problem, settings).solve(state, VectorXd::Ones(1)).status,
+                FrictionStatus::converged);
+      EXPECT_NEAR(state.w[0], 0.2, 1e-15);
+      EXPECT_NEAR(state.p[0], 1, 1e-12);
+   }
+}
+
 TEST(FrictionSolver, FrictionlessHasNoTangentialUnknownsAndNoShear)
 {
    std::mt19937 random(3);

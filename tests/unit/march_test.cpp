@@ -143,6 +143,25 @@ TEST(March, FirstProportionalLoadingTakesOneIncrement)
    EXPECT_LT((once.p - often.p).cwiseAbs().maxCoeff(), 1e-12);
 }
 
+// Late in a long history the times of equal steps lose digits; their loads do not.
+TEST(March, BeginsAtAnyTimeWithTheSameBits)
+{
+   std::mt19937 random(9);
+   const ReducedProblem problem = random_problem(10, 0.3, 0.1, random);
+   LoadHistory early = LoadHistory::through({Vector2d(0, 0), Vector2d(1, 0), Vector2d(1, 0.9)}),
+               late = early;
+   late.times.array() += 1e6;
+   MarchSettings settings;
+   settings.stepping = Stepping::fixed;
+   settings.increments = 7;
+   ContactState a = ContactState::virgin(problem), b = a;
+   EXPECT_EQ(march(problem, early, a, settings).status, FrictionStatus::converged);
+   EXPECT_EQ(march(problem, late, b, settings).status, FrictionStatus::converged);
+   EXPECT_EQ(a.v, b.v);
+   EXPECT_EQ(a.dissipation, b.dissipation);
+   EXPECT_GT(a.dissipation, 0);
+}
+
 TEST(March, GrossSlidingIsReportedWithItsLoad)
 {
    ReducedProblem problem;
