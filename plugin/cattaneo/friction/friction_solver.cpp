@@ -186,10 +186,8 @@ void FrictionSolver::Implementation::finish(ContactState &state, const VectorXd 
 bool FrictionSolver::Implementation::accepted(const IncrementReport &report)
 {
    const double allowed = std::max(settings.tolerance, report.round_off);
-   if (report.residual_normal > allowed || report.residual_tangential > allowed)
-   {
-      return false;
-   }
+   const bool fits = report.residual_normal <= allowed && report.residual_tangential <= allowed;
+   if (!fits) { return false; } // nor if one is not a number
    if (report.round_off < 1e-6) { return true; }
    if (report.round_off < 1e-3) { lost_in_round_off = report.round_off; }
    return false;
