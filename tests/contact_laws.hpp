@@ -111,6 +111,15 @@ public:
       peak_ = std::max(peak_, (F - f).cwiseAbs().maxCoeff()); // what the next one starts from
       return allowed > 0 ? worst_ / allowed : worst_ > 0 ? 1e300 : 0;
    }
+   /// Round-off of the forces of an increment from slip `v_old` to displacements u at `loads`,
+   /// over the largest force so far.
+   double round_off(const Eigen::VectorXd &v_old, const Eigen::VectorXd &u,
+                    const Eigen::VectorXd &loads) const
+   {
+      const double size = std::max(u.cwiseAbs().maxCoeff(), v_old.cwiseAbs().maxCoeff());
+      const double peak = std::max(peak_, problem_.clamped_forces(loads).cwiseAbs().maxCoeff());
+      return 4 * std::numeric_limits<double>::epsilon() * norm_ * size / peak;
+   }
    /// What was worst, and at which node.
    const std::string &what() const { return what_; }
 

@@ -103,7 +103,7 @@ void run_discs(const std::string &row, double decades, double least, double most
                FrictionSolver(problem, by_node).solve(other, loads).status;
             const bool exists =
                (status == FrictionStatus::converged || status == FrictionStatus::not_unique) &&
-               laws.violation(v_old, other) <= 1;
+               LawChecker(laws).violation(v_old, other) <= 1;
             missed += exists;
             if (report.message.empty() || (exists && verdict.outcome != Outcome::stalled))
             {

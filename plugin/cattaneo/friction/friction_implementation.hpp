@@ -108,6 +108,7 @@ struct FrictionSolver::Implementation
    bool spins(const VectorXd &multipliers);
    Index above_critical() const;
    void explain_failure(IncrementReport &report) const;
+   static constexpr double may_hide_sliding = 1e-10; // round-off of forces, relative
    double noise() const
    {
       return std::max(0.1 * settings.tolerance * reference, 0.5 * round_off());

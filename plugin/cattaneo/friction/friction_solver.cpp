@@ -189,6 +189,7 @@ bool FrictionSolver::Implementation::accepted(const IncrementReport &report)
    const bool fits = report.residual_normal <= allowed && report.residual_tangential <= allowed;
    if (!fits) { return false; } // nor if one is not a number
    if (report.round_off < 1e-6) { return true; }
+   // Above that, a residual within round-off shows nothing.
    if (report.round_off < 1e-3) { lost_in_round_off = report.round_off; }
    return false;
 }
@@ -198,7 +199,8 @@ bool FrictionSolver::Implementation::accepted(const IncrementReport &report)
 bool FrictionSolver::Implementation::runs_away(const IncrementReport &report,
                                                const VectorXd &multipliers)
 {
-   return report.round_off > 1e-10 && (finds_mechanism(multipliers) || spins(multipliers));
+   return report.round_off > may_hide_sliding &&
+          (finds_mechanism(multipliers) || spins(multipliers));
 }
 
 bool FrictionSolver::Implementation::run_automatic(IncrementReport &report,

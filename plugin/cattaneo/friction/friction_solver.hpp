@@ -51,6 +51,9 @@ struct IncrementReport
     |q| <= f p, opposed to the slip increment; what differs from the plane is in
     friction_disc.hpp.
 
+    Where there are several answers the one found need not be the nearest to the state at the
+    start: if a body jumps there, that is not reported.
+
     The rate is replaced by the difference over the increment. Nothing is remembered between
     increments but factors of matrices, which depend on the set of node states only: the same
    state and loads give the same bits, whatever was solved before. */
