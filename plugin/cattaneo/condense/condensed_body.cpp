@@ -280,6 +280,7 @@ CondensedBody condense(const ElasticBody &body, const ContactLine &line,
    equilibrium.impose_on_forces(clamped.forces);
    const FrameChange frames = FrameChange::of(line, body.geometry());
    result.S = frames.both(S);
+   result.free_motions = frames.rows(equilibrium.motions());
    if (patterns.empty()) { return result; }
    const Eigen::MatrixXd local = frames.rows(clamped.forces);
    for (std::size_t k = 0; k < patterns.size(); ++k)

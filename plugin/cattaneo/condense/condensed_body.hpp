@@ -27,6 +27,9 @@ public:
    Eigen::MatrixXd H; ///< loads by loads with the contact clamped (see ReducedProblem::H)
    int rigid_modes =
       0; ///< rigid motions that the supports leave free (0 to 3; 0 or 1 about an axis)
+   /// The motions of the contact nodes that neither supports nor stiffness resist, in local
+   /// frames: rows of S × k, orthonormal columns. S does not resist them to round-off.
+   Eigen::MatrixXd free_motions;
    Counters counters;
 
    /// Displacement of all true dofs for contact displacements {v; w} of *this body* and load

@@ -92,6 +92,7 @@ void add_response(const CondensedBody &body, const std::vector<int> &index, Eige
 struct Block
 {
    Eigen::MatrixXd S, f, H;
+   Eigen::MatrixXd motions;                          ///< that nothing resists, orthonormal
    std::shared_ptr<const Reduction::Union> way_back; ///< of two bodies
 };
 
@@ -113,6 +114,13 @@ void fill(ReducedProblem &problem, const Block &block, const ContactLine &line)
    problem.weights = line.weights;
    problem.arc_length = line.arc_length;
    problem.position = line.position;
+   problem.rigid_motions = block.motions;
+   for (Eigen::Index i = 0; i < n; ++i)
+   {
+      const bool goes_on = i > 0 && line.chain[i] == line.chain[i - 1];
+      if (!goes_on) { problem.chains.push_back({"contact", i, 0}); }
+      ++problem.chains.back().nodes;
+   }
 }
 
 /// Rigid motions of the contact nodes that a stiffness in body 1's frames does not resist,
@@ -140,10 +148,42 @@ Eigen::MatrixXd free_motions(const CondensedBody &body1, const Eigen::MatrixXd &
    return Q * modes.vectors.leftCols(free);
 }
 
+/// Orthonormal columns that span those of both.
+Eigen::MatrixXd spanned(const Eigen::MatrixXd &Q1, const Eigen::MatrixXd &Q2)
+{
+   // Two free bodies share their motions, to round-off of their coordinates.
+   Eigen::MatrixXd rest = Q2 - Q1 * (Q1.transpose() * Q2);
+   if (rest.cols() == 0) { return Q1; }
+   const SymmetricModes modes = symmetric_modes(rest.transpose() * rest);
+   Eigen::Index shared = 0;
+   while (shared < modes.values.size() && modes.values[shared] < 1e-12) { ++shared; }
+   const Eigen::Index own = modes.values.size() - shared;
+   Eigen::MatrixXd all(Q1.rows(), Q1.cols() + own);
+   all << Q1, rest * modes.vectors.rightCols(own);
+   return thin_qr(all).Q;
+}
+
+/// True if body 2 is the mirror image of body 1 in the contact line, so that tangential and
+/// normal displacements do not feel each other: A1 = A2, C1 = C2, B1 = -B2, each entry to the
+/// round-off of condensation, measured by the two nodes' own stiffness.
+bool mirrored(const Eigen::MatrixXd &S1, const Eigen::MatrixXd &S2, Eigen::Index n)
+{
+   if (S1.rows() != 2 * n) { return false; }
+   const Eigen::ArrayXd own = S1.diagonal().cwiseSqrt();
+   for (Eigen::Index j = 0; j < 2 * n; ++j)
+   {
+      const Eigen::Index other = j < n ? n : 0; // block of the coupling in this column
+      Eigen::ArrayXd off = (S1.col(j) - S2.col(j)).array();
+      off.segment(other, n) = (S1.col(j) + S2.col(j)).segment(other, n).array();
+      if (!(off.abs() <= 1e-10 * own[j] * own).all()) { return false; }
+   }
+   return true;
+}
+
 Block alone(const CondensedBody &body, const std::vector<int> &index, Eigen::Index count)
 {
    Block block{body.S, clamped_forces(body, index, count), Eigen::MatrixXd::Zero(count, count),
-               nullptr};
+               body.free_motions, nullptr};
    add_response(body, index, block.H);
    return block;
 }
@@ -215,21 +255,28 @@ Block united(const CondensedBody &first, const CondensedBody &second,
    Eigen::MatrixXd Y = base, D = shared->difference;
    shared->sum.solve_half(Y);
    shared->sum.solve_half(D);
-   Block block{minus_square(base, Y), f1, Eigen::MatrixXd::Zero(count, count), nullptr};
+   Block block{minus_square(base, Y), f1, Eigen::MatrixXd::Zero(count, count), {}, nullptr};
    if (by_first) { block.f -= Y.transpose() * D; }
    else { block.f = f2 + Y.transpose() * D; }
    // What moves freely relative to the other must do so to round-off of S, not of the stiffer,
    // and feels its own loads only.
-   const auto release = [&](const Eigen::MatrixXd &stiffness, const Eigen::MatrixXd &loads)
+   const auto release = [&](const Eigen::MatrixXd &Q, const Eigen::MatrixXd &loads)
    {
-      const Eigen::MatrixXd Q = free_motions(first, stiffness);
+      if (Q.cols() == 0) { return; }
       block.S -= Q * (Q.transpose() * block.S);
       block.S -= (block.S * Q) * Q.transpose();
       block.S.triangularView<Eigen::StrictlyUpper>() = block.S.transpose();
       block.f -= Q * (Q.transpose() * (block.f - loads));
    };
-   if (first.rigid_modes > 0) { release(S1, f1); }
-   if (second.rigid_modes > 0) { release(shared->S2, f2); }
+   const Eigen::MatrixXd motions2 = frames.rows(second.free_motions(order, Eigen::all));
+   release(first.free_motions, f1);
+   release(motions2, f2);
+   block.motions = spanned(first.free_motions, motions2);
+   if (mirrored(S1, shared->S2, n))
+   {
+      block.S.bottomLeftCorner(n, n).setZero();
+      block.S.topRightCorner(n, n).setZero();
+   }
    add_response(first, index[0], block.H);
    add_response(second, index[1], block.H);
    // The contact nodes are clamped to each other now, and move together where the loads push
@@ -370,6 +417,14 @@ void Reduction::add_torsion(std::vector<CondensedBody> twisting)
    }
    problem.H.conservativeResizeLike(Eigen::MatrixXd::Zero(count, count));
    problem.H += block.H;
+   // Rigid motions in the plane of the axis, and about it.
+   const Eigen::MatrixXd meridian = *problem.rigid_motions;
+   Eigen::MatrixXd motions =
+      Eigen::MatrixXd::Zero(3 * n, meridian.cols() + block.motions.cols());
+   motions.topLeftCorner(n, meridian.cols()) = meridian.topRows(n);
+   motions.bottomLeftCorner(n, meridian.cols()) = meridian.bottomRows(n);
+   motions.block(n, meridian.cols(), n, block.motions.cols()) = block.motions;
+   problem.rigid_motions = motions;
    torsion = std::move(twisting);
 }
 

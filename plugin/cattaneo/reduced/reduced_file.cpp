@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/reduced_file.hpp>
 #include <cattaneo/whole_file.hpp>
@@ -11,7 +12,30 @@ namespace cattaneo
 namespace
 {
 
-const char *const format_name = "cattaneo reduced problem 1";
+const char *const format_name = "cattaneo reduced problem 2";
+const char *const format_1 = "cattaneo reduced problem 1"; // without the facts
+
+const std::vector<std::string> end_names = {"unknown", "smooth", "corner", "axis"};
+
+nlohmann::json to_json(const std::array<LineEnd, 2> &ends)
+{
+   return {end_names[static_cast<std::size_t>(ends[0])],
+           end_names[static_cast<std::size_t>(ends[1])]};
+}
+
+std::array<LineEnd, 2> ends_from_json(const nlohmann::json &j)
+{
+   std::array<LineEnd, 2> ends{};
+   for (std::size_t k = 0; k < 2; ++k)
+   {
+      const auto word = j.at(k).get<std::string>();
+      const auto found = std::find(end_names.begin(), end_names.end(), word);
+      require(found != end_names.end(), "reduced problem: a line that ends '", word,
+              "', must be unknown, smooth, corner or axis");
+      ends[k] = static_cast<LineEnd>(found - end_names.begin());
+   }
+   return ends;
+}
 
 /// Rows, columns and the entries column by column.
 template <class Matrix>
@@ -58,6 +82,18 @@ void save(const ReducedProblem &problem, const std::string &file)
                                {"q", to_json(pattern.q)},
                                {"p", to_json(pattern.p)}});
    }
+   j["held"] = problem.held;
+   j["chains"] = nlohmann::json::array();
+   for (const ContactChain &chain : problem.chains)
+   {
+      j["chains"].push_back({{"interface", chain.interface},
+                             {"first", chain.first},
+                             {"nodes", chain.nodes},
+                             {"loop", chain.loop},
+                             {"ends", to_json(chain.ends)},
+                             {"other_ends", to_json(chain.other_ends)}});
+   }
+   if (problem.rigid_motions) { j["rigid_motions"] = to_json(*problem.rigid_motions); }
    write_whole(file, j.dump() + '\n');
 }
 
@@ -70,8 +106,8 @@ ReducedProblem load_reduced_problem(const std::string &file)
    try
    {
       const nlohmann::json j = nlohmann::json::parse(in);
-      require(j.at("format") == format_name, "reduced problem: file '", file, "' is not a '",
-              format_name, "'");
+      require(j.at("format") == format_name || j.at("format") == format_1,
+              "reduced problem: file '", file, "' is not a '", format_name, "' (or 1)");
       from_json(j.at("A"), problem.A);
       from_json(j.at("B"), problem.B);
       from_json(j.at("C"), problem.C);
@@ -90,6 +126,20 @@ ReducedProblem load_reduced_problem(const std::string &file)
          from_json(p.at("q"), pattern.q);
          from_json(p.at("p"), pattern.p);
          problem.patterns.push_back(pattern);
+      }
+      if (j.at("format") == format_name)
+      {
+         problem.held = j.at("held").get<std::vector<Eigen::Index>>();
+         for (const nlohmann::json &c : j.at("chains"))
+         {
+            problem.chains.push_back({c.at("interface"), c.at("first"), c.at("nodes"),
+                                      c.at("loop"), ends_from_json(c.at("ends")),
+                                      ends_from_json(c.at("other_ends"))});
+         }
+         if (j.contains("rigid_motions"))
+         {
+            from_json(j["rigid_motions"], problem.rigid_motions.emplace());
+         }
       }
    }
    catch (const nlohmann::json::exception &error)

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/reduced_problem.hpp>
 #include <set>
@@ -66,6 +67,55 @@ void check_vector(const char *name, const Eigen::VectorXd &x, Eigen::Index size)
    require(x.allFinite(), "reduced problem: ", name, " has an entry that is not finite");
 }
 
+/// What the upper half knew: chains, rigid motions, held components.
+void check_facts(const ReducedProblem &problem)
+{
+   const Eigen::Index n = problem.nodes(), m = problem.A.rows();
+   Eigen::Index next = 0;
+   for (const ContactChain &chain : problem.chains)
+   {
+      require(chain.first == next && chain.nodes > 0, "reduced problem: a chain of ",
+              chain.nodes, " nodes begins at node ", chain.first,
+              ", chains must follow each other from node 0 (the next is ", next, ")");
+      next += chain.nodes;
+   }
+   require(problem.chains.empty() || next == n, "reduced problem: the chains have ", next,
+           " nodes, must have all ", n);
+   for (Eigen::Index row : problem.held)
+   {
+      require(row >= 0 && row < m, "reduced problem: held row ", row,
+              " of A, must be from 0 to ", m - 1);
+      bool alone = (problem.A.row(row).array() != 0).count() == 1 &&
+                   (problem.A.col(row).array() != 0).count() == 1 &&
+                   problem.B.col(row).isZero(0);
+      for (const LoadPattern &pattern : problem.patterns)
+      {
+         alone = alone && pattern.q[row] == 0;
+      }
+      require(alone, "reduced problem: row ", row,
+              " of A is said to be held, but is coupled or loaded");
+   }
+   if (!problem.rigid_motions) { return; }
+   const Eigen::MatrixXd &Z = *problem.rigid_motions;
+   require(Z.rows() == m + n, "reduced problem: rigid motions have ", Z.rows(),
+           " rows, must have ", m + n);
+   require(Z.allFinite(), "reduced problem: a rigid motion has an entry that is not finite");
+   require((Z.transpose() * Z).isIdentity(1e-9),
+           "reduced problem: the rigid motions are not orthonormal");
+   if (Z.cols() == 0) { return; }
+   const auto &A = problem.A, &B = problem.B, &C = problem.C;
+   const auto size = [](const auto &M) { return M.cwiseAbs().maxCoeff(); };
+   const auto Zt = Z.topRows(m), Zn = Z.bottomRows(n);
+   double norm = size(C), resisted = size(B * Zt + C * Zn);
+   if (m > 0)
+   {
+      norm = std::max(norm, size(A));
+      resisted = std::max(resisted, size(A * Zt + B.transpose() * Zn));
+   }
+   require(resisted <= 1e-11 * norm, "reduced problem: a rigid motion meets forces of ",
+           resisted / norm, " of the stiffness, must meet none (1e-11)");
+}
+
 } // namespace
 
 void ReducedProblem::validate() const
@@ -109,6 +159,25 @@ void ReducedProblem::validate() const
    require(dofs.size() == 0 || (dofs.rows() == n && dofs.cols() % 2 == 0),
            "reduced problem: dofs is ", dofs.rows(), "×", dofs.cols(), ", must have ", n,
            " rows and two columns for each body");
+   check_facts(*this);
+}
+
+void hold(ReducedProblem &problem, const std::vector<Eigen::Index> &rows)
+{
+   for (Eigen::Index row : rows)
+   {
+      require(row >= 0 && row < problem.A.rows(), "hold: row ", row,
+              " of A, must be from 0 to ", problem.A.rows() - 1);
+      if (std::count(problem.held.begin(), problem.held.end(), row)) { continue; }
+      const double own = problem.A(row, row);
+      problem.A.row(row).setZero();
+      problem.A.col(row).setZero();
+      problem.A(row, row) = own;
+      problem.B.col(row).setZero();
+      for (LoadPattern &pattern : problem.patterns) { pattern.q[row] = 0; }
+      problem.held.push_back(row);
+   }
+   problem.rigid_motions.reset(); // those that move the held rows are no more
 }
 
 void set_friction(ReducedProblem &problem, double coefficient)

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +25,28 @@ struct LoadPattern
    Control control = Control::force;
    Eigen::VectorXd q; ///< tangential, size c·n as ReducedProblem::A
    Eigen::VectorXd p; ///< normal, compression positive, size n
+};
+
+/// How the boundary of a body goes on beyond an end of a contact line.
+enum class LineEnd : signed char
+{
+   unknown,
+   smooth, ///< the tangent goes on: contact may want to go on too
+   corner, ///< it turns there
+   axis    ///< the end lies on the axis of symmetry
+};
+
+/** Contact nodes that follow each other along a line, where "the next node" means something:
+    nodes `first` … `first + nodes - 1` of the problem, in the order of their arc length. */
+struct ContactChain
+{
+   std::string interface; ///< name of the interface it belongs to
+   Eigen::Index first = 0, nodes = 0;
+   bool loop = false; ///< the last node is followed by the first
+   /// How the boundary goes on beyond the first and the last node, of the body that carries the
+   /// nodes and of the other one (a rigid obstacle goes on smoothly).
+   std::array<LineEnd, 2> ends{LineEnd::unknown, LineEnd::unknown};
+   std::array<LineEnd, 2> other_ends{LineEnd::unknown, LineEnd::unknown};
 };
 
 /** The narrow waist: a frictional contact problem reduced to its n contact nodes.
@@ -62,6 +86,16 @@ struct ReducedProblem
    /// n × 2k: true dofs (x, y) of each contact node in each of the k bodies, -1 where none.
    Eigen::MatrixXi dofs;
 
+   /// Lines that the nodes form, in their order, each node on one; empty if not known.
+   std::vector<ContactChain> chains;
+   /// Rigid motions {v; w} that nothing resists, one orthonormal column each, as they were
+   /// imposed on the stiffness: (c+1)·n × k, k = 0 if the bodies are held. Not set: not known,
+   /// and whoever must know them seeks them in the stiffness.
+   std::optional<Eigen::MatrixXd> rigid_motions;
+   /// Rows of A (tangential components of nodes) that are held: v = 0 there whatever happens,
+   /// and no law of friction. They are coupled to nothing and loaded by nothing, see hold().
+   std::vector<Eigen::Index> held;
+
    Eigen::Index nodes() const { return C.rows(); }
    Eigen::Index components() const { return C.rows() ? A.rows() / C.rows() : 0; }
 
@@ -74,13 +108,22 @@ struct ReducedProblem
    /// The whole reduced stiffness [A Bᵀ; B C].
    Eigen::MatrixXd stiffness() const;
 
+   /// True if B is exactly zero: the normal problem does not know of friction. Nothing below
+   /// the reduction takes a small B for zero.
+   bool uncoupled() const { return B.isZero(0); }
+
    /// InputError if sizes disagree, entries are not finite, A or C is not symmetric, a diagonal
-   /// is not positive, or a friction coefficient is negative.
+   /// is not positive, a friction coefficient is negative, chains do not cover the nodes, a
+   /// rigid motion is resisted, or a held row is coupled or loaded.
    void validate() const;
 };
 
 /// The same friction coefficient at every node.
 void set_friction(ReducedProblem &problem, double coefficient);
+
+/// Holds the given rows of A (see ReducedProblem::held), of a node on a plane of symmetry for
+/// instance. InputError if a row does not exist.
+void hold(ReducedProblem &problem, const std::vector<Eigen::Index> &rows);
 
 /** The equivalent problem without a gap (thesis 3.6.1): u* = u + {0; g}. The forces that close
     the gap become a load pattern "gap" (to be held at multiplier 1), and the gap is zero. */

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/shakedown/closed_contact.hpp>
 
@@ -85,6 +86,29 @@ ClosedContact closed_contact(const ReducedProblem &problem,
       reduced.position = problem.position(contact.closed, Eigen::all);
    }
    if (problem.dofs.size()) { reduced.dofs = problem.dofs(contact.closed, Eigen::all); }
+
+   Eigen::Index begins = 0;
+   for (const ContactChain &chain : problem.chains)
+   {
+      ContactChain part = chain;
+      part.first = begins;
+      part.nodes = std::count_if(contact.closed.begin(), contact.closed.end(),
+                                 [&](Eigen::Index i)
+                                 { return i >= chain.first && i < chain.first + chain.nodes; });
+      begins += part.nodes;
+      if (part.nodes < chain.nodes) // its ends need not be those of the line any more
+      {
+         part.loop = false;
+         part.ends.fill(LineEnd::unknown);
+         part.other_ends.fill(LineEnd::unknown);
+      }
+      if (part.nodes > 0) { reduced.chains.push_back(part); }
+   }
+   for (Eigen::Index k = 0; k < m; ++k)
+   {
+      const auto &held = problem.held;
+      if (std::count(held.begin(), held.end(), kept[k])) { reduced.held.push_back(k); }
+   }
 
    contact.open_by_slip = by_kept.bottomLeftCorner(n_open, m);
    contact.open_by_load = by_load.bottomRows(n_open);
