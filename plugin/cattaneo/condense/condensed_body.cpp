@@ -5,6 +5,7 @@
 #include <cattaneo/condense/equal_operators.hpp>
 #include <cattaneo/condense/free_motions.hpp>
 #include <cattaneo/condense/local_frame.hpp>
+#include <cattaneo/dense_algebra.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
 #include <numeric>
@@ -280,7 +281,12 @@ CondensedBody condense(const ElasticBody &body, const ContactLine &line,
    equilibrium.impose_on_forces(clamped.forces);
    const FrameChange frames = FrameChange::of(line, body.geometry());
    result.S = frames.both(S);
-   result.free_motions = frames.rows(equilibrium.motions());
+   // Displacements change with the frames as forces do, but for those of torsion, r times the
+   // twist.
+   const Eigen::MatrixXd &motions = equilibrium.motions();
+   result.free_motions = body.geometry() == Geometry::torsion
+                            ? thin_qr(frames.a.cwiseInverse().asDiagonal() * motions).Q
+                            : frames.rows(motions);
    if (patterns.empty()) { return result; }
    const Eigen::MatrixXd local = frames.rows(clamped.forces);
    for (std::size_t k = 0; k < patterns.size(); ++k)
