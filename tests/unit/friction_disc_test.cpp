@@ -369,7 +369,7 @@ TEST(FrictionDisc, StepsConvergeAtFirstOrderAndEnergyBalances)
    const LoadHistory history =
       LoadHistory::through({Vector3d(0, 0, 0), Vector3d(1, 0.6, 0), Vector3d(1, 0.6, 1.1)});
    const int steps[] = {40, 80, 160, 320, 5120};
-   double error[4] = {0, 0, 0, 0};
+   double error[4] = {0, 0, 0, 0}, imbalance[5] = {0, 0, 0, 0, 0};
    for (unsigned seed = 0; seed < 10; ++seed)
    {
       std::mt19937 random(seed);
@@ -383,14 +383,18 @@ TEST(FrictionDisc, StepsConvergeAtFirstOrderAndEnergyBalances)
          settings.increments = steps[k];
          const MarchReport report = march(problem, history, state, settings);
          ASSERT_EQ(report.status, FrictionStatus::converged);
-         EXPECT_LT(std::abs(report.energy_imbalance), 1e-12);
-         EXPECT_LE(report.largest_residual, 1e-12);
+         imbalance[k] = std::max(imbalance[k], std::abs(report.energy_imbalance));
+         // Where slip is short its direction is known to the round-off of displacements (2e-16)
+         // over its length: here at most 1e-7.
+         EXPECT_LE(report.largest_residual, 1e-9);
          EXPECT_GT(state.dissipation, 0);
          slip[k] = state.v;
       }
       for (int k = 0; k < 4; ++k) { error[k] += (slip[k] - slip[4]).norm(); }
    }
    for (int k = 0; k < 3; ++k) { EXPECT_NEAR(error[k] / error[k + 1], 2, 0.3) << k; }
+   // The work that increments miss is of second order.
+   for (int k = 0; k < 3; ++k) { EXPECT_NEAR(imbalance[k] / imbalance[k + 1], 4, 1.5) << k; }
    EXPECT_GT(error[3], 1e-5); // of slip: not round-off
 }
 

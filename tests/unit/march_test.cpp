@@ -50,16 +50,18 @@ TEST(March, OneBlockCycleInClosedForm)
    const MarchReport report = march(problem, press_then_shear(1.0, 20), state, settings);
    EXPECT_EQ(report.status, FrictionStatus::converged);
    ASSERT_GE(report.cycles.size(), 2u);
-   EXPECT_NEAR(report.cycles[1].dissipation, 0.48, 0.48 * 0.1); // 7 increments: end-point error
+   // The pressure is constant: the loss does not depend on the increments.
+   EXPECT_NEAR(report.cycles[1].dissipation, 0.48, 1e-14);
    EXPECT_EQ(report.steady_period, 1);
    EXPECT_EQ(report.steady_cycle, 2);
    EXPECT_EQ(report.cycles.size(), 2u); // the other 18 are not marched
-   EXPECT_LT(std::abs(report.energy_imbalance), 1e-14);
-   // Increments that meet the slip events make it exact.
+   // The work of the loads does: it is exact where increments meet the slip events.
+   EXPECT_GT(std::abs(report.energy_imbalance), 1e-3);
    settings.increments = 10;
    state = ContactState::virgin(problem);
-   EXPECT_NEAR(march(problem, press_then_shear(1.0, 3), state, settings).cycles[1].dissipation,
-               0.48, 1e-14);
+   const MarchReport exact = march(problem, press_then_shear(1.0, 3), state, settings);
+   EXPECT_NEAR(exact.cycles[1].dissipation, 0.48, 1e-14);
+   EXPECT_LT(std::abs(exact.energy_imbalance), 1e-14);
 }
 
 TEST(March, EnergyBalancesOnRandomProblems)
@@ -75,7 +77,17 @@ TEST(March, EnergyBalancesOnRandomProblems)
       ContactState state = ContactState::virgin(problem);
       const MarchReport report = march(problem, press_then_shear(0.7, 3), state);
       ASSERT_EQ(report.status, FrictionStatus::converged);
-      EXPECT_LT(std::abs(report.energy_imbalance), 1e-12);
+      // What increments miss goes to zero with them; the exact path misses nothing.
+      for (const bool exact : {false, true})
+      {
+         MarchSettings finer;
+         finer.increments = 160;
+         if (exact) { finer.stepping = Stepping::exact; }
+         ContactState again = ContactState::virgin(problem);
+         const double left =
+            march(problem, press_then_shear(0.7, 3), again, finer).energy_imbalance;
+         EXPECT_LT(std::abs(left), exact ? 1e-12 : 0.3 * std::abs(report.energy_imbalance));
+      }
       for (const IncrementRecord &increment : report.increments)
       {
          // End-of-increment forces lag, so single increments may gain a little: bounded by
@@ -211,7 +223,6 @@ TEST(March, PassesAnIncrementThatStalls)
       EXPECT_EQ(report.counters.rejected_increments, report.stalled);
       EXPECT_GT(report.increments.size(), 1u);
       EXPECT_LE(report.largest_residual, 1e-12);
-      EXPECT_LT(std::abs(report.energy_imbalance), 1e-10);
    }
 }
 

@@ -40,8 +40,9 @@ private:
 /// The state that a Newton step gives node i: what the present solution asks for.
 NodeState wanted(const Rows &rows, const VectorXd &friction, Choice choice, Index i,
                  NodeState s, const VectorXd &x, const VectorXd &F, const VectorXd &stiffness,
-                 double tiny)
+                 const VectorXd &round_off)
 {
+   const double tiny = std::max(round_off[i], round_off[rows.normal(i)]);
    const double p = F[rows.normal(i)];
    switch (choice)
    {
@@ -101,7 +102,7 @@ ComplementarityReport solve_by_newton(StateEquations &equations, const VectorXd 
          if (!equations.solve(problem.b, report.x, report.F)) { break; }
       }
       known = false;
-      const double tiny = equations.round_off(problem.b, report.x);
+      const VectorXd tiny = equations.round_off(problem.b, report.x);
       std::vector<NodeState> next = equations.states();
       for (Index i = 0; i < n; ++i)
       {
@@ -281,10 +282,11 @@ bool Path::find_direction()
 
 bool Path::meets_all(const VectorXd &x, const VectorXd &F)
 {
-   const double tiny = 100 * equations_.round_off(problem_.b, x);
+   const VectorXd round_off = 100 * equations_.round_off(problem_.b, x);
    bool met = true;
    for (Index i = 0; i < n_; ++i)
    {
+      const double tiny = std::max(round_off[i], round_off[rows_.normal(i)]);
       for_each_inequality(i, [&](Kind k) { met = met && value(i, k, x, F, 0) >= -tiny; });
    }
    return met;

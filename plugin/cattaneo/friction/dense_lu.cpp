@@ -1,4 +1,5 @@
 #include <cattaneo/friction/dense_lu.hpp>
+#include <cmath>
 
 #ifdef CATTANEO_USE_LAPACK
 extern "C"
@@ -23,11 +24,27 @@ double DenseLU::pivot_ratio() const
    return pivots.allFinite() ? pivots.minCoeff() / pivots.maxCoeff() : 0;
 }
 
+void DenseLU::equilibrate()
+{
+   row_scale_.resize(0);
+   column_scale_.resize(0);
+   if (rows() == 0) { return; }
+   const auto whole = [](double x) { return x > 0 ? std::exp2(-std::round(std::log2(x))) : 1; };
+   Eigen::VectorXd largest = factors_.cwiseAbs().rowwise().maxCoeff();
+   if (!largest.allFinite() || largest.minCoeff() > 1e-4 * largest.maxCoeff()) { return; }
+   row_scale_ = largest.unaryExpr(whole);
+   factors_ = row_scale_.asDiagonal() * factors_;
+   largest = factors_.cwiseAbs().colwise().maxCoeff();
+   column_scale_ = largest.unaryExpr(whole);
+   factors_ *= column_scale_.asDiagonal();
+}
+
 #ifdef CATTANEO_USE_LAPACK
 
 bool DenseLU::compute(Eigen::MatrixXd matrix)
 {
    factors_ = std::move(matrix);
+   equilibrate();
    const int n = static_cast<int>(factors_.rows());
    exchanges_.resize(n);
    int info = 0;
@@ -39,9 +56,11 @@ void DenseLU::solve(Eigen::Ref<Eigen::MatrixXd> x) const
 {
    const int n = static_cast<int>(rows()), columns = static_cast<int>(x.cols());
    if (n == 0 || columns == 0) { return; }
+   if (row_scale_.size()) { x = row_scale_.asDiagonal() * x; }
    const int stride = columns > 1 ? static_cast<int>(x.outerStride()) : n;
    int info = 0;
    dgetrs_("N", &n, &columns, factors_.data(), &n, exchanges_.data(), x.data(), &stride, &info);
+   if (column_scale_.size()) { x = column_scale_.asDiagonal() * x; }
 }
 
 #else
@@ -49,6 +68,7 @@ void DenseLU::solve(Eigen::Ref<Eigen::MatrixXd> x) const
 bool DenseLU::compute(Eigen::MatrixXd matrix)
 {
    factors_ = std::move(matrix);
+   equilibrate();
    exchanges_.resize(factors_.rows());
    if (factors_.rows() == 0) { return true; }
    Eigen::PartialPivLU<Eigen::Ref<Eigen::MatrixXd>> lu(factors_); // in place
@@ -61,10 +81,12 @@ bool DenseLU::compute(Eigen::MatrixXd matrix)
 
 void DenseLU::solve(Eigen::Ref<Eigen::MatrixXd> x) const
 {
+   if (row_scale_.size()) { x = row_scale_.asDiagonal() * x; }
    Eigen::MatrixXd permuted = x(exchanges_, Eigen::all);
    factors_.triangularView<Eigen::UnitLower>().solveInPlace(permuted);
    factors_.triangularView<Eigen::Upper>().solveInPlace(permuted);
    x = permuted;
+   if (column_scale_.size()) { x = column_scale_.asDiagonal() * x; }
 }
 
 #endif

@@ -7,7 +7,8 @@ namespace cattaneo
 {
 
 /** LU factors of a dense square matrix, with row pivoting: LAPACK's, or Eigen's if built
-   without it. */
+   without it. Rows and columns of very different size (1e4) are brought to one, by powers of
+   two, before a pivot is chosen. */
 class DenseLU
 {
 public:
@@ -20,8 +21,11 @@ public:
    Eigen::Index rows() const { return factors_.rows(); }
 
 private:
+   void equilibrate();
+
    Eigen::MatrixXd factors_;
-   std::vector<int> exchanges_; // of rows, LAPACK's; counted from 1
+   Eigen::VectorXd row_scale_, column_scale_; // empty: not scaled
+   std::vector<int> exchanges_;               // of rows, LAPACK's; counted from 1
 };
 
 } // namespace cattaneo

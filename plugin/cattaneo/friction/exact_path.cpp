@@ -36,16 +36,16 @@ void ExactPath::find_choices(const ContactState &state)
       if (!closed(state.status[i]))
       {
          const double gap = u_[n + i] + problem_.gap[i];
-         choice = K_(n + i, n + i) * gap > noise_ ? Choice::open : Choice::any;
+         choice = K_(n + i, n + i) * gap > noise_[i] ? Choice::open : Choice::any;
          continue;
       }
-      if (p <= noise_) { choice = Choice::any; }
+      if (p <= noise_[i]) { choice = Choice::any; }
       else if (f == 0) { choice = Choice::sliding; }
       else if (slips(state.status[i]))
       {
          choice = sense(state.status[i]) > 0 ? Choice::forward : Choice::backward;
       }
-      else if (f * p - std::abs(q) > noise_) { choice = Choice::held; }
+      else if (f * p - std::abs(q) > noise_[i]) { choice = Choice::held; }
       else { choice = q < 0 ? Choice::forward : Choice::backward; }
    }
 }
@@ -94,23 +94,23 @@ double ExactPath::way_to_event() const
    double way = 1;
    // What is met at the very end, to round-off, is not an event of this piece: a node that
    // comes back to its friction limit where the load turns has not slipped.
-   auto meet = [&](double value, double rate)
+   auto meet = [&](Index i, double value, double rate)
    {
-      if (value + rate < -noise_) { way = std::min(way, std::max(value, 0.0) / -rate); }
+      if (value + rate < -noise_[i]) { way = std::min(way, std::max(value, 0.0) / -rate); }
    };
    for (Index i = 0; i < n; ++i)
    {
       const double f = problem_.friction[i];
       const double p = F_[n + i], p_rate = F_rate_[n + i];
-      auto forward = [&] { meet(f * p + F_[i], f * p_rate + F_rate_[i]); };
-      auto backward = [&] { meet(f * p - F_[i], f * p_rate - F_rate_[i]); };
+      auto forward = [&] { meet(i, f * p + F_[i], f * p_rate + F_rate_[i]); };
+      auto backward = [&] { meet(i, f * p - F_[i], f * p_rate - F_rate_[i]); };
       const Choice choice = rates_.choice[i];
       switch (choice)
       {
       case Choice::any: // on the boundary: the rates lead away from it
          break;
       case Choice::open:
-         meet(K_(n + i, n + i) * (u_[n + i] + problem_.gap[i]),
+         meet(i, K_(n + i, n + i) * (u_[n + i] + problem_.gap[i]),
               K_(n + i, n + i) * u_rate_[n + i]);
          break;
       case Choice::held:
@@ -118,11 +118,11 @@ double ExactPath::way_to_event() const
          backward();
          break;
       case Choice::sliding:
-         meet(p, p_rate);
+         meet(i, p, p_rate);
          break;
       case Choice::forward:
       case Choice::backward:
-         if (slips(equations_.states()[i])) { meet(p, p_rate); }
+         if (slips(equations_.states()[i])) { meet(i, p, p_rate); }
          else if (choice == Choice::forward) { backward(); }
          else { forward(); }
          break;
@@ -136,26 +136,21 @@ bool ExactPath::starts_from(const ContactState &state) const
    const Index n = problem_.nodes();
    VectorXd u(2 * n);
    u << state.v, state.w;
-   const VectorXd f = problem_.clamped_forces(state.multipliers), F = f + K_ * u;
-   // The same leave as an increment of the solver has.
-   const double noise = std::max(1e-11 * std::max(state.peak_force, f.cwiseAbs().maxCoeff()),
-                                 4 * equations_.round_off(f, u));
+   const VectorXd f = problem_.clamped_forces(state.multipliers);
+   // Ten times the leave that an increment of the solver has.
+   const double allowed = 1e-11 * std::max(state.peak_force, f.cwiseAbs().maxCoeff());
+   const VectorXd round_off = 4 * equations_.round_off(f, u);
+   bool starts = check_laws(problem_, state.v, state, allowed, round_off).obeyed;
    for (Index i = 0; i < n; ++i)
    {
-      const double q = F[i], p = F[n + i],
-                   gap = K_(n + i, n + i) * (u[n + i] + problem_.gap[i]);
-      const bool open = !closed(state.status[i]);
-      const double off = sense(state.status[i])
-                            ? std::abs(q + sense(state.status[i]) * problem_.friction[i] * p)
-                            : 0.0;
-      if (std::abs(q - state.q[i]) > noise || std::abs(p - state.p[i]) > noise ||
-          gap < -noise || (!open && gap > noise) || p < -noise || off > noise ||
-          std::abs(q) > problem_.friction[i] * std::max(p, 0.0) + noise)
-      {
-         return false;
-      }
+      const double limit = std::max({allowed, round_off[i], round_off[n + i]}),
+                   off =
+                      state.q[i] + sense(state.status[i]) * problem_.friction[i] * state.p[i],
+                   gap = K_(n + i, n + i) * (state.w[i] + problem_.gap[i]);
+      starts = starts && (!closed(state.status[i]) || gap <= limit) &&
+               (sense(state.status[i]) == 0 || std::abs(off) <= limit);
    }
-   return true;
+   return starts;
 }
 
 bool ExactPath::advance(ContactState &state, double time, const VectorXd &multipliers,
@@ -170,7 +165,8 @@ bool ExactPath::advance(ContactState &state, double time, const VectorXd &multip
    F_.resize(2 * n);
    u_ << state.v, state.w;
    F_ << state.q, state.p;
-   noise_ = std::max(1e-13 * peak, equations_.round_off(f, u_));
+   const VectorXd round_off = equations_.round_off(f, u_);
+   noise_ = round_off.head(n).cwiseMax(round_off.tail(n)).cwiseMax(1e-13 * peak);
    rates_.b = f_end - f;
    find_choices(state);
    const long factored = equations_.factorisations();
@@ -187,7 +183,7 @@ bool ExactPath::advance(ContactState &state, double time, const VectorXd &multip
 
    const double way = way_to_event();
    // Where the present states hardly hold the bodies, round-off hides what is not balanced.
-   if (equations_.round_off(way * rates_.b, way * u_rate_) > 1e-6 * peak)
+   if (equations_.round_off(way * rates_.b, way * u_rate_).maxCoeff() > 1e-6 * peak)
    {
       changes.resize(listed);
       failure_ = "the present states do not hold the bodies";
@@ -207,7 +203,6 @@ bool ExactPath::advance(ContactState &state, double time, const VectorXd &multip
       uncorrected_ = 0;
       VectorXd correction;
       const VectorXd forces = problem_.clamped_forces(state.multipliers) + K_ * u_;
-      drift_ = peak > 0 ? (forces - F_).cwiseAbs().maxCoeff() / peak : 0.0;
       if (equations_.solve(forces, correction, F_)) { u_ += correction; }
    }
    reached_ = state.multipliers;

@@ -45,9 +45,6 @@ public:
                 std::vector<StateChange> &changes);
 
    const std::string &failure() const { return failure_; }
-   /// Round-off that had gathered in the forces when it was last removed (at the end of a piece
-   /// and every few events), over the largest clamped force.
-   double drift() const { return drift_; }
    const Counters &counters() const { return counters_; }
 
 private:
@@ -63,8 +60,7 @@ private:
    // Where u_rate_ and F_rate_ hold with the states of the equations, as long as those stay.
    Eigen::VectorXd reached_, target_;
    ComplementarityProblem rates_;
-   double noise_ = 0; // forces below this are round-off
-   double drift_ = 0;
+   Eigen::VectorXd noise_; // of each node: forces below this are round-off
    int uncorrected_ = 0;
    std::string failure_;
    Counters counters_;

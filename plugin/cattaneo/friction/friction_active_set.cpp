@@ -219,11 +219,12 @@ bool FrictionSolver::Implementation::solve_disc()
 /// Violations within round-off change nothing, lest states flicker where two of them meet.
 bool FrictionSolver::Implementation::update_states()
 {
-   const double tiny = noise();
+   const VectorXd noise_of_rows = noise();
    bool same = true;
    for (Index i = 0; i < n; ++i)
    {
       NodeState next = status[i];
+      double tiny = noise_of_rows[m(i)];
       if (status[i] == NodeState::separation)
       {
          // A node that penetrates sticks first: which way it slips is not known yet.
@@ -232,6 +233,7 @@ bool FrictionSolver::Implementation::update_states()
       else if (F[m(i)] < -tiny) { next = NodeState::separation; }
       else if (disc())
       {
+         tiny = std::max({tiny, noise_of_rows[t(i, 0)], noise_of_rows[t(i, 1)]});
          const Vector2d trial = disc_trial(i);
          const double size = std::hypot(trial[0], trial[1]);
          const bool stays = size <= bound(i) + (slips(status[i]) ? -tiny : tiny);
@@ -240,6 +242,7 @@ bool FrictionSolver::Implementation::update_states()
       }
       else if (!frictionless)
       {
+         tiny = std::max(problem.friction[i] * tiny, noise_of_rows[t(i)]);
          const double trial = F[t(i)] - ktt[i] * slip(i);
          const double margin = slips(status[i]) ? -tiny : tiny;
          if (trial < -bound(i) - margin) { next = NodeState::forward_slip; }
@@ -265,8 +268,8 @@ bool FrictionSolver::Implementation::newton_disc(int steps)
    for (int k = 0; k < steps && patience > 0; ++k)
    {
       if (!solve_for_states()) { return false; }
-      residuals(now);
-      if (update_states() && accepted(now)) { return true; }
+      const bool small = residuals(now);
+      if (update_states() && small) { return accepted(now); }
       const double size = std::max(now.residual_normal, now.residual_tangential);
       if (size < 0.5 * best)
       {
@@ -298,8 +301,7 @@ bool FrictionSolver::Implementation::newton(int steps)
 bool FrictionSolver::Implementation::newton_accepted(IncrementReport &report)
 {
    if (!newton(settings.max_newton)) { return false; }
-   residuals(report);
-   return accepted(report);
+   return residuals(report) && accepted(report);
 }
 
 } // namespace cattaneo

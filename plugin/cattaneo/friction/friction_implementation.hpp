@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cattaneo/friction/contact_laws.hpp>
 #include <cattaneo/friction/friction_disc.hpp>
 #include <cattaneo/friction/friction_solver.hpp>
 #include <cattaneo/friction/mechanism.hpp>
@@ -42,7 +43,8 @@ struct FrictionSolver::Implementation
    VectorXd critical;      // friction of each node
    VectorXd no_friction;   // zeros
    MatrixXd K;             // [A Bᵀ; B C], or the normal stiffness alone if frictionless
-   double K_norm = 0;      // row-sum norm
+   std::unique_ptr<RoundOff> arithmetic; // of sums K u + f
+   std::unique_ptr<RoundOff> tangential_arithmetic; // frictionless: of A v + …
    double critical_friction = std::numeric_limits<double>::infinity();
    Index critical_node = 0;
    std::unique_ptr<SemidefiniteSolver> tangential; // frictionless: A⁻¹
@@ -101,26 +103,31 @@ struct FrictionSolver::Implementation
    MatrixXd natural_map_derivative() const;
    bool damped_newton();
    void states_of_natural_map();
-   void residuals(IncrementReport &report) const;
+   bool residuals(IncrementReport &report) const;
    bool accepted(const IncrementReport &report);
+   bool obeys_laws(const ContactState &next, IncrementReport &report) const;
    bool runs_away(const IncrementReport &report, const VectorXd &multipliers);
    bool finds_mechanism(const VectorXd &multipliers);
    bool spins(const VectorXd &multipliers);
+   bool drifts(const ContactState &state, const VectorXd &multipliers);
    Index above_critical() const;
    void explain_failure(IncrementReport &report) const;
    static constexpr double may_hide_sliding = 1e-10; // round-off of forces, relative
-   double noise() const
+   /// Violations that do not change the state of a node, for each row.
+   VectorXd noise() const
    {
-      return std::max(0.1 * settings.tolerance * reference, 0.5 * round_off());
+      return (0.5 * round_off()).cwiseMax(0.1 * settings.tolerance * reference);
    }
-   double round_off() const
+   /// Of each row of F, see RoundOff.
+   VectorXd round_off() const
    {
       // Slip is a difference: where it comes from counts as well as where it goes.
-      double size = u.cwiseAbs().maxCoeff();
-      if (!frictionless) { size = std::max(size, v_old.cwiseAbs().maxCoeff()); }
-      return 4 * eps * (K_norm * size + f.cwiseAbs().maxCoeff());
+      VectorXd size = u.cwiseAbs();
+      if (!frictionless) { size.head(c * n) = size.head(c * n).cwiseMax(v_old.cwiseAbs()); }
+      return arithmetic->rows(size, f);
    }
    IncrementReport solve(ContactState &state, const VectorXd &multipliers);
+   IncrementReport judge(const ContactState &before, const ContactState &after);
    IncrementReport uniqueness(const std::vector<NodeState> &states) const;
    bool run_gauss_seidel(IncrementReport &report);
    bool run_automatic(IncrementReport &report, const ContactState &state,

@@ -40,18 +40,45 @@ VectorXd FrictionSolver::Implementation::natural_map() const
    return R;
 }
 
-void FrictionSolver::Implementation::residuals(IncrementReport &report) const
+/// What is reported of the present displacements. False if it is too large anywhere.
+bool FrictionSolver::Implementation::residuals(IncrementReport &report) const
 {
-   const VectorXd R = natural_map();
+   const VectorXd R = natural_map(), left = round_off();
+   const double scale = reference > 0 ? reference : 1.0,
+                allowed = 0.5 * settings.tolerance * scale; // room for the last word
    double tangent = 0;
-   for (Index i = 0; i < n && !frictionless; ++i)
+   bool small = true;
+   for (Index i = 0; i < n; ++i)
    {
-      tangent = std::max(tangent, disc() ? at(R, i).norm() : std::abs(R[t(i)]));
+      double limit = std::max(allowed, left[m(i)]);
+      small = small && std::abs(R[m(i)]) <= limit;
+      if (frictionless) { continue; }
+      double size = std::abs(R[t(i)]);
+      limit = std::max({allowed, problem.friction[i] * left[m(i)], left[t(i)]});
+      if (disc())
+      {
+         // The natural map multiplies the error in the direction of a slip by the slip.
+         const Vector2d x = disc_slip(i);
+         const double far = std::max(at(u, i).norm(), at(v_old, i).norm());
+         size = at(R, i).norm();
+         limit = std::max(limit, left[t(i, 1)]);
+         if (closed(status[i]))
+         {
+            const double sure =
+               slip_violation(at(F, i), x, ktt[i], bound(i), slip_round_off(far));
+            small = small && sure <= limit && size <= limit;
+            tangent = std::max(tangent, slip_violation(at(F, i), x, ktt[i], bound(i)));
+         }
+      }
+      // An open node bears nothing, not f times what is left of its pressure.
+      if (!closed(status[i])) { size = disc() ? at(F, i).norm() : std::abs(F[t(i)]); }
+      tangent = std::max(tangent, size);
+      small = small && size <= limit;
    }
-   const double scale = reference > 0 ? reference : 1.0;
    report.residual_normal = R.tail(n).cwiseAbs().maxCoeff() / scale;
    report.residual_tangential = tangent / scale;
-   report.round_off = round_off() / scale;
+   report.round_off = left.maxCoeff() / scale;
+   return small;
 }
 
 /// Its derivative by the displacements.
@@ -109,7 +136,7 @@ bool FrictionSolver::Implementation::damped_newton()
    for (int k = 0; k < 2 * settings.max_newton; ++k)
    {
       // Near enough for the active set to go on from here.
-      if (R.norm() <= 1e-9 * reference + round_off()) { return true; }
+      if (R.norm() <= 1e-9 * reference + round_off().maxCoeff()) { return true; }
       ++counters.newton_steps;
       ++counters.dense_factorisations;
       DenseLU factor;

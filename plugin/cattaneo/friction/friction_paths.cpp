@@ -29,7 +29,7 @@ bool FrictionSolver::Implementation::lemke_start()
    const double scale = reference > 0 ? reference : 1.0;
    const VectorXd base = (f + K * base_u) / scale;
    // Without friction a free body's node may have no stiffness of its own.
-   const VectorXd dn = knn.cwiseMax(1e-12 * K_norm).cwiseSqrt().cwiseInverse();
+   const VectorXd dn = knn.cwiseMax(1e-12 * problem.C.diagonal()).cwiseSqrt().cwiseInverse();
    VectorXd fs; // friction between rows scaled by dt and rows scaled by dn
    if (frictionless)
    {
@@ -100,8 +100,7 @@ bool FrictionSolver::Implementation::polished(IncrementReport &report)
    u = u_found;
    F = f + K * u;
    status = status_found;
-   residuals(report);
-   return accepted(report);
+   return residuals(report) && accepted(report);
 }
 
 /// Follows the solutions from the old loads to the new ones, one node's state at a time.

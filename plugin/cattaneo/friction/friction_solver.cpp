@@ -64,12 +64,11 @@ FrictionSolver::Implementation::Implementation(const ReducedProblem &given,
       if (problem.components() > 0)
       {
          tangential = std::make_unique<SemidefiniteSolver>(problem.A);
+         tangential_arithmetic = std::make_unique<RoundOff>(problem.A);
          ++counters.dense_factorisations;
          K -= problem.B * tangential->solve(problem.B.transpose());
          K = (0.5 * (K + K.transpose())).eval();
          knn = K.diagonal();
-         // What little is left where a body is free to slide away up a slope is round-off.
-         K_norm = problem.C.cwiseAbs().rowwise().sum().maxCoeff();
       }
    }
    else
@@ -77,15 +76,7 @@ FrictionSolver::Implementation::Implementation(const ReducedProblem &given,
       counters.tangential_unknowns = c * n;
       ktt = problem.A.diagonal().head(n);
       ktn = problem.B.diagonal();
-      const double scale =
-         std::sqrt(problem.A.cwiseAbs().maxCoeff() * problem.C.cwiseAbs().maxCoeff());
-      // Condensed bodies of great extent carry round-off of 1e-12 of their stiffness.
-      uncoupled = problem.B.cwiseAbs().maxCoeff() <= 1e-11 * scale;
-      if (uncoupled)
-      {
-         problem.B.setZero();
-         ktn.setZero();
-      }
+      uncoupled = problem.uncoupled();
       K = problem.stiffness();
       critical = ktt.cwiseQuotient(ktn.cwiseAbs());
       for (Index i = 0; i < n; ++i)
@@ -104,7 +95,9 @@ FrictionSolver::Implementation::Implementation(const ReducedProblem &given,
       }
    }
    no_friction = VectorXd::Zero(n);
-   K_norm = std::max(K_norm, K.cwiseAbs().rowwise().sum().maxCoeff());
+   // Without friction what little is left of K where a body is free to slide away up a slope is
+   // round-off of C.
+   arithmetic = std::make_unique<RoundOff>(frictionless ? problem.C : K);
 }
 
 void FrictionSolver::Implementation::start(const ContactState &state,
@@ -182,16 +175,38 @@ void FrictionSolver::Implementation::finish(ContactState &state, const VectorXd 
    }
 }
 
-/// Also remembers a solution that moves so far that its forces cannot be told from round-off.
+/// Of a solution: false where it moves so far that its forces cannot be told from round-off,
+/// which is remembered.
 bool FrictionSolver::Implementation::accepted(const IncrementReport &report)
 {
-   const double allowed = std::max(settings.tolerance, report.round_off);
-   const bool fits = report.residual_normal <= allowed && report.residual_tangential <= allowed;
-   if (!fits) { return false; } // nor if one is not a number
    if (report.round_off < 1e-6) { return true; }
    // Above that, a residual within round-off shows nothing.
    if (report.round_off < 1e-3) { lost_in_round_off = report.round_off; }
    return false;
+}
+
+/// The last word on a solution, in the equations and with the state as they are given, and what
+/// is reported of it.
+bool FrictionSolver::Implementation::obeys_laws(const ContactState &next,
+                                                IncrementReport &report) const
+{
+   const double scale = reference > 0 ? reference : 1.0;
+   const VectorXd left = round_off();
+   VectorXd rows(problem.A.rows() + n);
+   rows.tail(n) = left.tail(n);
+   if (tangential)
+   {
+      // What slips without friction may go far.
+      rows.head(next.v.size()) = tangential_arithmetic->rows(next.v.cwiseAbs(), next.q);
+      report.round_off =
+         std::max(report.round_off, rows.head(next.v.size()).maxCoeff() / scale);
+   }
+   else { rows.head(c * n) = left.head(c * n); }
+   if (!(report.round_off < 1e-6)) { return false; }
+   const LawCheck check = check_laws(problem, v_old, next, settings.tolerance * scale, rows);
+   report.residual_normal = check.normal / scale;
+   report.residual_tangential = check.tangential / scale;
+   return check.obeyed;
 }
 
 /// Displacements so large that round-off hides the forces may be a body that slides away, with
@@ -244,7 +259,8 @@ bool FrictionSolver::Implementation::finds_mechanism(const VectorXd &multipliers
       motions = std::make_unique<MatrixXd>(rigid_motions(problem));
       ++counters.dense_factorisations;
    }
-   mechanism = find_mechanism(problem, *motions, problem.clamped_forces(multipliers));
+   mechanism = find_mechanism(problem, *motions, problem.clamped_forces(multipliers),
+                              settings.tolerance * reference);
    return mechanism.exists;
 }
 
@@ -261,6 +277,66 @@ bool FrictionSolver::Implementation::spins(const VectorXd &multipliers)
    ContactState state = ContactState::virgin(problem);
    if (smooth->solve(state, multipliers).status != FrictionStatus::converged) { return false; }
    mechanism = find_spinning(problem, state.p, problem.clamped_forces(multipliers));
+   return mechanism.exists;
+}
+
+/// True if a body moves on and on where weak springs hold its rigid motions: the force that
+/// these bear stays the same when they get weaker. Asked where no equilibrium was found; it
+/// says why.
+bool FrictionSolver::Implementation::drifts(const ContactState &state,
+                                            const VectorXd &multipliers)
+{
+   if (motions->cols() == 0 || frictionless) { return false; }
+   const MatrixXd &Z = *motions;
+   VectorXd borne;
+   for (double weakness : {1e-5, 1e-7})
+   {
+      ReducedProblem held = problem;
+      const double spring = weakness * K.diagonal().mean();
+      const auto Zt = Z.topRows(c * n), Zn = Z.bottomRows(n);
+      held.A += spring * Zt * Zt.transpose();
+      held.B += spring * Zn * Zt.transpose();
+      held.C += spring * Zn * Zn.transpose();
+      held.rigid_motions = MatrixXd(K.rows(), 0);
+      held.chains.clear();
+      held.held.clear();
+      FrictionSolver solver(held, settings);
+      ContactState next = state;
+      const IncrementReport report = solver.solve(next, multipliers);
+      counters += solver.counters();
+      if (report.status != FrictionStatus::converged &&
+          report.status != FrictionStatus::not_unique)
+      {
+         return false;
+      }
+      VectorXd u_next(K.rows());
+      u_next << next.v, next.w;
+      const VectorXd bears = spring * Z * (Z.transpose() * u_next);
+      const double size = bears.cwiseAbs().maxCoeff();
+      if (size <= 1e-9 * reference) { return false; }
+      if (borne.size() == 0)
+      {
+         borne = bears;
+         continue;
+      }
+      if ((bears - borne).cwiseAbs().maxCoeff() > 0.01 * size) { return false; }
+      mechanism = {};
+      mechanism.exists = true;
+      mechanism.motion = bears / size;
+      for (Index i = 0; i < n; ++i)
+      {
+         if (!closed(next.status[i])) { continue; }
+         for (Index k = 0; k < c; ++k)
+         {
+            const double along = std::abs(mechanism.motion[t(i, k)]);
+            mechanism.slides = mechanism.slides || along > 1e-6;
+            mechanism.spins = mechanism.spins || (k == 1 && along > 1e-6);
+         }
+      }
+   }
+   // What opens everywhere is for find_mechanism() to prove: a spring may hold a body before it
+   // touches.
+   mechanism.exists = mechanism.slides;
    return mechanism.exists;
 }
 
@@ -303,12 +379,14 @@ void FrictionSolver::Implementation::explain_failure(IncrementReport &report) co
    {
       report.status = FrictionStatus::stalled;
       residuals(report);
+      message << "no equilibrium was found";
       if (motions && can_lock(problem, *motions))
       {
-         message << "no equilibrium was found, and there may be none near the last one: the "
-                    "contact can lock itself, and where it loses its grip a body jumps free; ";
+         message
+            << ", and there may be none near the last one: the contact can lock itself, and "
+               "where it loses its grip a body jumps free";
       }
-      message << "residuals " << report.residual_normal << " (normal) and "
+      message << "; residuals " << report.residual_normal << " (normal) and "
               << report.residual_tangential << " (tangential), tolerance "
               << settings.tolerance;
    }
@@ -336,16 +414,51 @@ IncrementReport FrictionSolver::Implementation::solve(ContactState &state,
       break;
    }
    if (solved && runs_away(report, multipliers)) { solved = false; }
+   ContactState next = state;
+   if (solved)
+   {
+      finish(next, multipliers);
+      solved = obeys_laws(next, report);
+      if (report.round_off >= 1e-6) { lost_in_round_off = report.round_off; }
+   }
    if (!solved)
    {
-      if (!mechanism.exists && !finds_mechanism(multipliers)) { spins(multipliers); }
+      if (!mechanism.exists && !finds_mechanism(multipliers) && !spins(multipliers))
+      {
+         drifts(state, multipliers);
+      }
       explain_failure(report);
       return report;
    }
-   finish(state, multipliers);
+   state = std::move(next);
    const IncrementReport unique = uniqueness(status);
    report.status = unique.status;
    report.message = unique.message;
+   return report;
+}
+
+IncrementReport FrictionSolver::Implementation::judge(const ContactState &before,
+                                                      const ContactState &after)
+{
+   const VectorXd clamped = problem.clamped_forces(after.multipliers);
+   v_old = before.v;
+   reference = std::max({before.peak_force, after.peak_force, clamped.cwiseAbs().maxCoeff()});
+   f = frictionless ? VectorXd(clamped.tail(n)) : clamped;
+   u.resize(f.size());
+   if (frictionless) { u = after.w; }
+   else { u << after.v, after.w; }
+   IncrementReport report = uniqueness(after.status);
+   const bool obeyed = obeys_laws(after, report);
+   report.round_off = round_off().maxCoeff() / (reference > 0 ? reference : 1.0);
+   if (!obeyed || !(report.round_off < 1e-6))
+   {
+      report.status = FrictionStatus::stalled;
+      std::ostringstream message;
+      message << "the state breaks the equations or the laws by "
+              << std::max(report.residual_normal, report.residual_tangential)
+              << " of the largest force";
+      report.message = message.str();
+   }
    return report;
 }
 
@@ -391,6 +504,10 @@ bool FrictionSolver::frictionless() const
 bool FrictionSolver::uncoupled() const
 {
    return impl_->uncoupled;
+}
+IncrementReport FrictionSolver::judge(const ContactState &before, const ContactState &after)
+{
+   return impl_->judge(before, after);
 }
 double FrictionSolver::critical_friction() const
 {

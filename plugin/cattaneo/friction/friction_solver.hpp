@@ -21,8 +21,8 @@ enum class FrictionMethod
 struct FrictionSettings
 {
    FrictionMethod method = FrictionMethod::automatic;
-   /// Largest residual of the natural map over the largest nodal force so far (of the loads
-   /// with the contact clamped, of initial slip or interference), normal and tangential apart.
+   /// Largest violation of an equation or a law over the largest nodal force so far (of the
+   /// loads with the contact clamped, of initial slip or interference).
    /// Where round-off is larger than this, round-off is the limit (reported).
    double tolerance = 1e-12;
    int sweeps = 2;       ///< Gauss–Seidel sweeps before the first active-set attempt
@@ -37,9 +37,10 @@ struct FrictionSettings
 struct IncrementReport
 {
    FrictionStatus status = FrictionStatus::stalled;
-   std::string message;        ///< empty if converged
-   double residual_normal = 0; ///< relative, as FrictionSettings::tolerance
-   double residual_tangential = 0;
+   std::string message; ///< empty if converged
+   /// Largest violation of the equations as given and of the laws by the state that is
+   /// returned (see check_laws), over the largest force so far.
+   double residual_normal = 0, residual_tangential = 0;
    double round_off = 0; ///< estimate of what arithmetic can reach, relative
 };
 
@@ -72,7 +73,11 @@ public:
 
    const ReducedProblem &problem() const;
    bool frictionless() const;
-   /// True if B is zero to round-off: the normal problem does not know of friction.
+   /// Is `after` the end of an increment from `before`? By the equations and the laws as they
+   /// are given, however it was found: converged or not_unique with its residuals, or stalled
+   /// with what it breaks.
+   IncrementReport judge(const ContactState &before, const ContactState &after);
+   /// True if B is exactly zero: the normal problem does not know of friction.
    bool uncoupled() const;
    /// Least critical friction A_ii/|B_ii| of any node, above which the rate problem of that
    /// node has no unique answer (with two components: need not have one), and the node.

@@ -75,6 +75,8 @@ void FrictionSolver::Implementation::sweep()
    {
       if (frictionless)
       {
+         // A body that is free to slide away up a slope meets no resistance.
+         if (!(knn[i] > 0)) { continue; }
          const double y = gap(i) - F[i] / knn[i];
          set_node(i, 0, std::max(y, 0.0), y > 0 ? NodeState::separation : NodeState::stick);
          continue;
@@ -121,14 +123,10 @@ bool FrictionSolver::Implementation::run_gauss_seidel(IncrementReport &report)
       sweep();
       // The forces are updated by columns; now and then they are formed anew, against drift.
       if (k % 64 == 63) { F = f + K * u; }
-      residuals(report);
       if (!u.allFinite()) { return false; }
-      if (accepted(report))
-      {
-         F = f + K * u;
-         residuals(report);
-         if (accepted(report)) { return true; }
-      }
+      if (!residuals(report)) { continue; }
+      F = f + K * u;
+      if (residuals(report)) { return accepted(report); }
    }
    return false;
 }

@@ -2,6 +2,7 @@
 #include <cattaneo/input_error.hpp>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 namespace cattaneo
@@ -79,13 +80,15 @@ public:
 private:
    bool march_piece(int piece);
    bool march_exactly(int piece);
+   bool increment_to(int piece, double target, bool exact);
+   void follow_coarsely(bool ends);
    int increments(int piece) const;
    void stop(const IncrementReport &failure);
    bool exact_in_one(int piece) const;
    bool advances_too_far(const ContactState &next) const;
    double grid_time(int piece, double step) const;
    VectorXd loads(int piece, double time) const;
-   void accept(ContactState &&next, int piece, const IncrementReport &increment);
+   void accept(ContactState &&next, int piece, const IncrementReport &increment, bool exact);
    void end_cycle();
    void bisect_event(int piece, double failed, IncrementReport failure);
 
@@ -98,6 +101,11 @@ private:
    MarchReport report_;
    CycleRecord cycle_;
    std::unique_ptr<ExactPath> path_; // Stepping::exact, made when first needed
+   // Where contact advances with friction: the same loads in increments twice as long.
+   ContactState coarse_;
+   int behind_ = 0;        // increments since coarse_
+   bool advanced_ = false; // in one of them
+   bool differs_ = false;  // coarse_ was solved for, it is no copy of a state
    double external_work_ = 0, dissipation_ = 0, normal_work_ = 0;
 };
 
@@ -137,30 +145,74 @@ bool March::exact_in_one(int piece) const
           (state_.q.isZero(0) || state_.q.cwiseAbs().maxCoeff() <= 1e-8 * normal);
 }
 
+/// Chains of the problem; of one that does not say, all nodes in a row.
+std::vector<ContactChain> chains(const ReducedProblem &problem)
+{
+   if (!problem.chains.empty()) { return problem.chains; }
+   ContactChain all;
+   all.nodes = problem.nodes();
+   return {all};
+}
+
 bool March::advances_too_far(const ContactState &next) const
 {
    if (settings_.stepping == Stepping::fixed || solver_.frictionless()) { return false; }
-   const Index n = problem_.nodes();
-   bool any_closed = false;
-   for (NodeState s : state_.status) { any_closed = any_closed || closed(s); }
-   if (!any_closed) { return false; }
-   for (Index i = 0; i < n; ++i)
+   for (const ContactChain &chain : chains(problem_))
    {
-      if (!closed(next.status[i]) || closed(state_.status[i])) { continue; }
-      const bool neighbour =
-         (i > 0 && closed(state_.status[i - 1])) || (i + 1 < n && closed(state_.status[i + 1]));
-      if (!neighbour) { return true; }
+      const Index first = chain.first, count = chain.nodes;
+      const auto was_closed = [&](Index k)
+      {
+         if (chain.loop) { k = (k + count) % count; }
+         return k >= 0 && k < count && closed(state_.status[first + k]);
+      };
+      bool bore = false;
+      Index low = count, high = -1; // newly closed nodes without a closed neighbour
+      for (Index k = 0; k < count; ++k)
+      {
+         bore = bore || was_closed(k);
+         if (!closed(next.status[first + k]) || was_closed(k) || was_closed(k - 1) ||
+             was_closed(k + 1))
+         {
+            continue;
+         }
+         low = std::min(low, k);
+         high = k;
+      }
+      if (high >= 0 && (bore || high > low + 1)) { return true; }
    }
    return false;
 }
 
-void March::accept(ContactState &&next, int piece, const IncrementReport &increment)
+/// The same loads once more, in increments twice as long, for as long as contact advances with
+/// friction and to the end of the piece: what comes out differently is the error of the
+/// increments.
+void March::follow_coarsely(bool ends)
+{
+   if (differs_ || (advanced_ && behind_ >= 2))
+   {
+      ContactState next = coarse_;
+      next.time = state_.time;
+      double off = std::numeric_limits<double>::infinity();
+      differs_ = solved(solver_.solve(next, state_.multipliers));
+      if (differs_) { off = (next.q - state_.q).cwiseAbs().maxCoeff() / state_.peak_force; }
+      report_.advance_error = std::max(report_.advance_error, off);
+      coarse_ = std::move(next);
+   }
+   differs_ = differs_ && !ends;
+   if (!differs_) { coarse_ = state_; }
+   behind_ = 0;
+   advanced_ = false;
+}
+
+/// `exact`: by the exact path, or by one increment where that is exact.
+void March::accept(ContactState &&next, int piece, const IncrementReport &increment, bool exact)
 {
    IncrementRecord record;
    record.time = next.time;
    record.cycle = history_.cycle(piece);
    record.residual_normal = increment.residual_normal;
    record.residual_tangential = increment.residual_tangential;
+   record.round_off = increment.round_off;
    for (NodeState s : next.status)
    {
       switch (s)
@@ -198,11 +250,9 @@ void March::accept(ContactState &&next, int piece, const IncrementReport &increm
          else if (turned) { next.slip_origin[k] = state_.v[k]; }
       }
    }
-   VectorXd lost = -0.5 * (state_.q + next.q).cwiseProduct(next.v - state_.v);
+   const VectorXd lost = frictional_loss(problem_, state_, next);
    const double normal_work = -0.5 * (state_.p + next.p).dot(next.w - state_.w);
    record.dissipation = lost.sum();
-   for (Index k = 1; k < problem_.components(); ++k) { lost.head(n) += lost.segment(k * n, n); }
-   lost.conservativeResize(std::min(lost.size(), n));
    const VectorXd g0 = conjugates(problem_, state_), g1 = conjugates(problem_, next);
    for (std::size_t k = 0; k < problem_.patterns.size(); ++k)
    {
@@ -223,11 +273,21 @@ void March::accept(ContactState &&next, int piece, const IncrementReport &increm
       cycle_.external_work += record.external_work;
       cycle_.normal_work += normal_work;
    }
+   if (!exact)
+   {
+      for (Index i = 0; i < n && !solver_.frictionless(); ++i)
+      {
+         advanced_ = advanced_ || (closed(next.status[i]) && !closed(state_.status[i]));
+      }
+      ++behind_;
+   }
    external_work_ += record.external_work;
    dissipation_ += record.dissipation;
    normal_work_ += normal_work;
    next.dissipation += record.dissipation;
    state_ = std::move(next);
+   if (exact) { differs_ = advanced_ = false; }
+   if (exact || behind_ >= 2) { follow_coarsely(exact); }
    report_.increments.push_back(record);
    report_.largest_residual =
       std::max({report_.largest_residual, record.residual_normal, record.residual_tangential});
@@ -262,7 +322,7 @@ void March::bisect_event(int piece, double failed, IncrementReport failure)
       next.time = 0.5 * (state_.time + failed);
       if (next.time <= state_.time || next.time >= failed) { break; }
       const IncrementReport increment = solver_.solve(next, loads(piece, next.time));
-      if (solved(increment)) { accept(std::move(next), piece, increment); }
+      if (solved(increment)) { accept(std::move(next), piece, increment, false); }
       else
       {
          failed = next.time;
@@ -288,6 +348,59 @@ int March::increments(int piece) const
                                                        : settings_.increments;
 }
 
+/// One increment towards `target`, a shorter one where contact would advance too far or the
+/// solver does not finish; `exact` ones are not cut. False, with the march stopped, where there
+/// is no equilibrium.
+bool March::increment_to(int piece, double target, bool exact)
+{
+   const double whole = target - state_.time,
+                duration = history_.end_time(piece) - history_.start_time(piece),
+                smallest = duration / (exact ? 1 : increments(piece)) *
+                           std::ldexp(1.0, -settings_.max_halvings);
+   // A step that had to be cut grows again by doubling.
+   if (state_.step > 0 && state_.time + state_.step < target)
+   {
+      target = state_.time + state_.step;
+   }
+   ContactState next;
+   IncrementReport increment;
+   while (true)
+   {
+      next = state_;
+      next.time = target;
+      increment = solver_.solve(next, loads(piece, target));
+      const double step = target - state_.time;
+      // The loads next to one that the solver cannot finish are often no trouble.
+      const bool stalled = increment.status == FrictionStatus::stalled && step > smallest;
+      if (!solved(increment) && !stalled)
+      {
+         bisect_event(piece, target, increment);
+         return false;
+      }
+      if (!stalled && (exact || step <= smallest || !advances_too_far(next))) { break; }
+      report_.stalled += stalled;
+      ++report_.counters.rejected_increments;
+      state_.step = 0.5 * step;
+      target = state_.time + state_.step;
+   }
+   next.step = state_.step > 0 ? 2 * state_.step : 0;
+   if (next.step >= duration / increments(piece) && target - state_.time >= whole)
+   {
+      next.step = 0;
+   }
+   if (exact && settings_.stepping == Stepping::exact)
+   {
+      for (Index i = 0; i < problem_.nodes(); ++i)
+      {
+         if (next.status[i] == state_.status[i]) { continue; }
+         report_.changes.push_back(
+            {state_.time, state_.multipliers, i, state_.status[i], next.status[i]});
+      }
+   }
+   accept(std::move(next), piece, increment, exact);
+   return true;
+}
+
 /// From event to event, to the end of the piece.
 bool March::march_exactly(int piece)
 {
@@ -302,7 +415,7 @@ bool March::march_exactly(int piece)
       {
          const IncrementReport increment = solver_.solve(next, loads(piece, state_.time));
          settled = solved(increment);
-         if (settled) { accept(std::move(next), piece, increment); }
+         if (settled) { accept(std::move(next), piece, increment, true); }
       }
    }
    // Events without progress: nodes that change their states at the same load, one after the
@@ -313,23 +426,33 @@ bool March::march_exactly(int piece)
    {
       ContactState next = state_;
       next.step = 0;
-      if (settled && halted < patience &&
-          path_->advance(next, t1, history_.end(piece), report_.changes))
+      std::string reason = !settled ? "the state at the start is no equilibrium"
+                                    : "states change back and forth at one load";
+      if (settled && halted < patience)
       {
-         halted = next.time > state_.time ? 0 : halted + 1;
-         IncrementReport reached = solver_.uniqueness(next.status);
-         reached.residual_normal = reached.residual_tangential = path_->drift();
-         accept(std::move(next), piece, reached);
-         continue;
+         const std::size_t listed = report_.changes.size();
+         if (path_->advance(next, t1, history_.end(piece), report_.changes))
+         {
+            // However a state was found, it is judged like any other.
+            const IncrementReport reached = solver_.judge(state_, next);
+            if (solved(reached))
+            {
+               halted = next.time > state_.time ? 0 : halted + 1;
+               accept(std::move(next), piece, reached, true);
+               continue;
+            }
+            report_.changes.resize(listed);
+            reason = "an event on the path: " + reached.message;
+         }
+         else { reason = path_->failure(); }
       }
       // No rates are an answer if there is no equilibrium at any load beyond; this load is then
       // the exact one.
       next = state_;
       next.time = state_.time + 1e-6 * (t1 - t0);
-      IncrementReport increment;
       if (settled && next.time < t1)
       {
-         increment = solver_.solve(next, loads(piece, next.time));
+         const IncrementReport increment = solver_.solve(next, loads(piece, next.time));
          // A stall is no proof: so small a load can be hidden in round-off.
          if (!solved(increment) && increment.status != FrictionStatus::stalled)
          {
@@ -337,38 +460,23 @@ bool March::march_exactly(int piece)
             return false;
          }
       }
-      next = state_;
-      next.time = t1;
-      const int count = increments(piece);
-      for (int k = count - 1; k > 0; --k)
+      double target = t1;
+      for (int k = increments(piece) - 1; k > 0; --k)
       {
          const double grid = grid_time(piece, k);
-         if (grid > state_.time) { next.time = grid; }
+         if (grid > state_.time) { target = grid; }
       }
-      const double target = next.time;
-      increment = solver_.solve(next, loads(piece, target));
-      if (!solved(increment))
-      {
-         bisect_event(piece, target, increment);
-         return false;
-      }
-      if (report_.fallbacks++ == 0)
-      {
-         report_.fallback_reason = !settled ? "the state at the start is no equilibrium"
-                                   : halted < patience
-                                      ? path_->failure()
-                                      : "states change back and forth at one load";
-      }
+      if (!increment_to(piece, target, false)) { return false; }
+      if (report_.fallbacks++ == 0) { report_.fallback_reason = reason; }
       halted = 0;
       settled = true;
-      accept(std::move(next), piece, increment);
    }
    return true;
 }
 
 bool March::march_piece(int piece)
 {
-   const double t0 = history_.start_time(piece), t1 = history_.end_time(piece);
+   const double t1 = history_.end_time(piece);
    const bool exact = exact_in_one(piece);
    if (!exact && settings_.stepping == Stepping::exact)
    {
@@ -377,51 +485,12 @@ bool March::march_piece(int piece)
       report_.fallback_reason = "slip has a direction: two tangential components";
    }
    const int count = exact ? 1 : increments(piece);
-   const double smallest = (t1 - t0) / count * std::ldexp(1.0, -settings_.max_halvings);
-   auto grid = [&](int k) { return k >= count ? t1 : grid_time(piece, k); };
    int k = 1;
    while (state_.time < t1)
    {
-      while (grid(k) <= state_.time) { ++k; }
-      double target = grid(k);
-      // A step that had to be cut grows again by doubling.
-      if (state_.step > 0 && state_.time + state_.step < target)
-      {
-         target = state_.time + state_.step;
-      }
-      ContactState next;
-      IncrementReport increment;
-      while (true)
-      {
-         next = state_;
-         next.time = target;
-         increment = solver_.solve(next, loads(piece, target));
-         const double step = target - state_.time;
-         // The loads next to one that the solver cannot finish are often no trouble.
-         const bool stalled = increment.status == FrictionStatus::stalled && step > smallest;
-         if (!solved(increment) && !stalled)
-         {
-            bisect_event(piece, target, increment);
-            return false;
-         }
-         if (!stalled && (exact || step <= smallest || !advances_too_far(next))) { break; }
-         report_.stalled += stalled;
-         ++report_.counters.rejected_increments;
-         state_.step = 0.5 * step;
-         target = state_.time + state_.step;
-      }
-      next.step = state_.step > 0 ? 2 * state_.step : 0;
-      if (next.time == grid(k) && next.step >= grid(k) - grid(k - 1)) { next.step = 0; }
-      if (exact && settings_.stepping == Stepping::exact)
-      {
-         for (Index i = 0; i < problem_.nodes(); ++i)
-         {
-            if (next.status[i] == state_.status[i]) { continue; }
-            report_.changes.push_back(
-               {state_.time, state_.multipliers, i, state_.status[i], next.status[i]});
-         }
-      }
-      accept(std::move(next), piece, increment);
+      const auto grid = [&] { return k >= count ? t1 : grid_time(piece, k); };
+      while (grid() <= state_.time) { ++k; }
+      if (!increment_to(piece, grid(), exact)) { return false; }
    }
    return true;
 }
@@ -457,6 +526,7 @@ MarchReport March::run()
    history_.validate(static_cast<int>(problem_.patterns.size()));
    const Counters before = solver_.counters();
    const double energy = elastic_energy(problem_, state_);
+   coarse_ = state_;
    if (history_.cycle_start >= 0 && state_.cycle_slip.empty() &&
        state_.time <= history_.times[history_.cycle_start] && history_.cycle_start == 0)
    {
@@ -465,7 +535,9 @@ MarchReport March::run()
    for (int piece = 0; piece < history_.segments(); ++piece)
    {
       if (state_.time >= history_.end_time(piece)) { continue; }
-      if (!march_piece(piece)) { break; }
+      const bool marched = march_piece(piece);
+      follow_coarsely(true);
+      if (!marched) { break; }
       // The first cycle is compared with the state at its start.
       if (piece + 1 == history_.cycle_start) { state_.cycle_slip = {state_.v}; }
       if (history_.ends_cycle(piece))
@@ -491,6 +563,41 @@ MarchReport March::run()
 }
 
 } // namespace
+
+VectorXd frictional_loss(const ReducedProblem &problem, const ContactState &before,
+                         const ContactState &after)
+{
+   const Index n = problem.nodes(), c = problem.components();
+   VectorXd lost = VectorXd::Zero(c > 0 ? n : 0);
+   for (Index i = 0; i < lost.size(); ++i)
+   {
+      const double f = problem.friction[i], p1 = std::max(after.p[i], 0.0);
+      double p0 = std::max(before.p[i], 0.0), length = 0, along = 0;
+      for (Index k = i; k < c * n; k += n)
+      {
+         length = std::hypot(length, after.v[k] - before.v[k]);
+         along += before.q[k] * after.q[k];
+      }
+      if (length == 0) { continue; }
+      if (slips(before.status[i]) && slips(after.status[i]) && along < 0)
+      {
+         // |q0 + s (trial - q0)|² = f² (p0 + s (p1 - p0))²: the root in 0…1 beyond s = 0, where
+         // friction was exhausted the other way.
+         double a = -f * f * (p1 - p0) * (p1 - p0), b = -2 * f * f * p0 * (p1 - p0);
+         for (Index k = i; k < c * n; k += n)
+         {
+            const double trial = after.q[k] - problem.A(k, k) * (after.v[k] - before.v[k]);
+            const double way = trial - before.q[k];
+            a += way * way;
+            b += 2 * before.q[k] * way;
+         }
+         const double turn = a > 0 ? std::clamp(-b / a, 0.0, 1.0) : 0.0;
+         p0 += turn * (p1 - p0);
+      }
+      lost[i] = 0.5 * f * (p0 + p1) * length;
+   }
+   return lost;
+}
 
 double elastic_energy(const ReducedProblem &problem, const ContactState &state)
 {

@@ -16,13 +16,14 @@ enum class Stepping
    /// a gap (self-similar), and any piece without friction.
    fixed,
    /// As fixed, and an increment is halved while contact advances by more than one layer of
-   /// nodes (each newly closed node must have had a closed neighbour).
+   /// nodes: each newly closed node must have had a closed neighbour on its chain, or, on a
+   /// chain that bore nothing yet, close there first, alone or beside another.
    advancing,
    /// No increments: from one change of state to the next, exactly (see ExactPath). Pieces that
    /// one increment solves exactly take that one. Where there is no path to follow, the next of
-   /// the equal increments is taken instead: counted, with the reason, in the report. A state
-   /// that is no equilibrium (an initial slip, an interference) is settled by an increment
-   /// first.
+   /// the equal increments is taken instead, as by `advancing`: counted, with the reason, in
+   /// the report. A state that is no equilibrium (an initial slip, an interference) is settled
+   /// by an increment first.
    exact
 };
 
@@ -50,9 +51,9 @@ struct IncrementRecord
    int cycle = 0;                                                      ///< 0: opening part
    int stick = 0, separation = 0, forward_slip = 0, backward_slip = 0; ///< numbers of nodes
    int slip = 0; ///< with two tangential components: nodes that slip in whatever direction
-   double dissipation = 0;   ///< -½(q_old + q_new)·Δv, summed over nodes
+   double dissipation = 0;   ///< see frictional_loss(), summed over nodes; never negative
    double external_work = 0; ///< work of the loads, trapezoidal (exact for linear increments)
-   double residual_normal = 0, residual_tangential = 0;
+   double residual_normal = 0, residual_tangential = 0, round_off = 0; ///< see IncrementReport
 };
 
 /// One marched cycle.
@@ -85,8 +86,15 @@ struct MarchReport
    int steady_cycle = 0;  ///< first cycle of the steady state; 0: not reached
    int steady_period = 0; ///< 1 or 2
    /// Energy balance of the march: external work - change of elastic energy - dissipation -
-   /// normal work, over the largest of them. Round-off if all is well.
+   /// normal work, over the largest of them. It measures what the increments miss of the path
+   /// (of nodes that begin to slip within one, for instance) and goes to zero with them; on the
+   /// exact path it is round-off.
    double energy_imbalance = 0;
+   /// Friction forces of a contact that advances depend on how it was cut into layers: largest
+   /// difference |q - q'| to a second solution with increments twice as long, over the largest
+   /// force. It bounds the error as long as this falls at least in proportion to the layers.
+   /// Zero where no contact advanced with friction, or Stepping::exact found its path.
+   double advance_error = 0;
    double largest_residual = 0;
    Counters counters; ///< of this march (what making the solver took is in the solver's own)
    double seconds = 0;
@@ -107,6 +115,13 @@ MarchReport march(const ReducedProblem &problem, const LoadHistory &history,
 /// solver's own.
 MarchReport march(FrictionSolver &solver, const LoadHistory &history, ContactState &state,
                   const MarchSettings &settings = {}, const MarchObserver &observer = {});
+
+/** Frictional loss of each node (size n) over an increment: ½ f (p₀ + p₁)|Δv|, exact for a
+    linear path along which the node slips one way. Where slip has turned round since the last
+    increment the node sticks first: p₀ is then the pressure at which friction is exhausted
+    again, if the forces of the node that does not slip yet change linearly. Never negative. */
+Eigen::VectorXd frictional_loss(const ReducedProblem &problem, const ContactState &before,
+                                const ContactState &after);
 
 /// Elastic energy stored by the contact displacements and loads of a state (both bodies).
 double elastic_energy(const ReducedProblem &problem, const ContactState &state);

@@ -27,11 +27,12 @@ bool proves(const NonnegativeFit &fit, const MatrixXd &G)
 
 MatrixXd rigid_motions(const ReducedProblem &problem)
 {
-   return SemidefiniteSolver(problem.stiffness()).null_space();
+   return problem.rigid_motions ? *problem.rigid_motions
+                                : SemidefiniteSolver(problem.stiffness()).null_space();
 }
 
 Mechanism find_mechanism(const ReducedProblem &problem, const MatrixXd &Z,
-                         const VectorXd &clamped_forces)
+                         const VectorXd &clamped_forces, double negligible)
 {
    Mechanism mechanism;
    if (Z.cols() == 0) { return mechanism; }
@@ -81,10 +82,27 @@ Mechanism find_mechanism(const ReducedProblem &problem, const MatrixXd &Z,
       fit = fit_nonnegative(G, g);
    }
    if (!proven || r.norm() <= least || g.norm() == 0) { return mechanism; }
-   mechanism.exists = true;
    mechanism.motion = Z * r;
-   mechanism.motion /= mechanism.motion.cwiseAbs().maxCoeff();
-   mechanism.slides = m > 0 && mechanism.motion.head(m).cwiseAbs().maxCoeff() > 1e-6;
+   const double largest = mechanism.motion.cwiseAbs().maxCoeff();
+   if (largest <= negligible) { return mechanism; }
+   mechanism.exists = true;
+   mechanism.motion /= largest;
+   // A body that slides bears on nodes along which it moves; one that lifts off bears on none,
+   // or on those about which it turns.
+   VectorXd borne = VectorXd::Zero(n);
+   for (Index k = 0; k < 2 * c * n; ++k) { borne[(k / 2) % n] += fit.x[k]; }
+   const double forces = fit.x.sum();
+   for (Index i = 0; i < n && m > 0; ++i)
+   {
+      double along = 0;
+      for (Index k = 0; k < c; ++k)
+      {
+         along = std::max(along, std::abs(mechanism.motion[k * n + i]));
+      }
+      const bool bears = (c == 2 && forces > 0) || borne[i] > 1e-9 * forces ||
+                         std::abs(mechanism.motion[m + i]) < 1e-9;
+      mechanism.slides = mechanism.slides || (bears && along > 1e-6);
+   }
    mechanism.spins = c == 2 && mechanism.motion.segment(n, n).cwiseAbs().maxCoeff() > 1e-6;
    return mechanism;
 }

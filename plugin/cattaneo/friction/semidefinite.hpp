@@ -17,6 +17,9 @@ public:
    Eigen::MatrixXd null_space() const;
 
 private:
+   static bool rests(const Eigen::MatrixXd &A, const Eigen::VectorXd &motion);
+
+   Eigen::VectorXd scale_; ///< of the rows, unit diagonal
    Eigen::LDLT<Eigen::MatrixXd> ldlt_;
    Eigen::VectorXd inverse_pivots_; ///< zero where the pivot is
 };

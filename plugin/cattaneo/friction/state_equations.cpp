@@ -13,7 +13,6 @@ using Eigen::VectorXd;
 namespace
 {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
 /// Where the corner of the borders is nearer to singular, M₀ is factored anew.
 constexpr double least_corner = 1e-9;
 
@@ -21,9 +20,8 @@ constexpr double least_corner = 1e-9;
 
 StateEquations::StateEquations(const MatrixXd &K, const VectorXd &friction)
    : K_(K), friction_(friction), n_(friction.size()), tangential_(K.rows() > n_),
-     diagonal_(K.diagonal()), norm_(K.cwiseAbs().colwise().sum().maxCoeff()),
-     states_(n_, NodeState::stick), held_(n_, false), slot_of_(K.rows(), -1),
-     border_of_(K.rows(), -1)
+     diagonal_(K.diagonal()), arithmetic_(K), states_(n_, NodeState::stick), held_(n_, false),
+     slot_of_(K.rows(), -1), border_of_(K.rows(), -1)
 {
 }
 
@@ -279,11 +277,6 @@ void StateEquations::step(const VectorXd &F, VectorXd &x) const
    for (Index k = 0; k < m; ++k) { x[slots_[k].row] -= y[k]; }
 }
 
-double StateEquations::round_off(const VectorXd &b, const VectorXd &x) const
-{
-   return 4 * eps * (norm_ * x.cwiseAbs().maxCoeff() + b.cwiseAbs().maxCoeff());
-}
-
 bool StateEquations::solve(const VectorXd &b, VectorXd &x, VectorXd &F)
 {
    x.setZero(b.size());
@@ -298,16 +291,19 @@ bool StateEquations::solve(const VectorXd &b, VectorXd &x, VectorXd &F)
    while (true)
    {
       if (!F.allFinite()) { return false; }
-      double largest = 0;
+      const VectorXd reachable = round_off(b, x);
+      double largest = 0; // over what is reachable
       for (const Equation &e : equations)
       {
-         largest = std::max(largest, std::abs(force(e, F)));
+         const double left =
+            std::max(reachable[e.row], std::abs(e.factor) * reachable[e.other]);
+         const double off = std::abs(force(e, F));
+         if (off > 0) { largest = std::max(largest, off / left); }
       }
-      const double reachable = round_off(b, x);
-      if (largest <= reachable) { return true; }
+      if (largest <= 1) { return true; }
       if (largest > 0.1 * before) // refinement no longer helps
       {
-         if (fresh || largest < 100 * reachable) { return true; }
+         if (fresh || largest < 100) { return true; }
          fresh = true;
          if (!factor()) { return false; }
          x.setZero();

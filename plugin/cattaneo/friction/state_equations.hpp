@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <cattaneo/friction/contact_laws.hpp>
 #include <cattaneo/friction/contact_state.hpp>
 #include <cattaneo/friction/dense_lu.hpp>
 #include <vector>
@@ -49,8 +50,11 @@ public:
    /// finite.
    bool solve(const Eigen::VectorXd &b, Eigen::VectorXd &x, Eigen::VectorXd &F);
 
-   /// What round-off leaves of forces of such size.
-   double round_off(const Eigen::VectorXd &b, const Eigen::VectorXd &x) const;
+   /// What round-off leaves of forces b + K x, row by row.
+   Eigen::VectorXd round_off(const Eigen::VectorXd &b, const Eigen::VectorXd &x) const
+   {
+      return arithmetic_.rows(x.cwiseAbs(), b);
+   }
 
    long factorisations() const { return factorisations_; }
    /// Unknowns bordered.
@@ -92,7 +96,7 @@ private:
    const Eigen::Index n_;
    const bool tangential_;
    const Eigen::VectorXd diagonal_;
-   const double norm_; // row sums of K
+   const RoundOff arithmetic_;
    std::vector<NodeState> states_;
    std::vector<bool> held_;
 

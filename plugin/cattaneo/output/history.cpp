@@ -26,7 +26,7 @@ void HistoryTable::write(const std::string &file, const ReducedProblem &problem)
    }
    const bool disc = problem.components() == 2;
    out << (disc ? ",stick,separation,slip" : ",stick,separation,forward_slip,backward_slip")
-       << ",dissipation,external_work,residual_normal,residual_tangential\n";
+       << ",dissipation,external_work,residual_normal,residual_tangential,round_off\n";
    for (const auto &[record, multipliers] : rows_)
    {
       require(multipliers.size() == static_cast<Eigen::Index>(problem.patterns.size()),
@@ -38,7 +38,8 @@ void HistoryTable::write(const std::string &file, const ReducedProblem &problem)
       if (disc) { out << record.slip; }
       else { out << record.forward_slip << ',' << record.backward_slip; }
       out << ',' << record.dissipation << ',' << record.external_work << ','
-          << record.residual_normal << ',' << record.residual_tangential << '\n';
+          << record.residual_normal << ',' << record.residual_tangential << ','
+          << record.round_off << '\n';
    }
    write_whole(file, out.str());
 }

@@ -1,0 +1,105 @@
+#include <algorithm>
+#include <cattaneo/friction/contact_laws.hpp>
+#include <cmath>
+#include <limits>
+
+namespace cattaneo
+{
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace
+{
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+} // namespace
+
+RoundOff::RoundOff(const MatrixXd &K) : K_(K)
+{
+   VectorXd sums = VectorXd::Zero(K.rows()); // by columns: K is symmetric
+   for (Index j = 0; j < K.cols(); ++j) { sums[j] = K.col(j).cwiseAbs().sum(); }
+   norm_ = sums.maxCoeff();
+   graded_ = K.diagonal().minCoeff() < 1e-4 * K.diagonal().maxCoeff();
+}
+
+VectorXd RoundOff::rows(const VectorXd &size, const VectorXd &f) const
+{
+   if (!graded_)
+   {
+      const double all = norm_ * size.maxCoeff() + f.cwiseAbs().maxCoeff();
+      return VectorXd::Constant(K_.rows(), 4 * eps * all);
+   }
+   VectorXd sum = f.cwiseAbs();
+   for (Index j = 0; j < K_.cols(); ++j)
+   {
+      if (size[j] != 0) { sum += size[j] * K_.col(j).cwiseAbs(); }
+   }
+   return 4 * eps * sum;
+}
+
+double slip_violation(const VectorXd &q, const VectorXd &x, double k, double bound,
+                      double uncertain)
+{
+   const double beyond = std::max(q.norm() - bound, 0.0), length = x.norm();
+   if (length == 0) { return beyond; }
+   const double off = (q + bound / length * x).norm() - bound * uncertain / length;
+   return std::max(beyond, std::min(off, k * length));
+}
+
+double slip_round_off(double size)
+{
+   return 4 * eps * size;
+}
+
+LawCheck check_laws(const ReducedProblem &problem, const VectorXd &v_old,
+                    const ContactState &state, double allowed, const VectorXd &round_off)
+{
+   const Index n = problem.nodes(), m = problem.A.rows(), c = problem.components();
+   const VectorXd f = problem.clamped_forces(state.multipliers);
+   VectorXd p = f.tail(n) + problem.C * state.w, q = f.head(m);
+   if (m > 0)
+   {
+      p += problem.B * state.v;
+      q += problem.A * state.v + problem.B.transpose() * state.w;
+   }
+   LawCheck check;
+   const auto judge = [&](double violation, double limit)
+   {
+      if (!(violation <= limit)) { check.obeyed = false; } // nor if it is not a number
+   };
+   const auto note = [&](double &largest, double violation, double limit)
+   {
+      largest = std::max(largest, violation);
+      judge(violation, limit);
+   };
+   VectorXd q_i(c), x_i(c);
+   for (Index i = 0; i < n; ++i)
+   {
+      const double gap = problem.C(i, i) * (state.w[i] + problem.gap[i]);
+      const double limit = std::max(allowed, round_off[m + i]);
+      note(check.normal, std::abs(p[i] - state.p[i]), limit);
+      note(check.normal, std::abs(std::min(p[i], gap)), limit);
+      if (c == 0) { continue; }
+      const double bound = problem.friction[i] * std::max(p[i], 0.0);
+      double most = std::max(allowed, problem.friction[i] * round_off[m + i]), size = 0;
+      for (Index k = 0; k < c; ++k)
+      {
+         const Index row = k * n + i;
+         most = std::max(most, round_off[row]);
+         q_i[k] = q[row];
+         x_i[k] = state.v[row] - v_old[row];
+         size = std::max({size, std::abs(state.v[row]), std::abs(v_old[row])});
+         note(check.tangential, std::abs(q[row] - state.q[row]), most);
+      }
+      if (!closed(state.status[i])) { x_i.setZero(); } // no law but that it bears nothing
+      const double k = problem.A(i, i), uncertain = c == 2 ? slip_round_off(size) : 0.0;
+      check.tangential = std::max(check.tangential, slip_violation(q_i, x_i, k, bound));
+      judge(slip_violation(q_i, x_i, k, bound, uncertain), most);
+   }
+   return check;
+}
+
+} // namespace cattaneo

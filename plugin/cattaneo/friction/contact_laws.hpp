@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cattaneo/friction/contact_state.hpp>
+
+namespace cattaneo
+{
+
+/// What arithmetic leaves of the sums K u + f, row by row: 4 ε (|K| |u| + |f|). Where the
+/// diagonal of K spans more than four decades each row is bounded by its own entries, else all
+/// by the largest row sum, which is cheaper.
+class RoundOff
+{
+public:
+   /// Keeps a reference to K, symmetric.
+   explicit RoundOff(const Eigen::MatrixXd &K);
+   /// `size`: bound of |u| entry by entry; f: forces with u = 0.
+   Eigen::VectorXd rows(const Eigen::VectorXd &size, const Eigen::VectorXd &f) const;
+
+private:
+   const Eigen::MatrixXd &K_;
+   double norm_ = 0;
+   bool graded_ = false;
+};
+
+/// How far a state is from an answer of an increment, in forces.
+struct LawCheck
+{
+   double normal = 0, tangential = 0; ///< largest violations
+   bool obeyed = true;                ///< no node is violated by more than is allowed to it
+};
+
+/** Judges the end of an increment that began with the slip v_old, from the problem as it is
+    given: the stated forces are those of the stated displacements, F = K u + Σ λ_k f_k, and
+    these obey the laws: no penetration, no tension, no pressure across a gap, no friction
+   beyond f p, and what slips does so against a friction force of f p. A gap and a slip count by
+   the node's own stiffness; a slip x that does not oppose its friction by the smaller of the
+   force that is missing, |q + f p x/|x||, and of that of the slip itself.
+
+    `allowed`: what is allowed to each node, a force (tolerance); `round_off` what arithmetic
+    leaves, for each row of {q; p}. The direction of a slip in the disc is known to the
+   round-off of displacements over its length only, which is allowed too (and counted all the
+   same). */
+LawCheck check_laws(const ReducedProblem &problem, const Eigen::VectorXd &v_old,
+                    const ContactState &state, double allowed,
+                    const Eigen::VectorXd &round_off);
+
+/// The tangential part for one node with tangential forces q, slip x, own stiffness k and
+/// friction bound f p, one or two entries each. `uncertain`: what round-off leaves of x, which
+/// excuses that much of an angle.
+double slip_violation(const Eigen::VectorXd &q, const Eigen::VectorXd &x, double k,
+                      double bound, double uncertain = 0);
+/// That of displacements of such size.
+double slip_round_off(double size);
+
+} // namespace cattaneo
