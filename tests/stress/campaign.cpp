@@ -204,21 +204,30 @@ private:
       u_ = u;
    }
 
-   void statement(FrictionStatus status, const std::string &message,
-                  const Eigen::VectorXd &loads)
+   /// An increment to these loads that was not solved: is what is said of it true?
+   void failed(FrictionStatus status, const std::string &message, const Eigen::VectorXd &loads)
    {
-      ++(status == FrictionStatus::gross_sliding ? row_->sliding : row_->none);
-      if (!existence_) existence_ = std::make_unique<Existence>(*laws_);
-      const Verdict verdict = existence_->none(u_, loads);
+      const bool stall = status == FrictionStatus::stalled;
+      if (!stall) ++(status == FrictionStatus::gross_sliding ? row_->sliding : row_->none);
+      Verdict none = Verdict::open;
+      if (!stall || laws_->K.rows() <= 40)
+      {
+         if (!existence_) existence_ = std::make_unique<Existence>(*laws_);
+         none = existence_->none(u_, loads);
+      }
+      const char *const truths[] = {"there is no equilibrium", "there is one",
+                                    "not known whether there is one"};
       char text[400];
-      std::snprintf(text, sizeof text, "%s: %s (%d motions, margin %.1e)", name(status),
-                    message.c_str(), int(existence_->motions()), existence_->margin);
-      if (verbose) std::printf("   statement %s: verdict %d\n", text, int(verdict));
+      std::snprintf(text, sizeof text, "%s [%s; %d motions, margin %.1e] %s", name(status),
+                    truths[int(none)], existence_ ? int(existence_->motions()) : -1,
+                    existence_ ? existence_->margin : 0, message.c_str());
       // "None was found, friction is above critical" claims no mechanism.
       const bool claim = status == FrictionStatus::gross_sliding ||
                          message.find("critical") == std::string::npos;
-      if (verdict == Verdict::wrong) note(claim ? false_statement : missed, 1, text);
-      if (verdict == Verdict::open) note(unsure, 1, text);
+      if (stall) note(stalled, none == Verdict::wrong ? 1 : 0.1, text);
+      else if (none != Verdict::right)
+         note(none == Verdict::open ? unsure : claim ? false_statement : missed, 1, text);
+      else if (verbose) std::printf("   %s\n", text);
    }
 
    void timed(double seconds, double time)
@@ -245,9 +254,7 @@ private:
          {
             if (Laws::displacements(state) != u_)
                note(violated, 1, "a failure moved the state");
-            if (report.status == FrictionStatus::stalled)
-               note(stalled, stated(report), report.message);
-            else statement(report.status, report.message, made_->history[k]);
+            failed(report.status, report.message, made_->history[k]);
          }
       }
    }
@@ -279,18 +286,16 @@ private:
       if (verbose)
          std::printf("   march: %s %s; %d fallbacks: %s\n", name(report.status),
                      report.message.c_str(), report.fallbacks, report.fallback_reason.c_str());
-      if (report.status == FrictionStatus::stalled)
-         ++row_->increments, note(stalled, report.largest_residual, report.message);
-      if (report.status == FrictionStatus::gross_sliding ||
-          report.status == FrictionStatus::no_solution)
+      if (report.status != FrictionStatus::converged &&
+          report.status != FrictionStatus::not_unique)
       {
          // Just beyond the last equilibrium there should be none.
          ++row_->increments;
          const std::size_t piece = std::min<std::size_t>(
             std::max(0.0, std::floor(report.event_time)), made_->history.size() - 2);
          const Eigen::VectorXd end = made_->history[piece + 1];
-         statement(report.status, report.message,
-                   report.event_multipliers + 1e-3 * (end - report.event_multipliers));
+         failed(report.status, report.message,
+                report.event_multipliers + 1e-3 * (end - report.event_multipliers));
       }
    }
 };

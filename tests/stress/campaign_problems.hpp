@@ -493,6 +493,18 @@ inline Case make_case(const FamilyEntry &family, int components, std::uint64_t s
       for (int i = 0; i < components * n; ++i)
          made.slip[i] *= b.force_scale[i] / made.problem.A(i, i);
    }
+   // Half of the problems come with what a program that makes them knows.
+   if (number % 2)
+   {
+      if (b.rigid.cols())
+         made.problem.rigid_motions =
+            MatrixXd(b.rigid.householderQr().householderQ()).leftCols(b.rigid.cols());
+      else if (family.name != "duplicates" && family.name != "hilbert")
+         made.problem.rigid_motions = MatrixXd(b.size, 0);
+      cattaneo::ContactChain line;
+      line.nodes = n;
+      made.problem.chains = {line};
+   }
    return made;
 }
 
