@@ -54,13 +54,14 @@ enum Class
    unjustified,
    overstated,
    stalled,
+   solvable,
    thrown,
    slow,
    classes
 };
 const char *const class_names[] = {
-   "violation",   "misnamed",   "negative_loss", "false_mechanism", "missed", "unverified",
-   "unjustified", "overstated", "stalled",       "exception",       "slow"};
+   "violation",   "misnamed",   "negative_loss", "false_mechanism", "missed",    "unverified",
+   "unjustified", "overstated", "stalled",       "solvable",        "exception", "slow"};
 
 struct Row
 {
@@ -224,7 +225,7 @@ private:
       // "None was found, friction is above critical" claims no mechanism.
       const bool claim = status == FrictionStatus::gross_sliding ||
                          message.find("critical") == std::string::npos;
-      if (stall) note(stalled, none == Verdict::wrong ? 1 : 0.1, text);
+      if (stall) note(none == Verdict::wrong ? solvable : stalled, 1, text);
       else if (none != Verdict::right)
          note(none == Verdict::open ? unsure : claim ? false_statement : missed, 1, text);
       else if (verbose) std::printf("   %s\n", text);
@@ -338,15 +339,26 @@ int replay(const std::string &file)
    return 0;
 }
 
-void print(const std::string &family, const std::string &stepping, const Row &r)
+/// A line of the table, or its head.
+void print(const std::string &family, const std::string &stepping, const Row *r)
 {
-   std::printf("%-18s %-9s %8ld %8ld %6ld %5ld %6ld %5ld %5ld %5ld %5ld %8.1e %5ld %5ld %5ld "
-               "%5ld %5ld %5ld %4ld %8.1f %7.1f\n",
-               family.c_str(), stepping.c_str(), r.increments, r.accepted, r.sliding, r.none,
-               r.not_unique, r.count[stalled], r.fallbacks, r.count[overstated],
-               r.count[unjustified], r.worst, r.count[violated], r.count[misnamed],
-               r.count[negative], r.count[false_statement], r.count[missed], r.count[unsure],
-               r.count[thrown], 1e3 * r.slowest, r.seconds);
+   std::printf("%-20s %-9s", family.c_str(), stepping.c_str());
+   const Row &x = r ? *r : Row();
+   const std::vector<std::pair<const char *, long>> counts = {
+      {"increments", x.increments},     {"accepted", x.accepted},
+      {"sliding", x.sliding},           {"none", x.none},
+      {"not unique", x.not_unique},     {"stalled", x.count[stalled] + x.count[solvable]},
+      {"solvable", x.count[solvable]},  {"fallback", x.fallbacks},
+      {">1e-9", x.count[overstated]},   {"unjust", x.count[unjustified]},
+      {"violation", x.count[violated]}, {"misnamed", x.count[misnamed]},
+      {"negative", x.count[negative]},  {"false", x.count[false_statement]},
+      {"missed", x.count[missed]},      {"unverified", x.count[unsure]},
+      {"thrown", x.count[thrown]}};
+   for (const auto &[title, count] : counts)
+      r ? std::printf(" %*ld", std::max(6, int(std::strlen(title))), count)
+        : std::printf(" %6s", title);
+   if (r) std::printf(" %8.1e %10.1f %7.1f\n", x.worst, 1e3 * x.slowest, x.seconds);
+   else std::puts("    worst slowest/ms seconds");
    std::fflush(stdout);
 }
 } // namespace
@@ -385,9 +397,7 @@ int main(int argc, char **argv)
       for (int c = 1; c <= 2; ++c)
          if (family.empty() || family == (c == 2 ? "disc_" : "") + f.name)
             all.push_back({&f, c}), weight += f.weight(c);
-   std::puts(
-      "family             stepping    increm accepted slide  none notuni stall fallb >1e-9 "
-      "unjus    worst viol. named negat false missd unver exc. slowest/ms seconds");
+   print("family", "stepping", nullptr);
    Row total;
    for (const auto &[f, c] : all)
    {
@@ -414,11 +424,11 @@ int main(int argc, char **argv)
       for (const char *s : steppings)
          if (campaign.table[campaign.family].count(s))
          {
-            print(campaign.family, s, campaign.table[campaign.family][s]);
+            print(campaign.family, s, &campaign.table[campaign.family][s]);
             total.add(campaign.table[campaign.family][s]);
          }
    }
-   print("all", "", total);
+   print("all", "", &total);
    std::sort(campaign.finds.begin(), campaign.finds.end(),
              [](const Find &a, const Find &b)
              { return a.kind != b.kind ? a.kind < b.kind : a.size > b.size; });

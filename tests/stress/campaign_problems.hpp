@@ -67,8 +67,9 @@ public:
    Random &r;
    Case &made;
    const int n, c, size;
-   VectorXd force_scale; ///< loads of each displacement {v; w}
-   MatrixXd rigid;       ///< motions without stiffness
+   VectorXd force_scale;    ///< loads of each displacement {v; w}
+   MatrixXd rigid;          ///< motions without stiffness
+   std::vector<Index> held; ///< rows of A
    bool self_balanced = false;
    bool proportional = false;
    bool symmetric = false;
@@ -439,6 +440,14 @@ inline const std::vector<FamilyEntry> &families()
                 b.made.problem.gap[i] =
                    b.r.uniform(0.5, 5) * std::pow((i + 0.5) / b.n - 0.5, 2);
        }},
+      {"held", 8, 8,
+       [](Builder &b)
+       {
+          b.stiffness(b.definite(b.size, b.r.power(0.5, 2)));
+          b.moderate_friction();
+          for (int row = 0; row < b.c * b.n; ++row)
+             if (b.r.chance(0.3)) b.held.push_back(row);
+       }},
       {"symmetric", 10, 6,
        [](Builder &b)
        {
@@ -484,6 +493,7 @@ inline Case make_case(const FamilyEntry &family, int components, std::uint64_t s
    Builder b(r, made, n, components);
    family.build(b);
    b.patterns();
+   cattaneo::hold(made.problem, b.held);
    b.history(r.whole(5, 12), family.name == "tiny" ? 0.7 : 0.1);
    made.increments = family.name == "turning" ? 1 : r.whole(1, 5);
    made.single_if_exact = r.chance(0.7);
@@ -492,6 +502,7 @@ inline Case make_case(const FamilyEntry &family, int components, std::uint64_t s
       made.slip = r.power(-3, 0.5) * r.normals(components * n);
       for (int i = 0; i < components * n; ++i)
          made.slip[i] *= b.force_scale[i] / made.problem.A(i, i);
+      for (const Index row : b.held) made.slip[row] = 0;
    }
    // Half of the problems come with what a program that makes them knows.
    if (number % 2)
