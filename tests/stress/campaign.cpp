@@ -1,0 +1,446 @@
+// Random increments and marches over families of problems that are hard for a friction solver,
+// judged by the laws in long double (campaign_laws.hpp).
+//
+//    campaign -increments 300000 -save findings
+//    campaign -family hilbert -stepping exact -increments 10000 -seed 3
+//    campaign -replay findings/NAME
+#include "campaign_laws.hpp"
+#include "campaign_problems.hpp"
+#include <cattaneo/friction/march.hpp>
+#include <cattaneo/reduced/reduced_file.hpp>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+
+using namespace campaign;
+using namespace cattaneo;
+
+namespace
+{
+using Clock = std::chrono::steady_clock;
+double since(Clock::time_point start)
+{
+   return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// What one answer states of its own accuracy, relative to the largest force.
+template <class Answer>
+auto round_off(const Answer &answer, int) -> decltype(double(answer.round_off))
+{
+   return answer.round_off;
+}
+template <class Answer>
+double round_off(const Answer &, long)
+{
+   return 0;
+}
+template <class Answer>
+double stated(const Answer &answer)
+{
+   return std::max({answer.residual_normal, answer.residual_tangential, round_off(answer, 0)});
+}
+
+enum Class
+{
+   violated,
+   misnamed,
+   negative,
+   false_statement,
+   missed,
+   unsure,
+   unjustified,
+   overstated,
+   stalled,
+   solvable,
+   thrown,
+   slow,
+   classes
+};
+const char *const class_names[] = {
+   "violation",   "misnamed",   "negative_loss", "false_mechanism", "missed",    "unverified",
+   "unjustified", "overstated", "stalled",       "solvable",        "exception", "slow"};
+
+struct Row
+{
+   long increments = 0, accepted = 0, sliding = 0, none = 0, not_unique = 0, fallbacks = 0;
+   long count[classes] = {};
+   double worst = 0, slowest = 0, seconds = 0;
+   void add(const Row &o)
+   {
+      increments += o.increments, accepted += o.accepted, sliding += o.sliding, none += o.none;
+      not_unique += o.not_unique, fallbacks += o.fallbacks, seconds += o.seconds;
+      for (int k = 0; k < classes; ++k) count[k] += o.count[k];
+      worst = std::max(worst, o.worst), slowest = std::max(slowest, o.slowest);
+   }
+};
+
+struct Find
+{
+   Class kind;
+   double size;
+   std::string name, stepping, what;
+   Case made;
+};
+
+class Campaign
+{
+public:
+   bool verbose = false;
+   std::map<std::string, std::map<std::string, Row>> table;
+   std::vector<Find> finds;
+   std::string family, label, stepping;
+
+   void run(const Case &made)
+   {
+      made_ = &made;
+      row_ = &table[family][stepping];
+      const auto start = Clock::now();
+      try
+      {
+         Laws laws(made.problem);
+         laws_ = &laws;
+         existence_.reset();
+         ContactState state = made.slip.size()
+                                 ? ContactState::with_slip(made.problem, made.slip)
+                                 : ContactState::virgin(made.problem);
+         u_ = Laws::displacements(state);
+         scale_ = laws.scale(u_, made.history[0]);
+         if (stepping == "increment") step_through(state);
+         else march_through(state);
+      }
+      catch (const std::exception &e)
+      {
+         note(thrown, 1, e.what());
+      }
+      row_->seconds += since(start);
+   }
+
+private:
+   const Case *made_ = nullptr;
+   Row *row_ = nullptr;
+   const Laws *laws_ = nullptr;
+   std::unique_ptr<Existence> existence_;
+   Vector u_; // of the last accepted state
+   Real scale_ = 0;
+
+   void note(Class kind, double size, const std::string &what)
+   {
+      ++row_->count[kind];
+      if (verbose) std::printf("   %s %.3g: %s\n", class_names[kind], size, what.c_str());
+      int held = 0;
+      Find *least = nullptr;
+      for (Find &find : finds)
+         if (find.kind == kind && find.stepping == stepping &&
+             find.name.find(family + "-") == 0)
+         {
+            ++held;
+            if (!least || find.size < least->size) least = &find;
+         }
+      if (held < 2) finds.push_back({kind, size, label, stepping, what, *made_});
+      else if (size > least->size) *least = {kind, size, label, stepping, what, *made_};
+   }
+
+   void accepted(const ContactState &state, double accuracy, const double *loss)
+   {
+      ++row_->accepted;
+      scale_ = std::max(scale_, laws_->scale(u_, state.multipliers));
+      const Real scale = std::max(scale_, Real(1e-4000L));
+      const Vector u = Laws::displacements(state);
+      Violation wrong;
+      const Violation v = laws_->judge(u, u_, state, &wrong);
+      const double worst = v.size / scale;
+      char text[200];
+      std::snprintf(text, sizeof text, "%s at node %d, t %.6g, stated %.1e", v.law, int(v.node),
+                    state.time, accuracy);
+      if (verbose)
+      {
+         std::printf("   t %.17g worst %.2e %s%s\n      v", state.time, worst, text,
+                     loss ? (", loss " + std::to_string(*loss)).c_str() : "");
+         for (const double x : state.v) std::printf(" %.9g", x);
+         std::printf("  w");
+         for (const double x : state.w) std::printf(" %.9g", x);
+         std::printf("  q");
+         for (const double x : state.q) std::printf(" %.9g", x);
+         std::printf("  p");
+         for (const double x : state.p) std::printf(" %.9g", x);
+         std::printf(" ");
+         for (const NodeState x : state.status) std::printf(" %s", name(x));
+         std::puts("");
+      }
+      row_->worst = std::max(row_->worst, accuracy > 1e-9 ? 0 : worst);
+      // The scales of the two may differ, by less than two.
+      if (worst > std::max(1e-9, 2 * accuracy)) note(violated, worst, text);
+      else if (wrong.size / scale > std::max(1e-9, 2 * accuracy))
+      {
+         std::snprintf(text, sizeof text, "%s at node %d, t %.6g, stated %.1e", wrong.law,
+                       int(wrong.node), state.time, accuracy);
+         note(misnamed, wrong.size / scale, text);
+      }
+      if (accuracy > 1e-9)
+      {
+         const double floor = laws_->round_off(u, u_, state, scale);
+         std::snprintf(text, sizeof text, "stated %.1e, round-off in long double %.1e, t %.6g",
+                       accuracy, floor, state.time);
+         note(overstated, accuracy, text);
+         if (accuracy > 100 * floor) note(unjustified, accuracy / floor, text);
+      }
+      if (loss)
+      {
+         Real work = 0, way = 0;
+         for (Index i = 0; i < laws_->n * laws_->c; ++i)
+         {
+            work += std::abs(state.q[i] * (u[i] - u_[i]));
+            way += std::abs(u[i] - u_[i]);
+         }
+         if (*loss < -1e-9 * work - 1e-14 * scale * way)
+         {
+            std::snprintf(text, sizeof text, "loss %.6g of slip work %.6g, t %.6g", *loss,
+                          double(work), state.time);
+            note(negative, double(-*loss / (work + scale * way)), text);
+         }
+      }
+      u_ = u;
+   }
+
+   /// An increment to these loads that was not solved: is what is said of it true?
+   void failed(FrictionStatus status, const std::string &message, const Eigen::VectorXd &loads)
+   {
+      const bool stall = status == FrictionStatus::stalled;
+      if (!stall) ++(status == FrictionStatus::gross_sliding ? row_->sliding : row_->none);
+      Verdict none = Verdict::open;
+      if (!stall || laws_->K.rows() <= 40)
+      {
+         if (!existence_) existence_ = std::make_unique<Existence>(*laws_);
+         none = existence_->none(u_, loads);
+      }
+      const char *const truths[] = {"there is no equilibrium", "there is one",
+                                    "not known whether there is one"};
+      char text[400];
+      std::snprintf(text, sizeof text, "%s [%s; %d motions, margin %.1e] %s", name(status),
+                    truths[int(none)], existence_ ? int(existence_->motions()) : -1,
+                    existence_ ? existence_->margin : 0, message.c_str());
+      // "None was found, friction is above critical" claims no mechanism.
+      const bool claim = status == FrictionStatus::gross_sliding ||
+                         message.find("critical") == std::string::npos;
+      if (stall) note(none == Verdict::wrong ? solvable : stalled, 1, text);
+      else if (none != Verdict::right)
+         note(none == Verdict::open ? unsure : claim ? false_statement : missed, 1, text);
+      else if (verbose) std::printf("   %s\n", text);
+   }
+
+   void timed(double seconds, double time)
+   {
+      row_->slowest = std::max(row_->slowest, seconds);
+      if (seconds > 0.5) note(slow, seconds, "increment to t " + std::to_string(time));
+   }
+
+   void step_through(ContactState &state)
+   {
+      FrictionSolver solver(made_->problem);
+      for (std::size_t k = 1; k < made_->history.size(); ++k)
+      {
+         ++row_->increments;
+         const auto start = Clock::now();
+         const IncrementReport report = solver.solve(state, made_->history[k]);
+         timed(since(start), k);
+         state.time = k;
+         if (report.status == FrictionStatus::not_unique) ++row_->not_unique;
+         if (report.status == FrictionStatus::converged ||
+             report.status == FrictionStatus::not_unique)
+            accepted(state, stated(report), nullptr);
+         else
+         {
+            if (Laws::displacements(state) != u_)
+               note(violated, 1, "a failure moved the state");
+            failed(report.status, report.message, made_->history[k]);
+         }
+      }
+   }
+
+   void march_through(ContactState &state)
+   {
+      MarchSettings settings;
+      settings.increments = made_->increments;
+      settings.single_increment_if_exact = made_->single_if_exact;
+      settings.stop_at_steady_state = false;
+      settings.stepping = stepping == "exact"   ? Stepping::exact
+                          : stepping == "fixed" ? Stepping::fixed
+                                                : Stepping::advancing;
+      auto last = Clock::now();
+      const LoadHistory history = LoadHistory::through(made_->history);
+      const MarchReport report =
+         march(made_->problem, history, state, settings,
+               [&](const ContactState &now, const IncrementRecord &record)
+               {
+                  ++row_->increments;
+                  timed(since(last), now.time);
+                  accepted(now, stated(record), &record.dissipation);
+                  last = Clock::now();
+               });
+      timed(since(last), report.time);
+      row_->fallbacks += report.fallbacks;
+      for (int k = 0; k < report.stalled; ++k) note(stalled, 0, "passed by shorter increments");
+      if (report.status == FrictionStatus::not_unique) ++row_->not_unique;
+      if (verbose)
+         std::printf("   march: %s %s; %d fallbacks: %s\n", name(report.status),
+                     report.message.c_str(), report.fallbacks, report.fallback_reason.c_str());
+      if (report.status != FrictionStatus::converged &&
+          report.status != FrictionStatus::not_unique)
+      {
+         // Just beyond the last equilibrium there should be none.
+         ++row_->increments;
+         const std::size_t piece = std::min<std::size_t>(
+            std::max(0.0, std::floor(report.event_time)), made_->history.size() - 2);
+         const Eigen::VectorXd end = made_->history[piece + 1];
+         failed(report.status, report.message,
+                report.event_multipliers + 1e-3 * (end - report.event_multipliers));
+      }
+   }
+};
+
+void write(const Find &find, const std::string &file)
+{
+   save(find.made.problem, file + ".json");
+   std::ofstream out(file + ".txt");
+   out.precision(17);
+   out << "# " << find.stepping << ' ' << find.made.increments << ' '
+       << find.made.single_if_exact << ' ' << find.what << '\n';
+   if (find.made.slip.size()) out << "# slip " << find.made.slip.transpose() << '\n';
+   for (const auto &point : find.made.history) out << point.transpose() << '\n';
+}
+
+int replay(const std::string &file)
+{
+   Case made;
+   made.problem = load_reduced_problem(file + ".json");
+   Campaign campaign;
+   campaign.verbose = true;
+   std::ifstream in(file + ".txt");
+   std::string line, word;
+   for (bool first = true; std::getline(in, line); first = false)
+   {
+      std::istringstream words(line);
+      if (line[0] == '#') words >> word;
+      if (line[0] == '#' && first)
+         words >> campaign.stepping >> made.increments >> made.single_if_exact;
+      else if (line[0] == '#') words >> word;
+      if (line[0] == '#' && first) continue;
+      std::vector<double> values;
+      for (double x; words >> x;) values.push_back(x);
+      const Eigen::VectorXd all = Eigen::Map<Eigen::VectorXd>(values.data(), values.size());
+      if (line[0] == '#') made.slip = all;
+      else made.history.push_back(all);
+   }
+   campaign.family = campaign.label = "replay";
+   campaign.run(made);
+   return 0;
+}
+
+/// A line of the table, or its head.
+void print(const std::string &family, const std::string &stepping, const Row *r)
+{
+   std::printf("%-20s %-9s", family.c_str(), stepping.c_str());
+   const Row &x = r ? *r : Row();
+   const std::vector<std::pair<const char *, long>> counts = {
+      {"increments", x.increments},     {"accepted", x.accepted},
+      {"sliding", x.sliding},           {"none", x.none},
+      {"not unique", x.not_unique},     {"stalled", x.count[stalled] + x.count[solvable]},
+      {"solvable", x.count[solvable]},  {"fallback", x.fallbacks},
+      {">1e-9", x.count[overstated]},   {"unjust", x.count[unjustified]},
+      {"violation", x.count[violated]}, {"misnamed", x.count[misnamed]},
+      {"negative", x.count[negative]},  {"false", x.count[false_statement]},
+      {"missed", x.count[missed]},      {"unverified", x.count[unsure]},
+      {"thrown", x.count[thrown]}};
+   for (const auto &[title, count] : counts)
+      r ? std::printf(" %*ld", std::max(6, int(std::strlen(title))), count)
+        : std::printf(" %6s", title);
+   if (r) std::printf(" %8.1e %10.1f %7.1f\n", x.worst, 1e3 * x.slowest, x.seconds);
+   else std::puts("    worst slowest/ms seconds");
+   std::fflush(stdout);
+}
+} // namespace
+
+int main(int argc, char **argv)
+{
+   std::string family, stepping, folder;
+   std::uint64_t seed = 1;
+   long increments = 4000, only = -1;
+   bool verbose = false;
+   for (int k = 1; k < argc; ++k)
+   {
+      const std::string option = argv[k];
+      const char *value = k + 1 < argc ? argv[++k] : "";
+      if (option == "-family") family = value;
+      else if (option == "-stepping") stepping = value;
+      else if (option == "-seed") seed = std::atoll(value);
+      else if (option == "-increments") increments = std::atol(value);
+      else if (option == "-case") only = std::atol(value), verbose = true;
+      else if (option == "-save") folder = value;
+      else if (option == "-replay") return replay(value);
+      else
+      {
+         std::cerr << "campaign: unknown option '" << option
+                   << "'; there are -family NAME -stepping increment|fixed|advancing|exact "
+                      "-seed S -increments N -save FOLDER -case K -replay FILE\n";
+         return 1;
+      }
+   }
+   Campaign campaign;
+   campaign.verbose = verbose;
+   const char *const steppings[] = {"increment", "fixed", "advancing", "exact"};
+   std::vector<std::pair<const FamilyEntry *, int>> all;
+   double weight = 0;
+   for (const FamilyEntry &f : families())
+      for (int c = 1; c <= 2; ++c)
+         if (family.empty() || family == (c == 2 ? "disc_" : "") + f.name)
+            all.push_back({&f, c}), weight += f.weight(c);
+   print("family", "stepping", nullptr);
+   Row total;
+   for (const auto &[f, c] : all)
+   {
+      campaign.family = (c == 2 ? "disc_" : "") + f->name;
+      const auto done = [&, f = f, c = c]
+      {
+         long sum = 0;
+         for (const auto &row : campaign.table[campaign.family]) sum += row.second.increments;
+         return sum * weight >= increments * f->weight(c);
+      };
+      for (int number = only < 0 ? 0 : only; only < 0 ? !done() : number == only; ++number)
+      {
+         const Case made = make_case(*f, c, seed, number);
+         for (const char *s : steppings)
+         {
+            if ((!stepping.empty() && stepping != s) || (c == 2 && !std::strcmp(s, "exact")))
+               continue;
+            campaign.stepping = s;
+            campaign.label =
+               campaign.family + "-" + std::to_string(seed) + "-" + std::to_string(number);
+            campaign.run(made);
+         }
+      }
+      for (const char *s : steppings)
+         if (campaign.table[campaign.family].count(s))
+         {
+            print(campaign.family, s, &campaign.table[campaign.family][s]);
+            total.add(campaign.table[campaign.family][s]);
+         }
+   }
+   print("all", "", &total);
+   std::sort(campaign.finds.begin(), campaign.finds.end(),
+             [](const Find &a, const Find &b)
+             { return a.kind != b.kind ? a.kind < b.kind : a.size > b.size; });
+   for (const Find &find : campaign.finds)
+   {
+      const std::string name =
+         std::string(class_names[find.kind]) + "-" + find.name + "-" + find.stepping;
+      std::printf("%-60s %9.2e  %s\n", name.c_str(), find.size, find.what.c_str());
+      if (!folder.empty()) write(find, folder + "/" + name);
+   }
+   return total.count[violated] + total.count[negative] + total.count[false_statement] +
+                total.count[unjustified] + total.count[thrown]
+             ? 2
+             : 0;
+}
