@@ -227,7 +227,7 @@ void Study::bonded(const std::vector<double> &wanted)
    std::printf("\nBonded disc\n   a/t    lowest p/p0   at r/t   f for full adhesion\n");
    for (double a_ : wanted)
    {
-      const LoadPattern &pattern = problem->patterns[problem->pattern(text("a = %g", a_))];
+      const LoadPattern &pattern = problem->patterns[options.load(a_)];
       const VectorXd p = tractions(*problem, pattern.p).segment(first, count),
                      q = tractions(*problem, pattern.q.head(problem->nodes()))
                             .segment(first, count),
@@ -241,7 +241,7 @@ void Study::bonded(const std::vector<double> &wanted)
                       {"lowest_pressure", lowest},
                       {"lowest_at", at[low]},
                       {"adhesion_friction", miniapp::json_number(adhesion)}});
-      panel.add(text("a = %g", a_), at, p);
+      panel.add(miniapp::exact_text("a = ", a_), at, p);
       const bool reference = standard() && options.disc_radius == 5;
       for (const auto &[radius, value] : {std::pair{0.5, 0.9088},
                                           {1.0, 0.8618},
@@ -252,13 +252,14 @@ void Study::bonded(const std::vector<double> &wanted)
          if (!reference || a_ != 2.1) { continue; }
          Index i = 0;
          (at.array() - radius).abs().minCoeff(&i);
-         table.add(text("bonded, a = 2.1: p/p0 at r/t = %g", radius), value, 5e-4, none, p[i]);
+         table.add(miniapp::exact_text("bonded, a = 2.1: p/p0 at r/t = ", radius), value, 5e-4,
+                   none, p[i]);
       }
       for (const auto &[radius, value] : {std::pair{3.75, 1.69}, {4.25, 1.07}, {4.7, 0.600}})
       {
          if (!reference || a_ != radius) { continue; }
-         table.add(text("f for full adhesion, a = %g", radius), value, 0.01 * value, 0.543,
-                   adhesion);
+         table.add(miniapp::exact_text("f for full adhesion, a = ", radius), value,
+                   0.01 * value, 0.543, adhesion);
       }
    }
    results["bonded"] = list;
@@ -277,7 +278,8 @@ void Study::compare_loading(double load_radius, double friction, const Extent &f
    for (const auto &row : references)
    {
       if (!is(5, a, f) || load_radius != row.a || friction != row.f) { continue; }
-      const std::string where = text(", loaded, a = %g", row.a) + text(", f = %g", row.f);
+      const std::string where =
+         miniapp::exact_text(", loaded, a = ", row.a) + miniapp::exact_text(", f = ", row.f);
       table.add("d/t" + where, row.d, tolerance(), row.thesis, found.d);
       table.add("c/t" + where, row.c, tolerance(), none, found.c);
    }
@@ -311,14 +313,14 @@ int Study::map(const std::vector<double> &wanted, const std::vector<double> &fri
       ReducedProblem rubbed = *problem;
       set_friction(rubbed, friction);
       FrictionSolver solver(rubbed);
+      counters += solver.counters();
       std::vector<double> d, c;
       for (std::size_t k = 0; k < wanted.size(); ++k)
       {
          ContactState state = ContactState::virgin(rubbed);
          // The states of the nodes at the friction before are where the search starts.
          if (!guesses[k].empty()) { state.status = guesses[k]; }
-         const VectorXd full =
-            VectorXd::Unit(rubbed.patterns.size(), rubbed.pattern(text("a = %g", wanted[k])));
+         const VectorXd full = VectorXd::Unit(rubbed.patterns.size(), options.load(wanted[k]));
          if (const int code =
                 marched(march(solver, LoadHistory::through({0 * full, full}), state)))
          {
@@ -335,9 +337,10 @@ int Study::map(const std::vector<double> &wanted, const std::vector<double> &fri
                          {"stick", miniapp::json_number(found.c)}});
          if (wanted[k] != a || friction != f) { compare_loading(wanted[k], friction, found); }
       }
-      panel.add(text("f = %g", friction), wanted, d);
-      panel.add(text("f = %g", friction), {none}, {none}); // a gap between the two curves
-      panel.add(text("f = %g", friction), wanted, c);
+      panel.add(miniapp::exact_text("f = ", friction), wanted, d);
+      panel.add(miniapp::exact_text("f = ", friction), {none},
+                {none}); // a gap between the two curves
+      panel.add(miniapp::exact_text("f = ", friction), wanted, c);
    }
    panel.add("thesis", std::vector<double>{2.5}, {3.75}, "thesis");
    panels.push_back(panel);
@@ -377,8 +380,9 @@ int Study::critical(const std::vector<double> &discs, const std::vector<double> 
          {
             if (!standard() || row.b != b || row.f != frictions[k]) { continue; }
             // The rim's node tells: first order in the spacing, most without friction.
-            table.add(text("critical a/t, b = %g", b) + text(", f = %g", row.f), row.a,
-                      0.002 + 0.2 * options.spacing, none, found);
+            table.add(miniapp::exact_text("critical a/t, b = ", b) +
+                         miniapp::exact_text(", f = ", row.f),
+                      row.a, 0.002 + 0.2 * options.spacing, none, found);
          }
       }
       counters += disc.counters();
@@ -388,7 +392,7 @@ int Study::critical(const std::vector<double> &discs, const std::vector<double> 
                             "radius of the load a/t", "radius of the disc b/t");
    for (std::size_t k = 0; k < frictions.size(); ++k)
    {
-      panel.add(text("f = %g", frictions[k]), curves[k], discs);
+      panel.add(miniapp::exact_text("f = ", frictions[k]), curves[k], discs);
    }
    panel.add("a = b", discs, discs, "dashed");
    panels.push_back(panel);
@@ -408,7 +412,7 @@ int Study::unload(FrictionSolver &solver, ContactState state, const std::vector<
                      miniapp::Panel::zones("zones", "Zones during unloading", "P/P0", "r/t");
    auto add_profile = [&](double level, const ContactState &at)
    {
-      const std::string label = text("P/P0 = %g", level);
+      const std::string label = miniapp::exact_text("P/P0 = ", level);
       profiles.add(label, radii(), tractions(*problem, at.p));
       profiles.add("q/f: " + label, radii(), tractions(*problem, at.q.head(n)) / f, "dashed");
    };
@@ -441,7 +445,10 @@ int Study::unload(FrictionSolver &solver, ContactState state, const std::vector<
       const double allowed = 0.01 + 0.1 * options.spacing;
       for (const auto &[at, d] : {std::pair{0.9, 3.670}, {0.3, 3.254}, {0.1, 3.068}})
       {
-         if (is_at(at)) { table.add(text("d/t at P/P0 = %g", at), d, allowed, none, found.d); }
+         if (is_at(at))
+         {
+            table.add(miniapp::exact_text("d/t at P/P0 = ", at), d, allowed, none, found.d);
+         }
       }
       const double borders[] = {1.715, 2.415, 3.015, 3.402}, thesis[] = {1.6, 2.3, 2.9, 3.4};
       for (std::size_t k = 0; is_at(0.5) && k < 4 && k < found.zones.size(); ++k)
@@ -583,9 +590,8 @@ int Study::twist(FrictionSolver &solver, const ContactState &loaded, Stop stop,
       }
       return panel;
    };
-   const auto profile = [&](const Turning &at)
+   const auto profile = [&](const std::string &label, const Turning &at)
    {
-      const std::string label = text("T/T_s = %.3g", at.torque / limit);
       profiles.add(label, r, tractions(*problem, at.state.p));
       profiles.add("|q|/f: " + label, r, tractions(*problem, length(at.state.q)) / f, "dashed");
       sliding.add(label, r.head(n - 1), length(at.state.v).head(n - 1));
@@ -601,7 +607,8 @@ int Study::twist(FrictionSolver &solver, const ContactState &loaded, Stop stop,
 
    Turning now = untwisted(loaded);
    observe(loaded, {});
-   profile(now);
+   const char *const counted = stop == Stop::torque ? "T/T_s = " : "φ = ";
+   profile(miniapp::exact_text(counted, 0), now);
    std::vector<miniapp::Panel> plans{plan("plan_before", 0, now)};
    std::printf(
       "  T/T_s   rotation    c/t      d/t     slip angle at 10/50/90 %% of the annulus: "
@@ -613,7 +620,7 @@ int Study::twist(FrictionSolver &solver, const ContactState &loaded, Stop stop,
          turn(solver, now, stop, stop == Stop::torque ? wanted[k] * limit : wanted[k], observe);
       if (code != 0 || (stop == Stop::torque && now.descended)) { break; }
       const Extent found = extent(*problem, now.state);
-      profile(now);
+      profile(miniapp::exact_text(counted, wanted[k]), now);
       const double share = now.torque / limit;
       if (k == wanted.size() / 2) { plans.push_back(plan("plan_twisted", share, now)); }
       double rate[3], total[3];
@@ -641,8 +648,8 @@ int Study::twist(FrictionSolver &solver, const ContactState &loaded, Stop stop,
            {std::array<double, 3>{0.3, 1.829, 3.617}, {0.7, 1.564, 3.431}})
       {
          if (wanted[k] != T) { continue; }
-         table.add(text("c/t at T/T_s = %g", T), c, allowed, none, found.c);
-         table.add(text("d/t at T/T_s = %g", T), d, allowed, none, found.d);
+         table.add(miniapp::exact_text("c/t at T/T_s = ", T), c, allowed, none, found.c);
+         table.add(miniapp::exact_text("d/t at T/T_s = ", T), d, allowed, none, found.d);
       }
       const double rates[] = {14, 49, 77}, totals[] = {8, 13, 37};
       for (int j = 0; j < 3 && wanted[k] == 0.5; ++j)

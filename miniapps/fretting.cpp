@@ -100,6 +100,7 @@ struct SolvedContact
    FrictionStatus status = FrictionStatus::converged;
    int steady_cycle = 0, dofs = 0;
    double seconds = 0.0;
+   Counters counters;
 };
 
 /// Fewer spacings than two do not carry the slip in a zone, nor its energy.
@@ -145,12 +146,15 @@ SolvedContact solve_contact(const Design &design, const Setting &setting,
 
    SolvedContact solved;
    solved.dofs = scene.dofs;
+   solved.counters = scene.reduction.counters;
    FrictionSolver solver(problem);
+   solved.counters += solver.counters();
    ContactState state = ContactState::virgin(problem);
    const auto go = [&](LoadHistory history)
    {
       state.time = 0;
       const MarchReport report = march(solver, history, state);
+      solved.counters += report.counters;
       require(report.status == FrictionStatus::converged,
               "the finite element contact ends in '", name(report.status),
               "' before the peak load: ", report.message);
@@ -592,7 +596,8 @@ Json to_json(const SolvedContact &solved)
            {"leading", to_json(solved.leading, resolved(solved.leading, solved))},
            {"steady_cycle", solved.steady_cycle},
            {"dofs", solved.dofs},
-           {"seconds", solved.seconds}};
+           {"seconds", solved.seconds},
+           {"counters", miniapp::to_json(solved.counters)}};
 }
 
 void print_solution(const SolvedContact &solved, const miniapp::ReferenceTable &table)

@@ -175,9 +175,8 @@ int main(int argc, char *argv[])
                   { return std::abs(s) < half ? std::sqrt(half * half - s * s) / b : 0.0; };
                   return -friction * p0 * (ellipse(b) - ellipse(exact_c * b));
                });
-            char label[32];
-            std::snprintf(label, sizeof label, "-q/f, Q/fP = %g", shear[k]);
-            profiles.add(label, x / b, tractions(problem, state.q) / (-friction * p0));
+            profiles.add(miniapp::exact_text("-q/f, Q/fP = ", shear[k]), x / b,
+                         tractions(problem, state.q) / (-friction * p0));
             std::printf("%6.3f   %9.5f   %11.5f   %12.2e\n", shear[k], c, exact_c,
                         shearing.largest);
             levels.push_back({{"shear", shear[k]},
@@ -186,9 +185,8 @@ int main(int argc, char *argv[])
                               {"shear_deviation", shearing.largest}});
             if (!on_block && nodes == 101 && span == 1.67 && domain >= 1e3)
             {
-               char name[64];
-               std::snprintf(name, sizeof name, "stick half-width / b, Q/fP = %g", shear[k]);
-               table.add(name, exact_c,
+               table.add(miniapp::exact_text("stick half-width / b, Q/fP = ", shear[k]),
+                         exact_c,
                          std::max({stick.from.error, stick.to.error,
                                    0.1 * (problem.arc_length[1] - problem.arc_length[0])}) /
                             b,

@@ -341,6 +341,7 @@ int Study::single()
 {
    set_friction(problem(), friction);
    FrictionSolver solver(problem());
+   counters += solver.counters();
    miniapp::Panel diagram = miniapp::Panel::zones(
       "zones", "Zones in time (1: pinched, then T: 0 → Tmax → 0)", "load step", "x/t");
    nlohmann::ordered_json evolution = nlohmann::ordered_json::array();
@@ -446,6 +447,7 @@ int Study::sweep(const std::vector<double> &loads, const std::vector<double> &fr
    {
       set_friction(problem(), f);
       FrictionSolver solver(problem());
+      counters += solver.counters();
       // Of the first width: a and c over T, and D over T of either sign.
       MarchSettings to_steady = settings;
       to_steady.stop_at_steady_state = true;
@@ -492,23 +494,19 @@ int Study::sweep(const std::vector<double> &loads, const std::vector<double> &fr
             }
          }
       }
-      char label[64];
-      std::snprintf(label, sizeof label, "f = %g", f);
-      extents.add(std::string("a, ") + label, T, a);
-      extents.add(std::string("c, ") + label, T, c);
-      if (!tension.empty())
-      {
-         losses.add(std::string("tension, ") + label, tension, D_tension);
-      }
+      const std::string rubbed = miniapp::exact_text("f = ", f);
+      extents.add("a, " + rubbed, T, a);
+      extents.add("c, " + rubbed, T, c);
+      if (!tension.empty()) { losses.add("tension, " + rubbed, tension, D_tension); }
       if (!compression.empty())
       {
-         losses.add(std::string("compression, ") + label, compression, D_compression);
+         losses.add("compression, " + rubbed, compression, D_compression);
       }
       for (std::size_t k = 0; k < loads.size(); ++k)
       {
-         std::snprintf(label, sizeof label, "T/P0 = %g, f = %g", loads[k], f);
-         by_width.add(std::string(label) + ", same p0", widths, by_p0[k]);
-         by_width.add(std::string(label) + ", same P0", widths, by_P0[k]);
+         const std::string label = miniapp::exact_text("T/P0 = ", loads[k]) + ", " + rubbed;
+         by_width.add(label + ", same p0", widths, by_p0[k]);
+         by_width.add(label + ", same P0", widths, by_P0[k]);
       }
    }
    if (loads.size() > 1) { panels.insert(panels.end(), {extents, losses}); }
@@ -523,6 +521,7 @@ int Study::row(const std::vector<std::vector<int>> &all)
 {
    set_friction(problem(), friction);
    FrictionSolver solver(problem());
+   counters += solver.counters();
    nlohmann::ordered_json list = nlohmann::ordered_json::array();
    const double unit = P0() * P0();
    miniapp::Panel residual =
@@ -669,6 +668,7 @@ int main(int argc, char *argv[])
             const double limit = -study.friction * study.P0() * options.bolts.size();
             const double load =
                touch_load(solver, study.tightening(all[0]).back(), study.joint.remote(), limit);
+            study.counters += solver.counters();
             const double ratio = load / study.P0();
             std::printf("\nThe free ends touch at T/P0 = %.5f\n", ratio);
             results["touch_load"] = miniapp::json_number(ratio);

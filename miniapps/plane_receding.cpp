@@ -197,9 +197,7 @@ void Study::bonded(double overhang, int pattern)
    const Index shown = std::lower_bound(problem->arc_length.data(),
                                         problem->arc_length.data() + problem->nodes(), 3.0) -
                        problem->arc_length.data();
-   char label[32];
-   std::snprintf(label, sizeof label, "n = %g", overhang);
-   panel.add(label, problem->arc_length.segment(8, shown - 8),
+   panel.add(miniapp::exact_text("n = ", overhang), problem->arc_length.segment(8, shown - 8),
              b.q.cwiseQuotient(b.p).segment(8, shown - 8));
    panel.add("Williams corner", std::vector<double>{0, 3},
              {miniapp::williams_ratio[0], miniapp::williams_ratio[0]}, "dashed");
@@ -219,15 +217,14 @@ int Study::map(const std::vector<double> &overhangs, const std::vector<double> &
    {
       set_friction(*problem, f);
       FrictionSolver solver(*problem);
+      counters += solver.counters();
       std::vector<double> s, e;
       for (std::size_t k = 0; k < overhangs.size(); ++k)
       {
          ContactState state = ContactState::virgin(*problem);
          // The states of the nodes at the friction before are where the search starts.
          if (!guesses[k].empty()) { state.status = guesses[k]; }
-         const int pattern =
-            std::find(options.overhangs.begin(), options.overhangs.end(), overhangs[k]) -
-            options.overhangs.begin();
+         const int pattern = options.load(overhangs[k]);
          const MarchReport report = march(solver, loading(*problem, pattern), state);
          counters += report.counters;
          if (const int code = miniapp::exit_code(report)) { return code; }
@@ -242,8 +239,7 @@ int Study::map(const std::vector<double> &overhangs, const std::vector<double> &
                          {"stick_slip", miniapp::json_number(found.e)}});
          compare_loading(overhangs[k], f, found);
       }
-      char label[32];
-      std::snprintf(label, sizeof label, "f = %g", f);
+      const std::string label = miniapp::exact_text("f = ", f);
       panel.add(label, overhangs, s);
       panel.add(label, {none}, {none}); // a gap between the two curves
       panel.add(label, overhangs, e);
@@ -291,11 +287,10 @@ int Study::unload(FrictionSolver &solver, ContactState &state, double overhang, 
    const double f = problem->friction[0];
    auto add_profile = [&](double level, const ContactState &at)
    {
-      char label[32];
-      std::snprintf(label, sizeof label, "p/p0 = %g", level);
+      const std::string label = miniapp::exact_text("p/p0 = ", level);
       profiles.add(label, xi.head(shown), tractions(*problem, at.p).head(shown));
-      profiles.add(std::string("q/f: ") + label, xi.head(shown),
-                   tractions(*problem, at.q).head(shown) / f, "dashed");
+      profiles.add("q/f: " + label, xi.head(shown), tractions(*problem, at.q).head(shown) / f,
+                   "dashed");
    };
    add_profile(1, full);
 
@@ -369,9 +364,7 @@ int Study::unload(FrictionSolver &solver, ContactState &state, double overhang, 
                            {"slip", h.slip},
                            {"slips_from", miniapp::json_number(h.slips_from)},
                            {"separates_at", miniapp::json_number(h.separates_at)}});
-      char label[32];
-      std::snprintf(label, sizeof label, "ξ/t = %g", h.xi);
-      slip_panel.add(label, h.level, h.slip);
+      slip_panel.add(miniapp::exact_text("ξ/t = ", h.xi), h.level, h.slip);
       if (h.xi == -0.5 && f == 0.7 && overhang >= 2 && half_plane)
       {
          table.add("v E'/(p0 t) at ξ/t = -0.5, full load", -0.8245,
@@ -401,7 +394,8 @@ int Study::unload(FrictionSolver &solver, ContactState &state, double overhang, 
 }
 
 /// s and e as the block grows toward a half-plane.
-int domain_study(miniapp::RecedingOptions options, double overhang, double friction)
+int domain_study(miniapp::RecedingOptions options, double overhang, double friction,
+                 Counters &counters)
 {
    std::printf("\nDomain study, n = %g, f = %g\n  length    depth     side      s/t      e/t\n",
                overhang, friction);
@@ -420,6 +414,8 @@ int domain_study(miniapp::RecedingOptions options, double overhang, double frict
       set_friction(problem, friction);
       ContactState state = ContactState::virgin(problem);
       const MarchReport report = march(problem, loading(problem, 0), state);
+      counters += scene.reduction.counters;
+      counters += report.counters;
       if (const int code = miniapp::exit_code(report)) { return code; }
       const Extent found = extent(problem, state, overhang);
       std::printf("%8g %8g %8g %8.4f %8.4f\n", length, depth, side, found.s, found.e);
@@ -519,6 +515,7 @@ int main(int argc, char *argv[])
 
          set_friction(problem, friction);
          FrictionSolver solver(problem);
+         study.counters += solver.counters();
          ContactState state = ContactState::virgin(problem);
          const MarchReport report = march(solver, loading(problem, 0), state);
          study.counters += report.counters;
@@ -536,7 +533,10 @@ int main(int argc, char *argv[])
             code = study.unload(solver, state, overhang, 0, steps, lowest, wanted, points);
          }
          if (code == 0 && !map_n.empty()) { code = study.map(map_n, map_f); }
-         if (code == 0 && study_domain) { code = domain_study(options, overhang, friction); }
+         if (code == 0 && study_domain)
+         {
+            code = domain_study(options, overhang, friction, study.counters);
+         }
          if (study.half_plane || study.thesis_block)
          {
             study.table.note(

@@ -126,15 +126,14 @@ int main(int argc, char *argv[])
          auto draw = [&](double load, const ContactState &at)
          {
             const Eigen::VectorXd position = problem.arc_length.array() - 1;
-            char label[32];
-            std::snprintf(label, sizeof label, "Q/fP = %g", load);
+            const std::string label = miniapp::exact_text("Q/fP = ", load);
             slip.add(label, position, at.v);
             // The corner's node and its neighbours: the singularity, not the picture's scale.
             const Eigen::Index skip = 12, count = problem.nodes() - 2 * skip;
             if (count < 2 || friction == 0) { return; }
             shear_traction.add(label, position.segment(skip, count),
                                tractions(problem, at.q).segment(skip, count) / friction);
-            shear_traction.add(std::string("p: ") + label, position.segment(skip, count),
+            shear_traction.add("p: " + label, position.segment(skip, count),
                                tractions(problem, at.p).segment(skip, count), "dashed");
          };
          draw(0, pressed);
@@ -186,10 +185,8 @@ int main(int argc, char *argv[])
             {
                if (standard && any && load == shear[k])
                {
-                  char name[64];
-                  std::snprintf(name, sizeof name, "right end of stick, Q/fP = %g", load);
-                  table.add(name, right, reference.right_tolerance + zone.to.error, none,
-                            x(zone.to));
+                  table.add(miniapp::exact_text("right end of stick, Q/fP = ", load), right,
+                            reference.right_tolerance + zone.to.error, none, x(zone.to));
                }
             }
          }

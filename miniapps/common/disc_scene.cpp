@@ -32,7 +32,16 @@ void DiscOptions::validate() const
    {
       require(a > 0 && a <= disc_radius, "option --load-radius is ", a,
               ", must be above 0 and at most the disc's radius ", disc_radius, " (in t)");
+      require(std::count(load_radii.begin(), load_radii.end(), a) == 1, "the load radius ",
+              exact_text(a), " is given twice: each is a load pattern of its own");
    }
+}
+
+int DiscOptions::load(double radius) const
+{
+   const auto at = std::find(load_radii.begin(), load_radii.end(), radius);
+   require(at != load_radii.end(), "there is no load of radius ", exact_text(radius));
+   return static_cast<int>(at - load_radii.begin());
 }
 
 Disc make_disc(const DiscOptions &options)
@@ -84,9 +93,7 @@ Disc make_disc(const DiscOptions &options)
    ElasticBody &disc = *scene.bodies[0], &below = *scene.bodies[1];
    for (double a : options.load_radii)
    {
-      char name[32];
-      std::snprintf(name, sizeof name, "a = %g", a);
-      disc.add_pressure(name, BoundaryPart({top}, 0, 0, a), 1.0);
+      disc.add_pressure(exact_text("a = ", a), BoundaryPart({top}, 0, 0, a), 1.0);
    }
    const ContactLine upper = line_of_disc(disc), lower = line_below(below);
    scene.reduction = reduce(condense(disc, upper, condensation()),

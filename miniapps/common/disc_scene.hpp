@@ -40,6 +40,8 @@ struct DiscOptions
    double poisson = 0.3;
    Twist twist = Twist::none;
 
+   /// Index of the load pattern of that radius (exactly that one); InputError if there is none.
+   int load(double radius) const;
    /// InputError naming the option, its value and what is allowed.
    void validate() const;
 };

@@ -31,6 +31,8 @@ void LapJointOptions::validate() const
    {
       require(w > 0 && 0.5 * w <= protrusion, "a width of the pinch pressure is ", w,
               ", must be positive and within the protrusion ", protrusion, " to both sides");
+      require(std::count(widths.begin(), widths.end(), w) == 1, "the width ", exact_text(w),
+              " is given twice: each is a load pattern of its own");
    }
    for (double x : bolts) { require(std::isfinite(x), "a bolt is at ", x, ", must be finite"); }
 }
@@ -95,8 +97,7 @@ LapJoint make_lap_joint(const LapJointOptions &options)
       {
          for (std::size_t k = 0; k < options.bolts.size(); ++k)
          {
-            char name[64];
-            std::snprintf(name, sizeof name, "bolt %zu, w = %g", k + 1, w);
+            const std::string name = "bolt " + std::to_string(k + 1) + exact_text(", w = ", w);
             const double centre = options.bolts[k];
             lap.add_pressure(name, BoundaryPart({outer}, 0, centre - 0.5 * w, centre + 0.5 * w),
                              1.0);

@@ -298,6 +298,36 @@ nlohmann::ordered_json to_json(const cattaneo::Counters &counters)
    return j;
 }
 
+std::string exact_text(double value)
+{
+   char text[32];
+   for (int digits = 6; digits <= 17; ++digits)
+   {
+      std::snprintf(text, sizeof text, "%.*g", digits, value);
+      if (std::strtod(text, nullptr) == value) { break; }
+   }
+   return text;
+}
+
+std::string exact_text(const std::string &words, double value)
+{
+   return words + exact_text(value);
+}
+
+std::string error_text(double error)
+{
+   char text[32];
+   if (!(error > 0) || !std::isfinite(error))
+   {
+      std::snprintf(text, sizeof text, "%g", error);
+      return text;
+   }
+   const double unit = std::pow(10.0, std::floor(std::log10(error)) - 1);
+   // What is a whole number of units but for round-off is not rounded up.
+   std::snprintf(text, sizeof text, "%.2g", std::ceil(error / unit * (1 - 1e-12)) * unit);
+   return text;
+}
+
 nlohmann::ordered_json json_number(double value)
 {
    return std::isfinite(value) ? nlohmann::ordered_json(value)
@@ -309,30 +339,50 @@ void write_json(const nlohmann::ordered_json &results, const std::string &file)
    if (!file.empty() && writes()) { cattaneo::write_whole(file, results.dump(2) + '\n'); }
 }
 
-void ReferenceTable::add(const std::string &name, double reference, double tolerance,
+void ReferenceTable::add(const std::string &name, double reference, Allowed allowed,
                          double thesis, double computed)
 {
-   rows_.push_back({name, reference, tolerance, thesis, computed});
+   rows_.push_back({name, reference, allowed, thesis, computed});
 }
+
+namespace
+{
+
+/// Outside of the reference's own ±, and whether the mesh explains it; NaN is outside.
+std::string verdict(double difference, const Allowed &allowed)
+{
+   if (std::abs(difference) <= allowed.spread) { return ""; }
+   return std::abs(difference) <= allowed.spread + allowed.mesh ? "outside, within the mesh's ±"
+                                                                : "outside";
+}
+
+} // namespace
 
 void ReferenceTable::print() const
 {
    if (rows_.empty()) { return; }
-   std::size_t width = 8;
-   for (const Row &row : rows_) { width = std::max(width, row.name.size()); }
-   std::printf("\n%-*s | %11s %9s | %8s | %11s | %10s\n", static_cast<int>(width), "quantity",
-               "reference", "±", "thesis", "computed", "difference");
+   // Columns are counted in characters, names are in UTF-8.
+   const auto characters = [](const std::string &text) {
+      return std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; });
+   };
+   std::ptrdiff_t width = 8;
+   for (const Row &row : rows_) { width = std::max(width, characters(row.name)); }
+   const auto padded = [&](const std::string &name)
+   { return name + std::string(width - characters(name), ' '); };
+   std::printf("\n%s | %11s %9s %9s | %8s | %11s | %10s\n", padded("quantity").c_str(),
+               "reference", "its ±", "mesh ±", "thesis", "computed", "difference");
    for (const Row &row : rows_)
    {
-      char thesis[32] = "-";
+      char thesis[32] = "-", mesh[32] = "-";
       if (std::isfinite(row.thesis))
       {
          std::snprintf(thesis, sizeof thesis, "%.4g", row.thesis);
       }
+      if (row.allowed.mesh > 0) { std::snprintf(mesh, sizeof mesh, "%.2g", row.allowed.mesh); }
       const double difference = row.computed - row.reference;
-      std::printf("%-*s | %11.5g %8.1g | %8s | %11.5g | %+10.2g%s\n", static_cast<int>(width),
-                  row.name.c_str(), row.reference, row.tolerance, thesis, row.computed,
-                  difference, std::abs(difference) <= row.tolerance ? "" : "  outside");
+      std::printf("%s | %11.5g %8.2g %8s | %8s | %11.5g | %+10.2g  %s\n",
+                  padded(row.name).c_str(), row.reference, row.allowed.spread, mesh, thesis,
+                  row.computed, difference, verdict(difference, row.allowed).c_str());
    }
    for (const std::string &note : notes_) { std::printf("  %s\n", note.c_str()); }
    std::fflush(stdout);
@@ -343,10 +393,14 @@ nlohmann::ordered_json ReferenceTable::json() const
    nlohmann::ordered_json list = nlohmann::ordered_json::array();
    for (const Row &row : rows_)
    {
-      nlohmann::ordered_json j = {{"quantity", row.name},
-                                  {"reference", row.reference},
-                                  {"tolerance", row.tolerance},
-                                  {"computed", row.computed}};
+      nlohmann::ordered_json j = {
+         {"quantity", row.name},
+         {"reference", row.reference},
+         {"spread", row.allowed.spread},
+         {"mesh", row.allowed.mesh},
+         {"tolerance", row.allowed.spread + row.allowed.mesh},
+         {"computed", json_number(row.computed)},
+         {"outside", !(std::abs(row.computed - row.reference) <= row.allowed.spread)}};
       if (std::isfinite(row.thesis)) { j["thesis"] = row.thesis; }
       list.push_back(j);
    }

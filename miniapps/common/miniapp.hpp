@@ -66,19 +66,38 @@ int exit_code(const cattaneo::MarchReport &report);
 
 nlohmann::ordered_json to_json(const cattaneo::Counters &counters);
 
+/// The shortest decimal that reads back as the same number: what stands in a name, so that no
+/// two numbers share one.
+std::string exact_text(double value);
+/// The same after some words: "f = 0.5".
+std::string exact_text(const std::string &words, double value);
+
+/// An error as it is printed beside its value: two digits, the last one rounded up, since it is
+/// a bound.
+std::string error_text(double error);
+
 /// JSON has no infinity or NaN: unknown or unbounded is null.
 nlohmann::ordered_json json_number(double value);
 
 /// Writes results as JSON, whole or not at all; nothing if the file name is empty.
 void write_json(const nlohmann::ordered_json &results, const std::string &file);
 
-/// The table at the end of a study: reference | thesis | computed | difference.
+/** How far a computed value may be from its reference, in the units of the value: the spread of
+    the reference itself, and the share of the mesh and of the increments, where that can be
+    said. Whatever is outside of the first is marked, whether or not the second explains it. */
+struct Allowed
+{
+   Allowed(double spread_, double mesh_ = 0) : spread(spread_), mesh(mesh_) {}
+   double spread, mesh;
+};
+
+/// The table at the end of a study: reference | its ± | mesh ± | thesis | computed |
+/// difference.
 class ReferenceTable
 {
 public:
-   /// `tolerance`: spread of the reference itself plus what the mesh is expected to add, in the
-   /// units of the value. Thesis: NaN where it gives none.
-   void add(const std::string &name, double reference, double tolerance, double thesis,
+   /// Thesis: NaN where it gives none.
+   void add(const std::string &name, double reference, Allowed allowed, double thesis,
             double computed);
    /// A line below the table: why the thesis differs, for instance.
    void note(const std::string &text) { notes_.push_back(text); }
@@ -90,7 +109,9 @@ private:
    struct Row
    {
       std::string name;
-      double reference, tolerance, thesis, computed;
+      double reference;
+      Allowed allowed;
+      double thesis, computed;
    };
    std::vector<Row> rows_;
    std::vector<std::string> notes_;

@@ -48,9 +48,18 @@ void RecedingOptions::validate() const
    {
       require(n > 0 && n < length, "an overhang is ", n, ", must be between 0 and the length ",
               length, " (in t)");
+      require(std::count(overhangs.begin(), overhangs.end(), n) == 1, "the overhang ",
+              exact_text(n), " is given twice: each is a load pattern of its own");
    }
    require(depth > 1 && side > 1, "options --depth and --side are ", depth, " and ", side,
            ", must be above 1 (in t)");
+}
+
+int RecedingOptions::load(double overhang) const
+{
+   const auto at = std::find(overhangs.begin(), overhangs.end(), overhang);
+   require(at != overhangs.end(), "there is no load of overhang ", exact_text(overhang));
+   return static_cast<int>(at - overhangs.begin());
 }
 
 Receding make_receding(const RecedingOptions &options)
@@ -89,9 +98,7 @@ Receding make_receding(const RecedingOptions &options)
    ElasticBody &strip = *scene.bodies[0];
    for (double n : options.overhangs)
    {
-      char name[32];
-      std::snprintf(name, sizeof name, "n = %g", n);
-      strip.add_pressure(name, BoundaryPart({top}, 0, n, L), 1.0);
+      strip.add_pressure(exact_text("n = ", n), BoundaryPart({top}, 0, n, L), 1.0);
    }
    // The contact node at the end of the line stays free: a contact dof cannot be fixed, and L
    // is far from the zones of interest.

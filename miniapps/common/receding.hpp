@@ -36,6 +36,9 @@ struct RecedingOptions
    /// The limit of a half-plane, or the finite block that comes close to what the thesis used.
    void half_plane_domain();
    void thesis_domain();
+   /// Index of the load pattern of that overhang (exactly that one); InputError if there is
+   /// none.
+   int load(double overhang) const;
    /// InputError naming the option, its value and what is allowed.
    void validate() const;
 };

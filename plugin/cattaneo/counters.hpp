@@ -13,9 +13,10 @@ struct Counters
    long krylov_iterations = 0;  ///< of all iterative solves together
    long field_recoveries = 0;   ///< interior displacement fields recovered
    long unions = 0;             ///< pairs of condensed bodies joined
-   long tangential_unknowns =
-      0;                ///< tangential unknowns of the friction problem (0 if frictionless)
-   long increments = 0; ///< accepted increments of a march
+   /// Tangential unknowns of the friction problem (0 if frictionless), of the largest one where
+   /// there were several: a size, which neither adds up nor goes away.
+   long tangential_unknowns = 0;
+   long increments = 0;           ///< accepted increments of a march
    long rejected_increments = 0;  ///< increments that were tried and cut
    long sweeps = 0;               ///< Gauss–Seidel sweeps over all contact nodes
    long newton_steps = 0;         ///< active-set (semismooth Newton) steps
@@ -53,11 +54,15 @@ struct Counters
 private:
    Counters &add(Counters other, long sign)
    {
+      const long most = sign > 0 && other.tangential_unknowns > tangential_unknowns
+                           ? other.tangential_unknowns
+                           : tangential_unknowns;
       long values[32];
       int k = 0;
       for_each(other, [&](const char *, long &value) { values[k++] = value; });
       k = 0;
       for_each(*this, [&](const char *, long &value) { value += sign * values[k++]; });
+      tangential_unknowns = most;
       return *this;
    }
 };
