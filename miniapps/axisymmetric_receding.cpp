@@ -47,7 +47,7 @@ std::string text(const char *format, double value)
 /// Separation and stick radius; NaN where there is none.
 struct Extent
 {
-   double d = none, c = none;
+   double d = none, c = none, d_error = 0, c_error = 0;
    std::vector<Zone> zones;
 };
 
@@ -64,10 +64,21 @@ Extent extent(const ReducedProblem &problem, const ContactState &state)
    }
    result.zones.front().from.position = 0; // the axis belongs to the node next to it
    const Zone &first = result.zones.front(), &last = result.zones.back();
-   if (last.state == NodeState::separation) { result.d = last.from.position; }
+   if (last.state == NodeState::separation)
+   {
+      result.d = last.from.position;
+      result.d_error = last.from.error;
+   }
    if (first.state == NodeState::stick && result.zones.size() > 1)
    {
       result.c = first.to.position;
+      result.c_error = first.to.error;
+      // Slip within the last spacing before the end of contact does not show.
+      const Index i = first.last;
+      if (!slips(result.zones[1].state))
+      {
+         result.c_error = problem.arc_length[i + 1] - problem.arc_length[i];
+      }
    }
    return result;
 }
@@ -82,6 +93,8 @@ nlohmann::ordered_json to_json(const Extent &extent)
    }
    return {{"separation", miniapp::json_number(extent.d)},
            {"stick", miniapp::json_number(extent.c)},
+           {"separation_error", extent.d_error},
+           {"stick_error", extent.c_error},
            {"zones", list}};
 }
 
@@ -149,8 +162,6 @@ struct Study
    {
       return standard() && options.disc_radius == b_ && a == a_ && f == f_;
    }
-   /// ± of the reference and a tenth of the spacing for the read-out.
-   double tolerance() const { return 0.001 + 0.1 * options.spacing; }
    VectorXd loads(double load, double twist) const;
    VectorXd radii() const { return problem->position.col(0); }
    double torque(const ContactState &state) const;
@@ -252,14 +263,14 @@ void Study::bonded(const std::vector<double> &wanted)
          if (!reference || a_ != 2.1) { continue; }
          Index i = 0;
          (at.array() - radius).abs().minCoeff(&i);
-         table.add(miniapp::exact_text("bonded, a = 2.1: p/p0 at r/t = ", radius), value, 5e-4,
-                   none, p[i]);
+         table.add(miniapp::exact_text("bonded, a = 2.1: p/p0 at r/t = ", radius), value,
+                   {5e-6, 5e-4}, none, p[i]);
       }
       for (const auto &[radius, value] : {std::pair{3.75, 1.69}, {4.25, 1.07}, {4.7, 0.600}})
       {
          if (!reference || a_ != radius) { continue; }
          table.add(miniapp::exact_text("f for full adhesion, a = ", radius), value,
-                   0.01 * value, 0.543, adhesion);
+                   {0.005, 0.01 * value}, 0.543, adhesion);
       }
    }
    results["bonded"] = list;
@@ -280,8 +291,8 @@ void Study::compare_loading(double load_radius, double friction, const Extent &f
       if (!is(5, a, f) || load_radius != row.a || friction != row.f) { continue; }
       const std::string where =
          miniapp::exact_text(", loaded, a = ", row.a) + miniapp::exact_text(", f = ", row.f);
-      table.add("d/t" + where, row.d, tolerance(), row.thesis, found.d);
-      table.add("c/t" + where, row.c, tolerance(), none, found.c);
+      table.add("d/t" + where, row.d, {0.001, found.d_error}, row.thesis, found.d);
+      table.add("c/t" + where, row.c, {0.001, found.c_error}, none, found.c);
    }
 }
 
@@ -291,8 +302,9 @@ int Study::load(FrictionSolver &solver, ContactState &state)
    const MarchReport report = march(solver, LoadHistory::through({0 * full, full}), state);
    if (const int code = marched(report)) { return code; }
    const Extent found = extent(*problem, state);
-   std::printf("\nLoading, b = %g, a = %g, f = %g: d/t = %.4f, c/t = %.4f\n",
-               options.disc_radius, a, f, found.d, found.c);
+   std::printf("\nLoading, b = %g, a = %g, f = %g: d/t = %.4f ± %s, c/t = %.4f ± %s\n",
+               options.disc_radius, a, f, found.d, miniapp::error_text(found.d_error).c_str(),
+               found.c, miniapp::error_text(found.c_error).c_str());
    results.update(to_json(found));
    compare_loading(a, f, found);
    return 0;
@@ -382,7 +394,7 @@ int Study::critical(const std::vector<double> &discs, const std::vector<double> 
             // The rim's node tells: first order in the spacing, most without friction.
             table.add(miniapp::exact_text("critical a/t, b = ", b) +
                          miniapp::exact_text(", f = ", row.f),
-                      row.a, 0.002 + 0.2 * options.spacing, none, found);
+                      row.a, {0.002, 0.2 * options.spacing}, none, found);
          }
       }
       counters += disc.counters();
@@ -441,20 +453,19 @@ int Study::unload(FrictionSolver &solver, ContactState state, const std::vector<
       row.update(to_json(found));
       list.push_back(row);
       if (!is(5, 2.5, 0.5)) { return; }
-      // ± of the references of this phase and the read-out.
-      const double allowed = 0.01 + 0.1 * options.spacing;
       for (const auto &[at, d] : {std::pair{0.9, 3.670}, {0.3, 3.254}, {0.1, 3.068}})
       {
          if (is_at(at))
          {
-            table.add(miniapp::exact_text("d/t at P/P0 = ", at), d, allowed, none, found.d);
+            table.add(miniapp::exact_text("d/t at P/P0 = ", at), d, {0.01, found.d_error}, none,
+                      found.d);
          }
       }
       const double borders[] = {1.715, 2.415, 3.015, 3.402}, thesis[] = {1.6, 2.3, 2.9, 3.4};
       for (std::size_t k = 0; is_at(0.5) && k < 4 && k < found.zones.size(); ++k)
       {
-         table.add("border " + std::to_string(k + 1) + " at P/P0 = 0.5", borders[k], allowed,
-                   thesis[k], found.zones[k].to.position);
+         table.add("border " + std::to_string(k + 1) + " at P/P0 = 0.5", borders[k],
+                   {0.01, found.zones[k].to.error}, thesis[k], found.zones[k].to.position);
          diagram.mark(0.5, thesis[k]);
       }
    };
@@ -480,13 +491,14 @@ int Study::spinning_limit()
       return code;
    }
    limit = f * radii().dot(pressed.p);
-   const double d = extent(smooth, pressed).d;
+   const Extent found = extent(smooth, pressed);
+   const double d = found.d;
    results["torque_limit"] = limit;
    std::printf("\nTorsion: T_s = %.4f p0 t³, d/t without friction = %.4f\n", limit, d);
    if (is(5, 2.5, 0.5))
    {
-      table.add("T_s/(p0 t³)", 17.106, 0.005, none, limit);
-      table.add("d/t without friction", 3.1705, tolerance(), none, d);
+      table.add("T_s/(p0 t³)", 17.106, {0.001, 0.004}, none, limit);
+      table.add("d/t without friction", 3.1705, {5e-5, found.d_error}, none, d);
    }
    return 0;
 }
@@ -579,10 +591,11 @@ int Study::twist(FrictionSolver &solver, const ContactState &loaded, Stop stop,
          panel_name, text("Slip of the disc, T/T_s = %.2f", share), "x/t", "y/t");
       const Extent found = extent(*problem, at.state);
       panel.add(found.zones);
+      const std::vector<NodeState> settled = settled_states(*problem, at.state);
       for (Index i = 0; i < n; ++i)
       {
          // Friction is opposed to the rate of slip.
-         if (slips(at.state.status[i]))
+         if (slips(settled[i]))
          {
             panel.arrow("rate", r[i], std::atan2(-at.state.q[n + i], -at.state.q[i]));
             panel.arrow("total", r[i], std::atan2(at.state.v[n + i], at.state.v[i]));
@@ -642,14 +655,16 @@ int Study::twist(FrictionSolver &solver, const ContactState &loaded, Stop stop,
                   rotation(now.state), found.c, found.d, rate[0], rate[1], rate[2], total[0],
                   total[1], total[2]);
       if (!reference || stop != Stop::torque) { continue; }
-      // First order in the steps: what 80 of them meet, fewer miss by as much more.
-      const double allowed = tolerance() * std::max(1.0, 80.0 / steps);
+      // First order in the steps.
+      const double by_steps = 0.003 * 80.0 / steps;
       for (const auto &[T, c, d] :
            {std::array<double, 3>{0.3, 1.829, 3.617}, {0.7, 1.564, 3.431}})
       {
          if (wanted[k] != T) { continue; }
-         table.add(miniapp::exact_text("c/t at T/T_s = ", T), c, allowed, none, found.c);
-         table.add(miniapp::exact_text("d/t at T/T_s = ", T), d, allowed, none, found.d);
+         table.add(miniapp::exact_text("c/t at T/T_s = ", T), c,
+                   {0.003, found.c_error + by_steps}, none, found.c);
+         table.add(miniapp::exact_text("d/t at T/T_s = ", T), d, {0.01, found.d_error}, none,
+                   found.d);
       }
       const double rates[] = {14, 49, 77}, totals[] = {8, 13, 37};
       for (int j = 0; j < 3 && wanted[k] == 0.5; ++j)
@@ -671,7 +686,10 @@ int Study::twist(FrictionSolver &solver, const ContactState &loaded, Stop stop,
    if (now.descended)
    {
       std::printf("greatest torque %.5f T_s\n", now.greatest / limit);
-      if (reference) { table.add("T_max/T_s", 1.0037, 0.0005, none, now.greatest / limit); }
+      if (reference)
+      {
+         table.add("T_max/T_s", 1.0037, {5e-5, 5e-4}, none, now.greatest / limit);
+      }
    }
    panels.insert(panels.end(), {profiles, sliding, diagram});
    panels.insert(panels.end(), plans.begin(), plans.end());

@@ -412,14 +412,32 @@ int main(int argc, char *argv[])
                                losses = ordered_json::array();
          std::cout << "\nAt time " << state.time << ": contact force on body 1 ("
                    << force.transpose() << "), peak pressure " << peak
-                   << "\n\n state            from          to   (arc length)\n";
-         for (const Zone &zone : zones(problem, state))
+                   << "\n\n state            from          to   (arc length)        ±\n";
+         const std::vector<Zone> all_zones = zones(problem, state);
+         const bool one_line = all_zones.back().chain == 0;
+         for (std::size_t k = 0; k < all_zones.size(); ++k)
          {
-            std::printf(" %-13s %9.5g   %9.5g\n", name(zone.state), zone.from.position,
-                        zone.to.position);
+            const Zone &zone = all_zones[k];
+            if (!one_line && (k == 0 || all_zones[k - 1].chain != zone.chain))
+            {
+               std::printf(" piece %d of the contact line\n", zone.chain + 1);
+            }
+            std::printf(" %-13s %9.5g   %9.5g   %14s\n", name(zone.state), zone.from.position,
+                        zone.to.position,
+                        miniapp::error_text(std::max(zone.from.error, zone.to.error)).c_str());
             zone_list.push_back({{"state", name(zone.state)},
                                  {"from", zone.from.position},
-                                 {"to", zone.to.position}});
+                                 {"to", zone.to.position},
+                                 {"from_error", zone.from.error},
+                                 {"to_error", zone.to.error},
+                                 {"piece", zone.chain + 1}});
+         }
+         const Eigen::Index touching = touching_nodes(problem, state);
+         if (touching > 0)
+         {
+            std::cout << " " << touching
+                      << " nodes touch without force; they carry nothing and count as "
+                         "separated\n";
          }
          if (!report.cycles.empty())
          {
@@ -496,6 +514,7 @@ int main(int argc, char *argv[])
          results["peak_pressure"] = peak;
          results["contact_force"] = {force[0], force[1]};
          results["zones"] = zone_list;
+         results["touching_nodes"] = touching;
          results["first_cycle"] = losses.empty() ? 0 : first_cycle;
          results["dissipation"] = losses;
          results["total_dissipation"] = state.dissipation;

@@ -55,6 +55,12 @@ Extent extent(const ReducedProblem &problem, const ContactState &state, double o
    {
       result.e = overhang - result.zones.back().from.position;
       result.e_error = result.zones.back().from.error;
+      // Slip within the last spacing before the end of contact does not show.
+      const Index first = result.zones.back().first;
+      if (!slips(result.zones[result.zones.size() - 2].state))
+      {
+         result.e_error = problem.arc_length[first] - problem.arc_length[first - 1];
+      }
    }
    return result;
 }
@@ -106,6 +112,7 @@ struct PointHistory
    Index node = 0;
    std::vector<double> level, slip;
    double slips_from = none, separates_at = none; ///< p/p0 during unloading
+   double step = 0; ///< half of the largest step of p/p0: what is not known of the two
 };
 
 /// What the studies' notes give for the loading phase; HP is the half-plane limit.
@@ -141,20 +148,19 @@ struct Study
               const std::vector<double> &points);
 };
 
-/// Rows of the table for a loaded state, if the notes have it. Tolerances: ± of the reference,
-/// and a tenth of the spacing for the read-out.
+/// Rows of the table for a loaded state, if the notes have it: their ±, and the errors printed
+/// with the edges.
 void Study::compare_loading(double n, double f, const Extent &found)
 {
-   const double tolerance = 0.003 + 0.1 * options.spacing;
    for (const LoadingReference &r : loading_references)
    {
       if (r.n != n || r.f != f || !(half_plane || thesis_block)) { continue; }
       const double s = half_plane ? r.s_hp : r.s_th0, e = half_plane ? r.e_hp : r.e_th0;
       char text[64];
       std::snprintf(text, sizeof text, "s/t, n = %g, f = %g", n, f);
-      if (std::isfinite(s)) { table.add(text, s, tolerance, r.s_thesis, found.s); }
+      if (std::isfinite(s)) { table.add(text, s, {0.003, found.s_error}, r.s_thesis, found.s); }
       text[0] = 'e';
-      if (std::isfinite(e)) { table.add(text, e, tolerance, r.e_thesis, found.e); }
+      if (std::isfinite(e)) { table.add(text, e, {0.003, found.e_error}, r.e_thesis, found.e); }
    }
    if (half_plane && n == 1.2 && f == 0.5)
    {
@@ -185,7 +191,7 @@ void Study::bonded(double overhang, int pattern)
    if (options.order >= 2 && options.corner <= 5e-4)
    {
       // The fit leaves out eight nodes at the corner; with 0.0005 they reach into its range.
-      table.add("bonded corner ratio q/p", miniapp::williams_ratio[0], 0.015, 0.543,
+      table.add("bonded corner ratio q/p", miniapp::williams_ratio[0], {0, 0.015}, 0.543,
                 b.corner_ratio);
    }
    if (half_plane && overhang == 0.8)
@@ -301,13 +307,15 @@ int Study::unload(FrictionSolver &solver, ContactState &state, double overhang, 
       const double level = now.multipliers[pattern];
       const Extent found = extent(*problem, now, overhang);
       diagram.add(level, found.zones, [&](double s) { return s - overhang; });
+      const std::vector<NodeState> settled = settled_states(*problem, now);
       for (PointHistory &h : histories)
       {
          h.level.push_back(level);
          h.slip.push_back(interpolate(xi, now.v, h.xi));
-         const NodeState status = now.status[h.node];
+         const NodeState status = settled[h.node];
          // Some time during the step: its middle.
-         const double change = 0.5 * (level + h.level[h.level.size() - 2]);
+         const double before = h.level[h.level.size() - 2], change = 0.5 * (level + before);
+         h.step = std::max(h.step, 0.5 * (before - level));
          if (slips(status) && !std::isfinite(h.slips_from)) { h.slips_from = change; }
          if (!closed(status) && !std::isfinite(h.separates_at)) { h.separates_at = change; }
       }
@@ -320,26 +328,29 @@ int Study::unload(FrictionSolver &solver, ContactState &state, double overhang, 
       list.push_back(entry);
       if (is(0.5) || is(0.1)) { add_profile(level, now); }
       // Unloading at f = 0.7: separation, and the borders of the zones at half load.
-      const double tolerance = 0.003 + 0.1 * options.spacing;
       const bool reference = f == 0.7 && overhang >= 2;
       for (const auto &[p, value] : {std::pair{0.9, -1.336}, {0.2, -0.740}, {0.1, -0.594}})
       {
          if (!reference || !half_plane || !is(p)) { continue; }
-         char text[64];
-         std::snprintf(text, sizeof text, "ξ/t of separation, unloaded to p/p0 = %g", p);
-         table.add(text, value, tolerance, none, -found.s);
+         table.add(miniapp::exact_text("ξ/t of separation, unloaded to p/p0 = ", p), value,
+                   {0.003, found.s_error}, none, -found.s);
       }
-      if (reference && is(0.5) && (half_plane || thesis_block) && found.zones.size() == 5)
+      // In the finite block the length beyond the load's edge, L - n, matters: two overhangs.
+      const bool block = thesis_block && (overhang == 2 || overhang == 4);
+      if (reference && is(0.5) && (half_plane || block) && found.zones.size() == 5)
       {
-         const double hp[] = {-1.018, -0.68, -0.12, 0.61}, th0[] = {-1.053, -0.77, -0.18, 0.48},
+         const double hp[] = {-1.018, -0.68, -0.12, 0.61},
+                      th0[] = {-1.053, -0.77, -0.18, overhang == 2 ? 0.48 : 0.502},
                       thesis[] = {-1.1, -0.7, -0.2, 0.5};
          for (int k = 0; k < 4; ++k)
          {
-            char text[64];
-            std::snprintf(text, sizeof text, "ξ/t of border %d of 4, p/p0 = 0.5", k + 1);
+            const Edge &border = found.zones[k].to;
             // The inner borders are given to two digits and depend on the steps of unloading.
-            table.add(text, half_plane ? hp[k] : th0[k], k == 0 ? tolerance : 0.015, thesis[k],
-                      found.zones[k].to.position - overhang);
+            const miniapp::Allowed allowed{k == 0 ? 0.003 : 0.005,
+                                           border.error + (k == 0 ? 0 : 0.5 / steps)};
+            table.add("ξ/t of border " + std::to_string(k + 1) + " of 4, p/p0 = 0.5",
+                      half_plane ? hp[k] : th0[k], allowed, thesis[k],
+                      border.position - overhang);
          }
       }
    };
@@ -355,26 +366,32 @@ int Study::unload(FrictionSolver &solver, ContactState &state, double overhang, 
    results["levels"] = list;
    results["unloading_increments"] = report.increments.size();
    nlohmann::ordered_json slip_list = nlohmann::ordered_json::array();
-   if (!histories.empty()) { std::printf("\n    ξ/t   v at p0   sticks to   separates at\n"); }
+   if (!histories.empty())
+   {
+      std::printf("\n    ξ/t   v at p0   sticks to   separates at   ±\n");
+   }
    for (const PointHistory &h : histories)
    {
-      std::printf("%7.3f %9.4f %11.3f %14.3f\n", h.xi, h.slip[1], h.slips_from, h.separates_at);
+      std::printf("%7.3f %9.4f %11.3f %14.3f   %s\n", h.xi, h.slip[1], h.slips_from,
+                  h.separates_at, miniapp::error_text(h.step).c_str());
       slip_list.push_back({{"xi", h.xi},
                            {"level", h.level},
                            {"slip", h.slip},
                            {"slips_from", miniapp::json_number(h.slips_from)},
-                           {"separates_at", miniapp::json_number(h.separates_at)}});
+                           {"separates_at", miniapp::json_number(h.separates_at)},
+                           {"level_error", h.step}});
       slip_panel.add(miniapp::exact_text("ξ/t = ", h.xi), h.level, h.slip);
       if (h.xi == -0.5 && f == 0.7 && overhang >= 2 && half_plane)
       {
          table.add("v E'/(p0 t) at ξ/t = -0.5, full load", -0.8245,
-                   0.001 + 0.02 * options.spacing, none, h.slip[1]);
+                   {5e-5, 0.001 + 0.02 * options.spacing}, none, h.slip[1]);
          // A step of unloading, and the point's way to the nearest node.
-         table.add("p/p0 down to which ξ/t = -0.5 sticks", 0.41, 0.01 + 1.0 / steps, none,
+         table.add("p/p0 down to which ξ/t = -0.5 sticks", 0.41, {0.005, 2 * h.step}, none,
                    h.slips_from);
          if (std::isfinite(h.separates_at))
          {
-            table.add("p/p0 at which ξ/t = -0.5 separates", 0.06, 0.015, none, h.separates_at);
+            table.add("p/p0 at which ξ/t = -0.5 separates", 0.06, {0.005, 2 * h.step}, none,
+                      h.separates_at);
          }
       }
    }
@@ -523,8 +540,9 @@ int main(int argc, char *argv[])
          if (code == 0)
          {
             const Extent found = extent(problem, state, overhang);
-            std::printf("\nLoading, n = %g, f = %g: s/t = %.4f ± %.4f, e/t = %.4f ± %.4f\n",
-                        overhang, friction, found.s, found.s_error, found.e, found.e_error);
+            std::printf("\nLoading, n = %g, f = %g: s/t = %.4f ± %s, e/t = %.4f ± %s\n",
+                        overhang, friction, found.s, miniapp::error_text(found.s_error).c_str(),
+                        found.e, miniapp::error_text(found.e_error).c_str());
             study.results.update(to_json(found, overhang));
             study.compare_loading(overhang, friction, found);
          }

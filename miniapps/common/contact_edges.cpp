@@ -1,5 +1,7 @@
 #include "common/contact_edges.hpp"
 
+#include "common/miniapp.hpp"
+
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
@@ -138,20 +140,20 @@ void print(const EdgeReport &report, const std::function<double(double)> &coordi
    for (const SolvedEdge &solved : report.edges)
    {
       const ContactEdge &edge = solved.edge;
-      std::printf(" %s edge at %.5g ± %.1g\n", edge.side > 0 ? "first" : "last",
-                  coordinate(edge.position.position), edge.position.error);
+      std::printf(" %s edge at %.5g ± %s\n", edge.side > 0 ? "first" : "last",
+                  coordinate(edge.position.position), error_text(edge.position.error).c_str());
       const auto line = [](const char *what, const FittedIntensity &fitted)
       {
-         std::printf("   %-12s %11.4e ± %.1g %%, fitted from %.3g to %.3g (%d nodes)\n", what,
-                     fitted.value, 100 * fitted.relative_error, fitted.window.nearest,
-                     fitted.window.farthest, fitted.nodes);
+         std::printf("   %-12s %11.4e ± %s %%, fitted from %.3g to %.3g (%d nodes)\n", what,
+                     fitted.value, error_text(100 * fitted.relative_error).c_str(),
+                     fitted.window.nearest, fitted.window.farthest, fitted.nodes);
       };
       if (!edge.complete)
       {
          line("K_N", edge.k_n);
          line("K_T", edge.k_t);
-         std::printf("   slip zone    %11.4e ± %.1g, predicted %.4e\n", edge.slip_zone,
-                     edge.slip_zone_error, slip_zone(edge.near_edge()));
+         std::printf("   slip zone    %11.4e ± %s, predicted %.4e\n", edge.slip_zone,
+                     error_text(edge.slip_zone_error).c_str(), slip_zone(edge.near_edge()));
       }
       if (solved.energy)
       {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cattaneo/elastic/graded_mesh.hpp>
 #include <cattaneo/friction/friction_solver.hpp>
+#include <cattaneo/friction/zones.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
 #include <cstdio>
@@ -168,7 +169,8 @@ double CriticalLoad::radius(double friction)
       require(report.status == FrictionStatus::converged,
               "critical load radius, f = ", friction, ", a = ", a, ": ", report.message);
       guess_ = state.status;
-      return std::any_of(state.status.begin(), state.status.end(),
+      const std::vector<NodeState> settled = settled_states(problem, state);
+      return std::any_of(settled.begin(), settled.end(),
                          [](NodeState status) { return !closed(status); });
    };
    double low = grid.front(), high = grid.back(), result = high;

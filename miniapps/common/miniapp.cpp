@@ -348,12 +348,14 @@ void ReferenceTable::add(const std::string &name, double reference, Allowed allo
 namespace
 {
 
-/// Outside of the reference's own ±, and whether the mesh explains it; NaN is outside.
+/// Outside of the reference's own ±, and whether the mesh explains it; NaN is outside. A
+/// closed form has no ±.
 std::string verdict(double difference, const Allowed &allowed)
 {
    if (std::abs(difference) <= allowed.spread) { return ""; }
-   return std::abs(difference) <= allowed.spread + allowed.mesh ? "outside, within the mesh's ±"
-                                                                : "outside";
+   const bool explained = std::abs(difference) <= allowed.spread + allowed.mesh;
+   if (explained && allowed.spread == 0) { return "within the mesh's ±"; }
+   return explained ? "outside, within the mesh's ±" : "outside";
 }
 
 } // namespace

@@ -16,34 +16,11 @@ using Eigen::VectorXd;
 namespace
 {
 
-/// Closed nodes without a gap between them.
-struct Stretch
+std::vector<bool> closed_nodes(const ReducedProblem &problem, const ContactState &state)
 {
-   Index first = 0, last = -1;
-   cattaneo::Edge from, to;
-};
-
-std::vector<Stretch> stretches(const std::vector<Zone> &all)
-{
-   std::vector<Stretch> result;
-   bool open = true;
-   for (const Zone &zone : all)
-   {
-      if (closed(zone.state))
-      {
-         if (open) { result.push_back({zone.first, zone.last, zone.from, zone.to}); }
-         result.back().last = zone.last;
-         result.back().to = zone.to;
-      }
-      open = !closed(zone.state);
-   }
-   return result;
-}
-
-std::vector<bool> closed_nodes(const ContactState &state)
-{
-   std::vector<bool> nodes(state.status.size());
-   for (std::size_t i = 0; i < nodes.size(); i++) { nodes[i] = closed(state.status[i]); }
+   const std::vector<NodeState> settled = settled_states(problem, state);
+   std::vector<bool> nodes(settled.size());
+   for (std::size_t i = 0; i < nodes.size(); i++) { nodes[i] = closed(settled[i]); }
    return nodes;
 }
 
@@ -91,15 +68,14 @@ void check(const ReducedProblem &problem, const ContactState &pressed,
    loaded.validate(problem);
 }
 
-/// Chains of nodes follow each other in the arc length, where one ends and the next begins.
 void check_one_chain(const ReducedProblem &problem)
 {
+   const std::vector<int> chain = chain_numbers(problem);
    for (Index i = 1; i < problem.nodes(); i++)
    {
-      require(problem.arc_length[i] > problem.arc_length[i - 1],
-              "the contact line has separate "
-              "pieces, one ends at node ",
-              i - 1, " at arc length ", problem.arc_length[i - 1],
+      require(chain[i] == chain[i - 1],
+              "the contact line has separate pieces, one ends at node ", i - 1,
+              " at arc length ", problem.arc_length[i - 1],
               "; edges can be read from a line of one piece only.");
    }
 }
@@ -171,7 +147,7 @@ Zero zero_near_end(const ReducedProblem &problem, Index end, Index last, int sid
 
 /// Positions where the stuck shear of these tied nodes is singular, one for each edge.
 std::vector<Zero> singular_positions(const ReducedProblem &problem, const ContactState &loaded,
-                                     const std::vector<Stretch> &contact,
+                                     const std::vector<Zone> &contact,
                                      const std::vector<ContactEdge> &edges,
                                      const std::vector<bool> &tied)
 {
@@ -180,7 +156,7 @@ std::vector<Zero> singular_positions(const ReducedProblem &problem, const Contac
    ContactState misfit = loaded;
    misfit.v.setZero();
    misfit.w.setZero();
-   for (const Stretch &stretch : contact)
+   for (const Zone &stretch : contact)
    {
       const double middle = 0.5 * (stretch.from.position + stretch.to.position);
       for (Index i = std::max<Index>(stretch.first - 1, 0);
@@ -190,7 +166,7 @@ std::vector<Zero> singular_positions(const ReducedProblem &problem, const Contac
       }
    }
    const VectorXd strain = misfit.v;
-   release(problem, tied, closed_nodes(loaded), VectorXd::Zero(2 * n), misfit);
+   release(problem, tied, closed_nodes(problem, loaded), VectorXd::Zero(2 * n), misfit);
    const VectorXd q = tractions(problem, misfit.q);
    std::vector<Zero> positions;
    for (const ContactEdge &edge : edges)
@@ -215,7 +191,8 @@ std::vector<Zero> singular_positions(const ReducedProblem &problem, const Contac
 }
 
 /// From the edge to the first stick zone.
-void read_slip_zone(const std::vector<Zone> &all, const Stretch &stretch, ContactEdge &edge)
+void read_slip_zone(const ReducedProblem &problem, const std::vector<Zone> &all,
+                    const Zone &stretch, ContactEdge &edge)
 {
    std::vector<Zone> inside;
    for (const Zone &zone : all)
@@ -223,7 +200,16 @@ void read_slip_zone(const std::vector<Zone> &all, const Stretch &stretch, Contac
       if (zone.first >= stretch.first && zone.last <= stretch.last) { inside.push_back(zone); }
    }
    if (edge.side < 0) { std::reverse(inside.begin(), inside.end()); }
-   if (inside.front().state == NodeState::stick) { return; }
+   if (inside.front().state == NodeState::stick)
+   {
+      // Slip between the last two nodes does not show.
+      const Index end = edge.side > 0 ? stretch.first : stretch.last;
+      edge.slip_zone_error =
+         edge.complete
+            ? 0
+            : std::abs(problem.arc_length[end - edge.side] - problem.arc_length[end]);
+      return;
+   }
    for (const Zone &zone : inside)
    {
       if (zone.state != NodeState::stick) { continue; }
@@ -254,19 +240,20 @@ ContactState fully_stuck(const ReducedProblem &problem, const ContactState &pres
    stuck.v = pressed.v;
    stuck.w = -problem.gap;
    stuck.slip_origin = pressed.v;
+   const std::vector<bool> shut = closed_nodes(problem, loaded);
    for (std::size_t i = 0; i < tied.size(); i++)
    {
-      if (closed(loaded.status[i])) { stuck.status[i] = NodeState::stick; }
+      stuck.status[i] = shut[i] ? NodeState::stick : NodeState::separation;
    }
-   release(problem, tied, closed_nodes(loaded), problem.clamped_forces(loaded.multipliers),
-           stuck);
+   release(problem, tied, closed_nodes(problem, loaded),
+           problem.clamped_forces(loaded.multipliers), stuck);
    return stuck;
 }
 
 ContactState fully_stuck(const ReducedProblem &problem, const ContactState &pressed,
                          const ContactState &loaded)
 {
-   return fully_stuck(problem, pressed, loaded, closed_nodes(loaded));
+   return fully_stuck(problem, pressed, loaded, closed_nodes(problem, loaded));
 }
 
 EdgeTractions edge_tractions(const ReducedProblem &problem, const ContactState &state,
@@ -297,9 +284,9 @@ std::vector<ContactEdge> contact_edges(const ReducedProblem &problem,
    settings.validate();
    const Index n = problem.nodes();
    const std::vector<Zone> all = zones(problem, loaded);
-   const std::vector<Stretch> contact = stretches(all);
+   const std::vector<Zone> contact = contact_zones(all);
    std::vector<ContactEdge> edges;
-   for (const Stretch &stretch : contact)
+   for (const Zone &stretch : contact)
    {
       require(stretch.last - stretch.first >= 7, "a stretch of contact has ",
               stretch.last - stretch.first + 1,
@@ -341,12 +328,12 @@ std::vector<ContactEdge> contact_edges(const ReducedProblem &problem,
       ContactEdge &left = edges[edges.size() - 2], &right = edges.back();
       left.half_width = right.half_width =
          0.5 * (right.position.position - left.position.position);
-      read_slip_zone(all, stretch, left);
-      read_slip_zone(all, stretch, right);
+      read_slip_zone(problem, all, stretch, left);
+      read_slip_zone(problem, all, stretch, right);
    }
 
    // Stuck solutions: the nodes in contact, then one more at each edge in turn.
-   const std::vector<bool> base = closed_nodes(loaded);
+   const std::vector<bool> base = closed_nodes(problem, loaded);
    const std::vector<Zero> base_positions =
       singular_positions(problem, loaded, contact, edges, base);
    const ContactState base_state = fully_stuck(problem, pressed, loaded, base);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cattaneo/dense_algebra.hpp>
 #include <cattaneo/friction/zones.hpp>
 #include <cattaneo/input_error.hpp>
@@ -55,6 +56,9 @@ double zero(const VectorXd &c)
    return -2 * c[0] / (c[1] + std::copysign(std::sqrt(discriminant), c[1]));
 }
 
+/// Least errors of edges, in spacings.
+const double by_parabola = 0.25, by_line = 0.5;
+
 /// Where to look for an edge: between two neighbouring nodes, of which one lies in the zone
 /// whose values vanish at the edge; `last` is the far end of that zone.
 struct Bracket
@@ -65,7 +69,7 @@ struct Bracket
    Index step() const { return inside < outside ? -1 : 1; }
    Index nodes() const { return std::abs(last - inside) + 1; }
    double spacing() const { return std::abs(s[outside] - s[inside]); }
-   Edge middle() const { return {0.5 * (s[inside] + s[outside]), 0.5 * spacing()}; }
+   Edge middle() const { return {0.5 * (s[inside] + s[outside]), spacing()}; }
 
    /// Zero of a polynomial through the nodes from..to-1 of the zone (0: `inside`), in spacings
    /// from `inside` toward the zone; NaN if there are not that many.
@@ -83,12 +87,12 @@ struct Bracket
    }
 
    /// The edge at `best` if that is between the two nodes or near; `other` tells how sure it
-   /// is.
-   bool accept(double best, double other, Edge &edge) const
+   /// is, but not surer than `least`, in spacings.
+   bool accept(double best, double other, double least, Edge &edge) const
    {
       if (!(best > -1.3 && best < 0.3)) { return false; }
-      const double doubt = std::isfinite(other) ? std::abs(best - other) : 0.5;
-      edge = {s[inside] + step() * best * spacing(), std::clamp(doubt, 0.02, 0.5) * spacing()};
+      const double doubt = std::isfinite(other) ? std::abs(best - other) : 1.0;
+      edge = {s[inside] + step() * best * spacing(), std::clamp(doubt, least, 1.0) * spacing()};
       return true;
    }
 };
@@ -107,12 +111,12 @@ Edge separation_edge(const Bracket &bracket, const VectorXd &pressure2)
    if (count >= 7)
    {
       bracket.accept(bracket.extrapolate(pressure2, 2, count, 2),
-                     bracket.extrapolate(pressure2, 1, count - 2, 2), edge);
+                     bracket.extrapolate(pressure2, 1, count - 2, 2), by_parabola, edge);
    }
    else if (count >= 3)
    {
       bracket.accept(bracket.extrapolate(pressure2, 0, 3, 1),
-                     bracket.extrapolate(pressure2, 0, 2, 1), edge);
+                     bracket.extrapolate(pressure2, 0, 2, 1), by_line, edge);
    }
    return edge;
 }
@@ -123,7 +127,7 @@ Edge separation_edge(const Bracket &bracket, const VectorXd &pressure2)
 bool displacement_edge(const Bracket &bracket, const VectorXd &displacement23, Edge &edge)
 {
    return bracket.accept(bracket.extrapolate(displacement23, 1, 6, 2),
-                         bracket.extrapolate(displacement23, 1, 5, 2), edge);
+                         bracket.extrapolate(displacement23, 1, 5, 2), by_parabola, edge);
 }
 
 /// Slip front from the slipping side: a straight line where there are only few nodes.
@@ -133,143 +137,383 @@ bool slip_front(const Bracket &bracket, const VectorXd &way, Edge &edge)
    const Index first = bracket.nodes() >= 4 ? 1 : 0;
    const double best = bracket.extrapolate(way, first, first + 3, 1);
    const double other = bracket.extrapolate(way, 0, 3, 1);
-   return bracket.accept(best, first ? other : bracket.extrapolate(way, 0, 2, 1), edge);
+   return bracket.accept(best, first ? other : bracket.extrapolate(way, 0, 2, 1), by_line,
+                         edge);
 }
 
-/// Edge of a stick zone from its own side: squared frictional reserve.
+/// Edge of a stick zone from its own side: squared frictional reserve. Nodes that stick on the
+/// limit have none, and say nothing of where slip ends.
 Edge stick_edge(const Bracket &bracket, const VectorXd &reserve2)
 {
    Edge edge = bracket.middle();
+   for (Index k = 0; k < 4 && k < bracket.nodes(); ++k)
+   {
+      if (reserve2[bracket.inside + bracket.step() * k] == 0) { return edge; }
+   }
    bracket.accept(bracket.extrapolate(reserve2, 0, 3, 1),
-                  bracket.extrapolate(reserve2, 1, 4, 1), edge);
+                  bracket.extrapolate(reserve2, 1, 4, 1), by_line, edge);
    return edge;
 }
 
-} // namespace
+/// What edges are extrapolated from, one entry a node.
+struct Profiles
+{
+   std::vector<NodeState> states;
+   VectorXd pressure2, reserve2, opening, way; ///< the last two to the power 2/3
+   std::vector<bool> usable;                   ///< of the nodes for their way
+};
 
-std::vector<Zone> zones(const ReducedProblem &problem, const ContactState &state)
+void check_line(const ReducedProblem &problem)
 {
    const Index n = problem.nodes();
    require(problem.arc_length.size() == n && problem.weights.size() == n,
            "zones: the reduced problem has no arc length or weights");
-   const VectorXd &s = problem.arc_length;
-   const VectorXd p = tractions(problem, state.p);
-   const VectorXd q = tractions(problem, lengths(state.q, n));
-   const VectorXd pressure2 = p.cwiseAbs2();
-   VectorXd reserve2(n), opening(n), way = lengths(state.v - state.slip_origin, n);
-   for (Index i = 0; i < n; ++i)
+}
+
+/// Without reserve and way.
+Profiles profiles(const ReducedProblem &problem, const ContactState &state)
+{
+   check_line(problem);
+   const Index n = problem.nodes();
+   Profiles result;
+   result.states = settled_states(problem, state);
+   result.pressure2 = tractions(problem, state.p).cwiseAbs2();
+   result.opening = (state.w + problem.gap).cwiseMax(0.0).array().pow(2.0 / 3);
+   result.reserve2 = result.way = VectorXd::Zero(n);
+   result.usable.assign(n, true);
+   return result;
+}
+
+/// Reads the zones of some states.
+class Reader
+{
+public:
+   Reader(const ReducedProblem &problem, const Profiles &at, const VectorXd &shear)
+      : s_(problem.arc_length), at_(at), shear_(shear), chain_(chain_numbers(problem))
    {
-      const double reserve = std::max(problem.friction[i] * p[i] - q[i], 0.0);
-      reserve2[i] = reserve * reserve;
-      opening[i] = std::pow(std::max(state.w[i] + problem.gap[i], 0.0), 2.0 / 3);
-      way[i] = std::pow(way[i], 2.0 / 3);
    }
-   std::vector<Zone> result;
-   for (Index i = 0; i < n; ++i)
+
+   std::vector<Zone> zones();
+
+private:
+   Edge border(const Zone &left, const Zone &right) const;
+   Edge contact_edge(Index in, Index out, Index open_end) const;
+   Edge slip_edge(Index in, Index out, Index stick_end, Index slip_end) const;
+   void untangle(std::vector<Zone> &all) const;
+
+   bool neighbours(Index i, Index j) const
    {
-      if (i == 0 || state.status[i] != state.status[i - 1])
+      return std::min(i, j) >= 0 && std::max(i, j) < s_.size() && chain_[i] == chain_[j];
+   }
+
+   const VectorXd &s_;
+   const Profiles &at_;
+   const VectorXd &shear_;
+   const std::vector<int> chain_;
+};
+
+/// Node `in` is closed, `out` is open; the far end of the open zone.
+Edge Reader::contact_edge(Index in, Index out, Index open_end) const
+{
+   const Index step = out < in ? 1 : -1;
+   Index closed_end = in; // of the whole run of closed nodes, for their pressure
+   while (neighbours(closed_end, closed_end + step) && closed(at_.states[closed_end + step]))
+   {
+      closed_end += step;
+   }
+   const Edge inside = separation_edge({s_, in, out, closed_end}, at_.pressure2);
+   Edge outside;
+   return displacement_edge({s_, out, in, open_end}, at_.opening, outside)
+             ? surer(outside, inside)
+             : inside;
+}
+
+/// Node `in` sticks, `out` slips; the far ends of both zones. Where the front retreats, slip
+/// does not vanish at it and its extrapolation is in doubt.
+Edge Reader::slip_edge(Index in, Index out, Index stick_end, Index slip_end) const
+{
+   const Edge inside = stick_edge({s_, in, out, stick_end}, at_.reserve2);
+   Edge outside;
+   if (!at_.usable[out]) { return inside; }
+   const Index step = out < in ? -1 : 1;
+   Index last = out;
+   while (last != slip_end && at_.usable[last + step]) { last += step; }
+   return slip_front({s_, out, in, last}, at_.way, outside) ? surer(outside, inside) : inside;
+}
+
+Edge Reader::border(const Zone &left, const Zone &right) const
+{
+   const Index i = left.last, j = right.first;
+   if (!closed(left.state)) { return contact_edge(j, i, left.first); }
+   if (!closed(right.state)) { return contact_edge(i, j, right.last); }
+   if (left.state == NodeState::stick) { return slip_edge(i, j, left.first, right.last); }
+   if (right.state == NodeState::stick) { return slip_edge(j, i, right.last, left.first); }
+   // Opposite slip on both sides: shear changes sign.
+   const double total = shear_[i] + shear_[j];
+   const double fraction = total > 0 ? shear_[i] / total : 0.5;
+   return {s_[i] + fraction * (s_[j] - s_[i]), s_[j] - s_[i]};
+}
+
+/// A zone of a node or two may come out inside out: its nodes are all that is known of it.
+void Reader::untangle(std::vector<Zone> &all) const
+{
+   for (std::size_t k = 0; k < all.size(); ++k)
+   {
+      Zone &zone = all[k];
+      if (zone.from.position <= zone.to.position) { continue; }
+      const Index i = zone.first, j = zone.last;
+      if (neighbours(i - 1, i))
       {
-         result.push_back({state.status[i], {s[i], 0}, {s[i], 0}, i, i});
+         zone.from = all[k - 1].to = {0.5 * (s_[i - 1] + s_[i]), s_[i] - s_[i - 1]};
+      }
+      if (neighbours(j, j + 1))
+      {
+         zone.to = all[k + 1].from = {0.5 * (s_[j] + s_[j + 1]), s_[j + 1] - s_[j]};
+      }
+   }
+}
+
+std::vector<Zone> Reader::zones()
+{
+   std::vector<Zone> result;
+   for (Index i = 0; i < s_.size(); ++i)
+   {
+      const NodeState state = at_.states[i];
+      if (!neighbours(i - 1, i) || state != at_.states[i - 1])
+      {
+         result.push_back({state, {s_[i], 0}, {s_[i], 0}, i, i, chain_[i]});
       }
       result.back().last = i;
-      result.back().to = {s[i], 0};
+      result.back().to = {s_[i], 0};
    }
-   // Runs of closed nodes, for the pressure at their ends.
-   auto end_of_contact = [&](Index i, Index step)
-   {
-      while (i + step >= 0 && i + step < n && closed(state.status[i + step])) { i += step; }
-      return i;
-   };
-   // Node i is closed, j is open; the far ends of both.
-   auto contact_edge = [&](Index i, Index j, Index closed_end, Index open_end)
-   {
-      const Edge inside = separation_edge({s, i, j, closed_end}, pressure2);
-      Edge outside;
-      return displacement_edge({s, j, i, open_end}, opening, outside) ? surer(inside, outside)
-                                                                      : inside;
-   };
-   // Node i sticks, j slips; the far ends of both zones. Where the front retreats, slip does
-   // not vanish at it and its extrapolation is in doubt.
-   auto slip_edge = [&](Index i, Index j, Index stick_end, Index slip_end)
-   {
-      const Edge inside = stick_edge({s, i, j, stick_end}, reserve2);
-      Edge outside;
-      return slip_front({s, j, i, slip_end}, way, outside) ? surer(outside, inside) : inside;
-   };
    for (std::size_t k = 0; k + 1 < result.size(); ++k)
    {
-      Zone &left = result[k], &right = result[k + 1];
-      const Index i = left.last, j = right.first;
-      Edge edge;
-      if (!closed(left.state)) { edge = contact_edge(j, i, end_of_contact(j, 1), left.first); }
-      else if (!closed(right.state))
-      {
-         edge = contact_edge(i, j, end_of_contact(i, -1), right.last);
-      }
-      else if (left.state == NodeState::stick)
-      {
-         edge = slip_edge(i, j, left.first, right.last);
-      }
-      else if (right.state == NodeState::stick)
-      {
-         edge = slip_edge(j, i, right.last, left.first);
-      }
-      else
-      {
-         // Opposite slip on both sides: shear changes sign.
-         const double total = q[i] + q[j];
-         const double fraction = total > 0 ? q[i] / total : 0.5;
-         edge = {s[i] + fraction * (s[j] - s[i]), 0.5 * (s[j] - s[i])};
-      }
-      left.to = right.from = edge;
+      if (result[k].chain != result[k + 1].chain) { continue; }
+      result[k].to = result[k + 1].from = border(result[k], result[k + 1]);
    }
-   // A zone of a node or two may come out inside out: its nodes are all that is known of it.
-   for (std::size_t k = 0; k < result.size(); ++k)
+   untangle(result);
+   return result;
+}
+
+double width(const Zone &zone)
+{
+   return zone.to.position - zone.from.position;
+}
+
+/// Forces that cannot be told from none: a hundred times the solver's tolerance, and the
+/// round-off of displacements that are large against what deforms.
+double least_force(const ReducedProblem &problem, const ContactState &state)
+{
+   double largest = 0;
+   const auto stiff = [&](const Eigen::MatrixXd &K, const VectorXd &u)
    {
-      Zone &zone = result[k];
-      if (zone.from.position <= zone.to.position) { continue; }
-      if (k > 0)
+      if (u.size())
       {
-         const Index i = zone.first;
-         zone.from = result[k - 1].to = {0.5 * (s[i - 1] + s[i]), 0.5 * (s[i] - s[i - 1])};
+         largest = std::max(largest, K.diagonal().cwiseProduct(u).cwiseAbs().maxCoeff());
       }
-      if (k + 1 < result.size())
+   };
+   stiff(problem.A, state.v);
+   stiff(problem.C, state.w);
+   return 1e-10 * state.peak_force + 1e-14 * largest;
+}
+
+/// What a node's slip must exceed to be told from round-off: what that force does to it alone.
+VectorXd least_slip(const ReducedProblem &problem, const ContactState &state)
+{
+   const Index n = problem.nodes();
+   if (problem.components() == 0) { return VectorXd::Zero(n); }
+   return least_force(problem, state) * problem.A.diagonal().head(n).cwiseInverse();
+}
+
+} // namespace
+
+std::vector<int> chain_numbers(const ReducedProblem &problem)
+{
+   const Index n = problem.nodes();
+   std::vector<int> number(n, 0);
+   if (!problem.chains.empty())
+   {
+      int k = 0;
+      for (const ContactChain &chain : problem.chains)
       {
-         const Index i = zone.last;
-         zone.to = result[k + 1].from = {0.5 * (s[i] + s[i + 1]), 0.5 * (s[i + 1] - s[i])};
+         std::fill_n(number.begin() + chain.first, chain.nodes, k++);
       }
+      return number;
+   }
+   for (Index i = 1; i < n; ++i)
+   {
+      // Chains follow each other in the arc length, where one ends and the next begins.
+      number[i] = number[i - 1] + (problem.arc_length[i] > problem.arc_length[i - 1] ? 0 : 1);
+   }
+   return number;
+}
+
+std::vector<NodeState> settled_states(const ReducedProblem &problem, const ContactState &state)
+{
+   const Index n = problem.nodes();
+   std::vector<NodeState> result = state.status;
+   const VectorXd way = lengths(state.v - state.slip_origin, n);
+   const VectorXd least = least_slip(problem, state);
+   const double force = least_force(problem, state);
+   const bool plane = problem.components() == 1, disc = problem.components() == 2;
+   std::vector<bool> held(n, false); // it has no law of friction
+   for (Index row : problem.held) { held[row % n] = true; }
+   for (Index i = 0; i < n; ++i)
+   {
+      NodeState &node = result[i];
+      if (state.p[i] <= force) { node = NodeState::separation; }
+      if (!closed(node)) { continue; }
+      const bool moved = way[i] > least[i];
+      if ((plane || disc) && problem.friction[i] == 0 && !held[i])
+      {
+         node = disc                                         ? NodeState::slip
+                : moved && state.v[i] < state.slip_origin[i] ? NodeState::backward_slip
+                                                             : NodeState::forward_slip;
+      }
+      else if (!moved) { node = NodeState::stick; }
    }
    return result;
 }
 
-Zone widest_zone(const ReducedProblem &problem, const ContactState &state, NodeState which)
+Index touching_nodes(const ReducedProblem &problem, const ContactState &state)
+{
+   const double force = least_force(problem, state);
+   Index count = 0;
+   for (Index i = 0; i < problem.nodes(); ++i)
+   {
+      const bool open = state.w[i] + problem.gap[i] > force / problem.C(i, i);
+      if (state.p[i] <= force && !open) { ++count; }
+   }
+   return count;
+}
+
+void SlipRange::start(const ContactState &state)
+{
+   low_ = high_ = state.v;
+   closed_.assign(problem_->nodes(), true);
+   note(state);
+}
+
+void SlipRange::note(const ContactState &state)
+{
+   if (low_.size() != state.v.size()) { return start(state); }
+   low_ = low_.cwiseMin(state.v);
+   high_ = high_.cwiseMax(state.v);
+   const std::vector<NodeState> states = settled_states(*problem_, state);
+   for (std::size_t i = 0; i < states.size(); ++i)
+   {
+      closed_[i] = closed_[i] && closed(states[i]);
+   }
+}
+
+VectorXd SlipRange::range() const
+{
+   return lengths(high_ - low_, problem_->nodes());
+}
+
+std::vector<Zone> zones(const ReducedProblem &problem, const ContactState &state)
+{
+   Profiles at = profiles(problem, state);
+   const Index n = problem.nodes();
+   const VectorXd p = tractions(problem, state.p);
+   const VectorXd q = tractions(problem, lengths(state.q, n));
+   at.way = lengths(state.v - state.slip_origin, n).array().pow(2.0 / 3);
+   for (Index i = 0; i < n; ++i)
+   {
+      // Within round-off of the limit there is no reserve.
+      const double limit = problem.friction[i] * p[i], reserve = limit - q[i];
+      if (reserve > 1e-8 * limit) { at.reserve2[i] = reserve * reserve; }
+   }
+   return Reader(problem, at, q).zones();
+}
+
+std::vector<Zone> zones(const ReducedProblem &problem, const ContactState &state,
+                        const SlipRange &slip)
+{
+   Profiles at = profiles(problem, state);
+   const Index n = problem.nodes();
+   const VectorXd range = slip.range(), least = least_slip(problem, state);
+   for (Index i = 0; i < n; ++i)
+   {
+      if (!closed(at.states[i])) { continue; }
+      at.states[i] = range[i] > least[i] ? NodeState::slip : NodeState::stick;
+   }
+   at.way = range.array().pow(2.0 / 3);
+   at.usable = slip.always_closed();
+   return Reader(problem, at, VectorXd::Zero(n)).zones();
+}
+
+Zone widest_zone(const std::vector<Zone> &zones, NodeState which)
 {
    Zone widest{which, {}, {}, 0, -1};
-   for (const Zone &zone : zones(problem, state))
+   for (const Zone &zone : zones)
    {
-      const bool wider =
-         widest.first > widest.last ||
-         zone.to.position - zone.from.position > widest.to.position - widest.from.position;
+      const bool wider = widest.first > widest.last || width(zone) > width(widest);
       if (zone.state == which && wider) { widest = zone; }
    }
    return widest;
 }
 
+Zone widest_zone(const ReducedProblem &problem, const ContactState &state, NodeState which)
+{
+   return widest_zone(zones(problem, state), which);
+}
+
+Zone stick_zone(const ReducedProblem &problem, const std::vector<Zone> &zones)
+{
+   Zone stick = widest_zone(zones, NodeState::stick);
+   if (stick.first > stick.last) { return stick; }
+   const VectorXd &s = problem.arc_length;
+   const std::vector<int> chain = chain_numbers(problem);
+   const auto on_chain = [&](Index node)
+   { return node >= 0 && node < s.size() && chain[node] == stick.chain; };
+   const auto slips_at = [&](Index node)
+   {
+      return std::any_of(zones.begin(), zones.end(),
+                         [&](const Zone &zone) {
+                            return slips(zone.state) && zone.first <= node && node <= zone.last;
+                         });
+   };
+   const auto doubt = [&](Index end, Index step, Edge &edge)
+   {
+      if (on_chain(end + step) && slips_at(end + step)) { return; }
+      const Index next = on_chain(end + step) ? end + step : end - step;
+      if (on_chain(next)) { edge.error = std::max(edge.error, std::abs(s[next] - s[end])); }
+   };
+   doubt(stick.first, -1, stick.from);
+   doubt(stick.last, 1, stick.to);
+   return stick;
+}
+
+Zone stick_zone(const ReducedProblem &problem, const ContactState &state)
+{
+   return stick_zone(problem, zones(problem, state));
+}
+
+std::vector<Zone> contact_zones(const std::vector<Zone> &zones)
+{
+   std::vector<Zone> result;
+   const Zone *before = nullptr;
+   for (const Zone &zone : zones)
+   {
+      if (closed(zone.state))
+      {
+         if (!before || !closed(before->state) || before->chain != zone.chain)
+         {
+            result.push_back(zone);
+            result.back().state = NodeState::stick;
+         }
+         result.back().last = zone.last;
+         result.back().to = zone.to;
+      }
+      before = &zone;
+   }
+   return result;
+}
+
 Zone contact_zone(const ReducedProblem &problem, const ContactState &state)
 {
-   Zone contact{NodeState::stick, {}, {}, 0, -1};
-   for (const Zone &zone : zones(problem, state))
-   {
-      if (!closed(zone.state)) { continue; }
-      if (contact.first > contact.last)
-      {
-         contact.first = zone.first;
-         contact.from = zone.from;
-      }
-      contact.last = zone.last;
-      contact.to = zone.to;
-   }
-   return contact;
+   return widest_zone(contact_zones(zones(problem, state)), NodeState::stick);
 }
 
 } // namespace cattaneo

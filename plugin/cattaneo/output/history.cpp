@@ -68,11 +68,12 @@ void write_nodes(const std::string &file, const ReducedProblem &problem,
          q.col(k) = tractions(problem, state.q.segment(k * n, n));
          slip.col(k) = state.v.segment(k * n, n);
       }
+      const std::vector<NodeState> settled = settled_states(problem, state);
       for (Eigen::Index i = 0; i < n; ++i)
       {
          out << state.time << ',' << i << ',' << problem.arc_length[i] << ','
              << problem.position(i, 0) << ',' << problem.position(i, 1) << ','
-             << name(state.status[i]) << ',' << p[i];
+             << name(settled[i]) << ',' << p[i];
          for (Eigen::Index k = 0; k < columns; ++k) { out << ',' << q(i, k); }
          for (Eigen::Index k = 0; k < columns; ++k) { out << ',' << slip(i, k); }
          out << ',' << state.w[i] + problem.gap[i] << '\n';

@@ -34,8 +34,8 @@ private:
 
 /** Writes the contact nodes of some states, as CSV, one row a node and state:
 
-       time, node, arc_length, x, y, state, p, q (tractions: nodal forces over consistent
-   weights), slip v, opening w + g; with torsion q and slip have a radial and a
+       time, node, arc_length, x, y, state (see settled_states()), p, q (tractions: nodal forces
+   over consistent weights), slip v, opening w + g; with torsion q and slip have a radial and a
    circumferential column each.
 
     Needs arc length, positions and weights. InputError if the file cannot be

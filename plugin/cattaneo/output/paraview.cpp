@@ -162,7 +162,8 @@ void ContactLineFields::write(const ContactState &state)
    const Eigen::VectorXd none = Eigen::VectorXd::Zero(n);
    const bool tangential = state.q.size() > 0;
    Eigen::VectorXd status(n);
-   for (Eigen::Index i = 0; i < n; ++i) { status[i] = static_cast<double>(state.status[i]); }
+   const std::vector<NodeState> settled = settled_states(problem_, state);
+   for (Eigen::Index i = 0; i < n; ++i) { status[i] = static_cast<double>(settled[i]); }
 
    std::ostringstream vtp;
    vtp.precision(17);
