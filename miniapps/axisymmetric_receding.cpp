@@ -264,7 +264,7 @@ void Study::bonded(const std::vector<double> &wanted)
          Index i = 0;
          (at.array() - radius).abs().minCoeff(&i);
          table.add(miniapp::exact_text("bonded, a = 2.1: p/p0 at r/t = ", radius), value,
-                   {5e-6, 5e-4}, none, p[i]);
+                   {value > 0.1 ? 5e-5 : 5e-6, 5e-4}, none, p[i]);
       }
       for (const auto &[radius, value] : {std::pair{3.75, 1.69}, {4.25, 1.07}, {4.7, 0.600}})
       {
@@ -663,8 +663,8 @@ int Study::twist(FrictionSolver &solver, const ContactState &loaded, Stop stop,
          if (wanted[k] != T) { continue; }
          table.add(miniapp::exact_text("c/t at T/T_s = ", T), c,
                    {0.003, found.c_error + by_steps}, none, found.c);
-         table.add(miniapp::exact_text("d/t at T/T_s = ", T), d, {0.01, found.d_error}, none,
-                   found.d);
+         table.add(miniapp::exact_text("d/t at T/T_s = ", T), d,
+                   {0.003, found.d_error + by_steps}, none, found.d);
       }
       const double rates[] = {14, 49, 77}, totals[] = {8, 13, 37};
       for (int j = 0; j < 3 && wanted[k] == 0.5; ++j)

@@ -210,19 +210,17 @@ miniapp::ReferenceTable compare(const Design &design, const Setting &setting,
    // read-out.
    table.add("half width a, mm", a, {0, solved.trailing.edge.position.error}, unset,
              solved.half_width);
-   // Shear intensities within 1 % of the larger one, or of d = a/1000.
-   const double shear_scale =
-      std::max({std::abs(closed_form.k_t.trailing), std::abs(closed_form.k_t.leading),
-                5e-4 * design.friction * closed_form.k_n * a});
+   const auto error = [](const FittedIntensity &fitted)
+   { return fitted.relative_error * std::abs(fitted.value); };
    for (const bool trailing : {true, false})
    {
       const SolvedEdge &edge = trailing ? solved.trailing : solved.leading;
       const std::string where = trailing ? ", trailing edge" : ", leading edge";
-      table.add("K_N, MPa/sqrt(mm)" + where, closed_form.k_n, {0, 0.01 * closed_form.k_n},
-                unset, edge.edge.k_n.value);
+      table.add("K_N, MPa/sqrt(mm)" + where, closed_form.k_n, {0, error(edge.edge.k_n)}, unset,
+                edge.edge.k_n.value);
       table.add("K_T, MPa sqrt(mm)" + where,
                 trailing ? closed_form.k_t.trailing : closed_form.k_t.leading,
-                {0, 0.01 * shear_scale}, unset, edge.edge.k_t.value);
+                {0, error(edge.edge.k_t)}, unset, edge.edge.k_t.value);
       if (!resolved(edge, solved)) { continue; }
       const double slip = a - stick + (trailing ? shift : -shift);
       if (a - stick >= std::abs(shift))

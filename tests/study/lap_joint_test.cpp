@@ -65,7 +65,8 @@ TEST(LapJoint, EdgesOfTheRecedingContactHaveIntensities)
       const auto &edge = large.results["edges"][e], &other = coarse.results["edges"][e];
       EXPECT_FALSE(edge["complete"].get<bool>());
       const double k_n = edge["k_n"]["value"], k_t = edge["k_t"]["value"];
-      EXPECT_LT(edge["k_n"]["relative_error"].get<double>(), 0.03);
+      // The error of the edge's position, a quarter of a spacing, is half of it.
+      EXPECT_LT(edge["k_n"]["relative_error"].get<double>(), 0.04);
       EXPECT_LT(edge["k_t"]["relative_error"].get<double>(), 0.03);
       EXPECT_NEAR(other["k_n"]["value"].get<double>(), k_n, 0.02 * k_n);
       EXPECT_NEAR(other["k_t"]["value"].get<double>(), k_t, 0.03 * std::abs(k_t));

@@ -313,15 +313,15 @@ std::vector<ContactEdge> contact_edges(const ReducedProblem &problem,
          }
          else
          {
-            // p² is smooth, and a parabola for Hertz; zones() looks at eight nodes only.
+            // p² is smooth, and a parabola for Hertz, but its last nodes are not: it is asked
+            // only where zones() has found no more than two nodes to lie between.
             const VectorXd p = tractions(problem, loaded.p);
-            const Zero zero = zero_near_end(problem, side > 0 ? edge.first : edge.last,
-                                            side > 0 ? edge.last : edge.first, side,
-                                            [&](Index i) { return p[i] * p[i]; });
-            if (zero.error < edge.position.error)
-            {
-               edge.position = {zero.position, zero.error};
-            }
+            const Index end = side > 0 ? edge.first : edge.last;
+            const Zero zero = zero_near_end(problem, end, side > 0 ? edge.last : edge.first,
+                                            side, [&](Index i) { return p[i] * p[i]; });
+            const double h = std::abs(problem.arc_length[end - side] - problem.arc_length[end]);
+            const double error = std::max(zero.error, 0.5 * h);
+            if (error < edge.position.error) { edge.position = {zero.position, error}; }
          }
          edges.push_back(edge);
       }
@@ -334,14 +334,41 @@ std::vector<ContactEdge> contact_edges(const ReducedProblem &problem,
 
    // Stuck solutions: the nodes in contact, then one more at each edge in turn.
    const std::vector<bool> base = closed_nodes(problem, loaded);
-   const std::vector<Zero> base_positions =
-      singular_positions(problem, loaded, contact, edges, base);
+   std::vector<Zero> base_positions = singular_positions(problem, loaded, contact, edges, base);
    const ContactState base_state = fully_stuck(problem, pressed, loaded, base);
-   const auto fit_shear = [&](const ContactState &stuck, std::size_t e, double position)
+   std::vector<Zero> extended_positions(edges.size());
+   std::vector<std::vector<bool>> extended(edges.size(), base);
+   for (std::size_t e = 0; e < edges.size(); e++)
+   {
+      if (edges[e].complete) { continue; }
+      const int side = edges[e].side;
+      const Index end = side > 0 ? edges[e].first : edges[e].last;
+      extended[e][end - side] = true;
+      Zero &from = base_positions[e], &to = extended_positions[e];
+      to = singular_positions(problem, loaded, contact, edges, extended[e])[e];
+      // One node more moves the singularity by about a spacing. Where it was not found so,
+      // both are the middles beyond the last tied nodes.
+      const VectorXd &s = problem.arc_length;
+      const double h = std::abs(s[end - side] - s[end]),
+                   moved = side * (from.position - to.position);
+      if (std::max(from.error, to.error) >= 0.5 * h || moved < 0.5 * h || moved > 1.5 * h)
+      {
+         from = {s[end] - 0.5 * side * h, 0.5 * h};
+         to = {s[end] - 1.5 * side * h, 0.5 * h};
+      }
+      // The spread of a fit is no bound: as zones() has it, a quarter of a spacing at least.
+      from.error = std::max(from.error, 0.25 * h);
+      to.error = std::max(to.error, 0.25 * h);
+   }
+   const auto fit = [&](const ContactState &state, std::size_t e, double position)
    {
       ContactEdge edge = edges[e];
       edge.position.position = position;
-      EdgeTractions tractions = edge_tractions(problem, stuck, edge, cracked);
+      return edge_tractions(problem, state, edge, cracked);
+   };
+   const auto fit_shear = [&](const ContactState &stuck, std::size_t e, double position)
+   {
+      EdgeTractions tractions = fit(stuck, e, position);
       // A node tied outside the contact has no pressure of its own, but counts.
       std::fill(tractions.pressure.begin(), tractions.pressure.end(), 1.0);
       return fit_edge(tractions, settings).k_t;
@@ -349,7 +376,18 @@ std::vector<ContactEdge> contact_edges(const ReducedProblem &problem,
    for (std::size_t e = 0; e < edges.size(); e++)
    {
       if (edges[e].complete) { continue; }
-      edges[e].k_n = fit_edge(edge_tractions(problem, loaded, edges[e], cracked), settings).k_n;
+      const cattaneo::Edge &at = edges[e].position;
+      FittedIntensity &k_n = edges[e].k_n;
+      k_n = fit_edge(fit(loaded, e, at.position), settings).k_n;
+      // What the error of the edge's position makes of it.
+      double change = 0;
+      for (const double shift : {-at.error, at.error})
+      {
+         const double shifted =
+            fit_edge(fit(loaded, e, at.position + shift), settings).k_n.value;
+         change = std::max(change, std::abs(shifted - k_n.value));
+      }
+      if (k_n.value != 0) { k_n.relative_error += change / std::abs(k_n.value); }
       edges[e].k_t = fit_shear(base_state, e, base_positions[e].position);
    }
    std::vector<FittedIntensity> found(edges.size());
@@ -358,23 +396,21 @@ std::vector<ContactEdge> contact_edges(const ReducedProblem &problem,
    for (std::size_t e = 0; e < edges.size(); e++)
    {
       if (edges[e].complete) { continue; }
-      std::vector<bool> tied = base;
-      const Index outermost = edges[e].side > 0 ? edges[e].first : edges[e].last;
-      tied[outermost - edges[e].side] = true;
-      const Zero extended = singular_positions(problem, loaded, contact, edges, tied)[e];
-      const ContactState stuck = fully_stuck(problem, pressed, loaded, tied);
-      const double step = extended.position - base_positions[e].position;
-      const double fraction = (edges[e].position.position - base_positions[e].position) / step;
+      const ContactState stuck = fully_stuck(problem, pressed, loaded, extended[e]);
+      const Zero &from = base_positions[e], &to = extended_positions[e];
+      const double step = to.position - from.position;
+      const double fraction = (edges[e].position.position - from.position) / step;
+      const double doubt = edges[e].position.error + std::abs(1 - fraction) * from.error +
+                           std::abs(fraction) * to.error;
       for (std::size_t other = 0; other < edges.size(); other++)
       {
          if (edges[other].complete) { continue; }
          const double k_t =
-            fit_shear(stuck, other,
-                      other == e ? extended.position : base_positions[other].position)
+            fit_shear(stuck, other, other == e ? to.position : base_positions[other].position)
                .value;
          const double change = k_t - edges[other].k_t.value;
          found[other].value += fraction * change;
-         read_out[other] += std::abs(change / step) * edges[e].position.error;
+         read_out[other] += std::abs(change / step) * doubt;
       }
    }
    for (std::size_t e = 0; e < edges.size(); e++)

@@ -111,7 +111,7 @@ Edge separation_edge(const Bracket &bracket, const VectorXd &pressure2)
    if (count >= 7)
    {
       bracket.accept(bracket.extrapolate(pressure2, 2, count, 2),
-                     bracket.extrapolate(pressure2, 1, count - 2, 2), by_parabola, edge);
+                     bracket.extrapolate(pressure2, 1, count - 2, 2), by_line, edge);
    }
    else if (count >= 3)
    {
@@ -130,15 +130,17 @@ bool displacement_edge(const Bracket &bracket, const VectorXd &displacement23, E
                          bracket.extrapolate(displacement23, 1, 5, 2), by_parabola, edge);
 }
 
-/// Slip front from the slipping side: a straight line where there are only few nodes.
+/// Slip front from the slipping side: a straight line where there are only few nodes, and where
+/// there are but two the one through them, which nothing confirms.
 bool slip_front(const Bracket &bracket, const VectorXd &way, Edge &edge)
 {
    if (displacement_edge(bracket, way, edge)) { return true; }
    const Index first = bracket.nodes() >= 4 ? 1 : 0;
    const double best = bracket.extrapolate(way, first, first + 3, 1);
-   const double other = bracket.extrapolate(way, 0, 3, 1);
-   return bracket.accept(best, first ? other : bracket.extrapolate(way, 0, 2, 1), by_line,
-                         edge);
+   const double last_two = bracket.extrapolate(way, 0, 2, 1);
+   const double other = first ? bracket.extrapolate(way, 0, 3, 1) : last_two;
+   return bracket.accept(best, other, by_line, edge) ||
+          bracket.accept(last_two, std::numeric_limits<double>::quiet_NaN(), 1.0, edge);
 }
 
 /// Edge of a stick zone from its own side: squared frictional reserve. Nodes that stick on the

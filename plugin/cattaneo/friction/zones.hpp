@@ -86,8 +86,8 @@ std::vector<int> chain_numbers(const ReducedProblem &problem);
     node: against finer meshes, opening and slip are right to about 0.05 spacings, pressure to
     0.2. That is luck which no one mesh can vouch for: the error is the change when other nodes
     are used, but not less than a quarter of a spacing, half of it where a straight line was all
-    that the nodes allow, and a whole one where there are too few nodes: the edge is then the
-    middle between the two that it lies between.
+    that the nodes allow or pressure all there is, and a whole one where there are too few
+   nodes: the edge is then the middle between the two that it lies between.
 
     With two tangential components |v - slip_origin| and |q| are lengths of vectors, and nodes
     that slip form one zone whatever their directions.
