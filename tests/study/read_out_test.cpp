@@ -5,7 +5,7 @@
 namespace
 {
 
-using cattaneo_test::Run;
+using Result = cattaneo_test::Run;
 using cattaneo_test::run_miniapp;
 
 double number(const nlohmann::json &j)
@@ -41,7 +41,7 @@ TEST(ReadOut, SteadyStickOfTheLapJointDependsOnMechanicsAlone)
             const std::string options = std::string(reference.load) + " -spacing " +
                                         std::to_string(spacing) + " " + march;
             SCOPED_TRACE(options);
-            const Run run = run_miniapp("lap_joint", options);
+            const Result run = run_miniapp("lap_joint", options);
             ASSERT_EQ(run.code, 0) << run.output;
             const double c = run.results["c_steady"], error = run.results["c_steady_error"];
             // The error that is printed bounds the difference, and is no more than a spacing.
@@ -62,8 +62,8 @@ TEST(ReadOut, EdgesOfTheLapJointAreWithinTheirErrors)
       const double h = std::stod(spacing);
       for (const bool pulled : {true, false})
       {
-         const Run run = run_miniapp("lap_joint", std::string(pulled ? "" : "-load -0.04 ") +
-                                                     "-increments 20 -spacing " + spacing);
+         const Result run = run_miniapp("lap_joint", std::string(pulled ? "" : "-load -0.04 ") +
+                                                        "-increments 20 -spacing " + spacing);
          ASSERT_EQ(run.code, 0) << run.output;
          const auto check = [&](const char *key, double value, double spread)
          {
@@ -94,7 +94,7 @@ TEST(ReadOut, EdgesOfTheStripAreWithinTheirErrors)
    {
       for (const char *spacing : {"0.08", "0.04", "0.02"})
       {
-         const Run run =
+         const Result run =
             run_miniapp("plane_receding", std::string("-corner 0.005 -friction ") +
                                              row.friction + " -spacing " + spacing);
          ASSERT_EQ(run.code, 0) << run.output;
@@ -121,8 +121,8 @@ TEST(ReadOut, EdgesOfTheDiscAreWithinTheirErrors)
    {
       for (const char *spacing : {"0.1", "0.05", "0.025"})
       {
-         const Run run = run_miniapp("axisymmetric_receding",
-                                     std::string(row.load) + " -spacing " + spacing);
+         const Result run = run_miniapp("axisymmetric_receding",
+                                        std::string(row.load) + " -spacing " + spacing);
          ASSERT_EQ(run.code, 0) << run.output;
          SCOPED_TRACE(run.output);
          const double h = std::stod(spacing), d_error = run.results["separation_error"],
@@ -138,7 +138,7 @@ TEST(ReadOut, HalfWidthsOfHertzAreWithinTheirErrors)
 {
    for (const char *nodes : {"41", "65", "101", "161"})
    {
-      const Run run = run_miniapp("hertz", std::string("-nodes ") + nodes);
+      const Result run = run_miniapp("hertz", std::string("-nodes ") + nodes);
       ASSERT_EQ(run.code, 0) << run.output;
       const double error = run.results["half_width_error"], h = 3.34 / (std::stod(nodes) - 1);
       EXPECT_LE(std::abs(run.results["half_width"].get<double>() - 1), error) << nodes;
@@ -149,7 +149,7 @@ TEST(ReadOut, HalfWidthsOfHertzAreWithinTheirErrors)
 /// Loads whose numbers look alike in six digits are two loads, each of its own size.
 TEST(ReadOut, LoadsThatLookAlikeAreNotAdded)
 {
-   const Run disc =
+   const Result disc =
       run_miniapp("axisymmetric_receding", "-spacing 0.1 -bonded '2.1 2.1000001 4.2'");
    ASSERT_EQ(disc.code, 0) << disc.output;
    const auto &bonded = disc.results["bonded"];
@@ -160,7 +160,7 @@ TEST(ReadOut, LoadsThatLookAlikeAreNotAdded)
    {
       EXPECT_NEAR(bonded[k]["lowest_pressure"].get<double>(), alone, 1e-4 * alone);
    }
-   const Run strip = run_miniapp(
+   const Result strip = run_miniapp(
       "plane_receding", "-map '4 4.0000001' -map-friction 0.7 -spacing 0.1 -corner 0.02");
    ASSERT_EQ(strip.code, 0) << strip.output;
    // The bonded ratio does not depend on the size of the load, its strength does.
@@ -169,7 +169,7 @@ TEST(ReadOut, LoadsThatLookAlikeAreNotAdded)
                   .results["lowest_bonded_pressure"]
                   .get<double>(),
                1e-9);
-   const Run joint = run_miniapp(
+   const Result joint = run_miniapp(
       "lap_joint", "-sweep-load 0.02 -sweep-width '1 1.0000001' -spacing 0.05 -increments 10");
    ASSERT_EQ(joint.code, 0) << joint.output;
    for (const auto &row : joint.results["sweep"])
@@ -203,7 +203,7 @@ TEST(ReadOut, EveryStudyCountsItsFrictionProblem)
       {"contact2d", "-case meshes/rounded_punch.json --cycles 1", 1}};
    for (const auto &study : studies)
    {
-      const Run run = run_miniapp(study.name, study.options);
+      const Result run = run_miniapp(study.name, study.options);
       SCOPED_TRACE(std::string(study.name) + " " + study.options);
       ASSERT_EQ(run.code, 0) << run.output;
       const auto &counters = run.results["counters"];
@@ -214,7 +214,7 @@ TEST(ReadOut, EveryStudyCountsItsFrictionProblem)
       EXPECT_GT(counters["dense_factorisations"].get<long>(), 0);
       EXPECT_GT(counters["back_substitutions"].get<long>(), 0);
    }
-   const Run fretting = run_miniapp("fretting", "-p fe -f 0.6 -m Ti6Al4V -nodes 41");
+   const Result fretting = run_miniapp("fretting", "-p fe -f 0.6 -m Ti6Al4V -nodes 41");
    ASSERT_EQ(fretting.code, 0) << fretting.output;
    EXPECT_EQ(fretting.results["fe"]["counters"]["tangential_unknowns"], 41);
 }
