@@ -88,8 +88,11 @@ nlohmann::ordered_json to_json(const Extent &extent)
    nlohmann::ordered_json list = nlohmann::ordered_json::array();
    for (const Zone &zone : extent.zones)
    {
-      list.push_back(
-         {{"state", name(zone.state)}, {"from", zone.from.position}, {"to", zone.to.position}});
+      list.push_back({{"state", name(zone.state)},
+                      {"from", zone.from.position},
+                      {"to", zone.to.position},
+                      {"from_error", zone.from.error},
+                      {"to_error", zone.to.error}});
    }
    return {{"separation", miniapp::json_number(extent.d)},
            {"stick", miniapp::json_number(extent.c)},

@@ -72,7 +72,9 @@ nlohmann::ordered_json to_json(const Extent &extent, double overhang)
    {
       list.push_back({{"state", name(zone.state)},
                       {"from", zone.from.position - overhang},
-                      {"to", zone.to.position - overhang}});
+                      {"to", zone.to.position - overhang},
+                      {"from_error", zone.from.error},
+                      {"to_error", zone.to.error}});
    }
    return {{"separation", miniapp::json_number(extent.s)},
            {"stick_slip", miniapp::json_number(extent.e)},
