@@ -521,6 +521,7 @@ int main(int argc, char *argv[])
          results["steady_cycle"] = report.steady_cycle;
          results["steady_period"] = report.steady_period;
          results["energy_imbalance"] = report.energy_imbalance;
+         results["advance_error"] = report.advance_error;
          results["largest_residual"] = report.largest_residual;
          results["contact_nodes"] = problem.nodes();
          results["dofs"] = dofs;

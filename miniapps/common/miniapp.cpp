@@ -277,6 +277,13 @@ int exit_code(const cattaneo::MarchReport &report)
                 << " increments where there is no exact path: " << report.fallback_reason
                 << std::endl;
    }
+   if (report.advance_error > 1e-6)
+   {
+      std::cout
+         << "\nContact advanced with friction, whose forces depend on how that is cut into "
+            "increments: by up to "
+         << error_text(report.advance_error) << " of the largest nodal force" << std::endl;
+   }
    if (report.stalled > 0)
    {
       std::cout << "\n"
