@@ -466,6 +466,7 @@ private:
       // With (4.10) as printed, whose coupling block is the transpose of (3.25)'s.
       ReducedProblem transposed = problem;
       transposed.B = problem.B.transpose().eval();
+      transposed.rigid_motions.reset(); // those of the bodies do not belong to this matrix
       const LimitReport other =
          friction_limit(limit_problem(transposed, cycle), options.lambda_max);
       note(other);

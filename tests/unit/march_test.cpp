@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <stress/two_blocks.hpp>
 
 namespace
 {
@@ -223,6 +224,75 @@ TEST(March, PassesAnIncrementThatStalls)
       EXPECT_EQ(report.counters.rejected_increments, report.stalled);
       EXPECT_GT(report.increments.size(), 1u);
       EXPECT_LE(report.largest_residual, 1e-12);
+   }
+}
+
+TEST(March, LoadsThatAreHeldChangeNothing)
+{
+   const ReducedProblem problem = one_block(0.4);
+   for (Stepping stepping : {Stepping::fixed, Stepping::advancing, Stepping::exact})
+   {
+      MarchSettings settings;
+      settings.stepping = stepping;
+      ContactState slid = ContactState::virgin(problem), held = slid;
+      const Vector2d none(0, 0), pressed(1, 0), sheared(1, 0.6);
+      march(problem, LoadHistory::through({none, pressed, sheared}), slid, settings);
+      march(problem, LoadHistory::through({none, none, pressed, sheared, sheared}), held,
+            settings);
+      EXPECT_EQ(slid.status[0], NodeState::backward_slip);
+      EXPECT_EQ(held.status, slid.status);
+      EXPECT_EQ(held.v, slid.v);
+      EXPECT_EQ(held.slip_origin, slid.slip_origin);
+      EXPECT_EQ(held.dissipation, slid.dissipation);
+      EXPECT_EQ(held.time, 4);
+   }
+}
+
+/// A pad that is pressed on a softer block from touching: friction in a contact that advances
+/// depends on how it is cut into increments. The exact path has none.
+TEST(March, SaysByHowMuchAdvancingContactDependsOnItsIncrements)
+{
+   const LoadHistory press = LoadHistory::through({Vector2d(0, 0), Vector2d(1, 0)}),
+                     both = LoadHistory::through({Vector2d(0, 0), Vector2d(1, 0.1)});
+   for (double contrast : {4.0, 0.3})
+   {
+      cattaneo_test::TwoBlocks scene;
+      scene.contrast = contrast;
+      scene.curved_gap = 3e-3;
+      scene.intervals = 16;
+      ReducedProblem problem = cattaneo_test::reduce_two_blocks(scene, 0.0);
+      for (double friction : {0.1, 0.2, 0.6})
+      {
+         set_friction(problem, friction);
+         for (const LoadHistory &history : {press, both})
+         {
+            const auto marched = [&](Stepping stepping, int increments, ContactState &state)
+            {
+               MarchSettings settings;
+               settings.stepping = stepping;
+               settings.increments = increments;
+               state = ContactState::virgin(problem);
+               const MarchReport report = march(problem, history, state, settings);
+               EXPECT_EQ(report.status, FrictionStatus::converged) << report.message;
+               return report;
+            };
+            // Increments only where one node bears and the pad may rock.
+            ContactState exact, state;
+            const MarchReport path = marched(Stepping::exact, 20, exact);
+            EXPECT_LT(path.advance_error, 1e-5);
+            double first = 0, last = 0;
+            for (int increments : {4, 5, 10, 20, 50, 200, 1000})
+            {
+               const MarchReport report = marched(Stepping::advancing, increments, state);
+               const double error =
+                  (state.q - exact.q).cwiseAbs().maxCoeff() / exact.peak_force;
+               (increments == 4 ? first : last) = error;
+               EXPECT_LE(error, report.advance_error + path.advance_error)
+                  << contrast << ' ' << friction << ' ' << increments;
+            }
+            EXPECT_LE(last, 0.1 * first + 1e-12); // the two ways agree in the end
+         }
+      }
    }
 }
 

@@ -43,7 +43,7 @@ struct FrictionSolver::Implementation
    VectorXd critical;      // friction of each node
    VectorXd no_friction;   // zeros
    MatrixXd K;             // [A Bᵀ; B C], or the normal stiffness alone if frictionless
-   std::unique_ptr<RoundOff> arithmetic; // of sums K u + f
+   std::unique_ptr<RoundOff> arithmetic;            // of sums K u + f
    std::unique_ptr<RoundOff> tangential_arithmetic; // frictionless: of A v + …
    double critical_friction = std::numeric_limits<double>::infinity();
    Index critical_node = 0;
@@ -53,8 +53,8 @@ struct FrictionSolver::Implementation
    EliminatedNodes eliminated;
    std::unique_ptr<MatrixXd> motions; // rigid motions, found when first needed
    Mechanism mechanism;
+   bool brief = false;           // give up where sweeps, active set and path fail
    double lost_in_round_off = 0; // round-off of a solution that moves too far; 0: none
-   std::unique_ptr<FrictionSolver> smooth; // disc: the contact without friction, likewise
 
    // One increment's working set.
    VectorXd f;    // forces with v = w = 0 at the new loads
@@ -106,9 +106,10 @@ struct FrictionSolver::Implementation
    bool residuals(IncrementReport &report) const;
    bool accepted(const IncrementReport &report);
    bool obeys_laws(const ContactState &next, IncrementReport &report) const;
-   bool runs_away(const IncrementReport &report, const VectorXd &multipliers);
+   bool runs_away(const IncrementReport &report, const ContactState &state,
+                  const VectorXd &multipliers);
    bool finds_mechanism(const VectorXd &multipliers);
-   bool spins(const VectorXd &multipliers);
+   void find_motions();
    bool drifts(const ContactState &state, const VectorXd &multipliers);
    Index above_critical() const;
    void explain_failure(IncrementReport &report) const;
@@ -133,7 +134,8 @@ struct FrictionSolver::Implementation
    bool run_automatic(IncrementReport &report, const ContactState &state,
                       const VectorXd &multipliers);
    bool run_lemke(IncrementReport &report);
-   bool run_damped_newton(IncrementReport &report, const ContactState &state);
+   bool run_damped_newton(IncrementReport &report, const ContactState &state,
+                          double operations);
    bool run_path(IncrementReport &report, const ContactState &state);
    bool polished(IncrementReport &report);
 };

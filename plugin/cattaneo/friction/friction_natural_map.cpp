@@ -184,18 +184,25 @@ void FrictionSolver::Implementation::states_of_natural_map()
 
 /// Damped Newton from the present displacements, from those at the start of the increment, and
 /// from random ones ever further away, in units of what the loads do to a node alone: as many
-/// as a few seconds allow. The generator is seeded afresh, so that equal increments start
-/// alike.
+/// as so many operations allow (3e9: a second or two). The generator is seeded afresh, so that
+/// equal increments start alike.
 bool FrictionSolver::Implementation::run_damped_newton(IncrementReport &report,
-                                                       const ContactState &state)
+                                                       const ContactState &state,
+                                                       double operations)
 {
    VectorXd u_old(u.size());
    u_old << state.v, state.w;
    const VectorXd far = reference * K.diagonal().cwiseInverse();
    const Index starts = std::clamp<Index>(4000000 / (n * n * n), 2, 1000);
+   const double N = static_cast<double>(K.rows()), step = N * N * (N + 40) + 5e4;
+   const long first_step = counters.newton_steps;
    std::mt19937_64 random(1);
    for (Index start = 0; start < starts; ++start)
    {
+      if (start > 1 && step * double(counters.newton_steps - first_step) > operations)
+      {
+         break;
+      }
       if (start > 0) { u = u_old; }
       const double size = std::pow(10, -2 + 4.0 * start / starts);
       for (Index k = 0; k < u.size() && start > 1; ++k)

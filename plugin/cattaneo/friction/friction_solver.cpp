@@ -212,10 +212,11 @@ bool FrictionSolver::Implementation::obeys_laws(const ContactState &next,
 /// Displacements so large that round-off hides the forces may be a body that slides away, with
 /// an imbalance that no residual shows.
 bool FrictionSolver::Implementation::runs_away(const IncrementReport &report,
+                                               const ContactState &state,
                                                const VectorXd &multipliers)
 {
    return report.round_off > may_hide_sliding &&
-          (finds_mechanism(multipliers) || spins(multipliers));
+          (finds_mechanism(multipliers) || drifts(state, multipliers));
 }
 
 bool FrictionSolver::Implementation::run_automatic(IncrementReport &report,
@@ -239,44 +240,35 @@ bool FrictionSolver::Implementation::run_automatic(IncrementReport &report,
       u_swept = u;
       status_swept = status;
       if (finds([&] { return newton_accepted(report); })) { return true; }
-      if (k == 1 && (spins(multipliers) || finds_mechanism(multipliers))) { return false; }
+      if (k == 1 && finds_mechanism(multipliers)) { return false; }
       sweeps = std::max(4, 2 * sweeps);
    }
    if (!disc() && finds([&] { return run_path(report, state); })) { return true; }
-   if (!frictionless && finds([&] { return run_damped_newton(report, state); }))
+   if (brief) { return false; }
+   // A body that drifts away hardly has an equilibrium elsewhere: it is not looked for as long.
+   const bool away = drifts(state, multipliers);
+   const double operations = away ? 2e8 : 3e9;
+   if (!frictionless && finds([&] { return run_damped_newton(report, state, operations); }))
    {
       return true;
    }
    // Where these fail, the dense tableau may not; its size allows for small problems only.
-   return n <= 32 && finds([&] { return run_lemke(report); });
+   return !away && n <= 32 && finds([&] { return run_lemke(report); });
+}
+
+void FrictionSolver::Implementation::find_motions()
+{
+   if (motions) { return; }
+   motions = std::make_unique<MatrixXd>(rigid_motions(problem));
+   if (!problem.rigid_motions) { ++counters.dense_factorisations; }
 }
 
 /// True if no admissible contact forces can balance the loads: there is nothing to search for.
 bool FrictionSolver::Implementation::finds_mechanism(const VectorXd &multipliers)
 {
-   if (!motions)
-   {
-      motions = std::make_unique<MatrixXd>(rigid_motions(problem));
-      ++counters.dense_factorisations;
-   }
+   find_motions();
    mechanism = find_mechanism(problem, *motions, problem.clamped_forces(multipliers),
                               settings.tolerance * reference);
-   return mechanism.exists;
-}
-
-/// True if the loads drive a steady rotation.
-bool FrictionSolver::Implementation::spins(const VectorXd &multipliers)
-{
-   if (!disc()) { return false; }
-   if (!smooth)
-   {
-      ReducedProblem without = problem;
-      set_friction(without, 0);
-      smooth = std::make_unique<FrictionSolver>(without);
-   }
-   ContactState state = ContactState::virgin(problem);
-   if (smooth->solve(state, multipliers).status != FrictionStatus::converged) { return false; }
-   mechanism = find_spinning(problem, state.p, problem.clamped_forces(multipliers));
    return mechanism.exists;
 }
 
@@ -286,7 +278,9 @@ bool FrictionSolver::Implementation::spins(const VectorXd &multipliers)
 bool FrictionSolver::Implementation::drifts(const ContactState &state,
                                             const VectorXd &multipliers)
 {
-   if (motions->cols() == 0 || frictionless) { return false; }
+   if (brief || frictionless) { return false; }
+   find_motions();
+   if (motions->cols() == 0) { return false; }
    const MatrixXd &Z = *motions;
    VectorXd borne;
    for (double weakness : {1e-5, 1e-7})
@@ -301,6 +295,7 @@ bool FrictionSolver::Implementation::drifts(const ContactState &state,
       held.chains.clear();
       held.held.clear();
       FrictionSolver solver(held, settings);
+      solver.impl_->brief = true;
       ContactState next = state;
       const IncrementReport report = solver.solve(next, multipliers);
       counters += solver.counters();
@@ -413,7 +408,7 @@ IncrementReport FrictionSolver::Implementation::solve(ContactState &state,
       solved = run_lemke(report);
       break;
    }
-   if (solved && runs_away(report, multipliers)) { solved = false; }
+   if (solved && runs_away(report, state, multipliers)) { solved = false; }
    ContactState next = state;
    if (solved)
    {
@@ -423,13 +418,11 @@ IncrementReport FrictionSolver::Implementation::solve(ContactState &state,
    }
    if (!solved)
    {
-      if (!mechanism.exists && !finds_mechanism(multipliers) && !spins(multipliers))
-      {
-         drifts(state, multipliers);
-      }
+      if (!mechanism.exists && !finds_mechanism(multipliers)) { drifts(state, multipliers); }
       explain_failure(report);
       return report;
    }
+   mechanism = {};
    state = std::move(next);
    const IncrementReport unique = uniqueness(status);
    report.status = unique.status;

@@ -64,6 +64,16 @@ bool solved(const IncrementReport &increment)
           increment.status == FrictionStatus::not_unique;
 }
 
+/// True if a node closes.
+bool closes(const ContactState &before, const ContactState &after)
+{
+   for (std::size_t i = 0; i < after.status.size(); ++i)
+   {
+      if (closed(after.status[i]) && !closed(before.status[i])) { return true; }
+   }
+   return false;
+}
+
 /// One march in progress.
 class March
 {
@@ -81,7 +91,9 @@ private:
    bool march_piece(int piece);
    bool march_exactly(int piece);
    bool increment_to(int piece, double target, bool exact);
+   double first_closing(int piece, double target);
    void follow_coarsely(bool ends);
+   void follow_anew();
    int increments(int piece) const;
    void stop(const IncrementReport &failure);
    bool exact_in_one(int piece) const;
@@ -101,11 +113,16 @@ private:
    MarchReport report_;
    CycleRecord cycle_;
    std::unique_ptr<ExactPath> path_; // Stepping::exact, made when first needed
-   // Where contact advances with friction: the same loads in increments twice as long.
-   ContactState coarse_;
-   int behind_ = 0;        // increments since coarse_
-   bool advanced_ = false; // in one of them
-   bool differs_ = false;  // coarse_ was solved for, it is no copy of a state
+   // Where contact advances with friction: the same loads in increments twice and four times
+   // as long.
+   struct Coarse
+   {
+      int stride;
+      ContactState state = {};
+      int behind = 0;       // increments since then
+      bool differs = false; // solved for, no copy of a state
+   } coarse_[2] = {{2}, {4}};
+   bool advanced_ = false; // contact advanced in this piece, other than exactly
    double external_work_ = 0, dissipation_ = 0, normal_work_ = 0;
 };
 
@@ -183,25 +200,47 @@ bool March::advances_too_far(const ContactState &next) const
    return false;
 }
 
-/// The same loads once more, in increments twice as long, for as long as contact advances with
+/// The same loads once more, in longer increments, for as long as contact advances with
 /// friction and to the end of the piece: what comes out differently is the error of the
 /// increments.
 void March::follow_coarsely(bool ends)
 {
-   if (differs_ || (advanced_ && behind_ >= 2))
+   for (Coarse &coarse : coarse_)
    {
-      ContactState next = coarse_;
-      next.time = state_.time;
-      double off = std::numeric_limits<double>::infinity();
-      differs_ = solved(solver_.solve(next, state_.multipliers));
-      if (differs_) { off = (next.q - state_.q).cwiseAbs().maxCoeff() / state_.peak_force; }
-      report_.advance_error = std::max(report_.advance_error, off);
-      coarse_ = std::move(next);
+      if (!advanced_ || (coarse.behind < coarse.stride && !(ends && coarse.behind)))
+      {
+         continue;
+      }
+      if (coarse.differs || coarse.behind > 1)
+      {
+         ContactState next = coarse.state;
+         next.time = state_.time;
+         if (solved(solver_.solve(next, state_.multipliers)))
+         {
+            // The difference is the error itself where that falls as the increments do, a
+            // quarter of it where it falls as their cube root.
+            const double off = (next.q - state_.q).cwiseAbs().maxCoeff() / state_.peak_force;
+            report_.advance_error = std::max(report_.advance_error, 4 * off);
+            coarse.state = std::move(next);
+            coarse.differs = true;
+         }
+         else if (!ends) { continue; } // a still longer one may do
+         else { report_.advance_error = std::numeric_limits<double>::infinity(); }
+      }
+      coarse.behind = 0;
    }
-   differs_ = differs_ && !ends;
-   if (!differs_) { coarse_ = state_; }
-   behind_ = 0;
+   if (ends) { follow_anew(); }
+}
+
+void March::follow_anew()
+{
    advanced_ = false;
+   for (Coarse &coarse : coarse_)
+   {
+      coarse.state = state_;
+      coarse.behind = 0;
+      coarse.differs = false;
+   }
 }
 
 /// `exact`: by the exact path, or by one increment where that is exact.
@@ -275,19 +314,16 @@ void March::accept(ContactState &&next, int piece, const IncrementReport &increm
    }
    if (!exact)
    {
-      for (Index i = 0; i < n && !solver_.frictionless(); ++i)
-      {
-         advanced_ = advanced_ || (closed(next.status[i]) && !closed(state_.status[i]));
-      }
-      ++behind_;
+      advanced_ = advanced_ || (!solver_.frictionless() && closes(state_, next));
+      for (Coarse &coarse : coarse_) { ++coarse.behind; }
    }
    external_work_ += record.external_work;
    dissipation_ += record.dissipation;
    normal_work_ += normal_work;
    next.dissipation += record.dissipation;
    state_ = std::move(next);
-   if (exact) { differs_ = advanced_ = false; }
-   if (exact || behind_ >= 2) { follow_coarsely(exact); }
+   if (exact) { follow_anew(); }
+   else { follow_coarsely(false); }
    report_.increments.push_back(record);
    report_.largest_residual =
       std::max({report_.largest_residual, record.residual_normal, record.residual_tangential});
@@ -316,20 +352,29 @@ void March::bisect_event(int piece, double failed, IncrementReport failure)
       const IncrementReport increment = solver_.solve(next, loads(piece, beyond));
       if (!solved(increment)) { failure = increment; }
    }
-   while (failed - state_.time > resolution)
+   double reached = state_.time; // an equilibrium
+   while (failed - reached > resolution)
    {
       ContactState next = state_;
-      next.time = 0.5 * (state_.time + failed);
-      if (next.time <= state_.time || next.time >= failed) { break; }
+      next.time = 0.5 * (reached + failed);
+      if (next.time <= reached || next.time >= failed) { break; }
       const IncrementReport increment = solver_.solve(next, loads(piece, next.time));
-      if (solved(increment)) { accept(std::move(next), piece, increment, false); }
-      else
+      if (!solved(increment))
       {
          failed = next.time;
          ++report_.counters.rejected_increments;
+         continue;
       }
+      reached = next.time;
+      // So near to the limit few nodes hold everything, and forces lose digits: such a load is
+      // known to have an equilibrium, but that is not handed out.
+      const double stated = std::max(
+         {increment.residual_normal, increment.residual_tangential, increment.round_off});
+      if (stated <= 1e-9) { accept(std::move(next), piece, increment, false); }
    }
    stop(failure);
+   report_.event_time = reached;
+   report_.event_multipliers = loads(piece, reached);
 }
 
 /// The state stands at the last load with an equilibrium.
@@ -401,6 +446,27 @@ bool March::increment_to(int piece, double target, bool exact)
    return true;
 }
 
+/// Where one increment to `target` would close a node: the time just before the first one
+/// closes, to which the friction of all others can be followed, or just after it, if the state
+/// stands there. Else `target`.
+double March::first_closing(int piece, double target)
+{
+   const auto closes_by = [&](double time)
+   {
+      ContactState next = state_;
+      return !solved(solver_.solve(next, loads(piece, time))) || closes(state_, next);
+   };
+   if (solver_.frictionless() || !closes_by(target)) { return target; }
+   const double resolution = 1e-7 * (history_.end_time(piece) - history_.start_time(piece));
+   double before = state_.time, after = target;
+   while (after - before > resolution)
+   {
+      const double middle = 0.5 * (before + after);
+      (closes_by(middle) ? after : before) = middle;
+   }
+   return before > state_.time ? before : after;
+}
+
 /// From event to event, to the end of the piece.
 bool March::march_exactly(int piece)
 {
@@ -466,7 +532,7 @@ bool March::march_exactly(int piece)
          const double grid = grid_time(piece, k);
          if (grid > state_.time) { target = grid; }
       }
-      if (!increment_to(piece, target, false)) { return false; }
+      if (!increment_to(piece, first_closing(piece, target), false)) { return false; }
       if (report_.fallbacks++ == 0) { report_.fallback_reason = reason; }
       halted = 0;
       settled = true;
@@ -477,6 +543,19 @@ bool March::march_exactly(int piece)
 bool March::march_piece(int piece)
 {
    const double t1 = history_.end_time(piece);
+   if (history_.start(piece) == history_.end(piece))
+   {
+      // Nothing happens to an equilibrium: what slips goes on to when the loads do.
+      ContactState same = state_;
+      same.time = t1;
+      same.multipliers = history_.end(piece);
+      const IncrementReport held = solver_.judge(state_, same);
+      if (solved(held))
+      {
+         accept(std::move(same), piece, held, true);
+         return true;
+      }
+   }
    const bool exact = exact_in_one(piece);
    if (!exact && settings_.stepping == Stepping::exact)
    {
@@ -526,7 +605,7 @@ MarchReport March::run()
    history_.validate(static_cast<int>(problem_.patterns.size()));
    const Counters before = solver_.counters();
    const double energy = elastic_energy(problem_, state_);
-   coarse_ = state_;
+   follow_anew();
    if (history_.cycle_start >= 0 && state_.cycle_slip.empty() &&
        state_.time <= history_.times[history_.cycle_start] && history_.cycle_start == 0)
    {

@@ -72,7 +72,8 @@ struct MarchReport
    std::string message;
    double time = 0; ///< reached
    /// Where the outcome is not `converged`: time and load multipliers at which it came about
-   /// (the last equilibrium found, by bisection).
+   /// (the last equilibrium found, by bisection). The state is the last one whose forces are
+   /// known to 1e-9.
    double event_time = 0;
    Eigen::VectorXd event_multipliers;
    std::vector<IncrementRecord> increments;
@@ -90,10 +91,11 @@ struct MarchReport
    /// (of nodes that begin to slip within one, for instance) and goes to zero with them; on the
    /// exact path it is round-off.
    double energy_imbalance = 0;
-   /// Friction forces of a contact that advances depend on how it was cut into layers: largest
-   /// difference |q - q'| to a second solution with increments twice as long, over the largest
-   /// force. It bounds the error as long as this falls at least in proportion to the layers.
-   /// Zero where no contact advanced with friction, or Stepping::exact found its path.
+   /// Friction forces of a contact that advances depend on how it was cut into layers: four times
+   /// the largest difference |q - q'| to a second solution with increments twice as long, over
+   /// the largest force. It bounds the error where this falls at least as the cube root of the
+   /// increments; infinite if there was no second solution. Zero where no contact advanced with
+   /// friction, or Stepping::exact found its path.
    double advance_error = 0;
    double largest_residual = 0;
    Counters counters; ///< of this march (what making the solver took is in the solver's own)

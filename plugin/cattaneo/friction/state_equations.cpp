@@ -295,13 +295,15 @@ bool StateEquations::solve(const VectorXd &b, VectorXd &x, VectorXd &F)
       double largest = 0; // over what is reachable
       for (const Equation &e : equations)
       {
+         // Below the smallest double nothing is told apart.
          const double left =
-            std::max(reachable[e.row], std::abs(e.factor) * reachable[e.other]);
+            std::max({reachable[e.row], std::abs(e.factor) * reachable[e.other],
+                      std::numeric_limits<double>::min()});
          const double off = std::abs(force(e, F));
          if (off > 0) { largest = std::max(largest, off / left); }
       }
       if (largest <= 1) { return true; }
-      if (largest > 0.1 * before) // refinement no longer helps
+      if (!(largest <= 0.1 * before)) // refinement no longer helps
       {
          if (fresh || largest < 100) { return true; }
          fresh = true;
