@@ -5,9 +5,13 @@
 namespace
 {
 
-using cattaneo_test::expect_references_met;
+using cattaneo_test::expect_values;
+using cattaneo_test::Expected;
 using Result = cattaneo_test::Run;
 using cattaneo_test::run_miniapp;
+
+// The studies' notes, part D; sub-grid read-out ±0.001, and a tenth of the spacing, 0.02 t.
+const double spread = 0.001, read_out = 0.002;
 
 double number(const nlohmann::json &j)
 {
@@ -22,7 +26,32 @@ Result run(const std::string &options)
 TEST(AxisymmetricReceding, LoadedTwistedAndBondedDiscMeetsTheReferences)
 {
    const auto result = run("-torque '0.3 0.5 0.7' -bonded '2.1 3.75 4.25 4.7'");
-   expect_references_met(result, 23);
+   expect_values(result, {{"d/t, loaded, a = 2.5, f = 0.5", 3.728, spread, read_out},
+                          {"c/t, loaded, a = 2.5, f = 0.5", 1.879, spread, read_out},
+                          // Four digits, at nodes: no read-out.
+                          {"bonded, a = 2.1: p/p0 at r/t = 0.5", 0.9088, 5e-5, 4e-4},
+                          {"bonded, a = 2.1: p/p0 at r/t = 1", 0.8618, 5e-5, 4e-4},
+                          {"bonded, a = 2.1: p/p0 at r/t = 2", 0.4829, 5e-5, 4e-4},
+                          {"bonded, a = 2.1: p/p0 at r/t = 3", 0.07621, 5e-6, 4e-4},
+                          {"bonded, a = 2.1: p/p0 at r/t = 4", 0.01505, 5e-6, 4e-4},
+                          // A quotient at the rim, where both tractions are small.
+                          {"f for full adhesion, a = 3.75", 1.69, 0.005, 0.01},
+                          {"f for full adhesion, a = 4.25", 1.07, 0.005, 0.006},
+                          {"f for full adhesion, a = 4.7", 0.600, 5e-4, 0.004},
+                          {"T_s/(p0 t³)", 17.106, 0.001, 0.004},
+                          {"d/t without friction", 3.1705, 5e-5, read_out},
+                          // Of the first order in the steps, of which there are 80.
+                          {"c/t at T/T_s = 0.3", 1.829, 0.003, read_out},
+                          {"d/t at T/T_s = 0.3", 3.617, 0.003, read_out},
+                          {"c/t at T/T_s = 0.7", 1.564, 0.003, read_out},
+                          {"d/t at T/T_s = 0.7", 3.431, 0.003, read_out},
+                          {"slip angle at 10 %, rate, °", 14, 1, 0},
+                          {"slip angle at 10 %, total, °", 8, 1, 0},
+                          {"slip angle at 50 %, rate, °", 49, 1, 0},
+                          {"slip angle at 50 %, total, °", 13, 1, 0},
+                          {"slip angle at 90 %, rate, °", 77, 1, 0},
+                          {"slip angle at 90 %, total, °", 37, 1, 0},
+                          {"T_max/T_s", 1.0037, 5e-5, 4e-4}});
    EXPECT_EQ(result.results["status"], "converged");
    EXPECT_GT(result.results["torque_max"], result.results["torque_limit"]);
    // Coupling: d recedes as the torque grows, and slip eats the stick zone.
@@ -36,13 +65,28 @@ TEST(AxisymmetricReceding, LoadedTwistedAndBondedDiscMeetsTheReferences)
    }
 }
 
+TEST(AxisymmetricReceding, NarrowLoadMeetsTheReferences)
+{
+   expect_values(run("-load-radius 0.5 -friction 0.9"),
+                 {{"d/t, loaded, a = 0.5, f = 0.9", 2.625, spread, read_out},
+                  {"c/t, loaded, a = 0.5, f = 0.9", 0.849, 5e-4, read_out}});
+}
+
 TEST(AxisymmetricReceding, UnloadingMeetsTheReferencesWhateverTheSteps)
 {
    // 1 - 40/80 is not 0.5 to the last bit: that must not become a step of its own.
    for (const char *steps : {"40", "80"})
    {
       const auto result = run(std::string("-unload '0.9 0.5 0.3' -steps ") + steps);
-      expect_references_met(result, 8);
+      // Borders of unloading: ±0.01, separation to its digits.
+      expect_values(result, {{"d/t, loaded, a = 2.5, f = 0.5", 3.728, spread, read_out},
+                             {"c/t, loaded, a = 2.5, f = 0.5", 1.879, spread, read_out},
+                             {"d/t at P/P0 = 0.9", 3.670, spread, read_out},
+                             {"d/t at P/P0 = 0.3", 3.254, spread, read_out},
+                             {"border 1 at P/P0 = 0.5", 1.715, 0.01, read_out},
+                             {"border 2 at P/P0 = 0.5", 2.415, 0.01, read_out},
+                             {"border 3 at P/P0 = 0.5", 3.015, 0.01, read_out},
+                             {"border 4 at P/P0 = 0.5", 3.402, 0.01, read_out}});
       double d = result.results["separation"];
       for (const auto &row : result.results["unloading"])
       {
@@ -84,7 +128,18 @@ TEST(AxisymmetricReceding, MapsCondenseOncePerDisc)
    EXPECT_EQ(result.results["counters"]["factorisations"], 2 * 3);
    EXPECT_EQ(result.results["map"].size(), 8u);
    EXPECT_EQ(result.results["critical_load_radius"].size(), 6u);
-   expect_references_met(result, 10);
+   // The rim's node tells: of the first order in the spacing, 0.05 t here.
+   const double coarse = 0.005, rim = 0.01;
+   expect_values(result, {{"d/t, loaded, a = 2.5, f = 0.5", 3.728, spread, coarse},
+                          {"c/t, loaded, a = 2.5, f = 0.5", 1.879, spread, coarse},
+                          {"d/t, loaded, a = 2.5, f = 0.8", 4.046, spread, coarse},
+                          {"c/t, loaded, a = 2.5, f = 0.8", 2.384, spread, coarse},
+                          {"critical a/t, b = 3, f = 0", 2.367, 0.002, rim},
+                          {"critical a/t, b = 3, f = 0.5", 1.733, 0.002, rim},
+                          {"critical a/t, b = 3, f = 0.8", 1.341, 0.002, rim},
+                          {"critical a/t, b = 5, f = 0", 4.415, 0.002, rim},
+                          {"critical a/t, b = 5, f = 0.5", 3.793, 0.002, rim},
+                          {"critical a/t, b = 5, f = 0.8", 3.458, 0.002, rim}});
 }
 
 TEST(AxisymmetricReceding, CyclesBalanceTheirEnergy)

@@ -9,9 +9,31 @@ namespace
 {
 
 using namespace cattaneo;
-using cattaneo_test::expect_references_met;
+using cattaneo_test::expect_values;
+using cattaneo_test::Expected;
 using cattaneo_test::Run;
 using cattaneo_test::run_miniapp;
+
+// The studies' notes, part C; their ± where they give one, else half of the last digit. Edges
+// are read out between nodes of 0.005 t to a tenth of that, and the path of an increment costs
+// 0.2 % of a loss.
+const double edge = 5e-4, path = 2e-3;
+const std::vector<Expected> tension = {
+   {"a0/t", 0.7011, 5e-4, edge},
+   {"peak pressure / p0", 1.0468, 2e-4, 0},
+   {"a/t, T = 0.04 P0", 0.6596, 5e-4, edge},
+   // A quotient of two edges.
+   {"c/a, first loading, T = 0.04, f = 0.2", 0.760, 5e-4, 2 * edge / 0.66},
+   {"c/t, steady, T = 0.04, f = 0.2", 0.5809, 5e-5, edge},
+   {"D first, T = 0.04, f = 0.2", 4.898e-4, 0.003 * 4.898e-4, path * 4.898e-4},
+   {"D steady, T = 0.04, f = 0.2", 1.938e-4, 0.003 * 1.938e-4, path * 1.938e-4}};
+const std::vector<Expected> compression = {
+   {"a0/t", 0.7011, 5e-4, edge},
+   {"peak pressure / p0", 1.0468, 2e-4, 0},
+   {"a/t, T = -0.04 P0", 0.763, 1e-3, edge},
+   {"c/t, steady, T = -0.04, f = 0.5", 0.6685, 5e-5, edge},
+   {"D first, T = -0.04, f = 0.5", 1.718e-4, 0.006 * 1.718e-4, path * 1.718e-4},
+   {"D steady, T = -0.04, f = 0.5", 1.029e-4, 0.006 * 1.029e-4, path * 1.029e-4}};
 
 void expect_symmetric_and_balanced(const Run &run)
 {
@@ -28,14 +50,14 @@ void expect_symmetric_and_balanced(const Run &run)
 TEST(LapJoint, TensionMeetsTheReferences)
 {
    const auto run = run_miniapp("lap_joint", "");
-   expect_references_met(run, 7);
+   expect_values(run, tension);
    expect_symmetric_and_balanced(run);
 }
 
 TEST(LapJoint, ExactPathMeetsTheReferences)
 {
    const auto run = run_miniapp("lap_joint", "-march exact");
-   expect_references_met(run, 7);
+   expect_values(run, tension);
    expect_symmetric_and_balanced(run);
    EXPECT_EQ(run.results["fallbacks"], 0);
    EXPECT_GT(run.results["state_changes"].size(), 100u);
@@ -46,7 +68,7 @@ TEST(LapJoint, ExactPathMeetsTheReferences)
 TEST(LapJoint, CompressionMeetsTheReferences)
 {
    const auto run = run_miniapp("lap_joint", "-friction 0.5 -load -0.04");
-   expect_references_met(run, 6);
+   expect_values(run, compression);
    expect_symmetric_and_balanced(run);
 }
 
@@ -144,14 +166,27 @@ TEST(LapJoint, ZonesDoNotDependOnTheLoadLevelOrPoissonsRatio)
 TEST(LapJoint, DissipationFallsWithFrictionAndRisesWithLoad)
 {
    const auto run = run_miniapp(
-      "lap_joint", "-sweep-load '0.02 0.04' -sweep-friction '0.2 0.4 0.8' -spacing 0.0125");
+      "lap_joint", "-sweep-load '0.02 0.04' -sweep-friction '0.2 0.4 0.8' -spacing 0.00625");
    ASSERT_EQ(run.code, 0) << run.output;
    const auto &sweep = run.results["sweep"];
    ASSERT_EQ(sweep.size(), 6u);
    auto loss = [&](int friction, int load)
    { return sweep[2 * friction + load]["dissipation_steady"].get<double>(); };
-   for (int k = 0; k < 3; ++k) { EXPECT_GT(loss(k, 1), 4 * loss(k, 0)); }
-   for (int k = 0; k < 2; ++k) { EXPECT_LT(loss(k + 1, 1), loss(k, 1)); }
+   // The notes: 1.938e-4 at f = 0.2, T = 0.04, ±0.3 %, with 20 increments 0.2 % and the mesh
+   // less; and about T^2.9, two digits of an exponent that a mesh of few slipping nodes shifts.
+   EXPECT_NEAR(loss(0, 1), 1.938e-4, 0.006 * 1.938e-4);
+   for (int k = 0; k < 3; ++k)
+   {
+      EXPECT_NEAR(std::log2(loss(k, 1) / loss(k, 0)), 2.9, 0.15) << k;
+   }
+   // A slip zone that stays near its edge loses ΔK_T³/(f K_N): half at twice the friction. The
+   // edge recedes by more than short zones are long, which costs them more; a zone wider than
+   // near the edge loses 5 % less of the difference.
+   for (int k = 0; k < 2; ++k)
+   {
+      EXPECT_GT(loss(k, 1) / loss(k + 1, 1), 1.9) << k;
+      EXPECT_LT(loss(k, 1) / loss(k + 1, 1), 4.0) << k;
+   }
    EXPECT_EQ(run.results["counters"]["factorisations"], 1);
 }
 

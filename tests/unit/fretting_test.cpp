@@ -262,9 +262,11 @@ TEST(EdgeFit, FindsTheHertzIntensitiesAtBothEdges)
       const EdgeFit fit = fit_edge(hertz_nodes(200, edge));
       EXPECT_NEAR(fit.k_n.value, k_n, 1e-3 * k_n);
       EXPECT_NEAR(fit.k_t.value, -edge * k_t, 1e-3 * k_t);
-      // The reported error is of the order of the true one.
-      EXPECT_LT(std::abs(fit.k_n.value / k_n - 1), 3 * fit.k_n.relative_error);
-      EXPECT_LT(fit.k_n.relative_error, 1e-2);
+      // The reported error bounds the true one.
+      EXPECT_LT(std::abs(fit.k_n.value / k_n - 1), fit.k_n.relative_error);
+      EXPECT_LT(std::abs(-edge * fit.k_t.value / k_t - 1), fit.k_t.relative_error);
+      EXPECT_LT(fit.k_n.relative_error, 1e-3);
+      EXPECT_LT(fit.k_t.relative_error, 1e-3);
       EXPECT_GE(fit.k_n.nodes, 4);
    }
 }
@@ -288,7 +290,10 @@ TEST(EdgeFit, ReportsTheNoise)
    settings.window = {0.02, 0.2};
    const EdgeFit fit = fit_edge(noisy, settings);
    EXPECT_GT(fit.k_n.relative_error, 1e-2);
-   EXPECT_NEAR(fit.k_n.value, 1.05 * std::sqrt(2.0), 4 * fit.k_n.relative_error);
+   // Of 18 nodes every other one is a tenth too high.
+   EXPECT_NEAR(fit.k_n.value, 1.05 * std::sqrt(2.0), 0.02 * std::sqrt(2.0));
+   EXPECT_LT(std::abs(fit.k_n.value / (1.05 * std::sqrt(2.0)) - 1), fit.k_n.relative_error);
+   EXPECT_LT(fit.k_n.relative_error, 0.05);
 }
 
 TEST(EdgeFit, ShearFreeEdgeHasNoShearIntensity)
@@ -300,20 +305,33 @@ TEST(EdgeFit, ShearFreeEdgeHasNoShearIntensity)
 
 TEST(EdgeFit, RefusesBadInput)
 {
+   const auto expect_refused =
+      [](const EdgeTractions &tractions, const FitWindow &window, const std::string &part)
+   {
+      FitSettings settings;
+      settings.window = window;
+      try
+      {
+         fit_edge(tractions, settings);
+         ADD_FAILURE() << "not refused: " << part;
+      }
+      catch (const InputError &error)
+      {
+         const std::string message = error.what();
+         EXPECT_NE(message.find(part), std::string::npos) << message;
+      }
+   };
    EdgeTractions tractions = hertz_nodes(20, -1);
+   EXPECT_NO_THROW(fit_edge(tractions));
    tractions.shear.pop_back();
-   EXPECT_THROW(fit_edge(tractions), InputError);
-   tractions = hertz_nodes(20, 0); // contact on both sides
-   EXPECT_THROW(fit_edge(tractions), InputError);
+   expect_refused(tractions, {}, "19 shear tractions");
+   expect_refused(hertz_nodes(20, 0), {}, "on the other side of the edge"); // contact on both
    tractions = hertz_nodes(20, -1);
    tractions.pressure[3] = nan;
-   EXPECT_THROW(fit_edge(tractions), InputError);
-   EXPECT_THROW(fit_edge(hertz_nodes(5, -1)), InputError);
-   FitSettings settings;
-   settings.window = {0.3, 0.2};
-   EXPECT_THROW(fit_edge(hertz_nodes(20, -1), settings), InputError);
-   settings.window = {0.01, 0.02};
-   EXPECT_THROW(fit_edge(hertz_nodes(20, -1), settings), InputError);
+   expect_refused(tractions, {}, "node 3 has");
+   expect_refused(hertz_nodes(5, -1), {}, "nodes");
+   expect_refused(hertz_nodes(20, -1), {0.3, 0.2}, "the window of the fit is 0.3 to 0.2");
+   expect_refused(hertz_nodes(20, -1), {0.01, 0.02}, "nodes");
 }
 
 } // namespace

@@ -108,11 +108,11 @@ TEST(FromContact, HertzIntensitiesSlipZoneAndEnergy)
       EXPECT_NEAR(edge.position.position, e == 0 ? 0.4 : 2.4, 2e-3);
       EXPECT_NEAR(edge.k_n.value, k_n, 0.01 * k_n);
       EXPECT_NEAR(edge.k_t.value, exact, 0.01 * std::abs(exact));
-      EXPECT_LT(std::abs(edge.k_t.value / exact - 1), 3 * edge.k_t.relative_error);
       EXPECT_LT(edge.k_t.relative_error, 0.02);
       EXPECT_GE(edge.k_n.nodes, 4);
       EXPECT_GT(edge.k_n.window.farthest, edge.k_n.window.nearest);
-      EXPECT_NEAR(edge.slip_zone, exact_slip, edge.slip_zone_error + 0.1 * 2.8 / 161);
+      // Both its ends are read between nodes, of which 161 span 2.8.
+      EXPECT_NEAR(edge.slip_zone, exact_slip, 0.1 * 2.8 / 160);
       // The sheet: the near-edge field underestimates the slip zone by this factor.
       EXPECT_NEAR(slip_zone(edge.near_edge()) / edge.slip_zone, 0.5 * (1 + std::sqrt(1 - x)),
                   0.03);
@@ -368,7 +368,8 @@ TEST(Corner, FitRecoversTheIntensities)
       const CornerFit exact = fit_corner(modes, corner_tractions(modes, 1.3, -0.4, 0));
       const CornerFit fit = fit_corner(modes, corner_tractions(modes, 1.3, -0.4, 0.2));
       EXPECT_NEAR(exact.k_one.value, 1.3, 1e-9);
-      EXPECT_NEAR(fit.k_one.value, 1.3, 1.3 * 3 * fit.k_one.relative_error);
+      EXPECT_LT(std::abs(fit.k_one.value - 1.3), 1.3 * fit.k_one.relative_error);
+      EXPECT_LT(fit.k_one.relative_error, 0.03);
       EXPECT_NEAR(fit.k_one.value, 1.3, 0.01);
       EXPECT_GT(fit.k_one.nodes, 3);
       if (!modes.two)
@@ -377,7 +378,9 @@ TEST(Corner, FitRecoversTheIntensities)
          continue;
       }
       EXPECT_NEAR(exact.k_two.value, -0.4, 1e-9);
-      EXPECT_NEAR(fit.k_two.value, -0.4, 0.4 * 3 * fit.k_two.relative_error);
+      EXPECT_NEAR(fit.k_two.value, -0.4, 0.01);
+      EXPECT_LT(std::abs(fit.k_two.value + 0.4), 0.4 * fit.k_two.relative_error);
+      EXPECT_LT(fit.k_two.relative_error, 0.03);
    }
    const CornerModes punch = corner_modes(Corner{pi / 2, pi});
    EXPECT_NEAR(fit_corner(punch, corner_tractions(punch, 1, 0.1, 0)).least_friction,
@@ -387,16 +390,50 @@ TEST(Corner, FitRecoversTheIntensities)
 TEST(Corner, FitRefusesBadInput)
 {
    const CornerModes corner = corner_modes(Corner{pi / 2, pi});
-   EdgeTractions tractions = corner_tractions(corner, 1, 1, 0);
-   tractions.shear.pop_back();
-   EXPECT_THROW(fit_corner(corner, tractions), InputError);
-   tractions = corner_tractions(corner, 1, 1, 0);
-   tractions.edge = 1.9;
-   EXPECT_THROW(fit_corner(corner, tractions), InputError);
-   tractions = corner_tractions(corner, 1, 1, 0);
-   FitSettings settings;
-   settings.window = {0.001, 0.015};
-   EXPECT_THROW(fit_corner(corner, tractions, settings), InputError);
+   const EdgeTractions good = corner_tractions(corner, 1, 1, 0); // nodes 0.01 apart
+   // Why something is refused, or nothing.
+   const auto refusal = [&](const EdgeTractions &tractions, const FitWindow &window)
+   {
+      FitSettings settings;
+      settings.window = window;
+      try
+      {
+         const CornerFit fit = fit_corner(corner, tractions, settings);
+         EXPECT_NEAR(fit.k_one.value, 1, 1e-9);
+         return std::string();
+      }
+      catch (const InputError &error)
+      {
+         return std::string(error.what());
+      }
+   };
+   const auto expect_refused =
+      [&](const EdgeTractions &tractions, const FitWindow &window, const std::string &part)
+   {
+      const std::string message = refusal(tractions, window);
+      EXPECT_NE(message.find(part), std::string::npos) << message;
+   };
+   const FitWindow four = {0.005, 0.045}, three = {0.005, 0.035};
+   EXPECT_EQ(refusal(good, {}), "");
+   EXPECT_EQ(refusal(good, four), "");
+   expect_refused(good, three, "there are 3 nodes in the window");
+   expect_refused(good, {0.1, 0.05}, "window");
+   EdgeTractions bad = good;
+   bad.shear.pop_back();
+   expect_refused(bad, four, "59 shear tractions");
+   bad = good;
+   bad.pressure.push_back(1);
+   expect_refused(bad, four, "61 pressures");
+   bad = good;
+   bad.edge = 1.905; // between nodes 9 and 10
+   expect_refused(bad, four, "is on the other side of the corner at 1.905");
+   for (std::vector<double> EdgeTractions::*list :
+        {&EdgeTractions::position, &EdgeTractions::pressure, &EdgeTractions::shear})
+   {
+      bad = good;
+      (bad.*list)[3] = std::nan("");
+      expect_refused(bad, four, "node 3 has");
+   }
 }
 
 } // namespace

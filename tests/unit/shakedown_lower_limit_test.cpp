@@ -250,14 +250,54 @@ TEST(LowerLimit, OfAnUncoupledContactIsTheUpper)
              1e-9);
 }
 
+/** Three nodes of A = 1, of which the first two press each other by their slip, the third is by
+    itself. With h = 1 - b λ, what P = 1 and Q = λ leave at a node whose neighbour carries no
+    shear, the lowest pressure of an admissible state is that of both slipping:
+    p0 = h - f b p1, p1 = h + f b p0, so p0 = h (1 - f b)/(1 + (f b)²). */
+ReducedProblem mutual(double b, bool feedback)
+{
+   ReducedProblem problem;
+   problem.A = Eigen::Matrix3d::Identity();
+   problem.B = Eigen::Matrix3d::Zero();
+   problem.B(1, 0) = b;
+   if (feedback) { problem.B(0, 1) = b; }
+   problem.C = problem.A;
+   const Eigen::Vector3d one = Eigen::Vector3d::Ones(), zero = Eigen::Vector3d::Zero();
+   problem.patterns = {{"P", Control::force, zero, one}, {"Q", Control::force, one, zero}};
+   problem.H = Eigen::MatrixXd::Zero(2, 2);
+   problem.gap = zero;
+   set_friction(problem, 0.5);
+   return problem;
+}
+
 TEST(LowerLimit, SaysWhenItKnowsNothing)
 {
-   const ReducedProblem problem = punch_like(65, 1.5);
-   const LimitProblem limit =
-      limit_problem(problem, held_and_cycled(problem, "P", 1, "Q", -0.5));
-   const LowerLimitReport lower = lower_limit(limit, load_limit(limit));
-   EXPECT_EQ(lower.kind, LowerLimitKind::none);
-   EXPECT_NE(lower.message, "");
+   const auto find = [](const ReducedProblem &problem)
+   {
+      const LimitProblem limit =
+         limit_problem(problem, held_and_cycled(problem, "P", 1, "Q", -1));
+      const LimitReport upper = load_limit(limit);
+      // What is not known is not for want of an upper limit: node 2 slips for ever at f P.
+      EXPECT_NEAR(upper.limit, 0.5, 1e-6) << upper.message;
+      return lower_limit(limit, upper);
+   };
+   // f b = 0.9. At Q = ±λ a slip v must keep ±λ + v within f (1 ∓ b λ) 0.1/1.81: half the sum
+   // of both is λ <= f 0.1/1.81.
+   const LowerLimitReport known = find(mutual(1.8, true));
+   EXPECT_EQ(known.kind, LowerLimitKind::bound) << known.message;
+   EXPECT_NEAR(known.value, 0.5 * 0.1 / 1.81, 1e-7);
+   // f b = 1.1: an admissible slip empties a node, and slips of both feed on each other.
+   const LowerLimitReport mutually = find(mutual(2.2, true));
+   EXPECT_EQ(mutually.kind, LowerLimitKind::none) << mutually.value;
+   EXPECT_EQ(mutually.value, 0);
+   EXPECT_NE(mutually.message.find("coupling times friction is too large"), std::string::npos)
+      << mutually.message;
+   // Only node 1 feels node 0: 1 - f b = -0.1 of its pressure may be left.
+   const LowerLimitReport emptied = find(mutual(2.2, false));
+   EXPECT_EQ(emptied.kind, LowerLimitKind::none) << emptied.value;
+   EXPECT_EQ(emptied.value, 0);
+   EXPECT_NE(emptied.message.find("all pressure from node 1"), std::string::npos)
+      << emptied.message;
 }
 
 } // namespace

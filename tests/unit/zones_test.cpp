@@ -1,4 +1,5 @@
 #include <cattaneo/friction/zones.hpp>
+#include <cmath>
 #include <gtest/gtest.h>
 
 namespace
@@ -137,13 +138,40 @@ TEST(Zones, OpeningAndSlipFindTheEdgesWherePressureAndReserveAreRough)
 
 TEST(Zones, AZoneNeverEndsBeforeItStarts)
 {
-   // One node of slip between stick and separation, with values that extrapolate wildly.
-   Sampled s = cattaneo_mindlin(41, 0.95, 0.0);
-   for (int i = 0; i < 41; ++i) { s.state.p[i] *= 1 + 0.5 * std::sin(3.0 * i); }
-   for (const Zone &zone : zones(s.problem, s.state))
+   // Stick, one node k of slip, separation, nodes one apart. The frictional reserve falls to
+   // zero at k + 0.25 and the pressure at k - 0.2: both within what an edge may be off its
+   // nodes, but then slip would end before it starts.
+   const int n = 20, k = 12;
+   Sampled s = cattaneo_mindlin(n, 0.5, 0);
+   s.problem.arc_length = Eigen::VectorXd::LinSpaced(n, 0, n - 1);
+   s.problem.weights.setOnes();
+   s.state = ContactState::virgin(s.problem);
+   for (int i = 0; i < n; ++i)
    {
-      EXPECT_LE(zone.from.position, zone.to.position);
+      s.state.status[i] = i < k    ? NodeState::stick
+                          : i == k ? NodeState::forward_slip
+                                   : NodeState::separation;
+      if (i > k) { continue; }
+      const double p = i < k ? std::sqrt(k - i - 0.2) : 0.1;
+      const double reserve = i < k ? 0.02 * std::sqrt(k - i + 0.25) : 0;
+      s.state.p[i] = p;
+      s.state.q[i] = -(0.5 * p - reserve);
    }
+   // Each edge by itself is read where it was put.
+   Sampled stuck = s, slips = s;
+   stuck.state.status[k] = NodeState::stick;
+   EXPECT_NEAR(contact_zone(stuck.problem, stuck.state).to.position, k - 0.2, 1e-6);
+   for (int i = k + 1; i < n; ++i) { slips.state.status[i] = NodeState::forward_slip; }
+   EXPECT_NEAR(zones(slips.problem, slips.state)[0].to.position, k + 0.25, 1e-6);
+   // Together its nodes are all that is known of the zone: it ends half way to the next ones.
+   const std::vector<Zone> all = zones(s.problem, s.state);
+   ASSERT_EQ(all.size(), 3u);
+   EXPECT_EQ(all[0].to.position, k - 0.5);
+   EXPECT_EQ(all[1].from.position, k - 0.5);
+   EXPECT_EQ(all[1].to.position, k + 0.5);
+   EXPECT_EQ(all[2].from.position, k + 0.5);
+   EXPECT_EQ(all[1].from.error, 0.5);
+   EXPECT_EQ(all[1].to.error, 0.5);
 }
 
 TEST(Zones, NodesThatLieOnTheLimitAndDoNotMoveStickWhateverTheirStatus)
