@@ -150,8 +150,9 @@ void check_mfem(std::istream &in, long size)
          require(lowest >= 0 && highest < vertices, "mesh file has an element with vertex ",
                  lowest < 0 ? lowest : highest, ", must be 0 to ", vertices - 1);
          if (!next_word(in, word) || word == "nodes") { break; } // curved: MFEM's to check
-         require(word == "2", "mesh file has '", word,
-                 "' for the number of coordinates, must be 2");
+         require(
+            word == "2", "mesh file has '", word,
+            "' for the number of coordinates, must be 2: the mesh must be in the xy plane");
          for (long k = 0; k < 2 * vertices; ++k)
          {
             check_coordinate(next_word(in, word) ? word : "",
@@ -195,7 +196,8 @@ void check_gmsh(std::istream &in, long size)
    require(version == 2.2, "Gmsh file of format ", version,
            ", must be 2.2 (gmsh -format msh22)");
    require(integer(in, "the file type") == 0, "Gmsh file is binary, must be ASCII");
-   std::set<long> nodes;
+   std::map<long, double> nodes; // and their z
+   double extent = 0, level = 0; // largest coordinate, z of the first node
    Edges edges;
    int order = 0;
    bool has_elements = false;
@@ -208,12 +210,16 @@ void check_gmsh(std::istream &in, long size)
          for (long k = 0; k < expected; ++k)
          {
             const long node = integer(in, "the number of a node");
-            require(nodes.insert(node).second, "mesh file has node ", node, " twice");
+            require(!nodes.count(node), "mesh file has node ", node, " twice");
             for (int c = 0; c < 3; ++c)
             {
                require(bool(in >> word), "mesh file ends within node ", node);
                check_coordinate(word, "node " + std::to_string(node));
+               const double coordinate = std::strtod(word.c_str(), nullptr);
+               extent = std::max(extent, std::abs(coordinate));
+               if (c == 2) { nodes[node] = coordinate; }
             }
+            if (k == 0) { level = nodes[node]; }
          }
          require(in >> word && word == "$EndNodes", "mesh file has '", word, "' after ",
                  expected, " nodes, must be $EndNodes");
@@ -249,8 +255,12 @@ void check_gmsh(std::istream &in, long size)
                require(std::find(own.begin(), own.end(), node) == own.end(),
                        "mesh file has node ", node, " twice in ", what);
                own.push_back(node);
-               require(nodes.count(node), "mesh file has node ", node, " in ", what,
+               const auto at = nodes.find(node);
+               require(at != nodes.end(), "mesh file has node ", node, " in ", what,
                        ", which is not among its nodes");
+               require(std::abs(at->second - level) <= 1e-9 * extent, "mesh file has node ",
+                       node, " of ", what, " at z = ", at->second, ", the first node at ",
+                       level, ", must be equal: turn the mesh into the xy plane");
             }
             edges.add(own, shape.corners, what);
          }

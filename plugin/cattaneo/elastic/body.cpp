@@ -2,6 +2,7 @@
 #include <cattaneo/elastic/assembly.hpp>
 #include <cattaneo/elastic/body.hpp>
 #include <cattaneo/elastic/boundary_edge.hpp>
+#include <cattaneo/elastic/element_check.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
 #include <type_traits>
@@ -17,12 +18,10 @@ namespace
 
 mfem::Mesh &checked(mfem::Mesh &mesh)
 {
-   require(mesh.Dimension() == 2 && mesh.SpaceDimension() == 2,
-           "elastic body: the mesh is of dimension ", mesh.Dimension(),
-           " in space of dimension ", mesh.SpaceDimension(), ", both must be 2");
    require(Ranks(mesh).any(mesh.GetNE() > 0), "elastic body: the mesh has no elements");
    require(Ranks(mesh).size() == 1 || !mesh.ncmesh,
            "elastic body: the mesh is distributed and nonconforming, must be conforming");
+   check_elements(mesh);
    return mesh;
 }
 

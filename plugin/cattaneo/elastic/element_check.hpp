@@ -1,0 +1,24 @@
+#pragma once
+
+#include <mfem.hpp>
+
+namespace cattaneo
+{
+
+/** InputError unless the mesh is plane (in the xy plane, coordinates of dimension 2) and each
+    of its elements is the image of its reference element one to one:
+
+    - it has an area, beyond the round-off of its coordinates;
+    - the determinant of its Jacobian is positive everywhere: a polynomial, also of curved
+      elements, whose Bernstein coefficients bound it from below; where they do not decide the
+      element is quartered (Johnen, Remacle, Geuzaine, J. Comput. Phys. 233, 2013);
+    - it lies on the other side of each edge that it shares than its neighbour there. Readers
+      turn over what is numbered clockwise, so that a node that was dragged across an edge
+   leaves no negative determinant behind. (Not asked of hanging edges, nor across ranks.)
+
+    The message names the first such element by its number (from 0, as MFEM counts), attribute
+    and centre, and says what to do. Collective on an mfem::ParMesh: the number is that of all
+    ranks, and all throw. */
+void check_elements(mfem::Mesh &mesh);
+
+} // namespace cattaneo
