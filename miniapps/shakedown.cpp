@@ -3,8 +3,10 @@
 //  Chapter 4 of the thesis: a square block, |x| < a, on an elastically similar half-plane is
 //  pressed by P and sheared by a Q that goes to and fro between λmin P and λmax P. Which
 //  friction coefficient does it take, or which load can it bear, for the slip to die out? Two
-//  estimates, the exact limit by Melan's theorem with proven bounds on either side, the
-//  adhesion of the monolith, marches in time. Units a = P = E' = 1, E' = E/(1-ν²).
+//  estimates, the exact limit by Melan's theorem with bounds on either side that are proven for
+//  a contact whose nodes all stay closed, the adhesion of the monolith, marches in time, which
+//  say so where nodes open. A limit that is decided where tractions are singular is one of the
+//  mesh, not of the bodies, and the result says that. Units a = P = E' = 1, E' = E/(1-ν²).
 //
 //  Also for any contact saved with --save (or save() of a reduced problem): name the pattern
 //  that is held and the one that is cycled; --closed keeps the nodes that stay closed in a
@@ -51,14 +53,22 @@ constexpr double corner_friction = 0.543075578837;
 constexpr double corner_mode_1 = 0.544483736782, corner_mode_2 = 0.908529189846,
                  corner_mode_3 = 1.629257376760, corner_mode_3_imaginary = 0.231250545117;
 
+/// What the limits of this program assume.
+constexpr const char *assumption = "all nodes of the contact stay closed throughout the cycle";
+
 void print_limit(const char *what, const LimitReport &report)
 {
-   std::printf(
-      "%-28s %.8f   proven between %.8f and %.8f\n%-28s %s; violation %.1e, %ld programmes, "
-      "%d iterations, %.3f s\n",
-      what, report.limit, report.lower, report.upper, "",
-      report.message.empty() ? name(report.status) : report.message.c_str(), report.violation,
-      report.counters.limit_solves, report.iterations, report.seconds);
+   std::printf("%-28s ", what);
+   if (report.status == LimitStatus::certified || report.status == LimitStatus::bracketed)
+   {
+      std::printf("%.8f   proven between %.8f and %.8f", report.limit, report.lower,
+                  report.upper);
+   }
+   else { std::printf("none: %s", name(report.status)); }
+   std::printf("\n%-28s %s; violation %.1e, %ld programmes, %d iterations, %.3f s\n", "",
+               report.message.empty() ? name(report.status) : report.message.c_str(),
+               report.violation, report.counters.limit_solves, report.iterations,
+               report.seconds);
 }
 
 /// The nodes that are closed throughout @a cycles cycles marched from rest.
@@ -147,8 +157,7 @@ void write_csv(const std::string &file, const std::vector<std::string> &header,
 /// What a march came to.
 const char *outcome(const TransientReport &run)
 {
-   if (run.status != FrictionStatus::converged) { return name(run.status); }
-   return run.shaken_down ? "shaken down" : run.steady_cycle ? "cyclic slip" : "still slipping";
+   return run.verdict == Verdict::no_equilibrium ? name(run.status) : name(run.verdict);
 }
 
 /// False where the march ended early, for want of an equilibrium.
@@ -179,7 +188,7 @@ struct Options
                      "Largest cycled load, of the smallest friction and of the marches.");
       args.AddOption(&lambda_min, "-lambda-min", "--lambda-min", "Smallest cycled load.");
       args.AddOption(&reversal, "-reversal", "--reversal",
-                     "R = λmin/λmax, instead of --lambda-min.");
+                     "R = λmin/λmax, instead of --lambda-min: -1 to and fro, 0 pulsating.");
       args.AddOption(&find, "-find", "--find",
                      "The smallest friction for the loads, the largest load for the friction, "
                      "or both: friction, load or both.");
@@ -307,6 +316,8 @@ private:
          "%ld contact nodes, condensed in %.2f s; degree of coupling %.4f (0: none, 1: "
          "most)\n",
          static_cast<long>(problem.nodes()), watch.seconds(), limit.coupling);
+      std::printf("The limits are those of a contact without separation: %s.\n", assumption);
+      results["limit_assumption"] = assumption;
       results["coupling"] = limit.coupling;
       results["contact_nodes"] = problem.nodes();
       standard = !saved && options.punch.half_plane && options.punch.order > 1 &&
@@ -407,6 +418,8 @@ private:
       std::printf("\n");
       results["first_slip"] = miniapp::json_number(slip.load_factor);
       results["first_opening"] = miniapp::json_number(opening.load_factor);
+      // Beyond this load a node has opened: nothing adheres there, whatever the friction.
+      double opens = incipient_separation(problem, cycle, 0).load_factor;
       if (standard)
       {
          const double corner_opens = corner_opening(problem, problem.patterns[0].p,
@@ -416,6 +429,7 @@ private:
             std::printf("the trailing corner opens at λ = %.4f (fit of Williams' modes)\n",
                         corner_opens);
             table.add("corner opens at λ", 0.865, 0.002 + mesh_error, none, corner_opens);
+            opens = std::min(opening.load_factor, corner_opens);
          }
          results["corner_opening"] = miniapp::json_number(corner_opens);
          const double expected[] = {0.7256, 1.1045, 1.5752};
@@ -435,15 +449,35 @@ private:
       std::printf("\n    λ     f, full adhesion   at x\n");
       for (Adhesion point : adhesion_map(problem, cycle, 0, factors, inner))
       {
+         const bool open = point.load_factor > opens;
          const bool at_corner = standard && point.friction < corner_friction;
          if (at_corner) { point.friction = corner_friction; }
          const double place = at_corner ? 1.0 : x[point.node];
-         std::printf("%6.3f   %12.4f   %12.3f\n", point.load_factor, point.friction, place);
+         if (open) { std::printf("%6.3f   %12s\n", point.load_factor, "open"); }
+         else
+         {
+            std::printf("%6.3f   %12.4f   %12.3f\n", point.load_factor, point.friction, place);
+         }
          list.push_back({{"load_factor", point.load_factor},
-                         {"friction", miniapp::json_number(point.friction)},
-                         {"x", place}});
+                         {"open", open},
+                         {"friction", open ? nullptr : miniapp::json_number(point.friction)},
+                         {"x", open ? nullptr : miniapp::json_number(place)}});
       }
       results["adhesion_map"] = list;
+      results["adhesion_opens"] = miniapp::json_number(opens);
+      std::printf("open: beyond λ = %.4f the end of the contact has opened, and no friction "
+                  "adheres there\n",
+                  opens);
+      if (!standard) { return; }
+      const Eigen::VectorXd ratios = traction_ratio(problem, cycle.constant);
+      const double at_node =
+         std::max(std::abs(ratios[0]), std::abs(ratios[problem.nodes() - 1]));
+      results["corner_node_ratio"] = miniapp::json_number(at_node);
+      std::printf("f = %.4f at x = 1 is the ratio of the singular tractions. The forces of the "
+                  "corner's own node have the\nratio %.4f under P alone, which no mesh brings "
+                  "to the tractions': with friction between the two a march\nslips at that "
+                  "node and its next, by less the finer the mesh. That is an artefact.\n",
+                  corner_friction, at_node);
    }
 
    void smallest_friction()
@@ -458,6 +492,7 @@ private:
       least = friction_limit(limit, options.lambda_max);
       note(least);
       print_limit("exact, f", least);
+      say_if_of_the_mesh("friction", least, options.lambda_max, least.limit);
       results["friction_limit"] = miniapp::json_number(least.limit);
       record_bounds(least);
       if (!thesis_loads) { return; }
@@ -508,13 +543,15 @@ private:
       const PointwiseEstimate first = method1_load(problem, cycle, inner);
       std::printf("%-28s %.5f\n", "method 1 (4.9), λmax", first.value);
       print_limit("exact, λmax", most);
+      say_if_of_the_mesh("load", most, most.limit, options.friction);
       results["method1_load"] = miniapp::json_number(first.value);
       results["load_limit"] = miniapp::json_number(most.limit);
       results["load_limit_lower"] = miniapp::json_number(most.lower);
       results["load_limit_upper"] = miniapp::json_number(most.upper);
+      results["load_limit_status"] = name(most.status);
       if (!options.finds_friction()) { record_bounds(most); }
       if (most.status == LimitStatus::certified) { lower(); }
-      if (options.closed && most.slip.size() && !part.open.empty()) { check_open_nodes(); }
+      if (std::isfinite(most.upper) && !part.open.empty()) { check_open_nodes(); }
       if (!standard) { return; }
       const double f = options.friction;
       table.add("exact, λ/f at R = -1, f = 0.85", 0.8040, 3e-4 + mesh_error, 0.68,
@@ -524,6 +561,89 @@ private:
                 ratio(-0.5, 0.85));
       table.add("method 1, λ/f at R = -1", 0.7273, 2e-4 + mesh_error, none,
                 method1_load(problem, cycle_of(problem, -1), inner).value / f);
+   }
+
+   /// Says of a limit that is decided where the stuck tractions are singular that it is one of
+   /// the mesh: at an edge within the contact line, where the pressure falls to zero and the
+   /// shear does not, and at the ends of the line, if the mechanism does much of its work
+   /// there.
+   void say_if_of_the_mesh(const std::string &what, const LimitReport &of, double load_factor,
+                           double friction)
+   {
+      if (of.status != LimitStatus::certified && of.status != LimitStatus::bracketed)
+      {
+         return;
+      }
+      std::string why;
+      const StuckForces stuck = stuck_forces(problem, cycle);
+      for (std::size_t i = 0; i < part.closed.size(); ++i)
+      {
+         const Eigen::Index node = part.closed[i];
+         const bool within =
+            (node > 0 && is_open(node - 1)) || (node + 1 < whole.nodes() && is_open(node + 1));
+         const double shear = stuck.q1.row(static_cast<Eigen::Index>(i)).cwiseAbs().maxCoeff();
+         if (within && shear > 1e-6 * stuck.q1.cwiseAbs().maxCoeff())
+         {
+            char text[200];
+            std::snprintf(text, sizeof text,
+                          "the contact ends within its line, at x = %.4f: there the pressure "
+                          "falls to zero and the stuck shear is singular",
+                          x[static_cast<Eigen::Index>(i)]);
+            why = text;
+         }
+      }
+      const double share = share_of_ends(of, stuck, load_factor, friction);
+      results[what + "_limit_work_at_ends"] = miniapp::json_number(share);
+      if (why.empty() && (share > 0.2 || (standard && friction < corner_friction)))
+      {
+         char text[200];
+         std::snprintf(text, sizeof text,
+                       "%.0f %% of the mechanism's work is done within 1 %% of the ends of the "
+                       "contact line, where tractions are singular",
+                       100 * share);
+         why = text;
+      }
+      results[what + "_limit_of_the_mesh"] = !why.empty();
+      if (why.empty()) { return; }
+      why += what == "load"
+                ? "; the figure falls with the spacing of the nodes and is no limit "
+                  "of the bodies"
+                : "; the figure rises as the spacing of the nodes falls and is no "
+                  "limit of the bodies";
+      std::printf("%-28s of this mesh only: %s\n", "", why.c_str());
+      results[what + "_limit_statement"] = why;
+   }
+
+   bool is_open(Eigen::Index node) const
+   {
+      return std::binary_search(part.open.begin(), part.open.end(), node);
+   }
+
+   /// Of the work that the mechanism of a limit dissipates, f p |slip|: the share within 1 % of
+   /// the length from either end.
+   double share_of_ends(const LimitReport &of, const StuckForces &stuck, double load_factor,
+                        double friction) const
+   {
+      if (of.mechanism.slip.size() == 0) { return none; }
+      const Eigen::Index n = problem.nodes();
+      const Eigen::MatrixXd p =
+         stuck.p(load_factor).colwise() + Eigen::VectorXd(problem.B * of.slip);
+      const double length = problem.arc_length[n - 1] - problem.arc_length[0];
+      double at_ends = 0, all = 0;
+      for (Eigen::Index i = 0; i < n; ++i)
+      {
+         const double from_end = std::min(problem.arc_length[i] - problem.arc_length[0],
+                                          problem.arc_length[n - 1] - problem.arc_length[i]);
+         for (Eigen::Index j = 0; j < p.cols(); ++j)
+         {
+            const double work =
+               friction * std::max(p(i, j), 0.0) *
+               of.mechanism.slip(Eigen::seqN(i, problem.components(), n), j).norm();
+            all += work;
+            if (from_end < 0.01 * length) { at_ends += work; }
+         }
+      }
+      return at_ends / all;
    }
 
    /// Of the nodes taken to stay open: their gaps at the limit, and marches of the whole
@@ -539,10 +659,6 @@ private:
       std::printf("%-28s %.3e: the assumption %s\n", "smallest gap of open nodes", smallest,
                   smallest >= 0 ? "holds" : "FAILS");
       results["smallest_open_gap"] = smallest;
-      std::printf(
-         "%-28s where the pressure falls to zero at the end of the closed part, stuck "
-         "shear is singular\n%-28s and the limit falls with the distance of the nodes\n",
-         "", "");
       const LimitProblem all = limit_problem(whole, cycle_of(whole, options.reversal));
       FrictionSolver solver(whole);
       TransientSettings settings;
@@ -636,7 +752,10 @@ private:
    void write_optimal() const
    {
       const LimitReport &of = best();
-      if (of.slip.size() == 0 || problem.components() != 1) { return; }
+      if (of.slip.size() == 0 || !std::isfinite(of.limit) || problem.components() != 1)
+      {
+         return;
+      }
       // Permissible residual shear with the pressures of the optimal slip (figure 4.17).
       const double at = options.finds_friction() ? options.lambda_max : most.limit;
       const double f = options.finds_friction() ? least.limit : options.friction;
@@ -654,21 +773,25 @@ private:
    {
       if (best().slip.size() == 0) { return; }
       std::printf(
-         "\nMarches at f = %g, λ = %g … %g (shaken down: loss below 1e-6)\n%18s %12s %12s "
+         "\nMarches at f = %g, λ = %g … %g (shaken down: the loss decays, and is below "
+         "1e-6)\n%18s %12s %12s "
          "%8s %7s  outcome\n",
          options.friction, options.lambda_max, options.lambda_max * options.reversal, "start",
          "first loss", "last loss", "decay", "cycles");
       FrictionSolver solver(limit.reduced);
+      Eigen::VectorXd optimal = best().slip;
+      if (best().ray.size()) { optimal += options.lambda_max * best().ray; }
       TransientSettings settings;
       settings.cycles = options.cycles;
       ordered_json list = ordered_json::array();
       const char *names[] = {"zero", "optimal", "negative optimal"};
       const double signs[] = {0, 1, -1}, expected[] = {0.340, 0, 0.827},
                    tolerance[] = {1e-3 + mesh_error, 1e-15, 0.017 + mesh_error};
+      bool opened = false;
       for (int k = 0; k < 3; ++k)
       {
          const TransientReport run =
-            transient(solver, limit, options.lambda_max, signs[k] * best().slip, settings);
+            transient(solver, limit, options.lambda_max, signs[k] * optimal, settings);
          counters += run.counters;
          const bool any = !run.dissipation.empty();
          const double first = any ? run.dissipation.front() : none;
@@ -683,11 +806,21 @@ private:
             std::printf("%18s %12s %12s %8s %7d  %s\n", names[k], "-", "-", "-", 0,
                         outcome(run));
          }
+         if (!run.opened.empty())
+         {
+            std::printf("%20s%zu nodes open in the last cycle, x = %.4f … %.4f, and lose %.1e "
+                        "in it\n",
+                        "", run.opened.size(), x[run.opened.front()], x[run.opened.back()],
+                        run.opened_loss);
+            opened = true;
+         }
          if (!run.message.empty()) { std::printf("%20s%s\n", "", run.message.c_str()); }
          if (!ended(run)) { code = 2; }
          list.push_back({{"start", names[k]},
                          {"dissipation", run.dissipation},
-                         {"shaken_down", run.shaken_down},
+                         {"outcome", outcome(run)},
+                         {"opened_nodes", run.opened.size()},
+                         {"opened_loss", run.opened_loss},
                          {"decay", run.decay},
                          {"status", name(run.status)}});
          if (k == 0) { results["dissipation_first_cycle"] = miniapp::json_number(first); }
@@ -698,6 +831,11 @@ private:
          }
       }
       results["marches"] = list;
+      if (opened)
+      {
+         std::printf("Where nodes open the bounds above do not apply: they assume that %s.\n",
+                     assumption);
+      }
       if (most.status != LimitStatus::certified) { return; }
       const TransientBracket bracket = transient_bracket(limit, most, 0.005, settings);
       for (const auto *side : {&bracket.below, &bracket.above})

@@ -114,6 +114,75 @@ inline LoadCycle random_cycle(unsigned seed, Eigen::Index patterns, Eigen::Index
    return cycle;
 }
 
+/// A contact and its loads.
+struct RandomLimit
+{
+   ReducedProblem problem;
+   LoadCycle cycle;
+};
+
+/** A limit of any kind: with and without coupling, up to one so strong that friction wedges the
+    contact and nothing limits the load; bodies held or free; friction from 0.05 to 5, one
+    coefficient or many; constant loads that press everywhere, somewhere or nowhere, with shear
+    from none to more than friction can hold; load varying to and fro, from zero, once or round
+    a polygon, with or without changes of pressure; forces and lengths in any unit. */
+inline RandomLimit random_limit(unsigned seed, Eigen::Index components)
+{
+   std::mt19937 random(seed);
+   std::uniform_real_distribution<double> uniform(-1, 1);
+   const auto chance = [&](double share) { return 0.5 * (uniform(random) + 1) < share; };
+   const auto power = [&](double low, double high)
+   { return std::pow(10, low + (high - low) * 0.5 * (uniform(random) + 1)); };
+   const Eigen::Index c = components;
+   const auto n = static_cast<Eigen::Index>(1 + random() % (c == 1 ? 8 : 5)), m = c * n;
+   const auto vector = [&](Eigen::Index size)
+   { return Eigen::VectorXd(random_matrix(random, size, 1)); };
+
+   // Random eigenvectors couple strongly; a share of B leaves the stiffness definite.
+   ReducedProblem problem = random_contact(random(), n, c, n > 1 && chance(0.4));
+   const Eigen::MatrixXd stronger = random_matrix(random, m + n, 1 + n);
+   if (n == 1 || chance(0.3))
+   {
+      const Eigen::MatrixXd K = problem.stiffness() / problem.stiffness().norm() +
+                                power(-2, 2) * stronger * stronger.transpose();
+      problem.A = K.topLeftCorner(m, m);
+      problem.B = K.bottomLeftCorner(n, m);
+      problem.C = K.bottomRightCorner(n, n);
+   }
+   if (chance(0.3)) { problem.B *= chance(0.5) ? 0.0 : power(-3, 0); }
+
+   Eigen::VectorXd &pressure = problem.patterns[0].p, &shear = problem.patterns[0].q;
+   if (chance(0.3)) { pressure += power(-1, 0.5) * vector(n); }
+   if (chance(0.1)) { pressure.setZero(); }
+   shear = vector(m) * (chance(0.2) ? 0.0 : power(-2, 0.7));
+   if (chance(0.3)) { problem.patterns[1].p.setZero(); }
+   if (chance(0.2)) { problem.patterns[1].p = pressure.cwiseAbs(); }
+   if (chance(0.05)) { problem.patterns[1].q.setZero(); }
+   problem.friction.setConstant(power(-1.3, 0.7));
+   if (chance(0.5)) { problem.friction.array() *= 1 + 0.5 * vector(n).array(); }
+
+   LoadCycle cycle{Eigen::Vector3d(1, 0, 0), Eigen::MatrixXd::Zero(3, 2)};
+   if (chance(0.6))
+   {
+      const double reversals[] = {-1, -0.5, 0, 1, uniform(random)};
+      cycle.varying.row(1) << 1, reversals[random() % 5];
+   }
+   else
+   {
+      cycle.varying = random_matrix(random, 3, static_cast<Eigen::Index>(1 + random() % 5));
+      if (chance(0.5)) { cycle.varying.row(0).setZero(); }
+   }
+   const double force = power(-6, 6), length = power(-6, 6);
+   for (Eigen::MatrixXd *M : {&problem.A, &problem.B, &problem.C}) { *M *= force / length; }
+   for (LoadPattern &pattern : problem.patterns)
+   {
+      pattern.q *= force;
+      pattern.p *= force;
+   }
+   cycle.varying *= power(-3, 3);
+   return {std::move(problem), std::move(cycle)};
+}
+
 /** The largest λ of a linear programme with one tangential component by brute force: every
    corner of the admissible set of (λ, v) is the meeting of as many conditions as there are
    unknowns.

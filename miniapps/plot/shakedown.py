@@ -57,6 +57,11 @@ if "adhesion_map" in results:
     axes.text(0.1, 0.85, "full adhesion", transform=axes.transAxes)
     axes.text(0.6, 0.15, "slip", transform=axes.transAxes)
     axes.set_ylim(bottom=0)
+    if any(row["open"] for row in rows):
+        # No friction adheres where the contact has opened: the border ends there.
+        axes.axvspan(results["adhesion_opens"], rows[-1]["load_factor"], color="0.85")
+        axes.text(0.5 * (results["adhesion_opens"] + rows[-1]["load_factor"]), 0.1, "corner open",
+                  rotation=90, ha="center")
     finish(figure, axes, "figure_4_03_adhesion.png", r"$\lambda = Q_{max}/P$", r"friction coefficient $f$")
 
 band = table("method2.csv")

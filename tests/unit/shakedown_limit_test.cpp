@@ -195,6 +195,118 @@ TEST(Limit, DegenerateCasesHaveStatusesAndMessages)
    }
 }
 
+/// One node of stiffness 1 in each direction, friction f, whose slip presses by @a press.
+ReducedProblem one_node(double press, double f, Eigen::Index components)
+{
+   ReducedProblem problem;
+   problem.A = Eigen::MatrixXd::Identity(components, components);
+   problem.B = Eigen::MatrixXd::Zero(1, components);
+   problem.B(0, 0) = press;
+   problem.C = Eigen::MatrixXd::Identity(1, 1);
+   const auto pattern = [&](const char *name, double q, double p)
+   {
+      return LoadPattern{name, Control::force, q * Eigen::VectorXd::Unit(components, 0),
+                         Eigen::VectorXd::Constant(1, p)};
+   };
+   problem.patterns = {pattern("shear", 1, 0), pattern("more shear", 1, 0),
+                       pattern("pressure", 0, 1)};
+   if (components == 2) { problem.patterns[1].q = Eigen::Vector2d(0, 1); }
+   problem.H = Eigen::MatrixXd::Zero(3, 3);
+   problem.gap = Eigen::VectorXd::Zero(1);
+   set_friction(problem, f);
+   return problem;
+}
+
+TEST(Limit, OfANodePressedByItsOwnSlipOnly)
+{
+   // q = 1 + v ± λ, p = -v / 2: the slip v = -1 gives p = 1/2 and room for λ = f / 2; more slip
+   // gives as much pressure as it takes shear. No load presses.
+   const ReducedProblem plane = one_node(-0.5, 0.1, 1);
+   const LimitProblem limit =
+      limit_problem(plane, held_and_cycled(plane, "shear", 1, "more shear", -1));
+   const LimitReport load = load_limit(limit);
+   ASSERT_EQ(load.status, LimitStatus::certified) << load.message;
+   EXPECT_NEAR(load.limit, 0.05, 1e-7);
+   EXPECT_LE(load.lower, 0.05 * (1 + 1e-14));
+   EXPECT_GE(load.upper, 0.05 * (1 - 1e-14));
+   // λ = 1: f ≥ (|1 - s| + 1) / (s / 2) for the slip -s, least at any s ≥ 1.
+   const LimitReport friction = friction_limit(limit, 1);
+   ASSERT_EQ(friction.status, LimitStatus::certified) << friction.message;
+   EXPECT_NEAR(friction.limit, 2, 1e-5);
+
+   // In the disc, with λ across: λ² = (f s / 2)² - (1 - s)², largest at s = 1 / (1 - f²/4).
+   const ReducedProblem disc = one_node(-0.5, 0.1, 2);
+   const LimitReport across =
+      load_limit(limit_problem(disc, held_and_cycled(disc, "shear", 1, "more shear", -1)));
+   ASSERT_EQ(across.status, LimitStatus::certified) << across.message;
+   EXPECT_NEAR(across.limit, 0.05 / std::sqrt(1 - 0.0025), 1e-7);
+}
+
+TEST(Limit, IsNoneWhereAnySlipIsHeld)
+{
+   // f |B| > A: a slip presses more than it takes friction to hold, and so holds any load.
+   for (const Eigen::Index components : {1, 2})
+   {
+      const ReducedProblem problem = one_node(-0.5, 2.5, components);
+      const LimitProblem limit =
+         limit_problem(problem, held_and_cycled(problem, "shear", 1, "more shear", -1));
+      const LimitReport report = load_limit(limit);
+      ASSERT_EQ(report.status, LimitStatus::unlimited) << report.message;
+      EXPECT_NE(report.message.find("proven"), std::string::npos);
+      EXPECT_EQ(report.limit, std::numeric_limits<double>::infinity());
+      for (const double factor : {1.0, 1e6, 1e12})
+      {
+         const Eigen::VectorXd slip = report.slip + factor * report.ray;
+         for (const double side : {-1.0, 1.0})
+         {
+            const double along = 1 + (components == 1 ? side * factor : 0) + slip[0];
+            const double across = components == 1 ? 0 : side * factor + slip[1];
+            EXPECT_LT(std::hypot(along, across), 2.5 * -0.5 * slip[0]) << factor;
+         }
+      }
+   }
+   // Without coupling: a steady shear is taken by a slip, however large, and just so.
+   const ReducedProblem steady = one_node(0, 0.5, 1);
+   const LimitReport report =
+      load_limit(limit_problem(steady, held_and_cycled(steady, "pressure", 1, "shear", 1)));
+   EXPECT_EQ(report.status, LimitStatus::unlimited) << report.message;
+}
+
+TEST(Limit, ComesAfterTheConstantLoads)
+{
+   // Nothing varies, but the constant shear is beyond gross sliding (q = 5 on a free body of
+   // two nodes, f p = 0.1).
+   ReducedProblem free = springs(Eigen::Vector2d(1, 1), Eigen::Vector2d(5, 5));
+   free.A << 1, -1, -1, 1;
+   set_friction(free, 0.1);
+   LoadCycle cycle{Eigen::Vector2d(1, 1), Eigen::MatrixXd::Zero(2, 2)};
+   LimitReport report = load_limit(limit_problem(free, cycle));
+   EXPECT_EQ(report.status, LimitStatus::no_solution);
+   EXPECT_NE(report.message.find("proven"), std::string::npos) << report.message;
+   // 50 times the friction is enough.
+   report = friction_limit(limit_problem(free, cycle), 1);
+   EXPECT_NEAR(report.limit, 5, 1e-5);
+
+   // Nothing is constant: pressure and shear grow together. No limit if the shear is below
+   // friction; zero if the unloaded vertex lets no slip stay that the other one needs.
+   const ReducedProblem node = one_node(0, 0.5, 1);
+   LoadCycle together{Eigen::Vector3d::Zero(), Eigen::MatrixXd::Zero(3, 2)};
+   together.varying.col(0) << 0.4, 0, 1;
+   report = load_limit(limit_problem(node, together));
+   EXPECT_EQ(report.status, LimitStatus::unlimited) << report.message;
+   together.varying(0, 0) = 0.6;
+   report = load_limit(limit_problem(node, together));
+   EXPECT_EQ(report.status, LimitStatus::certified) << report.message;
+   EXPECT_NEAR(report.limit, 0, 1e-9);
+   // No load at all.
+   report =
+      load_limit(limit_problem(node, {Eigen::Vector3d::Zero(), Eigen::MatrixXd::Zero(3, 2)}));
+   EXPECT_EQ(report.status, LimitStatus::unlimited);
+   report = friction_limit(
+      limit_problem(node, {Eigen::Vector3d::Zero(), Eigen::MatrixXd::Zero(3, 2)}), 1);
+   EXPECT_EQ(report.limit, 0);
+}
+
 TEST(Limit, RefusesBadInput)
 {
    ReducedProblem problem = random_contact(3, 4, 1, false);

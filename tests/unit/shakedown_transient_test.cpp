@@ -30,7 +30,8 @@ TEST(Transient, OptimalSlipDissipatesNothing)
       ASSERT_FALSE(optimal.dissipation.empty());
       for (const double loss : optimal.dissipation) { EXPECT_EQ(loss, 0); }
       EXPECT_TRUE((optimal.slip.array() == report.slip.array()).all());
-      EXPECT_TRUE(optimal.shaken_down);
+      EXPECT_EQ(optimal.verdict, Verdict::shaken_down);
+      EXPECT_TRUE(optimal.opened.empty());
       // It is not that nothing ever slips.
       const TransientReport zero =
          transient(solver, limit, report.lower, 0 * report.slip, settings);
@@ -47,13 +48,14 @@ TEST(Transient, UncoupledContactShakesDownFromAnyStartBelowTheLimitAndFromNoneAb
    const TransientBracket bracket = transient_bracket(limit, report, 0.02);
    for (const TransientReport &below : bracket.below)
    {
-      EXPECT_TRUE(below.shaken_down) << below.load_factor << ' ' << below.message;
+      EXPECT_EQ(below.verdict, Verdict::shaken_down)
+         << below.load_factor << ' ' << below.message;
       EXPECT_LT(below.load_factor, report.limit);
    }
    for (const TransientReport &above : bracket.above)
    {
       EXPECT_EQ(above.status, FrictionStatus::converged) << above.message;
-      EXPECT_FALSE(above.shaken_down) << above.load_factor;
+      EXPECT_EQ(above.verdict, Verdict::cyclic_slip) << above.load_factor;
       EXPECT_GT(above.dissipation.back(), 0);
    }
    FrictionSolver solver(problem);
@@ -61,7 +63,9 @@ TEST(Transient, UncoupledContactShakesDownFromAnyStartBelowTheLimitAndFromNoneAb
    for (int k = 0; k < 5; ++k)
    {
       const Eigen::VectorXd start = 0.3 * random_matrix(random, 33, 1);
-      EXPECT_TRUE(transient(solver, limit, 0.98 * report.limit, start).shaken_down) << k;
+      EXPECT_EQ(transient(solver, limit, 0.98 * report.limit, start).verdict,
+                Verdict::shaken_down)
+         << k;
    }
    EXPECT_FALSE(find_counter_example(limit, report, 0).found);
 }
@@ -77,7 +81,7 @@ TEST(Transient, DecayOfOneSpringPairIsImmediate)
    settings.cycles = 10;
    const TransientReport run =
       transient(solver, limit, 0.9 * report.limit, Eigen::VectorXd::Zero(3), settings);
-   EXPECT_TRUE(run.shaken_down);
+   EXPECT_EQ(run.verdict, Verdict::shaken_down);
    EXPECT_LT(run.dissipation.size(), 10u);
 }
 
@@ -113,6 +117,36 @@ TEST(Transient, LimitOfARecedingContactHoldsInAMarchOfTheWholeContact)
    // Above the limit it slips from there, and for ever.
    const TransientReport above = transient(solver, whole, report.limit * 1.05, start, settings);
    EXPECT_GT(above.dissipation.back(), 1e-6 * above.energy);
+}
+
+TEST(Transient, SaysWhichNodesOpenAndSlipForEver)
+{
+   // Two springs apart from each other, f = 0.5. The first loses its pressure 1 - 2λ at λ = 0.6
+   // and its shear with it (v = -0.6); reloaded, it carries 0.3 λ beyond friction: it slips
+   // back while the pressure is still there, 2 f p ≥ 1.1, and opens again, for ever. The second
+   // carries 0.06 of its 0.5 and never slips.
+   ReducedProblem problem;
+   problem.A = problem.C = Eigen::Matrix2d::Identity();
+   problem.B = Eigen::Matrix2d::Zero();
+   problem.patterns = {{"P", Control::force, Eigen::Vector2d::Zero(), Eigen::Vector2d(1, 1)},
+                       {"Q", Control::force, Eigen::Vector2d(1, 0.1), Eigen::Vector2d(-2, 0)}};
+   problem.H = Eigen::Matrix2d::Zero();
+   problem.gap = Eigen::Vector2d::Zero();
+   set_friction(problem, 0.5);
+   const LimitProblem limit = limit_problem(problem, held_and_cycled(problem, "P", 1, "Q", -1));
+   // The bound is of a contact that stays closed: λ < 1/2.
+   EXPECT_LT(load_limit(limit).upper, 0.5 + 1e-9);
+   FrictionSolver solver(problem);
+   const TransientReport run = transient(solver, limit, 0.6, Eigen::Vector2d::Zero());
+   ASSERT_EQ(run.status, FrictionStatus::converged) << run.message;
+   EXPECT_EQ(run.opened, NodeList{0});
+   EXPECT_EQ(run.verdict, Verdict::slips_and_opens) << name(run.verdict);
+   EXPECT_GT(run.opened_loss, 1e-3 * run.energy);
+   // Below, nothing opens, and all is still from the start.
+   const TransientReport below = transient(solver, limit, 0.1, Eigen::Vector2d::Zero());
+   EXPECT_EQ(below.verdict, Verdict::shaken_down);
+   EXPECT_TRUE(below.opened.empty());
+   EXPECT_EQ(below.opened_loss, 0);
 }
 
 TEST(CounterExample, IsFoundBetweenTheTwoLimitsOnly)

@@ -1,14 +1,20 @@
-"""Shakedown limits by HiGHS: an independent answer for the tests.
+"""Shakedown limits by HiGHS: independent answers for the tests.
 
-usage: shakedown_oracle.py problem.json answer.json
+usage: shakedown_oracle.py questions.json answers.json
 
-The problem has the matrices A (c n × c n) and B (n × c n), the friction coefficients, and for each
-load vertex the stuck forces q0 + λ q1, p0 + λ p1. The limit is asked for in the slips v themselves:
+A question has the matrices A (c n × c n) and B (n × c n), the friction coefficients, for each load
+vertex the stuck forces q0 + λ q1, p0 + λ p1, and what is asked for:
 
-   max λ   with   |q0 + λ q1 + A v| <= f (p0 + λ p1 + B v)   at every node and vertex.
+  load       the largest λ with |q0 + λ q1 + A v| <= f (p0 + λ p1 + B v) at every node and vertex.
+             Answer: [status, limit] with the status "limited", "unlimited", or "no solution" if
+             there is no v for λ = 0.
+  friction   the smallest friction coefficient, the same everywhere, for λ = 1, by bisection.
+             Answer: [status, low, high]; "no solution" where 100 does not do.
 
-One tangential component is one linear programme. The discs of two components are cut out by
-tangents, added where the solution leaves a disc until it does so by less than 1e-10.
+One tangential component makes linear programmes. The discs of two components lie between polygons:
+with "sides" in the question the answer is a pair, of the polygons inside and of those around the
+discs. Without it the discs are cut out by tangents, added where the solution leaves a disc until it
+does so by less than 1e-10.
 """
 
 import json
@@ -17,73 +23,166 @@ import sys
 import highspy
 import numpy as np
 
-problem = json.load(open(sys.argv[1]))
-A, B = np.array(problem["A"]), np.array(problem["B"])
-f = np.array(problem["friction"])
-n, m = len(f), len(A)
-c = m // n
-loads = [{k: np.array(x) for k, x in vertex.items()} for vertex in problem["vertices"]]
-
-# Order-one unknowns and rows: HiGHS' tolerances are absolute.
-force = np.max([np.abs(vertex["p0"]) for vertex in loads], axis=0)
-length = np.median(force) / np.median(np.diag(A))
+Status = highspy.HighsModelStatus
 
 
-def cut(i, vertex, direction):
-    """Row of f p - direction·q >= 0 at node i: coefficients of (λ, v), and the lower bound."""
-    own = [d * n + i for d in range(c)]
-    by_load = f[i] * vertex["p1"][i] - direction @ vertex["q1"][own]
-    by_slip = f[i] * B[i] - direction @ A[own]
-    constant = f[i] * vertex["p0"][i] - direction @ vertex["q0"][own]
-    return np.concatenate(([by_load], length * by_slip)) / force[i], -constant / force[i]
+class Contact:
+    def __init__(self, question):
+        self.A, self.B = np.array(question["A"]), np.array(question["B"])
+        self.f = np.array(question["friction"])
+        self.n, self.m = len(self.f), len(self.A)
+        self.c = self.m // self.n
+        self.loads = [{k: np.array(x) for k, x in vertex.items()} for vertex in question["vertices"]]
+        if question["ask"] == "friction":
+            for vertex in self.loads:
+                for k in "qp":
+                    vertex[k + "0"] = vertex[k + "0"] + vertex[k + "1"]
+                    vertex[k + "1"] = 0 * vertex[k + "1"]
+
+        # Order-one unknowns and rows: HiGHS' tolerances are absolute.
+        def size(normal, tangential):
+            forces = [np.abs(v[normal]) for v in self.loads]
+            forces += [np.abs(q) for v in self.loads for q in v[tangential].reshape(self.c, self.n)]
+            return np.max(forces, axis=0)
+
+        constant, varying = size("p0", "q0"), size("p1", "q1")
+        largest = constant.max() or varying.max() or 1.0
+        self.unit = largest / varying.max() if varying.max() > 0 else 1.0
+        self.force = np.maximum(constant, 1e-3 * largest)
+        self.length = largest / np.median(np.diag(self.A))
+
+    def cut(self, i, vertex, direction, friction):
+        """Row of f p - direction·q >= 0 at node i: coefficients of (λ, v), and the constant."""
+        own = [d * self.n + i for d in range(self.c)]
+        by_load = friction * vertex["p1"][i] - direction @ vertex["q1"][own]
+        by_slip = friction * self.B[i] - direction @ self.A[own]
+        constant = friction * vertex["p0"][i] - direction @ vertex["q0"][own]
+        return np.concatenate(([self.unit * by_load], self.length * by_slip)) / self.force[i], constant / self.force[i]
+
+    def tangents(self, friction, sides, around):
+        """The cuts of all discs; with two components those of polygons around or inside them."""
+        rows, constants = [], []
+        if self.c == 1:
+            angles = [0.0, np.pi]
+        else:
+            angles = np.linspace(0, 2 * np.pi, sides, endpoint=False)
+            friction = friction if around else friction * np.cos(np.pi / sides)
+        for vertex in self.loads:
+            for i in range(self.n):
+                for angle in angles:
+                    row, constant = self.cut(i, vertex, np.array([np.cos(angle), np.sin(angle)][: self.c]), friction[i])
+                    rows.append(row)
+                    constants.append(constant)
+        return np.array(rows), np.array(constants)
 
 
-highs = highspy.Highs()
-highs.setOptionValue("output_flag", False)
-highs.setOptionValue("primal_feasibility_tolerance", 1e-10)
-highs.setOptionValue("dual_feasibility_tolerance", 1e-10)
-infinity = highs.getInfinity()
-for k in range(1 + m):
-    highs.addVar(-infinity, infinity)
-highs.changeColCost(0, -1.0)
-columns = np.arange(1 + m, dtype=np.int32)
-
-
-def add(row, low):
-    used = columns[row != 0]
-    highs.addRow(low, infinity, len(used), used, row[row != 0])
-
-
-angles = [0.0, np.pi] if c == 1 else np.linspace(0, 2 * np.pi, 12, endpoint=False)
-for vertex in loads:
-    for i in range(n):
-        for angle in angles:
-            add(*cut(i, vertex, np.array([np.cos(angle), np.sin(angle)][:c])))
-
-# A rigid slip costs nothing and means nothing: hold the first node if there is one.
-for d in range(c):
-    rigid = np.zeros(m)
-    rigid[d * n : (d + 1) * n] = 1
-    if np.abs(A @ rigid).max() < 1e-9 * np.abs(A).max():
-        highs.changeColBounds(1 + d * n, 0.0, 0.0)
-
-for _ in range(100):
+def programme(cost, rows, low, upper=None, rigid=()):
+    """max cost·x with rows x >= low, x[0] <= upper. The HiGHS object, solved."""
+    infinity = highspy.kHighsInf
+    highs = highspy.Highs()
+    highs.setOptionValue("output_flag", False)
+    highs.setOptionValue("primal_feasibility_tolerance", 1e-10)
+    highs.setOptionValue("dual_feasibility_tolerance", 1e-10)
+    columns = np.arange(rows.shape[1], dtype=np.int32)
+    for k in columns:
+        fixed = k in rigid
+        highs.addVar(0.0 if fixed else -infinity, 0.0 if fixed else infinity)
+        highs.changeColCost(int(k), -float(cost[k]))
+    if upper is not None:
+        highs.changeColBounds(0, -infinity, upper)
+    for row, bound in zip(rows, low):
+        used = columns[row != 0]
+        highs.addRow(float(bound), infinity, len(used), used, row[row != 0])
     highs.run()
-    if highs.getModelStatus() != highspy.HighsModelStatus.kOptimal:
-        break
-    x = np.array(highs.getSolution().col_value)
-    cuts = 0
-    for vertex in loads if c == 2 else ():
-        q = vertex["q0"] + x[0] * vertex["q1"] + A @ x[1:] * length
-        p = vertex["p0"] + x[0] * vertex["p1"] + B @ x[1:] * length
-        for i in range(n):
-            own = q[[i, n + i]]
-            size = np.hypot(*own)
-            if size - f[i] * p[i] > 1e-10 * force[i]:
-                add(*cut(i, vertex, own / size))
-                cuts += 1
-    if cuts == 0:
-        break
+    if highs.getModelStatus() == Status.kUnboundedOrInfeasible:
+        highs.setOptionValue("presolve", "off")
+        highs.run()
+    return highs
 
-status = highs.modelStatusToString(highs.getModelStatus())
-json.dump({"status": status, "limit": highs.getSolution().col_value[0]}, open(sys.argv[2], "w"))
+
+def first(size):
+    unit = np.zeros(size)
+    unit[0] = 1
+    return unit
+
+
+def rigid_slips(contact):
+    """A rigid slip costs nothing and means nothing: hold the first node if there is one."""
+    held = []
+    for d in range(contact.c):
+        rigid = np.zeros(contact.m)
+        rigid[d * contact.n : (d + 1) * contact.n] = 1
+        if np.abs(contact.A @ rigid).max() < 1e-9 * np.abs(contact.A).max():
+            held.append(1 + d * contact.n)
+    return held
+
+
+def clearance(contact, rows, constants, rigid):
+    """Largest t <= 1 with rows v + constants >= t: its sign says whether there is a state."""
+    with_t = np.column_stack((-np.ones(len(rows)), rows[:, 1:]))
+    highs = programme(first(1 + contact.m), with_t, -constants, 1.0, rigid)
+    if highs.getModelStatus() != Status.kOptimal:
+        return None
+    return highs.getSolution().col_value[0]
+
+
+def load(contact, sides, around):
+    rigid = rigid_slips(contact)
+    rows, constants = contact.tangents(contact.f, sides, around)
+    room = clearance(contact, rows, constants, rigid)
+    if room is None:
+        return ["failed: clearance", 0]
+    if room < -1e-9:
+        return ["no solution", 0]
+    for _ in range(100):
+        highs = programme(first(1 + contact.m), rows, -constants, None, rigid)
+        status = highs.getModelStatus()
+        if status == Status.kUnbounded:
+            return ["unlimited", 0]
+        if status != Status.kOptimal:
+            return ["failed: " + highs.modelStatusToString(status), 0]
+        x = np.array(highs.getSolution().col_value)
+        if contact.c == 1 or sides != 12:
+            break
+        more = []
+        for vertex in contact.loads:
+            q = vertex["q0"] + x[0] * contact.unit * vertex["q1"] + contact.A @ x[1:] * contact.length
+            p = vertex["p0"] + x[0] * contact.unit * vertex["p1"] + contact.B @ x[1:] * contact.length
+            for i in range(contact.n):
+                own = q[[i, contact.n + i]]
+                size = np.hypot(*own)
+                if size - contact.f[i] * p[i] > 1e-10 * contact.force[i]:
+                    more.append(contact.cut(i, vertex, own / size, contact.f[i]))
+        if not more:
+            break
+        rows = np.vstack([rows] + [row for row, _ in more])
+        constants = np.append(constants, [constant for _, constant in more])
+    return ["limited", contact.unit * x[0]]
+
+
+def friction(contact, sides, around):
+    rigid = rigid_slips(contact)
+
+    def holds(f):
+        rows, constants = contact.tangents(np.full(contact.n, f), sides, around)
+        room = clearance(contact, rows, constants, rigid)
+        return room is not None and room > 0
+
+    low, high = 0.0, 100.0
+    if not holds(high):
+        return ["no solution", high, high]
+    while high - low > 1e-8 * high and high > 1e-7:
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if holds(middle) else (middle, high)
+    return ["limited", low, high]
+
+
+def answer(question):
+    ask = {"load": load, "friction": friction}[question["ask"]]
+    if "sides" in question:
+        return [ask(Contact(question), question["sides"], around) for around in (False, True)]
+    return ask(Contact(question), 12, True)
+
+
+questions = json.load(open(sys.argv[1], encoding="utf-8"))
+json.dump([answer(question) for question in questions], open(sys.argv[2], "w", encoding="utf-8"))

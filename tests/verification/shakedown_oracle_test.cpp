@@ -2,13 +2,15 @@
 #include <cstdlib>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <punch_problem.hpp>
 #include <shakedown_problems.hpp>
 #include <unistd.h>
 
-// The limits against HiGHS, an independent solver, through a Python script. ./test brings it
-// into build/deps/highs; CATTANEO_HIGHS names another folder.
+// The limits against HiGHS, an independent solver, through a Python script. A sample of random
+// ones; CATTANEO_STRESS=full before it: all of them. ./test brings it into build/deps/highs;
+// CATTANEO_HIGHS names another folder.
 namespace
 {
 
@@ -53,12 +55,15 @@ protected:
             "highspy";
    }
 
-   /// The largest load factor according to HiGHS.
-   static double ask(const ReducedProblem &problem, const LoadCycle &cycle)
+   /// One question more: what is asked of this contact under these loads.
+   static void add(nlohmann::json &questions, const std::string &what,
+                   const ReducedProblem &problem, const LoadCycle &cycle, int sides = 0)
    {
       const StuckForces loads = stuck_forces(problem, cycle);
-      nlohmann::json question = {
-         {"A", rows(problem.A)}, {"B", rows(problem.B)}, {"friction", list(problem.friction)}};
+      nlohmann::json question = {{"ask", what},
+                                 {"A", rows(problem.A)},
+                                 {"B", rows(problem.B)},
+                                 {"friction", list(problem.friction)}};
       for (Eigen::Index j = 0; j < loads.vertices(); ++j)
       {
          question["vertices"].push_back({{"q0", list(loads.q0.col(j))},
@@ -66,19 +71,38 @@ protected:
                                          {"p0", list(loads.p0.col(j))},
                                          {"p1", list(loads.p1.col(j))}});
       }
+      if (sides > 0) { question["sides"] = sides; }
+      questions.push_back(std::move(question));
+   }
+
+   /// HiGHS' answers (see the script).
+   static nlohmann::json ask(const nlohmann::json &questions)
+   {
       const std::string stem = ::testing::TempDir() +
                                ::testing::UnitTest::GetInstance()->current_test_info()->name() +
                                std::to_string(getpid());
-      std::ofstream(stem + ".in.json") << question;
-      std::remove((stem + ".out.json").c_str());
+      const std::string in = stem + ".in.json", out = stem + ".out.json";
+      std::ofstream(in) << questions;
       const std::string command =
-         python() + "'" CATTANEO_SOURCE_DIR "/tests/verification/shakedown_oracle.py' '" +
-         stem + ".in.json' '" + stem + ".out.json'";
+         python() + "'" CATTANEO_SOURCE_DIR "/tests/verification/shakedown_oracle.py' '" + in +
+         "' '" + out + "'";
       EXPECT_EQ(std::system(command.c_str()), 0) << command;
-      nlohmann::json answer;
-      std::ifstream(stem + ".out.json") >> answer;
-      EXPECT_EQ(answer["status"], "Optimal");
-      return answer["limit"];
+      nlohmann::json answers;
+      std::ifstream(out) >> answers;
+      std::remove(in.c_str());
+      std::remove(out.c_str());
+      EXPECT_EQ(answers.size(), questions.size());
+      return answers;
+   }
+
+   /// The largest load factor according to HiGHS.
+   static double ask(const ReducedProblem &problem, const LoadCycle &cycle)
+   {
+      nlohmann::json questions;
+      add(questions, "load", problem, cycle);
+      const nlohmann::json answer = ask(questions)[0];
+      EXPECT_EQ(answer[0], "limited");
+      return answer[1];
    }
 
    static void compare(const ReducedProblem &reduced, const LoadCycle &cycle)
@@ -147,6 +171,175 @@ TEST_F(Oracle, AgreesOnThePunchOf257Nodes)
    EXPECT_NEAR(load.limit, expected, 1e-7 * expected);
    // Independent reference, graded quadratic meshes: 0.8040 ± 3e-4.
    EXPECT_NEAR(load.limit / 0.85, 0.8040, 8e-4);
+}
+
+/// Random limits of any kind: a few, or all of them with CATTANEO_STRESS=full.
+unsigned sample(unsigned few, unsigned all)
+{
+   const char *stress = std::getenv("CATTANEO_STRESS");
+   return stress && std::string(stress) == "full" ? all : few;
+}
+
+/// The same words for both.
+std::string kind(const LimitReport &report)
+{
+   return report.status == LimitStatus::certified ? "limited" : name(report.status);
+}
+
+/// What the statuses claim, from the figures of the report alone.
+void expect_proof(const LimitProblem &limit, const LimitReport &report)
+{
+   if (report.status == LimitStatus::certified || report.status == LimitStatus::bracketed)
+   {
+      EXPECT_TRUE(std::isfinite(report.lower));
+      EXPECT_LE(report.lower, report.upper);
+   }
+   if (report.status != LimitStatus::unlimited) { return; }
+   // Far beyond any limit: |q| ≤ f p with the slip that the ray gives, but for round-off.
+   ASSERT_EQ(report.ray.size(), limit.reduced.A.rows());
+   const StuckForces loads = stuck_forces(limit.reduced, limit.cycle);
+   const Eigen::Index n = limit.reduced.nodes(), c = limit.reduced.components();
+   const double varying =
+      std::max(loads.q1.cwiseAbs().maxCoeff(), loads.p1.cwiseAbs().maxCoeff());
+   const double constant =
+      std::max(loads.q0.cwiseAbs().maxCoeff(), loads.p0.cwiseAbs().maxCoeff());
+   const double factor = varying > 0 ? 1e6 * constant / varying : 1.0;
+   const Eigen::VectorXd slip = report.slip + factor * report.ray;
+   const Eigen::MatrixXd q =
+      loads.q(factor).colwise() + Eigen::VectorXd(limit.reduced.A * slip);
+   const Eigen::MatrixXd p =
+      loads.p(factor).colwise() + Eigen::VectorXd(limit.reduced.B * slip);
+   const double largest = std::max(q.cwiseAbs().maxCoeff(), p.cwiseAbs().maxCoeff());
+   for (Eigen::Index j = 0; j < loads.vertices(); ++j)
+   {
+      for (Eigen::Index i = 0; i < n; ++i)
+      {
+         const double shear = c == 1 ? std::abs(q(i, j)) : std::hypot(q(i, j), q(n + i, j));
+         EXPECT_LE(shear, limit.reduced.friction[i] * p(i, j) + 1e-12 * largest) << i;
+      }
+   }
+}
+
+TEST_F(Oracle, AgreesOnRandomLoadLimitsLimitedOrNot)
+{
+   std::vector<LimitReport> reports;
+   std::vector<double> units; // load factors at which varying forces are as large as constant
+   nlohmann::json questions = nlohmann::json::array();
+   for (unsigned seed = 0; seed < sample(120, 1000); ++seed)
+   {
+      SCOPED_TRACE(seed);
+      const RandomLimit random = random_limit(seed, 1);
+      const LimitProblem limit = limit_problem(random.problem, random.cycle);
+      reports.push_back(load_limit(limit));
+      expect_proof(limit, reports.back());
+      add(questions, "load", random.problem, random.cycle);
+      const StuckForces loads = stuck_forces(random.problem, random.cycle);
+      const double constant =
+         std::max(loads.q0.cwiseAbs().maxCoeff(), loads.p0.cwiseAbs().maxCoeff());
+      const double varying =
+         std::max(loads.q1.cwiseAbs().maxCoeff(), loads.p1.cwiseAbs().maxCoeff());
+      units.push_back(constant > 0 && varying > 0 ? constant / varying : 1);
+   }
+   const nlohmann::json answers = ask(questions);
+   std::map<std::string, int> count;
+   for (std::size_t k = 0; k < reports.size(); ++k)
+   {
+      SCOPED_TRACE(k);
+      const std::string expected = answers[k][0];
+      ++count[expected];
+      EXPECT_EQ(kind(reports[k]), expected) << reports[k].message;
+      if (expected != "limited") { continue; }
+      // The tolerance of the certificate, and that of HiGHS' rows in terms of the load.
+      const double limit = answers[k][1];
+      EXPECT_NEAR(reports[k].limit, limit, 2e-6 * limit + 1e-9 * units[k]);
+   }
+   // The sample has enough of each kind.
+   EXPECT_GE(count["limited"], 60);
+   EXPECT_GE(count["unlimited"], 8);
+   EXPECT_GE(count["no solution"], 8);
+   for (const auto &[status, number] : count)
+   {
+      std::printf("%5d load limits: %s\n", number, status.c_str());
+   }
+}
+
+TEST_F(Oracle, AgreesOnRandomFrictionLimits)
+{
+   std::vector<LimitReport> reports;
+   nlohmann::json questions = nlohmann::json::array();
+   for (unsigned seed = 0; seed < sample(15, 300); ++seed)
+   {
+      const RandomLimit random = random_limit(seed, 1);
+      reports.push_back(friction_limit(limit_problem(random.problem, random.cycle), 1));
+      add(questions, "friction", random.problem, random.cycle);
+   }
+   const nlohmann::json answers = ask(questions);
+   for (std::size_t k = 0; k < reports.size(); ++k)
+   {
+      SCOPED_TRACE(k);
+      const LimitReport &report = reports[k];
+      if (answers[k][0] == "no solution")
+      {
+         EXPECT_EQ(report.status, LimitStatus::no_solution) << report.message;
+         continue;
+      }
+      // Whatever the gap, the bounds are on their sides. 1e-7: friction that counts as none.
+      const double low = answers[k][1], high = answers[k][2];
+      EXPECT_LE(report.lower, high * (1 + 1e-7) + 1e-7);
+      EXPECT_GE(report.upper, low * (1 - 1e-7));
+      EXPECT_EQ(report.status, LimitStatus::certified) << report.message;
+   }
+}
+
+/// The kind and the figure of the discs lie between those of the polygons within and around.
+TEST_F(Oracle, RandomDiscsLieBetweenTheirPolygons)
+{
+   std::vector<LimitReport> loads, frictions;
+   nlohmann::json questions = nlohmann::json::array();
+   for (unsigned seed = 0; seed < sample(6, 200); ++seed)
+   {
+      SCOPED_TRACE(seed);
+      const RandomLimit random = random_limit(seed, 2);
+      const LimitProblem limit = limit_problem(random.problem, random.cycle);
+      loads.push_back(load_limit(limit));
+      expect_proof(limit, loads.back());
+      frictions.push_back(friction_limit(limit, 1));
+      add(questions, "load", random.problem, random.cycle, 64);
+      add(questions, "friction", random.problem, random.cycle, 64);
+   }
+   const nlohmann::json answers = ask(questions);
+   const std::map<std::string, int> order = {
+      {"no solution", 0}, {"limited", 1}, {"unlimited", 2}};
+   for (std::size_t k = 0; k < loads.size(); ++k)
+   {
+      SCOPED_TRACE(k);
+      const auto &load = answers[2 * k], &friction = answers[2 * k + 1];
+      ASSERT_TRUE(order.count(kind(loads[k]))) << loads[k].message;
+      const int rank = order.at(kind(loads[k]));
+      EXPECT_GE(rank, order.at(load[0][0]));
+      EXPECT_LE(rank, order.at(load[1][0]));
+      if (rank == 1 && load[0][0] == "limited")
+      {
+         EXPECT_GE(loads[k].upper, load[0][1].get<double>() * (1 - 1e-7));
+      }
+      if (rank == 1 && load[1][0] == "limited")
+      {
+         EXPECT_LE(loads[k].lower, load[1][1].get<double>() * (1 + 1e-7));
+         EXPECT_LE(loads[k].upper - loads[k].lower, 1e-5 * loads[k].upper);
+      }
+      if (frictions[k].status == LimitStatus::no_solution)
+      {
+         EXPECT_EQ(friction[0][0], "no solution");
+         continue;
+      }
+      ASSERT_NE(friction[1][0], "no solution") << frictions[k].upper;
+      EXPECT_GE(frictions[k].upper, friction[1][1].get<double>() * (1 - 1e-7));
+      if (friction[0][0] == "limited")
+      {
+         EXPECT_LE(frictions[k].lower, friction[0][2].get<double>() * (1 + 1e-7) + 1e-7);
+      }
+      EXPECT_LE(frictions[k].upper - frictions[k].lower, 1e-4 * frictions[k].upper + 1e-7);
+   }
 }
 
 } // namespace

@@ -27,6 +27,9 @@ struct ConeProgramme
    /// Leave r out of the tangential forces: only the change of pressure is allowed for.
    bool pressure_only = false;
    double ceiling = 0; ///< θ is searched up to here, in units of theta_scale
+   /// Residual forces are searched up to here, in typical forces: where friction can wedge the
+   /// contact, states without bound are admissible and the iterates would follow them for ever.
+   double reach = 1e7;
 
    Eigen::VectorXd force_scale; ///< a typical force of each node, positive, size n
    double theta_scale = 1;      ///< a typical θ, positive
@@ -94,9 +97,10 @@ double worst_violation(const ConeProgramme &programme, const ReducedProblem &pro
        0 ≤ Σ_j opening·p + slip·q = Σ_j opening·(p0 + θ p1) + slip·(q0 + θ q1),
 
     so that θ ≤ W0 / (-W1) if W1 < 0. @a mechanism, which a solver leaves with small residuals,
-   is first made to satisfy both conditions to round-off; what then remains of the first is
-    multiplied by @a slip_size, a bound of the slips, and added. Infinite if W1 ≥ 0 or if the
-    mechanism cannot be repaired. The mechanism comes back scaled to W1 = -1. */
+   is first made to satisfy both conditions to round-off, by the smallest changes in the norm of
+   the cones' barrier; what then remains of the first is multiplied by @a slip_size, a bound of
+   the slips, and added, as is the round-off of the works. Infinite if W1 ≥ 0 or if the
+   mechanism cannot be repaired. The mechanism comes back scaled to W1 = -1. */
 double weak_duality_bound(const ConeProgramme &programme, const ReducedProblem &problem,
                           CollapseMechanism &mechanism, double slip_size);
 

@@ -3,6 +3,7 @@
 #include <cattaneo/shakedown/limit.hpp>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 namespace cattaneo
@@ -65,6 +66,12 @@ ConeSolution solve_counted(const ConeProgramme &programme, const LimitSettings &
    return solution;
 }
 
+/// A point was returned, whatever the outcome.
+bool usable(const ConeSolution &solution)
+{
+   return solution.r.size() > 0 && solution.r.allFinite() && std::isfinite(solution.theta);
+}
+
 /// Every slip of interest moves no node further than this; a factor ten above the one found.
 double slip_size(const Eigen::VectorXd &slip)
 {
@@ -88,6 +95,34 @@ ConeProgramme clearance_programme(const ResidualForces &residual, const StuckFor
    programme.force_scale = force_scale;
    programme.ceiling = 10; // more clearance than ten times the friction limit is of no use
    return programme;
+}
+
+/// The state furthest from all cones.
+struct Clearance
+{
+   ConeSolution solution;
+   Eigen::VectorXd slip;
+   double reached = -infinity; ///< by the slip, in plain arithmetic, in typical forces
+   double bound = infinity;    ///< of all states, proven by the mechanism of the solution
+};
+
+Clearance largest_clearance(const ReducedProblem &reduced, const ResidualForces &residual,
+                            const StuckForces &loads, const Eigen::VectorXd &force_scale,
+                            const LimitSettings &settings, LimitReport &report)
+{
+   const ConeProgramme programme =
+      clearance_programme(residual, loads, 0, reduced.friction,
+                          force_scale.replicate(1, loads.vertices()), force_scale);
+   ConeStart stuck;
+   stuck.r = Eigen::VectorXd::Zero(loads.q0.rows());
+   Clearance largest;
+   largest.solution = solve_counted(programme, settings, stuck, report);
+   if (!usable(largest.solution)) { return largest; }
+   largest.slip = residual.flexibility * largest.solution.r;
+   largest.reached = -worst_violation(programme, reduced, 0, largest.slip);
+   largest.bound = weak_duality_bound(programme, reduced, largest.solution.mechanism,
+                                      slip_size(largest.slip));
+   return largest;
 }
 
 /// Largest θ near @a theta at which @a slip is admissible in plain arithmetic; -infinity if
@@ -189,10 +224,12 @@ LimitReport load_limit(const ReducedProblem &reduced, const ResidualForces &resi
    }
 
    LimitReport report;
+   report.upper = infinity;
    const auto finish = [&](LimitStatus status, const std::string &message)
    {
       report.status = status;
       report.message = message;
+      report.limit = report.lower;
       report.seconds = stopwatch.seconds();
       return report;
    };
@@ -202,52 +239,81 @@ LimitReport load_limit(const ReducedProblem &reduced, const ResidualForces &resi
    programme.friction = reduced.friction;
    programme.loads = loads;
    programme.ceiling = settings.largest_factor;
-   if (loads.p0.maxCoeff() <= 0)
+   const bool nothing_constant = loads.q0.isZero(0) && loads.p0.isZero(0);
+   const bool nothing_varies = loads.q1.isZero(0) && loads.p1.isZero(0);
+   if (nothing_constant && nothing_varies)
    {
-      report.upper = infinity;
-      return finish(LimitStatus::no_solution,
-                    "the constant loads do not press the contact together at any node");
+      report.lower = infinity;
+      report.slip = report.ray = Eigen::VectorXd::Zero(m);
+      return finish(LimitStatus::unlimited, "there is no load");
    }
-   programme.force_scale = typical_forces(loads.q0, loads.p0);
+   const Eigen::VectorXd varying_scale = typical_forces(loads.q1, loads.p1);
+   programme.force_scale =
+      nothing_constant ? varying_scale : typical_forces(loads.q0, loads.p0);
    // The load factor at which the varying loads exhaust the friction of the constant ones,
    // summed over the contact: the size of gross sliding.
    const Eigen::VectorXd &f = programme.friction;
-   double varying = (f.asDiagonal() * loads.p1).cwiseAbs().colwise().sum().maxCoeff();
-   varying = std::max(varying, loads.q1.cwiseAbs().colwise().sum().maxCoeff());
-   if (varying == 0)
-   {
-      report.upper = infinity;
-      report.lower = report.limit = infinity;
-      report.slip = Eigen::VectorXd::Zero(m);
-      return finish(LimitStatus::unlimited, "no load varies: there is nothing to limit");
-   }
-   programme.theta_scale = f.dot(programme.force_scale) / varying;
+   const double varying =
+      std::max((f.asDiagonal() * loads.p1).cwiseAbs().colwise().sum().maxCoeff(),
+               loads.q1.cwiseAbs().colwise().sum().maxCoeff());
+   if (varying > 0) { programme.theta_scale = f.dot(programme.force_scale) / varying; }
 
-   // A strictly admissible state under the constant loads: the stuck one, or the one that is
-   // furthest from all cones.
+   // First a state under the constant loads: the stuck one, the one without their shear, or the
+   // one furthest from all cones.
    ConeStart start;
-   start.r = Eigen::VectorXd::Zero(m);
-   if (worst_violation(programme, reduced, 0, start.r) > -1e-3)
+   const auto take = [&](const Eigen::VectorXd &slip, const Eigen::VectorXd &r)
    {
-      const Eigen::MatrixXd weight = programme.force_scale.replicate(1, loads.vertices());
-      const ConeProgramme first = clearance_programme(residual, loads, 0, reduced.friction,
-                                                      weight, programme.force_scale);
-      ConeSolution solution = solve_counted(first, settings, start, report);
-      if (solution.outcome == ConeOutcome::unavailable)
+      const double violation = worst_violation(programme, reduced, 0, slip);
+      if (start.r.size() && !(violation < report.violation)) { return; }
+      report.violation = violation;
+      report.slip = slip;
+      start.r = r;
+   };
+   const Eigen::VectorXd no_slip = Eigen::VectorXd::Zero(m);
+   take(no_slip, no_slip);
+   if (report.violation > -1e-3)
+   {
+      const Eigen::VectorXd relief = -(residual.flexibility * loads.q0.col(0));
+      take(relief, reduced.A * relief);
+      Clearance constant =
+         largest_clearance(reduced, residual, loads, programme.force_scale, settings, report);
+      if (constant.solution.outcome == ConeOutcome::unavailable)
       {
-         return finish(LimitStatus::unavailable, solution.message);
+         return finish(LimitStatus::unavailable, constant.solution.message);
       }
-      report.slip = residual.flexibility * solution.r;
-      report.mechanism = solution.mechanism;
-      if (weak_duality_bound(first, reduced, report.mechanism, slip_size(report.slip)) < 0)
+      if (constant.bound < 0)
       {
+         report.mechanism = std::move(constant.solution.mechanism);
          return finish(LimitStatus::no_solution,
                        "no slip keeps the contact stuck and closed under the constant loads "
                        "alone (proven by the mechanism)");
       }
-      start.r = solution.r;
+      if (constant.slip.size()) { take(constant.slip, constant.solution.r); }
    }
-   if (settings.start && settings.start->slip.size() == m)
+   // Forces that touch their cones, as where there are none, do so to round-off.
+   const bool held = report.violation <= round_off;
+
+   // A slip in proportion to the load factor that holds the varying loads by itself holds them
+   // however large they are.
+   const auto unlimited = [&](const Eigen::VectorXd &ray, const std::string &message)
+   {
+      report.lower = infinity;
+      report.ray = ray;
+      report.mechanism = {};
+      return finish(LimitStatus::unlimited, message);
+   };
+   ConeProgramme alone = programme; // the varying loads
+   alone.loads = {loads.q1, 0 * loads.q1, loads.p1, 0 * loads.p1};
+   alone.force_scale = varying_scale;
+   if (held && (nothing_varies || worst_violation(alone, reduced, 0, no_slip) <= 0))
+   {
+      return unlimited(no_slip, nothing_varies
+                                   ? "no load varies: there is nothing to limit"
+                                   : "every varying load presses more than it shears");
+   }
+
+   if (settings.start && settings.start->slip.size() == m &&
+       std::isfinite(settings.start->limit))
    {
       start.theta = settings.start->limit;
       start.r = reduced.A * settings.start->slip;
@@ -256,41 +322,86 @@ LimitReport load_limit(const ReducedProblem &reduced, const ResidualForces &resi
          start.mechanism = settings.start->mechanism;
       }
    }
-
-   const ConeSolution solution = solve_counted(programme, settings, start, report);
-   if (solution.outcome == ConeOutcome::unavailable)
+   const Eigen::VectorXd first_slip = report.slip;
+   const auto lower_the_upper = [&](CollapseMechanism mechanism)
    {
-      return finish(LimitStatus::unavailable, solution.message);
-   }
-   if (!solution.r.size() || !solution.r.allFinite() || !std::isfinite(solution.theta))
+      const double bound =
+         weak_duality_bound(programme, reduced, mechanism, slip_size(report.slip));
+      if (!(bound < report.upper)) { return; }
+      report.upper = bound;
+      report.mechanism = std::move(mechanism);
+   };
+   const auto closed = [&]
    {
-      return finish(LimitStatus::failed, solution.message);
+      // Relative to a limit, or to a ten-thousandth of gross sliding if that is more.
+      const double gap = settings.tolerance * (report.upper + 1e-4 * programme.theta_scale);
+      return std::isfinite(report.upper) && report.upper - report.lower <= gap;
+   };
+   report.lower = held ? 0 : -infinity;
+   std::string message;
+   constexpr int max_ceilings = 3;
+   for (int k = 0; k < max_ceilings; ++k)
+   {
+      ConeSolution solution = solve_counted(programme, settings, start, report);
+      if (solution.outcome == ConeOutcome::unavailable)
+      {
+         return finish(LimitStatus::unavailable, solution.message);
+      }
+      message = solution.message;
+      if (usable(solution))
+      {
+         const Eigen::VectorXd slip = residual.flexibility * solution.r;
+         const double lower = largest_admissible(programme, reduced, solution.theta, slip);
+         if (lower > report.lower)
+         {
+            report.lower = lower;
+            report.slip = slip;
+            report.violation = worst_violation(programme, reduced, lower, slip);
+         }
+         lower_the_upper(std::move(solution.mechanism));
+      }
+      if (closed()) { return finish(LimitStatus::certified, ""); }
+      if (k == 0)
+      {
+         Clearance ray =
+            largest_clearance(reduced, residual, alone.loads, varying_scale, settings, report);
+         if (held && ray.reached >= round_off)
+         {
+            report.slip = first_slip;
+            return unlimited(ray.slip,
+                             "a slip in proportion to the load holds any load (proven)");
+         }
+         lower_the_upper(std::move(ray.solution.mechanism));
+         if (closed()) { return finish(LimitStatus::certified, ""); }
+         if (held && !std::isfinite(report.upper) && ray.reached > -1e-9)
+         {
+            // It does so to round-off.
+            double factor = programme.theta_scale * 1e12;
+            while (factor > programme.theta_scale &&
+                   worst_violation(programme, reduced, factor, first_slip + factor * ray.slip) >
+                      -round_off)
+            {
+               factor /= 10;
+            }
+            report.slip = first_slip;
+            char text[150];
+            std::snprintf(text, sizeof text,
+                          "a slip in proportion to the load holds any load to round-off; "
+                          "proven up to %.0e",
+                          factor);
+            return unlimited(ray.slip, text);
+         }
+      }
+      if (solution.outcome != ConeOutcome::ceiling) { break; }
+      programme.theta_scale *= programme.ceiling;
    }
-   report.slip = residual.flexibility * solution.r;
-   report.lower = largest_admissible(programme, reduced, solution.theta, report.slip);
-   report.limit = report.lower;
-   report.violation = worst_violation(programme, reduced, report.lower, report.slip);
-   report.mechanism = solution.mechanism;
-   report.upper =
-      weak_duality_bound(programme, reduced, report.mechanism, slip_size(report.slip));
    if (!std::isfinite(report.lower))
    {
-      report.limit = report.lower = 0;
-      return finish(LimitStatus::failed,
-                    "the solver's point is not admissible. " + solution.message);
-   }
-   if (solution.outcome == ConeOutcome::ceiling)
-   {
-      report.upper = infinity;
-      return finish(LimitStatus::unlimited,
-                    "the contact sticks at the largest load factor searched");
-   }
-   if (report.upper - report.lower <= settings.tolerance * std::abs(report.upper))
-   {
-      return finish(LimitStatus::certified, "");
+      report.lower = 0;
+      return finish(LimitStatus::failed, "no admissible slip was found. " + message);
    }
    return finish(LimitStatus::bracketed,
-                 "the gap of the certificate is wider than asked for. " + solution.message);
+                 "the gap between the bounds is not closed. " + message);
 }
 
 LimitReport friction_limit(const LimitProblem &problem, double load_factor,
@@ -314,10 +425,11 @@ LimitReport friction_limit(const LimitProblem &problem, double load_factor,
       report.seconds = stopwatch.seconds();
       return report;
    };
-   if (p.maxCoeff() <= 0)
+   if (q.isZero(0) && p.isZero(0))
    {
-      return finish(LimitStatus::no_solution,
-                    "the loads do not press the contact together at any node");
+      report.limit = report.upper = 0;
+      report.slip = Eigen::VectorXd::Zero(m);
+      return finish(LimitStatus::certified, "there is no load: no friction is needed");
    }
 
    const Eigen::VectorXd force_scale = typical_forces(q, p);
@@ -360,8 +472,9 @@ LimitReport friction_limit(const LimitProblem &problem, double load_factor,
    }
 
    constexpr int max_programmes = 40;
-   constexpr double smallest_friction = 1e-9; // below it, counts as zero
+   constexpr double smallest_friction = 1e-7; // below it, counts as zero
    ConeSolution solution;
+   bool decided = true; // the last trial moved one of the bounds
    double f =
       std::min(settings.largest_friction, report.upper * (1 - 0.5 * settings.tolerance));
    for (int k = 0; k < max_programmes && report.upper > smallest_friction; ++k)
@@ -376,37 +489,50 @@ LimitReport friction_limit(const LimitProblem &problem, double load_factor,
       {
          return finish(LimitStatus::unavailable, solution.message);
       }
-      if (!solution.r.size() || !solution.r.allFinite())
-      {
-         return finish(LimitStatus::failed, solution.message);
-      }
+      if (!usable(solution)) { return finish(LimitStatus::failed, solution.message); }
       const Eigen::VectorXd slip = problem.residual.flexibility * solution.r;
       CollapseMechanism mechanism = solution.mechanism;
       const double clearance =
          weak_duality_bound(programme, reduced, mechanism, slip_size(slip));
       const double before = report.upper;
       take(slip);
-      const bool wedged = solution.outcome == ConeOutcome::ceiling;
+      if (clearance >= 0 && !(report.upper < before))
+      {
+         // A slip that friction f wedges without any load holds all loads when it is large.
+         ConeProgramme wedge = programme;
+         wedge.loads.q0.setZero();
+         wedge.loads.p0.setZero();
+         wedge.reach = 1e3;
+         const ConeSolution wedged =
+            solve_counted(wedge, settings, {0, Eigen::VectorXd::Zero(m), {}}, report);
+         for (double size = 1; size <= 1e9 && usable(wedged); size *= 10)
+         {
+            take(size * (problem.residual.flexibility * wedged.r));
+         }
+      }
       if (clearance < 0)
       {
          report.lower = f;
          report.mechanism = std::move(mechanism);
-         const double highest = std::min(settings.largest_friction, report.upper);
-         if (highest - f <= settings.tolerance * highest) { break; }
       }
-      if (clearance < 0 || wedged)
+      const double highest = std::min(settings.largest_friction, report.upper);
+      if (highest - report.lower <= settings.tolerance * highest) { break; }
+      const bool better = report.upper < before;
+      if (clearance < 0 || solution.outcome == ConeOutcome::ceiling || (!better && decided))
       {
-         // Wedged: so much friction holds any residual state, without a best one. Bisect until
-         // there is one.
-         const double high = wedged ? f : std::min(settings.largest_friction, report.upper);
-         f = 0.5 * (report.lower + high);
+         // Where so much friction wedges the contact, any residual state is held and there is
+         // no best one. Halve the interval until there is one.
+         f = 0.5 * (report.lower + highest);
          start = {0, Eigen::VectorXd::Zero(m), {}};
          weight = force_scale.replicate(1, loads.vertices());
-         continue;
       }
-      if (!(report.upper < before)) { break; }
-      f = report.upper * (1 - 0.5 * settings.tolerance);
-      start = {0, solution.r, solution.mechanism};
+      else if (better)
+      {
+         f = report.upper * (1 - 0.5 * settings.tolerance);
+         start = {0, solution.r, solution.mechanism};
+      }
+      else { break; }
+      decided = better || clearance < 0;
    }
    if (report.upper <= smallest_friction)
    {
@@ -425,13 +551,16 @@ LimitReport friction_limit(const LimitProblem &problem, double load_factor,
                     "no slip keeps the contact stuck and closed with any friction coefficient "
                     "searched (proven by the mechanism)");
    }
-   if (!std::isfinite(report.upper)) { return finish(LimitStatus::failed, solution.message); }
+   if (!std::isfinite(report.upper))
+   {
+      return finish(LimitStatus::failed, "no admissible slip was found. " + solution.message);
+   }
    if (report.upper - report.lower <= settings.tolerance * report.upper)
    {
       return finish(LimitStatus::certified, "");
    }
    return finish(LimitStatus::bracketed,
-                 "the gap of the certificate is wider than asked for. " + solution.message);
+                 "the gap between the bounds is not closed. " + solution.message);
 }
 
 } // namespace cattaneo

@@ -7,10 +7,13 @@ namespace cattaneo
 {
 
 /** A shakedown limit by Melan's static theorem (thesis 4.3.2): is there a slip v, constant in
-    time, with which all nodes stick, closed (w = 0), throughout the load cycle? Separation
-   during the cycle would be another problem; see closed_contact for contacts that are partly
-   open. The limit is the upper one, λ2: above it every start ends in cyclic slip; below it some
-   start shakes down, and all do if the problem is uncoupled (lower_limit.hpp). */
+    time, with which all nodes stick, closed (w = 0), throughout the load cycle? What is proven
+   of it is proven for a contact whose nodes all stay closed: with nodes that open it is another
+   problem, whose marches may shake down above the limit but at those nodes (transient.hpp); see
+   closed_contact for contacts that are partly open throughout. The limit is the upper one, λ2:
+   above it every start ends in cyclic slip; below it some start shakes down, and all do if the
+   problem is uncoupled (lower_limit.hpp). Where the stuck tractions are singular, at the edges
+   of contact, it may be the mesh that decides, and then the limit falls with the spacing. */
 struct LimitProblem
 {
    ReducedProblem reduced;
@@ -27,9 +30,9 @@ enum class LimitStatus
 {
    certified,   ///< lower ≤ limit ≤ upper are proven and the gap is within the tolerance
    bracketed,   ///< the bounds are proven, but the gap is wider than asked for
-   unlimited,   ///< no limit below the largest factor searched
-   no_solution, ///< no slip keeps the contact stuck and closed, not even under the constant
-                ///< loads
+   unlimited,   ///< a slip in proportion to the load factor holds any (proven: `ray`)
+   no_solution, ///< no slip keeps the contact stuck and closed under the constant loads or, of
+                ///< a friction limit, with any coefficient searched (proven by the mechanism)
    failed,      ///< the solver ended without a usable point
    unavailable  ///< built without Ipopt
 };
@@ -40,10 +43,11 @@ struct LimitReport;
 
 struct LimitSettings
 {
-   double tolerance = 1e-6; ///< relative gap of the certificate
+   /// Gap of the certificate over the limit, or over 1e-4 of the load that makes all slide.
+   double tolerance = 1e-6;
    int max_iterations = 300;
-   /// Load factors beyond this multiple of (friction × normal force) / shear count as
-   /// unlimited.
+   /// Load factors are searched up to this multiple of (friction × normal force) / shear; where
+   /// nothing limits them there, proof is sought that nothing does, or the search goes on.
    double largest_factor = 1e4;
    /// The smallest friction coefficient is searched up to here.
    double largest_friction = 100;
@@ -65,6 +69,9 @@ struct LimitReport
    /// B; at most 0.
    double violation = 0;
    Eigen::VectorXd slip; ///< the optimal slip v, c·n, without rigid part
+   /// Unlimited: the proof. Under the load factor λ, however large, slip + λ ray is admissible
+   /// (where forces touch their cones, to round-off: the message says up to which λ).
+   Eigen::VectorXd ray;
    /// The dual mechanism. Load limit: scaled to work 1 on the varying loads.
    CollapseMechanism mechanism;
    double coupling = 0; ///< of the problem
@@ -73,8 +80,8 @@ struct LimitReport
    Counters counters; ///< limit_solves: programmes solved
 };
 
-/** Largest λ ≥ 0 for the friction of the problem and the shape of the cycle. `no_solution` if
-   the constant loads alone cannot be carried. */
+/** Largest λ ≥ 0 for the friction of the problem and the shape of the cycle. First the constant
+   loads, λ = 0: `no_solution` if they cannot be carried. */
 LimitReport load_limit(const LimitProblem &problem, const LimitSettings &settings = {});
 
 /// The same for given forces on the stuck contact instead of the load patterns'

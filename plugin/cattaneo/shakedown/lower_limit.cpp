@@ -215,7 +215,7 @@ LowerLimitReport lower_limit(const LimitProblem &problem, const LimitReport &upp
    uncoupled.B.setZero();
    ResidualForces shear = residual;
    shear.transfer.setZero();
-   shear.uncoupled = shear.opens_freely = true;
+   shear.uncoupled = true;
    LimitSettings own = settings;
    own.start = nullptr;
    const LimitReport bound = load_limit(uncoupled, shear, lowest, own);

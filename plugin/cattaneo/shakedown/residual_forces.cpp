@@ -90,10 +90,6 @@ ResidualForces residual_forces(const ReducedProblem &problem)
               "tangential forces causes normal forces, largest ",
               leak);
    }
-   const Eigen::VectorXd opening = problem.B.colwise().sum();
-   const Eigen::VectorXd gross = problem.B.cwiseAbs().colwise().sum();
-   residual.opens_freely =
-      residual.uncoupled || opening.cwiseAbs().maxCoeff() <= 1e-9 * gross.maxCoeff();
    return residual;
 }
 

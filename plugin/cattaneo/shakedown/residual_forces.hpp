@@ -21,10 +21,6 @@ struct ResidualForces
    Eigen::MatrixXd transfer;    ///< M = B flexibility, n × c·n, dimensionless
    Eigen::MatrixXd rigid;       ///< basis of the slips without force, c·n × k, unit columns
    bool uncoupled = false;      ///< B is zero to round-off: slip leaves the pressure alone
-
-   /// Uniform opening of the whole contact causes no tangential force (a free body, or no
-   /// coupling).
-   bool opens_freely = false;
 };
 
 /// InputError if the problem has no tangential unknowns, has a gap (use absorb_gap), or if its

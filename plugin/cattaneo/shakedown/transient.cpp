@@ -20,6 +20,24 @@ bool starts_at_constant(const LoadCycle &cycle)
 
 } // namespace
 
+const char *name(Verdict verdict)
+{
+   switch (verdict)
+   {
+   case Verdict::shaken_down:
+      return "shaken down";
+   case Verdict::slips_and_opens:
+      return "shaken down but at nodes that open";
+   case Verdict::cyclic_slip:
+      return "cyclic slip";
+   case Verdict::still_slipping:
+      return "still slipping";
+   case Verdict::no_equilibrium:
+      return "no equilibrium";
+   }
+   return "";
+}
+
 void TransientSettings::validate() const
 {
    require(cycles >= 1, "transient: cycles is ", cycles, ", must be at least 1");
@@ -75,30 +93,67 @@ TransientReport transient(FrictionSolver &solver, const LimitProblem &problem,
    history.cycles = settings.cycles;
    state.time = 0;
    state.cycle_slip.clear();
-   const MarchReport marched = march(solver, history, state, settings.march);
+   // Nodes open at some time of the cycle at hand.
+   const auto n = static_cast<std::size_t>(reduced.nodes());
+   std::vector<bool> opens(n, false);
+   int cycle_now = 0;
+   const MarchReport marched = march(solver, history, state, settings.march,
+                                     [&](const ContactState &now, const IncrementRecord &record)
+                                     {
+                                        if (record.cycle != cycle_now)
+                                        {
+                                           opens.assign(n, false);
+                                        }
+                                        cycle_now = record.cycle;
+                                        for (std::size_t i = 0; i < n; ++i)
+                                        {
+                                           opens[i] = opens[i] || !closed(now.status[i]);
+                                        }
+                                     });
    report.status = marched.status;
    report.message = marched.message;
    report.steady_cycle = marched.steady_cycle;
    report.steady_period = marched.steady_period;
    report.counters += marched.counters;
    report.slip = state.v;
+   for (std::size_t i = 0; i < n; ++i)
+   {
+      if (opens[i]) { report.opened.push_back(static_cast<Eigen::Index>(i)); }
+   }
+   std::vector<double> loss; // at the nodes that stay closed
    for (const CycleRecord &record : marched.cycles)
    {
       report.dissipation.push_back(record.dissipation);
+      const Eigen::VectorXd sizes = record.node_dissipation.cwiseAbs();
+      report.opened_loss = sizes(report.opened).sum();
+      loss.push_back(sizes.sum() - report.opened_loss);
    }
-   if (report.dissipation.empty()) { return report; }
+   if (loss.empty()) { return report; }
 
-   const std::vector<double> &loss = report.dissipation;
+   const double scale = std::max(report.dissipation[0], report.energy);
+   const double little = settings.shaken_down * scale, none = 1e-9 * scale;
+   const std::size_t cycles = loss.size();
    // A steady state of period two loses little in one of its cycles only.
-   double last = std::abs(loss.back());
-   if (loss.size() > 1) { last = std::max(last, std::abs(loss[loss.size() - 2])); }
-   if (marched.steady_cycle > 0 && marched.steady_period == 1) { last = std::abs(loss.back()); }
-   const bool ended = marched.status == FrictionStatus::converged ||
-                      marched.status == FrictionStatus::not_unique;
-   const double little = settings.shaken_down * std::max(loss[0], report.energy);
-   report.shaken_down = ended && last <= little;
+   double last = loss.back();
+   if (cycles > 1 && marched.steady_period != 1) { last = std::max(last, loss[cycles - 2]); }
+   const std::size_t back = std::min<std::size_t>(10, cycles / 2);
+   const bool decays = last <= none || last <= loss[cycles - 1 - back] * std::pow(0.999, back);
+   const bool steady = marched.steady_cycle > 0;
+   if (marched.status == FrictionStatus::converged ||
+       marched.status == FrictionStatus::not_unique)
+   {
+      if (steady ? last > none : last > little || !decays)
+      {
+         report.verdict = steady ? Verdict::cyclic_slip : Verdict::still_slipping;
+      }
+      else
+      {
+         report.verdict =
+            report.opened_loss > none ? Verdict::slips_and_opens : Verdict::shaken_down;
+      }
+   }
    std::size_t end = 0;
-   while (end < loss.size() && loss[end] > little) { ++end; }
+   while (end < cycles && loss[end] > little) { ++end; }
    if (end >= 2)
    {
       const std::size_t first = std::min(end / 2, end - 2);
@@ -179,13 +234,14 @@ CounterExample find_counter_example(const LimitProblem &problem, const LimitRepo
             transient(solver, problem, trial, start, settings.transient);
          ++found.marches;
          found.counters += report.counters;
-         // Only a steady cycle with slip counts; a slow decay or a lost equilibrium does not.
-         if (report.steady_cycle > 0 && !report.shaken_down)
+         // Only a steady cycle with slip at closed nodes counts; a slow decay, nodes that open
+         // or a lost equilibrium do not.
+         if (report.verdict == Verdict::cyclic_slip)
          {
             cycles = found.found = true;
             found.load_factor = trial;
             found.start = start;
-            found.dissipation = report.dissipation.back();
+            found.dissipation = report.dissipation.back() - report.opened_loss;
             break;
          }
       }

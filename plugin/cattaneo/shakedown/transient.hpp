@@ -2,6 +2,7 @@
 
 #include <cattaneo/friction/march.hpp>
 #include <cattaneo/shakedown/limit.hpp>
+#include <cattaneo/shakedown/monolith.hpp>
 
 namespace cattaneo
 {
@@ -15,27 +16,47 @@ namespace cattaneo
 struct TransientSettings
 {
    int cycles = 200;
-   /// Shaken down: the last cycle loses at most this much of what the first one does, or of the
-   /// elastic energy of the stuck contact if that is more. A corner node that opens for a
-   /// moment goes on losing 1e-8 of it.
+   /// Loss of a cycle, over that of the first or the elastic energy of the stuck contact if
+   /// that is more, below which a slip that decays from cycle to cycle counts as ended.
    double shaken_down = 1e-6;
    MarchSettings march;
 
    void validate() const;
 };
 
+/// What the slip came to. A steady cycle that loses more than 1e-9 is cyclic slip, however
+/// little that is; a loss that decays has ended when it is below
+/// TransientSettings::shaken_down.
+enum class Verdict
+{
+   shaken_down,     ///< the slip has ended
+   slips_and_opens, ///< ended but at nodes that open in every cycle and slip as they do
+   cyclic_slip,     ///< a steady cycle with slip at nodes that stay closed
+   still_slipping,  ///< neither steady nor ended after all cycles
+   no_equilibrium   ///< the march ended early: status and message say why
+};
+
+const char *name(Verdict verdict);
+
+/** The theorems behind limits are of a contact whose nodes all stay closed. Where nodes open in
+   the march, `opened`, its verdict is of another problem, and need not agree with a bound: at
+   the corner of a square punch a few nodes open and close for ever and lose 1e-7 of what the
+   first cycle does, below the upper limit and above. */
 struct TransientReport
 {
    FrictionStatus status = FrictionStatus::converged;
    std::string message;
    double load_factor = 0;
+   Verdict verdict = Verdict::no_equilibrium;
    std::vector<double> dissipation; ///< of each cycle, until steady
    /// Elastic energy that the slip of a stuck contact could release, the scale of dissipation:
    /// the largest ½ qᵀ A⁻¹ q over the vertices.
    double energy = 0;
-   bool shaken_down = false;
-   /// Loss of a cycle over that of the one before: geometric mean over the later half of the
-   /// cycles before shakedown, all of them if it does not shake down; 0 if there are too few.
+   NodeList opened;        ///< nodes that are open at some time of the last cycle
+   double opened_loss = 0; ///< dissipation at these in the last cycle
+   /// Loss of a cycle over that of the one before, at the nodes that are not `opened`:
+   /// geometric mean over the later half of the cycles before shakedown, all of them if it does
+   /// not shake down; 0 if there are too few.
    double decay = 0;
    int steady_cycle = 0, steady_period = 0; ///< as MarchReport
    Eigen::VectorXd slip;                    ///< at the end
@@ -78,7 +99,7 @@ struct CounterExample
    bool found = false;
    double load_factor = 0; ///< the smallest at which a start was found to cycle
    Eigen::VectorXd start;  ///< that start
-   double dissipation = 0; ///< of its steady cycle
+   double dissipation = 0; ///< of its steady cycle, at nodes that stay closed
    double quiet = 0;       ///< the largest load factor tried at which every start shook down
    int marches = 0;
    std::string message; ///< what is observed, in one sentence
