@@ -465,7 +465,7 @@ private:
       }
       results["adhesion_map"] = list;
       results["adhesion_opens"] = miniapp::json_number(opens);
-      std::printf("open: beyond λ = %.4f the end of the contact has opened, and no friction "
+      std::printf("open: beyond λ = %.4f an end of the contact has opened, and no friction "
                   "adheres there\n",
                   opens);
       if (!standard) { return; }
@@ -579,8 +579,7 @@ private:
       for (std::size_t i = 0; i < part.closed.size(); ++i)
       {
          const Eigen::Index node = part.closed[i];
-         const bool within =
-            (node > 0 && is_open(node - 1)) || (node + 1 < whole.nodes() && is_open(node + 1));
+         const bool within = opens_next_to(node, node - 1) || opens_next_to(node, node + 1);
          const double shear = stuck.q1.row(static_cast<Eigen::Index>(i)).cwiseAbs().maxCoeff();
          if (within && shear > 1e-6 * stuck.q1.cwiseAbs().maxCoeff())
          {
@@ -614,9 +613,16 @@ private:
       results[what + "_limit_statement"] = why;
    }
 
-   bool is_open(Eigen::Index node) const
+   /// Is @a other an open node on the contact line of @a node?
+   bool opens_next_to(Eigen::Index node, Eigen::Index other) const
    {
-      return std::binary_search(part.open.begin(), part.open.end(), node);
+      const auto on = [](const ContactChain &chain, Eigen::Index i)
+      { return i >= chain.first && i < chain.first + chain.nodes; };
+      for (const ContactChain &chain : whole.chains)
+      {
+         if (on(chain, node) && !on(chain, other)) { return false; }
+      }
+      return std::binary_search(part.open.begin(), part.open.end(), other);
    }
 
    /// Of the work that the mechanism of a limit dissipates, f p |slip|: the share within 1 % of

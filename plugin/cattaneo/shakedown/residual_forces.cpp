@@ -44,17 +44,6 @@ struct Spectrum
    }
 };
 
-/// Largest entry of B relative to the stiffnesses that it couples.
-double largest_coupling(const ReducedProblem &problem)
-{
-   const Eigen::VectorXd a = problem.A.diagonal().cwiseSqrt().cwiseInverse();
-   const Eigen::VectorXd c = problem.C.diagonal().cwiseSqrt().cwiseInverse();
-   return (c.asDiagonal() * problem.B * a.asDiagonal()).cwiseAbs().maxCoeff();
-}
-
-/// B of two equal bodies is 1e-15 of A after a condensation; this leaves two digits.
-constexpr double uncoupled_share = 1e-13;
-
 } // namespace
 
 ResidualForces residual_forces(const ReducedProblem &problem)
@@ -71,8 +60,7 @@ ResidualForces residual_forces(const ReducedProblem &problem)
    residual.rigid = spectrum.scale.asDiagonal() * spectrum.vectors.leftCols(spectrum.rigid);
    residual.rigid.colwise().normalize();
 
-   const double coupling = largest_coupling(problem);
-   residual.uncoupled = coupling <= uncoupled_share;
+   residual.uncoupled = problem.uncoupled();
    if (residual.uncoupled)
    {
       residual.transfer = Eigen::MatrixXd::Zero(problem.nodes(), problem.A.rows());
@@ -96,7 +84,7 @@ ResidualForces residual_forces(const ReducedProblem &problem)
 double degree_of_coupling(const ReducedProblem &problem)
 {
    problem.validate();
-   if (problem.components() == 0 || largest_coupling(problem) <= uncoupled_share) { return 0; }
+   if (problem.components() == 0 || problem.uncoupled()) { return 0; }
    const Eigen::MatrixXd N = Spectrum("C", problem.C).inverse_root().transpose() * problem.B *
                              Spectrum("A", problem.A).inverse_root();
    const Eigen::MatrixXd gram = N * N.transpose();
