@@ -55,9 +55,7 @@ double locking_friction(const ReducedProblem &problem)
 
 double uniqueness_bound(const ReducedProblem &problem)
 {
-   const double scale =
-      std::sqrt(problem.A.cwiseAbs().maxCoeff() * problem.C.cwiseAbs().maxCoeff());
-   if (problem.B.cwiseAbs().maxCoeff() <= 1e-11 * scale) { return infinity; }
+   if (problem.uncoupled()) { return infinity; }
    const Index n = problem.nodes(), m = problem.A.rows();
    const VectorXd s = problem.C.diagonal().cwiseSqrt().cwiseInverse(),
                   st = s.replicate(m / n, 1);
