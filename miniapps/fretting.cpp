@@ -155,6 +155,7 @@ SolvedContact solve_contact(const Design &design, const Setting &setting,
       state.time = 0;
       const MarchReport report = march(solver, history, state);
       solved.counters += report.counters;
+      miniapp::warn_of_cut_off(report.cut_off);
       require(report.status == FrictionStatus::converged,
               "the finite element contact ends in '", name(report.status),
               "' before the peak load: ", report.message);

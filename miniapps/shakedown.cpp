@@ -95,6 +95,7 @@ std::vector<Eigen::Index> stay_closed(const ReducedProblem &problem, const LoadC
                                              closed_so_far[i] && closed(now.status[i]);
                                        }
                                     });
+   miniapp::warn_of_cut_off(report.cut_off);
    require(report.status == FrictionStatus::converged,
            "option --closed: the march ended with status '", name(report.status),
            "': ", report.message);
@@ -683,6 +684,7 @@ private:
       {
          const TransientReport run =
             transient(solver, all, (1 + side) * most.limit, start, settings);
+         miniapp::warn_of_cut_off(run.cut_off);
          counters += run.counters;
          const double loss = run.dissipation.empty() ? none : run.dissipation.back();
          std::printf("%-28s %s (",
@@ -798,6 +800,7 @@ private:
       {
          const TransientReport run =
             transient(solver, limit, options.lambda_max, signs[k] * optimal, settings);
+         miniapp::warn_of_cut_off(run.cut_off);
          counters += run.counters;
          const bool any = !run.dissipation.empty();
          const double first = any ? run.dissipation.front() : none;
@@ -854,6 +857,7 @@ private:
             std::printf(" %s,", outcome(run));
          }
          std::printf(" from the same starts\n");
+         for (const TransientReport &run : *side) { miniapp::warn_of_cut_off(run.cut_off); }
       }
    }
 

@@ -2,7 +2,7 @@
 
 #include "common/miniapp.hpp"
 
-#include <iostream>
+#include <sstream>
 
 namespace miniapp
 {
@@ -16,9 +16,11 @@ bool locks(int order, const Material &material)
 
 void warn_of_locking(int order, const Material &material)
 {
-   if (!locks(order, material) || !writes()) { return; }
-   std::cerr << "warning: linear elements lock at Poisson's ratio " << material.poisson
-             << ": the body is too stiff; use option -order 2\n";
+   if (!locks(order, material)) { return; }
+   std::ostringstream text;
+   text << "linear elements lock at Poisson's ratio " << material.poisson
+        << ": the body is too stiff; use option -order 2";
+   warn(text.str());
 }
 
 } // namespace miniapp

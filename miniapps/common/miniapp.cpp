@@ -268,8 +268,22 @@ std::vector<double> unloading_levels(int steps, double lowest, std::vector<doubl
    return levels;
 }
 
+void warn_of_cut_off(const std::vector<cattaneo::CutOffContact> &ends)
+{
+   // Once for each end, however many marches a study consists of.
+   static std::vector<std::pair<Eigen::Index, bool>> known;
+   for (const cattaneo::CutOffContact &end : ends)
+   {
+      const std::pair<Eigen::Index, bool> which(end.node, end.at_first);
+      if (std::find(known.begin(), known.end(), which) != known.end()) { continue; }
+      known.push_back(which);
+      warn(end.message());
+   }
+}
+
 int exit_code(const cattaneo::MarchReport &report)
 {
+   warn_of_cut_off(report.cut_off);
    if (report.fallbacks > 0)
    {
       std::cout << "\n"
@@ -341,9 +355,31 @@ nlohmann::ordered_json json_number(double value)
                                : nlohmann::ordered_json(nullptr);
 }
 
-void write_json(const nlohmann::ordered_json &results, const std::string &file)
+namespace
 {
-   if (!file.empty() && writes()) { cattaneo::write_whole(file, results.dump(2) + '\n'); }
+
+/// Of this run.
+std::vector<std::string> &warnings()
+{
+   static std::vector<std::string> list;
+   return list;
+}
+
+} // namespace
+
+void warn(const std::string &text)
+{
+   std::vector<std::string> &given = warnings();
+   if (std::find(given.begin(), given.end(), text) != given.end()) { return; }
+   given.push_back(text);
+   std::cout << "warning: " << text << std::endl;
+}
+
+void write_json(nlohmann::ordered_json results, const std::string &file)
+{
+   if (file.empty() || !writes()) { return; }
+   results["warnings"] = warnings();
+   cattaneo::write_whole(file, results.dump(2) + '\n');
 }
 
 void ReferenceTable::add(const std::string &name, double reference, Allowed allowed,

@@ -61,6 +61,9 @@ void add_exact_path(const cattaneo::MarchReport &report,
 /// states of so small a step would be noise.
 std::vector<double> unloading_levels(int steps, double lowest, std::vector<double> wanted);
 
+/// Warns of contact that reached an end of its line where the bodies go on, once for each end.
+void warn_of_cut_off(const std::vector<cattaneo::CutOffContact> &ends);
+
 /// Exit code of a march's outcome; prints where and why it ended early, or left its exact path,
 /// and by how much its increments matter where contact advanced with friction.
 int exit_code(const cattaneo::MarchReport &report);
@@ -80,8 +83,12 @@ std::string error_text(double error);
 /// JSON has no infinity or NaN: unknown or unbounded is null.
 nlohmann::ordered_json json_number(double value);
 
-/// Writes results as JSON, whole or not at all; nothing if the file name is empty.
-void write_json(const nlohmann::ordered_json &results, const std::string &file);
+/// Prints a warning, once however often it is given; the results of write_json() list them.
+void warn(const std::string &text);
+
+/// Writes results as JSON, whole or not at all, and with them the list `warnings`; nothing if
+/// the file name is empty.
+void write_json(nlohmann::ordered_json results, const std::string &file);
 
 /** How far a computed value may be from its reference, in the units of the value: the spread of
     the reference itself, and the share of the mesh and of the increments, where that can be

@@ -256,4 +256,130 @@ TEST(Pairing, SaysWhichNodesHaveNoPartner)
    expect_input_error([&] { pair_lines(line1, line2, 0.0); }, "tolerance is 0");
 }
 
+/// [-2, 2] × [0, 1] whose bottom is attribute 5 in |x| < 1, and is lifted by `rise` per x
+/// beyond x = 1.
+mfem::Mesh part_of_a_bottom(const char *kind, double rise)
+{
+   const std::vector<double> x = uniform(-2, 2, 16), y = uniform(0, 1, 4);
+   mfem::Mesh mesh = kind == std::string("triangles")
+                        ? mfem::Mesh::MakeSimplicial(rectangle_mesh(x, y))
+                        : rectangle_mesh(x, y);
+   if (kind == std::string("curved")) { mesh.SetCurvature(2); }
+   for (int i = 0; i < mesh.GetNBE(); ++i)
+   {
+      if (mesh.GetBdrAttribute(i) != 1) { continue; }
+      mfem::Vector centre(2);
+      mesh.GetBdrElementTransformation(i)->Transform(
+         mfem::Geometries.GetCenter(mfem::Geometry::SEGMENT), centre);
+      if (std::abs(centre(0)) < 1) { mesh.SetBdrAttribute(i, 5); }
+   }
+   mesh.SetAttributes();
+   mesh.Transform(
+      [rise](const mfem::Vector &from, mfem::Vector &to)
+      {
+         to = from;
+         to(1) += rise * std::max(from(0) - 1, 0.0) * (1 - from(1));
+      });
+   return mesh;
+}
+
+TEST(ContactLine, KnowsHowTheBoundaryGoesOn)
+{
+   const double degree = std::acos(-1.0) / 180;
+   for (const char *kind : {"quads", "triangles", "curved"})
+   {
+      // The part of an edge: smoothly to the left, by an angle to the right, either way.
+      for (const double angle : {-30.0, -11.0, -9.0, 0.0, 9.0, 11.0, 30.0})
+      {
+         mfem::Mesh mesh = part_of_a_bottom(kind, std::tan(angle * degree));
+         ElasticBody body(mesh, 1, Material{});
+         const ContactLine line = contact_line(body, 5);
+         ASSERT_EQ(line.chains.size(), 1u);
+         EXPECT_EQ(line.chains[0].first, 0);
+         EXPECT_EQ(line.chains[0].nodes, 9);
+         EXPECT_FALSE(line.chains[0].loop);
+         EXPECT_EQ(line.chains[0].ends[0], LineEnd::smooth) << kind;
+         EXPECT_EQ(line.chains[0].ends[1],
+                   std::abs(angle) < 10 ? LineEnd::smooth : LineEnd::corner)
+            << kind << ' ' << angle;
+         // The whole side ends at the block's corners.
+         const ContactLine whole = contact_line(body, std::vector<int>{1, 5});
+         EXPECT_EQ(whole.chains[0].ends[0], LineEnd::corner);
+         EXPECT_EQ(whole.chains[0].ends[1], LineEnd::corner);
+         // Along the top the line runs to -x; an interval of it has smooth ends.
+         const ContactLine top = contact_line(body, {{3}, 0, -1.0, 2.0});
+         EXPECT_EQ(top.chains[0].ends[0], LineEnd::corner);
+         EXPECT_EQ(top.chains[0].ends[1], LineEnd::smooth);
+         // Two pieces of the bottom, each with a corner outside.
+         const ContactLine pieces = contact_line(body, 1);
+         ASSERT_EQ(pieces.chains.size(), 2u);
+         EXPECT_EQ(pieces.chains[1].first, 5);
+         EXPECT_EQ(pieces.chains[1].nodes, 5);
+         EXPECT_EQ(pieces.chains[0].ends[0], LineEnd::corner);
+         EXPECT_EQ(pieces.chains[0].ends[1], LineEnd::smooth);
+         EXPECT_EQ(pieces.chains[1].ends[1], LineEnd::corner);
+      }
+   }
+}
+
+TEST(ContactLine, LoopsAndTheAxisHaveNoEnds)
+{
+   mfem::Mesh mesh = block("quads");
+   ElasticBody body(mesh, 2, Material{});
+   const ContactLine around = contact_line(body, std::vector<int>{1, 2, 3, 4});
+   ASSERT_EQ(around.chains.size(), 1u);
+   EXPECT_TRUE(around.chains[0].loop);
+   EXPECT_EQ(around.chains[0].nodes, around.size());
+   EXPECT_EQ(around.chains[0].ends[0], LineEnd::smooth);
+   // About an axis at r = 0, whose node is no contact node.
+   ElasticBody disc(mesh, 2, Material{}, Geometry::axisymmetric);
+   const ContactLine bottom = contact_line(disc, 1);
+   EXPECT_EQ(bottom.chains[0].ends[0], LineEnd::axis);
+   EXPECT_EQ(bottom.chains[0].ends[1], LineEnd::corner);
+   EXPECT_EQ(bottom.chains[0].first, 0);
+   EXPECT_EQ(bottom.chains[0].nodes, bottom.size());
+}
+
+TEST(ContactLine, EndsTravelInTheReducedProblem)
+{
+   // A punch of width 2 on the middle of a wider block: its corners, the block goes on.
+   mfem::Mesh narrow = rectangle_mesh(uniform(-1, 1, 8), uniform(0, 1, 4));
+   mfem::Mesh wide = part_of_a_bottom("quads", 0);
+   wide.Transform(
+      [](const mfem::Vector &x, mfem::Vector &y)
+      {
+         y = x;
+         y *= -1; // the other way up
+      });
+   ElasticBody punch(narrow, 1, Material{}), block(wide, 1, Material{});
+   block.fix(3, 0);
+   block.fix(3, 1);
+   const CondensedBody upper = condense(punch, contact_line(punch, 1)),
+                       lower = condense(block, contact_line(block, 5));
+   const auto ends = [](LineEnd a, LineEnd b) { return std::array<LineEnd, 2>{a, b}; };
+   const auto both_corners = ends(LineEnd::corner, LineEnd::corner);
+   const auto both_smooth = ends(LineEnd::smooth, LineEnd::smooth);
+   const Reduction pair = reduce(upper, lower, pair_lines(upper.line, lower.line));
+   ASSERT_EQ(pair.problem.chains.size(), 1u);
+   EXPECT_EQ(pair.problem.chains[0].ends, both_corners);
+   EXPECT_EQ(pair.problem.chains[0].other_ends, both_smooth);
+   const Reduction turned = reduce(lower, upper, pair_lines(lower.line, upper.line));
+   EXPECT_EQ(turned.problem.chains[0].ends, both_smooth);
+   EXPECT_EQ(turned.problem.chains[0].other_ends, both_corners);
+   const Reduction rigid = reduce(upper);
+   EXPECT_EQ(rigid.problem.chains[0].ends, both_corners);
+   EXPECT_EQ(rigid.problem.chains[0].other_ends, both_smooth);
+   // Unequal ends stay at their ends: a corner of both at the right.
+   mfem::Mesh shifted = rectangle_mesh(uniform(0, 2, 8), uniform(0, 1, 4));
+   mfem::Mesh base = rectangle_mesh(uniform(-2, 2, 16), uniform(-1, 0, 4));
+   ElasticBody right(shifted, 1, Material{}), under(base, 1, Material{});
+   under.fix(1, 0);
+   under.fix(1, 1);
+   const CondensedBody a = condense(right, contact_line(right, 1)),
+                       b = condense(under, contact_line(under, {{3}, 0, 0.0, 2.0}));
+   const Reduction step = reduce(a, b, pair_lines(a.line, b.line));
+   EXPECT_EQ(step.problem.chains[0].ends, both_corners);
+   EXPECT_EQ(step.problem.chains[0].other_ends, ends(LineEnd::smooth, LineEnd::corner));
+}
+
 } // namespace

@@ -330,7 +330,7 @@ TEST(EdgeFit, RefusesBadInput)
    tractions.pressure[3] = nan;
    expect_refused(tractions, {}, "node 3 has");
    expect_refused(hertz_nodes(5, -1), {}, "nodes");
-   expect_refused(hertz_nodes(20, -1), {0.3, 0.2}, "the window of the fit is 0.3 to 0.2");
+   expect_refused(hertz_nodes(20, -1), {0.5, 0.25}, "the window of the fit is 0.5 to 0.25");
    expect_refused(hertz_nodes(20, -1), {0.01, 0.02}, "nodes");
 }
 

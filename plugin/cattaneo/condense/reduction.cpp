@@ -115,12 +115,31 @@ void fill(ReducedProblem &problem, const Block &block, const ContactLine &line)
    problem.arc_length = line.arc_length;
    problem.position = line.position;
    problem.rigid_motions = block.motions;
-   for (Eigen::Index i = 0; i < n; ++i)
+   // A rigid obstacle is known where the line is, and taken to go on.
+   for (const LineChain &chain : line.chains)
    {
-      const bool goes_on = i > 0 && line.chain[i] == line.chain[i - 1];
-      if (!goes_on) { problem.chains.push_back({"contact", i, 0}); }
-      ++problem.chains.back().nodes;
+      problem.chains.push_back({"contact",
+                                chain.first,
+                                chain.nodes,
+                                chain.loop,
+                                chain.ends,
+                                {LineEnd::smooth, LineEnd::smooth}});
    }
+}
+
+/// How the boundary goes on at a node of a line: within the line it does so smoothly.
+LineEnd goes_on_at(const ContactLine &line, Eigen::Index node)
+{
+   const LineChain &chain = line.chains[line.chain[node]];
+   if (chain.loop) { return LineEnd::smooth; }
+   // The lines of two bodies run against each other: body 1's first node is body 2's last. A
+   // chain of one node has two ends there: the one that does not go on decides.
+   const bool first = node == chain.first, last = node == chain.first + chain.nodes - 1;
+   if (first && last)
+   {
+      return chain.ends[0] == LineEnd::smooth ? chain.ends[1] : chain.ends[0];
+   }
+   return first ? chain.ends[0] : last ? chain.ends[1] : LineEnd::smooth;
 }
 
 /// Rigid motions of the contact nodes that a stiffness in body 1's frames does not resist,
@@ -348,6 +367,12 @@ Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairin
       united(first, second, pairing.partner, result.pattern_, problem.patterns);
    result.union_ = block.way_back;
    fill(problem, block, first.line);
+   for (ContactChain &chain : problem.chains)
+   {
+      chain.other_ends = {
+         goes_on_at(second.line, pairing.partner[chain.first]),
+         goes_on_at(second.line, pairing.partner[chain.first + chain.nodes - 1])};
+   }
    problem.gap = pairing.gap;
    problem.dofs.resize(n, 4);
    for (Eigen::Index i = 0; i < n; ++i)

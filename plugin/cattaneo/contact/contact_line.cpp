@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 
 namespace cattaneo
 {
@@ -138,6 +139,84 @@ void share(const Ranks &ranks, std::vector<Segment> &segments, std::map<int, Nod
    }
 }
 
+/// An outer edge of the body that is not on the line, seen from the node it shares with it.
+struct WayOn
+{
+   int node;
+   double x, y; ///< unit vector that leaves the node
+};
+
+/// Of all ranks, at the ends of the given segments.
+std::vector<WayOn> ways_on(const ElasticBody &body, const std::vector<Segment> &segments)
+{
+   std::set<int> ends;
+   std::set<std::pair<int, int>> own;
+   for (const Segment &s : segments)
+   {
+      ends.insert({s.nodes.front(), s.nodes.back()});
+      own.insert(std::minmax(s.nodes.front(), s.nodes.back()));
+   }
+   const mfem::FiniteElementSpace &space = body.space();
+   mfem::Mesh &mesh = *space.GetMesh();
+   mfem::Array<int> vertices, dofs;
+   std::vector<double> packed;
+   const auto node_of = [&](int vertex)
+   {
+      space.GetVertexDofs(vertex, dofs);
+      return number(body, dofs[0]);
+   };
+   for (int face = 0; face < mesh.GetNumFaces(); ++face)
+   {
+      int element = 0, other = 0, info = 0, other_info = 0, hanging = 0;
+      mesh.GetFaceElements(face, &element, &other);
+      mesh.GetFaceInfos(face, &info, &other_info, &hanging);
+      // A neighbour here, on another rank, or of another size.
+      if (other >= 0 || other_info >= 0 || hanging >= 0) { continue; }
+      mesh.GetElementVertices(element, vertices);
+      const int *at = mesh.GetElement(element)->GetEdgeVertices(info / 64);
+      const int nodes[] = {node_of(vertices[at[0]]), node_of(vertices[at[1]])};
+      if (own.count(std::minmax(nodes[0], nodes[1]))) { continue; }
+      for (int k : {0, 1})
+      {
+         if (!ends.count(nodes[k])) { continue; }
+         const mfem::IntegrationRule &corners =
+            *mfem::Geometries.GetVertices(mesh.GetElementBaseGeometry(element));
+         const mfem::IntegrationPoint &here = corners[at[k]], &there = corners[at[1 - k]];
+         mfem::IsoparametricTransformation plane;
+         mesh.GetElementTransformation(element, &plane);
+         plane.SetIntPoint(&here);
+         const mfem::DenseMatrix &J = plane.Jacobian();
+         const double dx = there.x - here.x, dy = there.y - here.y;
+         const double x = J(0, 0) * dx + J(0, 1) * dy, y = J(1, 0) * dx + J(1, 1) * dy;
+         const double length = std::hypot(x, y);
+         for (double value : {double(nodes[k]), x / length, y / length})
+         {
+            packed.push_back(value);
+         }
+      }
+   }
+   packed = body.ranks().gather(packed);
+   std::vector<WayOn> ways;
+   for (std::size_t k = 0; k < packed.size(); k += 3)
+   {
+      ways.push_back({static_cast<int>(packed[k]), packed[k + 1], packed[k + 2]});
+   }
+   return ways;
+}
+
+/// How the boundary goes on from a node in whose direction (x, y) the line ends.
+LineEnd goes_on(const std::vector<WayOn> &ways, int node, double x, double y)
+{
+   double straightest = -2;
+   for (const WayOn &way : ways)
+   {
+      if (way.node == node) { straightest = std::max(straightest, way.x * x + way.y * y); }
+   }
+   if (straightest == -2) { return LineEnd::unknown; }
+   const double turn = LineChain::smooth_turn * std::acos(-1.0) / 180;
+   return straightest >= std::cos(turn) ? LineEnd::smooth : LineEnd::corner;
+}
+
 } // namespace
 
 ContactLine contact_line(const ElasticBody &body, const BoundaryPart &part)
@@ -239,8 +318,23 @@ ContactLine contact_line(const ElasticBody &body, const BoundaryPart &part)
    std::vector<double> arc, weights, lumped, spacing;
    std::vector<std::array<double, 2>> tangent;
    double start = 0.0;
+   const std::vector<WayOn> ways = ways_on(body, segments);
    for (std::size_t c = 0; c < chains.size(); ++c)
    {
+      const Segment &opening = segments[chains[c].front()],
+                    &closing = segments[chains[c].back()];
+      const int ends[] = {opening.nodes.front(), closing.nodes.back()};
+      const auto &in = opening.tangents.front(), &out = closing.tangents.back();
+      LineChain described;
+      described.loop = ends[0] == ends[1];
+      described.ends = {goes_on(ways, ends[0], -in[0], -in[1]),
+                        goes_on(ways, ends[1], out[0], out[1])};
+      for (std::size_t k : {0, 1})
+      {
+         if (described.loop) { described.ends[k] = LineEnd::smooth; }
+         else if (nodes.at(ends[k]).on_axis) { described.ends[k] = LineEnd::axis; }
+      }
+      line.chains.push_back(described);
       const std::size_t first = numbers.size();
       double end = start;
       for (int k : chains[c])
@@ -306,6 +400,12 @@ ContactLine contact_line(const ElasticBody &body, const BoundaryPart &part)
    }
 
    const auto n = static_cast<Eigen::Index>(numbers.size());
+   for (Eigen::Index i = n; i-- > 0;)
+   {
+      LineChain &chain = line.chains[line.chain[i]];
+      chain.first = i;
+      ++chain.nodes;
+   }
    line.position.resize(n, 2);
    line.tangent.resize(n, 2);
    line.normal.resize(n, 2);

@@ -8,6 +8,18 @@
 namespace cattaneo
 {
 
+/// Nodes that follow each other along the boundary.
+struct LineChain
+{
+   Eigen::Index first = 0, nodes = 0;
+   bool loop = false; ///< the last node is followed by the first
+   /** How the boundary of the body goes on beyond the first and the last node, whatever it is
+       called there: smoothly if it turns by less than smooth_turn (polygons stand for curves);
+       else at a corner. Of a loop: smoothly. Unknown where no outer edge goes on. */
+   std::array<LineEnd, 2> ends{LineEnd::unknown, LineEnd::unknown};
+   static constexpr double smooth_turn = 10; ///< degrees
+};
+
 /** The ordered contact nodes of one body.
 
     Nodes run along the boundary with the body on the left. Each node has a right-handed local
@@ -36,6 +48,7 @@ struct ContactLine
    std::vector<int> scalar_dofs;              ///< node of the space; -1 if another rank has it
    std::vector<std::array<int, 2>> true_dofs; ///< x and y true dof (twist, -1), global numbers
    std::vector<int> chain;                    ///< number of the chain each node belongs to
+   std::vector<LineChain> chains;             ///< in the order of the nodes
    Eigen::MatrixXd position;                  ///< n × 2
    Eigen::MatrixXd tangent, normal;           ///< n × 2, unit vectors
    Eigen::VectorXd arc_length;                ///< n

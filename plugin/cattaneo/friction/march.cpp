@@ -325,6 +325,14 @@ void March::accept(ContactState &&next, int piece, const IncrementReport &increm
    if (exact) { follow_anew(); }
    else { follow_coarsely(false); }
    report_.increments.push_back(record);
+   for (const CutOffContact &found : cut_off_contact(problem_, state_))
+   {
+      const bool known =
+         std::any_of(report_.cut_off.begin(), report_.cut_off.end(),
+                     [&](const CutOffContact &other)
+                     { return other.node == found.node && other.at_first == found.at_first; });
+      if (!known) { report_.cut_off.push_back(found); }
+   }
    report_.largest_residual =
       std::max({report_.largest_residual, record.residual_normal, record.residual_tangential});
    ++report_.counters.increments;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cattaneo/friction/cut_off.hpp>
 #include <cattaneo/friction/exact_path.hpp>
 #include <cattaneo/friction/friction_solver.hpp>
 #include <cattaneo/friction/load_history.hpp>
@@ -97,6 +98,9 @@ struct MarchReport
    /// increments; infinite if there was no second solution. Zero where no contact advanced with
    /// friction, or Stepping::exact found its path.
    double advance_error = 0;
+   /// Ends of lines at which contact was cut off, each with the first accepted state in which
+   /// it was so: the results are those of a line that was named too short.
+   std::vector<CutOffContact> cut_off;
    double largest_residual = 0;
    Counters counters; ///< of this march (what making the solver took is in the solver's own)
    double seconds = 0;

@@ -114,6 +114,7 @@ TransientReport transient(FrictionSolver &solver, const LimitProblem &problem,
    report.message = marched.message;
    report.steady_cycle = marched.steady_cycle;
    report.steady_period = marched.steady_period;
+   report.cut_off = marched.cut_off;
    report.counters += marched.counters;
    report.slip = state.v;
    for (std::size_t i = 0; i < n; ++i)

@@ -60,6 +60,7 @@ struct TransientReport
    double decay = 0;
    int steady_cycle = 0, steady_period = 0; ///< as MarchReport
    Eigen::VectorXd slip;                    ///< at the end
+   std::vector<CutOffContact> cut_off;      ///< as MarchReport
    Counters counters;
 };
 

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cattaneo/friction/contact_state.hpp>
+#include <string>
+#include <vector>
+
+namespace cattaneo
+{
+
+/// Compressed contact that reaches an end of its line although nothing of the bodies ends
+/// there.
+struct CutOffContact
+{
+   std::string interface;  ///< name of the line's
+   Eigen::Index chain = 0; ///< in the problem's list
+   Eigen::Index node = 0;  ///< the last of the chain at that end
+   bool at_first = false;  ///< it is the first node of the chain, else the last
+   double x = 0, y = 0;    ///< of the node, 0 if the problem has no positions
+   double time = 0;        ///< of the state
+
+   /// What is wrong and what to do, without a full stop.
+   std::string message() const;
+};
+
+/** Where a state's contact is cut off: the node at an end of a chain is compressed, and beyond
+    it *both* bodies go on smoothly (ContactChain::ends, other_ends), so that contact would go
+   on too if the line did. Forces, and zones near that end, are then wrong without any other
+   sign: a part of the boundary was named too short, or a pad rolled off its line. At corners
+   contact may well end. Nothing can be said of ends that are not known. */
+std::vector<CutOffContact> cut_off_contact(const ReducedProblem &problem,
+                                           const ContactState &state);
+
+} // namespace cattaneo
