@@ -177,8 +177,11 @@ TEST_F(Contact2D, RoundedPunchReachesASteadyCycle)
 void lift_to_the_cylinder(const mfem::Vector &x, mfem::Vector &moved)
 {
    moved = x;
-   const bool surface = std::abs(x[1]) < 1e-12 && std::abs(x[0]) < 1.67 + 1e-9;
-   if (surface) { moved[1] = x[0] * x[0] / 200; }
+   // And with them, to less, what is in the first layer: surfaces alone would fold its
+   // elements.
+   const double layer = 2 * 1.67 / 80;
+   if (std::abs(x[0]) > 1.67 + 1e-9 || x[1] > layer) { return; }
+   moved[1] += x[0] * x[0] / 200 * (1 - x[1] / layer);
 }
 
 TEST_F(Contact2D, EdgesOfAHertzContactHaveTheClosedForms)
@@ -580,6 +583,67 @@ TEST_F(Contact2D, OptionsOverrideTheCaseFile)
    EXPECT_NEAR(run.results["contact_force"][0].get<double>() /
                   run.results["contact_force"][1].get<double>(),
                1.0, 0.02);
+}
+
+TEST_F(Contact2D, SaysWhatAccuracyMaterialsFarApartLeave)
+{
+   // A hard sole under a soft block that is pushed down at its top: in uniform compression the
+   // block's stiffness is that of its layers in series, as nothing contracts sideways.
+   mfem::Mesh mesh = cattaneo::rectangle_mesh({0, 1, 2, 3}, {0, 0.5, 1, 1.5, 2});
+   for (int e = 0; e < mesh.GetNE(); ++e) { mesh.SetAttribute(e, e < 6 ? 1 : 2); }
+   mesh.SetAttributes();
+   const std::string file = write("layers.mesh", mesh);
+   const auto pushed = [&](const std::string &hard)
+   {
+      return contact2d("--mesh1 '" + file + "' --contact1 1 --young1 '" + hard +
+                       " 1' --poisson1 0 --friction 0.3 --support1 3:x "
+                       "--load1 'D displacement-y 3 -0.1'");
+   };
+   double before = 0;
+   for (const double hard : {1.0, 1e6, 1e12})
+   {
+      const auto run = pushed(std::to_string(hard));
+      ASSERT_EQ(run.code, 0) << run.output;
+      const double force = run.results["contact_force"][1];
+      const double error = std::abs(force / (3 * 0.1 / (1 + 1 / hard)) - 1);
+      const double estimate = run.results["condensation_error"];
+      EXPECT_LE(error, estimate) << hard;
+      EXPECT_GE(estimate, before) << hard;
+      before = estimate;
+      const bool warned =
+         run.output.find("warning: the stiffness of the contact may be wrong") !=
+         std::string::npos;
+      EXPECT_EQ(warned, hard > 1e9) << run.output;
+      ASSERT_EQ(run.results["warnings"].size(), hard > 1e9 ? 1u : 0u) << run.output;
+   }
+   EXPECT_GT(before, 1e-6);
+}
+
+TEST_F(Contact2D, WarnsOfALineThatIsNamedTooShort)
+{
+   // A block on a block of the same width, pressed as a whole: of the joint only the middle is
+   // named, or all of it, up to the blocks' corners.
+   std::vector<double> x, y;
+   for (int k = 0; k <= 16; ++k) { x.push_back(-2 + 0.25 * k); }
+   for (int k = 0; k <= 4; ++k) { y.push_back(0.25 * k); }
+   mfem::Mesh upper = cattaneo::rectangle_mesh(x, y);
+   for (double &height : y) { height -= 1; }
+   mfem::Mesh lower = cattaneo::rectangle_mesh(x, y);
+   const std::string meshes = "--mesh1 '" + write("upper.mesh", upper) + "' --mesh2 '" +
+                              write("lower.mesh", lower) +
+                              "' --support2 1:xy --friction 0.3 --load1 'P pressure 3 1' ";
+   const auto part = contact2d(meshes + "--contact1 '1[-1<x<1]' --contact2 '3[-1<x<1]'");
+   ASSERT_EQ(part.code, 0) << part.output;
+   ASSERT_EQ(part.results["warnings"].size(), 2u) << part.output;
+   const std::string first = part.results["warnings"][0], last = part.results["warnings"][1];
+   EXPECT_NE(first.find("first node of the line 'contact' (node 0 at (-1, 0)"),
+             std::string::npos)
+      << first;
+   EXPECT_NE(last.find("at (1, 0)"), std::string::npos) << last;
+   EXPECT_NE(part.output.find("warning: " + first), std::string::npos) << part.output;
+   const auto whole = contact2d(meshes + "--contact1 1 --contact2 3");
+   ASSERT_EQ(whole.code, 0) << whole.output;
+   EXPECT_EQ(whole.results["warnings"].size(), 0u) << whole.output;
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 #include <cattaneo/condense/equal_operators.hpp>
 #include <cattaneo/condense/free_motions.hpp>
 #include <cattaneo/condense/local_frame.hpp>
+#include <cattaneo/condense/stiffness_error.hpp>
 #include <cattaneo/dense_algebra.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
@@ -349,6 +350,48 @@ mfem::Vector CondensedBody::recover(const Eigen::VectorXd &u,
    mfem::Vector here(loads->dofs);
    loads->ranks.deal(field, loads->dofs, here.GetData());
    return here;
+}
+
+double CondensedBody::error_estimate()
+{
+   // In global components, as the operator is.
+   const bool twists = geometry == Geometry::torsion;
+   const FrameChange back = twists ? FrameChange{line.position.col(0), {}, {}, {}}
+                                   : FrameChange::of(line, geometry).transposed();
+   const Eigen::MatrixXd global = back.both(S);
+   Eigen::MatrixXd motions = free_motions;
+   if (!twists) { motions = back.rows(free_motions); }
+   else if (motions.cols() > 0) // u_θ = r ψ
+   {
+      motions = line.position.col(0).cwiseInverse().asDiagonal() * motions;
+      motions.col(0).normalize();
+   }
+#ifdef MFEM_USE_MPI
+   if (op->distributed)
+   {
+      const StiffnessProbes probe(global, motions);
+      const Eigen::MatrixXd &u = probe.motions();
+      mfem::Vector nothing(op->distributed->size());
+      nothing = 0.0;
+      Eigen::MatrixXd differences = global * u;
+      for (Eigen::Index k = 0; k < u.cols(); ++k)
+      {
+         differences.col(k) -= op->distributed->forces(
+            op->distributed->recover(u.col(k), nothing, nothing, counters));
+      }
+      return probe.bound(differences);
+   }
+#endif
+   Eigen::MatrixXd error(1, 1);
+   loads->ranks.on_first(
+      [&]
+      {
+         error(0) = stiffness_error(*op->K, op->keep, op->contact, op->shift, *op->factor,
+                                    op->S, global, motions);
+      });
+   counters.back_substitutions += 9;
+   if (loads->ranks.several()) { loads->ranks.share(error); }
+   return error(0);
 }
 
 Eigen::MatrixXd CondensedBody::rigid_motions() const

@@ -36,6 +36,14 @@ public:
    /// multipliers (order of `patterns`). One solve with the kept factor.
    mfem::Vector recover(const Eigen::VectorXd &u, const Eigen::VectorXd &multipliers);
 
+   /** Relative error of S, an estimate from above by energies, see stiffness_error(); of a body
+       condensed by conjugate gradients from S u against the action of the operator, in double
+       precision. Materials or elements of great contrast within one body cost digits: 1e-3
+      means that stiffnesses, and with them displacements under given forces, are right to 0.1
+      %. Infinite: nothing is known of some motion. A few solves with the kept factor.
+      Collective. */
+   double error_estimate();
+
    /// The rigid motions of the contact nodes in local frames: plane 2n × 3 (x, y, rotation
    /// about the origin), axisymmetric 2n × 1 (z), torsion n × 1 (rotation).
    Eigen::MatrixXd rigid_motions() const;

@@ -47,6 +47,14 @@ void DenseCholesky::solve_half(MatrixXd &x) const
    dtrsm_("L", "L", "N", "N", &n, &columns, &one, factor_.data(), &n, x.data(), &n);
 }
 
+void DenseCholesky::solve_other_half(MatrixXd &x) const
+{
+   const int n = static_cast<int>(factor_.rows()), columns = static_cast<int>(x.cols());
+   if (x.size() == 0) { return; }
+   const double one = 1;
+   dtrsm_("L", "L", "T", "N", &n, &columns, &one, factor_.data(), &n, x.data(), &n);
+}
+
 #else
 
 bool DenseCholesky::compute(MatrixXd matrix)
@@ -65,6 +73,11 @@ void DenseCholesky::solve(Eigen::VectorXd &x) const
 void DenseCholesky::solve_half(MatrixXd &x) const
 {
    factor_.triangularView<Eigen::Lower>().solveInPlace(x);
+}
+
+void DenseCholesky::solve_other_half(MatrixXd &x) const
+{
+   factor_.transpose().triangularView<Eigen::Upper>().solveInPlace(x);
 }
 
 #endif

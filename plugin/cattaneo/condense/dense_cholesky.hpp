@@ -17,6 +17,8 @@ public:
    void solve(Eigen::VectorXd &x) const;
    /// x <- L⁻¹ x, one right-hand side a column.
    void solve_half(Eigen::MatrixXd &x) const;
+   /// x <- L⁻ᵀ x
+   void solve_other_half(Eigen::MatrixXd &x) const;
 
 private:
    Eigen::MatrixXd factor_;

@@ -1,0 +1,121 @@
+#include <algorithm>
+#include <cattaneo/condense/stiffness_error.hpp>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <random>
+
+namespace cattaneo
+{
+
+namespace
+{
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Extended = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+
+constexpr Index probes = 3;
+
+/// Standard normal numbers, the same with every library (Box and Muller).
+MatrixXd normal(Index rows, Index columns)
+{
+   std::mt19937 random(1);
+   const auto uniform = [&] { return (random() + 0.5) / 4294967296.0; };
+   const double turn = 2 * std::acos(-1.0);
+   MatrixXd x(rows, columns);
+   for (Index k = 0; k < x.size(); ++k)
+   {
+      const double radius = std::sqrt(-2 * std::log(uniform()));
+      x(k) = radius * std::cos(turn * uniform());
+   }
+   return x;
+}
+
+/// A number in [-1, 1] for an entry of a symmetric matrix.
+double noise(int i, int j)
+{
+   std::uint64_t z = (static_cast<std::uint64_t>(std::min(i, j)) << 32) +
+                     static_cast<std::uint64_t>(std::max(i, j)) + 0x9e3779b97f4a7c15ULL;
+   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+   z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+   return static_cast<double>((z ^ (z >> 31)) >> 11) / 4503599627370496.0 - 1;
+}
+
+} // namespace
+
+StiffnessProbes::StiffnessProbes(const MatrixXd &S, const MatrixXd &motions) : Q_(motions)
+{
+   // What is not resisted is held, so that all the rest is positive definite.
+   MatrixXd held = S;
+   if (Q_.cols() > 0)
+   {
+      held += (S.trace() / static_cast<double>(S.rows())) * Q_ * Q_.transpose();
+   }
+   if (!factor_.compute(std::move(held))) { return; }
+   u_ = normal(S.rows(), probes);
+   factor_.solve_other_half(u_);
+   u_ -= Q_ * (Q_.transpose() * u_);
+}
+
+double StiffnessProbes::bound(MatrixXd differences) const
+{
+   if (u_.size() == 0 || !differences.allFinite())
+   {
+      return std::numeric_limits<double>::infinity();
+   }
+   differences -= Q_ * (Q_.transpose() * differences);
+   factor_.solve_half(differences);
+   return 10 * std::sqrt(2 / std::acos(-1.0)) * differences.colwise().norm().maxCoeff();
+}
+
+double stiffness_error(const mfem::SparseMatrix &K, const std::vector<int> &keep, int contact,
+                       double shift, const SparseFactor &factor, const MatrixXd &factored,
+                       const MatrixXd &S, const MatrixXd &motions)
+{
+   const StiffnessProbes probe(S, motions);
+   const MatrixXd &u = probe.motions();
+   if (u.size() == 0) { return std::numeric_limits<double>::infinity(); }
+   const auto size = static_cast<Index>(keep.size()), interior = size - contact;
+   const auto pushed = [&](const MatrixXd &x) -> MatrixXd { return factored * x + shift * x; };
+   MatrixXd rhs = MatrixXd::Zero(size, probes);
+   rhs.bottomRows(contact) = pushed(u);
+   const MatrixXd W = factor.solve(rhs); // its contact part is what is probed, u but for errors
+
+   // K W in extended precision, and (δK) W.
+   std::vector<Index> position(K.Height(), -1);
+   for (Index a = 0; a < size; ++a) { position[keep[a]] = a; }
+   Eigen::VectorXd scale = Eigen::VectorXd::Zero(K.Height());
+   for (int i : keep) { scale[i] = std::sqrt(std::abs(K(i, i))); }
+   Extended force = Extended::Zero(size, probes);
+   MatrixXd change = MatrixXd::Zero(size, probes);
+   const double unit = 2 * std::numeric_limits<double>::epsilon();
+   for (Index a = 0; a < size; ++a)
+   {
+      const int i = keep[a];
+      for (int k = K.GetI()[i]; k < K.GetI()[i + 1]; ++k)
+      {
+         const int j = K.GetJ()[k];
+         const Index b = position[j];
+         if (b < 0) { continue; }
+         const double by = unit * noise(i, j) * scale[i] * scale[j];
+         for (Index c = 0; c < probes; ++c)
+         {
+            force(a, c) += static_cast<long double>(K.GetData()[k]) * W(b, c);
+            change(a, c) += by * W(b, c);
+         }
+      }
+   }
+   // -K_CI K_II⁻¹ r = (S + shift) U_C, with U the answer of the factor to {r; 0}.
+   MatrixXd both = MatrixXd::Zero(size, 2 * probes);
+   both.topLeftCorner(interior, probes) = force.topRows(interior).cast<double>();
+   both.topRightCorner(interior, probes) = change.topRows(interior);
+   const MatrixXd through = pushed(factor.solve(both).bottomRows(contact));
+   const Extended moved = W.bottomRows(contact).cast<long double>();
+   const Extended difference = S.cast<long double>() * moved - force.bottomRows(contact) -
+                               through.leftCols(probes).cast<long double>();
+   return probe.bound(difference.cast<double>()) +
+          probe.bound(change.bottomRows(contact) + through.rightCols(probes));
+}
+
+} // namespace cattaneo

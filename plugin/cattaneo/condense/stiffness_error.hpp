@@ -1,0 +1,56 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <cattaneo/condense/dense_cholesky.hpp>
+#include <cattaneo/condense/sparse_factor.hpp>
+
+namespace cattaneo
+{
+
+/** How wrong a condensed stiffness is, measured by energies: an estimate from above of the
+    largest |uᵀ (S - S*) u| / uᵀ S u over all motions u of the contact nodes that meet
+   resistance, S* the stiffness in exact arithmetic. Forces of given compliances are wrong by
+   about as much. It is infinite where S does not resist a motion that it should.
+
+    One motion says S u; a random one, of the same energy in every direction, has its share of
+    whichever is worst. Of a matrix E = L⁻¹ (S - S*) L⁻ᵀ, S = L Lᵀ, and r standard normal
+   vectors ω
+
+       ‖E‖ <= 10 √(2/π) max ‖E ω‖  but for a probability of 10⁻ʳ
+
+    (Halko, Martinsson, Tropp, SIAM Review 53, 2011, lemma 4.1); r = 3. The vectors are the same
+    each time. */
+class StiffnessProbes
+{
+public:
+   /// @a S: the stiffness in global components, as it is used. @a motions: orthonormal columns
+   /// that it does not resist.
+   StiffnessProbes(const Eigen::MatrixXd &S, const Eigen::MatrixXd &motions);
+   /// Motions of the contact, one a column; none if S has lost its definiteness.
+   const Eigen::MatrixXd &motions() const { return u_; }
+   /// Of differences of forces at these motions, one a column: 10 √(2/π) max ‖L⁻¹ d‖; infinite
+   /// without motions.
+   double bound(Eigen::MatrixXd differences) const;
+
+private:
+   Eigen::MatrixXd Q_, u_;
+   DenseCholesky factor_; ///< L, of S with the motions held
+};
+
+/** The estimate for a stiffness read off a factor, in two parts that add up:
+
+    - elimination: S u against the action of K as it was given, W = {-K_II⁻¹ K_IC u; u} by the
+      factor, its residual in extended precision, and the residual's own forces by the factor
+      again;
+    - what K owes to its assembly in floating point: random changes of up to 2 ε √(K_ii K_jj) of
+   every entry, seen at the contact.
+
+    @a keep, @a contact, @a shift: as SparseFactor has them; @a factored: its schur(). Three
+    right-hand sides and then six are solved, and a dense matrix of the size of S is factored.
+ */
+double stiffness_error(const mfem::SparseMatrix &K, const std::vector<int> &keep, int contact,
+                       double shift, const SparseFactor &factor,
+                       const Eigen::MatrixXd &factored, const Eigen::MatrixXd &S,
+                       const Eigen::MatrixXd &motions);
+
+} // namespace cattaneo
