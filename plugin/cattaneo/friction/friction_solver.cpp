@@ -3,6 +3,7 @@
 #include <cattaneo/input_error.hpp>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace cattaneo
 {
@@ -283,7 +284,8 @@ bool FrictionSolver::Implementation::drifts(const ContactState &state,
    if (motions->cols() == 0) { return false; }
    const MatrixXd &Z = *motions;
    VectorXd borne;
-   for (double weakness : {1e-5, 1e-7})
+   ContactState next = state; // goes on moving from spring to spring
+   for (double weakness : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7})
    {
       ReducedProblem held = problem;
       const double spring = weakness * K.diagonal().mean();
@@ -296,26 +298,25 @@ bool FrictionSolver::Implementation::drifts(const ContactState &state,
       held.held.clear();
       FrictionSolver solver(held, settings);
       solver.impl_->brief = true;
-      ContactState next = state;
       const IncrementReport report = solver.solve(next, multipliers);
       counters += solver.counters();
+      mechanism = {};
       if (report.status != FrictionStatus::converged &&
           report.status != FrictionStatus::not_unique)
       {
-         return false;
+         borne.resize(0);
+         continue;
       }
       VectorXd u_next(K.rows());
       u_next << next.v, next.w;
       const VectorXd bears = spring * Z * (Z.transpose() * u_next);
       const double size = bears.cwiseAbs().maxCoeff();
       if (size <= 1e-9 * reference) { return false; }
-      if (borne.size() == 0)
+      const VectorXd before = std::exchange(borne, bears);
+      if (before.size() == 0 || (bears - before).cwiseAbs().maxCoeff() > 0.01 * size)
       {
-         borne = bears;
          continue;
       }
-      if ((bears - borne).cwiseAbs().maxCoeff() > 0.01 * size) { return false; }
-      mechanism = {};
       mechanism.exists = true;
       mechanism.motion = bears / size;
       for (Index i = 0; i < n; ++i)
