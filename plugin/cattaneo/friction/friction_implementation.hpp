@@ -53,7 +53,8 @@ struct FrictionSolver::Implementation
    EliminatedNodes eliminated;
    std::unique_ptr<MatrixXd> motions; // rigid motions, found when first needed
    Mechanism mechanism;
-   bool brief = false;           // give up where sweeps, active set and path fail
+   std::unique_ptr<FrictionSolver> smooth; // disc: the contact without friction, when asked
+   bool brief = false;                     // give up where sweeps, active set and path fail
    double lost_in_round_off = 0; // round-off of a solution that moves too far; 0: none
 
    // One increment's working set.
@@ -110,6 +111,7 @@ struct FrictionSolver::Implementation
                   const VectorXd &multipliers);
    bool finds_mechanism(const VectorXd &multipliers);
    void find_motions();
+   bool spins(const VectorXd &multipliers);
    bool drifts(const ContactState &state, const VectorXd &multipliers);
    Index above_critical() const;
    void explain_failure(IncrementReport &report) const;

@@ -247,7 +247,7 @@ bool FrictionSolver::Implementation::run_automatic(IncrementReport &report,
    if (!disc() && finds([&] { return run_path(report, state); })) { return true; }
    if (brief) { return false; }
    // A body that drifts away hardly has an equilibrium elsewhere: it is not looked for as long.
-   const bool away = drifts(state, multipliers);
+   const bool away = drifts(state, multipliers) || spins(multipliers);
    const double operations = away ? 2e8 : 3e9;
    if (!frictionless && finds([&] { return run_damped_newton(report, state, operations); }))
    {
@@ -336,6 +336,29 @@ bool FrictionSolver::Implementation::drifts(const ContactState &state,
    return mechanism.exists;
 }
 
+/// True if the loads drive a steady rotation, which friction in the disc can hide from the
+/// springs above.
+bool FrictionSolver::Implementation::spins(const VectorXd &multipliers)
+{
+   if (!disc()) { return false; }
+   if (!smooth)
+   {
+      ReducedProblem without = problem;
+      set_friction(without, 0);
+      // It could not bear the torque.
+      const MatrixXd Z = SemidefiniteSolver(problem.A).null_space();
+      for (LoadPattern &pattern : without.patterns)
+      {
+         pattern.q -= Z * (Z.transpose() * pattern.q);
+      }
+      smooth = std::make_unique<FrictionSolver>(without);
+   }
+   ContactState state = ContactState::virgin(problem);
+   if (smooth->solve(state, multipliers).status != FrictionStatus::converged) { return false; }
+   mechanism = find_spinning(problem, state.p, problem.clamped_forces(multipliers));
+   return mechanism.exists;
+}
+
 /// The first node with friction above its critical value, -1 if there is none.
 Index FrictionSolver::Implementation::above_critical() const
 {
@@ -419,7 +442,10 @@ IncrementReport FrictionSolver::Implementation::solve(ContactState &state,
    }
    if (!solved)
    {
-      if (!mechanism.exists && !finds_mechanism(multipliers)) { drifts(state, multipliers); }
+      if (!mechanism.exists && !finds_mechanism(multipliers))
+      {
+         if (!drifts(state, multipliers)) { spins(multipliers); }
+      }
       explain_failure(report);
       return report;
    }

@@ -92,11 +92,11 @@ struct MarchReport
    /// (of nodes that begin to slip within one, for instance) and goes to zero with them; on the
    /// exact path it is round-off.
    double energy_imbalance = 0;
-   /// Friction forces of a contact that advances depend on how it was cut into layers: four times
-   /// the largest difference |q - q'| to a second solution with increments twice as long, over
-   /// the largest force. It bounds the error where this falls at least as the cube root of the
-   /// increments; infinite if there was no second solution. Zero where no contact advanced with
-   /// friction, or Stepping::exact found its path.
+   /// Friction forces of a contact that advances depend on how it was cut into layers: four
+   /// times the largest difference |q - q'| to a second solution with increments twice as long,
+   /// over the largest force. It bounds the error where this falls at least as the cube root of
+   /// the increments; infinite if there was no second solution. Zero where no contact advanced
+   /// with friction, or Stepping::exact found its path.
    double advance_error = 0;
    /// Ends of lines at which contact was cut off, each with the first accepted state in which
    /// it was so: the results are those of a line that was named too short.

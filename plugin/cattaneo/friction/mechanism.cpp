@@ -107,4 +107,26 @@ Mechanism find_mechanism(const ReducedProblem &problem, const MatrixXd &Z,
    return mechanism;
 }
 
+Mechanism find_spinning(const ReducedProblem &problem, const VectorXd &frictionless_pressure,
+                        const VectorXd &clamped_forces)
+{
+   Mechanism mechanism;
+   const Index n = problem.nodes();
+   if (problem.components() != 2) { return mechanism; }
+   const MatrixXd Z = SemidefiniteSolver(problem.A).null_space();
+   if (Z.cols() != 1) { return mechanism; }
+   double resistance = 0;
+   for (Index i = 0; i < n; ++i)
+   {
+      resistance +=
+         problem.friction[i] * frictionless_pressure[i] * std::hypot(Z(i, 0), Z(n + i, 0));
+   }
+   const double drive = Z.col(0).dot(clamped_forces.head(2 * n));
+   if (std::abs(drive) < (1 - 1e-9) * resistance) { return mechanism; }
+   mechanism.exists = mechanism.slides = mechanism.spins = true;
+   mechanism.motion = VectorXd::Zero(3 * n);
+   mechanism.motion.head(2 * n) = (drive > 0 ? 1 : -1) / Z.cwiseAbs().maxCoeff() * Z.col(0);
+   return mechanism;
+}
+
 } // namespace cattaneo

@@ -31,4 +31,14 @@ Eigen::MatrixXd rigid_motions(const ReducedProblem &problem);
 Mechanism find_mechanism(const ReducedProblem &problem, const Eigen::MatrixXd &rigid_motions,
                          const Eigen::VectorXd &clamped_forces, double negligible = 0);
 
+/** Do the clamped forces drive a steady rotation about the axis? It meets f p at every node,
+    with the pressure of a contact without friction: all of friction is circumferential then,
+    and moves no node in its plane. Torques between this and the greatest that a contact can
+    carry at rest have both a steady rotation and an equilibrium, so that this is the cause
+    only where no equilibrium was found. False if not just one rigid motion is tangential, with
+    two components. */
+Mechanism find_spinning(const ReducedProblem &problem,
+                        const Eigen::VectorXd &frictionless_pressure,
+                        const Eigen::VectorXd &clamped_forces);
+
 } // namespace cattaneo
