@@ -295,21 +295,24 @@ LimitReport load_limit(const ReducedProblem &reduced, const ResidualForces &resi
 
    // A slip in proportion to the load factor that holds the varying loads by itself holds them
    // however large they are.
-   const auto unlimited = [&](const Eigen::VectorXd &ray, const std::string &message)
+   const auto unlimited =
+      [&](const Eigen::VectorXd &ray, double proven, const std::string &message)
    {
-      report.lower = infinity;
       report.ray = ray;
       report.mechanism = {};
-      return finish(LimitStatus::unlimited, message);
+      report.lower = infinity;
+      finish(LimitStatus::unlimited, message);
+      report.lower = proven;
+      return report;
    };
    ConeProgramme alone = programme; // the varying loads
    alone.loads = {loads.q1, 0 * loads.q1, loads.p1, 0 * loads.p1};
    alone.force_scale = varying_scale;
    if (held && (nothing_varies || worst_violation(alone, reduced, 0, no_slip) <= 0))
    {
-      return unlimited(no_slip, nothing_varies
-                                   ? "no load varies: there is nothing to limit"
-                                   : "every varying load presses more than it shears");
+      return unlimited(no_slip, infinity,
+                       nothing_varies ? "no load varies: there is nothing to limit"
+                                      : "every varying load presses more than it shears");
    }
 
    if (settings.start && settings.start->slip.size() == m &&
@@ -323,6 +326,7 @@ LimitReport load_limit(const ReducedProblem &reduced, const ResidualForces &resi
       }
    }
    const Eigen::VectorXd first_slip = report.slip;
+   const double sliding = programme.theta_scale;
    const auto lower_the_upper = [&](CollapseMechanism mechanism)
    {
       const double bound =
@@ -334,7 +338,7 @@ LimitReport load_limit(const ReducedProblem &reduced, const ResidualForces &resi
    const auto closed = [&]
    {
       // Relative to a limit, or to a ten-thousandth of gross sliding if that is more.
-      const double gap = settings.tolerance * (report.upper + 1e-4 * programme.theta_scale);
+      const double gap = settings.tolerance * (report.upper + 1e-4 * sliding);
       return std::isfinite(report.upper) && report.upper - report.lower <= gap;
    };
    report.lower = held ? 0 : -infinity;
@@ -368,28 +372,31 @@ LimitReport load_limit(const ReducedProblem &reduced, const ResidualForces &resi
          if (held && ray.reached >= round_off)
          {
             report.slip = first_slip;
-            return unlimited(ray.slip,
+            return unlimited(ray.slip, infinity,
                              "a slip in proportion to the load holds any load (proven)");
          }
          lower_the_upper(std::move(ray.solution.mechanism));
          if (closed()) { return finish(LimitStatus::certified, ""); }
          if (held && !std::isfinite(report.upper) && ray.reached > -1e-9)
          {
-            // It does so to round-off.
-            double factor = programme.theta_scale * 1e12;
-            while (factor > programme.theta_scale &&
-                   worst_violation(programme, reduced, factor, first_slip + factor * ray.slip) >
-                      -round_off)
+            // It does so to round-off: up to which load factor?
+            const auto holds = [&](double factor)
             {
-               factor /= 10;
+               return worst_violation(programme, reduced, factor,
+                                      first_slip + factor * ray.slip) <= -round_off;
+            };
+            double factor = 1e12 * sliding;
+            while (factor > 1e3 * sliding && !holds(factor)) { factor /= 10; }
+            if (holds(factor))
+            {
+               report.slip = first_slip;
+               char text[150];
+               std::snprintf(text, sizeof text,
+                             "a slip in proportion to the load holds any load to round-off; "
+                             "proven up to %.0e",
+                             factor);
+               return unlimited(ray.slip, factor, text);
             }
-            report.slip = first_slip;
-            char text[150];
-            std::snprintf(text, sizeof text,
-                          "a slip in proportion to the load holds any load to round-off; "
-                          "proven up to %.0e",
-                          factor);
-            return unlimited(ray.slip, text);
          }
       }
       if (solution.outcome != ConeOutcome::ceiling) { break; }

@@ -61,8 +61,9 @@ struct LimitReport
 {
    LimitStatus status = LimitStatus::failed;
    std::string message;
-   double limit =
-      0; ///< the safe side: `lower` of a load factor, `upper` of a friction coefficient
+   /// The safe side: `lower` of a load factor, infinite if it is unlimited, `upper` of a
+   /// friction coefficient.
+   double limit = 0;
    double lower = 0; ///< proven: plain arithmetic shows the slip below to be admissible, …
    double upper = 0; ///< … and weak duality no other to be (friction: the other way round)
    /// Largest (|q| - f p) / nodal force over nodes and vertices at the limit, from slip, A and
