@@ -421,6 +421,7 @@ private:
       results["first_opening"] = miniapp::json_number(opening.load_factor);
       // Beyond this load a node has opened: nothing adheres there, whatever the friction.
       double opens = incipient_separation(problem, cycle, 0).load_factor;
+      bool by_fit = false;
       if (standard)
       {
          const double corner_opens = corner_opening(problem, problem.patterns[0].p,
@@ -431,6 +432,7 @@ private:
                         corner_opens);
             table.add("corner opens at λ", 0.865, 0.002 + mesh_error, none, corner_opens);
             opens = std::min(opening.load_factor, corner_opens);
+            by_fit = true;
          }
          results["corner_opening"] = miniapp::json_number(corner_opens);
          const double expected[] = {0.7256, 1.1045, 1.5752};
@@ -467,8 +469,8 @@ private:
       results["adhesion_map"] = list;
       results["adhesion_opens"] = miniapp::json_number(opens);
       std::printf("open: beyond λ = %.4f an end of the contact has opened, and no friction "
-                  "adheres there\n",
-                  opens);
+                  "adheres there (by %s)\n",
+                  opens, by_fit ? "the fit" : "the nodal forces of this mesh");
       if (!standard) { return; }
       const Eigen::VectorXd ratios = traction_ratio(problem, cycle.constant);
       const double at_node =
