@@ -9,11 +9,13 @@
 #include <cattaneo/friction/march.hpp>
 #include <cattaneo/reduced/reduced_file.hpp>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <iostream>
 #include <sstream>
+#include <unistd.h>
 
 using namespace campaign;
 using namespace cattaneo;
@@ -41,6 +43,14 @@ template <class Answer>
 double stated(const Answer &answer)
 {
    return std::max({answer.residual_normal, answer.residual_tangential, round_off(answer, 0)});
+}
+
+/// The march that is being run, for the case that it does not end.
+char running[200];
+void hangs(int)
+{
+   (void)!write(2, running, std::strlen(running));
+   _exit(3);
 }
 
 enum Class
@@ -89,6 +99,7 @@ class Campaign
 {
 public:
    bool verbose = false;
+   unsigned limit = 300; ///< seconds that one march may take
    std::map<std::string, std::map<std::string, Row>> table;
    std::vector<Find> finds;
    std::string family, label, stepping;
@@ -96,6 +107,9 @@ public:
    void run(const Case &made)
    {
       made_ = &made;
+      std::snprintf(running, sizeof running, "does not end: %s %s\n", label.c_str(),
+                    stepping.c_str());
+      alarm(limit);
       row_ = &table[family][stepping];
       const auto start = Clock::now();
       try
@@ -301,7 +315,7 @@ private:
    }
 };
 
-void write(const Find &find, const std::string &file)
+void keep(const Find &find, const std::string &file)
 {
    save(find.made.problem, file + ".json");
    std::ofstream out(file + ".txt");
@@ -367,7 +381,7 @@ int main(int argc, char **argv)
 {
    std::string family, stepping, folder;
    std::uint64_t seed = 1;
-   long increments = 4000, only = -1;
+   long increments = 4000, only = -1, limit = 300;
    bool verbose = false;
    for (int k = 1; k < argc; ++k)
    {
@@ -378,18 +392,22 @@ int main(int argc, char **argv)
       else if (option == "-seed") seed = std::atoll(value);
       else if (option == "-increments") increments = std::atol(value);
       else if (option == "-case") only = std::atol(value), verbose = true;
+      else if (option == "-limit") limit = std::atol(value);
       else if (option == "-save") folder = value;
       else if (option == "-replay") return replay(value);
       else
       {
          std::cerr << "campaign: unknown option '" << option
                    << "'; there are -family NAME -stepping increment|fixed|advancing|exact "
-                      "-seed S -increments N -save FOLDER -case K -replay FILE\n";
+                      "-seed S -increments N "
+                      "-limit SECONDS -save FOLDER -case K -replay FILE\n";
          return 1;
       }
    }
    Campaign campaign;
    campaign.verbose = verbose;
+   campaign.limit = limit;
+   std::signal(SIGALRM, hangs);
    const char *const steppings[] = {"increment", "fixed", "advancing", "exact"};
    std::vector<std::pair<const FamilyEntry *, int>> all;
    double weight = 0;
@@ -437,7 +455,7 @@ int main(int argc, char **argv)
       const std::string name =
          std::string(class_names[find.kind]) + "-" + find.name + "-" + find.stepping;
       std::printf("%-60s %9.2e  %s\n", name.c_str(), find.size, find.what.c_str());
-      if (!folder.empty()) write(find, folder + "/" + name);
+      if (!folder.empty()) keep(find, folder + "/" + name);
    }
    return total.count[violated] + total.count[negative] + total.count[false_statement] +
                 total.count[unjustified] + total.count[thrown]
