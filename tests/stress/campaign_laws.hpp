@@ -218,7 +218,7 @@ public:
       const Vector loads = laws_.loads(multipliers);
       const Vector work = R_.cwiseAbs().transpose() * loads.cwiseAbs();
       if (R_.cols()) margin = unbalanced(loads) / std::max(work.maxCoeff(), Real(1e-4000L));
-      if (!unclear_ && margin > (laws_.c == 2 ? 5e-3 : 1e-9)) return Verdict::right;
+      if (!unclear_ && margin > 1e-13) return Verdict::right;
       const Real left = held_by_springs(u, multipliers);
       if (left < 1e-8) return Verdict::wrong;
       return left < 1e-6 || std::isinf(left) || unclear_ ? Verdict::open : Verdict::right;
@@ -226,7 +226,7 @@ public:
 
 private:
    /// What of the loads' work along R no forces within the cones can balance (Lawson and
-   /// Hanson).
+   /// Hanson). The disc is taken as a polygon about it: what that cannot hold, nothing can.
    Real unbalanced(const Vector &loads) const
    {
       const Index n = laws_.n, c = laws_.c;
@@ -238,10 +238,10 @@ private:
             Vector ray = R_.row(c * n + i);
             if (laws_.f[i] > 0)
                for (Index a = 0; a < c; ++a)
-                  ray += laws_.f[i] * R_.row(a * n + i).transpose() *
-                         (c == 1 ? Real(d ? -1 : 1)
-                          : a    ? std::sin(2 * M_PI * d / 64)
-                                 : std::cos(2 * M_PI * d / 64));
+                  ray +=
+                     laws_.f[i] * R_.row(a * n + i).transpose() *
+                     (c == 1 ? Real(d ? -1 : 1)
+                             : std::cos(M_PI * (d - 16 * Real(a)) / 32) / std::cos(M_PI / 64));
             if (ray.norm() > 0) rays.push_back(ray.normalized());
          }
       const Vector b = R_.transpose() * loads;
