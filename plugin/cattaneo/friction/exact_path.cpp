@@ -208,7 +208,10 @@ bool ExactPath::advance(ContactState &state, double time, const VectorXd &multip
    reached_ = state.multipliers;
    target_ = multipliers;
    state.time = arrived ? time : state.time + way * (time - state.time);
-   state.peak_force = std::max(peak, state.peak_force);
+   // The loads of the rest of the piece are still to come.
+   state.peak_force =
+      std::max({state.peak_force, f.cwiseAbs().maxCoeff(),
+                problem_.clamped_forces(state.multipliers).cwiseAbs().maxCoeff()});
    state.status = states;
    state.v = u_.head(n);
    state.w = u_.tail(n);

@@ -279,21 +279,24 @@ bool FrictionSolver::Implementation::finds_mechanism(const VectorXd &multipliers
 bool FrictionSolver::Implementation::drifts(const ContactState &state,
                                             const VectorXd &multipliers)
 {
-   if (brief || frictionless) { return false; }
+   if (brief) { return false; }
    find_motions();
    if (motions->cols() == 0) { return false; }
    const MatrixXd &Z = *motions;
+   const Index along = problem.A.rows(), components = problem.components();
+   const double stiffness =
+      (problem.A.trace() + problem.C.trace()) / static_cast<double>(along + n);
    VectorXd borne;
    ContactState next = state; // goes on moving from spring to spring
    for (double weakness : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7})
    {
       ReducedProblem held = problem;
-      const double spring = weakness * K.diagonal().mean();
-      const auto Zt = Z.topRows(c * n), Zn = Z.bottomRows(n);
+      const double spring = weakness * stiffness;
+      const auto Zt = Z.topRows(along), Zn = Z.bottomRows(n);
       held.A += spring * Zt * Zt.transpose();
       held.B += spring * Zn * Zt.transpose();
       held.C += spring * Zn * Zn.transpose();
-      held.rigid_motions = MatrixXd(K.rows(), 0);
+      held.rigid_motions = MatrixXd(along + n, 0);
       held.chains.clear();
       held.held.clear();
       FrictionSolver solver(held, settings);
@@ -307,7 +310,7 @@ bool FrictionSolver::Implementation::drifts(const ContactState &state,
          borne.resize(0);
          continue;
       }
-      VectorXd u_next(K.rows());
+      VectorXd u_next(along + n);
       u_next << next.v, next.w;
       const VectorXd bears = spring * Z * (Z.transpose() * u_next);
       const double size = bears.cwiseAbs().maxCoeff();
@@ -322,11 +325,11 @@ bool FrictionSolver::Implementation::drifts(const ContactState &state,
       for (Index i = 0; i < n; ++i)
       {
          if (!closed(next.status[i])) { continue; }
-         for (Index k = 0; k < c; ++k)
+         for (Index k = 0; k < components; ++k)
          {
-            const double along = std::abs(mechanism.motion[t(i, k)]);
-            mechanism.slides = mechanism.slides || along > 1e-6;
-            mechanism.spins = mechanism.spins || (k == 1 && along > 1e-6);
+            const bool slips = std::abs(mechanism.motion[k * n + i]) > 1e-6;
+            mechanism.slides = mechanism.slides || slips;
+            mechanism.spins = mechanism.spins || (k == 1 && slips);
          }
       }
    }
