@@ -15,6 +15,12 @@ namespace
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
+/// Of one or two entries, without overflow.
+double size(const VectorXd &x)
+{
+   return std::hypot(x[0], x.size() > 1 ? x[1] : 0.0);
+}
+
 } // namespace
 
 RoundOff::RoundOff(const MatrixXd &K) : K_(K)
@@ -43,9 +49,9 @@ VectorXd RoundOff::rows(const VectorXd &size, const VectorXd &f) const
 double slip_violation(const VectorXd &q, const VectorXd &x, double k, double bound,
                       double uncertain)
 {
-   const double beyond = std::max(q.norm() - bound, 0.0), length = x.norm();
+   const double beyond = std::max(size(q) - bound, 0.0), length = size(x);
    if (length == 0) { return beyond; }
-   const double off = (q + bound / length * x).norm() - bound * uncertain / length;
+   const double off = size(q + bound / length * x) - bound * (uncertain / length);
    return std::max(beyond, std::min(off, k * length));
 }
 
