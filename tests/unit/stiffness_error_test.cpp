@@ -169,7 +169,7 @@ TEST(StiffnessError, BoundsTheErrorAgainstExtendedPrecision)
             const double estimate = condensed.error_estimate();
             EXPECT_LE(error, estimate);
             // 8 of the random vectors, and what of the assembly's worst case did not happen.
-            EXPECT_LE(estimate, 500 * error + 1e-12);
+            EXPECT_LE(estimate, 300 * error + 1e-12);
             if (contrast == 1) { EXPECT_LE(estimate, 1e-12); }
          }
       }

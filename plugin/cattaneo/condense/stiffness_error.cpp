@@ -106,16 +106,15 @@ double stiffness_error(const mfem::SparseMatrix &K, const std::vector<int> &keep
          }
       }
    }
-   // -K_CI K_II⁻¹ r = (S + shift) U_C, with U the answer of the factor to {r; 0}.
-   MatrixXd both = MatrixXd::Zero(size, 2 * probes);
-   both.topLeftCorner(interior, probes) = force.topRows(interior).cast<double>();
-   both.topRightCorner(interior, probes) = change.topRows(interior);
-   const MatrixXd through = pushed(factor.solve(both).bottomRows(contact));
+   // Both as forces at the contact: -K_CI K_II⁻¹ r = (S + shift) U_C, with U the answer of the
+   // factor to {r; 0}.
+   MatrixXd rest = MatrixXd::Zero(size, probes);
+   rest.topRows(interior) = force.topRows(interior).cast<double>() - change.topRows(interior);
+   const MatrixXd through = pushed(factor.solve(rest).bottomRows(contact));
    const Extended moved = W.bottomRows(contact).cast<long double>();
-   const Extended difference = S.cast<long double>() * moved - force.bottomRows(contact) -
-                               through.leftCols(probes).cast<long double>();
-   return probe.bound(difference.cast<double>()) +
-          probe.bound(change.bottomRows(contact) + through.rightCols(probes));
+   const Extended difference = S.cast<long double>() * moved - force.bottomRows(contact) +
+                               (change.bottomRows(contact) - through).cast<long double>();
+   return probe.bound(difference.cast<double>());
 }
 
 } // namespace cattaneo
