@@ -15,8 +15,9 @@ namespace
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-/// Of one or two entries, without overflow.
-double size(const VectorXd &x)
+/// Of one or two entries, without overflow. (Not `size`: of an expression that would be
+/// Eigen's, the number of its entries.)
+double magnitude(const VectorXd &x)
 {
    return std::hypot(x[0], x.size() > 1 ? x[1] : 0.0);
 }
@@ -49,9 +50,9 @@ VectorXd RoundOff::rows(const VectorXd &size, const VectorXd &f) const
 double slip_violation(const VectorXd &q, const VectorXd &x, double k, double bound,
                       double uncertain)
 {
-   const double beyond = std::max(size(q) - bound, 0.0), length = size(x);
+   const double beyond = std::max(magnitude(q) - bound, 0.0), length = magnitude(x);
    if (length == 0) { return beyond; }
-   const double off = size(q + bound / length * x) - bound * (uncertain / length);
+   const double off = magnitude(q + bound / length * x) - bound * (uncertain / length);
    return std::max(beyond, std::min(off, k * length));
 }
 
