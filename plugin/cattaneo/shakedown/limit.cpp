@@ -377,13 +377,20 @@ LimitReport load_limit(const ReducedProblem &reduced, const ResidualForces &resi
          }
          lower_the_upper(std::move(ray.solution.mechanism));
          if (closed()) { return finish(LimitStatus::certified, ""); }
+         const Eigen::VectorXd relief = -(residual.flexibility * loads.q1.rowwise().mean());
+         const double relieved = -worst_violation(alone, reduced, 0, relief);
+         if (!(ray.reached > relieved))
+         {
+            ray.slip = relief;
+            ray.reached = relieved;
+         }
          if (held && !std::isfinite(report.upper) && ray.reached > -1e-9)
          {
             // It does so to round-off: up to which load factor?
             const auto holds = [&](double factor)
             {
                return worst_violation(programme, reduced, factor,
-                                      first_slip + factor * ray.slip) <= -round_off;
+                                      first_slip + factor * ray.slip) <= round_off;
             };
             double factor = 1e12 * sliding;
             while (factor > 1e3 * sliding && !holds(factor)) { factor /= 10; }
@@ -481,7 +488,7 @@ LimitReport friction_limit(const LimitProblem &problem, double load_factor,
    constexpr int max_programmes = 40;
    constexpr double smallest_friction = 1e-7; // below it, counts as zero
    ConeSolution solution;
-   bool decided = true; // the last trial moved one of the bounds
+   int undecided = 0; // trials since one moved a bound
    double f =
       std::min(settings.largest_friction, report.upper * (1 - 0.5 * settings.tolerance));
    for (int k = 0; k < max_programmes && report.upper > smallest_friction; ++k)
@@ -525,21 +532,23 @@ LimitReport friction_limit(const LimitProblem &problem, double load_factor,
       const double highest = std::min(settings.largest_friction, report.upper);
       if (highest - report.lower <= settings.tolerance * highest) { break; }
       const bool better = report.upper < before;
-      if (clearance < 0 || solution.outcome == ConeOutcome::ceiling || (!better && decided))
+      if (better || clearance < 0) { undecided = 0; }
+      else if (++undecided == 5) { break; }
+      if (clearance < 0 || solution.outcome == ConeOutcome::ceiling || undecided > 0)
       {
          // Where so much friction wedges the contact, any residual state is held and there is
-         // no best one. Halve the interval until there is one.
-         f = 0.5 * (report.lower + highest);
+         // no best one. Halve the interval until there is one; where the solver does not say,
+         // ask elsewhere in it.
+         constexpr double share[] = {0.5, 0.5, 0.25, 0.75, 0.1};
+         f = report.lower + share[undecided] * (highest - report.lower);
          start = {0, Eigen::VectorXd::Zero(m), {}};
          weight = force_scale.replicate(1, loads.vertices());
       }
-      else if (better)
+      else
       {
          f = report.upper * (1 - 0.5 * settings.tolerance);
          start = {0, solution.r, solution.mechanism};
       }
-      else { break; }
-      decided = better || clearance < 0;
    }
    if (report.upper <= smallest_friction)
    {
