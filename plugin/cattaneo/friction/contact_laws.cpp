@@ -17,7 +17,7 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 
 /// Of one or two entries, without overflow. (Not `size`: of an expression that would be
 /// Eigen's, the number of its entries.)
-double magnitude(const VectorXd &x)
+double magnitude(const NodeVector &x)
 {
    return std::hypot(x[0], x.size() > 1 ? x[1] : 0.0);
 }
@@ -47,7 +47,7 @@ VectorXd RoundOff::rows(const VectorXd &size, const VectorXd &f) const
    return 4 * eps * sum;
 }
 
-double slip_violation(const VectorXd &q, const VectorXd &x, double k, double bound,
+double slip_violation(const NodeVector &q, const NodeVector &x, double k, double bound,
                       double uncertain)
 {
    const double beyond = std::max(magnitude(q) - bound, 0.0), length = magnitude(x);
@@ -82,7 +82,7 @@ LawCheck check_laws(const ReducedProblem &problem, const VectorXd &v_old,
       largest = std::max(largest, violation);
       judge(violation, limit);
    };
-   VectorXd q_i(c), x_i(c);
+   NodeVector q_i(c), x_i(c);
    for (Index i = 0; i < n; ++i)
    {
       const double gap = problem.C(i, i) * (state.w[i] + problem.gap[i]);
@@ -103,8 +103,9 @@ LawCheck check_laws(const ReducedProblem &problem, const VectorXd &v_old,
       }
       if (!closed(state.status[i])) { x_i.setZero(); } // no law but that it bears nothing
       const double k = problem.A(i, i), uncertain = c == 2 ? slip_round_off(size) : 0.0;
-      check.tangential = std::max(check.tangential, slip_violation(q_i, x_i, k, bound));
-      judge(slip_violation(q_i, x_i, k, bound, uncertain), most);
+      const double violation = slip_violation(q_i, x_i, k, bound);
+      check.tangential = std::max(check.tangential, violation);
+      judge(c == 2 ? slip_violation(q_i, x_i, k, bound, uncertain) : violation, most);
    }
    return check;
 }

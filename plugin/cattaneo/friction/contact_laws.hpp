@@ -22,6 +22,9 @@ private:
    bool graded_ = false;
 };
 
+/// Tangential entries of one node, one or two.
+using NodeVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2, 1>;
+
 /// How far a state is from an answer of an increment, in forces.
 struct LawCheck
 {
@@ -47,8 +50,8 @@ LawCheck check_laws(const ReducedProblem &problem, const Eigen::VectorXd &v_old,
 /// The tangential part for one node with tangential forces q, slip x, own stiffness k and
 /// friction bound f p, one or two entries each. `uncertain`: what round-off leaves of x, which
 /// excuses that much of an angle.
-double slip_violation(const Eigen::VectorXd &q, const Eigen::VectorXd &x, double k,
-                      double bound, double uncertain = 0);
+double slip_violation(const NodeVector &q, const NodeVector &x, double k, double bound,
+                      double uncertain = 0);
 /// That of displacements of such size.
 double slip_round_off(double size);
 
