@@ -110,10 +110,42 @@ Side make_side(const BodyOptions &options, const std::string &k, int order, bool
 
 /// The rigid obstacle is the straight line that touches the contact nodes, across their mean
 /// normal.
+Eigen::Vector2d mean_normal(const ContactLine &line)
+{
+   return (line.normal.transpose() * line.weights).normalized();
+}
+
+/// Displacements are small: a node presses along its own normal. One that bears although this
+/// is far from the rigid line's, on a side beyond a corner for instance, holds the body as no
+/// line could.
+void warn_of_sides(const ContactLine &line, const ContactState &state)
+{
+   const Eigen::Vector2d normal = mean_normal(line);
+   const double degree = std::acos(-1.0) / 180;
+   double most = 15 * degree;
+   Eigen::Index worst = -1;
+   for (Eigen::Index i = 0; i < line.size(); ++i)
+   {
+      if (!closed(state.status[i]) || !(state.p[i] > 1e-9 * state.p.maxCoeff())) { continue; }
+      const double angle = std::acos(std::clamp(normal.dot(line.normal.row(i)), -1.0, 1.0));
+      if (angle <= most) { continue; }
+      most = angle;
+      worst = i;
+   }
+   if (worst < 0) { return; }
+   std::ostringstream text;
+   text << "node " << worst << " at (" << line.position(worst, 0) << ", "
+        << line.position(worst, 1) << ") bears although its normal is "
+        << std::lround(most / degree)
+        << " degrees off that of the rigid line: forces and zones are wrong there, name no "
+           "boundary around a corner as contact";
+   miniapp::warn(text.str());
+}
+
 Reduction on_rigid_line(const CondensedBody &body)
 {
    const ContactLine &line = body.line;
-   const Eigen::Vector2d normal = (line.normal.transpose() * line.weights).normalized();
+   const Eigen::Vector2d normal = mean_normal(line);
    const double level = (line.position * normal).minCoeff();
    return reduce(body,
                  [=](double x, double y) { return normal.dot(Eigen::Vector2d(x, y)) - level; });
@@ -411,6 +443,7 @@ int main(int argc, char *argv[])
             "the energies of the march overflow: the loads or the moduli need other units");
          if (reduced_file[0] && miniapp::writes()) { save(problem, reduced_file); }
          const int code = miniapp::exit_code(report);
+         if (sides.size() == 1) { warn_of_sides(contact, state); }
          if (recording && (recorded.empty() || recorded.back().time != state.time))
          {
             recorded.push_back(state);

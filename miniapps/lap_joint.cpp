@@ -321,9 +321,11 @@ void Study::draw(const Outcome &o, const miniapp::Panel &diagram)
    const ReducedProblem &problem = this->problem();
    const VectorXd position = problem.position.col(0);
    double edge = 0;
+   const auto tightened = settled_states(problem, o.tightened),
+              pulled = settled_states(problem, o.first_peak);
    for (Index i = 0; i < problem.nodes(); ++i)
    {
-      const bool in = closed(o.tightened.status[i]) || closed(o.first_peak.status[i]);
+      const bool in = closed(tightened[i]) || closed(pulled[i]);
       if (in) { edge = std::max(edge, std::abs(position[i])); }
    }
    miniapp::Panel profiles = miniapp::Panel::lines("tractions", "Pressure p and shear q over f",

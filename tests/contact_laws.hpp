@@ -20,7 +20,8 @@ public:
       : problem_(problem), n_(problem.nodes()), c_(problem.components()),
         K_(problem.stiffness())
    {
-      norm_ = K_.cwiseAbs().rowwise().sum().maxCoeff();
+      sums_ = K_.cwiseAbs().rowwise().sum();
+      norm_ = sums_.maxCoeff();
       Eigen::VectorXd u(K_.rows());
       u << start.v, start.w;
       peak_ = (K_ * u).cwiseAbs().maxCoeff();
@@ -30,9 +31,10 @@ public:
       }
    }
 
-   /// Largest violation of an increment from slip `v_old` to `state`, over what is allowed, ten
-   /// times the solvers' tolerance (1e-12 of the largest load so far) and round-off: a solution
-   /// if at most 1. Displacements so large that round-off hides the forces are none.
+   /// Largest violation of an increment from slip `v_old` to `state`, over what its node is
+   /// allowed, ten times the solvers' tolerance (1e-12 of the largest load so far) and the
+   /// round-off of its own forces: a solution if at most 1. Displacements so large that
+   /// round-off hides the forces are none.
    double violation(const Eigen::VectorXd &v_old, const cattaneo::ContactState &state)
    {
       using namespace cattaneo;
@@ -41,16 +43,19 @@ public:
       u << state.v, state.w;
       const Eigen::VectorXd F = f + K_ * u;
       peak_ = std::max(peak_, f.cwiseAbs().maxCoeff());
-      const double size =
-         std::max(u.cwiseAbs().maxCoeff(), v_old.size() ? v_old.cwiseAbs().maxCoeff() : 0.0);
-      const double round_off = 16 * std::sqrt(static_cast<double>(n_)) *
-                               std::numeric_limits<double>::epsilon() *
-                               (norm_ * size + f.cwiseAbs().maxCoeff());
-      const double allowed = 1e-11 * peak_ + round_off;
+      // Row by row: a soft node beside a stiff one is judged by its own forces.
+      const Eigen::VectorXd round_off = 16 * std::sqrt(static_cast<double>(n_)) *
+                                        std::numeric_limits<double>::epsilon() *
+                                        (u.cwiseAbs().maxCoeff() * sums_ + f.cwiseAbs());
       worst_ = 0;
       what_ = "";
       for (Eigen::Index i = 0; i < n_; ++i)
       {
+         allowed_ = 1e-11 * peak_;
+         for (Eigen::Index k = i; k < K_.rows(); k += n_)
+         {
+            allowed_ = std::max(allowed_, 1e-11 * peak_ + round_off[k]);
+         }
          const Eigen::Index m = c_ * n_ + i;
          const double p = F[m], y = problem_.C(i, i) * (u[m] + problem_.gap[i]);
          const double fp = problem_.friction[i] * std::max(p, 0.0);
@@ -98,13 +103,13 @@ public:
             break;
          }
       }
-      if (!u.allFinite() || round_off > 1e-4 * peak_)
+      if (!u.allFinite() || round_off.maxCoeff() > 1e-4 * peak_)
       {
          what_ = "moved so far that round-off hides the forces";
          return std::numeric_limits<double>::infinity();
       }
       peak_ = std::max(peak_, (F - f).cwiseAbs().maxCoeff()); // what the next one starts from
-      return allowed > 0 ? worst_ / allowed : worst_ > 0 ? 1e300 : 0;
+      return worst_;
    }
    /// Round-off of the forces of an increment from slip `v_old` to displacements u at `loads`,
    /// over the largest force so far.
@@ -121,6 +126,8 @@ public:
 private:
    void note(double violation, Eigen::Index node, const char *what)
    {
+      if (!(violation > 0)) { return; }
+      violation /= allowed_; // infinite without any force
       if (!(violation > worst_)) { return; }
       worst_ = violation;
       what_ = "node " + std::to_string(node) + " is " + what;
@@ -129,7 +136,9 @@ private:
    const cattaneo::ReducedProblem &problem_;
    const Eigen::Index n_, c_;
    const Eigen::MatrixXd K_;
+   Eigen::VectorXd sums_; // of the sizes in each row of K
    double norm_ = 0, peak_ = 0, worst_ = 0;
+   double allowed_ = 0; // violation of the node at hand
    std::string what_;
 };
 

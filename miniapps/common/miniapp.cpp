@@ -7,8 +7,10 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <set>
 #include <sstream>
 #include <thread>
+#include <tuple>
 
 namespace miniapp
 {
@@ -271,13 +273,10 @@ std::vector<double> unloading_levels(int steps, double lowest, std::vector<doubl
 void warn_of_cut_off(const std::vector<cattaneo::CutOffContact> &ends)
 {
    // Once for each end, however many marches a study consists of.
-   static std::vector<std::pair<Eigen::Index, bool>> known;
+   static std::set<std::tuple<Eigen::Index, bool, double, double>> known;
    for (const cattaneo::CutOffContact &end : ends)
    {
-      const std::pair<Eigen::Index, bool> which(end.node, end.at_first);
-      if (std::find(known.begin(), known.end(), which) != known.end()) { continue; }
-      known.push_back(which);
-      warn(end.message());
+      if (known.insert({end.node, end.at_first, end.x, end.y}).second) { warn(end.message()); }
    }
 }
 
@@ -293,10 +292,10 @@ int exit_code(const cattaneo::MarchReport &report)
    }
    if (report.advance_error > 1e-6)
    {
-      std::cout
-         << "\nContact advanced with friction, whose forces depend on how that is cut into "
-            "increments: by up to "
-         << error_text(report.advance_error) << " of the largest nodal force" << std::endl;
+      std::cout << "\nContact advanced with friction, whose forces depend on how that is cut "
+                   "into increments: by up to "
+                << error_text(report.advance_error) << " of the largest nodal force"
+                << std::endl;
    }
    if (report.stalled > 0)
    {

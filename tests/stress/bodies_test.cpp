@@ -168,9 +168,7 @@ TEST(Bodies, Gap)
          }
       }
    }
-   // A block that touches its obstacle at one node or two, without friction, is held by hardly
-   // anything.
-   EXPECT_GE(count(family, Outcome::verified), 36 * 3 - 5);
+   EXPECT_EQ(count(family, Outcome::verified), 36 * 3);
 }
 
 /// A block under P, pushed at height h by (1 - balance) of Q, tips about its corner when

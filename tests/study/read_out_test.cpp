@@ -79,6 +79,30 @@ TEST(ReadOut, EdgesOfTheLapJointAreWithinTheirErrors)
    }
 }
 
+/// Intensities at the edges, fitted over a window that is chosen, against the finest mesh's.
+TEST(ReadOut, IntensitiesOfTheLapJointAreWithinTheirErrors)
+{
+   const auto intensities = [](const char *spacing)
+   {
+      const Result run =
+         run_miniapp("lap_joint", std::string("-friction 0.4 -spacing ") + spacing);
+      EXPECT_EQ(run.code, 0) << run.output;
+      return run.results["edges"].back();
+   };
+   const auto finest = intensities("0.0025");
+   for (const char *spacing : {"0.04", "0.02", "0.01", "0.005"})
+   {
+      const auto edge = intensities(spacing);
+      for (const char *key : {"k_n", "k_t"})
+      {
+         const double value = edge[key]["value"], best = finest[key]["value"],
+                      error = edge[key]["relative_error"], left = finest[key]["relative_error"];
+         EXPECT_LE(std::abs(value - best), error * std::abs(value) + left * std::abs(best))
+            << key << " at spacing " << spacing;
+      }
+   }
+}
+
 TEST(ReadOut, EdgesOfTheStripAreWithinTheirErrors)
 {
    // Half-plane limit, n = 4 (± 0.003).

@@ -4,7 +4,12 @@
 #include <cattaneo/friction/applied_solver.hpp>
 #include <cattaneo/friction/friction_solver.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cmath>
+#include <functional>
 #include <gtest/gtest.h>
+#include <limits>
+#include <memory>
+#include <string>
 
 namespace
 {
@@ -150,6 +155,75 @@ TEST(AppliedSolver, RefusesBadInput)
    bad = applied(problem);
    bad.friction[0] = -1;
    EXPECT_THROW(bad.validate(), InputError);
+}
+
+TEST(AppliedSolver, SaysWhatIsWrongWithAnAppliedProblem)
+{
+   const ReducedProblem problem = cattaneo_test::punch_problem(9, false);
+   const auto refused =
+      [&](const std::string &said, const std::function<void(AppliedProblem &)> &spoil)
+   {
+      AppliedProblem bad = applied(problem);
+      EXPECT_NO_THROW(bad.validate());
+      spoil(bad);
+      try
+      {
+         bad.validate();
+         ADD_FAILURE() << "not refused: " << said;
+      }
+      catch (const InputError &error)
+      {
+         EXPECT_NE(std::string(error.what()).find(said), std::string::npos) << error.what();
+      }
+   };
+   const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
+   refused("0 gaps", [](auto &p) { p.gap.resize(0); });
+   refused("8 friction coefficients", [](auto &p) { p.friction = VectorXd::Ones(8); });
+   refused("17 diagonal entries", [](auto &p) { p.diagonal = VectorXd::Ones(17); });
+   refused("nothing that applies it", [](auto &p) { p.apply = nullptr; });
+   refused("a gap is not finite", [&](auto &p) { p.gap[3] = nan; });
+   refused("friction is", [&](auto &p) { p.friction[3] = infinity; });
+   refused("friction is -1", [](auto &p) { p.friction[3] = -1; });
+   refused("a diagonal entry is 0", [](auto &p) { p.diagonal[17] = 0; });
+   refused("a diagonal entry is", [&](auto &p) { p.diagonal[17] = infinity; });
+   refused("load pattern 'Q' has 9 tangential and 8 normal forces",
+           [](auto &p) { p.patterns[1].p = VectorXd::Ones(8); });
+   refused("load pattern 'P' has 8 tangential and 9 normal forces",
+           [](auto &p) { p.patterns[0].q = VectorXd::Ones(8); });
+   refused("load pattern 'P'", [&](auto &p) { p.patterns[0].q[2] = nan; });
+   refused("7 in the stiffness that was formed",
+           [](auto &p)
+           {
+              auto formed = std::make_shared<ReducedProblem>();
+              formed->C = Eigen::MatrixXd::Identity(7, 7);
+              p.formed = formed;
+           });
+   // Gap, friction, diagonal and product are the problem's own.
+   ReducedProblem other = problem;
+   other.gap = VectorXd::LinSpaced(9, 0, 1);
+   other.friction = VectorXd::LinSpaced(9, 0.1, 0.9);
+   const AppliedProblem same = applied(other);
+   EXPECT_EQ(same.gap, other.gap);
+   EXPECT_EQ(same.friction, other.friction);
+   EXPECT_EQ(same.diagonal, other.stiffness().diagonal());
+   const VectorXd u = VectorXd::LinSpaced(18, -1, 2);
+   EXPECT_LT((same.apply(u) - other.stiffness() * u).norm(), 1e-14);
+   // Torsion has two components, a problem without friction none.
+   other.A = Eigen::MatrixXd::Identity(18, 18);
+   other.B = Eigen::MatrixXd::Zero(9, 18);
+   for (LoadPattern &pattern : other.patterns) { pattern.q = VectorXd::Zero(18); }
+   other.rigid_motions.reset();
+   try
+   {
+      applied(other);
+      ADD_FAILURE();
+   }
+   catch (const InputError &error)
+   {
+      EXPECT_NE(std::string(error.what()).find("2 tangential components a node, must have 1"),
+                std::string::npos)
+         << error.what();
+   }
 }
 
 } // namespace

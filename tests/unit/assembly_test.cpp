@@ -105,6 +105,44 @@ TEST(Assembly, IsThatOfTheIntegratorsOnElementsOfAnyShape)
    }
 }
 
+/// Nodes that are off by a little are off: displacements linear in x and y leave the inside of
+/// any mesh without forces.
+TEST(Assembly, ElementsThatAreNearlyParallelogramsAreNoneOfThem)
+{
+   const std::vector<Material> materials{{1.0, 0.3}};
+   for (const double off : {1e-3, 1e-6, 1e-9})
+   {
+      mfem::Mesh mesh = rectangle_mesh({0, 1, 2}, {0, 1, 2});
+      mesh.GetVertex(4)[0] += off;
+      mesh.GetVertex(4)[1] -= 0.5 * off;
+      for (int order : {1, 2})
+      {
+         mfem::H1_FECollection collection(order, 2);
+         mfem::FiniteElementSpace space(&mesh, &collection, 2, mfem::Ordering::byVDIM);
+         const auto K = assemble_stiffness(space, materials, Geometry::plane);
+         mfem::VectorFunctionCoefficient linear(2,
+                                                [](const mfem::Vector &x, mfem::Vector &u)
+                                                {
+                                                   u(0) = 2 * x(0) - x(1);
+                                                   u(1) = 3 * x(0) + 0.5 * x(1);
+                                                });
+         mfem::GridFunction u(&space);
+         u.ProjectCoefficient(linear);
+         mfem::Vector forces(K->Height());
+         K->Mult(u, forces);
+         mfem::Array<int> outside, around(4);
+         around = 1;
+         space.GetEssentialVDofs(around, outside);
+         double largest = 0;
+         for (int k = 0; k < forces.Size(); ++k)
+         {
+            if (!outside[k]) { largest = std::max(largest, std::abs(forces(k))); }
+         }
+         EXPECT_LT(largest, 1e-13) << off << ' ' << order;
+      }
+   }
+}
+
 /// Elements of one shape share integrals; far from the origin their corners carry round-off.
 TEST(Assembly, DoesNotDependOnWhereTheBodyIs)
 {

@@ -515,6 +515,28 @@ TEST(Axisymmetric, StressIsRecovered)
    }
 }
 
+TEST(Axisymmetric, HoopStrainNextToTheAxisIsThatOfTheAxis)
+{
+   // u_r = 0.01 r but for round-off of 1e-16 on the axis, which over r = 1e-13 would be a
+   // strain of 1e-3. E = 2.6, ν = 0.3: σ_θθ = 1.5·0.02 + 2·0.01.
+   mfem::Mesh mesh = rectangle_mesh({0, 1}, {0, 1});
+   const ElasticBody body(mesh, 1, Material{2.6, 0.3}, Geometry::axisymmetric);
+   mfem::GridFunction u(&body.space());
+   const VectorXd nodes = nodal(body,
+                                [](double r, double, int c) {
+                                   return c == 1 ? 0 : r > 0 ? 0.01 * r : 1e-16;
+                                });
+   for (int k = 0; k < u.Size(); ++k) { u(k) = nodes[k]; }
+   mfem::ElementTransformation &transformation = *mesh.GetElementTransformation(0);
+   for (const double r : {0.0, 1e-13, 1e-3, 0.5})
+   {
+      mfem::IntegrationPoint point;
+      point.Set2(r, 0.5);
+      transformation.SetIntPoint(&point);
+      EXPECT_NEAR(stress_at(body, u, transformation).zz, 0.05, 1e-12) << r;
+   }
+}
+
 /// The contact's torque is that of the stress on a cross-section: exactly on a grid, since
 /// functions of z alone are among the test functions.
 TEST(Torsion, TorqueOfStressAndOfContactForcesAgree)

@@ -1,5 +1,6 @@
 #include "elastic_support.hpp"
 #include <limits>
+#include <string>
 
 namespace
 {
@@ -100,6 +101,44 @@ TEST(Body, BodyForceHasItsResultant)
    }
 }
 
+TEST(Body, LoadsThatVaryAreIntegratedExactly)
+{
+   // ∫ x² over [0, 2] × [0, 1] is 8/3, its moment 4; that of bilinear elements as of others.
+   for (const char *kind : {"quads", "triangles"})
+   {
+      for (int order : {1, 2})
+      {
+         mfem::Mesh mesh = block(kind, 3, 2);
+         ElasticBody body(mesh, order, Material{});
+         body.add_body_force("weight", 0.0, [](double x, double) { return x * x; });
+         EXPECT_NEAR(total(body)[0], 0, 1e-14);
+         EXPECT_NEAR(total(body)[1], 8.0 / 3, 1e-13);
+         EXPECT_NEAR(moment(body), 4, 1e-13);
+         // A shear of x² and a pull of x³ on the top at y = 1.
+         body.add_traction(
+            "pull", 3, [](double x, double) { return x * x; },
+            [](double x, double) { return x * x * x; });
+         EXPECT_NEAR(total(body, 1)[0], 8.0 / 3, 1e-13);
+         EXPECT_NEAR(total(body, 1)[1], 4, 1e-13);
+         EXPECT_NEAR(moment(body, 1), 32.0 / 5 - 8.0 / 3, 1e-13);
+      }
+   }
+   // Two components are not for a body that has but one.
+   mfem::Mesh mesh = block("quads");
+   ElasticBody shaft(mesh, 1, Material{}, Geometry::torsion), plane(mesh, 1, Material{});
+   expect_input_error([&] { shaft.add_traction("t", 2, 1.0, 1.0); },
+                      "component is 1, must be 0 (twist)");
+   expect_input_error([&] { shaft.add_pressure("p", 2, 1.0); },
+                      "component is 1, must be 0 (twist)");
+   expect_input_error([&] { shaft.add_body_force("b", 1.0, 1.0); }, "must be 0 (twist)");
+   expect_input_error([&] { plane.add_traction("t", 2, 1.0); }, "must be two unless");
+   EXPECT_TRUE(shaft.patterns().empty());
+   // What begins close to the axis is not on it.
+   mfem::Mesh pipe = rectangle_mesh({1e-6, 0.5, 1}, {0, 1});
+   EXPECT_EQ(ElasticBody(pipe, 1, Material{}, Geometry::axisymmetric).essential_dofs().Size(),
+             0);
+}
+
 TEST(Body, LoadsOfOnePatternAdd)
 {
    mfem::Mesh mesh = block("quads");
@@ -179,8 +218,12 @@ TEST(Body, FixesTheNodesOfAPart)
    ElasticBody body(mesh, 2, Material{});
    body.fix({{4}, 1, 0.25, 0.5}, 0); // inclusive: 0.25, 0.375, 0.5
    EXPECT_EQ(body.essential_dofs().Size(), 3);
-   body.fix({{4}, 1, 0.25 + 1e-12, 0.5 - 1e-12}, 0);
-   EXPECT_EQ(body.essential_dofs().Size(), 3);
+   // Round-off of an interval's ends takes no node out, more of it does.
+   ElasticBody same(mesh, 2, Material{}), fewer(mesh, 2, Material{});
+   same.fix({{4}, 1, 0.25 + 1e-12, 0.5 - 1e-12}, 0);
+   EXPECT_EQ(same.essential_dofs().Size(), 3);
+   fewer.fix({{4}, 1, 0.25 + 1e-6, 0.5 - 1e-6}, 0);
+   EXPECT_EQ(fewer.essential_dofs().Size(), 1);
    body.fix_node(1.97, 0.98, 1);
    ASSERT_EQ(body.essential_dofs().Size(), 4);
    const int expected = body.true_dof(24, 1); // vertex (2, 1)
@@ -190,6 +233,9 @@ TEST(Body, FixesTheNodesOfAPart)
    // The same part again agrees with itself, another value does not.
    body.add_displacement("pull", BoundaryPart({2, 3}), 0, 0.5);
    expect_input_error([&] { body.add_displacement("pull", 2, 0, 0.6); }, "already prescribed");
+   body.add_displacement("pull", 2, 0, 0.5 * (1 + 1e-10)); // round-off of a formula
+   expect_input_error([&] { body.add_displacement("pull", 2, 0, 0.5 * (1 + 1e-7)); },
+                      "already prescribed");
    body.add_displacement("other", 2, 0, 0.6);
 }
 
@@ -223,6 +269,19 @@ TEST(Body, SaysWhatIsWrong)
       },
       "below 1 in plane stress");
    EXPECT_NO_THROW(ElasticBody(mesh, 1, Material{1.0, 0.5, PlaneState::stress}));
+   for (const PlaneState state : {PlaneState::strain, PlaneState::stress})
+   {
+      expect_input_error(
+         [&] {
+            ElasticBody(mesh, 1, Material{1.0, -1.0, state});
+         },
+         "Poisson's ratio is -1, must be above -1");
+      expect_input_error(
+         [&] {
+            ElasticBody(mesh, 1, Material{std::numeric_limits<double>::infinity(), 0.3, state});
+         },
+         "Young's modulus is inf");
+   }
    expect_input_error([&] { ElasticBody(mesh, 1, std::vector<Material>()); }, "no material");
    mesh.SetAttribute(2, 3);
    mesh.SetAttributes();
@@ -287,6 +346,11 @@ TEST(Body, RefusesWhatAContactLineCannotUse)
    mfem::H1_FECollection collection(2, 2);
    mfem::FiniteElementSpace scalar(&mesh, &collection, 1), space(&mesh, &collection, 2);
    expect_input_error([&] { ElasticBody(scalar, K); }, "1 components");
+   mfem::Mesh refinable = block("nonconforming");
+   mfem::FiniteElementSpace mixed(&refinable, &collection, 2);
+   mixed.SetElementOrder(0, 3);
+   mixed.Update(false);
+   expect_input_error([&] { ElasticBody(mixed, K); }, "varies from element to element");
    mfem::SparseMatrix small(4);
    small.Finalize();
    expect_input_error([&] { ElasticBody(space, small); }, "4×4");
@@ -294,6 +358,16 @@ TEST(Body, RefusesWhatAContactLineCannotUse)
    skew.GetData()[skew.GetI()[5]] += 0.1;
    skew.GetData()[skew.GetI()[5] + 1] += 0.2;
    expect_input_error([&] { ElasticBody(space, skew); }, "not symmetric");
+   // Of the largest entry 1e-8 is too much, 1e-12 is round-off.
+   const double largest = K.MaxNorm();
+   for (const double off : {1e-8, 1e-12})
+   {
+      mfem::SparseMatrix nearly(K);
+      nearly.GetData()[nearly.GetI()[5] + 1] += off * largest;
+      const auto take = [&] { ElasticBody(space, nearly); };
+      if (off == 1e-8) { expect_input_error(take, "not symmetric"); }
+      else { EXPECT_NO_THROW(take()); }
+   }
    mfem::SparseMatrix infinite(K);
    infinite.GetData()[3] = nan_value;
    expect_input_error([&] { ElasticBody(space, infinite); }, "must be finite");
@@ -326,6 +400,85 @@ TEST(GradedMesh, StepsGrowAndEndWhereTheyShould)
    expect_input_error([] { graded(0, 1, 0.1, 0.9); }, "growth is 0.9");
    expect_input_error([] { graded(0, 1, 1e-12, 1.0); }, "too small");
    expect_input_error([] { graded(0, 1, 0.1, 1.1, 0.0); }, "largest step is 0");
+}
+
+TEST(GradedMesh, LastStepsTakeUpWhatIsMissing)
+{
+   const auto expect = [](const std::vector<double> &found, const std::vector<double> &expected)
+   {
+      ASSERT_EQ(found.size(), expected.size());
+      for (std::size_t k = 0; k < found.size(); ++k)
+      {
+         EXPECT_NEAR(found[k], expected[k], 1e-14);
+      }
+   };
+   // 0.1 is missing: of two steps, 0.6 ≥ 4·0.1; 0.05: of one; 0.05 too much: of one.
+   expect(graded(0, 1, 0.3, 1), {0, 0.3, 0.65, 1});
+   expect(graded(0, 0.95, 0.3, 1), {0, 0.3, 0.6, 0.95});
+   expect(graded(1, 0, 0.35, 1), {1, 0.65, 0.3, 0});
+   // Steps grow to the largest: 1, 2, 3, 3 and 1 of missing shared by the last two.
+   expect(graded(0, 10, 1, 2, 3), {0, 1, 3, 6.5, 10});
+   expect_input_error([] { joined({{0, 1}, {}}); }, "a list of coordinates is empty");
+   expect_input_error([] { graded_to_ends(0, 4, 1); }, "half length is 0");
+   expect_input_error([] { graded_to_ends(-1, 4, 1); }, "half length is -1");
+}
+
+TEST(GradedMesh, RingsGrowTwiceAsFastBeyondThreeHalfWidths)
+{
+   const std::vector<double> r = ring_scales(2, 100, 0.1, 1.25);
+   EXPECT_EQ(r.front(), 1);
+   EXPECT_NEAR(r.back(), 50, 1e-12);
+   EXPECT_NEAR(r[1], 1.05, 1e-14); // first/a
+   EXPECT_NEAR((r[2] - r[1]) / (r[1] - r[0]), 1.25, 1e-12);
+   std::size_t k = 0;
+   while (k + 1 < r.size() && r[k] < 3 - 1e-12) { ++k; }
+   EXPECT_NEAR(r[k], 3, 1e-12);
+   EXPECT_NEAR((r[k + 2] - r[k + 1]) / (r[k + 1] - r[k]), 1.5, 1e-12);
+   EXPECT_NEAR(r[k + 1] - r[k], r[k] - r[k - 1], 1e-12); // as thick as the last one
+   // But a tenth of the half-width at least.
+   const std::vector<double> fine = ring_scales(1, 100, 0.01, 1.0);
+   k = 0;
+   while (k + 1 < fine.size() && fine[k] < 3 - 1e-12) { ++k; }
+   EXPECT_NEAR(fine[k + 1] - fine[k], 0.1, 1e-12);
+   expect_input_error([] { ring_scales(1, 4, 0.1, 1.2); }, "the domain is 4, must be above 4");
+}
+
+TEST(GradedMesh, HalfPlanesHaveTheirPartsAndOutline)
+{
+   // A box of 2 × 1 and a ring three times as large: 6 × 3.
+   mfem::Mesh mesh = half_plane_mesh({-1, 0, 1}, {0, 0.5, 1}, {1, 2, 3});
+   EXPECT_EQ(mesh.GetNE(), 4 + 2 * 6);
+   ElasticBody body(mesh, 1, Material{});
+   for (int part : {1, 2, 3, 4}) { body.add_pressure(std::to_string(part), part, 1.0); }
+   body.add_traction("beside", 2, 1.0, 0.0);
+   body.add_traction("sides", 4, 0.0, 1.0);
+   EXPECT_NEAR(total(body, 0)[1], -2, 1e-14); // the contact
+   EXPECT_NEAR(total(body, 1)[1], -4, 1e-14); // beside it
+   EXPECT_NEAR(total(body, 2)[1], 6, 1e-14);  // below
+   EXPECT_NEAR(total(body, 3).norm(), 0, 1e-14);
+   EXPECT_NEAR(moment(body, 2), 0, 1e-13);
+   EXPECT_NEAR(total(body, 4)[0], 4, 1e-14);
+   EXPECT_NEAR(total(body, 5)[1], 2 * 3, 1e-14);
+   body.add_body_force("area", 1.0, 0.0);
+   EXPECT_NEAR(total(body, 6)[0], 18, 1e-13);
+   const std::vector<double> line = {-1, 0, 1}, depth = {0, 1}, scale = {1, 2};
+   expect_input_error(
+      [&] {
+         half_plane_mesh({-1, 0, 2}, depth, scale);
+      },
+      "the contact runs from -1 to 2, must be symmetric");
+   expect_input_error([&] { half_plane_mesh(line, {0.5, 1}, scale); }, "depth starts at 0.5");
+   expect_input_error([&] { half_plane_mesh(line, depth, {2, 3}); }, "scale starts at 2");
+   expect_input_error(
+      [&] {
+         half_plane_mesh(line, depth, {1, 1});
+      },
+      "grid line 1 in scale is 1");
+   expect_input_error(
+      [&] {
+         half_space_mesh({0.5, 1}, depth, scale);
+      },
+      "the contact starts at 0.5");
 }
 
 TEST(GradedMesh, IsSymmetricToTheLastBit)

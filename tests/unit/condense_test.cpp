@@ -1,4 +1,5 @@
 #include "elastic_support.hpp"
+#include <cattaneo/condense/applied_reduction.hpp>
 
 namespace
 {
@@ -245,6 +246,69 @@ TEST(Condensation, RefusesWhatNothingHolds)
       "line of this body");
 }
 
+TEST(Condensation, SupportsOfASmallLeverHoldNevertheless)
+{
+   // Along x at two points of the height 0 or `lever`, along y at a third: what can turn is
+   // held by the lever alone.
+   for (const double lever : {1e-4, 0.0})
+   {
+      mfem::Mesh mesh = rectangle_mesh({0, 0.5, 1}, {0, 1e-4, 1});
+      ElasticBody body(mesh, 1, Material{});
+      body.fix_node(0, 0, 0);
+      body.fix_node(1, 0, 1);
+      body.fix_node(0.5, lever, 0);
+      EXPECT_EQ(condense(body, contact_line(body, 3)).rigid_modes, lever > 0 ? 0 : 1);
+   }
+}
+
+TEST(Condensation, SaysWhichNodeAndWhichSettingIsWrong)
+{
+   mfem::Mesh mesh = block("quads");
+   ElasticBody body(mesh, 1, Material{});
+   const ContactLine line = contact_line(body, 1);
+   CondensedBody condensed = condense(body, line);
+   const VectorXd u = VectorXd::Zero(10), none;
+   expect_input_error([&] { condensed.recover(u.head(9), none); }, "9 contact displacements");
+   expect_input_error([&] { condensed.recover(u, VectorXd::Ones(1)); }, "1 load multipliers");
+   expect_input_error([&] { condensed.recover(VectorXd::Constant(10, std::nan("")), none); },
+                      "is not finite");
+   body.add_pressure("press", 3, 1.0);
+   condensed = condense(body, line);
+   expect_input_error([&] { condensed.recover(u, VectorXd::Constant(1, std::nan(""))); },
+                      "a load multiplier is not finite");
+   for (const auto &[said, member] :
+        {std::pair("direct_dofs is -1", &CondenseSettings::direct_dofs),
+         {"formed_nodes is -1", &CondenseSettings::formed_nodes},
+         {"max_iterations is -1", &CondenseSettings::max_iterations}})
+   {
+      CondenseSettings settings;
+      settings.*member = -1;
+      expect_input_error([&, settings = settings] { condense(body, line, settings); }, said);
+      settings.*member = 0;
+      if (member == &CondenseSettings::max_iterations)
+      {
+         expect_input_error([&, settings = settings] { condense(body, line, settings); },
+                            "max_iterations is 0, must be at least 1");
+      }
+      else { EXPECT_NO_THROW(condense(body, line, settings)); }
+   }
+   ContactLine torn = line;
+   torn.true_dofs.pop_back();
+   expect_input_error([&] { condense(body, torn); }, "has 5 nodes and 4 pairs of dofs");
+   // Both ends are fixed along y: the first is named.
+   body.fix({{2, 4}, 1, -1.0, 0.1}, 1);
+   expect_input_error([&] { condense(body, line); },
+                      "component y of the contact node at (0, 0) is fixed");
+   expect_input_error(
+      [&] {
+         condense(body, contact_line(body, {{1}, 0, 0.4, 2.0}));
+      },
+      "component y of the contact node at (2, 0) is fixed");
+   const ElasticBody shaft(mesh, 1, Material{}, Geometry::torsion);
+   expect_input_error([&] { apply_reduction(shaft, contact_line(shaft, 1), 0.0, {}, nullptr); },
+                      "must be plane or axisymmetric");
+}
+
 TEST(Condensation, RefusesASeparatePartThatNothingHolds)
 {
    // Two blocks that share no node, contact on the lower left one only.
@@ -294,6 +358,66 @@ TEST(Condensation, SecondOfTwoEqualBodiesFactorsNothing)
       condense(different, contact_line(different, 1), {}, &first).counters.factorisations, 1);
    ElasticBody freed(lower, 2, Material{});
    EXPECT_EQ(condense(freed, contact_line(freed, 1), {}, &first).counters.factorisations, 1);
+}
+
+TEST(Condensation, ASlightlyStifferBodyFactorsItsOwn)
+{
+   // Stiffnesses that differ by 1e-8, all or one entry of them, are not equal; those that
+   // differ by round-off are.
+   mfem::Mesh mesh = block("quads");
+   const ElasticBody isotropic(mesh, 2, Material{});
+   const auto condensed =
+      [&](double factor, int entry, const BoundaryPart &touching, const CondensedBody *alike)
+   {
+      mfem::SparseMatrix K(isotropic.stiffness());
+      if (entry < 0) { K *= factor; }
+      else { K(entry, entry) *= factor; }
+      ElasticBody body(isotropic.space(), K);
+      body.fix(3, 0);
+      body.fix(3, 1);
+      return condense(body, contact_line(body, touching), {}, alike);
+   };
+   const CondensedBody first = condensed(1, -1, 1, nullptr);
+   const auto shares = [&](const CondensedBody &other)
+   {
+      EXPECT_EQ(other.counters.factorisations, other.op == first.op ? 0 : 1);
+      return other.op == first.op;
+   };
+   // The stiffest diagonal entry, and the stiffness along x of a corner.
+   int stiffest = 0;
+   for (int i = 0; i < isotropic.stiffness().Height(); ++i)
+   {
+      if (isotropic.stiffness()(i, i) > isotropic.stiffness()(stiffest, stiffest))
+      {
+         stiffest = i;
+      }
+   }
+   EXPECT_TRUE(shares(condensed(1, -1, 1, &first)));
+   EXPECT_TRUE(shares(condensed(1 + 2e-16, stiffest, 1, &first)));
+   for (const double factor : {1 + 1e-8, 1 - 1e-8, 2.0})
+   {
+      const CondensedBody stiffer = condensed(factor, -1, 1, &first);
+      EXPECT_FALSE(shares(stiffer)) << factor;
+      EXPECT_LT(difference(stiffer.S, factor * first.S), 1e-13);
+      EXPECT_FALSE(shares(condensed(factor, stiffest, 1, &first)));
+      EXPECT_FALSE(shares(condensed(factor, 0, 1, &first)));
+   }
+   // The same stiffness and supports, but other contact nodes: fewer, as many, and reversed.
+   EXPECT_FALSE(shares(condensed(1, -1, {{1}, 0, 0.0, 1.5}, &first)));
+   EXPECT_FALSE(shares(condensed(1, -1, {{1, 2}, 1, 0.0, 0.7}, &first)));
+   const CondensedBody left = condensed(1, -1, {{1}, 0, 0.0, 1.5}, nullptr),
+                       right = condensed(1, -1, {{1}, 0, 0.5, 2.0}, &left);
+   EXPECT_EQ(right.S.rows(), left.S.rows());
+   EXPECT_NE(right.op, left.op);
+   // In torsion a shorter line of the same first nodes is the beginning of the longer one.
+   const ElasticBody shaft(mesh, 2, Material{}, Geometry::torsion);
+   const auto twisted = [&](double to, const CondensedBody *alike) {
+      return condense(shaft, contact_line(shaft, {{1}, 0, 0.0, to}), {}, alike);
+   };
+   const CondensedBody all = twisted(2.0, nullptr);
+   EXPECT_EQ(twisted(2.0, &all).op, all.op);
+   EXPECT_NE(twisted(1.0, &all).op, all.op);
+   EXPECT_LT(difference(right.S, condensed(1, -1, {{1}, 0, 0.5, 2.0}, nullptr).S), 1e-15);
 }
 
 /// S and the load vectors are in the body's own frames: turning everything changes nothing.
@@ -568,6 +692,53 @@ TEST(SparseFactor, NamesTheBadRow)
       EXPECT_THROW(SparseFactor(K, {}, 0, 0.0, backend), InputError);
       EXPECT_THROW(SparseFactor(K, {0}, 2, 0.0, backend), InputError);
       EXPECT_THROW(SparseFactor(K, {0}, 0, std::nan(""), backend), InputError);
+   }
+}
+
+TEST(SparseFactor, SaysWhatIsWrongWithItsInput)
+{
+   mfem::SparseMatrix K(4), oblong(2, 3), singular(4), broken(4), open(4);
+   for (int i = 0; i < 4; ++i)
+   {
+      K.Add(i, i, 1.0 + i);
+      singular.Add(i, i, i == 2 ? 0.0 : 1.0);
+      broken.Add(i, i, i == 2 ? std::nan("") : 1.0);
+   }
+   oblong.Add(0, 0, 1.0);
+   for (mfem::SparseMatrix *matrix : {&K, &oblong, &singular, &broken}) { matrix->Finalize(0); }
+   for (auto backend : {Backend::automatic, Backend::eigen})
+   {
+      const auto refused = [&](const mfem::SparseMatrix &matrix, const std::vector<int> &keep,
+                               int trailing, double shift, const char *said) {
+         expect_input_error([&] { SparseFactor(matrix, keep, trailing, shift, backend); },
+                            said);
+      };
+      refused(K, {0, 4}, 0, 0, "row 4 to keep, must be from 0 to 3");
+      refused(K, {-1}, 0, 0, "row -1 to keep, must be from 0 to 3");
+      refused(K, {1, 2, 1}, 0, 0, "row 1 is to be kept twice");
+      refused(K, {0}, -1, 0, "-1 trailing rows, must be from 0 to 1");
+      refused(K, {0}, 1, -1, "shift is -1");
+      refused(oblong, {0}, 0, 0, "the matrix (2×3) must be square and finalized");
+      refused(open, {0}, 0, 0, "must be square and finalized");
+      refused(broken, {1, 2}, 0, 0, "entry (2, 2) of the matrix is nan");
+      EXPECT_NO_THROW(SparseFactor(broken, {1, 3}, 0, 0, backend));
+      // Without stiffness is not positive either.
+      try
+      {
+         SparseFactor(singular, {3, 1, 0, 2}, 1, 0.0, backend);
+         ADD_FAILURE();
+      }
+      catch (const NotPositiveDefinite &error)
+      {
+         EXPECT_EQ(error.row, 2);
+      }
+      EXPECT_NEAR(SparseFactor(singular, {3, 1, 0, 2}, 1, 0.5, backend).schur()(0, 0), 0,
+                  1e-15);
+      const SparseFactor factor(K, {2, 3}, 1, 0, backend);
+      expect_input_error([&] { factor.solve(MatrixXd::Ones(3, 1)); },
+                         "right-hand sides of 3 rows for a factor of 2");
+      EXPECT_LT((factor.solve(MatrixXd::Ones(2, 1)) - Eigen::Vector2d(1.0 / 3, 0.25)).norm(),
+                1e-15);
    }
 }
 

@@ -65,6 +65,15 @@ TEST(ElementCheck, ElementsWithoutAreaAreNamed)
    expect_sound(one({{0, 0}, {1e8, 0}, {1e8, 1e-8}, {0, 1e-8}}));
 }
 
+TEST(ElementCheck, SidesThatAreParallelToRoundOffEncloseNoArea)
+{
+   const auto needle = [](double height) {
+      return mesh_of({{0, 0}, {1, 0}, {2, height}, {1, height}}, {{0, 1, 2, 3}});
+   };
+   for (const double sound : {1.0, 1e-6, 1e-10}) { expect_sound(needle(sound)); }
+   expect_fault(needle(1e-13), "has no area");
+}
+
 TEST(ElementCheck, StraightElementsInsideOutAreNamed)
 {
    expect_fault(one({{0, 0}, {0, 1}, {1, 0}}), "is turned over");
@@ -161,6 +170,11 @@ TEST(ElementCheck, MeshesOutOfThePlaneAreNamed)
       mesh_of(square, {{0, 1, 2, 3}}, 3, 0.25),
       "of dimension 2 in space of dimension 3, both must be 2; element 0 (attribute 1, "
       "centre (0.5, 0.5)) is at z = 0.25: turn the mesh into the xy plane");
+   // Of several, the one that is the farthest out.
+   mfem::Mesh slope = mesh_of({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {2, 0}, {2, 1}},
+                              {{0, 1, 2, 3}, {1, 4, 5, 2}}, 3, 0.25);
+   slope.GetVertex(0)[2] = slope.GetVertex(3)[2] = -1.75;
+   expect_fault(std::move(slope), "element 0 (attribute 1, centre (0.5, 0.5)) is at z = -0.75");
    mfem::Mesh solid = mfem::Mesh::MakeCartesian3D(1, 1, 1, mfem::Element::HEXAHEDRON);
    expect_fault(std::move(solid), "the mesh is of dimension 3");
 }

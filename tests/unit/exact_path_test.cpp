@@ -318,6 +318,7 @@ TEST(ExactPath, UnitsDoNotMatter)
    EXPECT_EQ(a.v * length, b.v);
    EXPECT_EQ(a.p * force, b.p);
    EXPECT_EQ(ra.counters.newton_steps, rb.counters.newton_steps);
+   EXPECT_GT(ra.counters.newton_steps, 0);
 }
 
 TEST(ExactPath, GrossSlidingAtItsExactLoad)
@@ -337,9 +338,88 @@ TEST(ExactPath, GrossSlidingAtItsExactLoad)
             state, exact_settings());
    EXPECT_EQ(report.status, FrictionStatus::gross_sliding);
    EXPECT_NEAR(report.event_multipliers[1], 0.4, 1e-15); // Q = f P
+   EXPECT_NEAR(report.event_time, 1.4, 1e-15);
+   EXPECT_EQ(report.time, report.event_time);
    ASSERT_EQ(report.changes.size(), 1u); // the first node slips, the second cannot but slide
    EXPECT_NEAR(report.changes[0].multipliers[1], 0.25, 1e-15); // 0.8 Q = 0.5 f P
    EXPECT_EQ(report.fallbacks, 0);
+}
+
+TEST(ExactPath, SettlesAStateThatIsNoEquilibriumFirst)
+{
+   ReducedProblem problem;
+   problem.A = Eigen::MatrixXd::Constant(1, 1, 2.0);
+   problem.B = Eigen::MatrixXd::Zero(1, 1);
+   problem.C = Eigen::MatrixXd::Constant(1, 1, 3.0);
+   problem.patterns = {{"press", Control::force, VectorXd::Zero(1), VectorXd::Ones(1)},
+                       {"shear", Control::force, VectorXd::Ones(1), VectorXd::Zero(1)}};
+   problem.H = Eigen::Matrix2d::Zero();
+   problem.gap = VectorXd::Constant(1, 0.1);
+   set_friction(problem, 0.4);
+   const auto first_of = [&](const ContactState &start, const LoadHistory &history,
+                             ContactState &state, MarchReport &report)
+   {
+      ContactState first;
+      state = start;
+      report = march(problem, history, state, exact_settings(),
+                     [&](const ContactState &now, const IncrementRecord &)
+                     {
+                        if (first.v.size() == 0) { first = now; }
+                     });
+      EXPECT_EQ(report.status, FrictionStatus::converged) << report.message;
+      EXPECT_EQ(report.fallbacks, 0) << report.fallback_reason;
+      return first;
+   };
+   const LoadHistory load = LoadHistory::through({Vector2d(0, 0), Vector2d(1, 0.1)});
+   ContactState start = ContactState::virgin(problem), state;
+   MarchReport report;
+   // Said to stick, but a tenth apart: it closes at P = 0.3, where v = -0.015, and sticks.
+   for (NodeState said : {NodeState::separation, NodeState::stick, NodeState::forward_slip})
+   {
+      start.status[0] = said;
+      const ContactState first = first_of(start, load, state, report);
+      EXPECT_EQ(first.status[0], NodeState::separation) << name(said);
+      EXPECT_NEAR(first.time, said == NodeState::separation ? 0.3 : 0, 1e-15);
+      EXPECT_NEAR(state.p[0], 0.7, 1e-15);
+      EXPECT_NEAR(state.w[0], -0.1, 1e-15);
+      EXPECT_NEAR(state.v[0], -0.015, 1e-15);
+      EXPECT_NEAR(state.q[0], 0.07, 1e-15);
+      ASSERT_EQ(report.changes.size(), 1u);
+      EXPECT_NEAR(report.changes[0].time, 0.3, 1e-15);
+      EXPECT_EQ(report.changes[0].from, NodeState::separation);
+      EXPECT_EQ(report.changes[0].to, NodeState::stick);
+   }
+   // Pressed by 1, an initial slip of 1 springs back to where q = 2 v = 0.4; from Q = -0.8 on
+   // it slips on, to v = 0.3.
+   problem.gap[0] = 0;
+   start = ContactState::with_slip(problem, VectorXd::Ones(1));
+   const LoadHistory shear = LoadHistory::through({Vector2d(1, 0), Vector2d(1, -1)});
+   const ContactState slid = first_of(start, shear, state, report);
+   EXPECT_EQ(slid.time, 0);
+   EXPECT_NEAR(slid.v[0], 0.2, 1e-15);
+   EXPECT_NEAR(state.v[0], 0.3, 1e-15);
+   EXPECT_NEAR(state.slip_origin[0], 0.2, 1e-15);
+   EXPECT_NEAR(report.changes.back().multipliers[1], -0.8, 1e-14);
+   EXPECT_NEAR(state.dissipation, 0.5 * 0.4 * 0.8 + 0.4 * 0.1, 1e-15);
+   // Slip that its friction does not oppose, and forces that are not those of the slip.
+   ContactState pressed = ContactState::virgin(problem);
+   FrictionSolver(problem).solve(pressed, Vector2d(1, 0.3));
+   const ExactPath path(problem);
+   EXPECT_TRUE(path.starts_from(pressed));
+   for (int k = 0; k < 4; ++k)
+   {
+      ContactState other = pressed;
+      if (k == 0) { other.status[0] = NodeState::backward_slip; } // q = 0.3, f p = 0.4
+      if (k == 1) { other.q[0] = 0.3 + 1e-6; }
+      if (k == 2) { other.v[0] = 0.1; } // q = 0.5
+      if (k == 3) { other.w[0] = 1e-6; }
+      EXPECT_FALSE(path.starts_from(other)) << k;
+   }
+   FrictionSolver(problem).solve(pressed, Vector2d(1, 0.6));
+   EXPECT_EQ(pressed.status[0], NodeState::backward_slip);
+   EXPECT_TRUE(path.starts_from(pressed));
+   pressed.status[0] = NodeState::forward_slip;
+   EXPECT_FALSE(path.starts_from(pressed));
 }
 
 TEST(ExactPath, AboveCriticalFrictionNothingIsSilent)

@@ -9,8 +9,12 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <functional>
 #include <gtest/gtest.h>
 #include <limits>
+#include <string>
+#include <tuple>
+#include <vector>
 
 namespace
 {
@@ -163,6 +167,78 @@ TEST(FatigueMaterial, FilesAreReadOrRefusedWithTheKey)
    EXPECT_THROW(read_materials(file), InputError);
 }
 
+TEST(FatigueMaterial, EveryFieldIsReadInItsUnit)
+{
+   const std::string file = testing::TempDir() + "cattaneo_material_fields.json";
+   std::ofstream(file) << R"({"materials": [
+      {"name": "first", "young_GPa": 100, "poisson": 0.25, "threshold_MPa_sqrt_m": 2,
+       "fatigue_limit_MPa": [200, 250], "shear_yield_MPa": [300, 360], "friction": [0.5, 0.75],
+       "stress_ratio": 0.1, "threshold_basis": "amplitude", "fatigue_limit_basis": "amplitude",
+       "source": "made up"},
+      {"name": "Second", "young_GPa": 70.5, "poisson": 0.3, "threshold_MPa_sqrt_m": 3,
+       "fatigue_limit_MPa": 90, "shear_yield_MPa": 150}]})";
+   const std::vector<FatigueMaterial> materials = read_materials(file);
+   ASSERT_EQ(materials.size(), 2u);
+   const FatigueMaterial &m = materials[0], &plain = find_material(materials, "SECOND");
+   EXPECT_EQ(m.name, "first");
+   EXPECT_DOUBLE_EQ(m.young, 100000);
+   EXPECT_EQ(m.poisson, 0.25);
+   EXPECT_NEAR(m.threshold, 2 * std::sqrt(1000.0), 1e-12); // 1 m = 1000 mm
+   EXPECT_EQ(m.fatigue_limit.low, 200);
+   EXPECT_EQ(m.fatigue_limit.high, 250);
+   EXPECT_EQ(m.fatigue_limit.middle(), 225);
+   EXPECT_EQ(m.shear_yield.low, 300);
+   EXPECT_EQ(m.shear_yield.high, 360);
+   EXPECT_EQ(m.friction.low, 0.5);
+   EXPECT_EQ(m.friction.high, 0.75);
+   EXPECT_EQ(m.threshold_ratio, 0.1);
+   EXPECT_EQ(m.threshold_basis, Basis::amplitude);
+   EXPECT_EQ(m.fatigue_limit_basis, Basis::amplitude);
+   EXPECT_EQ(plain.name, "Second");
+   EXPECT_DOUBLE_EQ(plain.young, 70500);
+   EXPECT_EQ(plain.fatigue_limit.low, 90);
+   EXPECT_EQ(plain.fatigue_limit.high, 90);
+   EXPECT_EQ(plain.friction.high, 0);
+   EXPECT_EQ(plain.threshold_ratio, -1);
+   EXPECT_EQ(plain.threshold_basis, Basis::range);
+   // The low end decides: (ΔK_th/σ_fl)²/π.
+   EXPECT_NEAR(critical_length(m), 4000 / (200.0 * 200 * pi), 1e-15);
+   std::remove(file.c_str());
+   const auto refused =
+      [](const std::string &said, const std::function<void(FatigueMaterial &)> &spoil)
+   {
+      FatigueMaterial bad = aluminium();
+      spoil(bad);
+      try
+      {
+         bad.validate();
+         ADD_FAILURE() << "not refused: " << said;
+      }
+      catch (const InputError &error)
+      {
+         EXPECT_NE(std::string(error.what()).find(said), std::string::npos) << error.what();
+      }
+   };
+   refused("Young's modulus is 0", [](auto &b) { b.young = 0; });
+   refused("Young's modulus is inf", [](auto &b) { b.young = infinity; });
+   refused("Poisson's ratio is 0.5", [](auto &b) { b.poisson = 0.5; });
+   refused("ΔK_th is 0", [](auto &b) { b.threshold = 0; });
+   refused("the fatigue limit is 0 to 1", [](auto &b) { b.fatigue_limit = {0, 1}; });
+   refused("the fatigue limit is 2 to 1", [](auto &b) { b.fatigue_limit = {2, 1}; });
+   refused("the shear yield stress is 2 to 1", [](auto &b) { b.shear_yield = {2, 1}; });
+   refused("the friction coefficient is 0.75 to 0.5",
+           [](auto &b) {
+              b.friction = {0.75, 0.5};
+           });
+   refused("the friction coefficient is 0 to 0.5", [](auto &b) { b.friction = {0, 0.5}; });
+   refused("load ratio of the threshold is -1.5", [](auto &b) { b.threshold_ratio = -1.5; });
+   refused("load ratio of the threshold is 1;", [](auto &b) { b.threshold_ratio = 1; });
+   refused("ΔK_th is given as an amplitude but the fatigue limit as a range",
+           [](auto &b) { b.threshold_basis = Basis::amplitude; });
+   refused("ΔK_th is given as a range but the fatigue limit as an amplitude",
+           [](auto &b) { b.fatigue_limit_basis = Basis::amplitude; });
+}
+
 TEST(Assessment, SmallLoadIsTrustedAndArrests)
 {
    const FrettingReport report = assess(hertz_problem(0.02));
@@ -239,6 +315,194 @@ TEST(Assessment, SaysWhatIsOmittedAndWhatDiffers)
    EXPECT_THROW(assess(problem), InputError);
 }
 
+/// An edge of round numbers: f K_N = 1.2, E* = 1000, d = 2·0.3/1.2 = 0.5, and a0 = 0.04.
+FrettingProblem round_numbers()
+{
+   FrettingProblem problem;
+   problem.crack.edge = {2, 0.3, 0.6};
+   problem.crack.stress_ratio = 0.5;
+   FatigueMaterial &m = problem.material;
+   m.name = "round";
+   m.young = 1820;
+   m.poisson = 0.3; // E/(2(1 - ν²)) = 1000
+   m.fatigue_limit = {10, 20};
+   m.threshold = 10 * std::sqrt(0.04 * pi);
+   m.shear_yield = {2, 4};
+   m.threshold_ratio = 0.5;
+   problem.half_width = 10;
+   problem.rounded_width = 4;
+   problem.bulk_known = true;
+   problem.crack.stress_gradient = 1e-9;
+   return problem;
+}
+
+const Validity &measure(const FrettingReport &report, const std::string &name)
+{
+   static const Validity none{"none", nan, Trust::good, ""};
+   for (const Validity &item : report.validity)
+   {
+      if (item.measure == name) { return item; }
+   }
+   ADD_FAILURE() << "no measure " << name;
+   return none;
+}
+
+TEST(Assessment, EveryNumberIsThatOfTheFormulaByHand)
+{
+   const FrettingProblem problem = round_numbers();
+   FrettingReport report = assess(problem);
+   const double range = 0.5 * 0.3, d_r = range / 1.2; // ΔK_T = (1 - R) K_T
+   EXPECT_NEAR(report.k_t_range, range, 1e-15);
+   EXPECT_NEAR(report.slip_zone, 0.5, 1e-15);
+   EXPECT_NEAR(report.edge_stress, std::sqrt(8 * 1.2 * 0.3), 1e-14);
+   EXPECT_NEAR(report.edge_stress_range, 4 * 1.2 * std::sqrt(d_r), 1e-14);
+   // The low ends of the intervals decide: k = 2, σ_fl = 10.
+   const double load = 2 * std::sqrt(0.5) / 2;
+   EXPECT_NEAR(report.yield_ratio_first, load * std::sqrt((3 * 0.36 + 0.16) / 3), 1e-14);
+   EXPECT_NEAR(report.yield_ratio_full, load * 0.6, 1e-14);
+   EXPECT_NEAR(report.critical_length, 0.04, 1e-15);
+   const double threshold = 10 * std::sqrt(0.04 * pi);
+   EXPECT_NEAR(report.abscissa, 2 * 0.04 / threshold, 1e-15);
+   EXPECT_NEAR(report.ordinate, range / threshold, 1e-15);
+   EXPECT_NEAR(report.mode_two_range, std::sqrt(2 * pi) * range, 1e-15);
+   EXPECT_NEAR(report.mode_two_utilisation, std::sqrt(2 * pi) * range / (0.8 * threshold),
+               1e-15);
+   EXPECT_NEAR(report.energy_max, std::sqrt(3.0) * range * range / 1000, 1e-18);
+   EXPECT_NEAR(report.energy_total, pi / 3 * range * range * d_r / 1000, 1e-18);
+   EXPECT_NEAR(measure(report, "d/a").value, 0.05, 1e-15);
+   EXPECT_NEAR(measure(report, "d/(a-b)").value, 0.125, 1e-15);
+   EXPECT_NEAR(measure(report, "a0/(a-b)").value, 0.01, 1e-15);
+   EXPECT_NEAR(measure(report, "a0/d").value, 0.08, 1e-15);
+   EXPECT_NEAR(measure(report, "load/first yield").value, report.yield_ratio_first, 1e-15);
+   EXPECT_TRUE(mentions(report, "much shorter than the slip zone"));
+   FrettingSettings settings;
+   settings.mode_two_ratio = 0.4;
+   settings.criterion = Criterion::half_range;
+   const FrettingReport other = assess(problem, settings);
+   EXPECT_NEAR(other.mode_two_utilisation, 2 * report.mode_two_utilisation, 1e-15);
+   EXPECT_NEAR(other.threshold.drive, 0.5 * (report.k_i_max - report.k_i_min), 1e-15);
+   EXPECT_NEAR(other.threshold_ordinate,
+               threshold_ordinate(Criterion::half_range, 0.6, report.abscissa), 1e-15);
+   settings.criterion = Criterion::range;
+   EXPECT_NEAR(assess(problem, settings).threshold.drive, report.k_i_max - report.k_i_min,
+               1e-15);
+}
+
+TEST(Assessment, TrustTurnsWhereItIsSaidTo)
+{
+   const auto report = [](const std::function<void(FrettingProblem &)> &change)
+   {
+      FrettingProblem problem = round_numbers();
+      change(problem);
+      return assess(problem);
+   };
+   const auto whole = [&](double a)
+   { return report([a](FrettingProblem &p) { p.half_width = p.rounded_width = a; }); };
+   // d = 0.5: small below a tenth of the contact, no longer from a quarter on.
+   EXPECT_EQ(measure(whole(5.1), "d/a").trust, Trust::good);
+   EXPECT_EQ(measure(whole(4.9), "d/a").trust, Trust::caution);
+   EXPECT_EQ(measure(whole(2.1), "d/a").trust, Trust::caution);
+   EXPECT_EQ(measure(whole(1.9), "d/a").trust, Trust::poor);
+   EXPECT_EQ(whole(5.1).trust, Trust::good);
+   EXPECT_EQ(whole(4.9).trust, Trust::caution);
+   EXPECT_EQ(whole(1.9).trust, Trust::poor);
+   // a0 = 0.04, against the contact where no part of it is rounded, or that is not known.
+   EXPECT_NEAR(measure(whole(8), "a0/a").value, 0.005, 1e-15);
+   const FrettingReport flat = report([](FrettingProblem &p) { p.rounded_width = 0; });
+   EXPECT_NEAR(measure(flat, "a0/a").value, 0.004, 1e-15);
+   for (const Validity &item : flat.validity) { EXPECT_NE(item.measure, "d/(a-b)"); }
+   const auto rounded = [&](double width)
+   {
+      return report(
+         [width](FrettingProblem &p)
+         {
+            p.crack.edge.k_t = 0.006; // d = 0.01
+            p.rounded_width = width;
+         });
+   };
+   EXPECT_EQ(measure(rounded(0.41), "a0/(a-b)").trust, Trust::good);
+   EXPECT_EQ(measure(rounded(0.39), "a0/(a-b)").trust, Trust::caution);
+   EXPECT_EQ(measure(rounded(0.17), "a0/(a-b)").trust, Trust::caution);
+   EXPECT_EQ(measure(rounded(0.15), "a0/(a-b)").trust, Trust::poor);
+   EXPECT_EQ(measure(rounded(0.11), "d/(a-b)").trust, Trust::good);
+   EXPECT_EQ(measure(rounded(0.09), "d/(a-b)").trust, Trust::caution);
+   EXPECT_EQ(measure(rounded(0.039), "d/(a-b)").trust, Trust::poor);
+   // K_N√d = √2; first yield at 1.5554 k, the whole zone at 1.6667 k.
+   const auto yields = [&](double k) {
+      return report([k](FrettingProblem &p) { p.material.shear_yield = {k, 100}; });
+   };
+   EXPECT_EQ(measure(yields(0.92), "load/first yield").trust, Trust::good);
+   EXPECT_EQ(measure(yields(0.90), "load/first yield").trust, Trust::caution);
+   EXPECT_EQ(measure(yields(0.86), "load/first yield").trust, Trust::caution);
+   EXPECT_EQ(measure(yields(0.84), "load/first yield").trust, Trust::poor);
+   EXPECT_TRUE(mentions(yields(0.90), "Part of the slip zone yields"));
+   EXPECT_TRUE(mentions(yields(0.84), "The whole slip zone yields"));
+   // a0/d: friction matters between a tenth and ten.
+   const auto shear = [&](double k_t)
+   { return report([k_t](FrettingProblem &p) { p.crack.edge.k_t = k_t; }); };
+   EXPECT_TRUE(mentions(shear(0.25), "much shorter than the slip zone"));
+   EXPECT_TRUE(mentions(shear(0.23), "of similar size: friction matters"));
+   EXPECT_TRUE(mentions(shear(0.0025), "of similar size: friction matters"));
+   EXPECT_TRUE(mentions(shear(0.0023), "much longer than the slip zone"));
+   // Strengths of a load ratio of up to 0.1 more or less count as of this one.
+   const auto measured = [&](double ratio)
+   { return report([ratio](FrettingProblem &p) { p.material.threshold_ratio = ratio; }); };
+   for (const double off : {-0.09, 0.0, 0.09})
+   {
+      EXPECT_FALSE(mentions(measured(0.5 + off), "another load ratio")) << off;
+   }
+   for (const double off : {-0.11, 0.11})
+   {
+      EXPECT_EQ(measure(measured(0.5 + off), "R").trust, Trust::caution) << off;
+   }
+   EXPECT_EQ(to_string(Trust::good), "good");
+   EXPECT_EQ(to_string(Trust::caution), "caution");
+   EXPECT_EQ(to_string(Trust::poor), "not to be trusted");
+   // What is left out is said, what is included too.
+   EXPECT_TRUE(
+      mentions(assess(round_numbers()), "grows with depth below the edge is included"));
+   EXPECT_TRUE(mentions(report([](FrettingProblem &p) { p.crack.stress_gradient = 0; }),
+                        "is left out of K_I: unconservative, by"));
+   for (double FrettingProblem::*size :
+        {&FrettingProblem::half_width, &FrettingProblem::rounded_width})
+   {
+      for (const double bad : {-1.0, nan, infinity})
+      {
+         EXPECT_THROW(report([=](FrettingProblem &p) { p.*size = bad; }), InputError);
+      }
+   }
+}
+
+TEST(Threshold, UniformTensionGrowsACrackFromTheFatigueLimitOn)
+{
+   // Without shear and almost without pressure K_I = 1.12152 σ √(πc): in proportion to the
+   // short-crack threshold ΔK_th √(c/a0), and beyond a0 above it for good.
+   const double a0 = 0.05, limit = 100, threshold = limit * std::sqrt(pi * a0);
+   const auto verdict = [&](double tension, double ratio, Criterion criterion) {
+      return assess_threshold({{1e-9, 0, 0.5}, ratio, tension, 0}, threshold, a0, criterion);
+   };
+   for (const auto &[criterion, ratio, range] : {std::tuple(Criterion::open, -1.0, 1.0),
+                                                 {Criterion::range, -1.0, 2.0},
+                                                 {Criterion::half_range, -1.0, 1.0},
+                                                 {Criterion::open, 0.5, 0.5},
+                                                 {Criterion::range, 0.5, 0.5},
+                                                 {Criterion::half_range, 0.5, 0.25}})
+   {
+      const double critical = limit / 1.12152 / range;
+      const ThresholdReport below = verdict(0.999 * critical, ratio, criterion),
+                            above = verdict(1.001 * critical, ratio, criterion);
+      EXPECT_EQ(below.verdict, Verdict::arrests);
+      EXPECT_EQ(below.arrest_depth, 0);
+      EXPECT_NEAR(below.drive, 0.999 * threshold, 1e-5 * threshold);
+      EXPECT_EQ(above.verdict, Verdict::propagates);
+      EXPECT_TRUE(std::isinf(above.arrest_depth));
+   }
+   EXPECT_EQ(to_string(Verdict::propagates), "propagates");
+   EXPECT_EQ(to_string(Verdict::arrests_beyond_a0), "arrests beyond a0");
+   EXPECT_THROW(verdict(nan, -1, Criterion::open), InputError);
+   EXPECT_THROW(verdict(1, 1, Criterion::open), InputError);
+}
+
 /// Hertz pressure and stuck shear of a = p0 = 1, Q = 1 at n nodes.
 EdgeTractions hertz_nodes(int n, double edge)
 {
@@ -301,6 +565,117 @@ TEST(EdgeFit, ShearFreeEdgeHasNoShearIntensity)
    EdgeTractions tractions = hertz_nodes(100, -1);
    std::fill(tractions.shear.begin(), tractions.shear.end(), 0.0);
    EXPECT_EQ(fit_edge(tractions).k_t.value, 0);
+}
+
+/// p = √t (K_N + 0.7 t) and q = (K_T + 0.4 t)/√t at t = 1, 2, … n hundredths, far ones first.
+EdgeTractions exact_tractions(double side, int n = 12)
+{
+   EdgeTractions tractions;
+   tractions.edge = 5;
+   for (int i = n; i > 0; i--)
+   {
+      const double t = 0.01 * i;
+      tractions.position.push_back(5 + side * t);
+      tractions.pressure.push_back(std::sqrt(t) * (3 + 0.7 * t));
+      tractions.shear.push_back(side * (-2 + 0.4 * t) / std::sqrt(t));
+   }
+   return tractions;
+}
+
+TEST(EdgeFit, RecoversWhatItsExpansionIsMadeOf)
+{
+   for (const double side : {1.0, -1.0})
+   {
+      EdgeTractions tractions = exact_tractions(side);
+      // Nodes without pressure and the one at the edge do not count, wherever they are.
+      tractions.position.insert(tractions.position.end(), {5.0, 5 - side, 5 + side});
+      tractions.pressure.insert(tractions.pressure.end(), {9.0, 0.0, -1.0});
+      tractions.shear.insert(tractions.shear.end(), {9.0, 9.0, 9.0});
+      const EdgeFit fit = fit_edge(tractions);
+      EXPECT_NEAR(fit.k_n.value, 3, 1e-12);
+      EXPECT_NEAR(fit.k_t.value, -2, 1e-12);
+      EXPECT_LT(fit.k_n.relative_error, 1e-11);
+   }
+}
+
+TEST(EdgeFit, WindowsBeginAndEndAtTheirNodesAndTheFirstAreSkipped)
+{
+   EdgeTractions tractions = exact_tractions(1);
+   FitSettings settings;
+   const auto fit = [&](double nearest, double farthest)
+   {
+      settings.window = {nearest, farthest};
+      return fit_edge(tractions, settings).k_n;
+   };
+   EXPECT_EQ(fit(0.0295, 0.0805).nodes, 6); // 3 … 8 hundredths
+   EXPECT_EQ(fit(0.0305, 0.0805).nodes, 5);
+   EXPECT_EQ(fit(0.0295, 0.0795).nodes, 5);
+   EXPECT_NEAR(fit(0.0295, 0.0805).window.nearest, 0.03, 1e-15);
+   EXPECT_NEAR(fit(0.0295, 0.0805).window.farthest, 0.08, 1e-15);
+   EXPECT_EQ(fit(0, 0.0405).nodes, 4);
+   EXPECT_THROW(fit(0, 0.0395), InputError); // three are too few
+   EXPECT_THROW(fit(-0.01, 0.1), InputError);
+   EXPECT_THROW(fit(0.1, 0.1), InputError);
+   EXPECT_THROW(fit(0.1, 0), InputError);
+   EXPECT_THROW(fit(0.1, infinity), InputError);
+   // A window of its own choice leaves out the first two, or as many as it is told.
+   for (const std::size_t nearest : {11, 10}) { tractions.pressure[nearest] *= 2; }
+   EXPECT_NEAR(fit(0, 0).value, 3, 1e-12);
+   EXPECT_NEAR(fit(0, 0).window.nearest, 0.03, 1e-15);
+   settings.skip = 1;
+   EXPECT_GT(std::abs(fit(0, 0).value - 3), 1e-3);
+   EXPECT_NEAR(fit(0, 0).window.nearest, 0.02, 1e-15);
+   settings.skip = 8;
+   EXPECT_EQ(fit(0, 0).nodes, 4);
+   settings.skip = 9;
+   EXPECT_THROW(fit(0, 0), InputError);
+   settings.skip = -1;
+   EXPECT_THROW(fit(0, 0), InputError);
+}
+
+TEST(EdgeFit, AChosenWindowOfScatteredNodesHasThemAll)
+{
+   // Scatter of ±1e-3 from node to node: the more of them, the smaller the error (of 4 to 10
+   // nodes by numpy: 5.2, 6.7, 3.6, 3.8, 2.9, 2.7, 2.5 times 1e-4).
+   EdgeTractions tractions = exact_tractions(1, 10);
+   for (int i = 0; i < 10; i++)
+   {
+      const double t = tractions.position[i] - 5;
+      tractions.pressure[i] += std::sqrt(t) * (i % 2 ? 1e-3 : -1e-3);
+   }
+   FitSettings settings;
+   settings.skip = 0;
+   const FittedIntensity fit = fit_edge(tractions, settings).k_n;
+   EXPECT_EQ(fit.nodes, 10);
+   EXPECT_NEAR(fit.relative_error, 2.51e-4, 1e-6);
+}
+
+TEST(EdgeFit, ErrorsAreThoseOfLeastSquaresByHand)
+{
+   // Four nodes t = 1 … 4. Residuals (1, -1, -1, 1) e are orthogonal to a line; the parabola
+   // that they are, ((t - 2.5)² - 1.25) e, is 5 e at t = 0, and more than the standard error
+   // √(4 e²/2 · 30/20). Residuals (-1, 3, -3, 1) e are orthogonal to a parabola as well: the
+   // standard error √(20 e²/2 · 30/20) is all.
+   const double e = 1e-3, contrast[2][4] = {{1, -1, -1, 1}, {-1, 3, -3, 1}};
+   FitSettings settings;
+   settings.window = {1, 4}; // its ends are nodes, and in it
+   for (int kind : {0, 1})
+   {
+      EdgeTractions tractions;
+      for (int i = 0; i < 4; i++)
+      {
+         const double t = i + 1;
+         tractions.position.push_back(t);
+         tractions.pressure.push_back(std::sqrt(t) * (2 + 0.1 * t + contrast[kind][i] * e));
+         tractions.shear.push_back((-4 + 0.1 * t + contrast[1 - kind][i] * e) / std::sqrt(t));
+      }
+      const EdgeFit fit = fit_edge(tractions, settings);
+      const double error[] = {5 * e, std::sqrt(15.0) * e};
+      EXPECT_NEAR(fit.k_n.value, 2, 1e-12);
+      EXPECT_NEAR(fit.k_n.relative_error, error[kind] / 2, 1e-12);
+      EXPECT_NEAR(fit.k_t.value, -4, 1e-12);
+      EXPECT_NEAR(fit.k_t.relative_error, error[1 - kind] / 4, 1e-12);
+   }
 }
 
 TEST(EdgeFit, RefusesBadInput)

@@ -1,5 +1,8 @@
+#include "contact_laws.hpp"
 #include "disc_problems.hpp"
+#include "same_state.hpp"
 
+#include <cattaneo/friction/critical_friction.hpp>
 #include <cattaneo/friction/friction_disc.hpp>
 #include <cattaneo/friction/march.hpp>
 #include <cattaneo/friction/mechanism.hpp>
@@ -356,10 +359,127 @@ TEST(FrictionDisc, SavedAndResumedToTheLastBit)
    std::remove(file.c_str());
    EXPECT_EQ(resumed.status, kept.status);
    march(problem, history, resumed);
-   EXPECT_EQ(resumed.v, whole.v);
-   EXPECT_EQ(resumed.q, whole.q);
-   EXPECT_EQ(resumed.slip_origin, whole.slip_origin);
-   EXPECT_EQ(resumed.dissipation, whole.dissipation);
+   cattaneo_test::expect_same(resumed, whole);
+}
+
+/// One node of stiffness 2 under a pressure and shears along and across, f p = 0.4.
+ReducedProblem one_disc_node()
+{
+   ReducedProblem problem;
+   problem.A = 2 * Eigen::Matrix2d::Identity();
+   problem.B = Eigen::MatrixXd::Zero(1, 2);
+   problem.C = Eigen::MatrixXd::Ones(1, 1);
+   const VectorXd none = VectorXd::Zero(1);
+   problem.patterns = {{"press", Control::force, Vector2d(0, 0), VectorXd::Ones(1)},
+                       {"along", Control::force, Vector2d(1, 0), none},
+                       {"across", Control::force, Vector2d(0, 1), none}};
+   problem.H = Eigen::Matrix3d::Zero();
+   problem.gap = none;
+   set_friction(problem, 0.4);
+   return problem;
+}
+
+TEST(FrictionDisc, SlipBeginsAnewWhereItTurnsByMoreThanARightAngle)
+{
+   // Sheared along by 1 it slips to (-0.3, 0). Then by so much that 2 (cos a, sin a) would bear
+   // on it if it did not move: friction points along a, and it slips by -0.8 (cos a, sin a).
+   const ReducedProblem problem = one_disc_node();
+   MarchSettings settings;
+   settings.stepping = Stepping::fixed;
+   settings.increments = 1;
+   for (double degrees : {0.0, 80.0, -80.0, 89.9, 90.1, 100.0, -100.0, 180.0})
+   {
+      const double a = degrees * M_PI / 180;
+      const Vector2d turned(std::cos(a), std::sin(a));
+      const Vector3d along(1, 1, 0);
+      Vector3d then = along, back;
+      then.tail(2) += 2 * turned - Vector2d(0.4, 0);
+      back = then;
+      back.tail(2) -= (2 + 0.4) * turned; // and right back
+      ContactState state = ContactState::virgin(problem);
+      std::vector<ContactState> passed;
+      const MarchReport report = march(
+         problem,
+         LoadHistory::through({Vector3d(0, 0, 0), Vector3d(1, 0, 0), along, then, back}), state,
+         settings,
+         [&](const ContactState &now, const IncrementRecord &) { passed.push_back(now); });
+      ASSERT_EQ(report.status, FrictionStatus::converged);
+      ASSERT_EQ(passed.size(), 4u);
+      const Vector2d first(-0.3, 0), second = first - 0.8 * turned;
+      EXPECT_LT((passed[1].v - first).norm(), 1e-14);
+      EXPECT_EQ(passed[1].slip_origin, VectorXd(Vector2d(0, 0)));
+      EXPECT_LT((passed[2].v - second).norm(), 1e-13) << degrees;
+      const bool anew = std::abs(degrees) > 90;
+      EXPECT_LT((passed[2].slip_origin - (anew ? first : Vector2d(0, 0))).norm(), 1e-14)
+         << degrees;
+      EXPECT_LT((passed[3].slip_origin - second).norm(), 1e-13) << degrees;
+      EXPECT_LT((passed[3].v - (second + 0.8 * turned)).norm(), 1e-13) << degrees;
+      EXPECT_NEAR(state.dissipation, 0.4 * (0.3 + 0.8 + 0.8), 1e-13);
+   }
+}
+
+TEST(FrictionDisc, CriticalFrictionIsThatOfTheWeakestDirection)
+{
+   // Two nodes that feel each other, which does not count: each node's block of A has
+   // off-diagonal entries of its own.
+   ReducedProblem problem;
+   problem.A.resize(4, 4);
+   problem.A << 2, 0.3, 0.5, 0.2, 0.3, 3, -0.1, -1, 0.5, -0.1, 1, 0.15, 0.2, -1, 0.15, 2;
+   problem.B.resize(2, 4);
+   problem.B << 0.3, 0.07, 0.4, -0.05, 0.02, 1, 0.06, -0.8;
+   problem.C = 10 * Eigen::Matrix2d::Identity();
+   problem.gap = Vector2d(0, 0);
+   double least[2];
+   const Eigen::Matrix2d blocks[] = {Eigen::Matrix2d{{2, 0.5}, {0.5, 1}},
+                                     Eigen::Matrix2d{{3, -1}, {-1, 2}}};
+   const double pull[] = {0.5, std::hypot(1, 0.8)};
+   for (int i : {0, 1})
+   {
+      least[i] = 1e9;
+      for (int k = 0; k < 100000; ++k)
+      {
+         const double angle = k * M_PI / 100000;
+         const Vector2d s(std::cos(angle), std::sin(angle));
+         least[i] = std::min(least[i], s.dot(blocks[i] * s) / pull[i]);
+      }
+   }
+   EXPECT_NEAR(least[0], (1.5 - std::sqrt(0.5)) / 0.5, 1e-8); // the eigenvalue by hand
+   set_friction(problem, 1.07);
+   EXPECT_NEAR(critical_friction(problem).node, least[1], 1e-8);
+   EXPECT_EQ(critical_friction(problem).weakest_node, 1);
+   EXPECT_NEAR(FrictionSolver(problem).critical_friction(), least[1], 1e-8);
+   EXPECT_EQ(FrictionSolver(problem).critical_node(), 1);
+   // Only a closed node counts, and it is the one that is named.
+   const NodeState slip = NodeState::slip, stick = NodeState::stick,
+                   open = NodeState::separation;
+   EXPECT_EQ(FrictionSolver(problem).uniqueness({slip, stick}).status,
+             FrictionStatus::converged);
+   set_friction(problem, 1.08);
+   const FrictionSolver between(problem);
+   EXPECT_EQ(between.uniqueness({slip, open}).status, FrictionStatus::converged);
+   EXPECT_EQ(between.uniqueness({open, stick}).status, FrictionStatus::not_unique);
+   const std::string message = between.uniqueness({stick, slip}).message;
+   EXPECT_NE(message.find("friction 1.08 at node 1 is above its critical value 1.079"),
+             std::string::npos)
+      << message;
+}
+
+TEST(FrictionDisc, AnExactPathIsSaidToBeNone)
+{
+   const ReducedProblem problem = one_disc_node();
+   MarchSettings settings;
+   settings.stepping = Stepping::exact;
+   settings.increments = 3;
+   ContactState state = ContactState::virgin(problem);
+   const MarchReport report =
+      march(problem,
+            LoadHistory::through(
+               {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(1, 1, 0), Vector3d(1, -1, 1)}),
+            state, settings);
+   EXPECT_EQ(report.status, FrictionStatus::converged);
+   EXPECT_EQ(report.fallbacks, 2); // pressing takes one exact increment
+   EXPECT_EQ(report.increments.size(), 1u + 2 * 3u);
+   EXPECT_NE(report.fallback_reason.find("two tangential components"), std::string::npos);
 }
 
 TEST(FrictionDisc, StepsConvergeAtFirstOrderAndEnergyBalances)
@@ -496,6 +616,50 @@ TEST(FrictionDisc, SpinsAtTheFrictionTorque)
    EXPECT_LE(-report.event_multipliers[1], limit * (1 + 1e-9));
 }
 
+TEST(FrictionDisc, SpinsTheWayTheTorqueTurns)
+{
+   const int n = 12;
+   const ReducedProblem problem = free_disc(n, 0.4, 0.0);
+   ContactState pressed = ContactState::virgin(problem);
+   FrictionSolver(problem).solve(pressed, Vector2d(1, 0));
+   const double limit = 0.4 * problem.arc_length.dot(pressed.p);
+   for (double sign : {1.0, -1.0})
+   {
+      const auto steady = [&](double torque)
+      {
+         return find_spinning(problem, pressed.p,
+                              problem.clamped_forces(Vector2d(1, sign * torque)));
+      };
+      EXPECT_FALSE(steady(0.999 * limit).exists);
+      const Mechanism spinning = steady(1.001 * limit);
+      ASSERT_TRUE(spinning.exists && spinning.slides && spinning.spins);
+      VectorXd rotation = VectorXd::Zero(3 * n); // the largest radius is 1
+      rotation.segment(n, n) = sign * problem.arc_length;
+      EXPECT_LT((spinning.motion - rotation).norm(), 1e-13);
+      // All of the force at the largest radius holds a torque of f P at most.
+      const Eigen::MatrixXd Z = rigid_motions(problem);
+      const auto any = [&](double torque)
+      { return find_mechanism(problem, Z, problem.clamped_forces(Vector2d(1, torque))); };
+      EXPECT_FALSE(any(sign * 0.399).exists);
+      const Mechanism proof = any(sign * 0.401);
+      ASSERT_TRUE(proof.exists && proof.slides && proof.spins);
+      EXPECT_GT(sign * proof.motion[2 * n - 1], 0);
+      EXPECT_NEAR(proof.motion.cwiseAbs().maxCoeff(), 1, 1e-14);
+      EXPECT_TRUE(cattaneo_test::proves_mechanism(
+         problem, proof.motion, problem.clamped_forces(Vector2d(1, sign * 0.401))));
+      // The message is of the spinning, whichever way.
+      ContactState state = pressed;
+      const IncrementReport report =
+         FrictionSolver(problem).solve(state, Vector2d(1, sign * 0.5));
+      EXPECT_EQ(report.status, FrictionStatus::gross_sliding);
+      EXPECT_NE(report.message.find("spins about its axis"), std::string::npos);
+   }
+   // Twice the pressure holds twice the torque.
+   EXPECT_FALSE(find_spinning(free_disc(n, 0.4, 0.0), 2 * pressed.p,
+                              problem.clamped_forces(Vector2d(1, 1.5 * limit)))
+                   .exists);
+}
+
 TEST(FrictionDisc, SpinsBeyondTheGreatestTorqueOfACoupledContact)
 {
    const ReducedProblem problem = free_disc(12, 0.4, 0.15);
@@ -556,6 +720,9 @@ TEST(FrictionDisc, SlidesInTheDirectionOfTheLoad)
       EXPECT_FALSE(pulled(f * (1 - 1e-4)).exists);
       EXPECT_TRUE(pulled(f * (1 + 1e-4)).exists);
       const VectorXd motion = pulled(1.1 * f).motion;
+      EXPECT_GT(motion[0] * std::cos(angle) + motion[n] * std::sin(angle), 0) << angle;
+      EXPECT_TRUE(pulled(1.1 * f).slides);
+      EXPECT_EQ(pulled(1.1 * f).spins, angle != 0) << angle; // across is circumferential
       EXPECT_NEAR(motion[0] * std::sin(angle), motion[n] * std::cos(angle), 1e-4) << angle;
    }
 }

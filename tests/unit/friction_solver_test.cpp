@@ -29,6 +29,19 @@ ReducedProblem one_node(double a, double b, double c, double q, double p, double
    return problem;
 }
 
+/// Two nodes that do not feel each other, A = C = 1, B = ½.
+ReducedProblem free_nodes()
+{
+   ReducedProblem problem;
+   problem.A = problem.C = Eigen::Matrix2d::Identity();
+   problem.B = 0.5 * problem.A;
+   problem.patterns = {{"load", Control::force, Vector2d(0, 0), Vector2d(1, 1)}};
+   problem.H = Eigen::MatrixXd::Zero(1, 1);
+   problem.gap = Vector2d(0, 0);
+   set_friction(problem, 1);
+   return problem;
+}
+
 /// Largest violation of the laws of contact and friction, checked in plain words from v, w
 /// alone.
 double violation(const ReducedProblem &problem, const ContactState &state,
@@ -300,6 +313,103 @@ TEST(FrictionSolver, AboveCriticalFrictionNamesTheNode)
    FrictionSolver unique(below);
    ContactState other = ContactState::virgin(below);
    EXPECT_EQ(unique.solve(other, VectorXd::Ones(1)).status, FrictionStatus::converged);
+}
+
+TEST(FrictionSolver, OnlyClosedNodesAboveCriticalFrictionLeaveAChoice)
+{
+   // Two nodes apart, critical friction 2 each; the loads press one and pull at the other.
+   ReducedProblem problem = free_nodes();
+   const double p[][2] = {{1, -1}, {-1, 1}, {1, 1}, {-1, -1}};
+   const double f[][2] = {{1, 3}, {3, 1}, {1, 2}, {2, 1}, {1.999, 1.999}, {3, 3}};
+   for (const auto &pressed : p)
+   {
+      for (const auto &friction : f)
+      {
+         problem.patterns[0].p = Vector2d(pressed[0], pressed[1]);
+         problem.friction = Vector2d(friction[0], friction[1]);
+         FrictionSolver solver(problem);
+         ContactState state = ContactState::virgin(problem), before = state;
+         const IncrementReport report = solver.solve(state, VectorXd::Ones(1));
+         int above = -1;
+         for (int i : {1, 0})
+         {
+            if (pressed[i] > 0 && friction[i] >= 2) { above = i; }
+         }
+         for (const IncrementReport &verdict : {report, solver.judge(before, state)})
+         {
+            EXPECT_EQ(verdict.status,
+                      above < 0 ? FrictionStatus::converged : FrictionStatus::not_unique);
+            if (above < 0) { EXPECT_EQ(verdict.message, ""); }
+            else
+            {
+               EXPECT_NE(verdict.message.find("at node " + std::to_string(above)),
+                         std::string::npos)
+                  << verdict.message;
+            }
+         }
+      }
+   }
+}
+
+TEST(FrictionSolver, ForcesAreComparedWithTheLargestSoFar)
+{
+   // By hand: the loads with the contact clamped, an interference or an initial slip times the
+   // stiffness, and never less than before. A gap, however wide, is no force.
+   const auto peak = [](double q, double p, double gap, double slip)
+   {
+      const ReducedProblem problem = one_node(2, 0, 3, q, p, 0.4, gap);
+      ContactState state = ContactState::with_slip(problem, VectorXd::Constant(1, slip));
+      EXPECT_EQ(FrictionSolver(problem).solve(state, VectorXd::Ones(1)).status,
+                FrictionStatus::converged);
+      return state.peak_force;
+   };
+   EXPECT_DOUBLE_EQ(peak(0.3, 1, 0, 0), 1);
+   EXPECT_DOUBLE_EQ(peak(-2, 1, 0, 0), 2);
+   EXPECT_DOUBLE_EQ(peak(0.3, 1, 100, 0), 1);
+   EXPECT_DOUBLE_EQ(peak(0.3, 1, -0.5, 0), 1.5);
+   EXPECT_DOUBLE_EQ(peak(0.3, 1, 0, -5), 10);
+   EXPECT_DOUBLE_EQ(peak(0, 0, 0, 0), 0);
+
+   // After unloading to a millionth what breaks the laws by 1e-13 of the peak is round-off.
+   const ReducedProblem problem = one_node(2, 0, 3, 0.3, 1, 0.4, 0);
+   FrictionSolver solver(problem);
+   ContactState loaded = ContactState::virgin(problem), unloaded;
+   solver.solve(loaded, VectorXd::Ones(1));
+   unloaded = loaded;
+   const IncrementReport report = solver.solve(unloaded, VectorXd::Constant(1, 1e-6));
+   EXPECT_EQ(report.status, FrictionStatus::converged);
+   EXPECT_EQ(unloaded.peak_force, 1);
+   for (double spoilt : {1e-13, 1e-11})
+   {
+      ContactState other = unloaded;
+      other.p[0] += spoilt;
+      const IncrementReport normal = solver.judge(loaded, other);
+      EXPECT_NEAR(normal.residual_normal, spoilt, 1e-16);
+      EXPECT_LT(normal.residual_tangential, 1e-15);
+      EXPECT_EQ(normal.status,
+                spoilt < 1e-12 ? FrictionStatus::converged : FrictionStatus::stalled);
+      other = unloaded;
+      other.q[0] -= spoilt;
+      const IncrementReport tangential = solver.judge(loaded, other);
+      EXPECT_NEAR(tangential.residual_tangential, spoilt, 1e-16);
+      EXPECT_LT(tangential.residual_normal, 1e-15);
+      EXPECT_EQ(tangential.status, normal.status);
+   }
+}
+
+TEST(FrictionSolver, OutcomesHaveNames)
+{
+   const std::vector<std::string> names = {
+      name(FrictionStatus::converged), name(FrictionStatus::gross_sliding),
+      name(FrictionStatus::not_unique), name(FrictionStatus::no_solution),
+      name(FrictionStatus::stalled)};
+   EXPECT_EQ(names, (std::vector<std::string>{"converged", "gross sliding", "not unique",
+                                              "no solution", "stalled"}));
+   const std::vector<std::string> states = {
+      name(NodeState::stick), name(NodeState::separation), name(NodeState::forward_slip),
+      name(NodeState::backward_slip), name(NodeState::slip)};
+   EXPECT_EQ(states, (std::vector<std::string>{"stick", "separation", "forward slip",
+                                               "backward slip", "slip"}));
 }
 
 TEST(FrictionSolver, RefusesBadSettings)

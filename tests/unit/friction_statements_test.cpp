@@ -114,6 +114,59 @@ TEST(FrictionStatements, RoundOffOfALoadDecidesNothing)
    }
 }
 
+TEST(FrictionStatements, ALeverOfRoundOffBalancesNothing)
+{
+   const ReducedProblem problem =
+      two_nodes(free_along, O, I, Vector2d(1, 1), Vector2d(1, 1), Vector2d::Zero());
+   for (double lever : {0.0, 1e-17, 1e-15})
+   {
+      const MatrixXd motion = Eigen::Vector4d(1, 1, lever, -lever);
+      const Mechanism found =
+         find_mechanism(problem, motion, problem.clamped_forces(VectorXd::Ones(1)), 1e-12);
+      EXPECT_TRUE(found.exists && found.slides) << lever;
+   }
+}
+
+/// A soft mode of stiffness e, from a slip of -2e8 back to one of 1: the round-off of where the
+/// nodes come from is none of the answer's.
+TEST(FrictionStatements, ASlipFromFarAwayLeavesNoRoundOff)
+{
+   const double e = std::ldexp(1, -30), f = 0.1;
+   const Matrix2d soft{{1, 1 - e}, {1 - e, 1}};
+   for (int components : {1, 2})
+   {
+      for (double coupling : {0.0, 0.1}) // of the sum of slips, which is none
+      {
+         const MatrixXd B = MatrixXd::Constant(2, 2, coupling);
+         ReducedProblem problem =
+            two_nodes(soft, B, I, Vector2d(1, -1), Vector2d(0, 0), Vector2d(f, f));
+         problem.patterns.push_back({"P", Control::force, Vector2d(0, 0), Vector2d(1, 1)});
+         problem.H = MatrixXd::Zero(2, 2);
+         if (components == 2)
+         {
+            problem.A = MatrixXd::Identity(4, 4);
+            problem.A.topLeftCorner(2, 2) = soft;
+            problem.B = MatrixXd::Zero(2, 4);
+            problem.B.leftCols(2) = B;
+            for (LoadPattern &pattern : problem.patterns)
+            {
+               pattern.q.conservativeResizeLike(VectorXd::Zero(4));
+            }
+         }
+         ContactState state = ContactState::virgin(problem);
+         FrictionSolver solver(problem);
+         EXPECT_EQ(solver.solve(state, Vector2d(0.3, 1)).status, FrictionStatus::converged);
+         EXPECT_NEAR(e * state.v[0], -0.2, 1e-7); // 0.3 + e v = f p, ε 2e8
+         const IncrementReport back = solver.solve(state, Vector2d(-f - e, 1));
+         EXPECT_EQ(back.status, FrictionStatus::converged);
+         EXPECT_NEAR(state.v[0], 1, 1e-6); // round-off of the load over e
+         EXPECT_LT(back.round_off, 1e-14);
+         EXPECT_LT(back.residual_tangential, 1e-14);
+         EXPECT_NEAR(state.q[0], -f, 1e-15);
+      }
+   }
+}
+
 TEST(FrictionStatements, WhatIsPulledOffLiftsOff)
 {
    ContactState state;

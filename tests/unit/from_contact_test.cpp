@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cattaneo/fretting/calibration.hpp>
 #include <cattaneo/fretting/corner.hpp>
@@ -7,6 +8,7 @@
 #include <cmath>
 #include <functional>
 #include <gtest/gtest.h>
+#include <string>
 
 namespace
 {
@@ -207,6 +209,34 @@ TEST(FromContact, RefusesWhatItCannotJudge)
    const Solved solved = solve(coarse, {load, 0, 0}, {0, 0.1 * 0.5 * load, 0});
    EXPECT_THROW(contact_edges(coarse, solved.pressed, solved.peak), InputError);
    EXPECT_THROW(fully_stuck(coarse, solved.pressed, solved.peak, {true}), InputError);
+   // Each half of a contact must have the four nodes of a fit, and two that it leaves out
+   // unless a window is named. Those just outside of the edge that is read do not count.
+   for (int cells = 9; cells <= 25; cells++)
+   {
+      const ReducedProblem few = hertz_pair(cells);
+      const Solved pressed = solve(few, {load, 0, 0}, {0, 0.1 * 0.5 * load, 0});
+      const auto nodes = (pressed.peak.p.array() > 0).count();
+      for (const bool window : {false, true})
+      {
+         FitSettings settings;
+         if (window) { settings.window = {0, 2}; }
+         const int least = window ? 8 : 12;
+         std::string message;
+         try
+         {
+            contact_edges(few, pressed.pressed, pressed.peak, CrackedBody::second, settings);
+         }
+         catch (const InputError &error)
+         {
+            message = error.what();
+         }
+         const bool said = message.find("a stretch of contact has " + std::to_string(nodes) +
+                                        " nodes; the fit of its edges needs at least " +
+                                        std::to_string(least) + ":") != std::string::npos;
+         EXPECT_EQ(said, nodes < least) << nodes << message;
+         if (nodes >= least + 3) { EXPECT_EQ(message, ""); }
+      }
+   }
    ReducedProblem pieces = hertz_pair(41);
    const Solved two = solve(pieces, {load, 0, 0}, {0, 0.1 * 0.5 * load, 0});
    EXPECT_NO_THROW(contact_edges(pieces, two.pressed, two.peak));
@@ -216,6 +246,217 @@ TEST(FromContact, RefusesWhatItCannotJudge)
    frictionless.A.resize(0, 0);
    frictionless.B.resize(9, 0);
    EXPECT_THROW(contact_edges(frictionless, solved.pressed, solved.peak), InputError);
+}
+
+/// The problem seen from the other side: x and what points along it change their signs.
+ReducedProblem mirror(const ReducedProblem &problem)
+{
+   ReducedProblem result = problem;
+   result.A = problem.A.reverse();
+   result.B = -problem.B.reverse();
+   result.C = problem.C.reverse();
+   for (LoadPattern &pattern : result.patterns)
+   {
+      pattern.q = (-pattern.q.reverse()).eval();
+      pattern.p.reverseInPlace();
+   }
+   result.gap.reverseInPlace();
+   result.friction.reverseInPlace();
+   result.weights.reverseInPlace();
+   result.arc_length = problem.arc_length.maxCoeff() - problem.arc_length.reverse().array();
+   return result;
+}
+
+TEST(FromContact, EitherEdgeHasItsOwnFrictionAndTheMirrorImageTheSame)
+{
+   // Friction rises along a contact that is not in the middle of its line, under shear and bulk
+   // tension.
+   const int n = 141;
+   ReducedProblem problem =
+      half_planes(n, 1.4, [](double x) { return (x - 0.15) * (x - 0.15) / (2 * radius); });
+   for (int i = 0; i < n; i++) { problem.friction[i] = 0.4 + 0.2 * i / (n - 1); }
+   const Eigen::Vector3d normal(load, 0, 0), cyclic(0, 0.15 * 0.5 * load, 5e-4);
+   const ReducedProblem image = mirror(problem);
+   const Solved here = solve(problem, normal, cyclic), there = solve(image, normal, cyclic);
+   for (const CrackedBody body : {CrackedBody::first, CrackedBody::second})
+   {
+      const std::vector<ContactEdge> edges =
+         contact_edges(problem, here.pressed, here.peak, body);
+      const std::vector<ContactEdge> mirrored =
+         contact_edges(image, there.pressed, there.peak, body);
+      ASSERT_EQ(edges.size(), 2u);
+      ASSERT_EQ(mirrored.size(), 2u);
+      Index first = 0, last = n - 1;
+      while (here.peak.p[first] == 0) { first++; }
+      while (here.peak.p[last] == 0) { last--; }
+      EXPECT_EQ(edges[0].first, first);
+      EXPECT_EQ(edges[0].last, (first + last) / 2);
+      EXPECT_EQ(edges[1].first, edges[0].last + 1);
+      EXPECT_EQ(edges[1].last, last);
+      EXPECT_EQ(edges[0].friction, problem.friction[first]);
+      EXPECT_EQ(edges[1].friction, problem.friction[last]);
+      EXPECT_NEAR(edges[0].position.position, 1.4 + 0.15 - 1, 5e-3); // Hertz
+      EXPECT_NEAR(edges[1].position.position, 1.4 + 0.15 + 1, 5e-3);
+      for (int e : {0, 1})
+      {
+         const ContactEdge &edge = edges[e], &same = mirrored[1 - e];
+         EXPECT_EQ(same.side, -edge.side);
+         EXPECT_EQ(same.friction, edge.friction);
+         EXPECT_NEAR(same.position.position, problem.arc_length[n - 1] - edge.position.position,
+                     1e-8);
+         EXPECT_NEAR(same.position.error, edge.position.error, 1e-8);
+         EXPECT_NEAR(same.half_width, edge.half_width, 1e-8);
+         EXPECT_NEAR(same.k_n.value, edge.k_n.value, 1e-8 * edge.k_n.value);
+         EXPECT_NEAR(same.k_t.value, edge.k_t.value, 1e-7 * std::abs(edge.k_t.value));
+         EXPECT_NEAR(same.slip_zone, edge.slip_zone, 1e-8);
+         EXPECT_NEAR(same.slip_zone_error, edge.slip_zone_error, 1e-8);
+         const EdgeTractions nodes = edge_tractions(problem, here.peak, edge, body);
+         for (std::size_t k = 0; k < nodes.position.size(); k++)
+         {
+            EXPECT_GT(edge.side * (nodes.position[k] - edge.position.position), 0);
+         }
+      }
+   }
+}
+
+TEST(FromContact, AnEdgeThatSticksAndAContactThatSlides)
+{
+   // Bulk tension 4 Q/(π a) takes the shear from the leading edge: it sticks, the other slips.
+   const ReducedProblem problem = hertz_pair(121), image = mirror(problem);
+   const double shear = 0.2 * 0.5 * load;
+   for (const int slipping : {0, 1})
+   {
+      const ReducedProblem &p = slipping == 0 ? problem : image;
+      const Solved solved = solve(p, {load, 0, 0}, {0, shear, 4 * shear / pi});
+      const std::vector<ContactEdge> edges = contact_edges(p, solved.pressed, solved.peak);
+      ASSERT_EQ(edges.size(), 2u);
+      const double k_t = 2 * shear / (pi * std::sqrt(2.0)); // twice that of the shear alone
+      EXPECT_NEAR(edges[slipping].k_t.value, k_t, 0.01 * k_t);
+      EXPECT_NEAR(edges[1 - slipping].k_t.value, 0, 0.01 * k_t);
+      const double near_edge = 2 * k_t / (0.5 * hertz_k_n(load, 1)); // a lower bound
+      EXPECT_GT(edges[slipping].slip_zone, near_edge);
+      EXPECT_LT(edges[slipping].slip_zone, 1.5 * near_edge);
+      EXPECT_EQ(edges[1 - slipping].slip_zone, 0);
+      const std::vector<Zone> all = zones(p, solved.peak);
+      const auto stick =
+         std::find_if(all.begin(), all.end(),
+                      [](const Zone &zone) { return zone.state == NodeState::stick; });
+      ASSERT_NE(stick, all.end());
+      EXPECT_EQ(edges[slipping].slip_zone_error,
+                (slipping == 0 ? stick->from : stick->to).error +
+                   edges[slipping].position.error);
+   }
+   // Where all has slipped by 1 the zone is the whole contact, 2 a.
+   Solved sliding = solve(problem, {load, 0, 0}, {0, shear, 0});
+   ContactState state = sliding.pressed;
+   state.q = -0.5 * state.p;
+   state.v.array() += 1;
+   for (Index i = 0; i < problem.nodes(); i++)
+   {
+      if (state.p[i] > 0) { state.status[i] = NodeState::forward_slip; }
+   }
+   for (const ContactEdge &edge : contact_edges(problem, sliding.pressed, state))
+   {
+      EXPECT_TRUE(edge.slides);
+      EXPECT_NEAR(edge.slip_zone, 2, 5e-3);
+      EXPECT_NEAR(edge.half_width, 1, 3e-3);
+   }
+   // Nodes that are free carry nothing, to the last bit.
+   const ContactState stuck = fully_stuck(problem, sliding.pressed, sliding.peak);
+   for (Index i = 0; i < problem.nodes(); i++)
+   {
+      if (sliding.peak.p[i] > 0) { continue; }
+      EXPECT_EQ(stuck.p[i], 0);
+      EXPECT_EQ(stuck.q[i], 0);
+   }
+}
+
+/// Four nodes on springs of their own: 2 along, 4 across the contact.
+ReducedProblem four_springs()
+{
+   ReducedProblem problem;
+   problem.A = 2 * Eigen::Matrix4d::Identity();
+   problem.B = Eigen::Matrix4d::Zero();
+   problem.C = 4 * Eigen::Matrix4d::Identity();
+   const Eigen::Vector4d none = Eigen::Vector4d::Zero();
+   problem.patterns = {{"P", Control::force, none, Eigen::Vector4d(1, 1, 1, -0.4)},
+                       {"Q", Control::force, Eigen::Vector4d(0.1, -0.8, 0.7, 0.3), none}};
+   problem.H = Eigen::MatrixXd::Zero(2, 2);
+   problem.gap = Eigen::Vector4d(0.01, 0, 0, 0.05);
+   problem.weights = Eigen::Vector4d(1, 1, 1, 1);
+   problem.arc_length = Eigen::Vector4d(0, 1, 2, 3);
+   set_friction(problem, 0.5);
+   return problem;
+}
+
+TEST(FromContact, StuckNodesKeepTheirSlipAndOthersMoveFreely)
+{
+   const ReducedProblem problem = four_springs();
+   ContactState pressed = ContactState::virgin(problem);
+   pressed.v << 0.2, -0.1, 7, 7;
+   ContactState loaded = pressed;
+   loaded.multipliers << 1, 2;
+   loaded.p << 1, 1, 1, 0;
+   loaded.peak_force = 1;
+   loaded.status = {NodeState::stick, NodeState::forward_slip, NodeState::stick,
+                    NodeState::separation};
+   const ContactState stuck = fully_stuck(problem, pressed, loaded, {true, true, false, false});
+   // q = 2 v + 2 Q of the tied ones, v = -Q of the others; p = 4 w + P, w = -g where closed.
+   const auto expect = [](const VectorXd &found, const Eigen::Vector4d &expected)
+   { EXPECT_LT((found - expected).norm(), 1e-14) << found.transpose(); };
+   expect(stuck.v, {0.2, -0.1, -0.7, -0.3});
+   expect(stuck.q, {0.6, -1.8, 0, 0});
+   expect(stuck.w, {-0.01, 0, 0, 0.1});
+   expect(stuck.p, {0.96, 1, 1, 0});
+   expect(stuck.slip_origin, pressed.v);
+   EXPECT_EQ(stuck.status, (std::vector<NodeState>{NodeState::stick, NodeState::stick,
+                                                   NodeState::stick, NodeState::separation}));
+   // By default those that are closed are tied.
+   expect(fully_stuck(problem, pressed, loaded).v, {0.2, -0.1, 7, -0.3});
+}
+
+TEST(FromContact, EnergyOfAnEdgeIsThatOfItsNodesAndOfThoseThatRubBeyond)
+{
+   const int n = 10;
+   ReducedProblem problem;
+   problem.C = Eigen::MatrixXd::Identity(n, n);
+   problem.weights.resize(n);
+   problem.weights << 1, 1, 4, 1, 1, 2, 0, 2, 1, 1;
+   CycleRecord cycle;
+   cycle.node_dissipation.resize(n);
+   cycle.node_dissipation << 50, 0, 2, 3, 0, 4, 5, 7, 0, 60;
+   ContactEdge edge;
+   edge.first = 3;
+   edge.last = 5;
+   edge.k_n.value = 2;
+   edge.k_t.value = 0.3;
+   edge.friction = 0.5;
+   edge.side = 1; // beyond node 3 lies node 2, which rubs, and 1, which does not
+   const EnergyComparison left = compare_energy(problem, edge, cycle, 0.2, 8);
+   EXPECT_DOUBLE_EQ(left.computed_total, 2 + 3 + 0 + 4);
+   EXPECT_DOUBLE_EQ(left.computed_max, 3);
+   // π/3 ΔK² d_r/E*, d_r = 0.2/(0.5·2); √3 ΔK²/E*.
+   EXPECT_NEAR(left.predicted_total, pi / 3 * 0.04 * 0.2 / 8, 1e-17);
+   EXPECT_NEAR(left.predicted_max, std::sqrt(3.0) * 0.04 / 8, 1e-17);
+   edge.side = -1; // beyond node 5 lie 6, without a weight, and 7
+   const EnergyComparison right = compare_energy(problem, edge, cycle, 0.2, 8);
+   EXPECT_DOUBLE_EQ(right.computed_total, 3 + 0 + 4 + 5 + 7);
+   EXPECT_DOUBLE_EQ(right.computed_max, 3.5);
+   // To the ends of the line and no further.
+   edge.first = edge.last = 1;
+   edge.side = 1;
+   EXPECT_DOUBLE_EQ(compare_energy(problem, edge, cycle, 0.2, 8).computed_total, 50);
+   edge.first = edge.last = n - 2;
+   edge.side = -1;
+   EXPECT_DOUBLE_EQ(compare_energy(problem, edge, cycle, 0.2, 8).computed_total, 60);
+   edge.first = edge.last = 0;
+   edge.side = 1;
+   EXPECT_DOUBLE_EQ(compare_energy(problem, edge, cycle, 0.2, 8).computed_total, 50);
+   edge.first = edge.last = n - 1;
+   edge.side = -1;
+   EXPECT_DOUBLE_EQ(compare_energy(problem, edge, cycle, 0.2, 8).computed_total, 60);
+   cycle.node_dissipation.conservativeResize(n - 1);
+   EXPECT_THROW(compare_energy(problem, edge, cycle, 0.2, 8), InputError);
 }
 
 // --- corners
@@ -384,6 +625,47 @@ TEST(Corner, FitRecoversTheIntensities)
    }
    const CornerModes punch = corner_modes(Corner{pi / 2, pi});
    EXPECT_NEAR(fit_corner(punch, corner_tractions(punch, 1, 0.1, 0)).least_friction,
+               0.543075578837, 1e-9);
+}
+
+TEST(Corner, WindowsOfAFitAreWhatItSays)
+{
+   // Nodes 1/64 apart, whose distances are exact.
+   const CornerModes modes = corner_modes(Corner{pi / 2, pi});
+   EdgeTractions tractions; // to the left of a corner at 0
+   for (int i = 1; i < 60; i++)
+   {
+      const double r = i / 64.0, one = std::pow(r, modes.one.eigenvalue - 1),
+                   two = 0.2 * std::pow(r, modes.two->eigenvalue - 1);
+      tractions.position.push_back(-r);
+      tractions.pressure.push_back(one * modes.one.pressure + two * modes.two->pressure);
+      tractions.shear.push_back(-one * modes.one.shear - two * modes.two->shear);
+   }
+   FitSettings settings;
+   settings.window = {3 / 64.0, 8 / 64.0}; // both ends are in it
+   const CornerFit named = fit_corner(modes, tractions, settings);
+   EXPECT_EQ(named.k_one.nodes, 6);
+   EXPECT_EQ(named.k_two.nodes, 6);
+   EXPECT_EQ(named.k_one.window.nearest, 3 / 64.0);
+   EXPECT_EQ(named.k_two.window.farthest, 8 / 64.0);
+   EXPECT_NEAR(named.k_one.value, 1, 1e-9);
+   EXPECT_NEAR(named.k_two.value, 0.2, 1e-9);
+   // From the 20th node on the field is another: a chosen window ends before, and says where.
+   for (std::size_t i = 19; i < tractions.position.size(); i++) { tractions.pressure[i] *= 2; }
+   for (const int skip : {0, 2, 5})
+   {
+      settings = {};
+      settings.skip = skip;
+      const CornerFit fit = fit_corner(modes, tractions, settings);
+      EXPECT_EQ(fit.k_one.window.nearest, (skip + 1) / 64.0);
+      EXPECT_EQ(fit.k_one.window.farthest, (skip + fit.k_one.nodes) / 64.0);
+      EXPECT_LT(fit.k_one.window.farthest, 20 / 64.0);
+      EXPECT_NEAR(fit.k_one.value, 1, 1e-9);
+   }
+   // Seen with pad and body exchanged the shear changes its sign, not the friction it takes.
+   const CornerModes exchanged = corner_modes(Corner{pi, pi / 2});
+   EXPECT_LT(exchanged.one.traction_ratio(), 0);
+   EXPECT_NEAR(fit_corner(exchanged, corner_tractions(exchanged, 1, 0.1, 0)).least_friction,
                0.543075578837, 1e-9);
 }
 

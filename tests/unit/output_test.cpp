@@ -8,9 +8,13 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <gtest/gtest.h>
+#include <map>
 #include <sstream>
+#include <string>
 #include <unistd.h>
+#include <vector>
 
 namespace
 {
@@ -294,6 +298,454 @@ TEST_F(Output, ATableThatCannotBeWrittenLeavesNothing)
    EXPECT_THROW(table.write(folder + "/history.csv", problem), InputError);
    fs::remove(folder + "/taken");
    EXPECT_TRUE(fs::is_empty(folder));
+}
+
+/// A CSV file: the words of each column by its name.
+std::map<std::string, std::vector<std::string>> columns_of(const std::string &file)
+{
+   std::istringstream text(content(file));
+   std::string line, word;
+   std::vector<std::string> names;
+   std::map<std::string, std::vector<std::string>> result;
+   while (std::getline(text, line))
+   {
+      std::istringstream words(line);
+      std::size_t k = 0;
+      const bool header = names.empty();
+      for (; std::getline(words, word, ','); ++k)
+      {
+         if (header)
+         {
+            names.push_back(word);
+            EXPECT_EQ(result.count(word), 0u) << word;
+            result[word];
+         }
+         else if (k < names.size()) { result[names[k]].push_back(word); }
+      }
+      EXPECT_EQ(k, names.size()) << line;
+   }
+   return result;
+}
+
+std::vector<double> numbers(const std::vector<std::string> &words)
+{
+   std::vector<double> result;
+   for (const std::string &word : words) { result.push_back(std::stod(word)); }
+   return result;
+}
+
+void expect_values(const std::vector<double> &found, const std::vector<double> &expected,
+                   const std::string &what, double tolerance = 1e-12)
+{
+   ASSERT_EQ(found.size(), expected.size()) << what;
+   for (std::size_t i = 0; i < found.size(); ++i)
+   {
+      EXPECT_NEAR(found[i], expected[i], tolerance) << what << ' ' << i;
+   }
+}
+
+/** Four nodes on springs of their own, 2 along and 4 across the contact, f = 1/2. P presses
+   three with 1 and lifts the last by 0.4/4; Q shears. Under both, limits being 1/2: the first
+   sticks with q = 0.1; -0.5 = 2 v - 0.8 slips forward, 0.5 = 2 v + 0.7 backward; the last moves
+    freely, 0 = 2 v + 0.3. */
+ReducedProblem four_springs()
+{
+   ReducedProblem problem;
+   problem.A = 2 * Eigen::Matrix4d::Identity();
+   problem.B = Eigen::Matrix4d::Zero();
+   problem.C = 4 * Eigen::Matrix4d::Identity();
+   const Eigen::Vector4d none = Eigen::Vector4d::Zero();
+   problem.patterns = {{"P", Control::force, none, Eigen::Vector4d(1, 1, 1, -0.4)},
+                       {"Q right", Control::force, Eigen::Vector4d(0.1, -0.8, 0.7, 0.3), none}};
+   problem.H = Eigen::MatrixXd::Zero(2, 2);
+   problem.gap = Eigen::Vector4d(0, 0, 0, 0.05);
+   problem.weights = Eigen::Vector4d(0.25, 0.5, 1, 2);
+   problem.arc_length = Eigen::Vector4d(0, 1.0 / 3, 0.5, 2);
+   problem.position.resize(4, 2);
+   problem.position << -1, 5, -2, 6, -3, 7, -4, 1.0 / 7;
+   set_friction(problem, 0.5);
+   return problem;
+}
+
+TEST_F(Output, ColumnsAreThoseOfAStateSolvedByHand)
+{
+   const ReducedProblem problem = four_springs();
+   HistoryTable history;
+   std::vector<ContactState> states;
+   ContactState state = ContactState::virgin(problem);
+   const auto keep = [&](const ContactState &now, const IncrementRecord &record)
+   {
+      history.add(now, record);
+      if (now.time == 1 || now.time == 2) { states.push_back(now); }
+   };
+   using Eigen::Vector2d;
+   const LoadHistory path =
+      LoadHistory::through({Vector2d(0, 0), Vector2d(1, 0), Vector2d(1, 1)});
+   ASSERT_EQ(march(problem, path, state, {}, keep).status, FrictionStatus::converged);
+   ASSERT_EQ(states.size(), 2u);
+   states[0].status[0] = NodeState::forward_slip; // but it has not moved: stick
+   write_nodes(folder + "/nodes.csv", problem, states);
+   auto nodes = columns_of(folder + "/nodes.csv");
+   const std::map<std::string, std::vector<double>> expected = {
+      {"time", {1, 1, 1, 1, 2, 2, 2, 2}},
+      {"node", {0, 1, 2, 3, 0, 1, 2, 3}},
+      {"arc_length", {0, 1.0 / 3, 0.5, 2, 0, 1.0 / 3, 0.5, 2}},
+      {"x", {-1, -2, -3, -4, -1, -2, -3, -4}},
+      {"y", {5, 6, 7, 1.0 / 7, 5, 6, 7, 1.0 / 7}},
+      {"p", {4, 2, 1, 0, 4, 2, 1, 0}},
+      {"q", {0, 0, 0, 0, 0.4, -1, 0.5, 0}},
+      {"slip", {0, 0, 0, 0, 0, 0.15, -0.1, -0.15}},
+      {"opening", {0, 0, 0, 0.15, 0, 0, 0, 0.15}}};
+   EXPECT_EQ(nodes.size(), expected.size() + 1);
+   for (const auto &[column, values] : expected)
+   {
+      expect_values(numbers(nodes[column]), values, column);
+   }
+   EXPECT_EQ(nodes["state"],
+             (std::vector<std::string>{"stick", "stick", "stick", "separation", "stick",
+                                       "forward slip", "backward slip", "separation"}));
+
+   history.write(folder + "/history.csv", problem);
+   auto table = columns_of(folder + "/history.csv");
+   const auto last = [&](const char *column)
+   { return table[column].empty() ? -1 : std::stod(table[column].back()); };
+   EXPECT_EQ(last("time"), 2);
+   EXPECT_EQ(last("load P"), 1);
+   EXPECT_EQ(last("load Q right"), 1);
+   EXPECT_EQ(last("stick"), 1);
+   EXPECT_EQ(last("separation"), 1);
+   EXPECT_EQ(last("forward_slip"), 1);
+   EXPECT_EQ(last("backward_slip"), 1);
+   double lost = 0;
+   for (double loss : numbers(table["dissipation"])) { lost += loss; }
+   EXPECT_NEAR(lost, 0.5 * (0.15 + 0.1), 1e-12); // f p |v| at p = 1
+   EXPECT_LT(last("residual_normal"), 1e-10);
+   EXPECT_LT(last("residual_tangential"), 1e-10);
+}
+
+TEST_F(Output, EachColumnOfTheHistoryIsItsOwn)
+{
+   IncrementRecord record;
+   record.time = 1.0 / 3;
+   record.cycle = 2;
+   record.stick = 3;
+   record.separation = 4;
+   record.forward_slip = 5;
+   record.backward_slip = 6;
+   record.slip = 7;
+   record.dissipation = 8.1;
+   record.external_work = -9.1;
+   record.residual_normal = 1e-10;
+   record.residual_tangential = 1e-11;
+   record.round_off = 1e-12;
+   ReducedProblem problem = four_springs();
+   ContactState state = ContactState::virgin(problem);
+   state.multipliers << 0.1, -0.7;
+   const auto read = [&]
+   {
+      HistoryTable table;
+      table.add(state, record);
+      record.cycle = 20;
+      table.add(state, record);
+      record.cycle = 2;
+      table.write(folder + "/history.csv", problem);
+      return columns_of(folder + "/history.csv");
+   };
+   std::map<std::string, std::vector<std::string>> plane = read();
+   const auto expect = [](std::map<std::string, std::vector<std::string>> &table,
+                          const std::map<std::string, double> &expected)
+   {
+      EXPECT_EQ(table.size(), expected.size());
+      for (const auto &[column, value] : expected)
+      {
+         const double second = column == "cycle" ? 20 : value;
+         expect_values(numbers(table[column]), {value, second}, column, 0);
+      }
+   };
+   std::map<std::string, double> common = {{"time", 1.0 / 3},
+                                           {"cycle", 2},
+                                           {"load P", 0.1},
+                                           {"load Q right", -0.7},
+                                           {"stick", 3},
+                                           {"separation", 4},
+                                           {"dissipation", 8.1},
+                                           {"external_work", -9.1},
+                                           {"residual_normal", 1e-10},
+                                           {"residual_tangential", 1e-11},
+                                           {"round_off", 1e-12}};
+   std::map<std::string, double> expected = common;
+   expected["forward_slip"] = 5;
+   expected["backward_slip"] = 6;
+   expect(plane, expected);
+   // With torsion slip has a direction of its own.
+   problem.A = Eigen::MatrixXd::Identity(8, 8);
+   problem.B = Eigen::MatrixXd::Zero(4, 8);
+   std::map<std::string, std::vector<std::string>> disc = read();
+   expected = common;
+   expected["slip"] = 7;
+   expect(disc, expected);
+
+   // Whatever would break the table is said, and nothing is written.
+   fs::remove(folder + "/history.csv");
+   for (const std::string name : {"a,b", "a\"b", "a\nb", "a\rb"})
+   {
+      problem.patterns[1].name = name;
+      try
+      {
+         read();
+         ADD_FAILURE() << "not refused: " << name;
+      }
+      catch (const InputError &error)
+      {
+         EXPECT_NE(std::string(error.what()).find("'" + name + "' has a comma, a quote or"),
+                   std::string::npos)
+            << error.what();
+      }
+   }
+   problem.patterns.pop_back();
+   EXPECT_THROW(read(), InputError); // two multipliers for one pattern
+   EXPECT_TRUE(fs::is_empty(folder));
+}
+
+TEST_F(Output, NodesWithTorsionAndWithoutFriction)
+{
+   ReducedProblem problem = four_springs();
+   problem.A = Eigen::MatrixXd::Identity(8, 8);
+   problem.B = Eigen::MatrixXd::Zero(4, 8);
+   for (LoadPattern &pattern : problem.patterns) { pattern.q = Eigen::VectorXd::Zero(8); }
+   ContactState state = ContactState::virgin(problem);
+   state.p << 1, 1, 1, 0;
+   state.q << 0.1, 0.2, 0.3, 0, -0.4, -0.6, 0.4, 0; // radial, then circumferential
+   state.v << 1, 2, 3, 4, 5, 6, 7, 8;
+   state.w << 0, 0, 0, 0.25;
+   state.status = {NodeState::slip, NodeState::slip, NodeState::stick, NodeState::separation};
+   write_nodes(folder + "/disc.csv", problem, {state});
+   auto disc = columns_of(folder + "/disc.csv");
+   EXPECT_EQ(disc.size(), 12u);
+   expect_values(numbers(disc["p"]), {4, 2, 1, 0}, "p");
+   expect_values(numbers(disc["q_radial"]), {0.4, 0.4, 0.3, 0}, "q_radial");
+   expect_values(numbers(disc["q_circumferential"]), {-1.6, -1.2, 0.4, 0}, "q_circumferential");
+   expect_values(numbers(disc["slip_radial"]), {1, 2, 3, 4}, "slip_radial");
+   expect_values(numbers(disc["slip_circumferential"]), {5, 6, 7, 8}, "slip_circumferential");
+   expect_values(numbers(disc["opening"]), {0, 0, 0, 0.3}, "opening");
+   EXPECT_EQ(disc["state"], (std::vector<std::string>{"slip", "slip", "stick", "separation"}));
+
+   ReducedProblem smooth = four_springs();
+   smooth.A.resize(0, 0);
+   smooth.B.resize(4, 0);
+   for (LoadPattern &pattern : smooth.patterns) { pattern.q.resize(0); }
+   ContactState pressed = ContactState::virgin(smooth);
+   pressed.p << 1, 1, 1, 0;
+   write_nodes(folder + "/smooth.csv", smooth, {pressed});
+   auto plain = columns_of(folder + "/smooth.csv");
+   EXPECT_EQ(plain.size(), 10u);
+   expect_values(numbers(plain["p"]), {4, 2, 1, 0}, "p");
+   for (const char *column : {"q", "slip"})
+   {
+      expect_values(numbers(plain[column]), {0, 0, 0, 0}, column);
+   }
+   ContactLineFields(smooth, {0, 0, 0, 0}, folder, "smooth").write(pressed);
+   EXPECT_TRUE(fs::exists(folder + "/smooth/smooth_0.vtp"));
+
+   for (Eigen::VectorXd ReducedProblem::*list :
+        {&ReducedProblem::arc_length, &ReducedProblem::weights})
+   {
+      ReducedProblem without = smooth;
+      (without.*list).resize(0);
+      EXPECT_THROW(write_nodes(folder + "/no.csv", without, {pressed}), InputError);
+   }
+   smooth.position.resize(0, 0);
+   EXPECT_THROW(write_nodes(folder + "/no.csv", smooth, {pressed}), InputError);
+   EXPECT_FALSE(fs::exists(folder + "/no.csv"));
+}
+
+/// Numbers of the data array of that name ("": the points) in a file of VTK.
+std::vector<double> array_of(const std::string &vtk, const std::string &name)
+{
+   const std::string key = name.empty() ? "NumberOfComponents=\"3\"" : "Name=\"" + name + "\"";
+   EXPECT_EQ(occurrences(vtk, key), 1) << name;
+   std::istringstream values(vtk.substr(vtk.find('>', vtk.find(key)) + 1));
+   std::vector<double> result;
+   for (std::string word; values >> word && word[0] != '<';)
+   {
+      result.push_back(std::stod(word));
+   }
+   return result;
+}
+
+TEST_F(Output, AContactLineIsReadBackArrayByArray)
+{
+   const ReducedProblem problem = four_springs();
+   ContactState state = ContactState::virgin(problem);
+   using Eigen::Vector2d;
+   march(problem, LoadHistory::through({Vector2d(0, 0), Vector2d(1, 0), Vector2d(1, 1)}),
+         state);
+   ContactLineFields fields(problem, {0, 0, 0, 1}, folder, "line");
+   const ContactState virgin = ContactState::virgin(problem);
+   fields.write(virgin);
+   state.time = 1.0 / 3;
+   state.status[0] = NodeState::forward_slip; // but it has not moved: stick
+   fields.write(state);
+   const std::string vtp = content(folder + "/line/line_1.vtp");
+   EXPECT_NE(vtp.find("NumberOfPoints=\"4\" NumberOfVerts=\"0\" NumberOfLines=\"2\""),
+             std::string::npos);
+   const std::map<std::string, std::vector<double>> expected = {
+      {"", {-1, 5, 0, -2, 6, 0, -3, 7, 0, -4, 1.0 / 7, 0}},
+      {"connectivity", {0, 1, 2, 3}},
+      {"offsets", {3, 4}},
+      {"arc_length", {0, 1.0 / 3, 0.5, 2}},
+      {"gap", {0, 0, 0, 0.05}},
+      {"state", {0, 2, 3, 1}},
+      {"p", {4, 2, 1, 0}},
+      {"q", {0.4, -1, 0.5, 0}},
+      {"slip", {0, 0.15, -0.1, -0.15}},
+      {"opening", {0, 0, 0, 0.15}}};
+   for (const auto &[name, values] : expected)
+   {
+      expect_values(array_of(vtp, name), values, name);
+   }
+   EXPECT_EQ(occurrences(vtp, "<DataArray "), 10);
+   EXPECT_EQ(occurrences(vtp, "</DataArray>"), 10);
+   // Each time has the file of its own state.
+   const std::string pvd = content(folder + "/line/line.pvd");
+   EXPECT_NE(pvd.find("timestep=\"0\" part=\"0\" file=\"line_0.vtp\""), std::string::npos)
+      << pvd;
+   EXPECT_NE(pvd.find("timestep=\"0.33333333333333331\" part=\"0\" file=\"line_1.vtp\""),
+             std::string::npos)
+      << pvd;
+   expect_values(array_of(content(folder + "/line/line_0.vtp"), "slip"), {0, 0, 0, 0}, "slip");
+   expect_values(array_of(content(folder + "/line/line_0.vtp"), "opening"), {0, 0, 0, 0.05},
+                 "opening");
+
+   // What cannot be shown is refused.
+   EXPECT_THROW(ContactLineFields(problem, {0, 0, 0}, folder, "x"), InputError);
+   ReducedProblem bad = problem;
+   bad.arc_length.resize(0);
+   EXPECT_THROW(ContactLineFields(bad, {0, 0, 0, 0}, folder, "x"), InputError);
+   bad = problem;
+   bad.position.resize(0, 0);
+   EXPECT_THROW(ContactLineFields(bad, {0, 0, 0, 0}, folder, "x"), InputError);
+   bad = problem;
+   bad.A = Eigen::MatrixXd::Identity(8, 8);
+   EXPECT_THROW(ContactLineFields(bad, {0, 0, 0, 0}, folder, "x"), InputError);
+   state.p.resize(3);
+   EXPECT_THROW(fields.write(state), InputError);
+}
+
+TEST_F(Output, AFailedWriteIsSaidAndLeavesTheSeriesAsItWas)
+{
+   const ReducedProblem problem = four_springs();
+   ContactState state = ContactState::virgin(problem);
+   ContactLineFields fields(problem, {0, 0, 0, 0}, folder, "line");
+   const auto refused = [](const std::function<void()> &act, const std::string &said)
+   {
+      try
+      {
+         act();
+         ADD_FAILURE() << "not refused: " << said;
+      }
+      catch (const InputError &error)
+      {
+         EXPECT_NE(std::string(error.what()).find(said), std::string::npos) << error.what();
+      }
+   };
+   // A file stands where the folder is to be; then a folder where the file of time 1 is to be.
+   std::ofstream(folder + "/line") << "taken";
+   refused([&] { fields.write(state); }, "cannot make the folder '" + folder + "/line'");
+   fs::remove(folder + "/line");
+   fields.write(state);
+   state.time = 1;
+   fs::create_directories(folder + "/line/line_1.vtp");
+   refused([&] { fields.write(state); }, "line_1.vtp");
+   fs::remove(folder + "/line/line_1.vtp");
+   state.time = 2;
+   fields.write(state);
+   const std::string pvd = content(folder + "/line/line.pvd");
+   EXPECT_EQ(occurrences(pvd, "<DataSet"), 2) << pvd;
+   EXPECT_NE(pvd.find("timestep=\"0\" part=\"0\" file=\"line_0.vtp\""), std::string::npos)
+      << pvd;
+   EXPECT_NE(pvd.find("timestep=\"2\" part=\"0\" file=\"line_1.vtp\""), std::string::npos)
+      << pvd;
+   EXPECT_TRUE(fs::exists(folder + "/line/line_1.vtp"));
+
+   mfem::Mesh mesh = two_materials_mesh();
+   const ElasticBody body(mesh, 1, Material{});
+   std::ofstream(folder + "/file") << "taken";
+   BodyFields inside(body, folder + "/file/in", "body"), outside(body, folder, "body");
+   const mfem::Vector u = linear_field(body);
+   refused([&] { inside.write(u, 1); }, "cannot make the folder '" + folder + "/file/in'");
+   const mfem::Vector wrong(3);
+   refused([&] { outside.write(wrong, 1); },
+           "3 displacements, the body has " + std::to_string(u.Size()) + " true dofs");
+   EXPECT_FALSE(fs::exists(folder + "/body"));
+   std::ofstream(folder + "/body") << "taken";
+   refused([&] { outside.write(u, 1); }, "cannot write into the folder '" + folder + "'");
+}
+
+TEST_F(Output, FieldsOfBodiesOfRevolutionHaveTheirNames)
+{
+   mfem::Mesh mesh = rectangle_mesh({0, 0.4, 1}, {0, 0.7, 2});
+   const Material material{2.6, 0.3}; // μ = 1, λ = 1.5
+   // u_r = r z, u_z = r²: σ_rr = σ_θθ = 5 z, σ_zz = 3 z, τ_rz = 3 r; twist r z: τ_rθ = r z,
+   // τ_θz = r².
+   const ElasticBody body(mesh, 2, material, Geometry::axisymmetric),
+      torsion(mesh, 2, material, Geometry::torsion);
+   const auto dofs = [](const ElasticBody &of, const auto &value)
+   {
+      mfem::Vector u(of.space().GetTrueVSize());
+      for (int node = 0; node < of.node_coordinates().Width(); ++node)
+      {
+         const double r = of.node_coordinates()(0, node), z = of.node_coordinates()(1, node);
+         for (int c = 0; c < of.components(); ++c) { u(of.true_dof(node, c)) = value(r, z, c); }
+      }
+      return u;
+   };
+   BodyFields fields(body, folder, "body"), twisted(torsion, folder, "torsion");
+   fields.write(dofs(body, [](double r, double z, int c) { return c == 0 ? r * z : r * r; }),
+                1);
+   twisted.write(dofs(torsion, [](double r, double z, int) { return r * z; }), 1);
+   const auto expect = [](const BodyFields &of, const char *name, const auto &value)
+   {
+      const mfem::GridFunction &field = of.field(name);
+      mfem::FunctionCoefficient exact([&](const mfem::Vector &x) { return value(x(0), x(1)); });
+      EXPECT_LT(field.ComputeMaxError(exact), 1e-12) << name;
+   };
+   expect(fields, "sigma_rr", [](double, double z) { return 5 * z; });
+   expect(fields, "sigma_zz", [](double, double z) { return 3 * z; });
+   expect(fields, "sigma_tt", [](double, double z) { return 5 * z; });
+   expect(fields, "tau_rz", [](double r, double) { return 3 * r; });
+   expect(twisted, "tau_rt", [](double r, double z) { return r * z; });
+   expect(twisted, "tau_tz", [](double r, double) { return r * r; });
+   expect(twisted, "twist", [](double r, double z) { return r * z; });
+   EXPECT_THROW(twisted.field("displacement"), InputError);
+   try
+   {
+      fields.field("sigma_xx");
+      FAIL() << "a body of revolution has no sigma_xx";
+   }
+   catch (const InputError &error)
+   {
+      EXPECT_STREQ(error.what(),
+                   "ParaView output: there is no field 'sigma_xx'; there are: displacement, "
+                   "sigma_rr, sigma_tt, sigma_zz, tau_rz, von_mises");
+   }
+   // The files name the fields that they hold.
+   for (const auto &[name, inside] :
+        {std::pair<std::string, std::vector<std::string>>{
+            "body",
+            {"displacement", "sigma_rr", "sigma_zz", "sigma_tt", "tau_rz", "von_mises"}},
+         {"torsion", {"twist", "tau_rt", "tau_tz"}}})
+   {
+      std::string written;
+      for (const auto &entry : fs::recursive_directory_iterator(folder + "/" + name))
+      {
+         if (entry.path().extension() == ".pvtu") { written = content(entry.path()); }
+      }
+      for (const std::string &field : inside)
+      {
+         EXPECT_EQ(occurrences(written, "Name=\"" + field + "\""), 1) << field << written;
+      }
+   }
 }
 
 } // namespace

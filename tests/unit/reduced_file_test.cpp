@@ -1,9 +1,12 @@
+#include <array>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/reduced_file.hpp>
+#include <cmath>
 #include <fstream>
 #include <functional>
 #include <gtest/gtest.h>
 #include <shakedown_problems.hpp>
+#include <string>
 
 namespace
 {
@@ -36,6 +39,227 @@ TEST(ReducedFile, RestoresEveryBit)
       EXPECT_EQ(back.patterns[k].q, problem.patterns[k].q);
       EXPECT_EQ(back.patterns[k].p, problem.patterns[k].p);
    }
+}
+
+/// Two nodes: the second may not slide, and both rise together without resistance. Every entry
+/// has a value of its own. Matrices are written column by column.
+const char *const fields = R"(
+   "A": {"rows": 2, "cols": 2, "values": [2, 0, 0, 3]},
+   "B": {"rows": 2, "cols": 2, "values": [0.5, -0.5, 0, 0]},
+   "C": {"rows": 2, "cols": 2, "values": [7, -7, -7, 7]},
+   "H": {"rows": 2, "cols": 2, "values": [1, 4, -4, 9]},
+   "gap": {"rows": 2, "cols": 1, "values": [0.125, -0.25]},
+   "friction": {"rows": 2, "cols": 1, "values": [0.3, 0.4]},
+   "weights": {"rows": 2, "cols": 1, "values": [11, 12]},
+   "arc_length": {"rows": 2, "cols": 1, "values": [21, 22]},
+   "position": {"rows": 2, "cols": 2, "values": [31, 32, 33, 34]},
+   "dofs": {"rows": 2, "cols": 4, "values": [41, 42, 43, 44, 45, 46, -1, 48]},
+   "patterns": [
+      {"name": "P", "displacement": false,
+       "q": {"rows": 2, "cols": 1, "values": [51, 0]},
+       "p": {"rows": 2, "cols": 1, "values": [53, 54]}},
+      {"name": "d", "displacement": true,
+       "q": {"rows": 2, "cols": 1, "values": [61, 0]},
+       "p": {"rows": 2, "cols": 1, "values": [63, 64]}}])";
+const char *const facts = R"(,
+   "held": [1],
+   "chains": [
+      {"interface": "left", "first": 0, "nodes": 1, "loop": true,
+       "ends": ["smooth", "corner"], "other_ends": ["axis", "unknown"]},
+      {"interface": "right", "first": 1, "nodes": 1, "loop": false,
+       "ends": ["unknown", "smooth"], "other_ends": ["corner", "axis"]}])";
+const char *const motion = R"(,
+   "rigid_motions": {"rows": 4, "cols": 1,
+                     "values": [0, 0, 0.70710678118654757, 0.70710678118654757]})";
+
+std::string text(int format, const std::string &rest)
+{
+   return R"({"format": "cattaneo reduced problem )" + std::to_string(format) + "\"," + rest +
+          "}";
+}
+
+ReducedProblem read(const std::string &content)
+{
+   const std::string file = ::testing::TempDir() + "reduced_file_test_text.json";
+   std::ofstream(file) << content;
+   return load_reduced_problem(file);
+}
+
+void expect_fields(const ReducedProblem &problem)
+{
+   using Eigen::Matrix2d, Eigen::Vector2d;
+   EXPECT_EQ(problem.A, (Matrix2d{{2, 0}, {0, 3}}));
+   EXPECT_EQ(problem.B, (Matrix2d{{0.5, 0}, {-0.5, 0}}));
+   EXPECT_EQ(problem.C, (Matrix2d{{7, -7}, {-7, 7}}));
+   EXPECT_EQ(problem.H, (Matrix2d{{1, -4}, {4, 9}}));
+   EXPECT_EQ(problem.gap, Vector2d(0.125, -0.25));
+   EXPECT_EQ(problem.friction, Vector2d(0.3, 0.4));
+   EXPECT_EQ(problem.weights, Vector2d(11, 12));
+   EXPECT_EQ(problem.arc_length, Vector2d(21, 22));
+   EXPECT_EQ(problem.position, (Matrix2d{{31, 33}, {32, 34}}));
+   EXPECT_EQ(problem.dofs, (Eigen::Matrix<int, 2, 4>{{41, 43, 45, -1}, {42, 44, 46, 48}}));
+   ASSERT_EQ(problem.patterns.size(), 2u);
+   const LoadPattern &force = problem.patterns[0], &motion = problem.patterns[1];
+   EXPECT_EQ(force.name, "P");
+   EXPECT_EQ(force.control, Control::force);
+   EXPECT_EQ(force.q, Vector2d(51, 0));
+   EXPECT_EQ(force.p, Vector2d(53, 54));
+   EXPECT_EQ(motion.name, "d");
+   EXPECT_EQ(motion.control, Control::displacement);
+   EXPECT_EQ(motion.q, Vector2d(61, 0));
+   EXPECT_EQ(motion.p, Vector2d(63, 64));
+   EXPECT_FALSE(problem.uncoupled());
+}
+
+void expect_facts(const ReducedProblem &problem)
+{
+   EXPECT_EQ(problem.held, std::vector<Eigen::Index>{1});
+   ASSERT_EQ(problem.chains.size(), 2u);
+   const auto ends = [](LineEnd a, LineEnd b) { return std::array<LineEnd, 2>{a, b}; };
+   const ContactChain &left = problem.chains[0], &right = problem.chains[1];
+   EXPECT_EQ(left.interface, "left");
+   EXPECT_EQ(left.first, 0);
+   EXPECT_EQ(left.nodes, 1);
+   EXPECT_TRUE(left.loop);
+   EXPECT_EQ(left.ends, ends(LineEnd::smooth, LineEnd::corner));
+   EXPECT_EQ(left.other_ends, ends(LineEnd::axis, LineEnd::unknown));
+   EXPECT_EQ(right.interface, "right");
+   EXPECT_EQ(right.first, 1);
+   EXPECT_EQ(right.nodes, 1);
+   EXPECT_FALSE(right.loop);
+   EXPECT_EQ(right.ends, ends(LineEnd::unknown, LineEnd::smooth));
+   EXPECT_EQ(right.other_ends, ends(LineEnd::corner, LineEnd::axis));
+}
+
+TEST(ReducedFile, EveryFieldIsReadAndWrittenAgain)
+{
+   const std::string file = ::testing::TempDir() + "reduced_file_test_again.json";
+   const auto again = [&](const ReducedProblem &problem)
+   {
+      save(problem, file);
+      return load_reduced_problem(file);
+   };
+   const Eigen::Vector4d together(0, 0, std::sqrt(0.5), std::sqrt(0.5));
+   const ReducedProblem present = read(text(2, std::string(fields) + facts + motion));
+   for (const ReducedProblem &problem : {present, again(present)})
+   {
+      expect_fields(problem);
+      expect_facts(problem);
+      ASSERT_TRUE(problem.rigid_motions);
+      ASSERT_EQ(problem.rigid_motions->cols(), 1);
+      EXPECT_LT((*problem.rigid_motions - together).norm(), 1e-15);
+   }
+   // None are known to be none, or nothing is known of them.
+   const ReducedProblem none =
+      read(text(2, std::string(fields) + facts +
+                      R"(, "rigid_motions": {"rows": 4, "cols": 0, "values": []})"));
+   for (const ReducedProblem &problem : {none, again(none)})
+   {
+      expect_facts(problem);
+      ASSERT_TRUE(problem.rigid_motions);
+      EXPECT_EQ(problem.rigid_motions->rows(), 4);
+      EXPECT_EQ(problem.rigid_motions->cols(), 0);
+   }
+   const ReducedProblem unknown = read(text(2, std::string(fields) + facts));
+   for (const ReducedProblem &problem : {unknown, again(unknown)})
+   {
+      expect_facts(problem);
+      EXPECT_FALSE(problem.rigid_motions);
+   }
+   // The first format had no facts.
+   for (const std::string &content :
+        {text(1, fields), text(1, std::string(fields) + facts + motion)})
+   {
+      const ReducedProblem old = read(content);
+      expect_fields(old);
+      EXPECT_TRUE(old.held.empty());
+      EXPECT_TRUE(old.chains.empty());
+      EXPECT_FALSE(old.rigid_motions);
+      EXPECT_TRUE(again(old).chains.empty());
+   }
+   save(present, file);
+   std::string written;
+   std::getline(std::ifstream(file), written, '\0');
+   EXPECT_NE(written.find("\"cattaneo reduced problem 2\""), std::string::npos);
+   EXPECT_EQ(written.back(), '\n');
+}
+
+TEST(ReducedFile, SaysWhichFactIsWrong)
+{
+   const std::string good = text(2, std::string(fields) + facts + motion);
+   const auto refused =
+      [&](const std::string &from, const std::string &to, const std::string &said)
+   {
+      std::string content = good;
+      const auto at = content.find(from);
+      ASSERT_NE(at, std::string::npos) << from;
+      content.replace(at, from.size(), to);
+      try
+      {
+         read(content);
+         ADD_FAILURE() << "not refused: " << to;
+      }
+      catch (const InputError &error)
+      {
+         EXPECT_NE(std::string(error.what()).find(said), std::string::npos) << error.what();
+      }
+   };
+   refused("problem 2", "problem 3", "is not a 'cattaneo reduced problem 2' (or 1)");
+   refused("[\"smooth\", \"corner\"]", "[\"smooth\", \"bend\"]", "a line that ends 'bend'");
+   refused("\"held\": [1],", "", "held");
+   refused("\"held\": [1]", "\"held\": [2]", "held row 2 of A, must be from 0 to 1");
+   refused("\"held\": [1]", "\"held\": [-1]", "held row -1 of A");
+   refused("\"held\": [1]", "\"held\": [0]", "row 0 of A is said to be held");
+   refused("[61, 0]", "[61, 1]", "row 1 of A is said to be held, but is coupled or loaded");
+   refused("[0.5, -0.5, 0, 0]", "[0.5, -0.5, 1, -1]", "row 1 of A is said to be held");
+   refused("[2, 0, 0, 3]", "[2, 0.1, 0.1, 3]", "row 1 of A is said to be held");
+   refused("\"first\": 1", "\"first\": 0", "a chain of 1 nodes begins at node 0");
+   refused("\"first\": 1, \"nodes\": 1", "\"first\": 1, \"nodes\": 0", "a chain of 0 nodes");
+   refused("\"first\": 1, \"nodes\": 1", "\"first\": 1, \"nodes\": 2",
+           "have 3 nodes, must have all 2");
+   refused("\"rows\": 4, \"cols\": 1", "\"rows\": 2, \"cols\": 2",
+           "rigid motions have 2 rows, must have 4");
+   refused("0.70710678118654757]", "0.70710679]", "the rigid motions are not orthonormal");
+   refused("[0, 0, 0.70710678118654757, 0.70710678118654757]", "[1, 0, 0, 0]",
+           "a rigid motion meets forces of");
+   refused("[0, 0, 0.70710678118654757, 0.70710678118654757]", "[0, 0, 1, 0]",
+           "a rigid motion meets forces of");
+   // Normal forces against it, tangential ones: of B alone, which is 0.5 beside C's 7.
+   refused("[0.5, -0.5, 0, 0]", "[0.5, -0.4, 0, 0]", "a rigid motion meets forces of");
+   refused("[11, 12]", "[11, 12, 13]", "3 entries for a matrix of 2×1");
+   refused("[0.125, -0.25]", "[0.125, null]", "is not a reduced problem");
+   refused("[0.3, 0.4]", "[0.3, -0.5]", "friction coefficient -0.5 at node 1 is negative");
+   refused("[7, -7, -7, 7]", "[7, -7, -7, 0]", "diagonal of C is 0 at row 1");
+   refused("[7, -7, -7, 7]", "[7, -7, -7.0001, 7]", "C is not symmetric");
+   refused("\"rows\": 2, \"cols\": 2, \"values\": [1, 4, -4, 9]",
+           "\"rows\": 1, \"cols\": 1, \"values\": [1]",
+           "must be square of the number of load patterns 2");
+   refused("[51, 0]", "[51, 0, 0]", "3 entries for");
+   refused("{\"rows\": 2, \"cols\": 1, \"values\": [53, 54]}",
+           "{\"rows\": 1, \"cols\": 1, \"values\": [53]}",
+           "p of pattern 'P' has 1 entries, must be 2");
+}
+
+TEST(ReducedFile, ProblemsWithoutFrictionOrWithTorsion)
+{
+   ReducedProblem smooth = shakedown_test::random_contact(3, 4, 2, true);
+   smooth.A.resize(0, 0);
+   smooth.B.resize(4, 0);
+   for (LoadPattern &pattern : smooth.patterns) { pattern.q.resize(0); }
+   const std::string file = ::testing::TempDir() + "reduced_file_test_components.json";
+   save(smooth, file);
+   const ReducedProblem back = load_reduced_problem(file);
+   EXPECT_EQ(back.components(), 0);
+   EXPECT_EQ(back.B.rows(), 4);
+   EXPECT_EQ(back.C, smooth.C);
+   EXPECT_TRUE(back.uncoupled());
+   ReducedProblem disc = shakedown_test::random_contact(3, 4, 2, true);
+   disc.A = Eigen::MatrixXd::Identity(8, 8);
+   disc.B = Eigen::MatrixXd::Random(4, 8);
+   for (LoadPattern &pattern : disc.patterns) { pattern.q = Eigen::VectorXd::Random(8); }
+   save(disc, file);
+   EXPECT_EQ(load_reduced_problem(file).components(), 2);
+   EXPECT_EQ(load_reduced_problem(file).B, disc.B);
 }
 
 TEST(ReducedFile, RefusesWhatItDidNotWrite)

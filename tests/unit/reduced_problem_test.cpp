@@ -1,7 +1,10 @@
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/reduced_problem.hpp>
+#include <functional>
 #include <gtest/gtest.h>
 #include <limits>
+#include <string>
+#include <vector>
 
 namespace
 {
@@ -46,6 +49,95 @@ TEST(ReducedProblem, RefusesBadInput)
    EXPECT_THROW(set_friction(problem, std::numeric_limits<double>::quiet_NaN()), InputError);
 }
 
+TEST(ReducedProblem, SaysWhichSizeIsWrong)
+{
+   const auto refused =
+      [](const std::string &said, const std::function<void(ReducedProblem &)> &spoil)
+   {
+      ReducedProblem problem = two_nodes();
+      spoil(problem);
+      try
+      {
+         problem.validate();
+         ADD_FAILURE() << "not refused: " << said;
+      }
+      catch (const InputError &error)
+      {
+         EXPECT_NE(std::string(error.what()).find(said), std::string::npos) << error.what();
+      }
+   };
+   using Eigen::MatrixXd, Eigen::VectorXd;
+   refused("no contact nodes", [](auto &p) { p = {}; });
+   refused("sizes of A (3×3), B (2×3) and C (2×2) do not fit",
+           [](auto &p)
+           {
+              p.A = MatrixXd::Identity(3, 3);
+              p.B = MatrixXd::Zero(2, 3);
+           });
+   refused("3 tangential components",
+           [](auto &p)
+           {
+              p.A = MatrixXd::Identity(6, 6);
+              p.B = MatrixXd::Zero(2, 6);
+           });
+   refused("A is not symmetric", [](auto &p) { p.A(0, 1) += 1e-7; });
+   refused("diagonal of A is 0 at row 1", [](auto &p) { p.A << 1, 0, 0, 0; });
+   refused("dofs is 2×3", [](auto &p) { p.dofs = Eigen::MatrixXi::Zero(2, 3); });
+   refused("dofs is 1×2", [](auto &p) { p.dofs = Eigen::MatrixXi::Zero(1, 2); });
+   refused("position is 2×3", [](auto &p) { p.position = MatrixXd::Zero(2, 3); });
+   refused("position is 3×2", [](auto &p) { p.position = MatrixXd::Zero(3, 2); });
+   refused("H is 1×2", [](auto &p) { p.H = MatrixXd::Zero(1, 2); });
+   refused("two load patterns are named 'press'",
+           [](auto &p)
+           {
+              p.patterns.push_back(p.patterns[0]);
+              p.H = MatrixXd::Zero(2, 2);
+           });
+   refused("gap has 3 entries, must be 2", [](auto &p) { p.gap = VectorXd::Zero(3); });
+   refused("weights has 1 entries", [](auto &p) { p.weights = VectorXd::Ones(1); });
+   // Asymmetry of round-off is none: below 1e-9 of the largest entry, 5.
+   ReducedProblem problem = two_nodes();
+   problem.C(0, 1) += 4e-9;
+   EXPECT_NO_THROW(problem.validate());
+   problem.patterns.push_back({"pull", cattaneo::Control::force, {}, {}});
+   EXPECT_EQ(problem.pattern("pull"), 1);
+   try
+   {
+      problem.pattern("twist");
+      FAIL();
+   }
+   catch (const InputError &error)
+   {
+      EXPECT_STREQ(error.what(),
+                   "reduced problem: no load pattern 'twist'; there are: press, pull");
+   }
+   EXPECT_THROW(problem.clamped_forces(VectorXd::Ones(1)), InputError);
+   cattaneo::set_friction(problem, 0);
+   EXPECT_EQ(problem.friction, Eigen::Vector2d(0, 0));
+   EXPECT_THROW(cattaneo::set_friction(problem, -1e-300), InputError);
+}
+
+TEST(ReducedProblem, HoldingARowTakesItOutAndAllThatMovesIt)
+{
+   ReducedProblem problem = two_nodes();
+   problem.rigid_motions.emplace(4, 0);
+   cattaneo::hold(problem, {1, 1});
+   EXPECT_EQ(problem.A, (Eigen::Matrix2d{{4, 0}, {0, 4}}));
+   EXPECT_EQ(problem.B, (Eigen::Matrix2d{{0.5, 0}, {-0.2, 0}}));
+   EXPECT_EQ(problem.C, two_nodes().C);
+   EXPECT_EQ(problem.patterns[0].q, Eigen::Vector2d(0.1, 0));
+   EXPECT_EQ(problem.patterns[0].p, Eigen::Vector2d(1, 1));
+   EXPECT_EQ(problem.held, std::vector<Eigen::Index>{1});
+   EXPECT_FALSE(problem.rigid_motions); // no longer known
+   EXPECT_NO_THROW(problem.validate());
+   EXPECT_FALSE(problem.uncoupled());
+   cattaneo::hold(problem, {0});
+   EXPECT_EQ(problem.held, (std::vector<Eigen::Index>{1, 0}));
+   EXPECT_TRUE(problem.uncoupled());
+   EXPECT_THROW(cattaneo::hold(problem, {2}), InputError);
+   EXPECT_THROW(cattaneo::hold(problem, {-1}), InputError);
+}
+
 TEST(ReducedProblem, BothGapFormulationsGiveTheSameForces)
 {
    const ReducedProblem problem = two_nodes();
@@ -58,6 +150,13 @@ TEST(ReducedProblem, BothGapFormulationsGiveTheSameForces)
    const Eigen::Vector4d f_star =
       closed.stiffness() * u_star + closed.clamped_forces(Eigen::Vector2d(2.0, 1.0));
    EXPECT_LT((f - f_star).norm(), 1e-15);
+   EXPECT_TRUE(closed.gap.isZero(0));
+   EXPECT_EQ(closed.patterns.back().name, "gap");
+   EXPECT_EQ(closed.patterns.back().control, cattaneo::Control::force);
+   // Clamped, the pattern that closes the gap does no work with the others.
+   ReducedProblem loaded = problem;
+   loaded.H << 3;
+   EXPECT_EQ(absorb_gap(loaded).H, (Eigen::Matrix2d{{3, 0}, {0, 0}}));
 }
 
 } // namespace

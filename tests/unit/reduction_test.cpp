@@ -406,6 +406,113 @@ TEST(Reduction, TwoFreeBodiesNeedLoadsInEquilibrium)
    EXPECT_GT(modes.eigenvalues()[3], 1e-4 * largest);
 }
 
+/// The upper of two blocks pressed onto the lower one, which is held if told so, as it is
+/// given.
+Reduction stacked(double above, double below, bool held_above, bool held_below,
+                  bool lower_first, double poisson = 0.3)
+{
+   mfem::Mesh up = rectangle_mesh(uniform(0, 2, 4), uniform(0, 1, 2)),
+              down = rectangle_mesh(uniform(0, 2, 4), uniform(-1, 0, 2));
+   ElasticBody upper(up, 2, Material{above, 0.3}), lower(down, 2, Material{below, poisson});
+   for (int c : {0, 1})
+   {
+      if (held_above) { upper.fix(3, c); }
+      if (held_below) { lower.fix(1, c); }
+   }
+   // Shear of two free bodies would turn them.
+   const double shear = held_above || held_below ? 0.3 : 0.0;
+   if (!held_above) { upper.add_traction("press", 3, shear, -1.0); }
+   if (!held_below) { lower.add_traction("press", 1, -shear, 1.0); }
+   const CondensedBody a = condense(upper, contact_line(upper, 1)),
+                       b = condense(lower, contact_line(lower, 3));
+   return lower_first ? reduce(b, a, pair_lines(b.line, a.line))
+                      : reduce(a, b, pair_lines(a.line, b.line));
+}
+
+TEST(Reduction, KnowsTheRigidMotionsOfEitherBody)
+{
+   // One of them or both are free, which of them is the first or the stiffer does not matter.
+   for (const double stiff : {1.0, 1e8, 1e-8})
+   {
+      for (const auto &[above, below, count] :
+           {std::tuple(false, true, 3), {true, false, 3}, {false, false, 3}, {true, true, 0}})
+      {
+         if (!above && !below && stiff != 1) { continue; }
+         for (const bool lower_first : {false, true})
+         {
+            const Reduction reduction = stacked(stiff, 1, above, below, lower_first);
+            const ReducedProblem &problem = reduction.problem;
+            EXPECT_NO_THROW(problem.validate());
+            ASSERT_TRUE(problem.rigid_motions);
+            const MatrixXd &Z = *problem.rigid_motions, K = problem.stiffness();
+            ASSERT_EQ(Z.cols(), count);
+            if (count == 0) { continue; }
+            EXPECT_LT((K * Z).cwiseAbs().maxCoeff(), 1e-14 * K.cwiseAbs().maxCoeff());
+            // Relative translations are among them, and the resultants are those of the load.
+            const Eigen::Index n = problem.nodes();
+            VectorXd along = VectorXd::Zero(2 * n), across = along;
+            along.head(n).setOnes();
+            across.tail(n).setOnes();
+            for (const VectorXd &x : {along, across})
+            {
+               EXPECT_LT((x - Z * (Z.transpose() * x)).norm(), 1e-12 * x.norm());
+            }
+            // Tractions of 1 and, of a single free body, 0.3 on a length of 2.
+            const LoadPattern &load = problem.patterns[0];
+            EXPECT_NEAR(load.p.sum(), 2, 1e-12);
+            EXPECT_NEAR(std::abs(load.q.sum()), above || below ? 0.6 : 0.0, 1e-12);
+         }
+      }
+   }
+}
+
+TEST(Reduction, CouplingIsExactlyZeroForMirrorImagesOnly)
+{
+   const ReducedProblem mirror = stacked(1, 1, true, true, false).problem;
+   EXPECT_TRUE(mirror.uncoupled());
+   const double other = stacked(1, 1, true, true, false, 0.2).problem.B.cwiseAbs().maxCoeff();
+   for (const double change : {1e-6, 1e-8})
+   {
+      // The coupling grows with the difference of the two, from zero.
+      const ReducedProblem near = stacked(1, 1, true, true, false, 0.3 - change).problem;
+      EXPECT_FALSE(near.uncoupled()) << change;
+      EXPECT_GT(near.B.cwiseAbs().maxCoeff(), 0.1 * other * change / 0.1);
+      EXPECT_LT(near.B.cwiseAbs().maxCoeff(), 10 * other * change / 0.1);
+   }
+}
+
+TEST(Reduction, CarriesTheLineOfItsFirstBody)
+{
+   // Simpson's weights of unequal quadratic edges, which are not the tributary lengths.
+   mfem::Mesh up = rectangle_mesh({0, 1, 4}, {0, 1}), down = rectangle_mesh({0, 1, 4}, {-1, 0});
+   ElasticBody upper(up, 2, Material{}), lower(down, 2, Material{});
+   lower.fix(1, 0);
+   lower.fix(1, 1);
+   const CondensedBody a = condense(upper, contact_line(upper, 1)),
+                       b = condense(lower, contact_line(lower, 3));
+   for (const bool pair : {false, true})
+   {
+      const Reduction reduction = pair ? reduce(a, b, pair_lines(a.line, b.line)) : reduce(a);
+      const ReducedProblem &problem = reduction.problem;
+      const double x[] = {0, 0.5, 1, 2.5, 4}, weight[] = {1, 4, 4, 12, 3}; // sixths
+      ASSERT_EQ(problem.nodes(), 5);
+      for (int i = 0; i < 5; ++i)
+      {
+         EXPECT_NEAR(problem.weights[i], weight[i] / 6, 1e-14);
+         EXPECT_NEAR(problem.arc_length[i], x[i], 1e-14);
+         EXPECT_NEAR(problem.position(i, 0), x[i], 1e-14);
+         EXPECT_NEAR(problem.position(i, 1), 0, 1e-14);
+         EXPECT_EQ(problem.gap[i], 0);
+         EXPECT_EQ(problem.friction[i], 0);
+      }
+   }
+   // Bodies that look the same way cannot touch, whatever the pairing says.
+   Pairing wrong = pair_lines(a.line, b.line);
+   for (int i = 0; i < 5; ++i) { wrong.partner[i] = i; }
+   expect_input_error([&] { reduce(a, a, wrong); },
+                      "the bodies do not face each other at the contact node (0, 0)");
+}
+
 TEST(Reduction, OneBodyOnARigidObstacle)
 {
    mfem::Mesh mesh = block("quads");

@@ -46,6 +46,10 @@ TEST(Monolith, RatiosAndTheirLargestByHand)
    EXPECT_EQ(map[2].node, 1);
    EXPECT_NEAR(map[2].friction, 0.5, 1e-15);
    EXPECT_EQ(adhesion_map(problem, cycle, 0, {0.5}, {0, 2})[0].node, 2);
+   // Sheared backwards: -0.7/1.75, -0.5/1, -0.3/2.25.
+   const LoadCycle reversed = held_and_cycled(problem, "P", 1, "Q", -1);
+   EXPECT_NEAR(adhesion_map(problem, reversed, 1, {0.5})[0].friction, 0.5, 1e-15);
+   EXPECT_EQ(adhesion_map(problem, reversed, 1, {0.5})[0].node, 1);
 
    const Incipience open = incipient_separation(problem, cycle, 0);
    EXPECT_NEAR(open.load_factor, 4, 1e-14);
@@ -59,6 +63,170 @@ TEST(Monolith, RatiosAndTheirLargestByHand)
    EXPECT_NEAR(incipient_slip(problem, cycle, 0, {0}).load_factor, 1.25, 1e-14);
    EXPECT_THROW(incipient_slip(problem, cycle, 2), InputError);
    EXPECT_THROW(adhesion_map(problem, cycle, 0, {1}, {3}), InputError);
+}
+
+/// Nodes apart from each other, f = ½, with constant forces {q, p} under "P" and {dq, dp} for
+/// each unit of "Q".
+ReducedProblem nodes_apart(const Eigen::MatrixXd &forces)
+{
+   const Eigen::Index n = forces.rows();
+   ReducedProblem problem;
+   problem.A = problem.C = Eigen::MatrixXd::Identity(n, n);
+   problem.B = Eigen::MatrixXd::Zero(n, n);
+   problem.patterns = {{"P", Control::force, forces.col(0), forces.col(1)},
+                       {"Q", Control::force, forces.col(2), forces.col(3)}};
+   problem.H = Eigen::MatrixXd::Zero(2, 2);
+   problem.gap = Eigen::VectorXd::Zero(n);
+   set_friction(problem, 0.5);
+   return problem;
+}
+
+TEST(Monolith, FirstEventsOfEveryKindByHand)
+{
+   // q, p, dq, dp: |q + λ dq| = (p + λ dp)/2, whichever way each of them goes.
+   Eigen::MatrixXd forces(9, 4);
+   forces << 0, 1, 0.1, -1, // 0.1 λ = 0.5 - 0.5 λ
+      0, 1, 0.5, -1,        // 0.5 λ = 0.5 - 0.5 λ
+      0, 1, 0.5, 1,         // never
+      0.3, 1, 0.4, 1,       // never
+      -0.3, 1, 1, 0,        // λ - 0.3 = 0.5
+      0.3, 1, 1, 0,         // λ + 0.3 = 0.5
+      0.6, 1, -1, 0,        // from the start
+      0, -1, 0, 1,          // in tension from the start
+      0.1, 2, 0, -4;        // 0.1 = 1 - 2 λ
+   const double never = std::numeric_limits<double>::infinity();
+   const double slips[] = {0.5 / 0.6, 0.5, never, never, 0.8, 0.2, 0, 0, 0.45};
+   const double opens[] = {1, 1, never, never, never, never, never, 0, 0.5};
+   const ReducedProblem problem = nodes_apart(forces);
+   // The second vertex has three times the varying load, the third its opposite.
+   LoadCycle cycle{Eigen::Vector2d(1, 0), Eigen::MatrixXd::Zero(2, 3)};
+   cycle.varying.row(1) << 1, 3, -1;
+   for (Eigen::Index i = 0; i < 9; ++i)
+   {
+      for (int vertex : {0, 1})
+      {
+         const Incipience slip = incipient_slip(problem, cycle, vertex, {i}),
+                          open = incipient_separation(problem, cycle, vertex, {i});
+         const double share = vertex == 0 ? 1 : 3;
+         if (std::isinf(slips[i])) { EXPECT_TRUE(std::isinf(slip.load_factor)) << i; }
+         else { EXPECT_NEAR(slip.load_factor, slips[i] / share, 1e-15) << i; }
+         EXPECT_EQ(slip.node, std::isinf(slips[i]) ? -1 : i);
+         if (std::isinf(opens[i])) { EXPECT_TRUE(std::isinf(open.load_factor)) << i; }
+         else { EXPECT_NEAR(open.load_factor, opens[i] / share, 1e-15) << i; }
+         EXPECT_EQ(open.node, std::isinf(opens[i]) ? -1 : i);
+      }
+   }
+   EXPECT_NEAR(incipient_slip(problem, cycle, 2, {4}).load_factor, 0.2, 1e-15);
+   EXPECT_NEAR(incipient_slip(problem, cycle, 2, {5}).load_factor, 0.8, 1e-15);
+   EXPECT_EQ(incipient_slip(problem, cycle, 0, {5, 8, 1}).node, 5);
+   EXPECT_EQ(incipient_separation(problem, cycle, 0, {5, 0, 8, 1}).node, 8);
+   EXPECT_THROW(incipient_separation(problem, cycle, -1), InputError);
+   EXPECT_THROW(adhesion_map(problem, cycle, 3, {1}), InputError);
+
+   // In the disc |(0.3, λ)| = (1 ∓ λ/2)/2: 0.9375 λ² ± 0.25 λ - 0.16 = 0.
+   ReducedProblem disc = nodes_apart(Eigen::RowVector4d(0.3, 1, 0, -0.5));
+   disc.A = Eigen::Matrix2d::Identity();
+   disc.B = Eigen::MatrixXd::Zero(1, 2);
+   disc.patterns[0].q = Eigen::Vector2d(0.3, 0);
+   disc.patterns[1].q = Eigen::Vector2d(0, 1);
+   const double root = std::sqrt(0.0625 + 0.6);
+   EXPECT_NEAR(incipient_slip(disc, cycle, 0).load_factor, (root - 0.25) / 1.875, 1e-15);
+   EXPECT_NEAR(incipient_slip(disc, cycle, 2).load_factor, (root + 0.25) / 1.875, 1e-15);
+   EXPECT_NEAR(incipient_separation(disc, cycle, 0).load_factor, 2, 1e-15);
+   EXPECT_NEAR(traction_ratio(disc, Eigen::Vector2d(1, 0.4))[0], 0.5 / 0.8, 1e-15);
+   EXPECT_TRUE(std::isinf(traction_ratio(disc, Eigen::Vector2d(1, 2))[0]));
+   EXPECT_NEAR(adhesion_map(disc, cycle, 2, {0.4})[0].friction, 0.5 / 1.2, 1e-15);
+}
+
+TEST(LoadCycles, MultipliersAndStuckForcesByHand)
+{
+   const ReducedProblem problem = nodes_apart(Eigen::RowVector4d(0.3, 2, 4, -0.5));
+   const LoadCycle cycle = held_and_cycled(problem, "P", 3, "Q", -0.25);
+   EXPECT_EQ(cycle.multipliers(2), (Eigen::Matrix2d{{3, 3}, {2, -0.5}}));
+   const StuckForces forces = stuck_forces(problem, cycle);
+   EXPECT_EQ(forces.vertices(), 2);
+   EXPECT_EQ(forces.q0(0, 1), 3 * 0.3);
+   EXPECT_EQ(forces.p0(0, 0), 3 * 2);
+   EXPECT_EQ(forces.q1(0, 1), 4 * -0.25);
+   EXPECT_EQ(forces.p1(0, 1), -0.5 * -0.25);
+   EXPECT_DOUBLE_EQ(forces.q(2)(0, 1), 0.9 - 2);
+   EXPECT_DOUBLE_EQ(forces.p(2)(0, 0), 6 - 1);
+   EXPECT_NO_THROW(held_and_cycled(problem, "P", 1, "Q", -1));
+   EXPECT_NO_THROW(held_and_cycled(problem, "P", 1, "Q", 1));
+   EXPECT_THROW(held_and_cycled(problem, "P", 1, "Q", -1.01), InputError);
+   const auto refused = [&](auto spoil)
+   {
+      LoadCycle bad = cycle;
+      spoil(bad);
+      EXPECT_THROW(bad.validate(problem), InputError);
+   };
+   refused([](LoadCycle &c) { c.constant = Eigen::VectorXd::Zero(1); });
+   refused([](LoadCycle &c) { c.varying = Eigen::MatrixXd::Zero(3, 2); });
+   refused([](LoadCycle &c) { c.varying = Eigen::MatrixXd::Zero(2, 0); });
+   refused([](LoadCycle &c) { c.constant[1] = NAN; });
+   refused([](LoadCycle &c) { c.varying(1, 1) = INFINITY; });
+}
+
+TEST(Method1, SaysBetweenWhichVerticesAndWhenThereIsNone)
+{
+   const ReducedProblem problem = three_nodes();
+   // Between the second and the third of three vertices the shear changes by 1.5.
+   LoadCycle cycle{Eigen::Vector2d(1, 0), Eigen::MatrixXd::Zero(2, 3)};
+   cycle.varying.row(1) << 0, 1, -0.5;
+   for (const PointwiseEstimate &estimate :
+        {method1_friction(problem, cycle, 1), method1_load(problem, cycle)})
+   {
+      EXPECT_EQ(estimate.node, 1);
+      EXPECT_EQ(estimate.vertex_a, 1);
+      EXPECT_EQ(estimate.vertex_b, 2);
+   }
+   // Without node 1 it is node 2: 1.5/(1.5 + 2.25); 1.5 λ = 0.4 (4 - 0.25 λ).
+   EXPECT_NEAR(method1_friction(problem, cycle, 1, {0, 2}).value, 1.5 / 3.75, 1e-15);
+   EXPECT_NEAR(method1_load(problem, cycle, {0, 2}).value, 1.6 / 1.6, 1e-15);
+   EXPECT_EQ(method1_load(problem, cycle, {0, 2}).node, 2);
+   // One vertex alone: nothing changes, until node 2 opens.
+   cycle.varying = Eigen::Vector2d(0, 1);
+   EXPECT_EQ(method1_friction(problem, cycle, 1).value, 0);
+   EXPECT_NEAR(method1_load(problem, cycle).value, 4, 1e-14);
+   EXPECT_TRUE(std::isinf(method1_load(problem, cycle, {0, 1}).value));
+   // In tension no friction helps, and no load is held.
+   cycle.constant[0] = -1;
+   EXPECT_TRUE(std::isinf(method1_friction(problem, cycle, 0).value));
+   EXPECT_EQ(method1_load(problem, cycle).value, 0);
+   // In the disc the change is a distance, here of a triangle with the sides 3, 4 and 5.
+   ReducedProblem disc = nodes_apart(Eigen::RowVector4d(0, 10, 0, 0));
+   disc.A = Eigen::Matrix2d::Identity();
+   disc.B = Eigen::MatrixXd::Zero(1, 2);
+   disc.patterns[0].q = Eigen::Vector2d(7, -7);
+   disc.patterns[1].q = Eigen::Vector2d(3, 0);
+   disc.patterns.push_back(
+      {"R", Control::force, Eigen::Vector2d(0, 4), Eigen::VectorXd::Zero(1)});
+   disc.H = Eigen::Matrix3d::Zero();
+   LoadCycle triangle{Eigen::Vector3d(1, 0, 0), Eigen::MatrixXd::Zero(3, 3)};
+   triangle.varying(1, 1) = triangle.varying(2, 2) = 1;
+   const PointwiseEstimate longest = method1_friction(disc, triangle, 1);
+   EXPECT_NEAR(longest.value, 5.0 / 20, 1e-15);
+   EXPECT_EQ(longest.vertex_a, 1);
+   EXPECT_EQ(longest.vertex_b, 2);
+   EXPECT_NEAR(method1_load(disc, triangle).value, 0.5 * 20 / 5, 1e-15);
+}
+
+TEST(Method2, SaysWhyItHasNoAnswer)
+{
+   ReducedProblem problem = three_nodes();
+   const LoadCycle pulled = held_and_cycled(problem, "P", -1, "Q", 0);
+   const Method2Estimate tension = method2_friction(limit_problem(problem, pulled), 1);
+   EXPECT_FALSE(tension.exists);
+   EXPECT_NE(tension.message.find("in tension"), std::string::npos) << tension.message;
+   // A steady shear needs no friction by method 1, but of a free body has a resultant.
+   problem.A.array() -= 1.0 / 3;
+   const LoadCycle steady = held_and_cycled(problem, "P", 1, "Q", 1);
+   const Method2Estimate resultant = method2_friction(limit_problem(problem, steady), 0.3);
+   EXPECT_FALSE(resultant.exists);
+   EXPECT_NE(resultant.message.find("zero resultant"), std::string::npos) << resultant.message;
+   EXPECT_THROW(
+      method2_friction(limit_problem(random_contact(1, 3, 2, false), random_cycle(1, 3, 2)), 1),
+      InputError);
 }
 
 TEST(Method1, ByHand)
@@ -177,6 +345,140 @@ TEST(Coupling, DoesNotDependOnUnitsOrOnTheBasis)
    EXPECT_EQ(degree_of_coupling(other), 0);
 }
 
+TEST(Coupling, LeavesOutMotionsThatCostNothing)
+{
+   // Of a curved contact that turns in its seat: one slip and one opening in common store no
+   // energy at all, another pair shares 0.3 of it.
+   const double a = 0.4, b = 1.1;
+   const Eigen::Matrix2d U{{std::cos(a), -std::sin(a)}, {std::sin(a), std::cos(a)}},
+      V{{std::cos(b), -std::sin(b)}, {std::sin(b), std::cos(b)}};
+   ReducedProblem problem = nodes_apart(Eigen::MatrixXd::Ones(2, 4));
+   problem.B = U * Eigen::Vector2d(1, -0.3).asDiagonal() * V.transpose();
+   EXPECT_NEAR(degree_of_coupling(problem), 0.3, 1e-12);
+   problem.B = U * Eigen::Vector2d(1 - 1e-6, 0.3).asDiagonal() * V.transpose();
+   EXPECT_NEAR(degree_of_coupling(problem), 1 - 1e-6, 1e-12);
+}
+
+TEST(ResidualForces, AreThoseOfAnySlip)
+{
+   for (const Eigen::Index c : {1, 2})
+   {
+      for (const bool rigid : {false, true})
+      {
+         const ReducedProblem problem = random_contact(31, 4, c, rigid);
+         const ResidualForces residual = residual_forces(problem);
+         const Eigen::MatrixXd &Z = residual.rigid;
+         ASSERT_EQ(Z.cols(), rigid ? c : 0);
+         EXPECT_FALSE(residual.uncoupled);
+         std::mt19937 random(1);
+         const Eigen::VectorXd v = random_matrix(random, 4 * c, 1), r = problem.A * v;
+         Eigen::VectorXd rest = residual.flexibility * r - v; // a rigid slip
+         EXPECT_LT((problem.A * rest).norm(), 1e-12);
+         EXPECT_LT((residual.transfer * r - problem.B * v).norm(), 1e-12);
+         EXPECT_LT((residual.flexibility - residual.flexibility.transpose()).norm(), 1e-12);
+         for (Eigen::Index k = 0; k < Z.cols(); ++k)
+         {
+            EXPECT_NEAR(Z.col(k).norm(), 1, 1e-14);
+            EXPECT_LT((problem.A * Z.col(k)).norm(), 1e-12);
+         }
+      }
+   }
+   ReducedProblem problem = nodes_apart(Eigen::MatrixXd::Ones(2, 4));
+   EXPECT_TRUE(residual_forces(problem).uncoupled);
+   problem.A << 1, 2, 2, 1;
+   EXPECT_THROW(residual_forces(problem), InputError);
+   problem.A.resize(0, 0);
+   problem.B.resize(2, 0);
+   for (LoadPattern &pattern : problem.patterns) { pattern.q.resize(0); }
+   EXPECT_THROW(residual_forces(problem), InputError);
+   EXPECT_EQ(degree_of_coupling(problem), 0);
+}
+
+TEST(ClosedContact, LoadsDoTheSameWorkAndFactsAreKept)
+{
+   ReducedProblem problem = random_contact(10, 6, 2, false);
+   std::mt19937 random(4);
+   problem.patterns[1].control = Control::displacement;
+   problem.H = random_matrix(random, 3, 3);
+   problem.weights = random_matrix(random, 6, 1).cwiseAbs();
+   problem.arc_length = Eigen::VectorXd::LinSpaced(6, 0, 5);
+   problem.position = random_matrix(random, 6, 2);
+   const LineEnd corner = LineEnd::corner, smooth = LineEnd::smooth, none = LineEnd::unknown;
+   problem.chains = {{"a", 0, 3, true, {corner, smooth}, {smooth, smooth}},
+                     {"b", 3, 2, false, {smooth, corner}, {corner, smooth}},
+                     {"c", 5, 1, false, {smooth, smooth}, {smooth, smooth}}};
+   hold(problem, {1, 2, 10}); // along: nodes 1 and 2; across: node 4
+   const std::vector<Eigen::Index> closed = {0, 1, 3, 4};
+   const ReducedProblem reduced = closed_contact(problem, closed).reduced;
+
+   // Displacements of forces and reactions of prescribed displacements, g = H λ ∓ Fᵀ u, with
+   // open nodes that move until they carry nothing.
+   const std::vector<Eigen::Index> closed_v = {0, 1, 3, 4, 6, 7, 9, 10},
+                                   open_u = {2, 5, 8, 11, 14, 17};
+   Eigen::VectorXd slip = random_matrix(random, 8, 1);
+   const Eigen::VectorXd loads = random_matrix(random, 3, 1);
+   Eigen::VectorXd u = Eigen::VectorXd::Zero(18);
+   u(closed_v) = slip;
+   const Eigen::MatrixXd K = problem.stiffness();
+   const Eigen::VectorXd clamped = K * u + problem.clamped_forces(loads);
+   u(open_u) = -Eigen::FullPivLU<Eigen::MatrixXd>(K(open_u, open_u))
+                   .solve(Eigen::VectorXd(clamped(open_u)));
+   for (int k = 0; k < 3; ++k)
+   {
+      const double sign = k == 1 ? 1 : -1;
+      const LoadPattern &pattern = problem.patterns[k];
+      const double whole = problem.H.row(k) * loads +
+                           sign * (pattern.q.dot(u.head(12)) + pattern.p.dot(u.tail(6)));
+      const double part = reduced.H.row(k) * loads + sign * reduced.patterns[k].q.dot(slip);
+      EXPECT_NEAR(part, whole, 1e-12) << k;
+      EXPECT_EQ(reduced.patterns[k].control, pattern.control);
+      EXPECT_EQ(reduced.patterns[k].name, pattern.name);
+   }
+   for (int i = 0; i < 4; ++i)
+   {
+      EXPECT_EQ(reduced.weights[i], problem.weights[closed[i]]);
+      EXPECT_EQ(reduced.arc_length[i], problem.arc_length[closed[i]]);
+      EXPECT_EQ(reduced.friction[i], problem.friction[closed[i]]);
+      EXPECT_EQ(reduced.position(i, 1), problem.position(closed[i], 1));
+   }
+   // Closed nodes 1 and 4 are the second and the last of four.
+   EXPECT_EQ(reduced.held, (std::vector<Eigen::Index>{1, 7}));
+   ASSERT_EQ(reduced.chains.size(), 2u);
+   EXPECT_EQ(reduced.chains[0].first, 0);
+   EXPECT_EQ(reduced.chains[0].nodes, 2);
+   EXPECT_FALSE(reduced.chains[0].loop);
+   EXPECT_EQ(reduced.chains[0].ends, (std::array<LineEnd, 2>{none, none}));
+   EXPECT_EQ(reduced.chains[0].other_ends, (std::array<LineEnd, 2>{none, none}));
+   EXPECT_EQ(reduced.chains[1].interface, "b");
+   EXPECT_EQ(reduced.chains[1].first, 2);
+   EXPECT_EQ(reduced.chains[1].nodes, 2);
+   EXPECT_EQ(reduced.chains[1].ends, (std::array<LineEnd, 2>{smooth, corner}));
+   EXPECT_EQ(reduced.chains[1].other_ends, (std::array<LineEnd, 2>{corner, smooth}));
+   EXPECT_NO_THROW(reduced.validate());
+   // A line with a gap in it is two.
+   ReducedProblem line = problem;
+   line.chains = {{"a", 0, 6, false, {corner, smooth}, {smooth, corner}}};
+   const std::vector<ContactChain> runs = closed_contact(line, {0, 1, 3, 4, 5}).reduced.chains;
+   ASSERT_EQ(runs.size(), 2u);
+   EXPECT_EQ(runs[0].nodes, 2);
+   EXPECT_EQ(runs[0].ends, (std::array<LineEnd, 2>{corner, none}));
+   EXPECT_EQ(runs[1].first, 2);
+   EXPECT_EQ(runs[1].nodes, 3);
+   EXPECT_EQ(runs[1].other_ends, (std::array<LineEnd, 2>{none, corner}));
+   // All closed: the same contact.
+   const ClosedContact all = closed_contact(problem, {0, 1, 2, 3, 4, 5});
+   EXPECT_EQ(all.reduced.B, problem.B);
+   EXPECT_EQ(all.reduced.H, problem.H);
+   EXPECT_TRUE(all.reduced.chains[0].loop);
+   EXPECT_EQ(all.open_gaps(Eigen::VectorXd::Zero(12), loads).size(), 0);
+   // Nothing holds the open nodes.
+   const ReducedProblem free = random_contact(10, 6, 1, true);
+   EXPECT_NO_THROW(closed_contact(free, {0, 1}));
+   ReducedProblem loose = nodes_apart(Eigen::MatrixXd::Ones(3, 4));
+   loose.C << 1, 0, 0, 0, 1, -1, 0, -1, 1;
+   EXPECT_THROW(closed_contact(loose, {0}), InputError);
+}
+
 TEST(ClosedContact, ForcesAreThoseOfTheWholeContactWithOpenNodes)
 {
    ReducedProblem problem = random_contact(9, 6, 2, false);
@@ -207,6 +509,7 @@ TEST(ClosedContact, ForcesAreThoseOfTheWholeContactWithOpenNodes)
    EXPECT_LT((reduced.A * slip + own.head(6) - f(closed_v)).norm(), 1e-12);
    EXPECT_LT((reduced.B * slip + own.tail(3) - f(closed_w)).norm(), 1e-12);
    const Eigen::VectorXd gaps = contact.open_gaps(slip, loads);
+   EXPECT_NEAR(gaps[1], u[15], 1e-12);
    EXPECT_NEAR(gaps[0], u[14] + 0.1, 1e-12);
    EXPECT_NEAR(gaps[2], u[17], 1e-12);
 

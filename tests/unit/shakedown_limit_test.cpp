@@ -314,6 +314,25 @@ TEST(Limit, RefusesBadInput)
    EXPECT_THROW(limit_problem(problem, random_cycle(3, 2, 2)), InputError);
    EXPECT_THROW(held_and_cycled(problem, "press", 1, "shear", 1.5), InputError);
    EXPECT_THROW(held_and_cycled(problem, "press", 1, "bend", 0), InputError);
+   const auto refused = [](auto spoil)
+   {
+      LimitSettings settings;
+      EXPECT_NO_THROW(settings.validate());
+      spoil(settings);
+      EXPECT_THROW(settings.validate(), InputError);
+   };
+   refused([](LimitSettings &s) { s.tolerance = 0.9e-9; });
+   refused([](LimitSettings &s) { s.tolerance = 1; });
+   refused([](LimitSettings &s) { s.max_iterations = 0; });
+   refused([](LimitSettings &s) { s.largest_factor = 0; });
+   refused([](LimitSettings &s) { s.largest_factor = INFINITY; });
+   refused([](LimitSettings &s) { s.largest_friction = 0; });
+   refused([](LimitSettings &s) { s.largest_friction = INFINITY; });
+   EXPECT_THROW(friction_limit(limit_problem(problem, cycle), NAN), InputError);
+   LimitProblem mixed = limit_problem(problem, cycle);
+   mixed.residual = residual_forces(random_contact(3, 5, 1, false));
+   EXPECT_THROW(load_limit(mixed), InputError);
+   EXPECT_THROW(friction_limit(mixed, 1), InputError);
    LimitSettings settings;
    settings.tolerance = 0;
    EXPECT_THROW(load_limit(limit_problem(problem, cycle), settings), InputError);

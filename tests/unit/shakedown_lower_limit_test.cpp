@@ -92,6 +92,101 @@ TEST(LowerLimit, OfAChainOfTwoNodesByHand)
    EXPECT_NEAR(lower.value, f * (1 - b * f / a) / (s - f * b * r / a), 1e-12);
 }
 
+TEST(LowerLimit, OfTwoUnlikeNodesByHandInAnyOrderAndSense)
+{
+   // As above with unlike nodes and a load between λ and R λ. Node 0 ends anywhere in
+   // -f0 P0 - R λ r ≤ a0 v0 ≤ f0 P0 - λ r; node 1 sticks somewhere if half its range of shear,
+   // λ s (1 - R)/2, is within f1 (P1 + b v0).
+   const double a0 = 2, a1 = 3, r = 0.3, s = 1, f0 = 0.4, f1 = 0.5, P0 = 1.2, P1 = 0.9,
+                R = -0.6;
+   for (const double b : {0.8, -0.8})
+   {
+      const double half = s * (1 - R) / 2, c = f1 * b / a0;
+      const double at_low = (f1 * P1 - c * f0 * P0) / (half + c * R * r),
+                   at_high = (f1 * P1 + c * f0 * P0) / (half + c * r);
+      const double expected = b > 0 ? at_low : at_high, best = b > 0 ? at_high : at_low;
+      const double v0 = (b > 0 ? -f0 * P0 - R * expected * r : f0 * P0 - expected * r) / a0,
+                   v1 = -expected * s * (1 + R) / 2 / a1;
+      for (const int first : {0, 1})
+      {
+         for (const double sense : {1.0, -1.0})
+         {
+            const int second = 1 - first;
+            ReducedProblem problem = chain(1, 0, 0, 0);
+            problem.A.setZero();
+            problem.B.setZero();
+            problem.A(first, first) = a0;
+            problem.A(second, second) = a1;
+            problem.B(second, first) = sense * b;
+            problem.patterns[0].p[first] = P0;
+            problem.patterns[0].p[second] = P1;
+            problem.patterns[1].q[first] = sense * r;
+            problem.patterns[1].q[second] = sense * s;
+            problem.friction[first] = f0;
+            problem.friction[second] = f1;
+            const LimitProblem limit =
+               limit_problem(problem, held_and_cycled(problem, "P", 1, "Q", R));
+            const LimitReport upper = load_limit(limit);
+            ASSERT_EQ(upper.status, LimitStatus::certified) << upper.message;
+            EXPECT_NEAR(upper.limit, best, 1e-7);
+            const LowerLimitReport lower = lower_limit(limit, upper);
+            ASSERT_EQ(lower.kind, LowerLimitKind::two_nodes);
+            EXPECT_NEAR(lower.value, expected, 1e-12);
+            EXPECT_NEAR(lower.slip[first], sense * v0, 1e-12);
+            EXPECT_NEAR(lower.slip[second], sense * v1, 1e-12);
+         }
+      }
+   }
+}
+
+TEST(LowerLimit, OfOneNodeThatPressesItselfByHand)
+{
+   // q = ±λ + a v, p = P + b v. The best slip is none: λ2 = f P. With M = b/a and h = P ∓ M λ
+   // the lowest pressure at ±λ is h/(1 + f M), that with q = -f p; a slip between both keeps
+   // |q*| ≤ f p_low up to λ = f P/(1 + f M), at a v = -f P f M/(1 + f M)².
+   const double a = 2, P = 1.5, f = 0.5;
+   for (const double b : {1.0, -1.0, 3.0})
+   {
+      ReducedProblem problem;
+      problem.A = Eigen::MatrixXd::Constant(1, 1, a);
+      problem.B = Eigen::MatrixXd::Constant(1, 1, b);
+      problem.C = Eigen::MatrixXd::Constant(1, 1, 10);
+      const Eigen::VectorXd zero = Eigen::VectorXd::Zero(1), one = Eigen::VectorXd::Ones(1);
+      problem.patterns = {{"P", Control::force, zero, one}, {"Q", Control::force, one, zero}};
+      problem.H = Eigen::MatrixXd::Zero(2, 2);
+      problem.gap = zero;
+      set_friction(problem, f);
+      const LimitProblem limit =
+         limit_problem(problem, held_and_cycled(problem, "P", P, "Q", -1));
+      EXPECT_NEAR(limit.coupling, std::abs(b) / std::sqrt(10 * a), 1e-14);
+      const LimitReport upper = load_limit(limit);
+      ASSERT_EQ(upper.status, LimitStatus::certified) << upper.message;
+      EXPECT_EQ(upper.coupling, limit.coupling);
+      EXPECT_NEAR(upper.limit, f * P, 1e-6);
+      const LowerLimitReport lower = lower_limit(limit, upper);
+      ASSERT_EQ(lower.kind, LowerLimitKind::bound) << lower.message;
+      const double M = std::abs(b) / a;
+      EXPECT_NEAR(lower.value, f * P / (1 + f * M), 1e-6);
+      EXPECT_LE(lower.value, f * P / (1 + f * M) + 1e-14);
+      EXPECT_NEAR(a * lower.slip[0], (b > 0 ? -1 : 1) * f * P * f * M / std::pow(1 + f * M, 2),
+                  1e-5);
+   }
+}
+
+TEST(LowerLimit, HasNothingToSayWithoutAnUpperOne)
+{
+   ReducedProblem problem = chain(2, 0.8, 0.3, 1);
+   const LimitProblem limit =
+      limit_problem(problem, held_and_cycled(problem, "P", -1, "Q", -1));
+   const LimitReport upper = load_limit(limit);
+   ASSERT_EQ(upper.status, LimitStatus::no_solution);
+   const LowerLimitReport lower = lower_limit(limit, upper);
+   EXPECT_EQ(lower.kind, LowerLimitKind::none);
+   EXPECT_EQ(lower.status, LimitStatus::no_solution);
+   EXPECT_EQ(lower.value, 0);
+   EXPECT_NE(lower.message.find(upper.message), std::string::npos) << lower.message;
+}
+
 TEST(LowerLimit, OfTwoNodesAgreesWithMarches)
 {
    // Random coupled pairs: below λ1 every start shakes down; half-way to λ2 some start does

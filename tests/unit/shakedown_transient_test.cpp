@@ -3,6 +3,7 @@
 #include <cattaneo/shakedown/lower_limit.hpp>
 #include <cattaneo/shakedown/transient.hpp>
 #include <gtest/gtest.h>
+#include <period_two.hpp>
 #include <shakedown_problems.hpp>
 
 namespace
@@ -149,6 +150,212 @@ TEST(Transient, SaysWhichNodesOpenAndSlipForEver)
    EXPECT_EQ(below.opened_loss, 0);
 }
 
+TEST(Transient, AStateOfPeriodTwoIsJudgedByTheCycleThatLosesMore)
+{
+   // A cycle loses 33/16 or 29/16, and what is nothing, 1e-9 of the elastic energy, lies
+   // between: the second cycle, in which it is found to be steady, loses less.
+   const double x = -0.125;
+   LoadCycle cycle{Eigen::Vector3d(1, 0, 0), cattaneo_test::loads_of_period_two()};
+   cycle.varying.row(0).setZero();
+   for (const double stored : {0.0, 1.9375e9, 3e9})
+   {
+      const ReducedProblem problem = cattaneo_test::period_two(stored);
+      const LimitProblem limit = limit_problem(problem, cycle);
+      FrictionSolver solver(problem);
+      const TransientReport run = transient(solver, limit, 1, Eigen::Vector3d(0, x, 0));
+      ASSERT_EQ(run.status, FrictionStatus::converged) << run.message;
+      EXPECT_EQ(run.steady_cycle, 1);
+      EXPECT_EQ(run.steady_period, 2);
+      ASSERT_EQ(run.dissipation.size(), 2u);
+      EXPECT_NEAR(run.dissipation[0], cattaneo_test::loss_of_period_two(x), 1e-12);
+      EXPECT_NEAR(run.dissipation[1], cattaneo_test::loss_of_period_two(-x), 1e-12);
+      // Half of 1.5 squared is the elastic energy of the node that is sheared most.
+      EXPECT_NEAR(run.energy, 1.125 + stored, 1e-14 * stored + 1e-14);
+      EXPECT_EQ(run.verdict, stored < 2e9 ? Verdict::cyclic_slip : Verdict::shaken_down)
+         << name(run.verdict);
+   }
+}
+
+/// Two springs that pull each other along by half their slip, f P = 1, pushed the same way by
+/// 1.1 one after the other: each push slips on by half of what the other one did.
+struct Ratchet
+{
+   ReducedProblem problem;
+   LoadCycle cycle{Eigen::Vector3d(1, 0, 0), Eigen::MatrixXd::Zero(3, 2)};
+
+   Ratchet()
+   {
+      const Eigen::Vector2d zero(0, 0);
+      problem.A = Eigen::Matrix2d{{1, -0.5}, {-0.5, 1}};
+      problem.B = Eigen::Matrix2d::Zero();
+      problem.C = Eigen::Matrix2d::Identity();
+      problem.patterns = {{"P", Control::force, zero, Eigen::Vector2d(2, 2)},
+                          {"Q0", Control::force, Eigen::Vector2d(1, 0), zero},
+                          {"Q1", Control::force, Eigen::Vector2d(0, 1), zero}};
+      problem.H = Eigen::Matrix3d::Zero();
+      problem.gap = zero;
+      set_friction(problem, 0.5);
+      cycle.varying(1, 0) = cycle.varying(2, 1) = 1.1;
+   }
+};
+
+TEST(Transient, DecayAndVerdictOfARatchetByHand)
+{
+   // Slips of 0.1 · (1.5, 0.75), then a quarter of these in each cycle, against f P = 1.
+   const Ratchet ratchet;
+   const LimitProblem limit = limit_problem(ratchet.problem, ratchet.cycle);
+   FrictionSolver solver(ratchet.problem);
+   const auto run = [&](int cycles)
+   {
+      TransientSettings settings;
+      settings.cycles = cycles;
+      const TransientReport report =
+         transient(solver, limit, 1, Eigen::Vector2d::Zero(), settings);
+      EXPECT_EQ(report.status, FrictionStatus::converged);
+      for (std::size_t k = 0; k < report.dissipation.size(); ++k)
+      {
+         EXPECT_NEAR(report.dissipation[k], 0.225 * std::pow(0.25, k), 1e-14) << k;
+      }
+      EXPECT_NEAR(report.energy, 0.5 * 1.1 * 1.1 / 0.75, 1e-14);
+      return report;
+   };
+   // It is the energy, 0.8067, that losses are compared with: they are below 1e-6 of it from
+   // the eleventh cycle on, 0.225/4^10 = 2.1e-7.
+   const TransientReport early = run(3), before = run(10), after = run(12), steady = run(200);
+   EXPECT_EQ(early.verdict, Verdict::still_slipping);
+   EXPECT_EQ(early.dissipation.size(), 3u);
+   EXPECT_EQ(early.steady_cycle, 0);
+   EXPECT_EQ(before.verdict, Verdict::still_slipping);
+   EXPECT_EQ(after.verdict, Verdict::shaken_down);
+   EXPECT_EQ(after.steady_cycle, 0);
+   EXPECT_EQ(steady.verdict, Verdict::shaken_down);
+   EXPECT_GT(steady.steady_cycle, 12);
+   EXPECT_LT(steady.dissipation.size(), 25u);
+   for (const TransientReport &report : {early, before, after, steady})
+   {
+      EXPECT_NEAR(report.decay, 0.25, 1e-7);
+   }
+   EXPECT_EQ(run(1).decay, 0);
+   EXPECT_NEAR(run(2).decay, 0.25, 1e-12);
+   EXPECT_LT((steady.slip - Eigen::Vector2d(-0.2, -0.2)).norm(), 1e-10);
+   // What losses are compared with is set, and that of the first cycle if it is more.
+   TransientSettings settings;
+   settings.cycles = 5; // the last two lose 1/64 and 1/256 of the first
+   settings.shaken_down = 0.225 * 0.016 / 0.8067;
+   EXPECT_EQ(transient(solver, limit, 1, Eigen::Vector2d::Zero(), settings).verdict,
+             Verdict::shaken_down);
+   settings.shaken_down = 0.225 * 0.0038 / 0.8067;
+   EXPECT_EQ(transient(solver, limit, 1, Eigen::Vector2d::Zero(), settings).verdict,
+             Verdict::still_slipping);
+   // From a slip of 1 the first cycle slips by 0.9 + 0.45, more than the energy: the last
+   // two lose 1/64 and 1/256 of that.
+   settings.shaken_down = 0.016;
+   const TransientReport far = transient(solver, limit, 1, Eigen::Vector2d(1, 1), settings);
+   EXPECT_NEAR(far.dissipation[0], 1.35, 1e-14);
+   EXPECT_EQ(far.verdict, Verdict::shaken_down);
+}
+
+TEST(Transient, BeginsAtTheConstantLoadsWhereTheyLieOnTheCycle)
+{
+   // q = 2 v + λ, f P = 0.4. To and fro between λ and R λ with the constant loads between or at
+   // the end: from there; else from the first vertex, and what it slips to it is no cycle's.
+   ReducedProblem problem;
+   problem.A = Eigen::MatrixXd::Constant(1, 1, 2);
+   problem.B = Eigen::MatrixXd::Zero(1, 1);
+   problem.C = Eigen::MatrixXd::Ones(1, 1);
+   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(1), one = Eigen::VectorXd::Ones(1);
+   problem.patterns = {{"P", Control::force, zero, one}, {"Q", Control::force, one, zero}};
+   problem.H = Eigen::Matrix2d::Zero();
+   problem.gap = zero;
+   set_friction(problem, 0.4);
+   FrictionSolver solver(problem);
+   const auto run = [&](double load, double reversal)
+   {
+      const LimitProblem limit =
+         limit_problem(problem, held_and_cycled(problem, "P", 1, "Q", reversal));
+      return transient(solver, limit, load, zero);
+   };
+   // R = -1: -0.3, 0.3, 0.2, then -0.3, 0.3, 0.2 again.
+   const TransientReport reversed = run(1, -1);
+   ASSERT_EQ(reversed.dissipation.size(), 2u);
+   EXPECT_NEAR(reversed.dissipation[0], 0.4 * 1, 1e-14);
+   EXPECT_NEAR(reversed.dissipation[1], 0.4 * 1.2, 1e-14);
+   EXPECT_EQ(reversed.verdict, Verdict::cyclic_slip);
+   EXPECT_EQ(reversed.steady_cycle, 2);
+   EXPECT_EQ(reversed.steady_period, 1);
+   EXPECT_NEAR(reversed.energy, 0.25, 1e-15);
+   // R = 0: -0.3, -0.2, then -0.3, -0.2.
+   const TransientReport repeated = run(1, 0);
+   ASSERT_EQ(repeated.dissipation.size(), 2u);
+   EXPECT_NEAR(repeated.dissipation[0], 0.4 * 0.4, 1e-14);
+   EXPECT_NEAR(repeated.dissipation[1], 0.4 * 0.2, 1e-14);
+   // R = ½, λ = 2: to -0.8 first; each cycle to -0.7 and back.
+   const TransientReport pulsed = run(2, 0.5);
+   ASSERT_EQ(pulsed.dissipation.size(), 1u);
+   EXPECT_NEAR(pulsed.dissipation[0], 0.4 * 0.2, 1e-14);
+   EXPECT_EQ(pulsed.verdict, Verdict::cyclic_slip);
+   EXPECT_NEAR(pulsed.slip[0], -0.8, 1e-14);
+   // λ = 1.5: it comes to -0.55 and stays.
+   const TransientReport rests = run(1.5, 0.5);
+   EXPECT_EQ(rests.verdict, Verdict::shaken_down);
+   EXPECT_NEAR(rests.dissipation[0], 0, 1e-14);
+   EXPECT_NEAR(rests.slip[0], -0.55, 1e-14);
+}
+
+TEST(Transient, SaysWhenThereIsNoEquilibriumAndRefusesBadSettings)
+{
+   // A free body that is sheared by more than f P = 1.
+   Ratchet ratchet;
+   ratchet.problem.A << 1, -1, -1, 1;
+   const LimitProblem limit = limit_problem(ratchet.problem, ratchet.cycle);
+   FrictionSolver solver(ratchet.problem);
+   const Eigen::Vector2d stuck(0, 0);
+   const TransientReport slides = transient(solver, limit, 3, stuck);
+   EXPECT_EQ(slides.status, FrictionStatus::gross_sliding);
+   EXPECT_EQ(slides.verdict, Verdict::no_equilibrium);
+   EXPECT_NE(slides.message.find("slides"), std::string::npos) << slides.message;
+   EXPECT_EQ(slides.load_factor, 3);
+   // Not even the constant loads.
+   LimitProblem pulled = limit;
+   pulled.cycle.constant[0] = -1;
+   const TransientReport lifts = transient(solver, pulled, 1, stuck);
+   EXPECT_EQ(lifts.verdict, Verdict::no_equilibrium);
+   EXPECT_NE(lifts.status, FrictionStatus::converged);
+   EXPECT_NE(lifts.message, "");
+   EXPECT_EQ(lifts.slip, Eigen::VectorXd(stuck));
+   const std::vector<std::string> names = {
+      name(Verdict::shaken_down), name(Verdict::slips_and_opens), name(Verdict::cyclic_slip),
+      name(Verdict::still_slipping), name(Verdict::no_equilibrium)};
+   EXPECT_EQ(names,
+             (std::vector<std::string>{"shaken down", "shaken down but at nodes that open",
+                                       "cyclic slip", "still slipping", "no equilibrium"}));
+   const auto refused = [](auto spoil)
+   {
+      CounterExampleSettings settings;
+      EXPECT_NO_THROW(settings.validate());
+      spoil(settings);
+      EXPECT_THROW(settings.validate(), InputError);
+   };
+   refused([](CounterExampleSettings &s) { s.starts = -1; });
+   refused([](CounterExampleSettings &s) { s.halvings = 0; });
+   refused([](CounterExampleSettings &s) { s.transient.cycles = 0; });
+   refused([](CounterExampleSettings &s) { s.transient.shaken_down = 0; });
+   refused([](CounterExampleSettings &s) { s.transient.shaken_down = 1; });
+   refused([](CounterExampleSettings &s) { s.transient.march.increments = 0; });
+   LimitReport none;
+   EXPECT_THROW(transient_bracket(limit, none, 0.1), InputError);
+   EXPECT_THROW(find_counter_example(limit, none, 0), InputError);
+   none.slip = stuck;
+   EXPECT_THROW(transient_bracket(limit, none, 1), InputError);
+   // Uncoupled, there is none, and nothing is marched.
+   none.limit = 0.7;
+   const CounterExample proven = find_counter_example(limit, none, 0.1);
+   EXPECT_FALSE(proven.found);
+   EXPECT_EQ(proven.quiet, 0.7);
+   EXPECT_EQ(proven.marches, 0);
+   EXPECT_NE(proven.message.find("proven"), std::string::npos);
+}
+
 TEST(CounterExample, IsFoundBetweenTheTwoLimitsOnly)
 {
    // Node 1 feels the slip of node 0 (see the lower limit's test of this chain).
@@ -170,6 +377,24 @@ TEST(CounterExample, IsFoundBetweenTheTwoLimitsOnly)
    EXPECT_GE(found.load_factor, lower.value * (1 - 1e-9));
    EXPECT_LT(found.load_factor, lower.value + 0.02 * (upper.limit - lower.value));
    EXPECT_GT(found.dissipation, 0);
+   EXPECT_LT(found.quiet, found.load_factor);
+   EXPECT_GE(found.quiet, 0);
+   EXPECT_GE(found.marches, 10);
+   // From that start it does slip for ever, and at the quiet load it does not.
+   FrictionSolver solver(problem);
+   const TransientReport cycles = transient(solver, limit, found.load_factor, found.start);
+   EXPECT_EQ(cycles.verdict, Verdict::cyclic_slip);
+   EXPECT_NEAR(cycles.dissipation.back(), found.dissipation, 1e-14);
+   EXPECT_EQ(transient(solver, limit, found.quiet, found.start).verdict, Verdict::shaken_down);
+   // Where none is found after one march of each start at 0.98 of the limit, that is quiet.
+   LimitReport below = upper;
+   below.limit = 0.9 * lower.value;
+   settings.starts = 2;
+   const CounterExample none = find_counter_example(limit, below, 0, settings);
+   EXPECT_FALSE(none.found);
+   EXPECT_EQ(none.quiet, 0.98 * below.limit);
+   EXPECT_EQ(none.marches, 4 + 2);
+   EXPECT_NE(none.message.find("not proven"), std::string::npos);
    EXPECT_THROW(transient_bracket(limit, upper, 0), InputError);
 }
 

@@ -46,8 +46,9 @@ TEST(CutOff, AsksForCompressionAndForBothBodies)
    EXPECT_EQ(found()[1].x, 1);
    EXPECT_EQ(found()[1].y, 6);
    const std::string message = found()[1].message();
-   EXPECT_NE(message.find("last node of the line 'seat' (node 1 at (1, 6), time 0.25)"),
-             std::string::npos)
+   EXPECT_NE(
+      message.find("last node of piece 1 of the line 'seat' (node 1 at (1, 6), time 0.25)"),
+      std::string::npos)
       << message;
    // A node that is closed but carries nothing, or the round-off of it.
    state.p << 1e-17, 2, 0;

@@ -183,8 +183,9 @@ Eigen::MatrixXd spanned(const Eigen::MatrixXd &Q1, const Eigen::MatrixXd &Q2)
 }
 
 /// True if body 2 is the mirror image of body 1 in the contact line, so that tangential and
-/// normal displacements do not feel each other: A1 = A2, C1 = C2, B1 = -B2, each entry to the
-/// round-off of condensation, measured by the two nodes' own stiffness.
+/// normal displacements do not feel each other: A1 = A2, C1 = C2, B1 = -B2, each entry to
+/// 1e-10 of the two nodes' own stiffness, which condensation of two meshes may leave. What is
+/// taken from B then is no more than that.
 bool mirrored(const Eigen::MatrixXd &S1, const Eigen::MatrixXd &S2, Eigen::Index n)
 {
    if (S1.rows() != 2 * n) { return false; }

@@ -139,6 +139,8 @@ void share(const Ranks &ranks, std::vector<Segment> &segments, std::map<int, Nod
    }
 }
 
+const double degree = std::acos(-1.0) / 180;
+
 /// An outer edge of the body that is not on the line, seen from the node it shares with it.
 struct WayOn
 {
@@ -204,8 +206,9 @@ std::vector<WayOn> ways_on(const ElasticBody &body, const std::vector<Segment> &
    return ways;
 }
 
-/// How the boundary goes on from a node in whose direction (x, y) the line ends.
-LineEnd goes_on(const std::vector<WayOn> &ways, int node, double x, double y)
+/// How the boundary goes on from a node in whose direction (x, y) the line ends; `bend`: angle
+/// between its last two elements.
+LineEnd goes_on(const std::vector<WayOn> &ways, int node, double x, double y, double bend)
 {
    double straightest = -2;
    for (const WayOn &way : ways)
@@ -213,7 +216,8 @@ LineEnd goes_on(const std::vector<WayOn> &ways, int node, double x, double y)
       if (way.node == node) { straightest = std::max(straightest, way.x * x + way.y * y); }
    }
    if (straightest == -2) { return LineEnd::unknown; }
-   const double turn = LineChain::smooth_turn * std::acos(-1.0) / 180;
+   const double turn =
+      std::clamp(1.5 * bend, LineChain::smooth_turn * degree, LineChain::corner_turn * degree);
    return straightest >= std::cos(turn) ? LineEnd::smooth : LineEnd::corner;
 }
 
@@ -327,8 +331,16 @@ ContactLine contact_line(const ElasticBody &body, const BoundaryPart &part)
       const auto &in = opening.tangents.front(), &out = closing.tangents.back();
       LineChain described;
       described.loop = ends[0] == ends[1];
-      described.ends = {goes_on(ways, ends[0], -in[0], -in[1]),
-                        goes_on(ways, ends[1], out[0], out[1])};
+      const auto bend = [&](std::size_t a, std::size_t b)
+      {
+         const auto &from = segments[chains[c][a]].tangents.back(),
+                    &to = segments[chains[c][b]].tangents.front();
+         return std::acos(std::clamp(from[0] * to[0] + from[1] * to[1], -1.0, 1.0));
+      };
+      const std::size_t last = chains[c].size() - 1;
+      described.ends = {
+         goes_on(ways, ends[0], -in[0], -in[1], last > 0 ? bend(0, 1) : 0.0),
+         goes_on(ways, ends[1], out[0], out[1], last > 0 ? bend(last - 1, last) : 0.0)};
       for (std::size_t k : {0, 1})
       {
          if (described.loop) { described.ends[k] = LineEnd::smooth; }
@@ -420,7 +432,9 @@ ContactLine contact_line(const ElasticBody &body, const BoundaryPart &part)
       require(line.weights[i] > 0, where, ": the weight of the node at ", coordinates(id),
               " is ", line.weights[i], ", must be positive");
       const double size = std::hypot(tangent[i][0], tangent[i][1]);
-      require(size > 0, where, ": the line turns back on itself at ", coordinates(id));
+      // Exactly opposite tangents cancel to round-off.
+      require(size > 1e-9 * line.lumped_weights[i], where,
+              ": the line turns back on itself at ", coordinates(id));
       line.position.row(i) << node.x, node.y;
       line.tangent.row(i) << tangent[i][0] / size, tangent[i][1] / size;
       line.normal.row(i) << -line.tangent(i, 1), line.tangent(i, 0);

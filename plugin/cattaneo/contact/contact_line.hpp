@@ -14,10 +14,12 @@ struct LineChain
    Eigen::Index first = 0, nodes = 0;
    bool loop = false; ///< the last node is followed by the first
    /** How the boundary of the body goes on beyond the first and the last node, whatever it is
-       called there: smoothly if it turns by less than smooth_turn (polygons stand for curves);
-       else at a corner. Of a loop: smoothly. Unknown where no outer edge goes on. */
+       called there: smoothly if it turns by less than smooth_turn, or than 1.5 times as much
+       as the line itself between its last two elements (a polygon stands for a curve), up to
+       corner_turn; else at a corner. Of a loop: smoothly. Unknown where no outer edge goes on.
+    */
    std::array<LineEnd, 2> ends{LineEnd::unknown, LineEnd::unknown};
-   static constexpr double smooth_turn = 10; ///< degrees
+   static constexpr double smooth_turn = 10, corner_turn = 45; ///< degrees
 };
 
 /** The ordered contact nodes of one body.

@@ -43,7 +43,8 @@ void judge_slip_zone(const FrettingProblem &problem, FrettingReport &report)
           "about 5 to 15 %.",
           "The slip zone is a large part of the contact: do not trust the near-edge field; "
           "solve the whole contact.")});
-   if (problem.rounded_width > 0 && problem.rounded_width < problem.half_width)
+   const bool flat = problem.rounded_width > 0 && problem.rounded_width < problem.half_width;
+   if (flat)
    {
       const double rounded = report.slip_zone / problem.rounded_width;
       const Trust t = smallness(rounded);
@@ -61,7 +62,7 @@ void judge_slip_zone(const FrettingProblem &problem, FrettingReport &report)
    const double depth = report.critical_length / width;
    const Trust t = smallness(depth);
    report.validity.push_back(
-      {problem.rounded_width < problem.half_width ? "a0/(a-b)" : "a0/a", depth, t,
+      {flat ? "a0/(a-b)" : "a0/a", depth, t,
        by_trust(
           t, "The critical crack is small against the contact edge region.",
           "The critical crack is not very small against the contact edge region.",

@@ -14,7 +14,7 @@ namespace
 /// Distance from the edge and the quantity whose limit there is sought, sorted by distance.
 using Samples = std::vector<std::pair<double, double>>;
 
-constexpr int least_nodes = 4;
+constexpr int least_nodes = FitSettings::least_nodes;
 
 FittedIntensity fit(const Samples &samples, std::size_t first, std::size_t last)
 {
@@ -63,12 +63,24 @@ FittedIntensity fit_in_window(const Samples &samples, const FitSettings &setting
    const std::size_t first = settings.skip;
    require(samples.size() >= first + least_nodes, "there are ", samples.size(),
            " nodes in contact near the edge; the fit needs ", first + least_nodes, ".");
-   FittedIntensity best = fit(samples, first, first + least_nodes);
-   for (std::size_t last = first + least_nodes + 1; last <= samples.size(); last++)
+   std::vector<FittedIntensity> fits;
+   for (std::size_t last = first + least_nodes; last <= samples.size(); last++)
    {
-      const FittedIntensity next = fit(samples, first, last);
-      if (next.relative_error < best.relative_error) { best = next; }
+      fits.push_back(fit(samples, first, last));
    }
+   const auto error = [](const FittedIntensity &x)
+   { return x.relative_error * std::abs(x.value); };
+   FittedIntensity best =
+      *std::min_element(fits.begin(), fits.end(),
+                        [&](const auto &a, const auto &b) { return error(a) < error(b); });
+   // The least of many errors is small by luck too: windows that are nearly as good must agree.
+   double spread = error(best);
+   for (const FittedIntensity &other : fits)
+   {
+      if (error(other) > 3 * error(best)) { continue; }
+      spread = std::max(spread, std::abs(other.value - best.value));
+   }
+   if (best.value != 0) { best.relative_error = spread / std::abs(best.value); }
    return best;
 }
 

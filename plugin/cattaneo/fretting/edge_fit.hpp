@@ -31,13 +31,15 @@ struct FitSettings
    /// Nodes next to the edge that the choice leaves out: discretisation smears the edge over
    /// them.
    int skip = 2;
+   static constexpr int least_nodes = 4; ///< in a window
 
    /// InputError unless 0 <= nearest < farthest (or both 0) and skip >= 0.
    void validate() const;
 };
 
 /// One intensity and its relative error: the larger of the standard error of the fit and the
-/// change when one more term of the expansion is fitted.
+/// change when one more term of the expansion is fitted; where the window is chosen, not less
+/// than the difference to windows of at most three times that error.
 struct FittedIntensity
 {
    double value = 0.0;

@@ -285,12 +285,15 @@ std::vector<ContactEdge> contact_edges(const ReducedProblem &problem,
    const Index n = problem.nodes();
    const std::vector<Zone> all = zones(problem, loaded);
    const std::vector<Zone> contact = contact_zones(all);
+   // Each edge has half of a stretch.
+   const bool chosen = settings.window.farthest == 0;
+   const Index least = 2 * (FitSettings::least_nodes + (chosen ? settings.skip : 0));
    std::vector<ContactEdge> edges;
    for (const Zone &stretch : contact)
    {
-      require(stretch.last - stretch.first >= 7, "a stretch of contact has ",
-              stretch.last - stretch.first + 1,
-              " nodes; the fit of its edges needs at least 8: refine the contact.");
+      const Index size = stretch.last - stretch.first + 1;
+      require(size >= least, "a stretch of contact has ", size,
+              " nodes; the fit of its edges needs at least ", least, ": refine the contact.");
       const Index middle = (stretch.first + stretch.last) / 2;
       for (const int side : {1, -1})
       {

@@ -19,7 +19,8 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 /// Eigen's, the number of its entries.)
 double magnitude(const NodeVector &x)
 {
-   return std::hypot(x[0], x.size() > 1 ? x[1] : 0.0);
+   const double other = x.size() > 1 ? x[1] : 0.0;
+   return other == 0 ? std::abs(x[0]) : std::hypot(x[0], other);
 }
 
 } // namespace
@@ -36,8 +37,12 @@ VectorXd RoundOff::rows(const VectorXd &size, const VectorXd &f) const
 {
    if (!graded_)
    {
-      const double all = norm_ * size.maxCoeff() + f.cwiseAbs().maxCoeff();
-      return VectorXd::Constant(K_.rows(), 4 * eps * all);
+      const double largest = f.cwiseAbs().maxCoeff(), all = norm_ * size.maxCoeff() + largest;
+      // Where that is much, it is worth knowing better.
+      if (4 * eps * all <= 1e-11 * largest)
+      {
+         return VectorXd::Constant(K_.rows(), 4 * eps * all);
+      }
    }
    VectorXd sum = f.cwiseAbs();
    for (Index j = 0; j < K_.cols(); ++j)
@@ -62,16 +67,11 @@ double slip_round_off(double size)
 }
 
 LawCheck check_laws(const ReducedProblem &problem, const VectorXd &v_old,
-                    const ContactState &state, double allowed, const VectorXd &round_off)
+                    const ContactState &state, const VectorXd &forces, double allowed,
+                    const VectorXd &round_off)
 {
    const Index n = problem.nodes(), m = problem.A.rows(), c = problem.components();
-   const VectorXd f = problem.clamped_forces(state.multipliers);
-   VectorXd p = f.tail(n) + problem.C * state.w, q = f.head(m);
-   if (m > 0)
-   {
-      p += problem.B * state.v;
-      q += problem.A * state.v + problem.B.transpose() * state.w;
-   }
+   const auto q = forces.head(m), p = forces.tail(n);
    LawCheck check;
    const auto judge = [&](double violation, double limit)
    {
@@ -98,11 +98,13 @@ LawCheck check_laws(const ReducedProblem &problem, const VectorXd &v_old,
          most = std::max(most, round_off[row]);
          q_i[k] = q[row];
          x_i[k] = state.v[row] - v_old[row];
-         size = std::max({size, std::abs(state.v[row]), std::abs(v_old[row])});
+         size = std::max(size, std::abs(state.v[row]));
          note(check.tangential, std::abs(q[row] - state.q[row]), most);
       }
       if (!closed(state.status[i])) { x_i.setZero(); } // no law but that it bears nothing
-      const double k = problem.A(i, i), uncertain = c == 2 ? slip_round_off(size) : 0.0;
+      const double k = c == 2 ? std::max(problem.A(i, i), problem.A(n + i, n + i))
+                              : problem.A(i, i),
+                   uncertain = c == 2 ? slip_round_off(size) : 0.0;
       const double violation = slip_violation(q_i, x_i, k, bound);
       check.tangential = std::max(check.tangential, violation);
       judge(c == 2 ? slip_violation(q_i, x_i, k, bound, uncertain) : violation, most);

@@ -39,12 +39,13 @@ struct LawCheck
    the node's own stiffness; a slip x that does not oppose its friction by the smaller of the
    force that is missing, |q + f p x/|x||, and of that of the slip itself.
 
-    `allowed`: what is allowed to each node, a force (tolerance); `round_off` what arithmetic
-    leaves, for each row of {q; p}. The direction of a slip in the disc is known to the
-   round-off of displacements over its length only, which is allowed too (and counted all the
-   same). */
+    `forces`: K u + Σ λ_k f_k of the state's own displacements, {q; p}, formed anew by the
+   caller from the stiffness as it is given. `allowed`: what is allowed to each node, a force
+   (tolerance); `round_off` what arithmetic leaves, for each row of {q; p}. The direction of a
+   slip in the disc is known to the round-off of displacements over its length only, which is
+   allowed too (and counted all the same). */
 LawCheck check_laws(const ReducedProblem &problem, const Eigen::VectorXd &v_old,
-                    const ContactState &state, double allowed,
+                    const ContactState &state, const Eigen::VectorXd &forces, double allowed,
                     const Eigen::VectorXd &round_off);
 
 /// The tangential part for one node with tangential forces q, slip x, own stiffness k and

@@ -11,8 +11,8 @@ std::string CutOffContact::message() const
    std::ostringstream text;
    text
       << "contact is compressed up to the " << (at_first ? "first" : "last")
-      << " node of the line '" << interface << "' (node " << node << " at (" << x << ", " << y
-      << "), time " << time
+      << " node of piece " << chain + 1 << " of the line '" << interface << "' (node " << node
+      << " at (" << x << ", " << y << "), time " << time
       << ") although the boundaries of both bodies go on smoothly beyond it: forces and zones "
          "are wrong there, name more of the boundaries as contact";
    return text.str();

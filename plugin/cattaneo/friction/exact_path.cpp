@@ -12,7 +12,6 @@ using Eigen::VectorXd;
 namespace
 {
 
-const int events_between_corrections = 16;
 const int newton_steps = 30;
 
 } // namespace
@@ -55,10 +54,19 @@ bool ExactPath::find_rates(const ContactState &state, const VectorXd &multiplier
    const bool same_way = target_.size() == multipliers.size() && target_ == multipliers &&
                          reached_ == state.multipliers && equations_.states() == state.status;
    target_.resize(0);
-   if (!equations_.set(state.status))
+   std::vector<NodeState> states = state.status;
+   if (!equations_.set(states))
    {
-      failure_ = "the equations of the present states are singular";
-      return false;
+      // Nodes that touch without force may hold a body that the others do not.
+      for (std::size_t i = 0; i < states.size(); ++i)
+      {
+         if (rates_.choice[i] == Choice::any) { states[i] = NodeState::stick; }
+      }
+      if (!equations_.set(states))
+      {
+         failure_ = "the equations of the present states are singular";
+         return false;
+      }
    }
    ComplementarityReport known;
    if (same_way)
@@ -69,11 +77,13 @@ bool ExactPath::find_rates(const ContactState &state, const VectorXd &multiplier
    ComplementarityReport found =
       solve_by_newton(equations_, problem_.friction, rates_, newton_steps, std::move(known));
    counters_.newton_steps += found.newton_steps;
-   for (unsigned seed = 1; seed <= 8 && !found.solved; ++seed)
+   unsigned seed = 0;
+   for (double slack : {1.0, 0.1, 10.0, 0.01, 1.0, 1e-3, 1.0, 0.1})
    {
+      if (found.solved) { break; }
       const VectorXd rest = VectorXd::Zero(K_.rows());
-      if (!equations_.set(state.status)) { break; }
-      found = solve_by_path(equations_, problem_.friction, rates_, rest, rest, 1.0, seed);
+      if (!equations_.set(states)) { break; }
+      found = solve_by_path(equations_, problem_.friction, rates_, rest, rest, slack, ++seed);
       counters_.pivots += found.pivots;
    }
    if (!found.solved)
@@ -140,7 +150,7 @@ bool ExactPath::starts_from(const ContactState &state) const
    // Ten times the leave that an increment of the solver has.
    const double allowed = 1e-11 * std::max(state.peak_force, f.cwiseAbs().maxCoeff());
    const VectorXd round_off = 4 * equations_.round_off(f, u);
-   bool starts = check_laws(problem_, state.v, state, allowed, round_off).obeyed;
+   bool starts = check_laws(problem_, state.v, state, f + K_ * u, allowed, round_off).obeyed;
    for (Index i = 0; i < n; ++i)
    {
       const double limit = std::max({allowed, round_off[i], round_off[n + i]}),
@@ -197,13 +207,15 @@ bool ExactPath::advance(ContactState &state, double time, const VectorXd &multip
    state.multipliers =
       arrived ? multipliers
               : VectorXd(state.multipliers + way * (multipliers - state.multipliers));
-   if (arrived || ++uncorrected_ == events_between_corrections)
+   // Round-off gathers over events, and where displacements have become small that of large
+   // ones stays: the states' own equations remove it.
+   const VectorXd clamped = problem_.clamped_forces(state.multipliers),
+                  forces = clamped + K_ * u_;
+   const VectorXd drift = (forces - F_).cwiseAbs() - 0.5 * equations_.round_off(clamped, u_);
+   VectorXd correction;
+   if ((arrived || drift.maxCoeff() > 0) && equations_.solve(forces, correction, F_))
    {
-      // Round-off gathers over events: the states' own equations remove it.
-      uncorrected_ = 0;
-      VectorXd correction;
-      const VectorXd forces = problem_.clamped_forces(state.multipliers) + K_ * u_;
-      if (equations_.solve(forces, correction, F_)) { u_ += correction; }
+      u_ += correction;
    }
    reached_ = state.multipliers;
    target_ = multipliers;

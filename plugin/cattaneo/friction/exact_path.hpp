@@ -61,7 +61,6 @@ private:
    Eigen::VectorXd reached_, target_;
    ComplementarityProblem rates_;
    Eigen::VectorXd noise_; // of each node: forces below this are round-off
-   int uncorrected_ = 0;
    std::string failure_;
    Counters counters_;
 };

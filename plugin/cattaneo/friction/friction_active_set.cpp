@@ -12,6 +12,20 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
+namespace
+{
+
+/// True if displacements are much smaller than those that they were counted from: the round-off
+/// of these is then a large part of them. By the nodes' own stiffness, K: its diagonal.
+bool cancels(const VectorXd &K, const VectorXd &from, const VectorXd &u)
+{
+   const VectorXd unit = K.cwiseMax(0.0).cwiseSqrt();
+   return unit.cwiseProduct(from).cwiseAbs().maxCoeff() >
+          4 * unit.cwiseProduct(u).cwiseAbs().maxCoeff();
+}
+
+} // namespace
+
 /// Solves the linear equations of the present states. False if they are singular.
 bool FrictionSolver::Implementation::solve_for_states()
 {
@@ -34,12 +48,12 @@ VectorXd FrictionSolver::Implementation::closed_gaps() const
    return w;
 }
 
-/// Solves for displacements x of the nodes that slip or are open, and the forces; b: with x =
-/// 0.
+/// Moves the nodes that slip or are open from displacements `u` to those that meet the
+/// equations of the states; forces: K u + f, and with u = 0.
 bool FrictionSolver::Implementation::solve_equations(std::unique_ptr<StateEquations> &equations,
                                                      const MatrixXd &stiffness,
                                                      const std::vector<NodeState> &states,
-                                                     const VectorXd &b, VectorXd &x,
+                                                     const VectorXd &f, VectorXd &u,
                                                      VectorXd &forces)
 {
    if (!equations)
@@ -48,7 +62,15 @@ bool FrictionSolver::Implementation::solve_equations(std::unique_ptr<StateEquati
          stiffness, stiffness.rows() > n ? problem.friction : no_friction);
    }
    const long factorisations = equations->factorisations(), updates = equations->updates();
-   const bool solved = equations->set(states) && equations->solve(b, x, forces);
+   bool solved = equations->set(states);
+   for (bool again = false, done = false; solved && !done; again = true)
+   {
+      const VectorXd from = u;
+      VectorXd x;
+      solved = equations->solve(f + stiffness * from, x, forces);
+      if (solved) { u += x; }
+      done = again || !solved || !cancels(equations->diagonal(), from, u);
+   }
    counters.dense_factorisations += equations->factorisations() - factorisations;
    counters.dense_updates += equations->updates() - updates;
    return solved;
@@ -63,13 +85,9 @@ bool FrictionSolver::Implementation::solve_normal()
    {
       states[i] = closed(status[i]) ? NodeState::stick : NodeState::separation;
    }
-   const VectorXd from = closed_gaps();
-   VectorXd x, p;
-   if (!solve_equations(normal_equations, C, states, f.tail(n) + C * from, x, p))
-   {
-      return false;
-   }
-   u.tail(n) = from + x;
+   VectorXd w = closed_gaps(), p;
+   if (!solve_equations(normal_equations, C, states, f.tail(n), w, p)) { return false; }
+   u.tail(n) = w;
    F.tail(n) = p;
    return true;
 }
@@ -86,23 +104,22 @@ bool FrictionSolver::Implementation::solve_uncoupled()
       states[i] = moves ? NodeState::separation : NodeState::stick;
       if (moves) { resistance[i] = sense(status[i]) * problem.friction[i] * F[m(i)]; }
    }
-   VectorXd x, q;
-   if (!solve_equations(tangential_equations, problem.A, states,
-                        f.head(n) + problem.A * v_old + resistance, x, q))
+   VectorXd v = v_old, q;
+   if (!solve_equations(tangential_equations, problem.A, states, f.head(n) + resistance, v, q))
    {
       return false;
    }
-   u.head(n) = v_old + x;
+   u.head(n) = v;
    F.head(n) = q - resistance;
    return true;
 }
 
 bool FrictionSolver::Implementation::solve_coupled()
 {
-   VectorXd from(2 * n), x;
-   from << v_old, closed_gaps();
-   if (!solve_equations(coupled_equations, K, status, f + K * from, x, F)) { return false; }
-   u = from + x;
+   VectorXd found(2 * n);
+   found << v_old, closed_gaps();
+   if (!solve_equations(coupled_equations, K, status, f, found, F)) { return false; }
+   u = found;
    return true;
 }
 
@@ -153,30 +170,18 @@ bool FrictionSolver::Implementation::solve_disc()
       if (slips(status[i])) { slipping.push_back(i); }
    }
    const std::vector<Index> &open = eliminated.open;
-   VectorXd base = f + K * u;
-   VectorXd lift;
-   if (!open.empty())
-   {
-      lift = base(open);
-      eliminated.factor.matrixL().solveInPlace(lift);
-      base(eliminated.kept) -= eliminated.X.transpose() * lift;
-   }
-   const auto count = static_cast<Index>(slipping.size());
+   const auto count = static_cast<Index>(slipping.size()),
+              closed_nodes = static_cast<Index>(eliminated.kept.size()) / (uncoupled ? 2 : 3);
+   DenseLU factor;
    if (count > 0)
    {
-      const auto closed_nodes =
-         static_cast<Index>(eliminated.kept.size()) / (uncoupled ? 2 : 3);
       // Rows n·q - f p and (1 - β) t·q of the slipping nodes, then their own β k t·x.
       MatrixXd M(2 * count, 2 * count);
-      VectorXd rhs(2 * count);
       for (Index r = 0; r < count; ++r)
       {
          const Index i = slipping[r];
          const DiscSlip &to = direction[i];
          const Vector2d across = (1 - to.share) * to.t(), own = to.share * ktt[i] * to.t();
-         const Vector2d q = at(base, i);
-         rhs[r] = to.n[0] * q[0] + to.n[1] * q[1] - problem.friction[i] * base[m(i)];
-         rhs[count + r] = across[0] * q[0] + across[1] * q[1];
          const Index row = eliminated.place[i];
          for (Index col = 0; col < 2 * count; ++col)
          {
@@ -192,10 +197,29 @@ bool FrictionSolver::Implementation::solve_disc()
          M(count + r, count + r) += own[1];
       }
       ++counters.dense_factorisations;
-      DenseLU factor;
       if (!factor.compute(std::move(M))) { return false; }
-      VectorXd &x = rhs;
-      factor.solve(x);
+   }
+   const VectorXd stiffness = K.diagonal();
+   for (bool again = false;; again = true)
+   {
+      const VectorXd from = u;
+      VectorXd base = f + K * u, lift;
+      if (!open.empty())
+      {
+         lift = base(open);
+         eliminated.factor.matrixL().solveInPlace(lift);
+         base(eliminated.kept) -= eliminated.X.transpose() * lift;
+      }
+      VectorXd x(2 * count);
+      for (Index r = 0; r < count; ++r)
+      {
+         const Index i = slipping[r];
+         const DiscSlip &to = direction[i];
+         const Vector2d q = at(base, i), slip = disc_slip(i);
+         x[r] = to.n.dot(q) - problem.friction[i] * base[m(i)];
+         x[count + r] = (1 - to.share) * to.t().dot(q) + to.share * ktt[i] * to.t().dot(slip);
+      }
+      if (count > 0) { factor.solve(x); }
       for (Index r = 0; r < 2 * count; ++r)
       {
          const Index k = r / count, i = slipping[r % count];
@@ -205,11 +229,12 @@ bool FrictionSolver::Implementation::solve_disc()
             lift -= x[r] * eliminated.X.col(eliminated.place[i] + k * closed_nodes);
          }
       }
-   }
-   if (!open.empty())
-   {
-      eliminated.factor.matrixU().solveInPlace(lift);
-      u(open) -= lift;
+      if (!open.empty())
+      {
+         eliminated.factor.matrixU().solveInPlace(lift);
+         u(open) -= lift;
+      }
+      if (again || !cancels(stiffness, from, u)) { break; }
    }
    F = f + K * u;
    return true;

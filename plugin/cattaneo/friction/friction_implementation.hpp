@@ -7,6 +7,7 @@
 #include <cattaneo/friction/semidefinite.hpp>
 #include <cattaneo/friction/state_equations.hpp>
 #include <limits>
+#include <optional>
 
 namespace cattaneo
 {
@@ -43,8 +44,12 @@ struct FrictionSolver::Implementation
    VectorXd critical;      // friction of each node
    VectorXd no_friction;   // zeros
    MatrixXd K;             // [A Bᵀ; B C], or the normal stiffness alone if frictionless
-   std::unique_ptr<RoundOff> arithmetic;            // of sums K u + f
-   std::unique_ptr<RoundOff> tangential_arithmetic; // frictionless: of A v + …
+   std::unique_ptr<RoundOff> arithmetic; // of sums K u + f
+   // Frictionless: motions along the contact that nothing resists, and how much of each is in
+   // some displacements, by the length of the contact.
+   MatrixXd slides_freely, share_of_motion;
+   MatrixXd whole; // frictionless with slip: [A Bᵀ; B C]
+   std::unique_ptr<RoundOff> whole_arithmetic;
    double critical_friction = std::numeric_limits<double>::infinity();
    Index critical_node = 0;
    std::unique_ptr<SemidefiniteSolver> tangential; // frictionless: A⁻¹
@@ -53,8 +58,12 @@ struct FrictionSolver::Implementation
    EliminatedNodes eliminated;
    std::unique_ptr<MatrixXd> motions; // rigid motions, found when first needed
    Mechanism mechanism;
-   std::unique_ptr<FrictionSolver> smooth; // disc: the contact without friction, when asked
-   bool brief = false;                     // give up where sweeps, active set and path fail
+   std::unique_ptr<FrictionSolver> smooth;   // disc: the contact without friction, when asked
+   std::unique_ptr<Implementation> slippery; // see solve_whole()
+   bool brief = false;                       // give up where sweeps, active set and path fail
+   std::optional<bool> away;                 // answer of moves_away(), if asked
+   std::optional<ContactState> rested;       // what the weakest spring holds, if not away
+   bool at_rest = false;                     // it bears nothing
    double lost_in_round_off = 0; // round-off of a solution that moves too far; 0: none
 
    // One increment's working set.
@@ -65,7 +74,9 @@ struct FrictionSolver::Implementation
    std::vector<DiscSlip> direction; // disc: of the slipping nodes, as last linearised
    double reference = 0;            // largest force so far, the scale of residuals
 
-   Implementation(const ReducedProblem &given, const FrictionSettings &chosen);
+   /// `tangential_unknowns`: also without friction.
+   Implementation(const ReducedProblem &given, const FrictionSettings &chosen,
+                  bool tangential_unknowns = false);
 
    bool disc() const { return c == 2; } // friction force in the disc |q| <= f p
    Index t(Index i) const { return i; } // row of node i's tangential entry
@@ -96,7 +107,7 @@ struct FrictionSolver::Implementation
    bool solve_disc();
    VectorXd closed_gaps() const;
    bool solve_equations(std::unique_ptr<StateEquations> &equations, const MatrixXd &stiffness,
-                        const std::vector<NodeState> &states, const VectorXd &b, VectorXd &x,
+                        const std::vector<NodeState> &states, const VectorXd &f, VectorXd &u,
                         VectorXd &forces);
    bool update_states();
    bool lemke_start();
@@ -111,6 +122,9 @@ struct FrictionSolver::Implementation
                   const VectorXd &multipliers);
    bool finds_mechanism(const VectorXd &multipliers);
    void find_motions();
+   bool settles(IncrementReport &report);
+   IncrementReport solve_whole(ContactState &state, const VectorXd &multipliers);
+   bool moves_away(const ContactState &state, const VectorXd &multipliers);
    bool spins(const VectorXd &multipliers);
    bool drifts(const ContactState &state, const VectorXd &multipliers);
    Index above_critical() const;
@@ -122,13 +136,7 @@ struct FrictionSolver::Implementation
       return (0.5 * round_off()).cwiseMax(0.1 * settings.tolerance * reference);
    }
    /// Of each row of F, see RoundOff.
-   VectorXd round_off() const
-   {
-      // Slip is a difference: where it comes from counts as well as where it goes.
-      VectorXd size = u.cwiseAbs();
-      if (!frictionless) { size.head(c * n) = size.head(c * n).cwiseMax(v_old.cwiseAbs()); }
-      return arithmetic->rows(size, f);
-   }
+   VectorXd round_off() const { return arithmetic->rows(u.cwiseAbs(), f); }
    IncrementReport solve(ContactState &state, const VectorXd &multipliers);
    IncrementReport judge(const ContactState &before, const ContactState &after);
    IncrementReport uniqueness(const std::vector<NodeState> &states) const;

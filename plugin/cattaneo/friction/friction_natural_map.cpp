@@ -59,15 +59,15 @@ bool FrictionSolver::Implementation::residuals(IncrementReport &report) const
       {
          // The natural map multiplies the error in the direction of a slip by the slip.
          const Vector2d x = disc_slip(i);
-         const double far = std::max(at(u, i).norm(), at(v_old, i).norm());
+         const double uncertain = slip_round_off(at(u, i).norm());
          size = at(R, i).norm();
          limit = std::max(limit, left[t(i, 1)]);
          if (closed(status[i]))
          {
-            const double sure =
-               slip_violation(at(F, i), x, ktt[i], bound(i), slip_round_off(far));
+            const double k = std::max(K(t(i, 0), t(i, 0)), K(t(i, 1), t(i, 1))),
+                         sure = slip_violation(at(F, i), x, k, bound(i), uncertain);
             small = small && sure <= limit && size <= limit;
-            tangent = std::max(tangent, slip_violation(at(F, i), x, ktt[i], bound(i)));
+            tangent = std::max(tangent, slip_violation(at(F, i), x, k, bound(i)));
          }
       }
       // An open node bears nothing, not f times what is left of its pressure.

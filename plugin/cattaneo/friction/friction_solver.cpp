@@ -45,14 +45,16 @@ void FrictionSettings::validate() const
 }
 
 FrictionSolver::Implementation::Implementation(const ReducedProblem &given,
-                                               const FrictionSettings &chosen)
+                                               const FrictionSettings &chosen,
+                                               bool tangential_unknowns)
    : problem(given), settings(chosen), n(given.nodes())
 {
    settings.validate();
    problem.validate();
    require(problem.components() <= 2, "friction solver: the reduced problem has ",
            problem.components(), " tangential components a node, at most 2 are supported");
-   frictionless = problem.components() == 0 || problem.friction.maxCoeff() == 0;
+   frictionless =
+      problem.components() == 0 || (problem.friction.maxCoeff() == 0 && !tangential_unknowns);
    c = frictionless ? 0 : problem.components();
    require(!disc() || settings.method != FrictionMethod::lemke,
            "friction solver: method lemke needs one tangential component a node, the reduced "
@@ -65,7 +67,18 @@ FrictionSolver::Implementation::Implementation(const ReducedProblem &given,
       if (problem.components() > 0)
       {
          tangential = std::make_unique<SemidefiniteSolver>(problem.A);
-         tangential_arithmetic = std::make_unique<RoundOff>(problem.A);
+         slides_freely = tangential->null_space();
+         const bool lengths = problem.weights.size() == n && problem.weights.minCoeff() > 0;
+         const VectorXd weight = lengths ? problem.weights : VectorXd::Ones(n);
+         const MatrixXd weighted =
+            weight.replicate(problem.components(), 1).asDiagonal() * slides_freely;
+         if (slides_freely.cols() > 0)
+         {
+            const MatrixXd square = slides_freely.transpose() * weighted;
+            share_of_motion = square.ldlt().solve(weighted.transpose());
+         }
+         whole = problem.stiffness();
+         whole_arithmetic = std::make_unique<RoundOff>(whole);
          ++counters.dense_factorisations;
          K -= problem.B * tangential->solve(problem.B.transpose());
          K = (0.5 * (K + K.transpose())).eval();
@@ -126,10 +139,22 @@ void FrictionSolver::Implementation::start(const ContactState &state,
    {
       if (closed(status[i])) { u[m(i)] = -problem.gap[i]; }
    }
-   F = K * u;
-   // So does initial slip; slip that displacements elsewhere follow does not.
-   reference = std::max(reference, F.cwiseAbs().maxCoeff());
-   F += f;
+   if (!frictionless && state.peak_force > 0)
+   {
+      // The state of an increment before: where sweeps begin; what is accepted is formed anew.
+      F.resize(f.size());
+      F << state.q, state.p;
+      F -= problem.clamped_forces(state.multipliers);
+      reference = std::max(reference, F.cwiseAbs().maxCoeff());
+      F += f;
+   }
+   else
+   {
+      F = K * u;
+      // So does initial slip; slip that displacements elsewhere follow does not.
+      reference = std::max(reference, F.cwiseAbs().maxCoeff());
+      F += f;
+   }
    direction.resize(disc() ? n : 0);
    // What comes out depends on the state and the loads, not on increments before: a march that
    // is cut and resumed gives the same bits.
@@ -153,7 +178,14 @@ void FrictionSolver::Implementation::finish(ContactState &state, const VectorXd 
    else if (tangential)
    {
       const VectorXd clamped = problem.clamped_forces(multipliers).head(problem.A.rows());
+      const VectorXd before = state.v;
       state.v = -tangential->solve(problem.B.transpose() * state.w + clamped);
+      // What nothing holds has not moved on the whole, as the contact's length goes.
+      if (slides_freely.cols() > 0)
+      {
+         const VectorXd moved = state.v - before;
+         state.v -= slides_freely * (share_of_motion * moved);
+      }
       state.q.setZero();
       for (Index i = 0; i < n; ++i)
       {
@@ -182,7 +214,7 @@ bool FrictionSolver::Implementation::accepted(const IncrementReport &report)
 {
    if (report.round_off < 1e-6) { return true; }
    // Above that, a residual within round-off shows nothing.
-   if (report.round_off < 1e-3) { lost_in_round_off = report.round_off; }
+   if (report.round_off < 0.1) { lost_in_round_off = report.round_off; }
    return false;
 }
 
@@ -192,32 +224,38 @@ bool FrictionSolver::Implementation::obeys_laws(const ContactState &next,
                                                 IncrementReport &report) const
 {
    const double scale = reference > 0 ? reference : 1.0;
-   const VectorXd left = round_off();
-   VectorXd rows(problem.A.rows() + n);
-   rows.tail(n) = left.tail(n);
+   VectorXd rows, forces;
    if (tangential)
    {
-      // What slips without friction may go far.
-      rows.head(next.v.size()) = tangential_arithmetic->rows(next.v.cwiseAbs(), next.q);
-      report.round_off =
-         std::max(report.round_off, rows.head(next.v.size()).maxCoeff() / scale);
+      // What slips without friction may go far, and bears on the pressure.
+      VectorXd all(whole.rows());
+      all << next.v, next.w;
+      const VectorXd clamped = problem.clamped_forces(next.multipliers);
+      rows = whole_arithmetic->rows(all.cwiseAbs(), clamped);
+      forces = clamped + whole * all;
    }
-   else { rows.head(c * n) = left.head(c * n); }
+   else
+   {
+      rows = round_off();
+      forces = f + K * u;
+   }
+   report.round_off = std::max(report.round_off, rows.maxCoeff() / scale);
    if (!(report.round_off < 1e-6)) { return false; }
-   const LawCheck check = check_laws(problem, v_old, next, settings.tolerance * scale, rows);
+   const LawCheck check =
+      check_laws(problem, v_old, next, forces, settings.tolerance * scale, rows);
    report.residual_normal = check.normal / scale;
    report.residual_tangential = check.tangential / scale;
    return check.obeyed;
 }
 
 /// Displacements so large that round-off hides the forces may be a body that slides away, with
-/// an imbalance that no residual shows.
+/// an imbalance that no residual shows, or one that nothing holds and that could as well stay.
 bool FrictionSolver::Implementation::runs_away(const IncrementReport &report,
                                                const ContactState &state,
                                                const VectorXd &multipliers)
 {
    return report.round_off > may_hide_sliding &&
-          (finds_mechanism(multipliers) || drifts(state, multipliers));
+          (finds_mechanism(multipliers) || moves_away(state, multipliers) || at_rest);
 }
 
 bool FrictionSolver::Implementation::run_automatic(IncrementReport &report,
@@ -247,7 +285,9 @@ bool FrictionSolver::Implementation::run_automatic(IncrementReport &report,
    if (!disc() && finds([&] { return run_path(report, state); })) { return true; }
    if (brief) { return false; }
    // A body that drifts away hardly has an equilibrium elsewhere: it is not looked for as long.
-   const bool away = drifts(state, multipliers) || spins(multipliers);
+   const bool away = moves_away(state, multipliers);
+   if (!away && rested && finds([&] { return settles(report); })) { return true; }
+   if (!away && at_rest) { return false; } // see solve()
    const double operations = away ? 2e8 : 3e9;
    if (!frictionless && finds([&] { return run_damped_newton(report, state, operations); }))
    {
@@ -255,6 +295,24 @@ bool FrictionSolver::Implementation::run_automatic(IncrementReport &report,
    }
    // Where these fail, the dense tableau may not; its size allows for small problems only.
    return !away && n <= 32 && finds([&] { return run_lemke(report); });
+}
+
+/// From what weak springs hold to an answer without them.
+bool FrictionSolver::Implementation::settles(IncrementReport &report)
+{
+   if (frictionless) { u = rested->w; }
+   else { u << rested->v, rested->w; }
+   status = rested->status;
+   F = f + K * u;
+   return newton_accepted(report);
+}
+
+/// Asked once an increment.
+bool FrictionSolver::Implementation::moves_away(const ContactState &state,
+                                                const VectorXd &multipliers)
+{
+   if (!away) { away = !brief && (drifts(state, multipliers) || spins(multipliers)); }
+   return *away;
 }
 
 void FrictionSolver::Implementation::find_motions()
@@ -273,54 +331,79 @@ bool FrictionSolver::Implementation::finds_mechanism(const VectorXd &multipliers
    return mechanism.exists;
 }
 
-/// True if a body moves on and on where weak springs hold its rigid motions: the force that
-/// these bear stays the same when they get weaker. Asked where no equilibrium was found; it
-/// says why.
+/// Holds the rigid motions by weak springs, ever weaker ones, each fixed where the one before
+/// let the bodies go. True if a body moves on and on: the force that they bear stays the same.
+/// Else what they hold is near an answer without them, or, where they bear nothing, is one (a
+/// pivot, balanced so that only round-off would decide which way it leans, stays where it is).
 bool FrictionSolver::Implementation::drifts(const ContactState &state,
                                             const VectorXd &multipliers)
 {
-   if (brief) { return false; }
    find_motions();
    if (motions->cols() == 0) { return false; }
    const MatrixXd &Z = *motions;
    const Index along = problem.A.rows(), components = problem.components();
-   const double stiffness =
-      (problem.A.trace() + problem.C.trace()) / static_cast<double>(along + n);
-   VectorXd borne;
-   ContactState next = state; // goes on moving from spring to spring
-   for (double weakness : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7})
+   const auto count = static_cast<Index>(problem.patterns.size());
+   mechanism = {};
+   VectorXd own(along + n), borne;
+   own << problem.A.diagonal(), problem.C.diagonal();
+   const double soft = own.minCoeff(), mean = own.mean();
+   // Weak against the softest node and felt by the stiffest, or they prove nothing.
+   // Above critical friction a body that slides may as well lock itself.
+   const bool tell = soft > 1e-6 * own.maxCoeff() && above_critical() < 0;
+   VectorXd anchor(along + n);
+   anchor << state.v, state.w;
+   VectorXd loads(count + 1);
+   loads << multipliers, 1;
+   ContactState begin = state;
+   begin.multipliers.conservativeResize(count + 1);
+   begin.multipliers[count] = 1;
+   int alike = 0; // springs in a row that bore the same as the one before
+   for (double weakness : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8})
    {
+      const double spring = weakness * (tell ? soft : mean);
+      if (spring < 1e-13 * own.maxCoeff()) { break; } // round-off
       ReducedProblem held = problem;
-      const double spring = weakness * stiffness;
       const auto Zt = Z.topRows(along), Zn = Z.bottomRows(n);
       held.A += spring * Zt * Zt.transpose();
       held.B += spring * Zn * Zt.transpose();
       held.C += spring * Zn * Zn.transpose();
+      const VectorXd pull = -spring * Z * (Z.transpose() * anchor);
+      held.patterns.push_back({"springs", Control::force, pull.head(along), pull.tail(n)});
+      held.H.conservativeResizeLike(MatrixXd::Zero(count + 1, count + 1));
       held.rigid_motions = MatrixXd(along + n, 0);
       held.chains.clear();
       held.held.clear();
       FrictionSolver solver(held, settings);
       solver.impl_->brief = true;
-      const IncrementReport report = solver.solve(next, multipliers);
+      ContactState next = begin;
+      const IncrementReport report = solver.solve(next, loads);
       counters += solver.counters();
-      mechanism = {};
       if (report.status != FrictionStatus::converged &&
           report.status != FrictionStatus::not_unique)
       {
+         if (alike > 0) { break; }
          borne.resize(0);
          continue;
       }
+      mechanism = {};
       VectorXd u_next(along + n);
       u_next << next.v, next.w;
-      const VectorXd bears = spring * Z * (Z.transpose() * u_next);
+      const VectorXd bears = spring * Z * (Z.transpose() * (u_next - anchor));
+      anchor = u_next;
       const double size = bears.cwiseAbs().maxCoeff();
-      if (size <= 1e-9 * reference) { return false; }
+      rested = next;
+      rested->multipliers = multipliers;
+      rested->peak_force = reference;
+      at_rest = size <= settings.tolerance * reference;
+      if (at_rest) { return false; }
       const VectorXd before = std::exchange(borne, bears);
-      if (before.size() == 0 || (bears - before).cwiseAbs().maxCoeff() > 0.01 * size)
+      if (!tell || before.size() == 0 || size <= 1e-9 * reference ||
+          (bears - before).cwiseAbs().maxCoeff() > 0.01 * size)
       {
+         alike = 0;
          continue;
       }
-      mechanism.exists = true;
+      ++alike;
       mechanism.motion = bears / size;
       for (Index i = 0; i < n; ++i)
       {
@@ -335,7 +418,7 @@ bool FrictionSolver::Implementation::drifts(const ContactState &state,
    }
    // What opens everywhere is for find_mechanism() to prove: a spring may hold a body before it
    // touches.
-   mechanism.exists = mechanism.slides;
+   mechanism.exists = mechanism.slides && alike > 1;
    return mechanism.exists;
 }
 
@@ -343,7 +426,9 @@ bool FrictionSolver::Implementation::drifts(const ContactState &state,
 /// springs above.
 bool FrictionSolver::Implementation::spins(const VectorXd &multipliers)
 {
-   if (!disc()) { return false; }
+   if (!disc() || problem.friction.maxCoeff() == 0) { return false; }
+   find_motions();
+   if (motions->cols() == 0) { return false; }
    if (!smooth)
    {
       ReducedProblem without = problem;
@@ -358,7 +443,8 @@ bool FrictionSolver::Implementation::spins(const VectorXd &multipliers)
    }
    ContactState state = ContactState::virgin(problem);
    if (smooth->solve(state, multipliers).status != FrictionStatus::converged) { return false; }
-   mechanism = find_spinning(problem, state.p, problem.clamped_forces(multipliers));
+   mechanism = find_spinning(problem, state.p, problem.clamped_forces(multipliers),
+                             settings.tolerance * reference);
    return mechanism.exists;
 }
 
@@ -421,6 +507,9 @@ IncrementReport FrictionSolver::Implementation::solve(ContactState &state,
    IncrementReport report;
    mechanism = {};
    lost_in_round_off = 0;
+   away.reset();
+   rested.reset();
+   at_rest = false;
    start(state, multipliers);
    bool solved = false;
    switch (settings.method)
@@ -442,13 +531,23 @@ IncrementReport FrictionSolver::Implementation::solve(ContactState &state,
       finish(next, multipliers);
       solved = obeys_laws(next, report);
       if (report.round_off >= 1e-6) { lost_in_round_off = report.round_off; }
+      // What is eliminated has moved far: it is not left to round-off.
+      if (tangential && report.round_off > may_hide_sliding) { solved = false; }
+   }
+   if (!solved && !mechanism.exists && !finds_mechanism(multipliers))
+   {
+      if (tangential && !brief) { return solve_whole(state, multipliers); }
+      if (!moves_away(state, multipliers) && at_rest)
+      {
+         next = *rested;
+         u << next.v, next.w;
+         status = next.status;
+         report = {};
+         solved = obeys_laws(next, report);
+      }
    }
    if (!solved)
    {
-      if (!mechanism.exists && !finds_mechanism(multipliers))
-      {
-         if (!drifts(state, multipliers)) { spins(multipliers); }
-      }
       explain_failure(report);
       return report;
    }
@@ -457,6 +556,19 @@ IncrementReport FrictionSolver::Implementation::solve(ContactState &state,
    const IncrementReport unique = uniqueness(status);
    report.status = unique.status;
    report.message = unique.message;
+   return report;
+}
+
+/// A frictionless contact whose tangential unknowns cost too many digits to be eliminated: a
+/// free body on a line that is nearly straight.
+IncrementReport FrictionSolver::Implementation::solve_whole(ContactState &state,
+                                                            const VectorXd &multipliers)
+{
+   if (!slippery) { slippery = std::make_unique<Implementation>(problem, settings, true); }
+   const Counters before = slippery->counters;
+   const IncrementReport report = slippery->solve(state, multipliers);
+   counters += slippery->counters;
+   counters -= before;
    return report;
 }
 
@@ -472,16 +584,20 @@ IncrementReport FrictionSolver::Implementation::judge(const ContactState &before
    else { u << after.v, after.w; }
    IncrementReport report = uniqueness(after.status);
    const bool obeyed = obeys_laws(after, report);
-   report.round_off = round_off().maxCoeff() / (reference > 0 ? reference : 1.0);
-   if (!obeyed || !(report.round_off < 1e-6))
+   std::ostringstream message;
+   if (!(report.round_off < 1e-6))
    {
-      report.status = FrictionStatus::stalled;
-      std::ostringstream message;
+      message << "the forces of the state are lost in round-off (" << report.round_off
+              << " of the largest)";
+   }
+   else if (!obeyed)
+   {
       message << "the state breaks the equations or the laws by "
               << std::max(report.residual_normal, report.residual_tangential)
               << " of the largest force";
-      report.message = message.str();
    }
+   report.message = message.str().empty() ? report.message : message.str();
+   if (!message.str().empty()) { report.status = FrictionStatus::stalled; }
    return report;
 }
 

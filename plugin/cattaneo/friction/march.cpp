@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cattaneo/friction/march.hpp>
+#include <cattaneo/friction/zones.hpp>
 #include <cattaneo/input_error.hpp>
 #include <chrono>
 #include <cmath>
@@ -58,6 +60,9 @@ VectorXd conjugates(const ReducedProblem &problem, const ContactState &state)
    return g;
 }
 
+/// Forces of a state that is handed out where another could be chosen, over the largest.
+constexpr double known_to = 1e-9;
+
 bool solved(const IncrementReport &increment)
 {
    return increment.status == FrictionStatus::converged ||
@@ -92,8 +97,7 @@ private:
    bool march_exactly(int piece);
    bool increment_to(int piece, double target, bool exact);
    double first_closing(int piece, double target);
-   void follow_coarsely(bool ends);
-   void follow_anew();
+   double gained_where_it_closed(const ContactState &next) const;
    int increments(int piece) const;
    void stop(const IncrementReport &failure);
    bool exact_in_one(int piece) const;
@@ -113,17 +117,8 @@ private:
    MarchReport report_;
    CycleRecord cycle_;
    std::unique_ptr<ExactPath> path_; // Stepping::exact, made when first needed
-   // Where contact advances with friction: the same loads in increments twice and four times
-   // as long.
-   struct Coarse
-   {
-      int stride;
-      ContactState state = {};
-      int behind = 0;       // increments since then
-      bool differs = false; // solved for, no copy of a state
-   } coarse_[2] = {{2}, {4}};
-   bool advanced_ = false; // contact advanced in this piece, other than exactly
    double external_work_ = 0, dissipation_ = 0, normal_work_ = 0;
+   double gained_ = 0; // see gained_where_it_closed()
 };
 
 /// End of an equal step of a piece.
@@ -162,19 +157,10 @@ bool March::exact_in_one(int piece) const
           (state_.q.isZero(0) || state_.q.cwiseAbs().maxCoeff() <= 1e-8 * normal);
 }
 
-/// Chains of the problem; of one that does not say, all nodes in a row.
-std::vector<ContactChain> chains(const ReducedProblem &problem)
-{
-   if (!problem.chains.empty()) { return problem.chains; }
-   ContactChain all;
-   all.nodes = problem.nodes();
-   return {all};
-}
-
 bool March::advances_too_far(const ContactState &next) const
 {
    if (settings_.stepping == Stepping::fixed || solver_.frictionless()) { return false; }
-   for (const ContactChain &chain : chains(problem_))
+   for (const ContactChain &chain : chains_of(problem_))
    {
       const Index first = chain.first, count = chain.nodes;
       const auto was_closed = [&](Index k)
@@ -183,7 +169,7 @@ bool March::advances_too_far(const ContactState &next) const
          return k >= 0 && k < count && closed(state_.status[first + k]);
       };
       bool bore = false;
-      Index low = count, high = -1; // newly closed nodes without a closed neighbour
+      Index low = count, high = -1, alone = 0; // newly closed, without a closed neighbour
       for (Index k = 0; k < count; ++k)
       {
          bore = bore || was_closed(k);
@@ -194,53 +180,28 @@ bool March::advances_too_far(const ContactState &next) const
          }
          low = std::min(low, k);
          high = k;
+         ++alone;
       }
-      if (high >= 0 && (bore || high > low + 1)) { return true; }
+      const bool beside = high == low + 1 || (chain.loop && high - low == count - 1);
+      if (alone > 0 && (bore || alone > 2 || (alone == 2 && !beside))) { return true; }
    }
    return false;
 }
 
-/// The same loads once more, in longer increments, for as long as contact advances with
-/// friction and to the end of the piece: what comes out differently is the error of the
-/// increments.
-void March::follow_coarsely(bool ends)
+/// Friction acts on a node from the beginning of the increment in which it closes, not from
+/// where it does: what it gains in that increment may be wrong, all of it, and stays.
+double March::gained_where_it_closed(const ContactState &next) const
 {
-   for (Coarse &coarse : coarse_)
+   double most = 0;
+   const Index n = problem_.nodes();
+   for (Index i = 0; i < n; ++i)
    {
-      if (!advanced_ || (coarse.behind < coarse.stride && !(ends && coarse.behind)))
-      {
-         continue;
-      }
-      if (coarse.differs || coarse.behind > 1)
-      {
-         ContactState next = coarse.state;
-         next.time = state_.time;
-         if (solved(solver_.solve(next, state_.multipliers)))
-         {
-            // The difference is the error itself where that falls as the increments do, a
-            // quarter of it where it falls as their cube root.
-            const double off = (next.q - state_.q).cwiseAbs().maxCoeff() / state_.peak_force;
-            report_.advance_error = std::max(report_.advance_error, 4 * off);
-            coarse.state = std::move(next);
-            coarse.differs = true;
-         }
-         else if (!ends) { continue; } // a still longer one may do
-         else { report_.advance_error = std::numeric_limits<double>::infinity(); }
-      }
-      coarse.behind = 0;
+      if (closed(state_.status[i]) || !closed(next.status[i])) { continue; }
+      double gained = 0;
+      for (Index k = i; k < next.q.size(); k += n) { gained = std::hypot(gained, next.q[k]); }
+      most = std::max(most, gained);
    }
-   if (ends) { follow_anew(); }
-}
-
-void March::follow_anew()
-{
-   advanced_ = false;
-   for (Coarse &coarse : coarse_)
-   {
-      coarse.state = state_;
-      coarse.behind = 0;
-      coarse.differs = false;
-   }
+   return most;
 }
 
 /// `exact`: by the exact path, or by one increment where that is exact.
@@ -252,7 +213,23 @@ void March::accept(ContactState &&next, int piece, const IncrementReport &increm
    record.residual_normal = increment.residual_normal;
    record.residual_tangential = increment.residual_tangential;
    record.round_off = increment.round_off;
-   for (NodeState s : next.status)
+   const Index n = problem_.nodes();
+   for (Index i = 0; i < n; ++i)
+   {
+      const NodeState before = state_.status[i], now = next.status[i];
+      double along = 0; // old shear along the new: negative if slip has turned round
+      for (Index k = i; now == NodeState::slip && k < next.q.size(); k += n)
+      {
+         along += state_.q[k] * next.q[k];
+      }
+      const bool turned = slips(before) && (before != now || along < 0);
+      for (Index k = i; k < next.v.size(); k += n)
+      {
+         if (!slips(now)) { next.slip_origin[k] = next.v[k]; }
+         else if (turned) { next.slip_origin[k] = state_.v[k]; }
+      }
+   }
+   for (NodeState s : settled_states(problem_, next))
    {
       switch (s)
       {
@@ -271,22 +248,6 @@ void March::accept(ContactState &&next, int piece, const IncrementReport &increm
       case NodeState::slip:
          ++record.slip;
          break;
-      }
-   }
-   const Index n = problem_.nodes();
-   for (Index i = 0; i < n; ++i)
-   {
-      const NodeState before = state_.status[i], now = next.status[i];
-      double along = 0; // old shear along the new: negative if slip has turned round
-      for (Index k = i; now == NodeState::slip && k < next.q.size(); k += n)
-      {
-         along += state_.q[k] * next.q[k];
-      }
-      const bool turned = slips(before) && (before != now || along < 0);
-      for (Index k = i; k < next.v.size(); k += n)
-      {
-         if (!slips(now)) { next.slip_origin[k] = next.v[k]; }
-         else if (turned) { next.slip_origin[k] = state_.v[k]; }
       }
    }
    const VectorXd lost = frictional_loss(problem_, state_, next);
@@ -312,18 +273,12 @@ void March::accept(ContactState &&next, int piece, const IncrementReport &increm
       cycle_.external_work += record.external_work;
       cycle_.normal_work += normal_work;
    }
-   if (!exact)
-   {
-      advanced_ = advanced_ || (!solver_.frictionless() && closes(state_, next));
-      for (Coarse &coarse : coarse_) { ++coarse.behind; }
-   }
+   if (!exact) { gained_ = std::max(gained_, gained_where_it_closed(next)); }
    external_work_ += record.external_work;
    dissipation_ += record.dissipation;
    normal_work_ += normal_work;
    next.dissipation += record.dissipation;
    state_ = std::move(next);
-   if (exact) { follow_anew(); }
-   else { follow_coarsely(false); }
    report_.increments.push_back(record);
    for (const CutOffContact &found : cut_off_contact(problem_, state_))
    {
@@ -378,7 +333,7 @@ void March::bisect_event(int piece, double failed, IncrementReport failure)
       // known to have an equilibrium, but that is not handed out.
       const double stated = std::max(
          {increment.residual_normal, increment.residual_tangential, increment.round_off});
-      if (stated <= 1e-9) { accept(std::move(next), piece, increment, false); }
+      if (stated <= known_to) { accept(std::move(next), piece, increment, false); }
    }
    stop(failure);
    report_.event_time = reached;
@@ -472,7 +427,19 @@ double March::first_closing(int piece, double target)
       const double middle = 0.5 * (before + after);
       (closes_by(middle) ? after : before) = middle;
    }
-   return before > state_.time ? before : after;
+   if (before > state_.time) { return before; }
+   // So soon after a body has crossed a gap its forces may be lost in the round-off of its way.
+   const auto known = [&](double time)
+   {
+      ContactState next = state_;
+      const IncrementReport increment = solver_.solve(next, loads(piece, time));
+      return solved(increment) && increment.round_off <= known_to;
+   };
+   while (after < target && !known(after))
+   {
+      after = std::min(target, state_.time + 8 * (after - state_.time));
+   }
+   return after;
 }
 
 /// From event to event, to the end of the piece.
@@ -613,7 +580,6 @@ MarchReport March::run()
    history_.validate(static_cast<int>(problem_.patterns.size()));
    const Counters before = solver_.counters();
    const double energy = elastic_energy(problem_, state_);
-   follow_anew();
    if (history_.cycle_start >= 0 && state_.cycle_slip.empty() &&
        state_.time <= history_.times[history_.cycle_start] && history_.cycle_start == 0)
    {
@@ -623,7 +589,6 @@ MarchReport March::run()
    {
       if (state_.time >= history_.end_time(piece)) { continue; }
       const bool marched = march_piece(piece);
-      follow_coarsely(true);
       if (!marched) { break; }
       // The first cycle is compared with the state at its start.
       if (piece + 1 == history_.cycle_start) { state_.cycle_slip = {state_.v}; }
@@ -634,6 +599,7 @@ MarchReport March::run()
       }
    }
    report_.time = state_.time;
+   if (gained_ > 0) { report_.advance_error = gained_ / state_.peak_force; }
    const double stored = elastic_energy(problem_, state_) - energy;
    const double largest = std::max({std::abs(external_work_), std::abs(stored), dissipation_});
    if (largest > 0)
@@ -662,7 +628,8 @@ VectorXd frictional_loss(const ReducedProblem &problem, const ContactState &befo
       double p0 = std::max(before.p[i], 0.0), length = 0, along = 0;
       for (Index k = i; k < c * n; k += n)
       {
-         length = std::hypot(length, after.v[k] - before.v[k]);
+         const double step = after.v[k] - before.v[k];
+         length = k == i ? std::abs(step) : std::hypot(length, step);
          along += before.q[k] * after.q[k];
       }
       if (length == 0) { continue; }

@@ -21,10 +21,10 @@ enum class Stepping
    /// chain that bore nothing yet, close there first, alone or beside another.
    advancing,
    /// No increments: from one change of state to the next, exactly (see ExactPath). Pieces that
-   /// one increment solves exactly take that one. Where there is no path to follow, the next of
-   /// the equal increments is taken instead, as by `advancing`: counted, with the reason, in
-   /// the report. A state that is no equilibrium (an initial slip, an interference) is settled
-   /// by an increment first.
+   /// one increment solves exactly take that one. Where there is no path to follow, an
+   /// increment is taken instead, to the next of the equal ones or to where a node closes
+   /// first: counted, with the reason, in the report. A state that is no equilibrium (an
+   /// initial slip, an interference) is settled by an increment first.
    exact
 };
 
@@ -49,8 +49,9 @@ struct MarchSettings
 struct IncrementRecord
 {
    double time = 0;
-   int cycle = 0;                                                      ///< 0: opening part
-   int stick = 0, separation = 0, forward_slip = 0, backward_slip = 0; ///< numbers of nodes
+   int cycle = 0; ///< 0: opening part
+   int stick = 0, separation = 0, forward_slip = 0,
+       backward_slip = 0; ///< numbers of settled_states()
    int slip = 0; ///< with two tangential components: nodes that slip in whatever direction
    double dissipation = 0;   ///< see frictional_loss(), summed over nodes; never negative
    double external_work = 0; ///< work of the loads, trapezoidal (exact for linear increments)
@@ -92,11 +93,10 @@ struct MarchReport
    /// (of nodes that begin to slip within one, for instance) and goes to zero with them; on the
    /// exact path it is round-off.
    double energy_imbalance = 0;
-   /// Friction forces of a contact that advances depend on how it was cut into layers: four
-   /// times the largest difference |q - q'| to a second solution with increments twice as long,
-   /// over the largest force. It bounds the error where this falls at least as the cube root of
-   /// the increments; infinite if there was no second solution. Zero where no contact advanced
-   /// with friction, or Stepping::exact found its path.
+   /// Friction forces of a contact that advances depend on how it was cut into layers, since
+   /// friction acts on a node from the beginning of the increment in which it closes: the
+   /// largest friction force that a node gained in that increment, over the largest force. It
+   /// goes to zero with the increments. Not on the exact path, where nodes close between them.
    double advance_error = 0;
    /// Ends of lines at which contact was cut off, each with the first accepted state in which
    /// it was so: the results are those of a line that was named too short.
@@ -123,9 +123,10 @@ MarchReport march(FrictionSolver &solver, const LoadHistory &history, ContactSta
                   const MarchSettings &settings = {}, const MarchObserver &observer = {});
 
 /** Frictional loss of each node (size n) over an increment: ½ f (p₀ + p₁)|Δv|, exact for a
-    linear path along which the node slips one way. Where slip has turned round since the last
-    increment the node sticks first: p₀ is then the pressure at which friction is exhausted
-    again, if the forces of the node that does not slip yet change linearly. Never negative. */
+    linear path along which the node is in contact and slips one way. Where slip has turned
+   round since the last increment the node sticks first: p₀ is then the pressure at which
+   friction is exhausted again, if the forces of the node that does not slip yet change
+   linearly. Never negative. */
 Eigen::VectorXd frictional_loss(const ReducedProblem &problem, const ContactState &before,
                                 const ContactState &after);
 

@@ -31,11 +31,14 @@ MatrixXd rigid_motions(const ReducedProblem &problem)
                                 : SemidefiniteSolver(problem.stiffness()).null_space();
 }
 
-Mechanism find_mechanism(const ReducedProblem &problem, const MatrixXd &Z,
+Mechanism find_mechanism(const ReducedProblem &problem, const MatrixXd &motions,
                          const VectorXd &clamped_forces, double negligible)
 {
    Mechanism mechanism;
-   if (Z.cols() == 0) { return mechanism; }
+   if (motions.cols() == 0) { return mechanism; }
+   // A lever of round-off would balance any load, with forces of any size.
+   const double lever = 1e-13 * motions.cwiseAbs().maxCoeff();
+   const MatrixXd Z = (motions.array().abs() < lever).select(0.0, motions);
    const Index n = problem.nodes(), m = problem.A.rows();
    // Equilibrium along the rigid motions: Zᵀ{q; p} = Zᵀ f^w. Columns of G: the edges (± f, 1)
    // of every node's friction cone, for each tangential component.
@@ -108,7 +111,7 @@ Mechanism find_mechanism(const ReducedProblem &problem, const MatrixXd &Z,
 }
 
 Mechanism find_spinning(const ReducedProblem &problem, const VectorXd &frictionless_pressure,
-                        const VectorXd &clamped_forces)
+                        const VectorXd &clamped_forces, double negligible)
 {
    Mechanism mechanism;
    const Index n = problem.nodes();
@@ -122,7 +125,11 @@ Mechanism find_spinning(const ReducedProblem &problem, const VectorXd &frictionl
          problem.friction[i] * frictionless_pressure[i] * std::hypot(Z(i, 0), Z(n + i, 0));
    }
    const double drive = Z.col(0).dot(clamped_forces.head(2 * n));
-   if (std::abs(drive) < (1 - 1e-9) * resistance) { return mechanism; }
+   if (std::abs(drive) * Z.cwiseAbs().maxCoeff() <= negligible ||
+       std::abs(drive) < (1 - 1e-9) * resistance)
+   {
+      return mechanism;
+   }
    mechanism.exists = mechanism.slides = mechanism.spins = true;
    mechanism.motion = VectorXd::Zero(3 * n);
    mechanism.motion.head(2 * n) = (drive > 0 ? 1 : -1) / Z.cwiseAbs().maxCoeff() * Z.col(0);

@@ -36,9 +36,9 @@ Mechanism find_mechanism(const ReducedProblem &problem, const Eigen::MatrixXd &r
     and moves no node in its plane. Torques between this and the greatest that a contact can
     carry at rest have both a steady rotation and an equilibrium, so that this is the cause
     only where no equilibrium was found. False if not just one rigid motion is tangential, with
-    two components. */
+    two components, or if the torque is `negligible` as above. */
 Mechanism find_spinning(const ReducedProblem &problem,
                         const Eigen::VectorXd &frictionless_pressure,
-                        const Eigen::VectorXd &clamped_forces);
+                        const Eigen::VectorXd &clamped_forces, double negligible = 0);
 
 } // namespace cattaneo

@@ -191,7 +191,8 @@ class Reader
 {
 public:
    Reader(const ReducedProblem &problem, const Profiles &at, const VectorXd &shear)
-      : s_(problem.arc_length), at_(at), shear_(shear), chain_(chain_numbers(problem))
+      : s_(problem.arc_length), at_(at), shear_(shear), chain_(chain_numbers(problem)),
+        chains_(chains_of(problem))
    {
    }
 
@@ -202,6 +203,7 @@ private:
    Edge contact_edge(Index in, Index out, Index open_end) const;
    Edge slip_edge(Index in, Index out, Index stick_end, Index slip_end) const;
    void untangle(std::vector<Zone> &all) const;
+   double doubt_of_ends(Index i, Index j, double position) const;
 
    bool neighbours(Index i, Index j) const
    {
@@ -212,6 +214,7 @@ private:
    const Profiles &at_;
    const VectorXd &shear_;
    const std::vector<int> chain_;
+   const std::vector<ContactChain> chains_;
 };
 
 /// Node `in` is closed, `out` is open; the far end of the open zone.
@@ -275,6 +278,36 @@ void Reader::untangle(std::vector<Zone> &all) const
    }
 }
 
+/// Tractions at a corner that is in contact are singular, and wrong over the first few nodes: a
+/// border four nodes from it may as well lie there, and the doubt fades as
+/// the number of nodes between. Nodes i and j have the border between them.
+double Reader::doubt_of_ends(Index i, Index j, double position) const
+{
+   double most = 0;
+   const auto look = [&](Index node, Index step)
+   {
+      double count = 0.5;
+      while (neighbours(node, node + step) && closed(at_.states[node + step]))
+      {
+         node += step;
+         ++count;
+      }
+      if (neighbours(node, node + step)) { return; } // contact ends within the line
+      const ContactChain &chain = chains_[chain_[node]];
+      const std::size_t end = step < 0 ? 0 : 1;
+      if (chain.loop ||
+          (chain.ends[end] != LineEnd::corner && chain.other_ends[end] != LineEnd::corner))
+      {
+         return;
+      }
+      most =
+         std::max(most, std::min(16 / count * (s_[j] - s_[i]), std::abs(position - s_[node])));
+   };
+   look(i, -1);
+   look(j, 1);
+   return most;
+}
+
 std::vector<Zone> Reader::zones()
 {
    std::vector<Zone> result;
@@ -294,6 +327,16 @@ std::vector<Zone> Reader::zones()
       result[k].to = result[k + 1].from = border(result[k], result[k + 1]);
    }
    untangle(result);
+   for (std::size_t k = 0; k + 1 < result.size(); ++k)
+   {
+      Zone &left = result[k], &right = result[k + 1];
+      if (left.chain != right.chain || !closed(left.state) || !closed(right.state))
+      {
+         continue;
+      }
+      const double doubt = doubt_of_ends(left.last, right.first, left.to.position);
+      left.to.error = right.from.error = std::max(left.to.error, doubt);
+   }
    return result;
 }
 
@@ -333,19 +376,10 @@ std::vector<int> chain_numbers(const ReducedProblem &problem)
 {
    const Index n = problem.nodes();
    std::vector<int> number(n, 0);
-   if (!problem.chains.empty())
+   int k = 0;
+   for (const ContactChain &chain : chains_of(problem))
    {
-      int k = 0;
-      for (const ContactChain &chain : problem.chains)
-      {
-         std::fill_n(number.begin() + chain.first, chain.nodes, k++);
-      }
-      return number;
-   }
-   for (Index i = 1; i < n; ++i)
-   {
-      // Chains follow each other in the arc length, where one ends and the next begins.
-      number[i] = number[i - 1] + (problem.arc_length[i] > problem.arc_length[i - 1] ? 0 : 1);
+      std::fill_n(number.begin() + chain.first, chain.nodes, k++);
    }
    return number;
 }

@@ -201,22 +201,24 @@ void ContactLineFields::write(const ContactState &state)
    array("opening", state.w + problem_.gap);
    vtp << "</PointData>\n</Piece>\n</PolyData>\n</VTKFile>\n";
 
-   times_.push_back(state.time);
+   std::vector<double> times = times_; // kept when the files are
+   times.push_back(state.time);
    std::ostringstream pvd;
    pvd.precision(17);
    pvd << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" "
           "version=\"0.1\">\n<Collection>\n";
    const auto file = [this](std::size_t k) { return name_ + "_" + std::to_string(k) + ".vtp"; };
-   for (std::size_t k = 0; k < times_.size(); ++k)
+   for (std::size_t k = 0; k < times.size(); ++k)
    {
-      pvd << "<DataSet timestep=\"" << times_[k] << "\" part=\"0\" file=\"" << file(k)
+      pvd << "<DataSet timestep=\"" << times[k] << "\" part=\"0\" file=\"" << file(k)
           << "\"/>\n";
    }
    pvd << "</Collection>\n</VTKFile>\n";
    const std::string folder = directory_ + "/" + name_;
    make_folder(folder);
-   write_whole(folder + "/" + file(times_.size() - 1), vtp.str());
+   write_whole(folder + "/" + file(times_.size()), vtp.str());
    write_whole(folder + "/" + name_ + ".pvd", pvd.str());
+   times_ = std::move(times);
 }
 
 } // namespace cattaneo

@@ -180,6 +180,23 @@ void hold(ReducedProblem &problem, const std::vector<Eigen::Index> &rows)
    problem.rigid_motions.reset(); // those that move the held rows are no more
 }
 
+std::vector<ContactChain> chains_of(const ReducedProblem &problem)
+{
+   if (!problem.chains.empty()) { return problem.chains; }
+   std::vector<ContactChain> chains;
+   const bool known = problem.arc_length.size() == problem.nodes();
+   for (Eigen::Index i = 0; i < problem.nodes(); ++i)
+   {
+      if (i == 0 || (known && problem.arc_length[i] <= problem.arc_length[i - 1]))
+      {
+         chains.emplace_back();
+         chains.back().first = i;
+      }
+      ++chains.back().nodes;
+   }
+   return chains;
+}
+
 void set_friction(ReducedProblem &problem, double coefficient)
 {
    require(coefficient >= 0, "friction coefficient is ", coefficient, ", must not be negative");

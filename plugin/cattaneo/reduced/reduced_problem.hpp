@@ -118,6 +118,10 @@ struct ReducedProblem
    void validate() const;
 };
 
+/// The chains of a problem; where these are not known, one for all nodes, or a new one wherever
+/// the arc length, if there is one, does not grow.
+std::vector<ContactChain> chains_of(const ReducedProblem &problem);
+
 /// The same friction coefficient at every node.
 void set_friction(ReducedProblem &problem, double coefficient);
 

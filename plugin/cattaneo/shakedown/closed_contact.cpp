@@ -87,22 +87,34 @@ ClosedContact closed_contact(const ReducedProblem &problem,
    }
    if (problem.dofs.size()) { reduced.dofs = problem.dofs(contact.closed, Eigen::all); }
 
-   Eigen::Index begins = 0;
+   // Runs of nodes that still follow each other; what ends at a node that is gone is not known.
+   const std::vector<Eigen::Index> &left = contact.closed;
    for (const ContactChain &chain : problem.chains)
    {
-      ContactChain part = chain;
-      part.first = begins;
-      part.nodes = std::count_if(contact.closed.begin(), contact.closed.end(),
-                                 [&](Eigen::Index i)
-                                 { return i >= chain.first && i < chain.first + chain.nodes; });
-      begins += part.nodes;
-      if (part.nodes < chain.nodes) // its ends need not be those of the line any more
+      const Eigen::Index last = chain.first + chain.nodes - 1;
+      const auto gone = [&](Eigen::Index node)
+      { return !std::binary_search(left.begin(), left.end(), node); };
+      for (std::size_t k = 0; k < left.size(); ++k)
       {
-         part.loop = false;
-         part.ends.fill(LineEnd::unknown);
-         part.other_ends.fill(LineEnd::unknown);
+         const Eigen::Index node = left[k];
+         if (node < chain.first || node > last) { continue; }
+         if (node == chain.first || gone(node - 1))
+         {
+            reduced.chains.push_back(chain);
+            reduced.chains.back().first = static_cast<Eigen::Index>(k);
+            reduced.chains.back().nodes = 0;
+         }
+         ContactChain &run = reduced.chains.back();
+         const bool whole = ++run.nodes == chain.nodes;
+         run.loop = chain.loop && whole;
+         for (const std::size_t end : {0, 1})
+         {
+            const bool there = (!chain.loop || whole) &&
+                               (end == 0 ? left[run.first] == chain.first : node == last);
+            run.ends[end] = there ? chain.ends[end] : LineEnd::unknown;
+            run.other_ends[end] = there ? chain.other_ends[end] : LineEnd::unknown;
+         }
       }
-      if (part.nodes > 0) { reduced.chains.push_back(part); }
    }
    for (Eigen::Index k = 0; k < m; ++k)
    {

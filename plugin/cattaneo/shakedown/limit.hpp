@@ -30,7 +30,8 @@ enum class LimitStatus
 {
    certified,   ///< lower ≤ limit ≤ upper are proven and the gap is within the tolerance
    bracketed,   ///< the bounds are proven, but the gap is wider than asked for
-   unlimited,   ///< a slip in proportion to the load factor holds any (proven: `ray`)
+   unlimited,   ///< a slip in proportion to the load factor, `ray`, holds any (proven; where
+                ///< forces touch their cones, to round-off and up to `lower`)
    no_solution, ///< no slip keeps the contact stuck and closed under the constant loads or, of
                 ///< a friction limit, with any coefficient searched (proven by the mechanism)
    failed,      ///< the solver ended without a usable point
@@ -64,7 +65,9 @@ struct LimitReport
    /// The safe side: `lower` of a load factor, infinite if it is unlimited, `upper` of a
    /// friction coefficient.
    double limit = 0;
-   double lower = 0; ///< proven: plain arithmetic shows the slip below to be admissible, …
+   /// Proven: plain arithmetic shows the slip below to be admissible, …. Of an unlimited load
+   /// that is only held to round-off: the factor up to which it is.
+   double lower = 0;
    double upper = 0; ///< … and weak duality no other to be (friction: the other way round)
    /// Largest (|q| - f p) / nodal force over nodes and vertices at the limit, from slip, A and
    /// B; at most 0.

@@ -1,3 +1,4 @@
+#include <cattaneo/friction/zones.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/shakedown/transient.hpp>
 #include <cmath>
@@ -105,9 +106,10 @@ TransientReport transient(FrictionSolver &solver, const LimitProblem &problem,
                                            opens.assign(n, false);
                                         }
                                         cycle_now = record.cycle;
+                                        const auto states = settled_states(reduced, now);
                                         for (std::size_t i = 0; i < n; ++i)
                                         {
-                                           opens[i] = opens[i] || !closed(now.status[i]);
+                                           opens[i] = opens[i] || !closed(states[i]);
                                         }
                                      });
    report.status = marched.status;
