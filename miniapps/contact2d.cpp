@@ -32,6 +32,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <optional>
 #include <sstream>
 
 using namespace cattaneo;
@@ -108,8 +109,6 @@ Side make_side(const BodyOptions &options, const std::string &k, int order, bool
    }
 }
 
-/// The rigid obstacle is the straight line that touches the contact nodes, across their mean
-/// normal.
 Eigen::Vector2d mean_normal(const ContactLine &line)
 {
    return (line.normal.transpose() * line.weights).normalized();
@@ -118,30 +117,59 @@ Eigen::Vector2d mean_normal(const ContactLine &line)
 /// Displacements are small: a node presses along its own normal. One that bears although this
 /// is far from the rigid line's, on a side beyond a corner for instance, holds the body as no
 /// line could.
-void warn_of_sides(const ContactLine &line, const ContactState &state)
+class SidesThatBear
 {
-   const Eigen::Vector2d normal = mean_normal(line);
-   const double degree = std::acos(-1.0) / 180;
-   double most = 15 * degree;
-   Eigen::Index worst = -1;
-   for (Eigen::Index i = 0; i < line.size(); ++i)
+public:
+   explicit SidesThatBear(const ContactLine &line) : line_(line)
    {
-      if (!closed(state.status[i]) || !(state.p[i] > 1e-9 * state.p.maxCoeff())) { continue; }
-      const double angle = std::acos(std::clamp(normal.dot(line.normal.row(i)), -1.0, 1.0));
-      if (angle <= most) { continue; }
-      most = angle;
-      worst = i;
+      const Eigen::VectorXd cosine = line.normal * mean_normal(line);
+      for (Eigen::Index i = 0; i < line.size(); ++i)
+      {
+         if (angle(cosine[i]) > 15) { sides_.push_back({i, angle(cosine[i])}); }
+      }
    }
-   if (worst < 0) { return; }
-   std::ostringstream text;
-   text << "node " << worst << " at (" << line.position(worst, 0) << ", "
-        << line.position(worst, 1) << ") bears although its normal is "
-        << std::lround(most / degree)
-        << " degrees off that of the rigid line: forces and zones are wrong there, name no "
-           "boundary around a corner as contact";
-   miniapp::warn(text.str());
-}
+   /// A state that the march has reached.
+   void note(const ContactState &state)
+   {
+      for (const Node &side : sides_)
+      {
+         if (closed(state.status[side.index]) &&
+             state.p[side.index] > 1e-9 * state.p.maxCoeff() && side.angle > worst_.angle)
+         {
+            worst_ = side;
+         }
+      }
+   }
+   void warn() const
+   {
+      if (worst_.index < 0) { return; }
+      std::ostringstream text;
+      text << "node " << worst_.index << " at (" << line_.position(worst_.index, 0) << ", "
+           << line_.position(worst_.index, 1) << ") bears although its normal is "
+           << std::lround(worst_.angle)
+           << " degrees off that of the rigid line: forces and zones are wrong there, name no "
+              "boundary around a corner as contact";
+      miniapp::warn(text.str());
+   }
 
+private:
+   struct Node
+   {
+      Eigen::Index index = -1;
+      double angle = 0; ///< degrees between its normal and the line's
+   };
+   static double angle(double cosine)
+   {
+      return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::acos(-1.0);
+   }
+
+   const ContactLine &line_;
+   std::vector<Node> sides_;
+   Node worst_;
+};
+
+/// The rigid obstacle is the straight line that touches the contact nodes, across their mean
+/// normal.
 Reduction on_rigid_line(const CondensedBody &body)
 {
    const ContactLine &line = body.line;
@@ -424,11 +452,14 @@ int main(int argc, char *argv[])
          HistoryTable table;
          std::vector<ContactState> recorded;
          auto next_frame = wanted.begin();
+         std::optional<SidesThatBear> beyond_corners;
+         if (sides.size() == 1) { beyond_corners.emplace(contact); }
          const MarchReport report = march(
             problem, history, state, settings,
             [&](const ContactState &reached, const IncrementRecord &record)
             {
                snapshots.note(reached);
+               if (beyond_corners) { beyond_corners->note(reached); }
                if (!recording) { return; }
                table.add(reached, record);
                bool frame = all_frames;
@@ -443,7 +474,7 @@ int main(int argc, char *argv[])
             "the energies of the march overflow: the loads or the moduli need other units");
          if (reduced_file[0] && miniapp::writes()) { save(problem, reduced_file); }
          const int code = miniapp::exit_code(report);
-         if (sides.size() == 1) { warn_of_sides(contact, state); }
+         if (beyond_corners) { beyond_corners->warn(); }
          if (recording && (recorded.empty() || recorded.back().time != state.time))
          {
             recorded.push_back(state);

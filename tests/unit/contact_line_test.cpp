@@ -422,8 +422,9 @@ TEST(ContactLine, APartThatAnIntervalCutsFromAnArc)
          EXPECT_NEAR(sides.arc_length[i], (sides.chain[i] ? 110 : 150) * degree - angle, 1e-8);
       }
    }
-   // Chords turn at their nodes: those of 3° stand for the curve, those of 40° do not.
-   for (int elements : {3, 40})
+   // Chords turn at their nodes: those of 3° stand for the curve, and two of 15° that are
+   // followed by more of the same; one of 40° alone does not.
+   for (int elements : {3, 8, 40})
    {
       mfem::Mesh chords = ring_sector(1, elements, 150 * degree, 30 * degree);
       ElasticBody body(chords, 1, Material{});

@@ -1,15 +1,13 @@
 #pragma once
 
+#include "expect_input_error.hpp"
+
 #include <Eigen/Dense>
 #include <cattaneo/condense/reduction.hpp>
 #include <cattaneo/elastic/graded_mesh.hpp>
-#include <cattaneo/input_error.hpp>
 #include <cmath>
-#include <functional>
-#include <gtest/gtest.h>
 #include <mfem.hpp>
 #include <random>
-#include <string>
 
 /// Meshes and dense reference algebra that several test files share.
 namespace support
@@ -17,19 +15,6 @@ namespace support
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-inline void expect_input_error(const std::function<void()> &act, const std::string &part)
-{
-   try
-   {
-      act();
-      ADD_FAILURE() << "no InputError; expected one that says '" << part << "'";
-   }
-   catch (const cattaneo::InputError &error)
-   {
-      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
-   }
-}
 
 /// Largest entry of a - b, relative to the largest of b.
 inline double difference(const MatrixXd &a, const MatrixXd &b)

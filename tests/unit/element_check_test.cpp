@@ -7,7 +7,6 @@ namespace
 {
 
 using namespace cattaneo;
-using support::expect_input_error;
 
 using Points = std::vector<std::array<double, 2>>;
 using Cells = std::vector<std::vector<int>>;

@@ -1,4 +1,5 @@
 #include "random_problem.hpp"
+#include "small_problems.hpp"
 
 #include <cattaneo/friction/march.hpp>
 #include <cmath>
@@ -10,6 +11,7 @@ namespace
 {
 
 using namespace cattaneo;
+using cattaneo_test::one_block;
 using cattaneo_test::random_problem;
 using Eigen::Index;
 using Eigen::Vector2d;
@@ -110,15 +112,7 @@ TEST(ExactPath, OneBlockCycleInClosedForm)
 {
    // q = 2 v + λ, |q| <= f p, f p = 0.4: slip from λ = 0.4 to 1, back from 0.2 to -1, and so
    // on.
-   ReducedProblem problem;
-   problem.A = Eigen::MatrixXd::Constant(1, 1, 2.0);
-   problem.B = Eigen::MatrixXd::Zero(1, 1);
-   problem.C = Eigen::MatrixXd::Constant(1, 1, 3.0);
-   problem.patterns = {{"press", Control::force, VectorXd::Zero(1), VectorXd::Ones(1)},
-                       {"shear", Control::force, VectorXd::Ones(1), VectorXd::Zero(1)}};
-   problem.H = Eigen::Matrix2d::Zero();
-   problem.gap = VectorXd::Zero(1);
-   set_friction(problem, 0.4);
+   const ReducedProblem problem = one_block(0.4);
    LoadHistory history = LoadHistory::through(
       {Vector2d(0, 0), Vector2d(1, 0), Vector2d(1, 1), Vector2d(1, -1), Vector2d(1, 0)});
    history.cycle_start = 1;
@@ -347,15 +341,8 @@ TEST(ExactPath, GrossSlidingAtItsExactLoad)
 
 TEST(ExactPath, SettlesAStateThatIsNoEquilibriumFirst)
 {
-   ReducedProblem problem;
-   problem.A = Eigen::MatrixXd::Constant(1, 1, 2.0);
-   problem.B = Eigen::MatrixXd::Zero(1, 1);
-   problem.C = Eigen::MatrixXd::Constant(1, 1, 3.0);
-   problem.patterns = {{"press", Control::force, VectorXd::Zero(1), VectorXd::Ones(1)},
-                       {"shear", Control::force, VectorXd::Ones(1), VectorXd::Zero(1)}};
-   problem.H = Eigen::Matrix2d::Zero();
-   problem.gap = VectorXd::Constant(1, 0.1);
-   set_friction(problem, 0.4);
+   ReducedProblem problem = one_block(0.4);
+   problem.gap[0] = 0.1;
    const auto first_of = [&](const ContactState &start, const LoadHistory &history,
                              ContactState &state, MarchReport &report)
    {

@@ -1,3 +1,5 @@
+#include "small_problems.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cattaneo/fretting/calibration.hpp>
@@ -12,6 +14,8 @@
 
 namespace
 {
+
+using cattaneo_test::four_springs;
 
 using namespace cattaneo;
 using namespace cattaneo::fretting;
@@ -371,27 +375,10 @@ TEST(FromContact, AnEdgeThatSticksAndAContactThatSlides)
    }
 }
 
-/// Four nodes on springs of their own: 2 along, 4 across the contact.
-ReducedProblem four_springs()
-{
-   ReducedProblem problem;
-   problem.A = 2 * Eigen::Matrix4d::Identity();
-   problem.B = Eigen::Matrix4d::Zero();
-   problem.C = 4 * Eigen::Matrix4d::Identity();
-   const Eigen::Vector4d none = Eigen::Vector4d::Zero();
-   problem.patterns = {{"P", Control::force, none, Eigen::Vector4d(1, 1, 1, -0.4)},
-                       {"Q", Control::force, Eigen::Vector4d(0.1, -0.8, 0.7, 0.3), none}};
-   problem.H = Eigen::MatrixXd::Zero(2, 2);
-   problem.gap = Eigen::Vector4d(0.01, 0, 0, 0.05);
-   problem.weights = Eigen::Vector4d(1, 1, 1, 1);
-   problem.arc_length = Eigen::Vector4d(0, 1, 2, 3);
-   set_friction(problem, 0.5);
-   return problem;
-}
-
 TEST(FromContact, StuckNodesKeepTheirSlipAndOthersMoveFreely)
 {
-   const ReducedProblem problem = four_springs();
+   ReducedProblem problem = four_springs();
+   problem.gap[0] = 0.01;
    ContactState pressed = ContactState::virgin(problem);
    pressed.v << 0.2, -0.1, 7, 7;
    ContactState loaded = pressed;

@@ -1,6 +1,7 @@
 #include "period_two.hpp"
 #include "random_problem.hpp"
 #include "same_state.hpp"
+#include "small_problems.hpp"
 
 #include <cattaneo/friction/march.hpp>
 #include <cattaneo/input_error.hpp>
@@ -13,6 +14,7 @@ namespace
 {
 
 using namespace cattaneo;
+using cattaneo_test::one_block;
 using cattaneo_test::random_problem;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
@@ -25,21 +27,6 @@ LoadHistory press_then_shear(double amplitude, int cycles)
    history.cycle_start = 1;
    history.cycles = cycles;
    return history;
-}
-
-/// One block on a spring: slip and dissipation of a cycle are known in closed form.
-ReducedProblem one_block(double f)
-{
-   ReducedProblem problem;
-   problem.A = Eigen::MatrixXd::Constant(1, 1, 2.0);
-   problem.B = Eigen::MatrixXd::Zero(1, 1);
-   problem.C = Eigen::MatrixXd::Constant(1, 1, 3.0);
-   problem.patterns = {{"press", Control::force, VectorXd::Zero(1), VectorXd::Ones(1)},
-                       {"shear", Control::force, VectorXd::Ones(1), VectorXd::Zero(1)}};
-   problem.H = Eigen::Matrix2d::Zero();
-   problem.gap = VectorXd::Zero(1);
-   set_friction(problem, f);
-   return problem;
 }
 
 TEST(March, OneBlockCycleInClosedForm)

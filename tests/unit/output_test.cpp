@@ -1,3 +1,6 @@
+#include "expect_input_error.hpp"
+#include "small_problems.hpp"
+
 #include <cattaneo/condense/reduction.hpp>
 #include <cattaneo/elastic/graded_mesh.hpp>
 #include <cattaneo/elastic/stress.hpp>
@@ -18,6 +21,8 @@
 
 namespace
 {
+
+using cattaneo_test::four_springs;
 
 using namespace cattaneo;
 namespace fs = std::filesystem;
@@ -182,17 +187,9 @@ TEST_F(Output, AUsersOperatorHasDisplacementsOnly)
    BodyFields fields(body, folder, "body");
    fields.write(linear_field(body), 1);
    EXPECT_NEAR(fields.field("displacement").Max(), 2e-3 * 1.5 + 1e-3 * 2, 1e-15);
-   try
-   {
-      fields.field("von_mises");
-      FAIL() << "a body without material has no stress";
-   }
-   catch (const InputError &error)
-   {
-      EXPECT_NE(std::string(error.what()).find("'von_mises'; there are: displacement"),
-                std::string::npos)
-         << error.what();
-   }
+   // A body without material has no stress.
+   expect_input_error([&] { fields.field("von_mises"); },
+                      "'von_mises'; there are: displacement");
 }
 
 /// Three nodes in two chains, with awkward numbers.
@@ -344,29 +341,6 @@ void expect_values(const std::vector<double> &found, const std::vector<double> &
    }
 }
 
-/** Four nodes on springs of their own, 2 along and 4 across the contact, f = 1/2. P presses
-   three with 1 and lifts the last by 0.4/4; Q shears. Under both, limits being 1/2: the first
-   sticks with q = 0.1; -0.5 = 2 v - 0.8 slips forward, 0.5 = 2 v + 0.7 backward; the last moves
-    freely, 0 = 2 v + 0.3. */
-ReducedProblem four_springs()
-{
-   ReducedProblem problem;
-   problem.A = 2 * Eigen::Matrix4d::Identity();
-   problem.B = Eigen::Matrix4d::Zero();
-   problem.C = 4 * Eigen::Matrix4d::Identity();
-   const Eigen::Vector4d none = Eigen::Vector4d::Zero();
-   problem.patterns = {{"P", Control::force, none, Eigen::Vector4d(1, 1, 1, -0.4)},
-                       {"Q right", Control::force, Eigen::Vector4d(0.1, -0.8, 0.7, 0.3), none}};
-   problem.H = Eigen::MatrixXd::Zero(2, 2);
-   problem.gap = Eigen::Vector4d(0, 0, 0, 0.05);
-   problem.weights = Eigen::Vector4d(0.25, 0.5, 1, 2);
-   problem.arc_length = Eigen::Vector4d(0, 1.0 / 3, 0.5, 2);
-   problem.position.resize(4, 2);
-   problem.position << -1, 5, -2, 6, -3, 7, -4, 1.0 / 7;
-   set_friction(problem, 0.5);
-   return problem;
-}
-
 TEST_F(Output, ColumnsAreThoseOfAStateSolvedByHand)
 {
    const ReducedProblem problem = four_springs();
@@ -490,17 +464,7 @@ TEST_F(Output, EachColumnOfTheHistoryIsItsOwn)
    for (const std::string name : {"a,b", "a\"b", "a\nb", "a\rb"})
    {
       problem.patterns[1].name = name;
-      try
-      {
-         read();
-         ADD_FAILURE() << "not refused: " << name;
-      }
-      catch (const InputError &error)
-      {
-         EXPECT_NE(std::string(error.what()).find("'" + name + "' has a comma, a quote or"),
-                   std::string::npos)
-            << error.what();
-      }
+      expect_input_error([&] { read(); }, "'" + name + "' has a comma, a quote or");
    }
    problem.patterns.pop_back();
    EXPECT_THROW(read(), InputError); // two multipliers for one pattern
@@ -637,26 +601,15 @@ TEST_F(Output, AFailedWriteIsSaidAndLeavesTheSeriesAsItWas)
    const ReducedProblem problem = four_springs();
    ContactState state = ContactState::virgin(problem);
    ContactLineFields fields(problem, {0, 0, 0, 0}, folder, "line");
-   const auto refused = [](const std::function<void()> &act, const std::string &said)
-   {
-      try
-      {
-         act();
-         ADD_FAILURE() << "not refused: " << said;
-      }
-      catch (const InputError &error)
-      {
-         EXPECT_NE(std::string(error.what()).find(said), std::string::npos) << error.what();
-      }
-   };
    // A file stands where the folder is to be; then a folder where the file of time 1 is to be.
    std::ofstream(folder + "/line") << "taken";
-   refused([&] { fields.write(state); }, "cannot make the folder '" + folder + "/line'");
+   expect_input_error([&] { fields.write(state); },
+                      "cannot make the folder '" + folder + "/line'");
    fs::remove(folder + "/line");
    fields.write(state);
    state.time = 1;
    fs::create_directories(folder + "/line/line_1.vtp");
-   refused([&] { fields.write(state); }, "line_1.vtp");
+   expect_input_error([&] { fields.write(state); }, "line_1.vtp");
    fs::remove(folder + "/line/line_1.vtp");
    state.time = 2;
    fields.write(state);
@@ -673,13 +626,16 @@ TEST_F(Output, AFailedWriteIsSaidAndLeavesTheSeriesAsItWas)
    std::ofstream(folder + "/file") << "taken";
    BodyFields inside(body, folder + "/file/in", "body"), outside(body, folder, "body");
    const mfem::Vector u = linear_field(body);
-   refused([&] { inside.write(u, 1); }, "cannot make the folder '" + folder + "/file/in'");
+   expect_input_error([&] { inside.write(u, 1); },
+                      "cannot make the folder '" + folder + "/file/in'");
    const mfem::Vector wrong(3);
-   refused([&] { outside.write(wrong, 1); },
-           "3 displacements, the body has " + std::to_string(u.Size()) + " true dofs");
+   expect_input_error([&] { outside.write(wrong, 1); }, "3 displacements, the body has " +
+                                                           std::to_string(u.Size()) +
+                                                           " true dofs");
    EXPECT_FALSE(fs::exists(folder + "/body"));
    std::ofstream(folder + "/body") << "taken";
-   refused([&] { outside.write(u, 1); }, "cannot write into the folder '" + folder + "'");
+   expect_input_error([&] { outside.write(u, 1); },
+                      "cannot write into the folder '" + folder + "'");
 }
 
 TEST_F(Output, FieldsOfBodiesOfRevolutionHaveTheirNames)
@@ -718,17 +674,9 @@ TEST_F(Output, FieldsOfBodiesOfRevolutionHaveTheirNames)
    expect(twisted, "tau_tz", [](double r, double) { return r * r; });
    expect(twisted, "twist", [](double r, double z) { return r * z; });
    EXPECT_THROW(twisted.field("displacement"), InputError);
-   try
-   {
-      fields.field("sigma_xx");
-      FAIL() << "a body of revolution has no sigma_xx";
-   }
-   catch (const InputError &error)
-   {
-      EXPECT_STREQ(error.what(),
-                   "ParaView output: there is no field 'sigma_xx'; there are: displacement, "
-                   "sigma_rr, sigma_tt, sigma_zz, tau_rz, von_mises");
-   }
+   expect_input_error([&] { fields.field("sigma_xx"); },
+                      "ParaView output: there is no field 'sigma_xx'; there are: displacement, "
+                      "sigma_rr, sigma_tt, sigma_zz, tau_rz, von_mises");
    // The files name the fields that they hold.
    for (const auto &[name, inside] :
         {std::pair<std::string, std::vector<std::string>>{

@@ -1,3 +1,5 @@
+#include "expect_input_error.hpp"
+
 #include <array>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/reduced_file.hpp>
@@ -194,15 +196,7 @@ TEST(ReducedFile, SaysWhichFactIsWrong)
       const auto at = content.find(from);
       ASSERT_NE(at, std::string::npos) << from;
       content.replace(at, from.size(), to);
-      try
-      {
-         read(content);
-         ADD_FAILURE() << "not refused: " << to;
-      }
-      catch (const InputError &error)
-      {
-         EXPECT_NE(std::string(error.what()).find(said), std::string::npos) << error.what();
-      }
+      expect_input_error([&] { read(content); }, said);
    };
    refused("problem 2", "problem 3", "is not a 'cattaneo reduced problem 2' (or 1)");
    refused("[\"smooth\", \"corner\"]", "[\"smooth\", \"bend\"]", "a line that ends 'bend'");
@@ -286,15 +280,7 @@ TEST(ReducedFile, RefusesWhatIsNoProblem)
       ReducedProblem bad = good;
       spoil(bad);
       save(bad, file);
-      try
-      {
-         load_reduced_problem(file);
-         ADD_FAILURE() << "not refused: " << word;
-      }
-      catch (const InputError &error)
-      {
-         EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
-      }
+      expect_input_error([&] { load_reduced_problem(file); }, word);
    };
    refused("weights", [](ReducedProblem &p) { p.weights = Eigen::VectorXd::Ones(4); });
    refused("arc_length", [](ReducedProblem &p) { p.arc_length = Eigen::VectorXd::Ones(6); });

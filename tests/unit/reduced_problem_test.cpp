@@ -1,3 +1,5 @@
+#include "expect_input_error.hpp"
+
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/reduced_problem.hpp>
 #include <functional>
@@ -56,15 +58,7 @@ TEST(ReducedProblem, SaysWhichSizeIsWrong)
    {
       ReducedProblem problem = two_nodes();
       spoil(problem);
-      try
-      {
-         problem.validate();
-         ADD_FAILURE() << "not refused: " << said;
-      }
-      catch (const InputError &error)
-      {
-         EXPECT_NE(std::string(error.what()).find(said), std::string::npos) << error.what();
-      }
+      expect_input_error([&] { problem.validate(); }, said);
    };
    using Eigen::MatrixXd, Eigen::VectorXd;
    refused("no contact nodes", [](auto &p) { p = {}; });

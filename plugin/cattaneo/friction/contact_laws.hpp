@@ -5,9 +5,9 @@
 namespace cattaneo
 {
 
-/// What arithmetic leaves of the sums K u + f, row by row: 4 ε (|K| |u| + |f|). Where the
-/// diagonal of K spans more than four decades each row is bounded by its own entries, else all
-/// by the largest row sum, which is cheaper.
+/// What arithmetic leaves of the sums K u + f, row by row: 4 ε (|K| |u| + |f|). All rows are
+/// given the bound by the largest row sum, which is cheaper, where it is below 1e-11 of the
+/// largest f and the diagonal of K spans less than four decades.
 class RoundOff
 {
 public:

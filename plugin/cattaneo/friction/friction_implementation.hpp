@@ -61,7 +61,7 @@ struct FrictionSolver::Implementation
    std::unique_ptr<FrictionSolver> smooth;   // disc: the contact without friction, when asked
    std::unique_ptr<Implementation> slippery; // see solve_whole()
    bool brief = false;                       // give up where sweeps, active set and path fail
-   std::optional<bool> away;                 // answer of moves_away(), if asked
+   std::optional<Mechanism> away;            // what moves_away() found, if asked
    std::optional<ContactState> rested;       // what the weakest spring holds, if not away
    bool at_rest = false;                     // it bears nothing
    double lost_in_round_off = 0; // round-off of a solution that moves too far; 0: none

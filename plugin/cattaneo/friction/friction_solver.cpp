@@ -145,16 +145,11 @@ void FrictionSolver::Implementation::start(const ContactState &state,
       F.resize(f.size());
       F << state.q, state.p;
       F -= problem.clamped_forces(state.multipliers);
-      reference = std::max(reference, F.cwiseAbs().maxCoeff());
-      F += f;
    }
-   else
-   {
-      F = K * u;
-      // So does initial slip; slip that displacements elsewhere follow does not.
-      reference = std::max(reference, F.cwiseAbs().maxCoeff());
-      F += f;
-   }
+   else { F = K * u; }
+   // So does initial slip; slip that displacements elsewhere follow does not.
+   reference = std::max(reference, F.cwiseAbs().maxCoeff());
+   F += f;
    direction.resize(disc() ? n : 0);
    // What comes out depends on the state and the loads, not on increments before: a march that
    // is cut and resumed gives the same bits.
@@ -224,21 +219,14 @@ bool FrictionSolver::Implementation::obeys_laws(const ContactState &next,
                                                 IncrementReport &report) const
 {
    const double scale = reference > 0 ? reference : 1.0;
-   VectorXd rows, forces;
-   if (tangential)
-   {
-      // What slips without friction may go far, and bears on the pressure.
-      VectorXd all(whole.rows());
-      all << next.v, next.w;
-      const VectorXd clamped = problem.clamped_forces(next.multipliers);
-      rows = whole_arithmetic->rows(all.cwiseAbs(), clamped);
-      forces = clamped + whole * all;
-   }
-   else
-   {
-      rows = round_off();
-      forces = f + K * u;
-   }
+   // With the tangential displacements also where they were eliminated: what slips without
+   // friction may go far, and bears on the pressure.
+   VectorXd all(next.v.size() + n);
+   all << next.v, next.w;
+   const VectorXd clamped = problem.clamped_forces(next.multipliers);
+   const VectorXd forces = clamped + (tangential ? whole : K) * all;
+   const VectorXd rows =
+      (tangential ? whole_arithmetic : arithmetic)->rows(all.cwiseAbs(), clamped);
    report.round_off = std::max(report.round_off, rows.maxCoeff() / scale);
    if (!(report.round_off < 1e-6)) { return false; }
    const LawCheck check =
@@ -307,12 +295,17 @@ bool FrictionSolver::Implementation::settles(IncrementReport &report)
    return newton_accepted(report);
 }
 
-/// Asked once an increment.
+/// Found once an increment.
 bool FrictionSolver::Implementation::moves_away(const ContactState &state,
                                                 const VectorXd &multipliers)
 {
-   if (!away) { away = !brief && (drifts(state, multipliers) || spins(multipliers)); }
-   return *away;
+   if (!away)
+   {
+      const bool moves = !brief && (drifts(state, multipliers) || spins(multipliers));
+      away = moves ? mechanism : Mechanism{};
+   }
+   mechanism = *away;
+   return away->exists;
 }
 
 void FrictionSolver::Implementation::find_motions()
@@ -564,7 +557,11 @@ IncrementReport FrictionSolver::Implementation::solve(ContactState &state,
 IncrementReport FrictionSolver::Implementation::solve_whole(ContactState &state,
                                                             const VectorXd &multipliers)
 {
-   if (!slippery) { slippery = std::make_unique<Implementation>(problem, settings, true); }
+   if (!slippery)
+   {
+      slippery = std::make_unique<Implementation>(problem, settings, true);
+      counters += slippery->counters;
+   }
    const Counters before = slippery->counters;
    const IncrementReport report = slippery->solve(state, multipliers);
    counters += slippery->counters;
@@ -578,10 +575,6 @@ IncrementReport FrictionSolver::Implementation::judge(const ContactState &before
    const VectorXd clamped = problem.clamped_forces(after.multipliers);
    v_old = before.v;
    reference = std::max({before.peak_force, after.peak_force, clamped.cwiseAbs().maxCoeff()});
-   f = frictionless ? VectorXd(clamped.tail(n)) : clamped;
-   u.resize(f.size());
-   if (frictionless) { u = after.w; }
-   else { u << after.v, after.w; }
    IncrementReport report = uniqueness(after.status);
    const bool obeyed = obeys_laws(after, report);
    std::ostringstream message;
@@ -596,8 +589,11 @@ IncrementReport FrictionSolver::Implementation::judge(const ContactState &before
               << std::max(report.residual_normal, report.residual_tangential)
               << " of the largest force";
    }
-   report.message = message.str().empty() ? report.message : message.str();
-   if (!message.str().empty()) { report.status = FrictionStatus::stalled; }
+   if (!message.str().empty())
+   {
+      report.status = FrictionStatus::stalled;
+      report.message = message.str();
+   }
    return report;
 }
 

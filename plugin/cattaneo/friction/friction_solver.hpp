@@ -12,7 +12,7 @@ namespace cattaneo
 enum class FrictionMethod
 {
    automatic,    ///< a few Gauss–Seidel sweeps, active-set finish; if both fail a path, then
-                 ///< damped Newton from several starts
+                 ///< weak springs on the rigid motions and damped Newton from several starts
    gauss_seidel, ///< node by node only (thesis 3.5, appendix D)
    lemke ///< the complementarity problem on (w, v⁺, v⁻) by a dense tableau, then one
          ///< active-set solve: slow, a check of the others (one tangential component only)

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cattaneo/input_error.hpp>
+#include <functional>
+#include <gtest/gtest.h>
+#include <string>
+
+/// `act` is refused with a sentence that says `part`.
+inline void expect_input_error(const std::function<void()> &act, const std::string &part)
+{
+   try
+   {
+      act();
+      ADD_FAILURE() << "no InputError; expected one that says '" << part << "'";
+   }
+   catch (const cattaneo::InputError &error)
+   {
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+   }
+}

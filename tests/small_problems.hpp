@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cattaneo/reduced/reduced_problem.hpp>
+
+/// Reduced problems whose answers are known by hand.
+namespace cattaneo_test
+{
+
+/// One block on a spring: slip and dissipation of a cycle are known in closed form.
+inline cattaneo::ReducedProblem one_block(double f)
+{
+   cattaneo::ReducedProblem problem;
+   problem.A = Eigen::MatrixXd::Constant(1, 1, 2.0);
+   problem.B = Eigen::MatrixXd::Zero(1, 1);
+   problem.C = Eigen::MatrixXd::Constant(1, 1, 3.0);
+   problem.patterns = {
+      {"press", cattaneo::Control::force, Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1)},
+      {"shear", cattaneo::Control::force, Eigen::VectorXd::Ones(1), Eigen::VectorXd::Zero(1)}};
+   problem.H = Eigen::Matrix2d::Zero();
+   problem.gap = Eigen::VectorXd::Zero(1);
+   cattaneo::set_friction(problem, f);
+   return problem;
+}
+
+/** Four nodes on springs of their own, 2 along and 4 across the contact, f = 1/2. P presses
+   three with 1 and lifts the last by 0.4/4; Q shears. Under both, limits being 1/2: the first
+   sticks with q = 0.1; -0.5 = 2 v - 0.8 slips forward, 0.5 = 2 v + 0.7 backward; the last moves
+    freely, 0 = 2 v + 0.3. */
+inline cattaneo::ReducedProblem four_springs()
+{
+   cattaneo::ReducedProblem problem;
+   problem.A = 2 * Eigen::Matrix4d::Identity();
+   problem.B = Eigen::Matrix4d::Zero();
+   problem.C = 4 * Eigen::Matrix4d::Identity();
+   const Eigen::Vector4d none = Eigen::Vector4d::Zero();
+   problem.patterns = {
+      {"P", cattaneo::Control::force, none, Eigen::Vector4d(1, 1, 1, -0.4)},
+      {"Q right", cattaneo::Control::force, Eigen::Vector4d(0.1, -0.8, 0.7, 0.3), none}};
+   problem.H = Eigen::MatrixXd::Zero(2, 2);
+   problem.gap = Eigen::Vector4d(0, 0, 0, 0.05);
+   problem.weights = Eigen::Vector4d(0.25, 0.5, 1, 2);
+   problem.arc_length = Eigen::Vector4d(0, 1.0 / 3, 0.5, 2);
+   problem.position.resize(4, 2);
+   problem.position << -1, 5, -2, 6, -3, 7, -4, 1.0 / 7;
+   cattaneo::set_friction(problem, 0.5);
+   return problem;
+}
+
+} // namespace cattaneo_test
