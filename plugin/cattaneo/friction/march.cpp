@@ -599,7 +599,7 @@ MarchReport March::run()
       }
    }
    report_.time = state_.time;
-   if (gained_ > 0) { report_.advance_error = gained_ / state_.peak_force; }
+   if (gained_ > 0) { report_.advance_error = 2 * gained_ / state_.peak_force; }
    const double stored = elastic_energy(problem_, state_) - energy;
    const double largest = std::max({std::abs(external_work_), std::abs(stored), dissipation_});
    if (largest > 0)
