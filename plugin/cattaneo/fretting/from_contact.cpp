@@ -183,7 +183,8 @@ std::vector<Zero> singular_positions(const ReducedProblem &problem, const Contac
       const Index half = side > 0 ? edge.last - 1 : edge.first + 1;
       Zero zero = zero_near_end(problem, end, half, side,
                                 [&](Index i) { return std::pow(strain[i] / q[i], 2); });
-      const double h = std::abs(s[end] - s[end - side]);
+      // Inwards: a tied node beyond the edge may be the last of the line.
+      const double h = std::abs(s[end + side] - s[end]);
       if (!std::isfinite(zero.error)) { zero = {s[end] - 0.5 * side * h, 0.5 * h}; }
       positions.push_back(zero);
    }
