@@ -28,7 +28,7 @@ class Contact2D : public testing::Test
 protected:
    void SetUp() override
    {
-      folder = testing::TempDir() + "cattaneo_contact2d_" + std::to_string(getpid());
+      folder = testing::TempDir() + "contact2d";
       fs::remove_all(folder);
       fs::create_directories(folder);
    }

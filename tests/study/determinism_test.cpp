@@ -34,8 +34,7 @@ struct Result
 /// Two meshes, coupled contact, two cycles; the last state has every double to the last bit.
 Result dovetail(int threads)
 {
-   const std::string file =
-      testing::TempDir() + "cattaneo_determinism_" + std::to_string(getpid()) + ".json";
+   const std::string file = testing::TempDir() + "determinism.json";
    const std::string environment = "OPENBLAS_NUM_THREADS=" + std::to_string(threads) +
                                    " OMP_NUM_THREADS=" + std::to_string(threads);
    Run run = run_miniapp("contact2d", "--case meshes/dovetail.json --save-state '" + file + "'",

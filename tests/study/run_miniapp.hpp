@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <sys/wait.h>
-#include <unistd.h>
 #include <vector>
 
 namespace cattaneo_test
@@ -26,8 +25,7 @@ inline Run run_miniapp(const std::string &name, const std::string &options,
                        const std::string &launcher = "",
                        const std::string &folder = CATTANEO_MINIAPP_DIR)
 {
-   const std::string file =
-      testing::TempDir() + "cattaneo_" + name + "_" + std::to_string(getpid()) + ".json";
+   const std::string file = testing::TempDir() + name + ".json";
    std::remove(file.c_str());
    const std::string command = std::string("cd '") + CATTANEO_SOURCE_DIR + "' && " + launcher +
                                " '" + folder + "/" + name + "' " + options + " --json '" +

@@ -16,7 +16,6 @@
 #include <map>
 #include <sstream>
 #include <string>
-#include <unistd.h>
 #include <vector>
 
 namespace
@@ -33,7 +32,7 @@ class Output : public testing::Test
 protected:
    void SetUp() override
    {
-      folder = testing::TempDir() + "cattaneo_output_" + std::to_string(getpid());
+      folder = testing::TempDir() + "output";
       fs::remove_all(folder);
       fs::create_directories(folder);
    }

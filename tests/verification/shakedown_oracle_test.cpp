@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <punch_problem.hpp>
 #include <shakedown_problems.hpp>
-#include <unistd.h>
 
 // The limits against HiGHS, an independent solver, through a Python script. A sample of random
 // ones; CATTANEO_STRESS=full before it: all of them. ./test brings it into build/deps/highs;
@@ -79,9 +78,8 @@ protected:
    /// HiGHS' answers (see the script).
    static nlohmann::json ask(const nlohmann::json &questions)
    {
-      const std::string stem = ::testing::TempDir() +
-                               ::testing::UnitTest::GetInstance()->current_test_info()->name() +
-                               std::to_string(getpid());
+      const std::string stem =
+         ::testing::TempDir() + ::testing::UnitTest::GetInstance()->current_test_info()->name();
       const std::string in = stem + ".in.json", out = stem + ".out.json";
       std::ofstream(in) << questions;
       const std::string command =

@@ -37,6 +37,17 @@ bool FrictionSolver::Implementation::solve_for_states()
    return solvable && u.allFinite();
 }
 
+/// Displacements are rounded after they were found, and their forces are not quite those of the
+/// solution: once more, from there. True if it could be done.
+bool FrictionSolver::Implementation::refined()
+{
+   if (disc()) { return false; } // forms its forces anew at each step
+   from_here = true;
+   const bool solved = solve_for_states();
+   from_here = false;
+   return solved;
+}
+
 /// Normal displacements to solve from: a gap that is large against the load would cost digits.
 VectorXd FrictionSolver::Implementation::closed_gaps() const
 {
@@ -85,7 +96,7 @@ bool FrictionSolver::Implementation::solve_normal()
    {
       states[i] = closed(status[i]) ? NodeState::stick : NodeState::separation;
    }
-   VectorXd w = closed_gaps(), p;
+   VectorXd w = from_here ? u.tail(n) : closed_gaps(), p;
    if (!solve_equations(normal_equations, C, states, f.tail(n), w, p)) { return false; }
    u.tail(n) = w;
    F.tail(n) = p;
@@ -104,7 +115,7 @@ bool FrictionSolver::Implementation::solve_uncoupled()
       states[i] = moves ? NodeState::separation : NodeState::stick;
       if (moves) { resistance[i] = sense(status[i]) * problem.friction[i] * F[m(i)]; }
    }
-   VectorXd v = v_old, q;
+   VectorXd v = from_here ? u.head(n) : v_old, q;
    if (!solve_equations(tangential_equations, problem.A, states, f.head(n) + resistance, v, q))
    {
       return false;
@@ -116,8 +127,8 @@ bool FrictionSolver::Implementation::solve_uncoupled()
 
 bool FrictionSolver::Implementation::solve_coupled()
 {
-   VectorXd found(2 * n);
-   found << v_old, closed_gaps();
+   VectorXd found = u;
+   if (!from_here) { found << v_old, closed_gaps(); }
    if (!solve_equations(coupled_equations, K, status, f, found, F)) { return false; }
    u = found;
    return true;

@@ -64,6 +64,7 @@ struct FrictionSolver::Implementation
    std::optional<Mechanism> away;            // what moves_away() found, if asked
    std::optional<ContactState> rested;       // what the weakest spring holds, if not away
    bool at_rest = false;                     // it bears nothing
+   bool from_here = false;                   // see refined()
    double lost_in_round_off = 0; // round-off of a solution that moves too far; 0: none
 
    // One increment's working set.
@@ -100,6 +101,7 @@ struct FrictionSolver::Implementation
    bool newton_accepted(IncrementReport &report);
    bool newton_disc(int steps);
    bool solve_for_states();
+   bool refined();
    bool solve_coupled();
    bool solve_normal();
    bool solve_uncoupled();

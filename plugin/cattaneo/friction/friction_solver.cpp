@@ -523,6 +523,12 @@ IncrementReport FrictionSolver::Implementation::solve(ContactState &state,
    {
       finish(next, multipliers);
       solved = obeys_laws(next, report);
+      if (!solved && refined())
+      {
+         next = state;
+         finish(next, multipliers);
+         solved = obeys_laws(next, report);
+      }
       if (report.round_off >= 1e-6) { lost_in_round_off = report.round_off; }
       // What is eliminated has moved far: it is not left to round-off.
       if (tangential && report.round_off > may_hide_sliding) { solved = false; }

@@ -96,9 +96,9 @@ struct MarchReport
    /// Friction forces of a contact that advances depend on how it was cut into layers, since
    /// friction acts on a node from the beginning of the increment in which it closes: twice the
    /// largest friction force that a node gained in that increment, over the largest force. All
-   /// of what it gained may be wrong, and what its neighbours gained bears on it by no more than
-   /// its own where A is diagonally dominant. It goes to zero with the increments. Not on the
-   /// exact path, where nodes close between them.
+   /// of what it gained may be wrong, and what its neighbours gained bears on it by no more
+   /// than its own where A is diagonally dominant. It goes to zero with the increments. Not on
+   /// the exact path, where nodes close between them.
    double advance_error = 0;
    /// Ends of lines at which contact was cut off, each with the first accepted state in which
    /// it was so: the results are those of a line that was named too short.
