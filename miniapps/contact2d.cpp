@@ -371,6 +371,8 @@ int main(int argc, char *argv[])
          require(pairing_tolerance > 0 && pairing_tolerance < 0.5, "option pairing is ",
                  pairing_tolerance, ", must be above 0 and below 0.5");
          require(increments >= 1, "option increments is ", increments, ", must be at least 1");
+         require(cycle_start >= -1, "option cycle-start is ", cycle_start,
+                 ", must be a point of the history, from 0, or -1 for no cycle");
          miniapp::check_choice("gap", gap, {"geometry", "closed"});
          const std::string prefix = csv, folder = paraview;
          if (json[0]) { require_writable(json); }

@@ -479,6 +479,7 @@ TEST_F(Contact2D, BadInputIsOneSentenceAndLeavesNoFile)
       {pressed + "--history 'P=0'", {"1 points", "at least 2"}},
       {pressed + "--history 'P=0; P=1; P=2' --cycle-start 1",
        {"end of the cycle (2)", "start (1)"}},
+      {pressed + "--cycle-start -2", {"cycle-start", "-2", "-1 for no cycle"}},
       {pressed + "--cycle-start 4", {"cycle starts at point 4", "0 to 0"}},
       {pressed + "--history 'P=0; P=1; P=0' --cycle-start 0 --cycles 0",
        {"0 cycles", "at least 1"}},
