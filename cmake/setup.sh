@@ -12,7 +12,8 @@ deps=build/deps
 mfem_version=4.10.0.1
 mfem_mpi_version=4.6.0
 packages="g++ cmake ninja-build zlib1g libeigen3-dev libsuitesparse-dev libopenblas-dev
-   coinor-libipopt-dev nlohmann-json3-dev libgtest-dev libbenchmark-dev python3-matplotlib"
+   coinor-libipopt-dev nlohmann-json3-dev libgtest-dev librapidcheck-dev libbenchmark-dev
+   python3-matplotlib"
 if [ "$flavour" = mpi ]; then
    build=$build-mpi
    packages="$packages libhypre-dev libmetis-dev libopenmpi-dev openmpi-bin"

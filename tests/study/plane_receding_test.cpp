@@ -122,31 +122,8 @@ TEST(PlaneReceding, LongFreeEndsThatCloseAtOnceNeedAPath)
    }
 }
 
-TEST(PlaneReceding, ExactUnloadingMeetsTheReferences)
+TEST(PlaneReceding, ABondedShortOverhangNeedsTheCornersFriction)
 {
-   const auto run =
-      run_miniapp("plane_receding", "-friction 0.7 -unload '0.9 0.5 0.2 0.1' -march exact");
-   // No steps, no share of theirs.
-   expect_values(run, {{"s/t, n = 4, f = 0.7", 1.406, spread, read_out},
-                       {"e/t, n = 4, f = 0.7", -0.442, spread, read_out},
-                       {"ξ/t of separation, unloaded to p/p0 = 0.9", -1.336, spread, read_out},
-                       {"ξ/t of separation, unloaded to p/p0 = 0.2", -0.740, spread, read_out},
-                       {"ξ/t of separation, unloaded to p/p0 = 0.1", -0.594, spread, read_out},
-                       {"ξ/t of border 1 of 4, p/p0 = 0.5", -1.018, spread, read_out},
-                       {"ξ/t of border 2 of 4, p/p0 = 0.5", -0.68, 0.005, read_out},
-                       // Between nodes that stick and nodes that slip on: half a spacing.
-                       {"ξ/t of border 3 of 4, p/p0 = 0.5", -0.12, 0.005, 0.01},
-                       {"ξ/t of border 4 of 4, p/p0 = 0.5", 0.61, 0.005, read_out}});
-   EXPECT_EQ(run.results["fallbacks"], 0);
-   EXPECT_GT(run.results["state_changes"].size(), 100u);
-}
-
-TEST(PlaneReceding, BondedStripNearsTheWilliamsCorner)
-{
-   expect_values(run_miniapp("plane_receding", "-overhang 0.8 -friction 1.4"),
-                 {// Williams' exponents; higher terms of the corner's field reach into the fit.
-                  {"bonded corner ratio q/p", 0.543075578837, 0, 0.015},
-                  {"friction for adhesion, n = 0.8", 1.295, spread, 0}});
    // A short overhang needs no more than the corner itself.
    const auto run = run_miniapp("plane_receding", "-overhang 0.1 -friction 0.8");
    ASSERT_EQ(run.code, 0) << run.output;
