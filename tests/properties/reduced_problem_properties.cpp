@@ -239,7 +239,7 @@ TEST(ReducedProblemProperties, UnitsDoNotMatter)
    {
       const double stiffness = force / length;
       expect_same_answers(
-         100,
+         300,
          [&, force = force, length = length](Case &c)
          {
             c.problem.A *= stiffness;
@@ -265,7 +265,7 @@ TEST(ReducedProblemProperties, UnitsDoNotMatter)
 TEST(ReducedProblemProperties, TheMirrorImageIsMirrored)
 {
    expect_same_answers(
-      200,
+      600,
       [](Case &c)
       {
          c.problem.B *= -1;
@@ -297,7 +297,7 @@ TEST(ReducedProblemProperties, NumbersOfNodesDoNotMatter)
       return R;
    };
    expect_same_answers(
-      200,
+      600,
       [&](Case &c)
       {
          ReducedProblem &problem = c.problem;
@@ -328,7 +328,7 @@ TEST(ReducedProblemProperties, ChainsAndFilesChangeNoBit)
 {
    const std::string file =
       testing::TempDir() + "cattaneo_properties_" + std::to_string(::getpid()) + ".json";
-   expect_holds(200,
+   expect_holds(300,
                 [&]
                 {
                    const Case c = random_case(0, 2, true);
