@@ -34,4 +34,21 @@ inline cattaneo::ReducedProblem random_disc_problem(int n, double friction, doub
    return problem;
 }
 
+/// A plane problem with a second tangential component that is coupled to nothing and not
+/// loaded.
+inline cattaneo::ReducedProblem as_disc(const cattaneo::ReducedProblem &plane)
+{
+   const Eigen::Index n = plane.nodes();
+   cattaneo::ReducedProblem problem = plane;
+   problem.A = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+   problem.A.topLeftCorner(n, n) = problem.A.bottomRightCorner(n, n) = plane.A;
+   problem.B = Eigen::MatrixXd::Zero(n, 2 * n);
+   problem.B.leftCols(n) = plane.B;
+   for (cattaneo::LoadPattern &pattern : problem.patterns)
+   {
+      pattern.q.conservativeResizeLike(Eigen::VectorXd::Zero(2 * n));
+   }
+   return problem;
+}
+
 } // namespace cattaneo_test

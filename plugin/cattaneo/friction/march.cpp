@@ -94,10 +94,11 @@ public:
 
 private:
    bool march_piece(int piece);
-   bool march_exactly(int piece);
+   bool march_exactly(int piece, double until);
+   bool follows_closing(const ContactState &next) const;
    bool increment_to(int piece, double target, bool exact);
    double first_closing(int piece, double target);
-   double gained_where_it_closed(const ContactState &next) const;
+   double changed_while_closing(const ContactState &next) const;
    int increments(int piece) const;
    void stop(const IncrementReport &failure);
    bool exact_in_one(int piece) const;
@@ -116,9 +117,10 @@ private:
    const MarchObserver &observer_;
    MarchReport report_;
    CycleRecord cycle_;
-   std::unique_ptr<ExactPath> path_; // Stepping::exact, made when first needed
+   std::unique_ptr<ExactPath> path_; // made when first needed
+   bool following_ = false;          // march_exactly() is at work
    double external_work_ = 0, dissipation_ = 0, normal_work_ = 0;
-   double gained_ = 0; // see gained_where_it_closed()
+   double changed_ = 0; // see changed_while_closing()
 };
 
 /// End of an equal step of a piece.
@@ -189,17 +191,20 @@ bool March::advances_too_far(const ContactState &next) const
 }
 
 /// Friction acts on a node from the beginning of the increment in which it closes, not from
-/// where it does: what it gains in that increment may be wrong, all of it, and stays.
-double March::gained_where_it_closed(const ContactState &next) const
+/// where it does: what friction forces change by in that increment may be wrong, and stays.
+double March::changed_while_closing(const ContactState &next) const
 {
+   if (solver_.frictionless() || !closes(state_, next)) { return 0; }
    double most = 0;
    const Index n = problem_.nodes();
    for (Index i = 0; i < n; ++i)
    {
-      if (closed(state_.status[i]) || !closed(next.status[i])) { continue; }
-      double gained = 0;
-      for (Index k = i; k < next.q.size(); k += n) { gained = std::hypot(gained, next.q[k]); }
-      most = std::max(most, gained);
+      double change = 0;
+      for (Index k = i; k < next.q.size(); k += n)
+      {
+         change = std::hypot(change, next.q[k] - state_.q[k]);
+      }
+      most = std::max(most, change);
    }
    return most;
 }
@@ -273,7 +278,7 @@ void March::accept(ContactState &&next, int piece, const IncrementReport &increm
       cycle_.external_work += record.external_work;
       cycle_.normal_work += normal_work;
    }
-   if (!exact) { gained_ = std::max(gained_, gained_where_it_closed(next)); }
+   if (!exact) { changed_ = std::max(changed_, changed_while_closing(next)); }
    external_work_ += record.external_work;
    dissipation_ += record.dissipation;
    normal_work_ += normal_work;
@@ -385,6 +390,10 @@ bool March::increment_to(int piece, double target, bool exact)
          bisect_event(piece, target, increment);
          return false;
       }
+      if (!stalled && !exact && !following_ && follows_closing(next))
+      {
+         return march_exactly(piece, target);
+      }
       if (!stalled && (exact || step <= smallest || !advances_too_far(next))) { break; }
       report_.stalled += stalled;
       ++report_.counters.rejected_increments;
@@ -442,13 +451,23 @@ double March::first_closing(int piece, double target)
    return after;
 }
 
-/// From event to event, to the end of the piece.
-bool March::march_exactly(int piece)
+/// Friction acts on a node from where it closes, not from the beginning of the increment, and
+/// where its pressure comes others slip or stick anew: the exact path knows when.
+bool March::follows_closing(const ContactState &next) const
+{
+   return settings_.stepping != Stepping::fixed && !solver_.frictionless() &&
+          problem_.components() == 1 && closes(state_, next);
+}
+
+/// From event to event.
+bool March::march_exactly(int piece, double until)
 {
    const double t0 = history_.start_time(piece), t1 = history_.end_time(piece);
    bool settled = true;
-   if (!path_)
+   // What increments come to must not depend on paths that were followed before.
+   if (!path_ || settings_.stepping != Stepping::exact)
    {
+      if (path_) { report_.counters += path_->counters(); }
       path_ = std::make_unique<ExactPath>(problem_);
       settled = path_->starts_from(state_);
       ContactState next = state_;
@@ -463,7 +482,11 @@ bool March::march_exactly(int piece)
    // other. More than there are nodes and states go round in a circle.
    const long patience = 4 * problem_.nodes() + 16;
    long halted = 0;
-   while (state_.time < t1)
+   std::vector<StateChange> unlisted;
+   std::vector<StateChange> &changes =
+      settings_.stepping == Stepping::exact ? report_.changes : unlisted;
+   const VectorXd loads_then = loads(piece, until);
+   while (state_.time < until)
    {
       ContactState next = state_;
       next.step = 0;
@@ -471,8 +494,8 @@ bool March::march_exactly(int piece)
                                     : "states change back and forth at one load";
       if (settled && halted < patience)
       {
-         const std::size_t listed = report_.changes.size();
-         if (path_->advance(next, t1, history_.end(piece), report_.changes))
+         const std::size_t listed = changes.size();
+         if (path_->advance(next, until, loads_then, changes))
          {
             // However a state was found, it is judged like any other.
             const IncrementReport reached = solver_.judge(state_, next);
@@ -482,7 +505,7 @@ bool March::march_exactly(int piece)
                accept(std::move(next), piece, reached, true);
                continue;
             }
-            report_.changes.resize(listed);
+            changes.resize(listed);
             reason = "an event on the path: " + reached.message;
          }
          else { reason = path_->failure(); }
@@ -491,7 +514,7 @@ bool March::march_exactly(int piece)
       // the exact one.
       next = state_;
       next.time = state_.time + 1e-6 * (t1 - t0);
-      if (settled && next.time < t1)
+      if (settled && next.time < until)
       {
          const IncrementReport increment = solver_.solve(next, loads(piece, next.time));
          // A stall is no proof: so small a load can be hidden in round-off.
@@ -501,13 +524,16 @@ bool March::march_exactly(int piece)
             return false;
          }
       }
-      double target = t1;
+      double target = until;
       for (int k = increments(piece) - 1; k > 0; --k)
       {
          const double grid = grid_time(piece, k);
-         if (grid > state_.time) { target = grid; }
+         if (grid > state_.time && grid < target) { target = grid; }
       }
-      if (!increment_to(piece, first_closing(piece, target), false)) { return false; }
+      following_ = true;
+      const bool taken = increment_to(piece, first_closing(piece, target), false);
+      following_ = false;
+      if (!taken) { return false; }
       if (report_.fallbacks++ == 0) { report_.fallback_reason = reason; }
       halted = 0;
       settled = true;
@@ -534,7 +560,7 @@ bool March::march_piece(int piece)
    const bool exact = exact_in_one(piece);
    if (!exact && settings_.stepping == Stepping::exact)
    {
-      if (problem_.components() == 1) { return march_exactly(piece); }
+      if (problem_.components() == 1) { return march_exactly(piece, t1); }
       ++report_.fallbacks;
       report_.fallback_reason = "slip has a direction: two tangential components";
    }
@@ -599,7 +625,7 @@ MarchReport March::run()
       }
    }
    report_.time = state_.time;
-   if (gained_ > 0) { report_.advance_error = 2 * gained_ / state_.peak_force; }
+   if (changed_ > 0) { report_.advance_error = 4 * changed_ / state_.peak_force; }
    const double stored = elastic_energy(problem_, state_) - energy;
    const double largest = std::max({std::abs(external_work_), std::abs(stored), dissipation_});
    if (largest > 0)

@@ -16,9 +16,11 @@ enum class Stepping
    /// Equal increments, but only one where that is exact: a first proportional loading without
    /// a gap (self-similar), and any piece without friction.
    fixed,
-   /// As fixed, and an increment is halved while contact advances by more than one layer of
-   /// nodes: each newly closed node must have had a closed neighbour on its chain, or, on a
-   /// chain that bore nothing yet, close there first, alone or beside another.
+   /// As fixed, but where a node closes with friction, which then acts from there, the exact
+   /// path is followed to the end of the increment. With two tangential components there is
+   /// none, and the increment is halved while contact advances by more than one layer of nodes:
+   /// each newly closed node must have had a closed neighbour on its chain, or, on a chain that
+   /// bore nothing yet, close there first, alone or beside another.
    advancing,
    /// No increments: from one change of state to the next, exactly (see ExactPath). Pieces that
    /// one increment solves exactly take that one. Where there is no path to follow, an
@@ -93,12 +95,12 @@ struct MarchReport
    /// (of nodes that begin to slip within one, for instance) and goes to zero with them; on the
    /// exact path it is round-off.
    double energy_imbalance = 0;
-   /// Friction forces of a contact that advances depend on how it was cut into layers, since
-   /// friction acts on a node from the beginning of the increment in which it closes: twice the
-   /// largest friction force that a node gained in that increment, over the largest force. All
-   /// of what it gained may be wrong, and what its neighbours gained bears on it by no more
-   /// than its own where A is diagonally dominant. It goes to zero with the increments. Not on
-   /// the exact path, where nodes close between them.
+   /// Friction forces depend on how a contact that advances is cut into increments, since
+   /// friction acts on a node from the beginning of the increment in which it closes: four
+   /// times the largest change of a friction force in an increment in which a node closed, over
+   /// the largest force. (A rule: all of the change may be wrong, at the node that closed and
+   /// at those that it makes slip or stick.) It goes to zero with the increments, and is 0
+   /// where the exact path was followed while nodes closed, see Stepping.
    double advance_error = 0;
    /// Ends of lines at which contact was cut off, each with the first accepted state in which
    /// it was so: the results are those of a line that was named too short.
