@@ -627,6 +627,43 @@ TEST(March, SaysByHowMuchAdvancingContactDependsOnItsIncrements)
    }
 }
 
+TEST(March, ErrorsOfIncrementsInWhichNodesCloseAreStated)
+{
+   // Against the exact path, which closes each node where it does.
+   std::mt19937 random(77);
+   int compared = 0;
+   for (int k = 0; k < 150; ++k)
+   {
+      const int n = 2 + k % 8;
+      ReducedProblem problem = random_problem(n, 0.1 * (1 + k % 5), k % 3 ? 0.15 : 0.0, random);
+      const double height = std::pow(10.0, -1 + k % 3);
+      problem.gap = VectorXd::NullaryExpr(n, [&](Eigen::Index i)
+                                          { return height * std::pow((i - 0.4 * n) / n, 2); });
+      const LoadHistory history = LoadHistory::through({Vector2d(0, 0), Vector2d(1, 0.2)});
+      MarchSettings settings;
+      settings.stepping = Stepping::exact;
+      ContactState exact = ContactState::virgin(problem);
+      const MarchReport path = march(problem, history, exact, settings);
+      if (path.status != FrictionStatus::converged || path.fallbacks > 0) { continue; }
+      settings.stepping = Stepping::fixed;
+      for (int increments : {1, 5, 20})
+      {
+         settings.increments = increments;
+         ContactState state = ContactState::virgin(problem);
+         const MarchReport report = march(problem, history, state, settings);
+         if (report.status != FrictionStatus::converged || report.advance_error == 0)
+         {
+            continue;
+         }
+         ++compared;
+         EXPECT_LE((state.q - exact.q).cwiseAbs().maxCoeff(),
+                   report.advance_error * state.peak_force + 1e-12)
+            << k << ' ' << increments;
+      }
+   }
+   EXPECT_GT(compared, 150);
+}
+
 // In the disc there is no exact path to follow: contact advances by layers there.
 
 TEST(March, AdvancingContactClosesALayerAtATime)
