@@ -178,6 +178,18 @@ TEST(ElementCheck, MeshesOutOfThePlaneAreNamed)
    expect_fault(std::move(solid), "the mesh is of dimension 3");
 }
 
+TEST(ElementCheck, AMeshWithoutEdgesSaysHowToMakeThem)
+{
+   mfem::Mesh mesh(2, 4, 1, 0);
+   for (const auto &[x, y] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}})
+   {
+      mesh.AddVertex(x, y);
+   }
+   mesh.AddQuad(0, 1, 2, 3);
+   mesh.FinalizeQuadMesh(0, 0, false);
+   expect_input_error([&] { check_elements(mesh); }, "the mesh has no edges");
+}
+
 TEST(ElementCheck, BodiesAreCheckedBeforeAnythingIsAssembled)
 {
    mfem::Mesh mesh = support::block("quads", 4, 3);

@@ -228,6 +228,10 @@ void check_plane(mfem::Mesh &mesh)
 void check_elements(mfem::Mesh &mesh)
 {
    check_plane(mesh);
+   require(
+      mesh.GetNE() == 0 || mesh.GetNEdges() > 0,
+      "elastic body: the mesh has no edges, which the boundary is found by: finalize it with "
+      "FinalizeMesh() or generate_edges = 1");
    const Ranks ranks(mesh);
    std::array<std::unique_ptr<Shape>, mfem::Geometry::NUM_GEOMETRIES> shapes;
    mfem::IsoparametricTransformation transformation;
