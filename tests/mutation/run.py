@@ -81,6 +81,10 @@ def say(text):
     print(text, flush=True)
 
 
+def sha(data):
+    return hashlib.sha256(data).hexdigest()
+
+
 def room_of(file):
     parts = file[len(LIBRARY) + 1:].split("/")
     return parts[0] if len(parts) > 1 else "root"
@@ -144,7 +148,7 @@ def parser_arguments():
             arguments.append(word)
     header = os.path.join(HOME, "long_headers.hpp")
     text = "#include <mfem.hpp>\n#include <Eigen/Dense>\n"
-    key = hashlib.sha256(repr((text, arguments)).encode()).hexdigest()[:16]
+    key = sha(repr((text, arguments)).encode())[:16]
     ready = os.path.join(HOME, f"long_headers.{key}.pch")
     if not os.path.exists(ready):
         write_changed(header, text.encode())
@@ -160,7 +164,8 @@ def parallel(function, jobs, processes):
 
 def remembered_points(files, arguments, processes):
     """The points of all files; a file is parsed again when it, a header or the operators change."""
-    texts = {f: open(os.path.join(SOURCE, f), "rb").read() for f in files}
+    texts = {f: open(os.path.join(ROOT, f), "rb").read() for f in files}
+    arguments = [a.replace(SOURCE, ROOT) for a in arguments]
     common = hashlib.sha256(open(faults.__file__, "rb").read() + b"".join(texts[f] for f in files if f.endswith(".hpp")))
 
     def key(file):
@@ -171,7 +176,7 @@ def remembered_points(files, arguments, processes):
     memory = os.path.join(HOME, "points.pickle")
     known = pickle.load(open(memory, "rb")) if os.path.exists(memory) else {}
     missing = [f for f in files if key(f) not in known]
-    found = parallel(faults.points, [(f, os.path.join(SOURCE, f), arguments) for f in missing], processes)
+    found = parallel(faults.points, [(f, os.path.join(ROOT, f), arguments) for f in missing], processes)
     known.update({key(f): points for f, points in zip(missing, found)})
     known = {key(f): known[key(f)] for f in files}
     write_changed(memory, pickle.dumps(known))
@@ -213,7 +218,8 @@ def instrument(options, arguments, order):
     """The pool compiled in; what does not compile goes, and the next come up."""
     unfit_file = os.path.join(HOME, "unfit.json")
     unfit = {tuple(k) for k in json.load(open(unfit_file))} if os.path.exists(unfit_file) else set()
-    checked = {}
+    built = os.path.join(HOME, "built.json")
+    checked = json.load(open(built)) if os.path.exists(built) else {}
     for _ in range(12):
         pool = []
         for room in order:
@@ -224,7 +230,7 @@ def instrument(options, arguments, order):
             edits.setdefault(point.file, []).append(point)
         copy_sources(edits)
         # libclang is quick and finds nearly all; it need not look at a file twice.
-        bad, now = set(), {f: [p.key() for p in edits[f]] for f in edits}
+        bad, now = set(), {f: sha(open(os.path.join(SOURCE, f), "rb").read()) for f in edits}
         jobs = [(f, os.path.join(SOURCE, f), arguments) for f in sorted(edits) if now[f] != checked.get(f)]
         checked = now
         for lines in parallel(faults.errors, jobs, options.jobs):
@@ -238,6 +244,7 @@ def instrument(options, arguments, order):
                 failed = subprocess.run(["ninja", "-C", BUILD, "-k", "0", "-j", str(options.jobs), *targets], stdout=out,
                                         stderr=subprocess.STDOUT).returncode
             if not failed:
+                write_changed(built, json.dumps(now).encode())
                 return {p.number: p for p in pool}
             for m in re.finditer(r"(%s/\S+?):(\d+):\d+: error" % LIBRARY, open(log).read()):
                 bad.add((m[1], int(m[2])))
@@ -259,6 +266,7 @@ class Tests:
         self.file = os.path.join(HOME, "known.jsonl")
         self.lock = threading.Lock()
         self.known, self.checked = {}, {}
+        self.checking = threading.Lock()
         if os.path.exists(self.file):
             for line in open(self.file):
                 key, *value = json.loads(line)
@@ -330,13 +338,13 @@ class Tests:
 
     def steady(self, name):
         """A test that noticed something is asked once whether it still passes without a fault."""
-        if name not in self.checked:
-            key = f"{self.tests[name][2]} {name} 0"
-            was = self.known.pop(key)
-            again = self.run(name)
-            self.checked[name] = not again[0]
-            self.known[key] = was
-        return self.checked[name]
+        with self.checking:
+            if name not in self.checked:
+                key = f"{self.tests[name][2]} {name} 0"
+                was = self.known.pop(key)
+                self.checked[name] = not self.run(name)[0]
+                self.known[key] = was
+            return self.checked[name]
 
 
 def clock(seconds):
@@ -425,8 +433,6 @@ def main():
         copy_sources({})
     configure(options)
     arguments = parser_arguments()
-    write_changed(os.path.join(SOURCE, LIBRARY, "fault_switch.hpp"), SWITCH.encode())
-    copy_sources({})
     order, files = draw_pool(options, arguments)
     say(f"{sum(map(len, order.values()))} points in {files} files")
     if options.list:
@@ -450,6 +456,8 @@ def main():
         head = subprocess.run(["git", "rev-parse", "HEAD"], cwd=ROOT, capture_output=True, text=True).stdout
         drawn = sorted(random.Random(head).sample(drawn, min(options.sample, len(drawn))))
     if options.fault:
+        if options.fault not in pool:
+            sys.exit(f"mutation: there is no fault {options.fault}, the last is {len(pool)}")
         drawn = [options.fault]
     named = json.load(open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "equivalent.json")))
     say(f"{len(pool)} faults compiled in, {sum(n in reach for n in pool)} reached, {len(drawn)} drawn")
