@@ -148,6 +148,13 @@ TEST(AppliedSolver, RefusesBadInput)
    AppliedSettings settings;
    settings.tolerance = 0;
    EXPECT_THROW(solve(bad, state, loads(1, 0), settings), InputError);
+   settings = {};
+   settings.max_iterations = 0;
+   EXPECT_THROW(solve(bad, state, loads(1, 0), settings), InputError);
+   settings = {};
+   settings.max_newton = 0;
+   EXPECT_THROW(solve(bad, state, loads(1, 0), settings), InputError);
+   EXPECT_THROW(AppliedProblem().validate(), InputError); // no nodes
    bad.diagonal[2] = 0;
    EXPECT_THROW(solve(bad, state, loads(1, 0)), InputError);
    bad = applied(problem);

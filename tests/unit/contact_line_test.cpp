@@ -426,6 +426,12 @@ TEST(ContactLine, APartThatAnIntervalCutsFromAnArc)
    // followed by more of the same; one of 40° alone does not.
    for (int elements : {3, 8, 40})
    {
+      // On its side the line runs along the other axis, which changes nothing.
+      mfem::Mesh side = ring_sector(1, elements, 60 * degree, -60 * degree);
+      ElasticBody turned(side, 1, Material{});
+      const ContactLine right = contact_line(turned, {{1}, 1, -0.35, 0.35});
+      const LineEnd turn = elements == 3 ? LineEnd::corner : LineEnd::smooth;
+      EXPECT_EQ(right.chains[0].ends, ends(turn, turn)) << elements;
       mfem::Mesh chords = ring_sector(1, elements, 150 * degree, 30 * degree);
       ElasticBody body(chords, 1, Material{});
       const ContactLine middle = contact_line(body, {{1}, 0, -0.35, 0.35});

@@ -93,6 +93,9 @@ TEST(Fretting, RefusesBadInput)
    EXPECT_THROW(threshold_ordinate(Criterion::open, 0.3, 1, -2), InputError);
    EXPECT_THROW(assess_threshold({{1, 1, 0.3}}, 0, 1), InputError);
    EXPECT_THROW(slip_energy_max(-1, 1), InputError);
+   EXPECT_THROW(reversed_slip_zone({1, 1, 0.3}, -1), InputError);
+   EXPECT_THROW(reversed_slip_zone({1, 1, 0.3}, nan), InputError);
+   EXPECT_THROW(mode_two_range(-1), InputError);
    EXPECT_THROW(slip_energy_max(1, 0), InputError);
    EXPECT_THROW(hertz_slip_energy(0.3, 1, 1.01, 1), InputError);
 }

@@ -174,8 +174,28 @@ TEST_F(Output, SeveralTimesMakeOneSeries)
       files += entry.path().extension() == ".vtu";
    }
    EXPECT_EQ(files, 3);
+   // Times that six digits do not tell apart.
+   fields.write(linear_field(body), 1.75 + 1e-9);
+   EXPECT_NE(content(folder + "/body/body.pvd").find("1.750000001"), std::string::npos);
    const mfem::Vector wrong(3);
    EXPECT_THROW(fields.write(wrong, 2), InputError);
+}
+
+TEST_F(Output, CurvedElementsAreWrittenAsTheyAre)
+{
+   // One Lagrange quadrilateral for each element, not pieces of it with straight edges.
+   mfem::Mesh mesh = two_materials_mesh();
+   ElasticBody body(mesh, 2, Material{});
+   BodyFields fields(body, folder, "body");
+   fields.write(linear_field(body), 1);
+   int files = 0;
+   for (const auto &entry : fs::recursive_directory_iterator(folder))
+   {
+      if (entry.path().extension() != ".vtu") { continue; }
+      ++files;
+      EXPECT_NE(content(entry.path()).find("NumberOfCells=\"6\""), std::string::npos);
+   }
+   EXPECT_EQ(files, 1);
 }
 
 TEST_F(Output, AUsersOperatorHasDisplacementsOnly)

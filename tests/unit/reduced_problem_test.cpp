@@ -41,6 +41,13 @@ TEST(ReducedProblem, RefusesBadInput)
    problem = two_nodes();
    problem.C(0, 1) = 3;
    EXPECT_THROW(problem.validate(), InputError);
+   // Symmetric to 1e-9 of the largest entry.
+   problem = two_nodes();
+   const double largest = problem.C.cwiseAbs().maxCoeff();
+   problem.C(0, 1) = problem.C(1, 0) + 0.9e-9 * largest;
+   EXPECT_NO_THROW(problem.validate());
+   problem.C(0, 1) = problem.C(1, 0) + 1.1e-9 * largest;
+   EXPECT_THROW(problem.validate(), InputError);
    problem = two_nodes();
    problem.gap[0] = std::numeric_limits<double>::quiet_NaN();
    EXPECT_THROW(problem.validate(), InputError);
@@ -125,7 +132,7 @@ TEST(ReducedProblem, HoldingARowTakesItOutAndAllThatMovesIt)
    EXPECT_FALSE(problem.rigid_motions); // no longer known
    EXPECT_NO_THROW(problem.validate());
    EXPECT_FALSE(problem.uncoupled());
-   cattaneo::hold(problem, {0});
+   cattaneo::hold(problem, {1, 0}); // one that is held already does not end it
    EXPECT_EQ(problem.held, (std::vector<Eigen::Index>{1, 0}));
    EXPECT_TRUE(problem.uncoupled());
    EXPECT_THROW(cattaneo::hold(problem, {2}), InputError);
@@ -150,7 +157,10 @@ TEST(ReducedProblem, BothGapFormulationsGiveTheSameForces)
    // Clamped, the pattern that closes the gap does no work with the others.
    ReducedProblem loaded = problem;
    loaded.H << 3;
-   EXPECT_EQ(absorb_gap(loaded).H, (Eigen::Matrix2d{{3, 0}, {0, 0}}));
+   const Eigen::MatrixXd H = absorb_gap(loaded).H;
+   ASSERT_EQ(H.rows(), 2);
+   ASSERT_EQ(H.cols(), 2);
+   EXPECT_EQ(H, (Eigen::Matrix2d{{3, 0}, {0, 0}}));
 }
 
 } // namespace

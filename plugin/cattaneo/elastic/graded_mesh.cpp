@@ -157,7 +157,6 @@ mfem::Mesh ringed_box(const char *name, const std::vector<double> &contact,
                       const std::vector<double> &depth, const std::vector<double> &scale,
                       bool half)
 {
-   check_grid(name, "contact", contact);
    check_grid(name, "depth", depth);
    check_grid(name, "scale", scale);
    require(depth.front() == 0, name, ": depth starts at ", depth.front(), ", must be 0");

@@ -1,0 +1,113 @@
+#include "expect_input_error.hpp"
+
+#include <algorithm>
+#include <cattaneo/counters.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cattaneo/whole_file.hpp>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <limits>
+#include <string>
+#include <sys/resource.h>
+#include <unistd.h>
+#include <vector>
+
+namespace
+{
+
+using namespace cattaneo;
+
+std::vector<long> values(const Counters &counters)
+{
+   std::vector<long> all;
+   Counters::for_each(counters, [&](const char *, long value) { all.push_back(value); });
+   return all;
+}
+
+TEST(Counters, EveryOneIsVisitedAndBeginsAtZero)
+{
+   Counters counters;
+   EXPECT_EQ(values(counters), std::vector<long>(sizeof(Counters) / sizeof(long), 0));
+   // In the order of the members, so that each is there and under its own name.
+   long next = 0;
+   Counters::for_each(counters, [&](const char *, long &value) { value = ++next; });
+   EXPECT_EQ(counters.assemblies, 1);
+   EXPECT_EQ(counters.factorisations, 2);
+   EXPECT_EQ(counters.back_substitutions, 3);
+   EXPECT_EQ(counters.tangential_unknowns, 7);
+   EXPECT_EQ(counters.limit_solves, next);
+   EXPECT_TRUE(std::is_sorted(&counters.assemblies, &counters.limit_solves + 1));
+}
+
+TEST(Counters, AddAndSubtractButKeepTheLargestSize)
+{
+   Counters one, two;
+   long next = 0;
+   Counters::for_each(one, [&](const char *, long &value) { value = ++next; });
+   Counters::for_each(two, [&](const char *, long &value) { value = 100 * next--; });
+   Counters sum = one;
+   sum += two;
+   const std::vector<long> a = values(one), b = values(two), s = values(sum);
+   for (std::size_t k = 0; k < a.size(); ++k)
+   {
+      EXPECT_EQ(s[k], k == 6 ? b[k] : a[k] + b[k]) << k;
+   }
+   Counters other = two;
+   other += one;
+   EXPECT_EQ(values(other), s); // the larger size, whichever comes first
+   sum -= two;
+   EXPECT_EQ(sum.assemblies, one.assemblies);
+   EXPECT_EQ(sum.limit_solves, one.limit_solves);
+   EXPECT_EQ(sum.tangential_unknowns, two.tangential_unknowns); // a size does not go away
+}
+
+TEST(InputError, SaysANumberToTheLastBit)
+{
+   // 0.1 + 0.2 is the neighbour of 0.3 above it: only seventeen digits tell them apart.
+   expect_input_error([] { require(false, "found ", 0.1 + 0.2); }, "found 0.30000000000000004");
+   EXPECT_NO_THROW(require(true, "found ", 1));
+}
+
+TEST(WholeFile, IsWrittenWholeOrNotAtAll)
+{
+   const std::string folder =
+      testing::TempDir() + "cattaneo_whole_" + std::to_string(getpid()) + "/";
+   std::filesystem::create_directories(folder);
+   const std::string file = folder + "table.csv";
+   expect_input_error([&] { write_whole(folder + "none/table.csv", "1"); },
+                      "none/table.csv': No such file or directory");
+   // A full disk, played by a limit on the size of files: what is short enough to wait in the
+   // stream's buffer is refused by the system when the file is closed.
+   rlimit before;
+   ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+   const rlimit small{10, before.rlim_max};
+   const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+   ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+   EXPECT_THROW(write_whole(file, std::string(100, 'x')), InputError);
+   setrlimit(RLIMIT_FSIZE, &before);
+   std::signal(SIGXFSZ, handler);
+   EXPECT_TRUE(std::filesystem::is_empty(folder));
+   write_whole(file, "x,y\n");
+   std::ifstream in(file);
+   std::string text;
+   EXPECT_TRUE(std::getline(in, text));
+   EXPECT_EQ(text, "x,y");
+   std::filesystem::remove_all(folder);
+}
+
+TEST(WholeFile, ANameThatCannotBeWrittenIsRefusedBeforeTheWork)
+{
+   const std::string folder =
+      testing::TempDir() + "cattaneo_writable_" + std::to_string(getpid());
+   std::filesystem::create_directories(folder);
+   EXPECT_NO_THROW(require_writable(folder + "/a.json"));
+   EXPECT_NO_THROW(require_writable("a.json"));
+   EXPECT_FALSE(std::filesystem::exists(folder + "/a.json"));
+   expect_input_error([&] { require_writable(folder); }, "there is a folder of that name");
+   expect_input_error([&] { require_writable(folder + "/none/a.json"); }, "there is no folder");
+   std::filesystem::remove_all(folder);
+}
+
+} // namespace
