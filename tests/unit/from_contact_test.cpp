@@ -656,6 +656,37 @@ TEST(Corner, WindowsOfAFitAreWhatItSays)
                0.543075578837, 1e-9);
 }
 
+TEST(Corner, ErrorsAreThoseOfLeastSquaresByHand)
+{
+   // One mode without shear: the pressure times r^{1-λ} is the line K + c r, at r = 1, 2, 3, 4,
+   // and δ (1, -1, -1, 1), which is orthogonal to it. Eight values less three unknowns leave
+   // five degrees of freedom, so that the variance is 4 δ²/5; that of K is 1/4 + 2.5²/5 = 3/2
+   // times as large. Without c the fit is the mean: it changes by 2.5 c.
+   CornerModes modes;
+   modes.one.eigenvalue = 0.75;
+   modes.one.pressure = 1;
+   modes.one.shear = 0;
+   FitSettings settings;
+   settings.window = {0.5, 4.5};
+   const double K = 2, delta = 0.01;
+   for (const double c : {0.0, 0.1})
+   {
+      EdgeTractions tractions;
+      tractions.edge = 0;
+      for (const int r : {1, 2, 3, 4})
+      {
+         const double value = K + c * r + (r == 1 || r == 4 ? delta : -delta);
+         tractions.position.push_back(r);
+         tractions.pressure.push_back(value * std::pow(r, -0.25));
+         tractions.shear.push_back(0);
+      }
+      const CornerFit fit = fit_corner(modes, tractions, settings);
+      EXPECT_NEAR(fit.k_one.value, K, 1e-13);
+      EXPECT_NEAR(fit.k_one.relative_error * K, c > 0 ? 2.5 * c : delta * std::sqrt(1.2),
+                  1e-12);
+   }
+}
+
 TEST(Corner, FitRefusesBadInput)
 {
    const CornerModes corner = corner_modes(Corner{pi / 2, pi});
