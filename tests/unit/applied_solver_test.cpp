@@ -154,7 +154,7 @@ TEST(AppliedSolver, RefusesBadInput)
    settings = {};
    settings.max_newton = 0;
    EXPECT_THROW(solve(bad, state, loads(1, 0), settings), InputError);
-   EXPECT_THROW(AppliedProblem().validate(), InputError); // no nodes
+   expect_input_error([] { AppliedProblem().validate(); }, "0 gaps, 0 friction coefficients");
    bad.diagonal[2] = 0;
    EXPECT_THROW(solve(bad, state, loads(1, 0)), InputError);
    bad = applied(problem);

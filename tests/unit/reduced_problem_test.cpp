@@ -41,13 +41,12 @@ TEST(ReducedProblem, RefusesBadInput)
    problem = two_nodes();
    problem.C(0, 1) = 3;
    EXPECT_THROW(problem.validate(), InputError);
-   // Symmetric to 1e-9 of the largest entry.
+   // Symmetric to 1e-9 of the largest entry, which is 5.
    problem = two_nodes();
-   const double largest = problem.C.cwiseAbs().maxCoeff();
-   problem.C(0, 1) = problem.C(1, 0) + 0.9e-9 * largest;
+   problem.C(0, 1) = problem.C(1, 0) + 4.5e-9;
    EXPECT_NO_THROW(problem.validate());
-   problem.C(0, 1) = problem.C(1, 0) + 1.1e-9 * largest;
-   EXPECT_THROW(problem.validate(), InputError);
+   problem.C(0, 1) = problem.C(1, 0) + 5.5e-9;
+   expect_input_error([&] { problem.validate(); }, "at most 5.00000000000");
    problem = two_nodes();
    problem.gap[0] = std::numeric_limits<double>::quiet_NaN();
    EXPECT_THROW(problem.validate(), InputError);

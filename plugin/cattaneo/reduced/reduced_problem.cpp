@@ -50,10 +50,10 @@ void check_symmetric(const char *name, const Eigen::MatrixXd &M)
 {
    require(M.allFinite(), "reduced problem: ", name, " has an entry that is not finite");
    if (M.size() == 0) { return; }
-   const double scale = M.cwiseAbs().maxCoeff();
+   const double allowed = 1e-9 * M.cwiseAbs().maxCoeff();
    const double skew = (M - M.transpose()).cwiseAbs().maxCoeff();
-   require(skew <= 1e-9 * scale, "reduced problem: ", name, " is not symmetric: largest |",
-           name, " - ", name, "ᵀ| is ", skew, ", at most ", 1e-9 * scale, " is allowed");
+   require(skew <= allowed, "reduced problem: ", name, " is not symmetric: largest |", name,
+           " - ", name, "ᵀ| is ", skew, ", at most ", allowed, " is allowed");
    Eigen::Index i = 0;
    const double smallest = M.diagonal().minCoeff(&i);
    require(smallest > 0, "reduced problem: diagonal of ", name, " is ", smallest, " at row ", i,
