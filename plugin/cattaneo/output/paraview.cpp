@@ -60,7 +60,6 @@ BodyFields::BodyFields(const ElasticBody &body, const std::string &directory,
       }
    }
    series_.SetPrefixPath(directory);
-   series_.SetPrecision(17); // of the times
    series_.SetHighOrderOutput(true);
    series_.SetLevelsOfDetail(order);
    for (const auto &[field_name, field] : fields_)
