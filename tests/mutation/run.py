@@ -412,9 +412,10 @@ def show(v):
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="./test --mutation", description=__doc__,
+    parser = argparse.ArgumentParser(prog="./test --mutation", description=__doc__, add_help=False,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     add = parser.add_argument
+    add("-h", "-help", action="help", help="say this")
     add("-mfem", required=True, help=argparse.SUPPRESS)
     add("-seed", type=int, default=1, help="another list of faults (default: 1)")
     add("-per-room", type=int, default=16, help="faults of each room (default: 16)")
