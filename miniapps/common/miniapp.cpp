@@ -133,7 +133,8 @@ int run(const std::function<int()> &body)
          if (writes()) { std::cerr << "error: " << one_line(error.what()) << std::endl; }
          return 1;
       }
-      std::cerr << "error: " << one_line(error.what()) << std::endl;
+      // In one piece: what other ranks write must not come between.
+      std::cerr << "error: " + one_line(error.what()) + "\n" << std::flush;
 #ifdef MFEM_USE_MPI
       MPI_Abort(MPI_COMM_WORLD, 1);
 #endif
