@@ -148,12 +148,11 @@ def parser_arguments():
             arguments.append(word)
     header = os.path.join(HOME, "long_headers.hpp")
     text = "#include <mfem.hpp>\n#include <Eigen/Dense>\n"
-    key = sha(repr((text, arguments)).encode())[:16]
-    ready = os.path.join(HOME, f"long_headers.{key}.pch")
-    if not os.path.exists(ready):
-        write_changed(header, text.encode())
-        unit = faults.clang.Index.create().parse(header, args=["-x", "c++-header"] + arguments[2:], options=2)
-        unit.save(ready)
+    write_changed(header, text.encode())
+    # Made anew by every run: a header read once is not valid any more when a package has been installed again.
+    ready = os.path.join(HOME, "long_headers.pch")
+    unit = faults.clang.Index.create().parse(header, args=["-x", "c++-header"] + arguments[2:], options=2)
+    unit.save(ready)
     return arguments + ["-include-pch", ready]
 
 
