@@ -13,6 +13,7 @@ namespace
 using namespace cattaneo;
 using cattaneo_test::random_problem;
 using Eigen::Vector2d;
+using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 ReducedProblem one_node(double a, double b, double c, double q, double p, double f, double gap)
@@ -295,6 +296,29 @@ TEST(FrictionSolver, FrictionlessHasNoTangentialUnknownsAndNoShear)
    ContactState close = ContactState::virgin(problem);
    ASSERT_EQ(other.solve(close, Vector2d(1, 0.4)).status, FrictionStatus::converged);
    EXPECT_LT((close.p - state.p).cwiseAbs().maxCoeff(), 1e-7);
+}
+
+TEST(FrictionSolver, WithoutCouplingStuckNodesAreHeldWhereTheyWere)
+{
+   // Shear 2 at the first of three nodes in a row that bear 1 each, f = 1/2: it slips by
+   // (1/2 - 2) / 2 = -3/4 and sheds 3/8 on the second, less than friction. The sweeps find
+   // these states, so one active-set solve is the answer, and one more may confirm it.
+   ReducedProblem problem;
+   problem.A = Eigen::Matrix3d{{2, -0.5, 0}, {-0.5, 2, -0.5}, {0, -0.5, 2}};
+   problem.B = Eigen::Matrix3d::Zero();
+   problem.C = Eigen::Matrix3d::Identity();
+   problem.patterns = {{"load", Control::force, Vector3d(2, 0, 0), Vector3d(1, 1, 1)}};
+   problem.H = Eigen::MatrixXd::Zero(1, 1);
+   problem.gap = Vector3d::Zero();
+   set_friction(problem, 0.5);
+   FrictionSolver solver(problem);
+   ASSERT_TRUE(solver.uncoupled());
+   ContactState state = ContactState::virgin(problem);
+   ASSERT_EQ(solver.solve(state, VectorXd::Ones(1)).status, FrictionStatus::converged);
+   EXPECT_LE((state.v - Vector3d(-0.75, 0, 0)).norm(), 1e-15);
+   EXPECT_LE((state.q - Vector3d(0.5, 0.375, 0)).norm(), 1e-15);
+   EXPECT_LE(solver.counters().newton_steps, 2);
+   EXPECT_EQ(solver.counters().sweeps, FrictionSettings().sweeps);
 }
 
 TEST(FrictionSolver, AboveCriticalFrictionNamesTheNode)

@@ -270,6 +270,21 @@ TEST(Limit, IsNoneWhereAnySlipIsHeld)
    const LimitReport report =
       load_limit(limit_problem(steady, held_and_cycled(steady, "pressure", 1, "shear", 1)));
    EXPECT_EQ(report.status, LimitStatus::unlimited) << report.message;
+   // The slip that frees the node of a shear of whole numbers does so without round-off, and of
+   // any other to the 16 digits of the shear: half of them are left at 1e8 times friction.
+   EXPECT_GE(report.lower, 1e8 * 0.5);
+}
+
+TEST(Limit, MayLieFarBeyondGrossSliding)
+{
+   // Shear between 0 and λ, p = 1 - b v with f b = 1 - 2^-20: the slip -x holds the unloaded
+   // node if x ≤ f (1 + b x), and the loaded one if λ - x ≤ f (1 + b x). So λ = 2 f / (1 - f b).
+   const double small = std::ldexp(1, -20);
+   const ReducedProblem problem = one_node(-0.5, 2 * (1 - small), 1);
+   const LimitReport report =
+      load_limit(limit_problem(problem, held_and_cycled(problem, "pressure", 1, "shear", 0)));
+   ASSERT_EQ(report.status, LimitStatus::certified) << report.message;
+   EXPECT_NEAR(report.limit * small / (4 * (1 - small)), 1, 1e-6);
 }
 
 TEST(Limit, ComesAfterTheConstantLoads)

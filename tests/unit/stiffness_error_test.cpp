@@ -15,6 +15,13 @@ using LongMatrix = Eigen::Matrix<Long, Eigen::Dynamic, Eigen::Dynamic>;
 /// What a body consists of: Young's modulus by the centre of an element.
 using Modulus = std::function<double(double x, double y)>;
 
+enum class Held
+{
+   nowhere,
+   below,
+   at_its_end ///< x = 3; the contact ends at x = 2 then
+};
+
 /// A rectangle of bilinear elements, [0, 3] × [0, 2], contact at the top.
 struct Block
 {
@@ -32,20 +39,22 @@ struct Block
       }
       mesh.SetAttributes();
    }
-   CondensedBody condensed(bool held)
+   CondensedBody condensed(Held held)
    {
       ElasticBody body(mesh, 1, materials);
-      if (held)
+      for (int c : {0, 1})
       {
-         body.fix(1, 0);
-         body.fix(1, 1);
+         if (held == Held::below) { body.fix(1, c); }
+         if (held == Held::at_its_end) { body.fix(2, c); }
       }
-      return condense(body, contact_line(body, 3));
+      return condense(body, contact_line(body, {{3}, 0, 0.0, contact_end(held)}));
    }
+
+   static double contact_end(Held held) { return held == Held::at_its_end ? 2.0 : 3.0; }
 
    /// The same stiffness, assembled and condensed in extended precision, in global components
    /// {x; y} of the nodes along the top from the right to the left.
-   LongMatrix exact(bool held)
+   LongMatrix exact(Held held)
    {
       const int n = mesh.GetNV();
       LongMatrix K = LongMatrix::Zero(2 * n, 2 * n);
@@ -86,18 +95,16 @@ struct Block
             }
          }
       }
-      std::vector<int> in, contact;
+      std::vector<int> in, contact, top;
       for (int i = 0; i < n; ++i)
       {
-         const double y = mesh.GetVertex(i)[1];
-         if (y == 2 || (held && y == 0)) { continue; }
-         in.push_back(i);
-         in.push_back(n + i);
-      }
-      std::vector<int> top;
-      for (int i = 0; i < n; ++i)
-      {
-         if (mesh.GetVertex(i)[1] == 2) { top.push_back(i); }
+         const double x = mesh.GetVertex(i)[0], y = mesh.GetVertex(i)[1];
+         if ((held == Held::below && y == 0) || (held == Held::at_its_end && x == 3))
+         {
+            continue;
+         }
+         if (y == 2 && x <= contact_end(held)) { top.push_back(i); }
+         else { in.insert(in.end(), {i, n + i}); }
       }
       std::sort(top.begin(), top.end(),
                 [&](int a, int b) { return mesh.GetVertex(a)[0] > mesh.GetVertex(b)[0]; });
@@ -110,11 +117,11 @@ struct Block
 };
 
 /// Largest |uᵀ (S - S*) u| / uᵀ S* u of motions that S* resists.
-double energy_error(const MatrixXd &S, const LongMatrix &exact, bool held)
+double energy_error(const MatrixXd &S, const LongMatrix &exact, Held held)
 {
    const Eigen::Index m = S.rows(), n = m / 2;
-   LongMatrix Q(m, held ? 0 : 3);
-   if (!held)
+   LongMatrix Q(m, held == Held::nowhere ? 3 : 0);
+   if (held == Held::nowhere)
    {
       // Translations, and the rotation about the middle of a straight line.
       Q.setZero();
@@ -162,9 +169,9 @@ TEST(StiffnessError, BoundsTheErrorAgainstExtendedPrecision)
                                                          {"inclusion", inclusion(contrast)}};
       for (const auto &[name, modulus] : scenes)
       {
-         for (const bool held : {true, false})
+         for (const Held held : {Held::nowhere, Held::below, Held::at_its_end})
          {
-            SCOPED_TRACE(std::string(name) + (held ? ", held" : ", free"));
+            SCOPED_TRACE(std::string(name) + ", held " + std::to_string(int(held)));
             Block block(modulus);
             CondensedBody condensed = block.condensed(held);
             const double error = energy_error(global(condensed), block.exact(held), held);
@@ -190,7 +197,7 @@ TEST(StiffnessError, BoundsTheErrorOfLayersInSeries)
       {
          const double top = stiff_top ? contrast : 1, bottom = stiff_top ? 1 : contrast;
          Block block([=](double, double y) { return y > 1 ? top : bottom; }, 0);
-         CondensedBody condensed = block.condensed(true);
+         CondensedBody condensed = block.condensed(Held::below);
          const Eigen::Index n = condensed.line.size();
          const double stiffness = condensed.S.bottomRightCorner(n, n).sum();
          const double error = std::abs(stiffness * (1 / top + 1 / bottom) / 3 - 1);

@@ -54,6 +54,13 @@ TEST(CutOff, AsksForCompressionAndForBothBodies)
    state.p << 1e-17, 2, 0;
    ASSERT_EQ(found().size(), 1u);
    EXPECT_EQ(found()[0].node, 1);
+   // Nor one that carries a trillionth of what the other does while every node is pressed.
+   state.status[2] = NodeState::stick;
+   state.p << 2e-12, 2, 1e-12;
+   ASSERT_EQ(found().size(), 1u);
+   EXPECT_EQ(found()[0].node, 1);
+   state.status[2] = NodeState::separation;
+   state.p << 1e-17, 2, 0;
    // Either body may end; what is not known says nothing; a loop has no ends.
    for (const LineEnd end : {LineEnd::corner, LineEnd::axis, LineEnd::unknown})
    {

@@ -247,17 +247,17 @@ Block united(const CondensedBody &first, const CondensedBody &second,
    if (first.rigid_modes > 0 && second.rigid_modes > 0)
    {
       const Eigen::MatrixXd Z = free_motions(first, sum);
-      for (Eigen::Index k = 0; k < shared->difference.cols(); ++k)
+      const Eigen::MatrixXd push = Z.transpose() * shared->difference;
+      for (Eigen::Index k = 0; k < push.cols(); ++k)
       {
-         const double load =
-            Z.cols() > 0 ? (Z.transpose() * shared->difference.col(k)).norm() : 0.0;
+         const double load = push.col(k).norm();
          const double scale = f1.col(k).norm() + f2.col(k).norm();
          require(load <= 1e-9 * scale, "reduce: load pattern '", patterns[k].name,
                  "' pushes both bodies in a common rigid motion that nothing resists (part ",
                  load / scale,
                  " of it), its loads must be in equilibrium or a body be supported");
       }
-      shared->difference -= Z * (Z.transpose() * shared->difference);
+      shared->difference -= Z * push;
       sum.noalias() += sum.diagonal().mean() * Z * Z.transpose();
    }
    require(shared->sum.compute(std::move(sum)),

@@ -210,12 +210,11 @@ std::vector<WayOn> ways_on(const ElasticBody &body, const std::vector<Segment> &
 /// between its last two elements.
 LineEnd goes_on(const std::vector<WayOn> &ways, int node, double x, double y, double bend)
 {
-   double straightest = -2;
+   double straightest = -1; // an outer edge ends nowhere: there is a way on
    for (const WayOn &way : ways)
    {
       if (way.node == node) { straightest = std::max(straightest, way.x * x + way.y * y); }
    }
-   if (straightest == -2) { return LineEnd::unknown; }
    const double turn =
       std::clamp(1.5 * bend, LineChain::smooth_turn * degree, LineChain::corner_turn * degree);
    return straightest >= std::cos(turn) ? LineEnd::smooth : LineEnd::corner;
@@ -440,9 +439,6 @@ ContactLine contact_line(const ElasticBody &body, const BoundaryPart &part)
       line.normal.row(i) << -line.tangent(i, 1), line.tangent(i, 0);
       line.scalar_dofs.push_back(node.scalar_dof);
       line.true_dofs.push_back(node.dofs);
-      require(node.dofs[0] >= 0 && (body.components() == 1 || node.dofs[1] >= 0), where,
-              ": the node at ", coordinates(id),
-              " hangs on others, the mesh must be conforming along the line");
    }
    return line;
 }

@@ -20,10 +20,9 @@ using Eigen::VectorXd;
 VectorXd FrictionSolver::Implementation::natural_map() const
 {
    VectorXd R(F.size());
-   for (Index i = 0; i < n; ++i)
+   for (Index i = 0; i < n; ++i) { R[m(i)] = std::min(knn[i] * gap(i), F[m(i)]); }
+   for (Index i = 0; !frictionless && i < n; ++i)
    {
-      R[m(i)] = std::min(knn[i] * gap(i), F[m(i)]);
-      if (frictionless) { continue; }
       const double limit = bound(i);
       if (disc())
       {
