@@ -6,7 +6,7 @@
 //  and checked, as a user's is). Processor seconds, the best of several; the difference is of
 //  the two condensed stiffnesses.
 
-#include <cattaneo/condense/condensed_body.hpp>
+#include <cattaneo/contact/condense_body.hpp>
 #include <cattaneo/elastic/axisymmetric.hpp>
 #include <cattaneo/elastic/graded_mesh.hpp>
 #include <cstdio>
@@ -32,10 +32,11 @@ double processor_seconds(int times, const std::function<void()> &act)
 
 std::unique_ptr<mfem::BilinearForm> bilinear_form(mfem::FiniteElementSpace &space,
                                                   mfem::Coefficient &lambda,
-                                                  mfem::Coefficient &mu, Geometry geometry)
+                                                  mfem::Coefficient &mu,
+                                                  Formulation formulation)
 {
    auto form = std::make_unique<mfem::BilinearForm>(&space);
-   if (geometry == Geometry::plane)
+   if (formulation == Formulation::plane)
    {
       form->AddDomainIntegrator(new mfem::ElasticityIntegrator(lambda, mu));
    }
@@ -61,7 +62,7 @@ int main()
                "with condensation, s", "");
    std::printf("%-13s %5s %9s | %6s %6s %6s | %6s %6s %6s | %s\n", "geometry", "order", "dofs",
                "form", "ours", "ratio", "form", "ours", "ratio", "difference");
-   for (auto geometry : {Geometry::plane, Geometry::axisymmetric})
+   for (auto formulation : {Formulation::plane, Formulation::axisymmetric})
    {
       for (int order = 1; order <= 4; ++order)
       {
@@ -77,12 +78,12 @@ int main()
          const auto form = [&](bool further)
          {
             mfem::FiniteElementSpace space(&mesh, &collection, 2, mfem::Ordering::byVDIM);
-            const auto made = bilinear_form(space, lambda, mu, geometry);
-            if (further) { theirs = condensed(ElasticBody(space, made->SpMat(), geometry)); }
+            const auto made = bilinear_form(space, lambda, mu, formulation);
+            if (further) { theirs = condensed(ElasticBody(space, made->SpMat(), formulation)); }
          };
          const auto body = [&](bool further)
          {
-            ElasticBody made(mesh, order, material, geometry);
+            ElasticBody made(mesh, order, material, formulation);
             dofs = made.dofs();
             if (further) { ours = condensed(std::move(made)); }
          };
@@ -91,7 +92,7 @@ int main()
                                    processor_seconds(3, [&] { form(true); }),
                                    processor_seconds(3, [&] { body(true); })};
          std::printf("%-13s %5d %9d | %6.3f %6.3f %6.2f | %6.3f %6.3f %6.2f | %.1e\n",
-                     geometry == Geometry::plane ? "plane" : "axisymmetric", order, dofs,
+                     formulation == Formulation::plane ? "plane" : "axisymmetric", order, dofs,
                      seconds[0], seconds[1], seconds[0] / seconds[1], seconds[2], seconds[3],
                      seconds[2] / seconds[3],
                      (theirs - ours).cwiseAbs().maxCoeff() / ours.cwiseAbs().maxCoeff());

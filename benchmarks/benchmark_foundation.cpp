@@ -7,9 +7,10 @@
 #include "common/measure.hpp"
 #include "common/miniapp.hpp"
 
-#include <cattaneo/condense/reduction.hpp>
+#include <cattaneo/contact/condense_body.hpp>
 #include <cattaneo/elastic/graded_mesh.hpp>
 #include <cattaneo/friction/march.hpp>
+#include <cattaneo/reduced/reduction.hpp>
 #include <cstdio>
 #include <cstdlib>
 

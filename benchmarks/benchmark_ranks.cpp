@@ -14,10 +14,11 @@
 //     ./run --mpi benchmark_ranks -np 2 -weak
 //     ./run --mpi benchmark_ranks -np 2 -elements "" -contact "65 129 257"
 
-#include <cattaneo/condense/applied_reduction.hpp>
-#include <cattaneo/condense/reduction.hpp>
+#include <cattaneo/contact/applied_reduction.hpp>
+#include <cattaneo/contact/condense_body.hpp>
 #include <cattaneo/friction/applied_solver.hpp>
 #include <cattaneo/friction/friction_solver.hpp>
+#include <cattaneo/reduced/reduction.hpp>
 #include <common/miniapp.hpp>
 #include <cstdio>
 #include <fstream>

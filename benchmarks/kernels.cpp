@@ -10,6 +10,7 @@
 
 #include <benchmark/benchmark.h>
 #include <cattaneo/condense/sparse_factor.hpp>
+#include <cattaneo/elastic/views.hpp>
 #include <cattaneo/friction/friction_solver.hpp>
 #include <cattaneo/shakedown/limit.hpp>
 #include <cmath>
@@ -43,7 +44,7 @@ struct Square
    {
       std::vector<bool> contact(body.dofs(), false);
       const ContactLine line = contact_line(body, 1);
-      for (const auto &dofs : line.true_dofs)
+      for (const auto &dofs : line.dofs)
       {
          for (int dof : dofs) { contact[dof] = true; }
       }
@@ -57,7 +58,7 @@ struct Square
       trailing = 2 * static_cast<int>(line.size());
    }
    /// The contact dofs get a stiffness of their own: nothing is held.
-   SparseFactor factor() const { return {body.stiffness(), keep, trailing, 1.0}; }
+   SparseFactor factor() const { return {view(body.stiffness()), keep, trailing, 1.0}; }
 };
 
 void assembly(benchmark::State &state)

@@ -1,6 +1,6 @@
-# find_package(Cattaneo) for users: target Cattaneo::cattaneo.
+# find_package(Cattaneo) for users: targets Cattaneo::cattaneo and, without MFEM, Cattaneo::core.
 include(CMakePackageConfigHelpers)
-install(TARGETS cattaneo EXPORT CattaneoTargets
+install(TARGETS ${libraries} EXPORT CattaneoTargets
    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY plugin/cattaneo DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
 set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Cattaneo)

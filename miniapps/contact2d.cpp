@@ -19,7 +19,7 @@
 #include "common/study_output.hpp"
 
 #include <algorithm>
-#include <cattaneo/condense/reduction.hpp>
+#include <cattaneo/contact/condense_body.hpp>
 #include <cattaneo/fretting/calibration.hpp>
 #include <cattaneo/friction/critical_friction.hpp>
 #include <cattaneo/friction/march.hpp>
@@ -27,6 +27,7 @@
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/output/history.hpp>
 #include <cattaneo/reduced/reduced_file.hpp>
+#include <cattaneo/reduced/reduction.hpp>
 #include <cattaneo/whole_file.hpp>
 #include <cmath>
 #include <filesystem>

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <cattaneo/condense/reduction.hpp>
+#include <cattaneo/contact/condense_body.hpp>
 #include <cattaneo/elastic/graded_mesh.hpp>
+#include <cattaneo/reduced/reduction.hpp>
 
 namespace cattaneo_test
 {

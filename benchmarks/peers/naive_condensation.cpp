@@ -9,9 +9,10 @@
 #include "common/miniapp.hpp"
 
 #include <algorithm>
-#include <cattaneo/condense/condensed_body.hpp>
 #include <cattaneo/condense/sparse_factor.hpp>
-#include <cattaneo/contact/contact_line.hpp>
+#include <cattaneo/contact/boundary_line.hpp>
+#include <cattaneo/contact/condense_body.hpp>
+#include <cattaneo/elastic/views.hpp>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
@@ -25,7 +26,7 @@ namespace
 MatrixXd usual_way(const mfem::SparseMatrix &K, const ContactLine &line)
 {
    std::vector<int> place(K.Height(), -1), contact, interior; // place in its list
-   for (const auto &dofs : line.true_dofs)
+   for (const auto &dofs : line.dofs)
    {
       for (const int dof : dofs)
       {
@@ -43,7 +44,7 @@ MatrixXd usual_way(const mfem::SparseMatrix &K, const ContactLine &line)
    }
    const auto ni = static_cast<Eigen::Index>(interior.size());
    const auto nc = static_cast<Eigen::Index>(contact.size());
-   const SparseFactor factor(K, interior, 0, 0.0);
+   const SparseFactor factor(view(K), interior, 0, 0.0);
    MatrixXd coupling = MatrixXd::Zero(ni, nc), S = MatrixXd::Zero(nc, nc);
    for (Eigen::Index c = 0; c < nc; ++c)
    {

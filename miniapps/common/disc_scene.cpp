@@ -72,15 +72,15 @@ Disc make_disc(const DiscOptions &options)
       rectangle_mesh(joined({contact, graded(b, R, h_end, growth)}), depth), options.order));
 
    warn_of_locking(options.order, material);
-   const auto add_bodies = [&](auto &bodies, Geometry geometry)
+   const auto add_bodies = [&](auto &bodies, Formulation formulation)
    {
       for (const auto &mesh : scene.meshes)
       {
          bodies.push_back(
-            std::make_unique<ElasticBody>(*mesh, options.order, material, geometry));
+            std::make_unique<ElasticBody>(*mesh, options.order, material, formulation));
          scene.dofs += bodies.back()->dofs();
       }
-      for (int c = 0; c < components(geometry); ++c)
+      for (int c = 0; c < components(formulation); ++c)
       {
          bodies[1]->fix(BoundaryPart({bottom, side}), c);
       }
@@ -90,7 +90,7 @@ Disc make_disc(const DiscOptions &options)
    const auto line_below = [&](const ElasticBody &body)
    { return contact_line(body, BoundaryPart({top}, 0, 0, b)); };
 
-   add_bodies(scene.bodies, Geometry::axisymmetric);
+   add_bodies(scene.bodies, Formulation::axisymmetric);
    ElasticBody &disc = *scene.bodies[0], &below = *scene.bodies[1];
    for (double a : options.load_radii)
    {
@@ -101,7 +101,7 @@ Disc make_disc(const DiscOptions &options)
                             condense(below, lower, condensation()), pair_lines(upper, lower));
    if (options.twist != Twist::none)
    {
-      add_bodies(scene.torsion, Geometry::torsion);
+      add_bodies(scene.torsion, Formulation::torsion);
       ElasticBody &twisting = *scene.torsion[0], &held = *scene.torsion[1];
       const double a = options.load_radii.front();
       const BoundaryPart loaded({top}, 0, 0, a);

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <cattaneo/condense/reduction.hpp>
+#include <cattaneo/contact/condense_body.hpp>
 #include <cattaneo/friction/contact_state.hpp>
+#include <cattaneo/reduced/reduction.hpp>
 #include <string>
 #include <vector>
 

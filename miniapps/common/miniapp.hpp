@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cattaneo/condense/condensed_body.hpp>
+#include <cattaneo/contact/condense_body.hpp>
 #include <cattaneo/counters.hpp>
 #include <cattaneo/friction/march.hpp>
 #include <chrono>

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <cattaneo/condense/reduction.hpp>
+#include <cattaneo/contact/condense_body.hpp>
+#include <cattaneo/reduced/reduction.hpp>
 #include <functional>
 #include <memory>
 #include <string>

@@ -25,10 +25,10 @@ TwistedScene make_scene(const TwistedBodies &options)
    const BoundaryPart upper_far({side, top}), lower_far({bottom, side}),
       above({bottom}, 0, 0, contact.back()), below({top}, 0, 0, contact.back());
    const Material material{1.0, options.poisson};
-   ElasticBody upper(upper_mesh, options.order, material, Geometry::axisymmetric),
-      lower(lower_mesh, options.order, material, Geometry::axisymmetric),
-      turned(upper_mesh, options.order, material, Geometry::torsion),
-      held(lower_mesh, options.order, material, Geometry::torsion);
+   ElasticBody upper(upper_mesh, options.order, material, Formulation::axisymmetric),
+      lower(lower_mesh, options.order, material, Formulation::axisymmetric),
+      turned(upper_mesh, options.order, material, Formulation::torsion),
+      held(lower_mesh, options.order, material, Formulation::torsion);
    upper.fix(upper_far, 0);
    upper.add_displacement("approach", upper_far, 1, -1.0);
    lower.fix(lower_far, 0);

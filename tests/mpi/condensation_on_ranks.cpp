@@ -3,11 +3,12 @@
 // code 1, with a sentence for each, where they differ.
 
 #include <algorithm>
-#include <cattaneo/condense/applied_reduction.hpp>
-#include <cattaneo/condense/reduction.hpp>
+#include <cattaneo/contact/applied_reduction.hpp>
+#include <cattaneo/contact/condense_body.hpp>
 #include <cattaneo/friction/applied_solver.hpp>
 #include <cattaneo/friction/friction_solver.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/reduced/reduction.hpp>
 #include <cstdio>
 #include <map>
 #include <vector>
@@ -58,14 +59,14 @@ const int bottom = 1, right = 2, top = 3, left = 4;
 struct Scene
 {
    std::string name;
-   Geometry geometry;
+   Formulation formulation;
    bool held;
 };
 
 std::unique_ptr<ElasticBody> make_body(mfem::Mesh &mesh, const Scene &scene)
 {
-   auto body = std::make_unique<ElasticBody>(mesh, 2, Material{2.0, 0.3}, scene.geometry);
-   if (scene.geometry == Geometry::torsion)
+   auto body = std::make_unique<ElasticBody>(mesh, 2, Material{2.0, 0.3}, scene.formulation);
+   if (scene.formulation == Formulation::torsion)
    {
       body->add_traction("T", right, 1.0);
       if (scene.held) { body->add_displacement("D", top, 0, 0.1); }
@@ -75,7 +76,10 @@ std::unique_ptr<ElasticBody> make_body(mfem::Mesh &mesh, const Scene &scene)
                       [](double x, double y) { return 1 + 0.2 * x - 0.1 * y; });
    body->add_traction("Q", right, 0.1, 0.3);
    if (!scene.held) { return body; }
-   if (scene.geometry == Geometry::plane) { body->fix(BoundaryPart({left}, 1, 0.2, 2.0), 0); }
+   if (scene.formulation == Formulation::plane)
+   {
+      body->fix(BoundaryPart({left}, 1, 0.2, 2.0), 0);
+   }
    body->add_displacement("D", top, 1, [](double x, double) { return -0.1 - 0.02 * x; });
    return body;
 }
@@ -83,7 +87,7 @@ std::unique_ptr<ElasticBody> make_body(mfem::Mesh &mesh, const Scene &scene)
 /// Field values by place and component.
 using Field = std::map<std::tuple<long, long, int>, double>;
 
-Field field(const ElasticBody &body, const mfem::Vector &values)
+Field field(const ElasticBody &body, const VectorXd &values)
 {
    Field result;
    const mfem::DenseMatrix &x = body.node_coordinates();
@@ -252,7 +256,7 @@ void errors()
    {
       keep_first(*list);
    }
-   point.true_dofs.resize(1);
+   point.dofs.resize(1);
    for (Eigen::VectorXd *list : {&point.arc_length, &point.weights, &point.lumped_weights})
    {
       list->conservativeResize(1);
@@ -270,18 +274,19 @@ int main()
 {
    mfem::Mpi::Init();
    mfem::Hypre::Init();
-   for (const Scene &scene : {Scene{"held plane body", Geometry::plane, true},
-                              Scene{"free plane body", Geometry::plane, false},
-                              Scene{"held body of revolution", Geometry::axisymmetric, true},
-                              Scene{"free body of revolution", Geometry::axisymmetric, false},
-                              Scene{"held twisting body", Geometry::torsion, true},
-                              Scene{"free twisting body", Geometry::torsion, false}})
+   for (const Scene &scene :
+        {Scene{"held plane body", Formulation::plane, true},
+         Scene{"free plane body", Formulation::plane, false},
+         Scene{"held body of revolution", Formulation::axisymmetric, true},
+         Scene{"free body of revolution", Formulation::axisymmetric, false},
+         Scene{"held twisting body", Formulation::torsion, true},
+         Scene{"free twisting body", Formulation::torsion, false}})
    {
       for (int direct_dofs : {0, 1000000}) { compare(scene, direct_dofs); }
    }
-   applied_contact({"held plane body", Geometry::plane, true}, {0, 0.1, -0.05});
-   applied_contact({"free plane body", Geometry::plane, false}, {0});
-   applied_contact({"held body of revolution", Geometry::axisymmetric, true}, {0});
+   applied_contact({"held plane body", Formulation::plane, true}, {0, 0.1, -0.05});
+   applied_contact({"free plane body", Formulation::plane, false}, {0});
+   applied_contact({"held body of revolution", Formulation::axisymmetric, true}, {0});
    errors();
    int all = 0;
    MPI_Allreduce(&failures, &all, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);

@@ -1,7 +1,7 @@
 // An error must end the run on all ranks, with one message and exit code 1, whoever sees it.
 // The argument says what goes wrong.
 
-#include <cattaneo/condense/condensed_body.hpp>
+#include <cattaneo/contact/condense_body.hpp>
 #include <cattaneo/input_error.hpp>
 #include <common/miniapp.hpp>
 #include <limits>

@@ -3,7 +3,8 @@
 
 #include "holds.hpp"
 
-#include <cattaneo/condense/reduction.hpp>
+#include <cattaneo/contact/condense_body.hpp>
+#include <cattaneo/reduced/reduction.hpp>
 #include <cmath>
 #include <fstream>
 #include <mfem.hpp>

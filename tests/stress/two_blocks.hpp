@@ -1,8 +1,9 @@
 #pragma once
 
 #include <algorithm>
-#include <cattaneo/condense/reduction.hpp>
+#include <cattaneo/contact/condense_body.hpp>
 #include <cattaneo/elastic/graded_mesh.hpp>
+#include <cattaneo/reduced/reduction.hpp>
 
 namespace cattaneo_test
 {

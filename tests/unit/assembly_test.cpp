@@ -10,7 +10,7 @@ namespace
 
 /// What MFEM makes of the same integrators, element by element.
 MatrixXd by_bilinear_form(mfem::FiniteElementSpace &space,
-                          const std::vector<Material> &materials, Geometry geometry)
+                          const std::vector<Material> &materials, Formulation formulation)
 {
    mfem::Vector lambda(static_cast<int>(materials.size())), mu(lambda.Size());
    for (int k = 0; k < lambda.Size(); ++k)
@@ -20,15 +20,15 @@ MatrixXd by_bilinear_form(mfem::FiniteElementSpace &space,
    }
    mfem::PWConstCoefficient lambda_field(lambda), mu_field(mu);
    mfem::BilinearForm form(&space);
-   switch (geometry)
+   switch (formulation)
    {
-   case Geometry::plane:
+   case Formulation::plane:
       form.AddDomainIntegrator(new mfem::ElasticityIntegrator(lambda_field, mu_field));
       break;
-   case Geometry::axisymmetric:
+   case Formulation::axisymmetric:
       form.AddDomainIntegrator(new AxisymmetricElasticityIntegrator(lambda_field, mu_field));
       break;
-   case Geometry::torsion:
+   case Formulation::torsion:
       form.AddDomainIntegrator(new TorsionIntegrator(mu_field));
       break;
    }
@@ -88,17 +88,18 @@ TEST(Assembly, IsThatOfTheIntegratorsOnElementsOfAnyShape)
    const std::vector<Material> materials{{2.0, 0.3}, {0.7, 0.45}};
    for (mfem::Mesh &mesh : meshes())
    {
-      for (auto geometry : {Geometry::plane, Geometry::axisymmetric, Geometry::torsion})
+      for (auto formulation :
+           {Formulation::plane, Formulation::axisymmetric, Formulation::torsion})
       {
          for (int order = 1; order <= 4; ++order)
          {
             mfem::H1_FECollection collection(order, 2);
-            mfem::FiniteElementSpace space(&mesh, &collection, components(geometry),
+            mfem::FiniteElementSpace space(&mesh, &collection, components(formulation),
                                            mfem::Ordering::byVDIM);
             const std::unique_ptr<mfem::SparseMatrix> K =
-               assemble_stiffness(space, materials, geometry);
+               assemble_stiffness(space, materials, formulation);
             const MatrixXd D = dense(*K);
-            EXPECT_LT(difference(D, by_bilinear_form(space, materials, geometry)), 1e-13);
+            EXPECT_LT(difference(D, by_bilinear_form(space, materials, formulation)), 1e-13);
             EXPECT_EQ(D, D.transpose());
          }
       }
@@ -119,7 +120,7 @@ TEST(Assembly, ElementsThatAreNearlyParallelogramsAreNoneOfThem)
       {
          mfem::H1_FECollection collection(order, 2);
          mfem::FiniteElementSpace space(&mesh, &collection, 2, mfem::Ordering::byVDIM);
-         const auto K = assemble_stiffness(space, materials, Geometry::plane);
+         const auto K = assemble_stiffness(space, materials, Formulation::plane);
          mfem::VectorFunctionCoefficient linear(2,
                                                 [](const mfem::Vector &x, mfem::Vector &u)
                                                 {
@@ -153,8 +154,8 @@ TEST(Assembly, DoesNotDependOnWhereTheBodyIs)
       mfem::H1_FECollection collection(2, 2);
       mfem::FiniteElementSpace space(&mesh, &collection, 2, mfem::Ordering::byVDIM);
       const std::unique_ptr<mfem::SparseMatrix> K =
-         assemble_stiffness(space, materials, Geometry::plane);
-      EXPECT_LT(difference(dense(*K), by_bilinear_form(space, materials, Geometry::plane)),
+         assemble_stiffness(space, materials, Formulation::plane);
+      EXPECT_LT(difference(dense(*K), by_bilinear_form(space, materials, Formulation::plane)),
                 1e-13 + 1e-15 * far);
    }
 }

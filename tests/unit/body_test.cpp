@@ -35,7 +35,7 @@ double moment(const ElasticBody &body, int pattern = 0)
    {
       const int fx = body.true_dof(node, 0), fy = body.true_dof(node, 1);
       if (fx < 0) { continue; }
-      const mfem::Vector &f = body.patterns()[pattern].values;
+      const Eigen::VectorXd &f = body.patterns()[pattern].values;
       sum += x(0, node) * f(fy) - x(1, node) * f(fx);
    }
    return sum;
@@ -125,7 +125,7 @@ TEST(Body, LoadsThatVaryAreIntegratedExactly)
    }
    // Two components are not for a body that has but one.
    mfem::Mesh mesh = block("quads");
-   ElasticBody shaft(mesh, 1, Material{}, Geometry::torsion), plane(mesh, 1, Material{});
+   ElasticBody shaft(mesh, 1, Material{}, Formulation::torsion), plane(mesh, 1, Material{});
    expect_input_error([&] { shaft.add_traction("t", 2, 1.0, 1.0); },
                       "component is 1, must be 0 (twist)");
    expect_input_error([&] { shaft.add_pressure("p", 2, 1.0); },
@@ -135,8 +135,8 @@ TEST(Body, LoadsThatVaryAreIntegratedExactly)
    EXPECT_TRUE(shaft.patterns().empty());
    // What begins close to the axis is not on it.
    mfem::Mesh pipe = rectangle_mesh({1e-6, 0.5, 1}, {0, 1});
-   EXPECT_EQ(ElasticBody(pipe, 1, Material{}, Geometry::axisymmetric).essential_dofs().Size(),
-             0);
+   EXPECT_EQ(
+      ElasticBody(pipe, 1, Material{}, Formulation::axisymmetric).essential_dofs().Size(), 0);
 }
 
 TEST(Body, LoadsOfOnePatternAdd)

@@ -1,5 +1,5 @@
 #include "elastic_support.hpp"
-#include <cattaneo/condense/applied_reduction.hpp>
+#include <cattaneo/contact/applied_reduction.hpp>
 
 namespace
 {
@@ -87,7 +87,7 @@ TEST_P(Condensation, AgreesWithExplicitStaticReduction)
    ASSERT_EQ(condensed.patterns.size(), body.patterns().size());
    for (std::size_t k = 0; k < body.patterns().size(); ++k)
    {
-      const VectorXd values = eigen(body.patterns()[k].values);
+      const VectorXd values = body.patterns()[k].values;
       VectorXd clamped;
       if (body.patterns()[k].control == Control::force)
       {
@@ -126,7 +126,7 @@ TEST_P(Condensation, RecoversTheFieldAndTheConjugatesOfTheLoads)
    VectorXd U = VectorXd::Zero(s.K.rows()), F = U;
    for (std::size_t k = 0; k < body.patterns().size(); ++k)
    {
-      const VectorXd values = multipliers[k] * eigen(body.patterns()[k].values);
+      const VectorXd values = multipliers[k] * body.patterns()[k].values;
       (body.patterns()[k].control == Control::force ? F : U) += values;
    }
    U(s.C) = s.R.transpose() * u;
@@ -136,7 +136,7 @@ TEST_P(Condensation, RecoversTheFieldAndTheConjugatesOfTheLoads)
    U(s.I) = interior;
    const VectorXd residual = s.K * U - F; // reactions and contact forces
 
-   const VectorXd recovered = eigen(condensed.recover(u, multipliers));
+   const VectorXd recovered = condensed.recover(u, multipliers);
    EXPECT_LT(difference(recovered, U), 1e-11);
    EXPECT_LT((s.K * recovered - F)(s.I).cwiseAbs().maxCoeff(),
              1e-12 * s.K.cwiseAbs().maxCoeff());
@@ -155,7 +155,7 @@ TEST_P(Condensation, RecoversTheFieldAndTheConjugatesOfTheLoads)
    {
       VectorXd f_k(2 * line.size());
       f_k << condensed.patterns[k].q, condensed.patterns[k].p;
-      const VectorXd values = eigen(body.patterns()[k].values);
+      const VectorXd values = body.patterns()[k].values;
       const bool force = body.patterns()[k].control == Control::force;
       const double conjugate =
          force ? values.dot(U) : VectorXd(values(s.D)).dot(VectorXd(residual(s.D)));
@@ -223,8 +223,7 @@ TEST(Condensation, RefusesWhatNothingHolds)
 
    // One contact node holds two motions; the body can still turn about it.
    ContactLine one = contact_line(body, 1);
-   one.scalar_dofs.resize(1);
-   one.true_dofs.resize(1);
+   one.dofs.resize(1);
    for (MatrixXd *m : {&one.position, &one.tangent, &one.normal})
    {
       m->conservativeResize(1, Eigen::NoChange);
@@ -293,7 +292,7 @@ TEST(Condensation, SaysWhichNodeAndWhichSettingIsWrong)
       else { EXPECT_NO_THROW(condense(body, line, settings)); }
    }
    ContactLine torn = line;
-   torn.true_dofs.pop_back();
+   torn.dofs.pop_back();
    expect_input_error([&] { condense(body, torn); }, "has 5 nodes and 4 pairs of dofs");
    // Both ends are fixed along y: the first is named.
    body.fix({{2, 4}, 1, -1.0, 0.1}, 1);
@@ -304,7 +303,7 @@ TEST(Condensation, SaysWhichNodeAndWhichSettingIsWrong)
          condense(body, contact_line(body, {{1}, 0, 0.4, 2.0}));
       },
       "component y of the contact node at (2, 0) is fixed");
-   const ElasticBody shaft(mesh, 1, Material{}, Geometry::torsion);
+   const ElasticBody shaft(mesh, 1, Material{}, Formulation::torsion);
    expect_input_error([&] { apply_reduction(shaft, contact_line(shaft, 1), 0.0, {}, nullptr); },
                       "must be plane or axisymmetric");
 }
@@ -350,7 +349,6 @@ TEST(Condensation, SecondOfTwoEqualBodiesFactorsNothing)
    CondensedBody second = condense(turned, contact_line(turned, 1), {}, &first);
    EXPECT_EQ(first.counters.factorisations, 1);
    EXPECT_EQ(second.counters.factorisations, 0);
-   EXPECT_EQ(first.op, second.op);
    const CondensedBody alone = condense(turned, contact_line(turned, 1));
    EXPECT_LT(difference(second.S, alone.S), 1e-12);
    EXPECT_LT(difference(second.patterns[0].p, alone.patterns[0].p), 1e-12);
@@ -378,10 +376,10 @@ TEST(Condensation, ASlightlyStifferBodyFactorsItsOwn)
       return condense(body, contact_line(body, touching), {}, alike);
    };
    const CondensedBody first = condensed(1, -1, 1, nullptr);
-   const auto shares = [&](const CondensedBody &other)
+   const auto shares = [](const CondensedBody &other)
    {
-      EXPECT_EQ(other.counters.factorisations, other.op == first.op ? 0 : 1);
-      return other.op == first.op;
+      EXPECT_LE(other.counters.factorisations, 1);
+      return other.counters.factorisations == 0;
    };
    // The stiffest diagonal entry, and the stiffness along x of a corner.
    int stiffest = 0;
@@ -408,15 +406,15 @@ TEST(Condensation, ASlightlyStifferBodyFactorsItsOwn)
    const CondensedBody left = condensed(1, -1, {{1}, 0, 0.0, 1.5}, nullptr),
                        right = condensed(1, -1, {{1}, 0, 0.5, 2.0}, &left);
    EXPECT_EQ(right.S.rows(), left.S.rows());
-   EXPECT_NE(right.op, left.op);
+   EXPECT_FALSE(shares(right));
    // In torsion a shorter line of the same first nodes is the beginning of the longer one.
-   const ElasticBody shaft(mesh, 2, Material{}, Geometry::torsion);
+   const ElasticBody shaft(mesh, 2, Material{}, Formulation::torsion);
    const auto twisted = [&](double to, const CondensedBody *alike) {
       return condense(shaft, contact_line(shaft, {{1}, 0, 0.0, to}), {}, alike);
    };
    const CondensedBody all = twisted(2.0, nullptr);
-   EXPECT_EQ(twisted(2.0, &all).op, all.op);
-   EXPECT_NE(twisted(1.0, &all).op, all.op);
+   EXPECT_TRUE(shares(twisted(2.0, &all)));
+   EXPECT_FALSE(shares(twisted(1.0, &all)));
    EXPECT_LT(difference(right.S, condensed(1, -1, {{1}, 0, 0.5, 2.0}, nullptr).S), 1e-15);
 }
 
@@ -615,7 +613,7 @@ TEST(Condensation, WorkOfLoadsAndContactForcesIsElasticEnergy)
       {
          force = condensed.S * u + f * m;
          conjugate = condensed.H * m - sign.cwiseProduct(f.transpose() * u);
-         const VectorXd U = eigen(condensed.recover(u, m));
+         const VectorXd U = condensed.recover(u, m);
          return 0.5 * U.dot(K * U);
       };
       VectorXd f0, f1, g0, g1;
@@ -652,7 +650,7 @@ TEST(SparseFactor, SolvesAndReadsTheSchurComplement)
       for (auto backend : {Backend::automatic, Backend::eigen})
       {
          const double shift = trailing > 0 ? 0.7 : 0.0;
-         const SparseFactor factor(body.stiffness(), keep, trailing, shift, backend);
+         const SparseFactor factor(view(body.stiffness()), keep, trailing, shift, backend);
          MatrixXd shifted = kept;
          shifted.diagonal().tail(trailing).array() += shift;
          const int m = n - trailing;
@@ -680,18 +678,18 @@ TEST(SparseFactor, NamesTheBadRow)
    {
       try
       {
-         SparseFactor(K, {5, 4, 3, 2, 1}, 2, 0.0, backend);
+         SparseFactor(view(K), {5, 4, 3, 2, 1}, 2, 0.0, backend);
          ADD_FAILURE();
       }
       catch (const NotPositiveDefinite &error)
       {
          EXPECT_EQ(error.row, 4);
       }
-      EXPECT_THROW(SparseFactor(K, {0, 0}, 0, 0.0, backend), InputError);
-      EXPECT_THROW(SparseFactor(K, {7}, 0, 0.0, backend), InputError);
-      EXPECT_THROW(SparseFactor(K, {}, 0, 0.0, backend), InputError);
-      EXPECT_THROW(SparseFactor(K, {0}, 2, 0.0, backend), InputError);
-      EXPECT_THROW(SparseFactor(K, {0}, 0, std::nan(""), backend), InputError);
+      EXPECT_THROW(SparseFactor(view(K), {0, 0}, 0, 0.0, backend), InputError);
+      EXPECT_THROW(SparseFactor(view(K), {7}, 0, 0.0, backend), InputError);
+      EXPECT_THROW(SparseFactor(view(K), {}, 0, 0.0, backend), InputError);
+      EXPECT_THROW(SparseFactor(view(K), {0}, 2, 0.0, backend), InputError);
+      EXPECT_THROW(SparseFactor(view(K), {0}, 0, std::nan(""), backend), InputError);
    }
 }
 
@@ -709,8 +707,9 @@ TEST(SparseFactor, SaysWhatIsWrongWithItsInput)
    for (auto backend : {Backend::automatic, Backend::eigen})
    {
       const auto refused = [&](const mfem::SparseMatrix &matrix, const std::vector<int> &keep,
-                               int trailing, double shift, const char *said) {
-         expect_input_error([&] { SparseFactor(matrix, keep, trailing, shift, backend); },
+                               int trailing, double shift, const char *said)
+      {
+         expect_input_error([&] { SparseFactor(view(matrix), keep, trailing, shift, backend); },
                             said);
       };
       refused(K, {0, 4}, 0, 0, "row 4 to keep, must be from 0 to 3");
@@ -718,23 +717,23 @@ TEST(SparseFactor, SaysWhatIsWrongWithItsInput)
       refused(K, {1, 2, 1}, 0, 0, "row 1 is to be kept twice");
       refused(K, {0}, -1, 0, "-1 trailing rows, must be from 0 to 1");
       refused(K, {0}, 1, -1, "shift is -1");
-      refused(oblong, {0}, 0, 0, "the matrix (2×3) must be square and finalized");
-      refused(open, {0}, 0, 0, "must be square and finalized");
+      refused(oblong, {0}, 0, 0, "the matrix (2×3) must be square");
+      refused(open, {0}, 0, 0, "the matrix (4×4) is not finalized");
       refused(broken, {1, 2}, 0, 0, "entry (2, 2) of the matrix is nan");
-      EXPECT_NO_THROW(SparseFactor(broken, {1, 3}, 0, 0, backend));
+      EXPECT_NO_THROW(SparseFactor(view(broken), {1, 3}, 0, 0, backend));
       // Without stiffness is not positive either.
       try
       {
-         SparseFactor(singular, {3, 1, 0, 2}, 1, 0.0, backend);
+         SparseFactor(view(singular), {3, 1, 0, 2}, 1, 0.0, backend);
          ADD_FAILURE();
       }
       catch (const NotPositiveDefinite &error)
       {
          EXPECT_EQ(error.row, 2);
       }
-      EXPECT_NEAR(SparseFactor(singular, {3, 1, 0, 2}, 1, 0.5, backend).schur()(0, 0), 0,
+      EXPECT_NEAR(SparseFactor(view(singular), {3, 1, 0, 2}, 1, 0.5, backend).schur()(0, 0), 0,
                   1e-15);
-      const SparseFactor factor(K, {2, 3}, 1, 0, backend);
+      const SparseFactor factor(view(K), {2, 3}, 1, 0, backend);
       expect_input_error([&] { factor.solve(MatrixXd::Ones(3, 1)); },
                          "right-hand sides of 3 rows for a factor of 2");
       EXPECT_LT((factor.solve(MatrixXd::Ones(2, 1)) - Eigen::Vector2d(1.0 / 3, 0.25)).norm(),

@@ -122,7 +122,7 @@ TEST(ContactLine, IsOrderedWhateverTheNumberingAndOrientation)
          EXPECT_LT(difference(line.arc_length, expected.arc_length), 1e-15);
          EXPECT_LT(difference(line.weights, expected.weights), 1e-14);
          body.add_pressure("press", BoundaryPart({1, 2, 3, 4}), 1.0);
-         EXPECT_NEAR(eigen(body.patterns()[0].values).sum(), 0.0, 1e-13);
+         EXPECT_NEAR(body.patterns()[0].values.sum(), 0.0, 1e-13);
       }
    }
 }
@@ -270,7 +270,7 @@ TEST(ContactLine, ChainsThatEndOnTheAxisStandBesideOthers)
       outwards{LineEnd::smooth, LineEnd::corner};
    for (int order : {1, 2})
    {
-      ElasticBody disc(mesh, order, Material{}, Geometry::axisymmetric);
+      ElasticBody disc(mesh, order, Material{}, Formulation::axisymmetric);
       const ContactLine line = contact_line(disc, 5);
       ASSERT_EQ(line.chains.size(), 2u);
       ASSERT_EQ(line.size(), 5 * order + 1);
@@ -371,7 +371,7 @@ TEST(ContactLine, CurvedFramesAreThoseOfTheCircle)
                      std::atan2(inner.position(i, 0), inner.position(i, 1)), 1e-10);
       }
       body.add_pressure("bore", 1, 1.0);
-      const VectorXd f = eigen(body.patterns()[0].values);
+      const VectorXd f = body.patterns()[0].values;
       double fx = 0;
       for (int node = 0; node < body.node_coordinates().Width(); ++node)
       {
@@ -793,7 +793,7 @@ TEST(ContactLine, LoopsAndTheAxisHaveNoEnds)
    EXPECT_EQ(around.chains[0].nodes, around.size());
    EXPECT_EQ(around.chains[0].ends[0], LineEnd::smooth);
    // About an axis at r = 0, whose node is no contact node.
-   ElasticBody disc(mesh, 2, Material{}, Geometry::axisymmetric);
+   ElasticBody disc(mesh, 2, Material{}, Formulation::axisymmetric);
    const ContactLine bottom = contact_line(disc, 1);
    EXPECT_EQ(bottom.chains[0].ends[0], LineEnd::axis);
    EXPECT_EQ(bottom.chains[0].ends[1], LineEnd::corner);
@@ -892,8 +892,8 @@ TEST(ContactLine, OtherEndsWithinALineOfTheOtherBodyAndOfLoops)
    // One linear element from the axis has one contact node. Of the other body's it is both the
    // end at the axis and the one from which the body goes on.
    mfem::Mesh pin = rectangle_mesh({0, 1}, {0, 1}), pad = rectangle_mesh({0, 1, 2}, {-1, 0});
-   ElasticBody narrow(pin, 1, Material{}, Geometry::axisymmetric),
-      wide(pad, 1, Material{}, Geometry::axisymmetric);
+   ElasticBody narrow(pin, 1, Material{}, Formulation::axisymmetric),
+      wide(pad, 1, Material{}, Formulation::axisymmetric);
    wide.fix(1, 1);
    narrow.fix(3, 1);
    const CondensedBody a = condense(narrow, contact_line(narrow, 1)),
@@ -904,8 +904,8 @@ TEST(ContactLine, OtherEndsWithinALineOfTheOtherBodyAndOfLoops)
    EXPECT_EQ(up.problem.chains[0].other_ends, ends(LineEnd::axis, LineEnd::axis));
    mfem::Mesh turned = rectangle_mesh({0, 1, 2}, {0, 1}),
               below_it = rectangle_mesh({0, 1}, {-1, 0});
-   ElasticBody wide_above(turned, 1, Material{}, Geometry::axisymmetric),
-      narrow_below(below_it, 1, Material{}, Geometry::axisymmetric);
+   ElasticBody wide_above(turned, 1, Material{}, Formulation::axisymmetric),
+      narrow_below(below_it, 1, Material{}, Formulation::axisymmetric);
    wide_above.fix(3, 1);
    narrow_below.fix(1, 1);
    const CondensedBody c = condense(narrow_below, contact_line(narrow_below, 3)),

@@ -2,10 +2,11 @@
 #include "random_problem.hpp"
 #include "stress/enumeration.hpp"
 
-#include <cattaneo/condense/reduction.hpp>
+#include <cattaneo/contact/condense_body.hpp>
 #include <cattaneo/elastic/graded_mesh.hpp>
 #include <cattaneo/friction/critical_friction.hpp>
 #include <cattaneo/friction/march.hpp>
+#include <cattaneo/reduced/reduction.hpp>
 #include <gtest/gtest.h>
 
 namespace

@@ -3,8 +3,10 @@
 #include "expect_input_error.hpp"
 
 #include <Eigen/Dense>
-#include <cattaneo/condense/reduction.hpp>
+#include <cattaneo/contact/condense_body.hpp>
 #include <cattaneo/elastic/graded_mesh.hpp>
+#include <cattaneo/elastic/views.hpp>
+#include <cattaneo/reduced/reduction.hpp>
 #include <cmath>
 #include <mfem.hpp>
 #include <random>
@@ -35,11 +37,6 @@ inline MatrixXd dense(const mfem::SparseMatrix &K)
       }
    }
    return D;
-}
-
-inline VectorXd eigen(const mfem::Vector &x)
-{
-   return Eigen::Map<const VectorXd>(x.GetData(), x.Size());
 }
 
 inline std::vector<double> uniform(double from, double to, int n)
@@ -115,7 +112,7 @@ struct Split
       }
       for (int c = 0; c < 2; ++c)
       {
-         for (const auto &dofs : line.true_dofs)
+         for (const auto &dofs : line.dofs)
          {
             C.push_back(dofs[c]);
             kind[dofs[c]] = 2;

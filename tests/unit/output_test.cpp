@@ -1,13 +1,14 @@
 #include "expect_input_error.hpp"
 #include "small_problems.hpp"
 
-#include <cattaneo/condense/reduction.hpp>
+#include <cattaneo/contact/condense_body.hpp>
 #include <cattaneo/elastic/graded_mesh.hpp>
 #include <cattaneo/elastic/stress.hpp>
 #include <cattaneo/friction/march.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/output/history.hpp>
 #include <cattaneo/output/paraview.hpp>
+#include <cattaneo/reduced/reduction.hpp>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -660,8 +661,8 @@ TEST_F(Output, FieldsOfBodiesOfRevolutionHaveTheirNames)
    const Material material{2.6, 0.3}; // μ = 1, λ = 1.5
    // u_r = r z, u_z = r²: σ_rr = σ_θθ = 5 z, σ_zz = 3 z, τ_rz = 3 r; twist r z: τ_rθ = r z,
    // τ_θz = r².
-   const ElasticBody body(mesh, 2, material, Geometry::axisymmetric),
-      torsion(mesh, 2, material, Geometry::torsion);
+   const ElasticBody body(mesh, 2, material, Formulation::axisymmetric),
+      torsion(mesh, 2, material, Formulation::torsion);
    const auto dofs = [](const ElasticBody &of, const auto &value)
    {
       mfem::Vector u(of.space().GetTrueVSize());

@@ -278,7 +278,8 @@ TEST(Limit, IsNoneWhereAnySlipIsHeld)
 TEST(Limit, MayLieFarBeyondGrossSliding)
 {
    // Shear between 0 and λ, p = 1 - b v with f b = 1 - 2^-20: the slip -x holds the unloaded
-   // node if x ≤ f (1 + b x), and the loaded one if λ - x ≤ f (1 + b x). So λ = 2 f / (1 - f b).
+   // node if x ≤ f (1 + b x), and the loaded one if λ - x ≤ f (1 + b x). So λ = 2 f / (1 - f
+   // b).
    const double small = std::ldexp(1, -20);
    const ReducedProblem problem = one_node(-0.5, 2 * (1 - small), 1);
    const LimitReport report =

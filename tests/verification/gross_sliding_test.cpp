@@ -1,8 +1,9 @@
 // A free block slides when the shear reaches f P, whatever its elasticity: equilibrium alone
 // says so.
 
-#include <cattaneo/condense/reduction.hpp>
+#include <cattaneo/contact/condense_body.hpp>
 #include <cattaneo/friction/march.hpp>
+#include <cattaneo/reduced/reduction.hpp>
 #include <gtest/gtest.h>
 
 namespace

@@ -1,10 +1,11 @@
 #include "common/disc_scene.hpp"
 
 #include <algorithm>
-#include <cattaneo/condense/reduction.hpp>
+#include <cattaneo/contact/condense_body.hpp>
 #include <cattaneo/elastic/graded_mesh.hpp>
 #include <cattaneo/friction/friction_solver.hpp>
 #include <cattaneo/friction/zones.hpp>
+#include <cattaneo/reduced/reduction.hpp>
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -45,12 +46,12 @@ struct HalfSpace
       for (double &z : depth) { z *= grid.length; }
       return half_space_mesh(contact, depth, ring_scales(1.0, 1e5, first, 1.25));
    }
-   HalfSpace(const Grid &grid, Geometry geometry)
-      : mesh(make(grid)), body(mesh, grid.order, {grid.young, grid.poisson}, geometry)
+   HalfSpace(const Grid &grid, Formulation formulation)
+      : mesh(make(grid)), body(mesh, grid.order, {grid.young, grid.poisson}, formulation)
    {
       const BoundaryPart far({3, 4});
       body.fix(far, 0);
-      if (geometry == Geometry::axisymmetric)
+      if (formulation == Formulation::axisymmetric)
       {
          body.add_displacement("approach", far, 1, 1.0);
       }
@@ -63,7 +64,8 @@ struct HalfSpace
 /// Sagoci), each minus one.
 Eigen::Array3d punch_errors(const Grid &grid)
 {
-   const HalfSpace pressed(grid, Geometry::axisymmetric), twisted(grid, Geometry::torsion);
+   const HalfSpace pressed(grid, Formulation::axisymmetric),
+      twisted(grid, Formulation::torsion);
    const CondensedBody &body = pressed.condensed, &torsion = twisted.condensed;
    const Index n = body.line.size();
    const MatrixXd A = body.S.topLeftCorner(n, n), B = body.S.bottomLeftCorner(n, n),
@@ -105,14 +107,14 @@ TEST(HalfSpace, FlatPunchesConvergeWithTheSpacing)
 
 TEST(HalfSpace, StiffnessScalesWithTheUnits)
 {
-   for (auto geometry : {Geometry::axisymmetric, Geometry::torsion})
+   for (auto formulation : {Formulation::axisymmetric, Formulation::torsion})
    {
       Grid grid;
       grid.elements = 8;
-      const HalfSpace one(grid, geometry);
+      const HalfSpace one(grid, formulation);
       grid.length = 1e-9;
       grid.young = 2.1e11;
-      const HalfSpace other(grid, geometry);
+      const HalfSpace other(grid, formulation);
       const MatrixXd S = other.condensed.S / (grid.length * grid.young);
       EXPECT_LT((S - one.condensed.S).cwiseAbs().maxCoeff(),
                 1e-11 * one.condensed.S.cwiseAbs().maxCoeff());
@@ -133,7 +135,7 @@ struct Hertz
    {
       grid.order = order;
       grid.elements = elements;
-      HalfSpace space(grid, Geometry::axisymmetric);
+      HalfSpace space(grid, Formulation::axisymmetric);
       Reduction reduction =
          reduce(space.condensed, [&](double x, double) { return x * x / (2 * sphere); });
       const ReducedProblem &problem = reduction.problem;
@@ -148,7 +150,7 @@ struct Hertz
       // The line of a body below runs to the axis.
       const double end = problem.arc_length[0];
       found_radius = 1 + end - contact_zone(problem, state).from.position;
-      const mfem::Vector u = reduction.displacement(0, state.v, state.w, multiplier);
+      const VectorXd u = reduction.displacement(0, state.v, state.w, multiplier);
       const mfem::DenseMatrix &x = space.body.node_coordinates();
       for (int node = 0; node < x.Width(); ++node)
       {

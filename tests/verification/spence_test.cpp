@@ -1,8 +1,9 @@
 #include <algorithm>
-#include <cattaneo/condense/reduction.hpp>
+#include <cattaneo/contact/condense_body.hpp>
 #include <cattaneo/elastic/graded_mesh.hpp>
 #include <cattaneo/friction/march.hpp>
 #include <cattaneo/friction/zones.hpp>
+#include <cattaneo/reduced/reduction.hpp>
 #include <gtest/gtest.h>
 
 // Spence (1968): pressed monotonically on an elastic half-space with friction, a rigid flat
@@ -22,7 +23,7 @@ Reduction pressed(const std::vector<double> &contact, double smallest)
 {
    mfem::Mesh mesh = half_space_mesh(contact, graded(0, 1, smallest, 1.25),
                                      ring_scales(1.0, 1e5, smallest, 1.25));
-   ElasticBody body(mesh, 2, Material{1.0, 0.3}, Geometry::axisymmetric);
+   ElasticBody body(mesh, 2, Material{1.0, 0.3}, Formulation::axisymmetric);
    const BoundaryPart far({3, 4});
    body.fix(far, 0);
    body.add_displacement("approach", far, 1, 1.0);

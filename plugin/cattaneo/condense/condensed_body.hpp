@@ -1,12 +1,28 @@
 #pragma once
 
-#include <cattaneo/condense/sparse_factor.hpp>
-#include <cattaneo/contact/contact_line.hpp>
+#include <cattaneo/condense/contact_line.hpp>
+#include <cattaneo/condense/free_motions.hpp>
 #include <cattaneo/counters.hpp>
-#include <cattaneo/elastic/body.hpp>
+#include <memory>
 
 namespace cattaneo
 {
+
+/// The way back from the contact nodes of a condensed body to all of it. All in global
+/// components.
+class BodySolver
+{
+public:
+   virtual ~BodySolver() = default;
+   /// Displacements of all dofs (of this rank's, if the body is on several) for those of the
+   /// contact dofs and load multipliers.
+   virtual Eigen::VectorXd recover(const Eigen::VectorXd &contact,
+                                   const Eigen::VectorXd &multipliers,
+                                   Counters &counters) const = 0;
+   /// CondensedBody::error_estimate() of the stiffness S, which does not resist `motions`.
+   virtual double error(const Eigen::MatrixXd &S, const Eigen::MatrixXd &motions,
+                        Counters &counters) const = 0;
+};
 
 /** One body reduced to its contact nodes (thesis 3.2):  f = S u + Σ λ_k f_k, in the local
    frames of the contact line: u = {v; w}, f = {q; p}, all tangential entries first.
@@ -14,14 +30,12 @@ namespace cattaneo
     Of a torsion body: u = v = u_θ and f = q, circumferential, positive in the direction of the
    twist whatever the line's frames.
 
-
-    It keeps the sparse factor and what its loads need, but neither the ElasticBody nor the
-   mesh. */
+    Nothing of the program that assembled the body is kept but its matrix. */
 class CondensedBody
 {
 public:
    ContactLine line;
-   Geometry geometry = Geometry::plane;
+   Formulation formulation = Formulation::plane;
    Eigen::MatrixXd S;                 ///< 2n × 2n (torsion: n × n), symmetric
    std::vector<LoadPattern> patterns; ///< f_k, by name (torsion: p is empty)
    Eigen::MatrixXd H; ///< loads by loads with the contact clamped (see ReducedProblem::H)
@@ -32,9 +46,10 @@ public:
    Eigen::MatrixXd free_motions;
    Counters counters;
 
-   /// Displacement of all true dofs for contact displacements {v; w} of *this body* and load
-   /// multipliers (order of `patterns`). One solve with the kept factor.
-   mfem::Vector recover(const Eigen::VectorXd &u, const Eigen::VectorXd &multipliers);
+   /// Displacement of all dofs (of this rank's, if the body is on several) for contact
+   /// displacements {v; w} of *this body* and load multipliers (order of `patterns`). One solve
+   /// with the kept factor.
+   Eigen::VectorXd recover(const Eigen::VectorXd &u, const Eigen::VectorXd &multipliers);
 
    /** Relative error of S, an estimate from above by energies, see stiffness_error(); of a body
        condensed by conjugate gradients from S u against the action of the operator, in double
@@ -48,42 +63,40 @@ public:
    /// about the origin), axisymmetric 2n × 1 (z), torsion n × 1 (rotation).
    Eigen::MatrixXd rigid_motions() const;
 
-   struct Operator; ///< factor and dof lists, shared between equal bodies
-   std::shared_ptr<const Operator> op;
-   struct Loads; ///< right-hand sides and prescribed values of this body's patterns
-   std::shared_ptr<const Loads> loads;
+   std::shared_ptr<const BodySolver> solver; ///< shared by copies
 };
 
-struct CondenseSettings
+/// What load patterns do to a body whose contact nodes are clamped, in global components.
+struct ClampedLoads
 {
-   SparseFactor::Backend backend = SparseFactor::Backend::automatic;
-   /// Of a body on an mfem::ParMesh: with more dofs than this it is condensed by conjugate
-   /// gradients on all of them, below it is gathered and factored by the first. At the default
-   /// a factor takes some 1.4 GB (docs/ranks.md).
-   int direct_dofs = 500000;
-   /// apply_reduction() forms S nevertheless for up to this many contact nodes: it costs the
-   /// time of a few increments without it, but 40 × (2n)² bytes a rank (docs/ranks.md).
-   int formed_nodes = 5000;
-   /// Of conjugate gradients, for each right-hand side; an InputError beyond.
-   int max_iterations = 2000;
-
-   /// InputError naming the setting, its value and what is allowed.
-   void validate() const;
+   Eigen::MatrixXd forces;   ///< contact forces, one column a pattern
+   Eigen::MatrixXd response; ///< F_kᵀ K_II⁻¹ F_j of the patterns' interior forces
+   /// Work of pattern k's forces (or those of its motion) at the supports on the motion that
+   /// pattern j prescribes.
+   Eigen::MatrixXd reaction;
 };
 
-/** Condenses a body to the nodes of a contact line: one factorisation, contact dofs last, one
-   solve a load pattern. A distributed body is gathered on the first rank, or (see the settings)
-   condensed by one iterative solve for each contact dof and load pattern; the counters tell
-   which. Either way S and the loads have the same bits on all ranks. If `alike` was condensed
-   from an equal operator (entries equal to 1e-12 of the largest, same supports, same contact
-   dofs in the same order, as for the second of two equal bodies turned by 180° or shifted) its
-   factor is used and nothing is factored.
+/// What a solver finds of a body, in global components.
+struct Condensation
+{
+   Eigen::MatrixXd S;
+   FreeMotions free;
+   ClampedLoads clamped;
+   Counters counters;
+   std::shared_ptr<const BodySolver> solver;
+};
 
-    InputError, before factoring, if the supports and the contact nodes together leave a rigid
-   motion of the body (or of a part that is connected to nothing) free, or if a contact dof is
-   fixed or prescribed; afterwards if the operator is not positive definite. */
-CondensedBody condense(const ElasticBody &body, const ContactLine &line,
-                       const CondenseSettings &settings = {},
-                       const CondensedBody *alike = nullptr);
+/// The same in the frames of the contact line, freed of what round-off makes of rigid motions.
+/// Of `loads` names and controls alone are asked for.
+CondensedBody in_local_frames(const ContactLine &line, Formulation formulation,
+                              const std::vector<BodyLoad> &loads, Condensation found);
+
+/// Dofs of a contact line, {x; y} of all its nodes (torsion: the twist). InputError if there
+/// are none, or if they are not from 0 to dofs - 1.
+std::vector<int> contact_dofs(const ContactLine &line, Formulation formulation, int dofs);
+/// InputError that names the node, if positions in contact_dofs() are given of dofs that are
+/// fixed.
+void require_free(const ContactLine &line, Formulation formulation,
+                  const std::vector<int> &fixed);
 
 } // namespace cattaneo

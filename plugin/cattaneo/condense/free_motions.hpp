@@ -1,7 +1,6 @@
 #pragma once
 
-#include <cattaneo/condense/whole_body.hpp>
-#include <cattaneo/contact/contact_line.hpp>
+#include <cattaneo/condense/assembled_body.hpp>
 
 namespace cattaneo
 {
@@ -9,20 +8,14 @@ namespace cattaneo
 /// Rigid motions that the supports leave free.
 struct FreeMotions
 {
-   int count = 0;             ///< by geometry; those that K does not resist follow
+   int count = 0;             ///< by the supports; those that K does not resist follow
    Eigen::MatrixXd contact;   ///< at the contact dofs, one column a motion
    Eigen::MatrixXd resultant; ///< work of each pattern's forces (columns) on each motion
 };
 
-/// Of a whole body whose contact dofs are given. InputError if some motions are left with the
-/// contact nodes held as well. Motions that a user's operator resists (it has no material) are
-/// not free.
-FreeMotions find_free_motions(const WholeBody &body, bool has_material,
-                              const std::vector<int> &contact);
-
-/// Of a body on several ranks, taken for connected, from what holds it: the places of the
-/// supports and of the contact nodes. The same error.
-FreeMotions find_free_motions(const ElasticBody &body, const ContactLine &line);
+/// Of a body whose contact dofs are given. InputError if some motions are left with the contact
+/// nodes held as well.
+FreeMotions find_free_motions(const AssembledBody &body, const std::vector<int> &contact);
 
 /** What is known of a free body: rigid motions meet no resistance, and the clamped contact
     balances the loads. In exact arithmetic imposing it changes nothing. In floating point a

@@ -1,7 +1,8 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <cattaneo/contact/contact_line.hpp>
+#include <cattaneo/condense/contact_line.hpp>
+#include <cattaneo/formulation.hpp>
 
 namespace cattaneo
 {
@@ -28,10 +29,10 @@ struct FrameChange
       return {r.cwiseInverse(), {}, {}, {}};
    }
    /// Of the nodes of a contact line.
-   static FrameChange of(const ContactLine &line, Geometry geometry)
+   static FrameChange of(const ContactLine &line, Formulation formulation)
    {
-      return geometry == Geometry::torsion ? to_circumference(line.position.col(0))
-                                           : to_local(line.tangent, line.normal);
+      return formulation == Formulation::torsion ? to_circumference(line.position.col(0))
+                                                 : to_local(line.tangent, line.normal);
    }
    FrameChange transposed() const { return {a, c, b, d}; }
 

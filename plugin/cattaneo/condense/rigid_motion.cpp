@@ -3,7 +3,6 @@
 #include <cattaneo/dense_algebra.hpp>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace cattaneo
 {
@@ -11,9 +10,9 @@ namespace cattaneo
 Eigen::MatrixXd free_rigid_motions(const DofPlaces &places, const std::vector<int> &dofs,
                                    const std::vector<bool> &held)
 {
-   if (places.geometry != Geometry::plane)
+   if (places.formulation != Formulation::plane)
    {
-      const int last = components(places.geometry) - 1; // the component that moves
+      const int last = components(places.formulation) - 1; // the component that moves
       const auto moves = [&](int dof) { return places.component[dof] == last; };
       const bool holds = std::any_of(dofs.begin(), dofs.end(),
                                      [&](int dof) { return held[dof] && moves(dof); });
@@ -104,24 +103,22 @@ Eigen::MatrixXd free_rigid_motions(const DofPlaces &places, const std::vector<in
    return free;
 }
 
-Eigen::MatrixXd unresisted(const mfem::SparseMatrix &K, const std::vector<int> &dofs,
+Eigen::MatrixXd unresisted(const SparseView &K, const std::vector<int> &dofs,
                            const Eigen::MatrixXd &motions)
 {
    if (motions.cols() == 0) { return motions; }
-   std::vector<int> place(K.Height(), -1);
+   std::vector<int> place(K.rows(), -1);
    for (std::size_t k = 0; k < dofs.size(); ++k) { place[dofs[k]] = static_cast<int>(k); }
-   const int *I = K.GetI(), *J = K.GetJ();
-   const double *data = K.GetData();
    Eigen::MatrixXd forces(dofs.size(), motions.cols());
    double stiffness = 0.0;
    for (std::size_t k = 0; k < dofs.size(); ++k)
    {
       Eigen::RowVectorXd force = Eigen::RowVectorXd::Zero(motions.cols());
       double row = 0.0;
-      for (int e = I[dofs[k]]; e < I[dofs[k] + 1]; ++e)
+      for (SparseView::InnerIterator e(K, dofs[k]); e; ++e)
       {
-         force += data[e] * motions.row(place[J[e]]);
-         row += std::abs(data[e]);
+         force += e.value() * motions.row(place[e.col()]);
+         row += std::abs(e.value());
       }
       forces.row(k) = force;
       stiffness = std::max(stiffness, row);
@@ -141,43 +138,6 @@ Eigen::MatrixXd unresisted(const mfem::SparseMatrix &K, const std::vector<int> &
       result.col(k) = motions * modes.vectors.col(kept[k]);
    }
    return result;
-}
-
-std::vector<std::vector<int>> connected_parts(const mfem::SparseMatrix &K)
-{
-   const int n = K.Height();
-   const int *I = K.GetI(), *J = K.GetJ();
-   std::vector<int> parent(n);
-   std::iota(parent.begin(), parent.end(), 0);
-   const auto root = [&parent](int i)
-   {
-      while (parent[i] != i) { i = parent[i] = parent[parent[i]]; }
-      return i;
-   };
-   for (int i = 0; i < n; ++i)
-   {
-      for (int k = I[i]; k < I[i + 1]; ++k)
-      {
-         if (J[k] >= i) { continue; }
-         const int a = root(i), b = root(J[k]);
-         // The lower number leads, so that each group is led by its first row.
-         if (a < b) { parent[b] = a; }
-         else { parent[a] = b; }
-      }
-   }
-   std::vector<int> group(n, -1);
-   std::vector<std::vector<int>> parts;
-   for (int i = 0; i < n; ++i)
-   {
-      const int lead = root(i);
-      if (group[lead] < 0)
-      {
-         group[lead] = static_cast<int>(parts.size());
-         parts.emplace_back();
-      }
-      parts[group[lead]].push_back(i);
-   }
-   return parts;
 }
 
 } // namespace cattaneo

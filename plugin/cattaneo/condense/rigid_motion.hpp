@@ -1,8 +1,8 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <cattaneo/elastic/geometry.hpp>
-#include <mfem.hpp>
+#include <cattaneo/condense/shared_matrix.hpp>
+#include <cattaneo/formulation.hpp>
 #include <vector>
 
 namespace cattaneo
@@ -13,7 +13,7 @@ struct DofPlaces
 {
    Eigen::VectorXd x, y;
    std::vector<int> component;
-   Geometry geometry = Geometry::plane;
+   Formulation formulation = Formulation::plane;
 };
 
 /** Rigid motions of a set of dofs (plane: x, y, rotation; axisymmetric: along the axis;
@@ -26,10 +26,7 @@ Eigen::MatrixXd free_rigid_motions(const DofPlaces &places, const std::vector<in
 /// Of the given motions, an orthogonal set of combinations that K does not resist: a user's
 /// operator may contain elastic foundations. `motions` are columns over `dofs`, a union of
 /// whole components.
-Eigen::MatrixXd unresisted(const mfem::SparseMatrix &K, const std::vector<int> &dofs,
+Eigen::MatrixXd unresisted(const SparseView &K, const std::vector<int> &dofs,
                            const Eigen::MatrixXd &motions);
-
-/// Rows of K in connected groups (graph of non-zero entries), each sorted.
-std::vector<std::vector<int>> connected_parts(const mfem::SparseMatrix &K);
 
 } // namespace cattaneo

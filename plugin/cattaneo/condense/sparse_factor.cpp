@@ -33,22 +33,20 @@ struct LowerTriangle
    std::vector<double> value;
    int size = 0, trailing = 0;
 
-   LowerTriangle(const mfem::SparseMatrix &K, const std::vector<int> &keep, int trailing_rows,
+   LowerTriangle(const SparseView &K, const std::vector<int> &keep, int trailing_rows,
                  double shift)
       : size(static_cast<int>(keep.size())), trailing(trailing_rows)
    {
-      const int *I = K.GetI(), *J = K.GetJ();
-      const double *data = K.GetData();
-      std::vector<int> position(K.Height(), -1);
+      std::vector<int> position(K.rows(), -1);
       for (int a = 0; a < size; ++a)
       {
-         require(keep[a] >= 0 && keep[a] < K.Height(), "sparse factor: row ", keep[a],
-                 " to keep, must be from 0 to ", K.Height() - 1);
+         require(keep[a] >= 0 && keep[a] < K.rows(), "sparse factor: row ", keep[a],
+                 " to keep, must be from 0 to ", K.rows() - 1);
          require(position[keep[a]] < 0, "sparse factor: row ", keep[a], " is to be kept twice");
          position[keep[a]] = a;
       }
       start.resize(size + 1);
-      const std::size_t estimate = (static_cast<std::size_t>(K.NumNonZeroElems()) + size) / 2;
+      const std::size_t estimate = (static_cast<std::size_t>(K.nonZeros()) + size) / 2;
       row.reserve(estimate + size);
       value.reserve(estimate + size);
       for (int a = 0; a < size; ++a)
@@ -58,19 +56,19 @@ struct LowerTriangle
          row.push_back(a);
          value.push_back(added);
          const std::size_t diagonal = value.size() - 1;
-         for (int k = I[keep[a]]; k < I[keep[a] + 1]; ++k)
+         for (SparseView::InnerIterator entry(K, keep[a]); entry; ++entry)
          {
-            const int b = position[J[k]];
+            const int b = position[entry.col()];
             if (b < a) { continue; }
-            require(std::isfinite(data[k]), "sparse factor: entry (", keep[a], ", ", J[k],
-                    ") of the matrix is ", data[k], ", must be finite");
+            require(std::isfinite(entry.value()), "sparse factor: entry (", keep[a], ", ",
+                    entry.col(), ") of the matrix is ", entry.value(), ", must be finite");
             if (b == a)
             {
-               value[diagonal] += data[k];
+               value[diagonal] += entry.value();
                continue;
             }
             row.push_back(b);
-            value.push_back(data[k]);
+            value.push_back(entry.value());
          }
       }
       start[size] = static_cast<int>(row.size());
@@ -400,11 +398,11 @@ bool SparseFactor::has_cholmod()
 #endif
 }
 
-SparseFactor::SparseFactor(const mfem::SparseMatrix &K, const std::vector<int> &keep,
-                           int trailing, double shift, Backend backend)
+SparseFactor::SparseFactor(const SparseView &K, const std::vector<int> &keep, int trailing,
+                           double shift, Backend backend)
 {
-   require(K.Finalized() && K.Height() == K.Width(), "sparse factor: the matrix (", K.Height(),
-           "×", K.Width(), ") must be square and finalized");
+   require(K.rows() == K.cols(), "sparse factor: the matrix (", K.rows(), "×", K.cols(),
+           ") must be square");
    require(!keep.empty(), "sparse factor: there are no rows to factor");
    require(trailing >= 0 && trailing <= static_cast<int>(keep.size()),
            "sparse factor: ", trailing, " trailing rows, must be from 0 to ", keep.size());

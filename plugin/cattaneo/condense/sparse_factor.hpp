@@ -1,9 +1,9 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <cattaneo/condense/shared_matrix.hpp>
 #include <cattaneo/input_error.hpp>
 #include <memory>
-#include <mfem.hpp>
 #include <string>
 #include <vector>
 
@@ -45,8 +45,8 @@ public:
    /// of which the last `trailing` are the trailing ones. K is taken for symmetric: only one
    /// triangle is read, and K is not kept. Throws NotPositiveDefinite (an InputError) naming
    /// the row of K.
-   SparseFactor(const mfem::SparseMatrix &K, const std::vector<int> &keep, int trailing,
-                double shift, Backend backend = Backend::automatic);
+   SparseFactor(const SparseView &K, const std::vector<int> &keep, int trailing, double shift,
+                Backend backend = Backend::automatic);
    ~SparseFactor();
    SparseFactor(SparseFactor &&) noexcept;
    SparseFactor &operator=(SparseFactor &&) noexcept;

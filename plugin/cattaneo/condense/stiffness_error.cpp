@@ -69,7 +69,7 @@ double StiffnessProbes::bound(MatrixXd differences) const
    return 10 * std::sqrt(2 / std::acos(-1.0)) * differences.colwise().norm().maxCoeff();
 }
 
-double stiffness_error(const mfem::SparseMatrix &K, const std::vector<int> &keep, int contact,
+double stiffness_error(const SharedMatrix &stiffness, const std::vector<int> &keep, int contact,
                        double shift, const SparseFactor &factor, const MatrixXd &factored,
                        const MatrixXd &S, const MatrixXd &motions)
 {
@@ -83,25 +83,26 @@ double stiffness_error(const mfem::SparseMatrix &K, const std::vector<int> &keep
    const MatrixXd W = factor.solve(rhs); // its contact part is what is probed, u but for errors
 
    // K W in extended precision, and (δK) W.
-   std::vector<Index> position(K.Height(), -1);
+   const SparseView K = stiffness.view();
+   std::vector<Index> position(K.rows(), -1);
    for (Index a = 0; a < size; ++a) { position[keep[a]] = a; }
-   Eigen::VectorXd scale = Eigen::VectorXd::Zero(K.Height());
-   for (int i : keep) { scale[i] = std::sqrt(std::abs(K(i, i))); }
+   Eigen::VectorXd scale = Eigen::VectorXd::Zero(K.rows());
+   for (int i : keep) { scale[i] = std::sqrt(std::abs(stiffness.diagonal(i))); }
    Extended force = Extended::Zero(size, probes);
    MatrixXd change = MatrixXd::Zero(size, probes);
    const double unit = 2 * std::numeric_limits<double>::epsilon();
    for (Index a = 0; a < size; ++a)
    {
       const int i = keep[a];
-      for (int k = K.GetI()[i]; k < K.GetI()[i + 1]; ++k)
+      for (SparseView::InnerIterator entry(K, i); entry; ++entry)
       {
-         const int j = K.GetJ()[k];
+         const auto j = static_cast<int>(entry.col());
          const Index b = position[j];
          if (b < 0) { continue; }
          const double by = unit * noise(i, j) * scale[i] * scale[j];
          for (Index c = 0; c < probes; ++c)
          {
-            force(a, c) += static_cast<long double>(K.GetData()[k]) * W(b, c);
+            force(a, c) += static_cast<long double>(entry.value()) * W(b, c);
             change(a, c) += by * W(b, c);
          }
       }

@@ -39,15 +39,15 @@ private:
 
 /** The estimate for a stiffness read off a factor, of two errors together:
 
-    - elimination: S u against the action of K as it was given, W = {-K_II⁻¹ K_IC u; u} by the
-      factor, its residual in extended precision, and the residual's own forces by the factor
-      again;
+    - elimination: S u against the action of K, the stiffness as it was given, W = {-K_II⁻¹ K_IC
+   u; u} by the factor, its residual in extended precision, and the residual's own forces by the
+   factor again;
     - what K owes to its assembly in floating point: random changes of up to 2 ε √(K_ii K_jj) of
       every entry, seen at the contact.
 
     @a keep, @a contact, @a shift: as SparseFactor has them; @a factored: its schur(). Three
     right-hand sides are solved, twice, and a dense matrix of the size of S is factored. */
-double stiffness_error(const mfem::SparseMatrix &K, const std::vector<int> &keep, int contact,
+double stiffness_error(const SharedMatrix &stiffness, const std::vector<int> &keep, int contact,
                        double shift, const SparseFactor &factor,
                        const Eigen::MatrixXd &factored, const Eigen::MatrixXd &S,
                        const Eigen::MatrixXd &motions);

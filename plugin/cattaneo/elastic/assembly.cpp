@@ -104,11 +104,11 @@ private:
 
 const mfem::IntegrationRule &rule(const mfem::FiniteElement &element,
                                   const mfem::IsoparametricTransformation &transformation,
-                                  Geometry geometry)
+                                  Formulation formulation)
 {
-   if (geometry != Geometry::plane)
+   if (formulation != Formulation::plane)
    {
-      return rule_of_revolution(element, transformation, geometry);
+      return rule_of_revolution(element, transformation, formulation);
    }
    return mfem::IntRules.Get(element.GetGeomType(), 2 * transformation.OrderGrad(&element));
 }
@@ -121,8 +121,8 @@ public:
    MatrixXd block[2][2];
 
    Elements(const mfem::FiniteElementSpace &space, const std::vector<Material> &materials,
-            Geometry geometry)
-      : space_(space), mesh_(*space.GetMesh()), materials_(materials), geometry_(geometry)
+            Formulation formulation)
+      : space_(space), mesh_(*space.GetMesh()), materials_(materials), formulation_(formulation)
    {
    }
 
@@ -133,8 +133,8 @@ public:
       auto &kept = references_[element.GetGeomType()];
       if (!kept)
       {
-         kept = std::make_unique<ReferenceElement>(element, *transformation_.GetFE(),
-                                                   rule(element, transformation_, geometry_));
+         kept = std::make_unique<ReferenceElement>(
+            element, *transformation_.GetFE(), rule(element, transformation_, formulation_));
       }
       const ReferenceElement &reference = *kept;
       const mfem::DenseMatrix &points = transformation_.GetPointMat();
@@ -143,10 +143,13 @@ public:
       by_eta_.noalias() = corners * reference.place_by_eta;
       const Material &material = materials_[mesh_.GetAttribute(e) - 1];
       const double lambda = material.lambda(), mu = material.mu();
-      if (geometry_ == Geometry::plane && affine(corners)) { integrate_affine(reference); }
+      if (formulation_ == Formulation::plane && affine(corners))
+      {
+         integrate_affine(reference);
+      }
       else { integrate(reference, corners); }
 
-      if (geometry_ == Geometry::torsion)
+      if (formulation_ == Formulation::torsion)
       {
          block[0][0] = mu * (xx_ + yy_);
          mirror(block[0][0]);
@@ -155,7 +158,7 @@ public:
       block[0][0] = (lambda + 2 * mu) * xx_ + mu * yy_;
       block[1][1] = (lambda + 2 * mu) * yy_ + mu * xx_;
       block[0][1] = lambda * xy_ + mu * xy_.transpose();
-      if (geometry_ == Geometry::axisymmetric)
+      if (formulation_ == Formulation::axisymmetric)
       {
          block[0][0] += (lambda + 2 * mu) * hh_ + lambda * (xh_ + xh_.transpose());
          block[0][1] += lambda * hy_;
@@ -169,7 +172,7 @@ private:
    const mfem::FiniteElementSpace &space_;
    mfem::Mesh &mesh_;
    const std::vector<Material> &materials_;
-   const Geometry geometry_;
+   const Formulation formulation_;
    std::array<std::unique_ptr<ReferenceElement>, mfem::Geometry::NUM_GEOMETRIES> references_;
    mfem::IsoparametricTransformation transformation_;
    MatrixXd by_xi_, by_eta_; // of x and y (rows) at the points (columns)
@@ -222,7 +225,7 @@ private:
       gx_.resizeLike(reference.by_xi);
       gy_.resizeLike(reference.by_xi);
       VectorXd weight(points), radius;
-      if (geometry_ != Geometry::plane)
+      if (formulation_ != Formulation::plane)
       {
          radius = (corners.row(0) * reference.place).transpose();
          h_.resizeLike(reference.shape);
@@ -236,18 +239,21 @@ private:
          gy_.col(k) =
             (a / area) * reference.by_eta.col(k) - (b / area) * reference.by_xi.col(k);
          weight[k] = reference.weight[k] * area;
-         if (geometry_ == Geometry::plane) { continue; }
-         const double r = radius[k], arm = lever(geometry_, r);
-         weight[k] *= measure(geometry_, r) * arm * arm;
+         if (formulation_ == Formulation::plane) { continue; }
+         const double r = radius[k], arm = lever(formulation_, r);
+         weight[k] *= measure(formulation_, r) * arm * arm;
          h_.col(k) = reference.shape.col(k) / r;
       }
       weighted_.noalias() = gx_ * weight.asDiagonal();
       xx_.noalias() = weighted_ * gx_.transpose();
-      if (geometry_ != Geometry::torsion) { xy_.noalias() = weighted_ * gy_.transpose(); }
-      if (geometry_ == Geometry::axisymmetric) { xh_.noalias() = weighted_ * h_.transpose(); }
+      if (formulation_ != Formulation::torsion) { xy_.noalias() = weighted_ * gy_.transpose(); }
+      if (formulation_ == Formulation::axisymmetric)
+      {
+         xh_.noalias() = weighted_ * h_.transpose();
+      }
       weighted_.noalias() = gy_ * weight.asDiagonal();
       yy_.noalias() = weighted_ * gy_.transpose();
-      if (geometry_ == Geometry::axisymmetric)
+      if (formulation_ == Formulation::axisymmetric)
       {
          hy_.noalias() = h_ * weighted_.transpose();
          weighted_.noalias() = h_ * weight.asDiagonal();
@@ -260,10 +266,10 @@ private:
 
 std::unique_ptr<mfem::SparseMatrix> assemble_stiffness(const mfem::FiniteElementSpace &space,
                                                        const std::vector<Material> &materials,
-                                                       Geometry geometry)
+                                                       Formulation formulation)
 {
    const NodeGraph graph(space);
-   const int nodes = space.GetNDofs(), components = cattaneo::components(geometry);
+   const int nodes = space.GetNDofs(), components = cattaneo::components(formulation);
    const int size = components * nodes;
    const std::size_t entries = graph.column.size() * components * components;
    MFEM_VERIFY(entries <= static_cast<std::size_t>(std::numeric_limits<int>::max()),
@@ -287,7 +293,7 @@ std::unique_ptr<mfem::SparseMatrix> assemble_stiffness(const mfem::FiniteElement
    }
    auto K = std::make_unique<mfem::SparseMatrix>(I, J, data, size, size, true, true, true);
 
-   Elements elements(space, materials, geometry);
+   Elements elements(space, materials, formulation);
    mfem::Array<int> dofs;
    for (int e = 0; e < space.GetNE(); ++e)
    {

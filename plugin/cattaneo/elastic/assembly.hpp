@@ -1,7 +1,7 @@
 #pragma once
 
-#include <cattaneo/elastic/geometry.hpp>
 #include <cattaneo/elastic/material.hpp>
+#include <cattaneo/formulation.hpp>
 #include <memory>
 #include <mfem.hpp>
 #include <vector>
@@ -21,6 +21,6 @@ namespace cattaneo
     `materials`: by element attribute - 1; all attributes are taken to have one. */
 std::unique_ptr<mfem::SparseMatrix> assemble_stiffness(const mfem::FiniteElementSpace &space,
                                                        const std::vector<Material> &materials,
-                                                       Geometry geometry);
+                                                       Formulation formulation);
 
 } // namespace cattaneo

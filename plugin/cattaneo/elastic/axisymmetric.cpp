@@ -1,14 +1,14 @@
 #include <cattaneo/elastic/axisymmetric.hpp>
-#include <cattaneo/elastic/geometry.hpp>
+#include <cattaneo/formulation.hpp>
 
 namespace cattaneo
 {
 
 const mfem::IntegrationRule &
 rule_of_revolution(const mfem::FiniteElement &element,
-                   const mfem::ElementTransformation &transformation, Geometry geometry)
+                   const mfem::ElementTransformation &transformation, Formulation formulation)
 {
-   const int power = geometry == Geometry::torsion ? 3 : 1;
+   const int power = formulation == Formulation::torsion ? 3 : 1;
    return mfem::IntRules.Get(element.GetGeomType(),
                              2 * element.GetOrder() + (power + 1) * transformation.Order());
 }
@@ -24,7 +24,7 @@ void AxisymmetricElasticityIntegrator::AssembleElementMatrix(
    matrix.SetSize(2 * n);
    matrix = 0.0;
    const mfem::IntegrationRule &points =
-      rule_of_revolution(element, transformation, Geometry::axisymmetric);
+      rule_of_revolution(element, transformation, Formulation::axisymmetric);
    for (int k = 0; k < points.GetNPoints(); ++k)
    {
       const mfem::IntegrationPoint &point = points.IntPoint(k);
@@ -34,7 +34,7 @@ void AxisymmetricElasticityIntegrator::AssembleElementMatrix(
       element.CalcPhysDShape(transformation, gradient_);
       const double r = position_(0);
       const double weight =
-         point.weight * transformation.Weight() * measure(Geometry::axisymmetric, r);
+         point.weight * transformation.Weight() * measure(Formulation::axisymmetric, r);
       const double lambda = weight * lambda_.Eval(transformation, point);
       const double mu = weight * mu_.Eval(transformation, point);
       for (int j = 0; j < n; ++j)
@@ -60,8 +60,8 @@ double TorsionIntegrator::Weighted::Eval(mfem::ElementTransformation &transforma
                                          const mfem::IntegrationPoint &point)
 {
    transformation.Transform(point, position);
-   const double r = position(0), arm = lever(Geometry::torsion, r);
-   return G.Eval(transformation, point) * arm * arm * measure(Geometry::torsion, r);
+   const double r = position(0), arm = lever(Formulation::torsion, r);
+   return G.Eval(transformation, point) * arm * arm * measure(Formulation::torsion, r);
 }
 
 TorsionIntegrator::TorsionIntegrator(mfem::Coefficient &shear_modulus)
@@ -79,7 +79,7 @@ void TorsionIntegrator::AssembleElementMatrix(const mfem::FiniteElement &element
                                               mfem::ElementTransformation &transformation,
                                               mfem::DenseMatrix &matrix)
 {
-   SetIntRule(&rule_of_revolution(element, transformation, Geometry::torsion));
+   SetIntRule(&rule_of_revolution(element, transformation, Formulation::torsion));
    mfem::DiffusionIntegrator::AssembleElementMatrix(element, transformation, matrix);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cattaneo/elastic/geometry.hpp>
+#include <cattaneo/formulation.hpp>
 #include <memory>
 #include <mfem.hpp>
 
@@ -12,7 +12,7 @@ namespace cattaneo
 /// with parallel sides. Its points lie inside the element.
 const mfem::IntegrationRule &
 rule_of_revolution(const mfem::FiniteElement &element,
-                   const mfem::ElementTransformation &transformation, Geometry geometry);
+                   const mfem::ElementTransformation &transformation, Formulation formulation);
 
 /** Isotropic elasticity of a body of revolution, x = r and y = z, unknowns (u_r, u_z):
 

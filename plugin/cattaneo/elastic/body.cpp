@@ -3,6 +3,7 @@
 #include <cattaneo/elastic/body.hpp>
 #include <cattaneo/elastic/boundary_edge.hpp>
 #include <cattaneo/elastic/element_check.hpp>
+#include <cattaneo/elastic/views.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
 #include <type_traits>
@@ -47,17 +48,17 @@ const char *name(Control control)
 } // namespace
 
 ElasticBody::ElasticBody(mfem::Mesh &mesh, int order, const Material &material,
-                         Geometry geometry)
+                         Formulation formulation)
    : ElasticBody(mesh, order,
                  std::vector<Material>(
                     std::max(1, mesh.attributes.Size() ? mesh.attributes.Max() : 1), material),
-                 geometry)
+                 formulation)
 {
 }
 
 ElasticBody::ElasticBody(mfem::Mesh &mesh, int order, const std::vector<Material> &materials,
-                         Geometry geometry)
-   : geometry_(geometry), materials_(materials)
+                         Formulation formulation)
+   : formulation_(formulation), materials_(materials)
 {
    checked(mesh);
    checked_order(order);
@@ -66,7 +67,7 @@ ElasticBody::ElasticBody(mfem::Mesh &mesh, int order, const std::vector<Material
    for (const Material &material : materials_)
    {
       material.validate();
-      require(geometry == Geometry::plane || material.state == PlaneState::strain,
+      require(formulation == Formulation::plane || material.state == PlaneState::strain,
               "elastic body: a material is in plane stress, which a body of revolution is not");
    }
    for (int attribute : mesh.attributes)
@@ -95,8 +96,8 @@ ElasticBody::ElasticBody(mfem::Mesh &mesh, int order, const std::vector<Material
 }
 
 ElasticBody::ElasticBody(mfem::FiniteElementSpace &space, const mfem::SparseMatrix &stiffness,
-                         Geometry geometry)
-   : space_(&space), geometry_(geometry)
+                         Formulation formulation)
+   : space_(&space), formulation_(formulation)
 {
    checked(*space.GetMesh());
    require(
@@ -194,7 +195,7 @@ void ElasticBody::adopt_space()
 
 void ElasticBody::hold_axis()
 {
-   if (geometry_ == Geometry::plane) { return; }
+   if (formulation_ == Formulation::plane) { return; }
    // Round-off of the coordinates.
    for (int node = 0; node < space_->GetNDofs(); ++node)
    {
@@ -207,7 +208,7 @@ void ElasticBody::hold_axis()
       {
          const int dof = true_dof(node, 0);
          // u_θ = r ψ vanishes there by itself.
-         if (geometry_ == Geometry::axisymmetric && dof >= 0) { essential_[dof] = true; }
+         if (formulation_ == Formulation::axisymmetric && dof >= 0) { essential_[dof] = true; }
          continue;
       }
       require(coordinates_(0, node) > 0, "elastic body: node ", node,
@@ -218,22 +219,23 @@ void ElasticBody::hold_axis()
 
 bool ElasticBody::on_axis(int scalar_dof) const
 {
-   return geometry_ != Geometry::plane && std::abs(coordinates_(0, scalar_dof)) <= axis_radius_;
+   return formulation_ != Formulation::plane &&
+          std::abs(coordinates_(0, scalar_dof)) <= axis_radius_;
 }
 
 void ElasticBody::check_component(const std::string &where, int component) const
 {
    require(component >= 0 && component < components(), where, ": component is ", component,
            ", must be ",
-           geometry_ == Geometry::plane          ? "0 (x) or 1 (y)"
-           : geometry_ == Geometry::axisymmetric ? "0 (r) or 1 (z)"
-                                                 : "0 (twist)");
+           formulation_ == Formulation::plane          ? "0 (x) or 1 (y)"
+           : formulation_ == Formulation::axisymmetric ? "0 (r) or 1 (z)"
+                                                       : "0 (twist)");
 }
 
 void ElasticBody::assemble()
 {
    std::unique_ptr<mfem::SparseMatrix> local =
-      assemble_stiffness(*space_, materials_, geometry_);
+      assemble_stiffness(*space_, materials_, formulation_);
    ++counters_.assemblies;
 #ifdef MFEM_USE_MPI
    if (ranks_.distributed())
@@ -326,17 +328,16 @@ void ElasticBody::fix_node(double x, double y, int component)
    }
 }
 
-ElasticBody::Pattern &ElasticBody::load(const std::string &name_, Control control)
+BodyLoad &ElasticBody::load(const std::string &name_, Control control)
 {
-   for (Pattern &pattern : patterns_)
+   for (BodyLoad &pattern : patterns_)
    {
       if (pattern.name != name_) { continue; }
       require(pattern.control == control, "load pattern '", name_, "': is controlled by ",
               name(pattern.control), ", cannot be controlled by ", name(control), " as well");
       return pattern;
    }
-   patterns_.push_back({name_, control, mfem::Vector(space_->GetTrueVSize())});
-   patterns_.back().values = 0.0;
+   patterns_.push_back({name_, control, Eigen::VectorXd::Zero(space_->GetTrueVSize())});
    prescribed_.emplace_back();
    if (control == Control::displacement)
    {
@@ -347,14 +348,13 @@ ElasticBody::Pattern &ElasticBody::load(const std::string &name_, Control contro
 
 void ElasticBody::add_to_pattern(const std::string &name_, const mfem::Vector &local_forces)
 {
-   Pattern &pattern = load(name_, Control::force);
+   mfem::Vector forces = local_forces;
    if (const mfem::Operator *P = space_->GetProlongationMatrix())
    {
-      mfem::Vector forces(P->Width());
+      forces.SetSize(P->Width());
       P->MultTranspose(local_forces, forces);
-      pattern.values += forces;
    }
-   else { pattern.values += local_forces; }
+   load(name_, Control::force).values += view(forces);
 }
 
 template <class Density>
@@ -383,7 +383,8 @@ void ElasticBody::add_boundary_load(const std::string &pattern, const BoundaryPa
             mfem::IntegrationPoint ip;
             ip.Set1w(from + (to - from) * rule.IntPoint(k).x, 0.0);
             const double r = edge.point(ip.x)[0];
-            const double weight = (to - from) * rule.IntPoint(k).weight * measure(geometry_, r);
+            const double weight =
+               (to - from) * rule.IntPoint(k).weight * measure(formulation_, r);
             const std::array<double, 2> force = density(edge, ip.x, where);
             element.CalcShape(ip, shape);
             for (int a = 0; a < dofs.Size(); ++a)
@@ -432,14 +433,14 @@ void ElasticBody::add_traction(const std::string &pattern, const BoundaryPart &p
 void ElasticBody::add_traction(const std::string &pattern, const BoundaryPart &part,
                                const ScalarField &t)
 {
-   require(geometry_ == Geometry::torsion, "traction '", pattern,
+   require(formulation_ == Formulation::torsion, "traction '", pattern,
            "': one component is given, must be two unless the body is one of torsion");
    add_boundary_load(pattern, part, "traction",
                      [&t](BoundaryEdge &edge, double s, const std::string &where)
                      {
                         const auto x = edge.point(s), d = edge.derivative(s);
                         return std::array<double, 2>{std::hypot(d[0], d[1]) *
-                                                        lever(Geometry::torsion, x[0]) *
+                                                        lever(Formulation::torsion, x[0]) *
                                                         value_at(t, x[0], x[1], where),
                                                      0.0};
                      });
@@ -470,7 +471,8 @@ void ElasticBody::add_body_force(const std::string &pattern, const ScalarField &
          transformation.SetIntPoint(&ip);
          transformation.Transform(ip, x);
          element.CalcShape(ip, shape);
-         const double weight = ip.weight * transformation.Weight() * measure(geometry_, x(0));
+         const double weight =
+            ip.weight * transformation.Weight() * measure(formulation_, x(0));
          const double force[2] = {weight * value_at(bx, x(0), x(1), where),
                                   weight * value_at(by, x(0), x(1), where)};
          for (int a = 0; a < dofs.Size(); ++a)
@@ -491,7 +493,7 @@ void ElasticBody::add_displacement(const std::string &pattern, const BoundaryPar
    const std::string where = "displacement '" + pattern + "'";
    check_component(where, component);
    const std::vector<int> nodes = nodes_on(part, where);
-   mfem::Vector &values = load(pattern, Control::displacement).values;
+   Eigen::VectorXd &values = load(pattern, Control::displacement).values;
    std::size_t k = 0;
    while (patterns_[k].name != pattern) { ++k; }
    for (int node : nodes)
@@ -500,7 +502,7 @@ void ElasticBody::add_displacement(const std::string &pattern, const BoundaryPar
       if (dof < 0) { continue; }
       const double x = coordinates_(0, node), y = coordinates_(1, node);
       const double value = value_at(u, x, y, where);
-      require(value == 0 || geometry_ != Geometry::axisymmetric || component != 0 ||
+      require(value == 0 || formulation_ != Formulation::axisymmetric || component != 0 ||
                  !on_axis(node),
               where, ": component r at (", x, ", ", y, ") is to be ", value,
               ", must be zero on the axis");
@@ -512,6 +514,11 @@ void ElasticBody::add_displacement(const std::string &pattern, const BoundaryPar
       values(dof) = value;
       prescribed_[k][dof] = essential_[dof] = true;
    }
+}
+
+SharedMatrix ElasticBody::shared_stiffness() const
+{
+   return shared(stiffness_);
 }
 
 mfem::Array<int> ElasticBody::essential_dofs() const

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <array>
+#include <cattaneo/condense/assembled_body.hpp>
 #include <cattaneo/counters.hpp>
 #include <cattaneo/elastic/boundary_part.hpp>
-#include <cattaneo/elastic/geometry.hpp>
 #include <cattaneo/elastic/material.hpp>
 #include <cattaneo/elastic/ranks.hpp>
-#include <cattaneo/reduced/reduced_problem.hpp>
+#include <cattaneo/formulation.hpp>
 #include <memory>
 #include <mfem.hpp>
 #include <string>
@@ -40,17 +40,17 @@ public:
    /// 2D and must outlive the body; straight, curved and nonconforming (not if distributed)
    /// meshes of quads and triangles.
    ElasticBody(mfem::Mesh &mesh, int order, const Material &material,
-               Geometry geometry = Geometry::plane);
+               Formulation formulation = Formulation::plane);
 
    /// One material for each element attribute (index attribute - 1).
    ElasticBody(mfem::Mesh &mesh, int order, const std::vector<Material> &materials,
-               Geometry geometry = Geometry::plane);
+               Formulation formulation = Formulation::plane);
 
    /// The user's own symmetric operator on the true dofs of an H1 space of 2 components, in
    /// torsion 1 (orthotropic, user integrators, …). Copies the matrix; the space must outlive
    /// the body.
    ElasticBody(mfem::FiniteElementSpace &space, const mfem::SparseMatrix &stiffness,
-               Geometry geometry = Geometry::plane);
+               Formulation formulation = Formulation::plane);
 
    ElasticBody(ElasticBody &&) = default;
    ElasticBody &operator=(ElasticBody &&) = default;
@@ -79,15 +79,8 @@ public:
    void add_displacement(const std::string &pattern, const BoundaryPart &part, int component,
                          const ScalarField &u);
 
-   struct Pattern
-   {
-      std::string name;
-      Control control;
-      mfem::Vector values; ///< force control: true-dof forces; displacement: prescribed values
-   };
-
-   Geometry geometry() const { return geometry_; }
-   int components() const { return cattaneo::components(geometry_); }
+   Formulation formulation() const { return formulation_; }
+   int components() const { return cattaneo::components(formulation_); }
    mfem::FiniteElementSpace &space() const { return *space_; }
    const Ranks &ranks() const { return ranks_; }
    /// True dofs of all ranks.
@@ -95,7 +88,7 @@ public:
    /// Of a body that is not distributed.
    const mfem::SparseMatrix &stiffness() const { return *stiffness_; }
    /// The same matrix, to be kept beyond the life of the body (never changed).
-   std::shared_ptr<const mfem::SparseMatrix> shared_stiffness() const { return stiffness_; }
+   SharedMatrix shared_stiffness() const;
 #ifdef MFEM_USE_MPI
    /// Of a distributed body, to be kept beyond its life.
    std::shared_ptr<const mfem::HypreParMatrix> distributed_stiffness() const
@@ -103,7 +96,8 @@ public:
       return distributed_;
    }
 #endif
-   const std::vector<Pattern> &patterns() const
+   /// Load patterns, values on the true dofs of this rank.
+   const std::vector<BodyLoad> &patterns() const
    {
       return patterns_;
    }
@@ -144,7 +138,7 @@ private:
    void assemble();
    void hold_axis();
    void check_component(const std::string &where, int component) const;
-   Pattern &load(const std::string &name, Control control);
+   BodyLoad &load(const std::string &name, Control control);
    void add_to_pattern(const std::string &name, const mfem::Vector &local_forces);
    template <class Density>
    void add_boundary_load(const std::string &pattern, const BoundaryPart &part,
@@ -154,7 +148,7 @@ private:
    std::unique_ptr<mfem::FiniteElementCollection> owned_collection_;
    std::unique_ptr<mfem::FiniteElementSpace> owned_space_;
    mfem::FiniteElementSpace *space_ = nullptr;
-   Geometry geometry_ = Geometry::plane;
+   Formulation formulation_ = Formulation::plane;
    double axis_radius_ = 0.0; ///< nodes nearer to the axis than this are on it
    Ranks ranks_;
    int first_global_dof_ = 0;
@@ -163,7 +157,7 @@ private:
    std::shared_ptr<const mfem::HypreParMatrix> distributed_;
 #endif
    std::vector<Material> materials_;
-   std::vector<Pattern> patterns_;
+   std::vector<BodyLoad> patterns_;
    std::vector<std::vector<bool>>
       prescribed_;               ///< by pattern and true dof (empty: force control)
    std::vector<bool> essential_; ///< by true dof

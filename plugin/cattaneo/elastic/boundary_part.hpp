@@ -1,30 +1,12 @@
 #pragma once
 
-#include <functional>
+#include <cattaneo/scalar_field.hpp>
 #include <limits>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace cattaneo
 {
-
-/// A value that may vary over the plane; a plain number converts to a constant.
-class ScalarField
-{
-public:
-   ScalarField(double constant) : f_([constant](double, double) { return constant; }) {}
-   ScalarField(std::function<double(double x, double y)> f) : f_(std::move(f)) {}
-   template <class F,
-             class = std::enable_if_t<std::is_invocable_r_v<double, F, double, double>>>
-   ScalarField(F f) : f_(std::move(f))
-   {
-   }
-   double operator()(double x, double y) const { return f_(x, y); }
-
-private:
-   std::function<double(double, double)> f_;
-};
 
 /// Part of a body's boundary: all boundary elements of the given attributes, or only the piece
 /// of them where lo <= coordinate <= hi. The ends of the interval need not be nodes of the

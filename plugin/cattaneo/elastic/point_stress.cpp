@@ -11,7 +11,7 @@ Stress stress_at(const ElasticBody &body, const mfem::GridFunction &displacement
    mfem::DenseMatrix gradient;
    displacement.GetVectorGradient(transformation, gradient);
    const double shear_angle = gradient(0, 1) + gradient(1, 0);
-   if (body.geometry() == Geometry::plane)
+   if (body.formulation() == Formulation::plane)
    {
       return stress(material, gradient(0, 0), gradient(1, 1), shear_angle);
    }

@@ -1,5 +1,6 @@
 #include <array>
 #include <cattaneo/elastic/point_stress.hpp>
+#include <cattaneo/elastic/views.hpp>
 #include <cattaneo/friction/zones.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/output/paraview.hpp>
@@ -20,23 +21,23 @@ void make_folder(const std::string &folder)
    require(!error, "ParaView output: cannot make the folder '", folder, "': ", error.message());
 }
 
-std::vector<std::string> stress_names(Geometry geometry)
+std::vector<std::string> stress_names(Formulation formulation)
 {
-   switch (geometry)
+   switch (formulation)
    {
-   case Geometry::plane:
+   case Formulation::plane:
       break;
-   case Geometry::axisymmetric:
+   case Formulation::axisymmetric:
       return {"sigma_rr", "sigma_zz", "sigma_tt", "tau_rz", "von_mises"};
-   case Geometry::torsion:
+   case Formulation::torsion:
       return {"tau_rt", "tau_tz"};
    }
    return {"sigma_xx", "sigma_yy", "sigma_zz", "tau_xy", "von_mises"};
 }
 
-const char *unknown(Geometry geometry)
+const char *unknown(Formulation formulation)
 {
-   return geometry == Geometry::torsion ? "twist" : "displacement";
+   return formulation == Formulation::torsion ? "twist" : "displacement";
 }
 
 } // namespace
@@ -47,14 +48,14 @@ BodyFields::BodyFields(const ElasticBody &body, const std::string &directory,
 {
    mfem::FiniteElementSpace &space = body.space();
    const int order = space.GetMaxElementOrder();
-   fields_[unknown(body.geometry())] = std::make_unique<mfem::GridFunction>(&space);
+   fields_[unknown(body.formulation())] = std::make_unique<mfem::GridFunction>(&space);
    if (body.has_material())
    {
       collection_ =
          std::make_unique<mfem::L2_FECollection>(order, 2, mfem::BasisType::GaussLobatto);
       stress_space_ =
          std::make_unique<mfem::FiniteElementSpace>(space.GetMesh(), collection_.get());
-      for (const std::string &component : stress_names(body.geometry()))
+      for (const std::string &component : stress_names(body.formulation()))
       {
          fields_[component] = std::make_unique<mfem::GridFunction>(stress_space_.get());
       }
@@ -69,12 +70,17 @@ BodyFields::BodyFields(const ElasticBody &body, const std::string &directory,
    }
 }
 
+void BodyFields::write(const Eigen::VectorXd &displacement, double time)
+{
+   write(to_mfem(displacement), time);
+}
+
 void BodyFields::write(const mfem::Vector &displacement, double time)
 {
    require(displacement.Size() == body_.space().GetTrueVSize(),
            "ParaView output: ", displacement.Size(), " displacements, the body has ",
            body_.space().GetTrueVSize(), " true dofs");
-   mfem::GridFunction &field = *fields_.at(unknown(body_.geometry()));
+   mfem::GridFunction &field = *fields_.at(unknown(body_.formulation()));
    if (const mfem::Operator *P = body_.space().GetProlongationMatrix())
    {
       P->Mult(displacement, field);
@@ -93,10 +99,10 @@ void BodyFields::write(const mfem::Vector &displacement, double time)
 /// interpolated there, exactly where it is a polynomial of the elements' order.
 void BodyFields::evaluate_stress()
 {
-   const mfem::GridFunction &u = *fields_.at(unknown(body_.geometry()));
+   const mfem::GridFunction &u = *fields_.at(unknown(body_.formulation()));
    mfem::Mesh &mesh = *stress_space_->GetMesh();
    std::vector<mfem::GridFunction *> component;
-   for (const std::string &field_name : stress_names(body_.geometry()))
+   for (const std::string &field_name : stress_names(body_.formulation()))
    {
       component.push_back(fields_.at(field_name).get());
    }
@@ -111,7 +117,7 @@ void BodyFields::evaluate_stress()
       {
          transformation.SetIntPoint(&nodes.IntPoint(i));
          std::array<double, 5> values{};
-         if (body_.geometry() == Geometry::torsion)
+         if (body_.formulation() == Formulation::torsion)
          {
             const TorsionStress s = torsion_stress_at(body_, u, transformation);
             values = {s.r_theta, s.theta_z};

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cattaneo/contact/contact_line.hpp>
 #include <cattaneo/elastic/body.hpp>
 #include <cattaneo/friction/contact_state.hpp>
 #include <map>
@@ -28,6 +27,7 @@ public:
    /// Reduction::displacement gives them. InputError if the size is wrong or the folder cannot
    /// be written.
    void write(const mfem::Vector &displacement, double time);
+   void write(const Eigen::VectorXd &displacement, double time);
 
    /// A field as last written; InputError with the list of names if there is none of that name.
    const mfem::GridFunction &field(const std::string &name) const;

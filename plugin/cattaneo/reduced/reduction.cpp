@@ -1,8 +1,8 @@
 #include <cattaneo/condense/dense_cholesky.hpp>
 #include <cattaneo/condense/local_frame.hpp>
-#include <cattaneo/condense/reduction.hpp>
 #include <cattaneo/dense_algebra.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/reduced/reduction.hpp>
 #include <cmath>
 
 namespace cattaneo
@@ -316,7 +316,7 @@ Block united(const CondensedBody &first, const CondensedBody &second,
 Reduction reduce(CondensedBody body, const ScalarField &gap)
 {
    Reduction result;
-   require(body.geometry != Geometry::torsion,
+   require(body.formulation != Formulation::torsion,
            "reduce: the body is one of torsion, which is to be added to a reduction");
    result.counters = body.counters;
    result.bodies.push_back(std::move(body));
@@ -334,7 +334,7 @@ Reduction reduce(CondensedBody body, const ScalarField &gap)
       problem.gap[i] = gap(x, y);
       require(std::isfinite(problem.gap[i]), "reduce: the gap at (", x, ", ", y, ") is ",
               problem.gap[i], ", must be finite");
-      problem.dofs.row(i) << only.line.true_dofs[i][0], only.line.true_dofs[i][1];
+      problem.dofs.row(i) << only.line.dofs[i][0], only.line.dofs[i][1];
    }
    return result;
 }
@@ -342,7 +342,7 @@ Reduction reduce(CondensedBody body, const ScalarField &gap)
 Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairing)
 {
    const Eigen::Index n = body1.line.size();
-   require(body1.geometry == body2.geometry && body1.geometry != Geometry::torsion,
+   require(body1.formulation == body2.formulation && body1.formulation != Formulation::torsion,
            "reduce: the bodies must be both plane or both axisymmetric");
    require(body2.line.size() == n && static_cast<Eigen::Index>(pairing.partner.size()) == n &&
               pairing.gap.size() == n,
@@ -378,8 +378,7 @@ Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairin
    problem.dofs.resize(n, 4);
    for (Eigen::Index i = 0; i < n; ++i)
    {
-      const auto &dofs1 = first.line.true_dofs[i],
-                 &dofs2 = second.line.true_dofs[pairing.partner[i]];
+      const auto &dofs1 = first.line.dofs[i], &dofs2 = second.line.dofs[pairing.partner[i]];
       problem.dofs.row(i) << dofs1[0], dofs1[1], dofs2[0], dofs2[1];
    }
    return result;
@@ -409,8 +408,8 @@ void Reduction::add_torsion(std::vector<CondensedBody> twisting)
            " bodies to a reduction of ", bodies.size(), ", must be as many");
    for (std::size_t b = 0; b < bodies.size(); ++b)
    {
-      require(bodies[b].geometry == Geometry::axisymmetric &&
-                 twisting[b].geometry == Geometry::torsion,
+      require(bodies[b].formulation == Formulation::axisymmetric &&
+                 twisting[b].formulation == Formulation::torsion,
               "add torsion: body ", b, " must be axisymmetric, and what is added its torsion");
       const Eigen::MatrixXd &own = bodies[b].line.position, &other = twisting[b].line.position;
       require(own.rows() == other.rows() &&
@@ -454,21 +453,22 @@ void Reduction::add_torsion(std::vector<CondensedBody> twisting)
    torsion = std::move(twisting);
 }
 
-mfem::Vector Reduction::recover(CondensedBody &body, const Eigen::VectorXd &u,
-                                const std::vector<int> &patterns,
-                                const Eigen::VectorXd &multipliers)
+Eigen::VectorXd Reduction::recover(CondensedBody &body, const Eigen::VectorXd &u,
+                                   const std::vector<int> &patterns,
+                                   const Eigen::VectorXd &multipliers)
 {
    Eigen::VectorXd own(patterns.size());
    for (std::size_t k = 0; k < patterns.size(); ++k) { own[k] = multipliers[patterns[k]]; }
    Counters added = body.counters;
-   mfem::Vector field = body.recover(u, own);
+   Eigen::VectorXd field = body.recover(u, own);
    added -= body.counters;
    counters -= added;
    return field;
 }
 
-mfem::Vector Reduction::displacement(int b, const Eigen::VectorXd &v, const Eigen::VectorXd &w,
-                                     const Eigen::VectorXd &multipliers)
+Eigen::VectorXd Reduction::displacement(int b, const Eigen::VectorXd &v,
+                                        const Eigen::VectorXd &w,
+                                        const Eigen::VectorXd &multipliers)
 {
    const Eigen::Index n = problem.nodes();
    require(b >= 0 && b < static_cast<int>(bodies.size()), "displacement: body ", b,
@@ -486,8 +486,8 @@ mfem::Vector Reduction::displacement(int b, const Eigen::VectorXd &v, const Eige
    return recover(bodies[b], u, pattern_[b], multipliers);
 }
 
-mfem::Vector Reduction::twist(int b, const Eigen::VectorXd &v,
-                              const Eigen::VectorXd &multipliers)
+Eigen::VectorXd Reduction::twist(int b, const Eigen::VectorXd &v,
+                                 const Eigen::VectorXd &multipliers)
 {
    const Eigen::Index n = problem.nodes();
    require(b >= 0 && b < static_cast<int>(torsion.size()), "twist: body ", b,

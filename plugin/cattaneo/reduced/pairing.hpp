@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cattaneo/contact/contact_line.hpp>
+#include <cattaneo/condense/contact_line.hpp>
 
 namespace cattaneo
 {

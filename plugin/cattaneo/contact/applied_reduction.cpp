@@ -1,10 +1,8 @@
-#include <cattaneo/condense/applied_reduction.hpp>
-#include <cattaneo/condense/contact_dofs.hpp>
-#include <cattaneo/condense/distributed_solver.hpp>
-#include <cattaneo/condense/free_motions.hpp>
 #include <cattaneo/condense/local_frame.hpp>
-#include <cattaneo/condense/reduction.hpp>
+#include <cattaneo/contact/applied_reduction.hpp>
+#include <cattaneo/contact/distributed_solver.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/reduced/reduction.hpp>
 
 namespace cattaneo
 {
@@ -18,11 +16,11 @@ AppliedProblem distributed(const ElasticBody &body, const ContactLine &line,
                            const ScalarField &gap, const CondenseSettings &settings,
                            Counters *counters)
 {
-   const std::vector<int> contact = contact_dofs(body, line);
+   const std::vector<int> contact = free_contact_dofs(body, line);
    const auto solver =
       std::make_shared<const DistributedSolver>(body, contact, settings.max_iterations);
-   const Equilibrium equilibrium(find_free_motions(body, line));
-   const FrameChange frames = FrameChange::of(line, body.geometry());
+   const Equilibrium equilibrium(free_motions_by_places(body, line));
+   const FrameChange frames = FrameChange::of(line, body.formulation());
    Counters own;
    Eigen::MatrixXd forces = solver->loads(body.patterns(), own).forces;
    if (counters) { *counters += own; }
@@ -50,13 +48,12 @@ AppliedProblem distributed(const ElasticBody &body, const ContactLine &line,
                          frames.b.cwiseAbs2().cwiseProduct(d.tail(n)),
       frames.c.cwiseAbs2().cwiseProduct(d.head(n)) +
          frames.d.cwiseAbs2().cwiseProduct(d.tail(n));
-   mfem::Vector nothing(solver->size());
-   nothing = 0.0;
+   const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(solver->size());
    result.apply = [=](const Eigen::VectorXd &u) -> Eigen::VectorXd
    {
       Counters here;
       const Eigen::VectorXd x = equilibrium.without_motions(frames.transposed().rows(u).col(0));
-      const mfem::Vector field = solver->recover(x, nothing, nothing, here);
+      const Eigen::VectorXd field = solver->recover(x, nothing, nothing, here);
       if (counters) { *counters += here; }
       return frames.rows(equilibrium.without_motions(solver->forces(field))).col(0);
    };
@@ -72,7 +69,7 @@ AppliedProblem apply_reduction(const ElasticBody &body, const ContactLine &line,
                                Counters *counters)
 {
    settings.validate();
-   require(body.geometry() != Geometry::torsion,
+   require(body.formulation() != Formulation::torsion,
            "apply reduction: the body is one of torsion, must be plane or axisymmetric");
 #ifdef MFEM_USE_MPI
    if (body.ranks().distributed() && body.dofs() > settings.direct_dofs &&

@@ -2,7 +2,7 @@
 
 #include <Eigen/Dense>
 #include <array>
-#include <cattaneo/elastic/body.hpp>
+#include <cattaneo/reduced/reduced_problem.hpp>
 #include <vector>
 
 namespace cattaneo
@@ -28,8 +28,9 @@ struct LineChain
     frame (tangent, normal) with the normal *into* the body (thesis 3.2.1); at a node between
    two boundary elements the normals are averaged with the elements' consistent weights. A
    straight line of a body above y = 0 has tangent (1, 0) and normal (0, 1); of a body below,
-   (-1, 0) and (0, -1). All of this comes from the elements that the boundary elements are edges
-   of, not from the order or the orientation of the boundary elements.
+   (-1, 0) and (0, -1). Of a
+   mesh, all of this comes from the elements that the boundary elements are edges of, not from
+   the order or the orientation of the boundary elements.
 
     Several separate chains are allowed; they follow each other in the order of their first
    nodes (lowest x, then y), and the arc length continues from one to the next. A closed loop
@@ -47,23 +48,19 @@ struct LineChain
    torques of nodal forces are exact. */
 struct ContactLine
 {
-   std::vector<int> scalar_dofs;              ///< node of the space; -1 if another rank has it
-   std::vector<std::array<int, 2>> true_dofs; ///< x and y true dof (twist, -1), global numbers
-   std::vector<int> chain;                    ///< number of the chain each node belongs to
-   std::vector<LineChain> chains;             ///< in the order of the nodes
-   Eigen::MatrixXd position;                  ///< n × 2
-   Eigen::MatrixXd tangent, normal;           ///< n × 2, unit vectors
-   Eigen::VectorXd arc_length;                ///< n
+   /// Of the body's stiffness, for each component of a node: x and y (twist, -1). Of a body on
+   /// several ranks they are numbers that all ranks share.
+   std::vector<std::array<int, 2>> dofs;
+   std::vector<int> chain;          ///< number of the chain each node belongs to
+   std::vector<LineChain> chains;   ///< in the order of the nodes
+   Eigen::MatrixXd position;        ///< n × 2
+   Eigen::MatrixXd tangent, normal; ///< n × 2, unit vectors
+   Eigen::VectorXd arc_length;      ///< n
    Eigen::VectorXd weights;        ///< consistent: ∫φ_i ds (sums to the length; or the area)
    Eigen::VectorXd lumped_weights; ///< tributary length: half the distance to each neighbour
    Eigen::VectorXd spacing;        ///< shortest distance to a neighbour, the local edge length
 
    Eigen::Index size() const { return position.rows(); }
 };
-
-/// Contact nodes of the boundary elements of a boundary part (an interval keeps the elements
-/// that lie wholly inside it). InputError if there are none, or if a basis with weights of both
-/// signs was used.
-ContactLine contact_line(const ElasticBody &body, const BoundaryPart &part);
 
 } // namespace cattaneo

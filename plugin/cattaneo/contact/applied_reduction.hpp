@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cattaneo/condense/condensed_body.hpp>
+#include <cattaneo/contact/condense_body.hpp>
 #include <cattaneo/reduced/applied_problem.hpp>
 
 namespace cattaneo

@@ -1,5 +1,5 @@
-#include <cattaneo/contact/pairing.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/reduced/pairing.hpp>
 #include <cmath>
 #include <limits>
 #include <sstream>

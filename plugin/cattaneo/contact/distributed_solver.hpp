@@ -1,23 +1,13 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <cattaneo/counters.hpp>
+#include <cattaneo/condense/condensed_body.hpp>
 #include <cattaneo/elastic/body.hpp>
 #include <memory>
 #include <vector>
 
 namespace cattaneo
 {
-
-/// What load patterns do to a body whose contact nodes are clamped, in global components.
-struct ClampedLoads
-{
-   Eigen::MatrixXd forces;   ///< contact forces, one column a pattern
-   Eigen::MatrixXd response; ///< F_kᵀ K_II⁻¹ F_j of the patterns' interior forces
-   /// Work of pattern k's forces (or those of its motion) at the supports on the motion that
-   /// pattern j prescribes.
-   Eigen::MatrixXd reaction;
-};
 
 #ifdef MFEM_USE_MPI
 
@@ -39,14 +29,13 @@ public:
 
    /// Schur complement of the contact dofs, the same bits on every rank.
    Eigen::MatrixXd schur(Counters &counters) const;
-   ClampedLoads loads(const std::vector<ElasticBody::Pattern> &patterns,
-                      Counters &counters) const;
+   ClampedLoads loads(const std::vector<BodyLoad> &patterns, Counters &counters) const;
    /// Field on this rank's true dofs for contact displacements in global components, forces and
    /// prescribed displacements.
-   mfem::Vector recover(const Eigen::VectorXd &contact, const mfem::Vector &forces,
-                        const mfem::Vector &prescribed, Counters &counters) const;
+   Eigen::VectorXd recover(const Eigen::VectorXd &contact, const Eigen::VectorXd &forces,
+                           const Eigen::VectorXd &prescribed, Counters &counters) const;
    /// Forces at the contact dofs of a field on this rank's true dofs, on all ranks.
-   Eigen::VectorXd forces(const mfem::Vector &field) const;
+   Eigen::VectorXd forces(const Eigen::VectorXd &field) const;
    /// Diagonal entries of the stiffness at the contact dofs, on all ranks.
    Eigen::VectorXd diagonal() const;
    int size() const; ///< true dofs of this rank

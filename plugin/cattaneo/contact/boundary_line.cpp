@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <cattaneo/contact/contact_line.hpp>
+#include <cattaneo/contact/boundary_line.hpp>
 #include <cattaneo/elastic/boundary_edge.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
@@ -67,7 +67,7 @@ Segment segment(const ElasticBody &body, int boundary_element, BoundaryEdge &edg
       {
          const double share = ip.weight * std::hypot(d[0], d[1]) * shape(a);
          shares[a] += share;
-         weights[a] += share * measure(body.geometry(), edge.point(ip.x)[0]);
+         weights[a] += share * measure(body.formulation(), edge.point(ip.x)[0]);
       }
    }
    Segment result;
@@ -88,7 +88,6 @@ Segment segment(const ElasticBody &body, int boundary_element, BoundaryEdge &edg
 /// What is known of a node, wherever it is: the same on all ranks.
 struct Node
 {
-   int scalar_dof = -1; ///< of the space, if this rank has it
    double x = 0, y = 0;
    std::array<int, 2> dofs{-1, -1};
    bool on_axis = false;
@@ -252,7 +251,6 @@ ContactLine contact_line(const ElasticBody &body, const BoundaryPart &part)
       {
          const bool two = body.components() == 2;
          nodes[number(body, dof)] = {
-            dof,
             x(0, dof),
             x(1, dof),
             {body.global_dof(dof, 0), two ? body.global_dof(dof, 1) : -1},
@@ -437,8 +435,7 @@ ContactLine contact_line(const ElasticBody &body, const BoundaryPart &part)
       line.position.row(i) << node.x, node.y;
       line.tangent.row(i) << tangent[i][0] / size, tangent[i][1] / size;
       line.normal.row(i) << -line.tangent(i, 1), line.tangent(i, 0);
-      line.scalar_dofs.push_back(node.scalar_dof);
-      line.true_dofs.push_back(node.dofs);
+      line.dofs.push_back(node.dofs);
    }
    return line;
 }

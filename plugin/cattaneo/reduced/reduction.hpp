@@ -1,8 +1,9 @@
 #pragma once
 
 #include <cattaneo/condense/condensed_body.hpp>
-#include <cattaneo/contact/pairing.hpp>
+#include <cattaneo/reduced/pairing.hpp>
 #include <cattaneo/reduced/reduced_problem.hpp>
+#include <cattaneo/scalar_field.hpp>
 
 namespace cattaneo
 {
@@ -33,10 +34,10 @@ public:
    /// tangential components) and w of the contact nodes and multipliers of problem.patterns.
    /// One solve with that body's factor. If two free bodies move together unresisted, the
    /// common motion is the one of least squares zero.
-   mfem::Vector displacement(int b, const Eigen::VectorXd &v, const Eigen::VectorXd &w,
-                             const Eigen::VectorXd &multipliers);
+   Eigen::VectorXd displacement(int b, const Eigen::VectorXd &v, const Eigen::VectorXd &w,
+                                const Eigen::VectorXd &multipliers);
    /// Twist ψ = u_θ/r of all true dofs of torsion body `b`, for the same displacements v.
-   mfem::Vector twist(int b, const Eigen::VectorXd &v, const Eigen::VectorXd &multipliers);
+   Eigen::VectorXd twist(int b, const Eigen::VectorXd &v, const Eigen::VectorXd &multipliers);
 
    struct Union; ///< how two bodies share a relative displacement
    /// Indices in problem.patterns of a body's patterns.
@@ -46,8 +47,9 @@ private:
    friend Reduction reduce(CondensedBody body, const ScalarField &gap);
    friend Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairing);
    void add_torsion(std::vector<CondensedBody> twisting);
-   mfem::Vector recover(CondensedBody &body, const Eigen::VectorXd &u,
-                        const std::vector<int> &patterns, const Eigen::VectorXd &multipliers);
+   Eigen::VectorXd recover(CondensedBody &body, const Eigen::VectorXd &u,
+                           const std::vector<int> &patterns,
+                           const Eigen::VectorXd &multipliers);
 
    std::shared_ptr<const Union> union_, torsion_union_;
    PatternIndex pattern_, torsion_pattern_;

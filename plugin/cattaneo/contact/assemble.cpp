@@ -1,5 +1,6 @@
 #include <algorithm>
-#include <cattaneo/condense/whole_body.hpp>
+#include <cattaneo/contact/assemble.hpp>
+#include <cattaneo/elastic/views.hpp>
 #include <numeric>
 
 namespace cattaneo
@@ -13,7 +14,7 @@ DofPlaces places_of(const ElasticBody &body)
    const mfem::DenseMatrix &x = body.node_coordinates();
    const int dofs = body.space().GetTrueVSize();
    DofPlaces places{Eigen::VectorXd::Zero(dofs), Eigen::VectorXd::Zero(dofs),
-                    std::vector<int>(dofs, 0), body.geometry()};
+                    std::vector<int>(dofs, 0), body.formulation()};
    for (int node = 0; node < x.Width(); ++node)
    {
       for (int c = 0; c < body.components(); ++c)
@@ -74,35 +75,32 @@ std::shared_ptr<const mfem::SparseMatrix> gathered(const mfem::HypreParMatrix &K
 
 } // namespace
 
-WholeBody whole(const ElasticBody &body)
+AssembledBody assembled(const ElasticBody &body)
 {
    const mfem::Array<int> essential = body.essential_dofs();
-   WholeBody all{body.shared_stiffness(),
-                 {essential.begin(), essential.end()},
-                 places_of(body),
-                 body.patterns()};
-#ifdef MFEM_USE_MPI
+   AssembledBody all{{},
+                     {essential.begin(), essential.end()},
+                     places_of(body),
+                     body.patterns(),
+                     !body.has_material()};
    const Ranks &ranks = body.ranks();
+   if (!ranks.distributed()) { all.K = body.shared_stiffness(); }
+#ifdef MFEM_USE_MPI
    if (!ranks.distributed()) { return all; }
-   all.K = gathered(*body.distributed_stiffness(), ranks);
-   for (int &dof : all.essential) { dof += body.first_global_dof(); }
-   all.essential = ranks.collect(all.essential);
-   const auto collect = [&ranks](const double *values, int count)
-   { return ranks.collect(std::vector<double>(values, values + count)); };
-   for (Eigen::VectorXd *x : {&all.places.x, &all.places.y})
-   {
-      const std::vector<double> values = collect(x->data(), static_cast<int>(x->size()));
-      *x = Eigen::Map<const Eigen::VectorXd>(values.data(),
-                                             static_cast<Eigen::Index>(values.size()));
-   }
-   all.places.component = ranks.collect(all.places.component);
-   for (ElasticBody::Pattern &pattern : all.patterns)
+   if (const auto K = gathered(*body.distributed_stiffness(), ranks)) { all.K = shared(K); }
+   for (int &dof : all.fixed) { dof += body.first_global_dof(); }
+   all.fixed = ranks.collect(all.fixed);
+   const auto collect = [&ranks](Eigen::VectorXd &x)
    {
       const std::vector<double> values =
-         collect(pattern.values.GetData(), pattern.values.Size());
-      pattern.values.SetSize(static_cast<int>(values.size()));
-      std::copy(values.begin(), values.end(), pattern.values.GetData());
-   }
+         ranks.collect(std::vector<double>(x.data(), x.data() + x.size()));
+      x = Eigen::Map<const Eigen::VectorXd>(values.data(),
+                                            static_cast<Eigen::Index>(values.size()));
+   };
+   collect(all.places.x);
+   collect(all.places.y);
+   all.places.component = ranks.collect(all.places.component);
+   for (BodyLoad &load : all.loads) { collect(load.values); }
 #endif
    return all;
 }

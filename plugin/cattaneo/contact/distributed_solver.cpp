@@ -1,6 +1,6 @@
 #include <algorithm>
-#include <cattaneo/condense/distributed_solver.hpp>
-#include <cattaneo/condense/equal_operators.hpp>
+#include <cattaneo/contact/distributed_solver.hpp>
+#include <cattaneo/elastic/views.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
 
@@ -123,17 +123,7 @@ mfem::Vector DistributedSolver::Implementation::solve(mfem::Vector b, double to,
    return x;
 }
 
-namespace
-{
-
-Eigen::Map<const Eigen::VectorXd> view(const mfem::Vector &x)
-{
-   return {x.GetData(), x.Size()};
-}
-
-} // namespace
-
-ClampedLoads DistributedSolver::loads(const std::vector<ElasticBody::Pattern> &patterns,
+ClampedLoads DistributedSolver::loads(const std::vector<BodyLoad> &patterns,
                                       Counters &counters) const
 {
    const Implementation &my = *impl_;
@@ -147,7 +137,7 @@ ClampedLoads DistributedSolver::loads(const std::vector<ElasticBody::Pattern> &p
    {
       // Forces F, or those of the prescribed motion, F = -K d.
       const bool force = patterns[k].control == Control::force;
-      mfem::Vector source = patterns[k].values;
+      mfem::Vector source = to_mfem(patterns[k].values);
       if (!force)
       {
          prescribed.col(k) = view(source);
@@ -211,29 +201,26 @@ Eigen::MatrixXd DistributedSolver::schur(Counters &counters) const
    return S.selfadjointView<Eigen::Upper>();
 }
 
-mfem::Vector DistributedSolver::recover(const Eigen::VectorXd &contact,
-                                        const mfem::Vector &forces,
-                                        const mfem::Vector &prescribed,
-                                        Counters &counters) const
+Eigen::VectorXd DistributedSolver::recover(const Eigen::VectorXd &contact,
+                                           const Eigen::VectorXd &forces,
+                                           const Eigen::VectorXd &prescribed,
+                                           Counters &counters) const
 {
    const Implementation &my = *impl_;
-   mfem::Vector known = prescribed;
+   Eigen::VectorXd known = prescribed;
    for (std::size_t a = 0; a < my.contact.size(); ++a)
    {
-      if (my.contact[a] >= 0) { known(my.contact[a]) = contact[a]; }
+      if (my.contact[a] >= 0) { known[my.contact[a]] = contact[a]; }
    }
-   mfem::Vector b = my.times(known);
+   mfem::Vector b = my.times(to_mfem(known));
    b.Neg();
-   b += forces;
-   mfem::Vector field = my.solve(b, fine, counters);
-   field += known;
-   return field;
+   b += to_mfem(forces);
+   return view(my.solve(b, fine, counters)) + known;
 }
 
-Eigen::VectorXd DistributedSolver::forces(const mfem::Vector &field) const
+Eigen::VectorXd DistributedSolver::forces(const Eigen::VectorXd &field) const
 {
-   const mfem::Vector all = impl_->times(field);
-   return impl_->at_contact(all);
+   return impl_->at_contact(impl_->times(to_mfem(field)));
 }
 
 Eigen::VectorXd DistributedSolver::diagonal() const
@@ -257,6 +244,8 @@ bool DistributedSolver::equals(const DistributedSolver &other) const
    {
       mfem::SparseMatrix diagonal[2], other_columns[2];
       HYPRE_BigInt *numbers[2];
+      const auto rows = [](const mfem::SparseMatrix &K)
+      { return SharedMatrix(K.Height(), K.GetI(), K.GetJ(), K.GetData(), nullptr); };
       int k = 0;
       for (const Implementation *each : {&my, &its})
       {
@@ -264,8 +253,8 @@ bool DistributedSolver::equals(const DistributedSolver &other) const
          each->K->GetOffd(other_columns[k], numbers[k]);
          ++k;
       }
-      same = equal_operators(diagonal[0], diagonal[1]) &&
-             equal_operators(other_columns[0], other_columns[1]) &&
+      same = rows(diagonal[0]).equals(rows(diagonal[1])) &&
+             rows(other_columns[0]).equals(rows(other_columns[1])) &&
              std::equal(numbers[0], numbers[0] + other_columns[0].Width(), numbers[1],
                         numbers[1] + other_columns[1].Width());
    }

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cattaneo/condense/rigid_motion.hpp>
+#include <cattaneo/reduced/reduced_problem.hpp>
+#include <string>
+#include <vector>
+
+namespace cattaneo
+{
+
+/// A load pattern on all dofs of a body.
+struct BodyLoad
+{
+   std::string name;
+   Control control = Control::force;
+   Eigen::VectorXd values; ///< force control: forces; displacement: prescribed values
+};
+
+/// A body as any program assembles it: what a condensation by a factor starts from.
+struct AssembledBody
+{
+   SharedMatrix K;         ///< symmetric, of all dofs, supported ones among them
+   std::vector<int> fixed; ///< sorted: fixed, or prescribed by a load of displacements
+   DofPlaces places;
+   std::vector<BodyLoad> loads;
+   /// True if K may resist rigid motions (elastic foundations): those that it resists are then
+   /// not free.
+   bool grounded = false;
+};
+
+} // namespace cattaneo

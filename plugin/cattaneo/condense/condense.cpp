@@ -1,0 +1,190 @@
+#include <algorithm>
+#include <cattaneo/condense/condense.hpp>
+#include <cattaneo/condense/stiffness_error.hpp>
+#include <cattaneo/input_error.hpp>
+
+namespace cattaneo
+{
+
+namespace
+{
+
+/// What equal bodies share.
+struct FactoredStiffness
+{
+   SharedMatrix K;
+   std::vector<int> fixed; ///< sorted
+   std::vector<int> keep;  ///< interior dofs, then the contact dofs
+   int contact = 0;        ///< number of contact dofs
+   double shift = 0.0;
+   std::unique_ptr<SparseFactor> factor;
+   Eigen::MatrixXd S;
+
+   int interior() const { return static_cast<int>(keep.size()) - contact; }
+   bool stands_for(const AssembledBody &body, const std::vector<int> &contact_dofs) const
+   {
+      return fixed == body.fixed && contact == static_cast<int>(contact_dofs.size()) &&
+             std::equal(contact_dofs.begin(), contact_dofs.end(), keep.end() - contact) &&
+             K.equals(body.K);
+   }
+};
+
+class FactorSolver : public BodySolver
+{
+public:
+   std::shared_ptr<const FactoredStiffness> stiffness;
+   Eigen::MatrixXd interior;   ///< right-hand side of each load: F_I, or -K_ID d
+   Eigen::MatrixXd contact;    ///< (K + shift) U = {interior; 0} at the contact dofs
+   Eigen::MatrixXd prescribed; ///< d of each load at the fixed dofs
+
+   Eigen::VectorXd recover(const Eigen::VectorXd &displacements,
+                           const Eigen::VectorXd &multipliers,
+                           Counters &counters) const override
+   {
+      ++counters.back_substitutions;
+      const FactoredStiffness &of = *stiffness;
+      const Eigen::VectorXd moved = displacements - contact * multipliers;
+      Eigen::VectorXd rhs(of.keep.size());
+      rhs.head(of.interior()) = interior * multipliers;
+      rhs.tail(of.contact) = of.S * moved + of.shift * moved;
+      Eigen::VectorXd U = of.factor->solve(rhs);
+      U.tail(of.contact) = displacements; // what was put in comes out to the last bit
+      Eigen::VectorXd field = Eigen::VectorXd::Zero(of.K.size());
+      field(of.keep) = U;
+      field(of.fixed) = prescribed * multipliers;
+      return field;
+   }
+   double error(const Eigen::MatrixXd &S, const Eigen::MatrixXd &motions,
+                Counters &counters) const override
+   {
+      const FactoredStiffness &of = *stiffness;
+      counters.back_substitutions += 6;
+      return stiffness_error(of.K, of.keep, of.contact, of.shift, *of.factor, of.S, S, motions);
+   }
+};
+
+std::shared_ptr<const FactoredStiffness> factored(const AssembledBody &body,
+                                                  const std::vector<int> &contact,
+                                                  SparseFactor::Backend backend)
+{
+   auto made = std::make_shared<FactoredStiffness>();
+   made->K = body.K;
+   made->fixed = body.fixed;
+   made->contact = static_cast<int>(contact.size());
+   const int size = body.K.size();
+   std::vector<bool> elsewhere(size, false);
+   for (int dof : body.fixed) { elsewhere[dof] = true; }
+   for (int dof : contact) { elsewhere[dof] = true; }
+   made->keep.reserve(size - body.fixed.size());
+   for (int dof = 0; dof < size; ++dof)
+   {
+      if (!elsewhere[dof]) { made->keep.push_back(dof); }
+   }
+   made->keep.insert(made->keep.end(), contact.begin(), contact.end());
+   // With springs on the contact dofs a body needs no supports; S is freed of them exactly.
+   for (int dof : contact)
+   {
+      made->shift += body.K.diagonal(dof) / static_cast<double>(contact.size());
+   }
+   try
+   {
+      made->factor = std::make_unique<SparseFactor>(body.K.view(), made->keep, made->contact,
+                                                    made->shift, backend);
+   }
+   catch (const NotPositiveDefinite &error)
+   {
+      const DofPlaces &places = body.places;
+      require(false, "condense: the stiffness is not positive definite at component ",
+              component_name(places.formulation, places.component[error.row]), " of the node (",
+              places.x[error.row], ", ", places.y[error.row],
+              "), it must be for every motion that leaves the supports at rest");
+   }
+   made->S = made->factor->schur();
+   return made;
+}
+
+/// Loads of a body whose contact is clamped, and what is kept of them for recovery.
+ClampedLoads clamp(const std::vector<BodyLoad> &loads, FactorSolver &solver, Counters &counters)
+{
+   // One column a load. K d is needed once more below, at contact and fixed dofs.
+   const FactoredStiffness &of = *solver.stiffness;
+   const auto count = static_cast<Eigen::Index>(loads.size());
+   const int interior = of.interior(), size = static_cast<int>(of.keep.size());
+   const auto contact_dofs =
+                 Eigen::Map<const Eigen::VectorXi>(of.keep.data() + interior, of.contact),
+              interior_dofs = Eigen::Map<const Eigen::VectorXi>(of.keep.data(), interior);
+   solver.interior = Eigen::MatrixXd::Zero(interior, count);
+   solver.contact = Eigen::MatrixXd::Zero(of.contact, count);
+   solver.prescribed = Eigen::MatrixXd::Zero(of.fixed.size(), count);
+   Eigen::MatrixXd at_contact(of.contact, count);    // F_C, or -K_CD d
+   Eigen::MatrixXd at_fixed(of.fixed.size(), count); // F_D, or K_DD d
+   for (Eigen::Index k = 0; k < count; ++k)
+   {
+      const bool force = loads[k].control == Control::force;
+      const Eigen::VectorXd &values = loads[k].values;
+      const Eigen::VectorXd source = force ? values : Eigen::VectorXd(of.K.view() * values);
+      const double sign = force ? 1.0 : -1.0;
+      solver.interior.col(k) = sign * source(interior_dofs);
+      at_contact.col(k) = sign * source(contact_dofs);
+      at_fixed.col(k) = source(of.fixed);
+      if (!force) { solver.prescribed.col(k) = values(of.fixed); }
+   }
+   if (count == 0) { return {at_contact, solver.prescribed, solver.prescribed}; }
+   Eigen::MatrixXd rhs = Eigen::MatrixXd::Zero(size, count);
+   rhs.topRows(interior) = solver.interior;
+   const Eigen::MatrixXd U = of.factor->solve(rhs);
+   counters.back_substitutions += count;
+   solver.contact = U.bottomRows(of.contact);
+   // With springs on the contact nodes instead of clamps: K_CI K_II⁻¹ r = -(S + shift) U_C,
+   // and r'ᵀ K_II⁻¹ r = r'ᵀ U_I - U'_Cᵀ (S + shift) U_C.
+   const Eigen::MatrixXd released = of.S * solver.contact + of.shift * solver.contact;
+   return {-released - at_contact,
+           solver.interior.transpose() * U.topRows(interior) -
+              solver.contact.transpose() * released,
+           at_fixed.transpose() * solver.prescribed};
+}
+
+} // namespace
+
+Condensation condense_by_factor(const AssembledBody &body, const std::vector<int> &contact,
+                                SparseFactor::Backend backend, const BodySolver *alike)
+{
+   Condensation found;
+   found.free = find_free_motions(body, contact);
+   auto solver = std::make_shared<FactorSolver>();
+   const auto *other = dynamic_cast<const FactorSolver *>(alike);
+   if (other && other->stiffness->stands_for(body, contact))
+   {
+      solver->stiffness = other->stiffness;
+   }
+   else
+   {
+      solver->stiffness = factored(body, contact, backend);
+      ++found.counters.factorisations;
+   }
+   found.clamped = clamp(body.loads, *solver, found.counters);
+   found.S = solver->stiffness->S;
+   found.solver = std::move(solver);
+   return found;
+}
+
+CondensedBody condense(const AssembledBody &body, const ContactLine &line,
+                       SparseFactor::Backend backend, const CondensedBody *alike)
+{
+   const Formulation formulation = body.places.formulation;
+   const std::vector<int> contact = contact_dofs(line, formulation, body.K.size());
+   std::vector<int> fixed;
+   for (std::size_t a = 0; a < contact.size(); ++a)
+   {
+      if (std::binary_search(body.fixed.begin(), body.fixed.end(), contact[a]))
+      {
+         fixed.push_back(static_cast<int>(a));
+      }
+   }
+   require_free(line, formulation, fixed);
+   return in_local_frames(
+      line, formulation, body.loads,
+      condense_by_factor(body, contact, backend, alike ? alike->solver.get() : nullptr));
+}
+
+} // namespace cattaneo

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <Eigen/Sparse>
+#include <memory>
+#include <vector>
+
+namespace cattaneo
+{
+
+/// A sparse matrix by rows whose arrays belong to somebody else.
+using SparseView = Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>>;
+
+/// A square sparse matrix by rows, of any program, that is kept alive but not copied.
+class SharedMatrix
+{
+public:
+   SharedMatrix() = default;
+   /// Of row i, `value[k]` in column `column[k]`, k from `start[i]` to `start[i + 1]`. The
+   /// arrays live as long as `owner`.
+   SharedMatrix(int size, const int *start, const int *column, const double *value,
+                std::shared_ptr<const void> owner);
+   explicit SharedMatrix(Eigen::SparseMatrix<double, Eigen::RowMajor> matrix);
+
+   int size() const { return size_; }
+   SparseView view() const { return {size_, size_, start_[size_], start_, column_, value_}; }
+   double diagonal(int row) const;
+   /// True if the other has the same pattern and entries equal to 1e-12 of the largest.
+   bool equals(const SharedMatrix &other) const;
+   /// Rows in connected groups (graph of the stored entries), each sorted.
+   std::vector<std::vector<int>> connected_parts() const;
+
+private:
+   int size_ = 0;
+   const int *start_ = nullptr, *column_ = nullptr;
+   const double *value_ = nullptr;
+   std::shared_ptr<const void> owner_;
+};
+
+} // namespace cattaneo

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <cattaneo/condense/assembled_body.hpp>
+#include <cattaneo/elastic/body.hpp>
+
+namespace cattaneo
+{
+
+/// All of an MFEM body on the first of its ranks, in the order of its global dofs; nothing of
+/// use on the others.
+AssembledBody assembled(const ElasticBody &body);
+
+} // namespace cattaneo
