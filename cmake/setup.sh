@@ -3,7 +3,8 @@
 #
 #   MFEM_DIR=/prefix ./run …   use an MFEM of your own (4.6 or newer), serial or MPI
 #
-# flavour=mpi, set before sourcing, asks for the MPI build of MFEM (./run --mpi, ./test --mpi).
+# flavour=mpi, set before sourcing, asks for the MPI build of MFEM (./run --mpi, ./test --mpi);
+# flavour=core for none (./test --core).
 
 flavour=${flavour:-serial}
 build_type=${CATTANEO_BUILD_TYPE:-Release}
@@ -14,6 +15,10 @@ mfem_mpi_version=4.6.0
 packages="g++ cmake ninja-build zlib1g libeigen3-dev libsuitesparse-dev libopenblas-dev
    coinor-libipopt-dev nlohmann-json3-dev libgtest-dev librapidcheck-dev libbenchmark-dev
    python3-matplotlib"
+if [ "$flavour" = core ]; then
+   build=$build-core
+   CATTANEO_CMAKE_ARGS="${CATTANEO_CMAKE_ARGS:-} -DCATTANEO_MFEM=OFF"
+fi
 if [ "$flavour" = mpi ]; then
    build=$build-mpi
    packages="$packages libhypre-dev libmetis-dev libopenmpi-dev openmpi-bin"
@@ -40,10 +45,11 @@ install_packages()
       >"$deps/apt.log" 2>&1 || { cat "$deps/apt.log" >&2; die "could not install:$missing"; }
 }
 
-# One of the two flavours of MFEM, unless the user named one.
+# One of the two flavours of MFEM, unless the user named one or wants none.
 bring_mfem()
 {
    [ -n "${MFEM_DIR:-}" ] && return 0
+   [ "$flavour" = core ] && { MFEM_DIR=none; return 0; }
    if [ "$flavour" = mpi ]; then build_mpi_mfem; else unpack_serial_mfem; fi
 }
 

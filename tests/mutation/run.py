@@ -35,7 +35,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 HOME = os.path.join(ROOT, "build", "mutation")
 SOURCE, BUILD = os.path.join(HOME, "source"), os.path.join(HOME, "build")
 LIBRARY = "plugin/cattaneo"
-KINDS = ["unit", "verification", "study", "stress"]
+KINDS = ["core", "unit", "verification", "study", "stress"]
 MEMORY = 6 << 30
 GOAL, ROOM_GOAL = 0.9, 0.8
 

@@ -9,7 +9,6 @@
 #include <cstdio>
 #include <fstream>
 #include <gtest/gtest.h>
-#include <stress/two_blocks.hpp>
 
 namespace
 {
@@ -567,61 +566,6 @@ TEST(March, AnErrorOfAdvancingContactIsStatedHoweverItIsCut)
             EXPECT_EQ(report.advance_error, 0);
             EXPECT_EQ(report.fallbacks, 0);
             EXPECT_NEAR(state.q[1], 0.3 * (1 - gap), 1e-14);
-         }
-      }
-   }
-}
-
-/// A pad that is pressed on a softer block from touching: friction in a contact that advances
-/// depends on how it is cut into increments. The exact path has none.
-TEST(March, SaysByHowMuchAdvancingContactDependsOnItsIncrements)
-{
-   const LoadHistory press = LoadHistory::through({Vector2d(0, 0), Vector2d(1, 0)}),
-                     both = LoadHistory::through({Vector2d(0, 0), Vector2d(1, 0.07)});
-   for (double contrast : {4.0, 0.3})
-   {
-      cattaneo_test::TwoBlocks scene;
-      scene.contrast = contrast;
-      scene.curved_gap = 3e-3;
-      scene.intervals = 16;
-      ReducedProblem problem = cattaneo_test::reduce_two_blocks(scene, 0.0);
-      for (double friction : {0.1, 0.2, 0.6})
-      {
-         set_friction(problem, friction);
-         for (const LoadHistory &history : {press, both})
-         {
-            const auto marched = [&](Stepping stepping, int increments, ContactState &state)
-            {
-               MarchSettings settings;
-               settings.stepping = stepping;
-               settings.increments = increments;
-               state = ContactState::virgin(problem);
-               const MarchReport report = march(problem, history, state, settings);
-               EXPECT_EQ(report.status, FrictionStatus::converged) << report.message;
-               return report;
-            };
-            // Increments only where one node bears and the pad may rock.
-            ContactState exact, state;
-            const MarchReport path = marched(Stepping::exact, 20, exact);
-            EXPECT_LT(path.advance_error, 1e-5);
-            double first = 0, last = 0;
-            const auto error = [&]
-            { return (state.q - exact.q).cwiseAbs().maxCoeff() / exact.peak_force; };
-            for (int increments : {4, 5, 10, 20, 50, 200, 1000})
-            {
-               const MarchReport report = marched(Stepping::fixed, increments, state);
-               (increments == 4 ? first : last) = error();
-               EXPECT_LE(error(), report.advance_error + path.advance_error)
-                  << contrast << ' ' << friction << ' ' << increments;
-            }
-            EXPECT_LE(last, 0.1 * first + 1e-12); // the two ways agree in the end
-            for (int increments : {4, 20})
-            {
-               const MarchReport report = marched(Stepping::advancing, increments, state);
-               EXPECT_LT(report.advance_error, 1e-5);
-               EXPECT_LE(error(), report.advance_error + path.advance_error + 1e-12)
-                  << contrast << ' ' << friction << ' ' << increments;
-            }
          }
       }
    }

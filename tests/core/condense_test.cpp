@@ -1,0 +1,271 @@
+#include "expect_input_error.hpp"
+
+#include <cattaneo/condense/condense.hpp>
+#include <cattaneo/reduced/reduction.hpp>
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace
+{
+
+using namespace cattaneo;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/** A body that no finite-element program made: bars of a pin-jointed frame between the points
+   of a grid, along its lines and across its cells, each a little stiffer than the one before.
+   Its contact is the lowest row of points if the body lies above, else the highest; the other
+   one may be held. */
+struct Frame
+{
+   int columns, rows;
+   bool above;
+   MatrixXd K;
+   VectorXd x, y;
+
+   Frame(int across, int up, bool lies_above, double stiffness = 1)
+      : columns(across), rows(up), above(lies_above),
+        K(MatrixXd::Zero(2 * points(), 2 * points())), x(points()), y(points())
+   {
+      for (int p = 0; p < points(); ++p)
+      {
+         x[p] = p % columns;
+         y[p] = p / columns + (above ? 0 : 1 - rows);
+      }
+      double k = stiffness;
+      for (int p = 0; p < points(); ++p)
+      {
+         for (int q = p + 1; q < points(); ++q)
+         {
+            const Eigen::Vector2d along(x[q] - x[p], y[q] - y[p]);
+            if (along.norm() > 1.5) { continue; }
+            const Eigen::Vector4d stretch =
+               (Eigen::Vector4d() << -along, along).finished() / along.norm();
+            const std::vector<int> dofs{2 * p, 2 * p + 1, 2 * q, 2 * q + 1};
+            K(dofs, dofs) += k * stretch * stretch.transpose();
+            k *= 1.01;
+         }
+      }
+   }
+   int points() const { return columns * rows; }
+   int point_of_contact(int i) const // the body on the left
+   {
+      return above ? i : points() - 1 - i;
+   }
+   std::vector<int> contact() const
+   {
+      std::vector<int> dofs;
+      for (int c : {0, 1})
+      {
+         for (int i = 0; i < columns; ++i) { dofs.push_back(2 * point_of_contact(i) + c); }
+      }
+      return dofs;
+   }
+   ContactLine line() const
+   {
+      ContactLine line;
+      const int n = columns;
+      const double side = above ? 1 : -1;
+      line.chain.assign(n, 0);
+      line.chains = {{0, n}};
+      line.position.resize(n, 2);
+      line.tangent = Eigen::RowVector2d(side, 0).replicate(n, 1);
+      line.normal = Eigen::RowVector2d(0, side).replicate(n, 1);
+      line.arc_length = VectorXd::LinSpaced(n, 0, n - 1);
+      line.weights = line.lumped_weights = line.spacing = VectorXd::Ones(n);
+      for (int i = 0; i < n; ++i)
+      {
+         const int p = point_of_contact(i);
+         line.dofs.push_back({2 * p, 2 * p + 1});
+         line.position.row(i) << x[p], y[p];
+      }
+      return line;
+   }
+   AssembledBody body(bool held) const
+   {
+      AssembledBody made;
+      made.K = SharedMatrix(Eigen::SparseMatrix<double, Eigen::RowMajor>(K.sparseView()));
+      made.places = {VectorXd(2 * points()), VectorXd(2 * points()), {}, Formulation::plane};
+      for (int dof = 0; dof < 2 * points(); ++dof)
+      {
+         made.places.x[dof] = x[dof / 2];
+         made.places.y[dof] = y[dof / 2];
+         made.places.component.push_back(dof % 2);
+      }
+      for (int i = 0; held && i < columns; ++i)
+      {
+         const int p = above ? points() - columns + i : i;
+         made.fixed.insert(made.fixed.end(), {2 * p, 2 * p + 1});
+      }
+      VectorXd pull = VectorXd::LinSpaced(2 * points(), -1, 1),
+               lift = VectorXd::Zero(2 * points());
+      made.loads = {{"pull", Control::force, pull}};
+      if (held)
+      {
+         for (int dof : made.fixed) { lift[dof] = dof % 2 ? 0.1 : -0.02 * dof; }
+         made.loads.push_back({"lift", Control::displacement, lift});
+      }
+      return made;
+   }
+};
+
+/// Dofs that are neither in one list nor in the other.
+std::vector<int> others(int size, const std::vector<int> &a, const std::vector<int> &b)
+{
+   std::vector<bool> in(size, false);
+   for (int dof : a) { in[dof] = true; }
+   for (int dof : b) { in[dof] = true; }
+   std::vector<int> rest;
+   for (int dof = 0; dof < size; ++dof)
+   {
+      if (!in[dof]) { rest.push_back(dof); }
+   }
+   return rest;
+}
+
+double difference(const MatrixXd &a, const MatrixXd &b)
+{
+   return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
+}
+
+TEST(CondenseMatrix, IsTheSchurComplementOfItsBlocks)
+{
+   for (const bool above : {true, false})
+   {
+      const Frame frame(5, 4, above);
+      const AssembledBody body = frame.body(true);
+      CondensedBody condensed = condense(body, frame.line());
+      const std::vector<int> C = frame.contact(), D = body.fixed,
+                             I = others(2 * frame.points(), C, D);
+      const auto inner = MatrixXd(frame.K(I, I)).llt();
+      const double side = above ? 1 : -1; // of the line's frames
+      const MatrixXd S = frame.K(C, C) - frame.K(C, I) * inner.solve(MatrixXd(frame.K(I, C)));
+      EXPECT_LT(difference(condensed.S, S), 1e-13);
+      EXPECT_EQ(condensed.rigid_modes, 0);
+      EXPECT_LT(condensed.error_estimate(), 1e-11);
+      EXPECT_EQ(condensed.counters.factorisations, 1);
+
+      const VectorXd &F = body.loads[0].values, d = body.loads[1].values(D);
+      const VectorXd u = VectorXd::LinSpaced(10, 1, 2).array().sin(),
+                     m = Eigen::Vector2d(2, -3);
+      const VectorXd field = condensed.recover(u, m);
+      EXPECT_LT((field(C) - side * u).norm(), 1e-15);
+      EXPECT_LT((field(D) + 3 * d).norm(), 1e-15);
+      // Interior equilibrium, and the forces at the contact.
+      const VectorXd forces = frame.K * field - 2 * F;
+      EXPECT_LT(forces(I).norm(), 1e-12 * forces.norm());
+      VectorXd expected = condensed.S * u;
+      for (int k : {0, 1})
+      {
+         const LoadPattern &pattern = condensed.patterns[k];
+         expected.head(5) += m[k] * pattern.q;
+         expected.tail(5) += m[k] * pattern.p;
+      }
+      EXPECT_LT((side * forces(C) - expected).norm(), 1e-12 * forces.norm());
+      // Work of the pull at its own response with the contact clamped.
+      EXPECT_NEAR(condensed.H(0, 0), VectorXd(F(I)).dot(inner.solve(VectorXd(F(I)))), 1e-11);
+   }
+}
+
+TEST(CondenseMatrix, AFreeBodyKeepsItsRigidMotions)
+{
+   const Frame frame(6, 3, true);
+   const CondensedBody condensed = condense(frame.body(false), frame.line());
+   EXPECT_EQ(condensed.rigid_modes, 3);
+   EXPECT_LT((condensed.S * condensed.rigid_motions()).norm(), 1e-13);
+   // The loads' resultant and moment about the origin are those of the contact.
+   const LoadPattern &pull = condensed.patterns[0];
+   const VectorXd F = frame.body(false).loads[0].values;
+   double fx = 0, fy = 0, moment = 0;
+   for (int p = 0; p < frame.points(); ++p)
+   {
+      fx += F[2 * p];
+      fy += F[2 * p + 1];
+      moment += frame.x[p] * F[2 * p + 1] - frame.y[p] * F[2 * p];
+   }
+   EXPECT_NEAR(pull.q.sum(), -fx, 1e-13);
+   EXPECT_NEAR(pull.p.sum(), -fy, 1e-13);
+   EXPECT_NEAR(pull.p.dot(frame.line().position.col(0)), -moment, 1e-12);
+}
+
+TEST(CondenseMatrix, TwoBodiesAreSpringsInSeries)
+{
+   const Frame upper(5, 4, true), lower(5, 3, false, 2);
+   const CondensedBody first = condense(upper.body(true), upper.line()),
+                       second = condense(lower.body(true), lower.line());
+   const Reduction both = reduce(first, second, pair_lines(first.line, second.line));
+   // The lower one's nodes run the other way, its frames are turned by 180°.
+   std::vector<int> turned;
+   for (int k = 0; k < 10; ++k) { turned.push_back(k / 5 * 5 + 4 - k % 5); }
+   const MatrixXd series =
+      (first.S.inverse() + MatrixXd(second.S(turned, turned)).inverse()).inverse();
+   EXPECT_LT(difference(both.problem.stiffness(), series), 1e-11);
+   EXPECT_EQ(both.problem.gap, VectorXd::Zero(5));
+   EXPECT_EQ(both.counters.factorisations, 2);
+}
+
+TEST(CondenseMatrix, ArraysOfAnyProgramAreTakenAsTheyAre)
+{
+   // Columns of a row in any order, which every program has its own of; and the factor of an
+   // equal body is shared.
+   const Frame frame(4, 4, true);
+   const AssembledBody body = frame.body(true);
+   const SparseView K = body.K.view();
+   std::vector<int> start{0}, column;
+   std::vector<double> value;
+   for (int row = 0; row < K.rows(); ++row)
+   {
+      for (int k = K.outerIndexPtr()[row + 1]; k-- > K.outerIndexPtr()[row];)
+      {
+         column.push_back(K.innerIndexPtr()[k]);
+         value.push_back(K.valuePtr()[k]);
+      }
+      start.push_back(static_cast<int>(column.size()));
+   }
+   AssembledBody other = body;
+   other.K = SharedMatrix(body.K.size(), start.data(), column.data(), value.data(), nullptr);
+   const CondensedBody first = condense(body, frame.line()),
+                       second = condense(other, frame.line()),
+                       third =
+                          condense(other, frame.line(), SparseFactor::Backend::eigen, &second),
+                       fourth =
+                          condense(other, frame.line(), SparseFactor::Backend::eigen, &first);
+   EXPECT_LT(difference(second.S, first.S), 1e-14);
+   EXPECT_EQ(third.S, second.S);
+   EXPECT_EQ(third.counters.factorisations, 0);
+   EXPECT_EQ(fourth.counters.factorisations, 1); // not the same arrays
+   EXPECT_LT(difference(fourth.S, first.S), 1e-13);
+}
+
+TEST(CondenseMatrix, SaysWhatIsWrong)
+{
+   const Frame frame(4, 3, true);
+   const AssembledBody good = frame.body(true);
+   const ContactLine line = frame.line();
+   AssembledBody bad = good;
+   bad.fixed.insert(bad.fixed.begin(), 5);
+   expect_input_error([&] { condense(bad, line); },
+                      "component y of the contact node at (2, 0)");
+   ContactLine beyond = line;
+   beyond.dofs[1][1] = 24;
+   expect_input_error([&] { condense(good, beyond); },
+                      "contact dof 24 of node 1 of the line, must be from 0 to 23");
+   // A contact of one point lets the frame turn about it.
+   ContactLine one = line;
+   one.dofs.resize(1);
+   for (MatrixXd *m : {&one.position, &one.tangent, &one.normal})
+   {
+      m->conservativeResize(1, Eigen::NoChange);
+   }
+   expect_input_error([&] { condense(frame.body(false), one); }, "1 rigid motion(s) free");
+   Frame loose = frame;
+   loose.K(10, 10) = -1;
+   expect_input_error([&] { condense(loose.body(true), line); },
+                      "not positive definite at component x of the node (1, 1)");
+   loose.K(10, 10) = std::nan("");
+   expect_input_error([&] { condense(loose.body(true), line); }, "nan");
+   expect_input_error([] { SharedMatrix(Eigen::SparseMatrix<double, Eigen::RowMajor>(2, 3)); },
+                      "2×3, must be square");
+}
+
+} // namespace
