@@ -98,6 +98,8 @@ TEST(Fretting, RefusesBadInput)
    EXPECT_THROW(mode_two_range(-1), InputError);
    EXPECT_THROW(slip_energy_max(1, 0), InputError);
    EXPECT_THROW(hertz_slip_energy(0.3, 1, 1.01, 1), InputError);
+   expect_input_error([] { hertz_slip_energy(0, 1, 0.5, 1); }, "friction 0 and normal force 1");
+   expect_input_error([] { hertz_slip_energy(0.3, 0, 0.5, 1); }, "normal force 0 must be");
 }
 
 TEST(Fretting, FrictionlessEdgeIsRefusedWithTheReason)
@@ -149,6 +151,9 @@ TEST(FatigueMaterial, FilesAreReadOrRefusedWithTheKey)
    {
       EXPECT_THROW(read(text), InputError) << text;
    }
+   expect_input_error([&] { read(record("").insert(15, R"({"name": 3}, )")); }, "record 1");
+   expect_input_error([&] { read(record(R"(, "shear_yield_MPa": 400}, {"name": 3)")); },
+                      "record 2: \"name\" must be a text");
    expect_input_error([&] { read(record("")); }, "(mine) has no \"shear_yield_MPa\"");
    std::remove(file.c_str());
    EXPECT_THROW(read_materials(file), InputError);

@@ -229,6 +229,12 @@ TEST(Limit, OfANodePressedByItsOwnSlipOnly)
    EXPECT_NEAR(load.limit, 0.05, 1e-7);
    EXPECT_LE(load.lower, 0.05 * (1 + 1e-14));
    EXPECT_GE(load.upper, 0.05 * (1 - 1e-14));
+   // A load that varies by 1e-20 of it may do so 1e20 times as often.
+   LoadCycle weak = held_and_cycled(plane, "shear", 1, "more shear", -1);
+   weak.varying *= 1e-20;
+   const LimitReport often = load_limit(limit_problem(plane, weak));
+   ASSERT_EQ(often.status, LimitStatus::certified) << often.message;
+   EXPECT_NEAR(often.limit, 0.05e20, 1e13);
    // λ = 1: f ≥ (|1 - s| + 1) / (s / 2) for the slip -s, least at any s ≥ 1.
    const LimitReport friction = friction_limit(limit, 1);
    ASSERT_EQ(friction.status, LimitStatus::certified) << friction.message;

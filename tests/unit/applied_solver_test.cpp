@@ -155,6 +155,13 @@ TEST(AppliedSolver, RefusesBadInput)
    settings.max_newton = 0;
    EXPECT_THROW(solve(bad, state, loads(1, 0), settings), InputError);
    expect_input_error([] { AppliedProblem().validate(); }, "0 gaps, 0 friction coefficients");
+   ContactState other = state;
+   other.v.conservativeResize(8);
+   expect_input_error([&] { solve(bad, other, loads(1, 0)); }, "state has 9 nodes");
+   other = state;
+   other.status.pop_back();
+   expect_input_error([&] { solve(bad, other, loads(1, 0)); },
+                      "state has 8 nodes, the problem 9");
    bad.diagonal[2] = 0;
    EXPECT_THROW(solve(bad, state, loads(1, 0)), InputError);
    bad = applied(problem);

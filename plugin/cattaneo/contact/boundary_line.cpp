@@ -140,7 +140,8 @@ void share(const Ranks &ranks, std::vector<Segment> &segments, std::map<int, Nod
 
 const double degree = std::acos(-1.0) / 180;
 
-/// An outer edge of the body that is not on the line, seen from the node it shares with it.
+/// An outer edge of the body, seen from a node that it shares with the line. (One that is on
+/// the line leaves it backwards there.)
 struct WayOn
 {
    int node;
@@ -151,12 +152,7 @@ struct WayOn
 std::vector<WayOn> ways_on(const ElasticBody &body, const std::vector<Segment> &segments)
 {
    std::set<int> ends;
-   std::set<std::pair<int, int>> own;
-   for (const Segment &s : segments)
-   {
-      ends.insert({s.nodes.front(), s.nodes.back()});
-      own.insert(std::minmax(s.nodes.front(), s.nodes.back()));
-   }
+   for (const Segment &s : segments) { ends.insert({s.nodes.front(), s.nodes.back()}); }
    const mfem::FiniteElementSpace &space = body.space();
    mfem::Mesh &mesh = *space.GetMesh();
    mfem::Array<int> vertices, dofs;
@@ -176,7 +172,6 @@ std::vector<WayOn> ways_on(const ElasticBody &body, const std::vector<Segment> &
       mesh.GetElementVertices(element, vertices);
       const int *at = mesh.GetElement(element)->GetEdgeVertices(info / 64);
       const int nodes[] = {node_of(vertices[at[0]]), node_of(vertices[at[1]])};
-      if (own.count(std::minmax(nodes[0], nodes[1]))) { continue; }
       for (int k : {0, 1})
       {
          if (!ends.count(nodes[k])) { continue; }

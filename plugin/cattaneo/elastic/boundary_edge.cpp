@@ -21,7 +21,7 @@ double root(F f, double a, double b, double fa, double fb)
       if (!(c > a && c < b)) { c = 0.5 * (a + b); }
       if (!(c > a && c < b)) { break; }
       const double fc = f(c);
-      if ((fc > 0) == (fa > 0) && fc != 0)
+      if ((fc > 0) == (fa > 0))
       {
          a = c;
          fa = fc;

@@ -627,7 +627,8 @@ MarchReport March::run()
    report_.time = state_.time;
    if (changed_ > 0) { report_.advance_error = 4 * changed_ / state_.peak_force; }
    const double stored = elastic_energy(problem_, state_) - energy;
-   const double largest = std::max({std::abs(external_work_), std::abs(stored), dissipation_});
+   // Work that is negative is no more than what was stored.
+   const double largest = std::max({external_work_, std::abs(stored), dissipation_});
    if (largest > 0)
    {
       report_.energy_imbalance =

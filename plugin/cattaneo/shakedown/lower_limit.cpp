@@ -30,9 +30,9 @@ double two_node_limit(const ReducedProblem &problem, const StuckForces &loads,
       for (int side = 0; side < 2; ++side)
       {
          const double f = problem.friction[i], sign = side == 0 ? 1 : -1;
-         conditions[i][side] = {(f * problem.B.row(i) + sign * problem.A.row(i)).transpose(),
-                                (f * loads.p0.row(i) + sign * loads.q0.row(i)).transpose(),
-                                (f * loads.p1.row(i) + sign * loads.q1.row(i)).transpose()};
+         conditions[i][side] = {f * problem.B.row(i) + sign * problem.A.row(i),
+                                f * loads.p0.row(i) + sign * loads.q0.row(i),
+                                f * loads.p1.row(i) + sign * loads.q1.row(i)};
       }
    }
    double lowest = infinity;
