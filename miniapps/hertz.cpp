@@ -23,7 +23,6 @@
 #include <limits>
 
 using namespace cattaneo;
-using Eigen::Vector2d;
 using Eigen::VectorXd;
 
 namespace
@@ -92,8 +91,8 @@ int main(int argc, char *argv[])
          FrictionSolver solver(problem, settings.friction);
          const Counters made = solver.counters();
          ContactState state = ContactState::virgin(problem);
-         MarchReport report = march(
-            solver, LoadHistory::through({Vector2d(0, 0), Vector2d(1, 0)}), state, settings);
+         MarchReport report =
+            march(solver, LoadHistory::through(problem, {{}, {{"P", 1}}}), state, settings);
          Counters counters = scene.reduction.counters;
          counters += made;
          counters += report.counters;
@@ -153,9 +152,10 @@ int main(int argc, char *argv[])
          nlohmann::ordered_json levels = nlohmann::ordered_json::array();
          for (std::size_t k = 0; k < shear.size() && code == 0; ++k)
          {
-            const Vector2d from = state.multipliers, to(1, shear[k] * friction);
+            const VectorXd to = problem.multipliers({{"P", 1}, {"Q", shear[k] * friction}});
             state.time = 0;
-            report = march(solver, LoadHistory::through({from, to}), state, settings);
+            report =
+               march(solver, LoadHistory::through({state.multipliers, to}), state, settings);
             counters += report.counters;
             code = miniapp::exit_code(report);
             if (code != 0) { break; }

@@ -21,7 +21,6 @@
 #include <limits>
 
 using namespace cattaneo;
-using Eigen::Vector2d;
 
 namespace
 {
@@ -100,8 +99,11 @@ int main(int argc, char *argv[])
          FrictionSolver solver(problem, settings.friction);
          const Counters made = solver.counters();
          ContactState state = ContactState::virgin(problem);
-         MarchReport report = march(
-            solver, LoadHistory::through({Vector2d(0, 0), Vector2d(1, 0)}), state, settings);
+         const auto sheared = [&](double Q) {
+            return problem.multipliers({{"P", 1}, {"Q", Q}});
+         };
+         MarchReport report =
+            march(solver, LoadHistory::through(problem, {{}, {{"P", 1}}}), state, settings);
          int code = miniapp::exit_code(report);
          Counters counters = punch.reduction.counters;
          counters += made;
@@ -164,9 +166,10 @@ int main(int argc, char *argv[])
          }
          for (std::size_t k = 0; k < shear.size() && code == 0; ++k)
          {
-            const Vector2d from = state.multipliers, to(1, shear[k] * friction);
+            const LoadHistory further =
+               LoadHistory::through({state.multipliers, sheared(shear[k] * friction)});
             state.time = 0;
-            report = march(solver, LoadHistory::through({from, to}), state, settings);
+            report = march(solver, further, state, settings);
             counters += report.counters;
             code = miniapp::exit_code(report);
             if (code != 0) { break; }
@@ -197,8 +200,8 @@ int main(int argc, char *argv[])
             cyclic.time = 0;
             cyclic.dissipation = 0;
             const double Q = amplitude * friction;
-            LoadHistory history = LoadHistory::through(
-               {Vector2d(1, 0), Vector2d(1, Q), Vector2d(1, -Q), Vector2d(1, 0)});
+            LoadHistory history =
+               LoadHistory::through({sheared(0), sheared(Q), sheared(-Q), sheared(0)});
             history.cycle_start = 0;
             history.cycles = cycles;
             // Loss is an integral over the path: finer increments, of equal size in both

@@ -1,4 +1,5 @@
 #include "disc_problems.hpp"
+#include "expect_input_error.hpp"
 #include "period_two.hpp"
 #include "random_problem.hpp"
 #include "same_state.hpp"
@@ -17,6 +18,7 @@ using namespace cattaneo;
 using cattaneo_test::as_disc;
 using cattaneo_test::one_block;
 using cattaneo_test::random_problem;
+using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
@@ -770,6 +772,23 @@ TEST(LoadHistory, PiecesOfRepeatedCyclesGoOnInTime)
    EXPECT_EQ(history.end_time(2), 5);
    EXPECT_EQ(history.cycle(2), 0);
    EXPECT_FALSE(history.ends_cycle(2));
+}
+
+TEST(LoadHistory, LoadsHaveNames)
+{
+   ReducedProblem problem = one_block(0.3);
+   ASSERT_EQ(problem.patterns.size(), 2u);
+   problem.patterns[0].name = "weight";
+   problem.patterns[1].name = "a push";
+   const LoadHistory history = LoadHistory::through(
+      problem, {{}, {{"weight", 2}}, {{"a push", 0.5}, {"weight", 1}}, {{"a push", -0.5}}});
+   EXPECT_EQ(history.times, Eigen::Vector4d(0, 1, 2, 3));
+   EXPECT_EQ(history.multipliers, (MatrixXd{{0, 2, 1, 0}, {0, 0, 0.5, -0.5}}));
+   expect_input_error(
+      [&] {
+         problem.multipliers({{"wait", 2}});
+      },
+      "no load pattern 'wait'; there are: weight, a push");
 }
 
 TEST(LoadHistory, RefusesBadInput)

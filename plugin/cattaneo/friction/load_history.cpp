@@ -19,6 +19,14 @@ LoadHistory LoadHistory::through(const std::vector<Eigen::VectorXd> &points)
    return history;
 }
 
+LoadHistory LoadHistory::through(const ReducedProblem &problem,
+                                 const std::vector<NamedLoads> &points)
+{
+   std::vector<Eigen::VectorXd> ordered;
+   for (const NamedLoads &loads : points) { ordered.push_back(problem.multipliers(loads)); }
+   return through(ordered);
+}
+
 int LoadHistory::opening() const
 {
    return cycle_start < 0 ? static_cast<int>(times.size()) - 1 : cycle_start;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <cattaneo/reduced/reduced_problem.hpp>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ struct LoadHistory
 
    /// Points with times 0, 1, 2, …; each inner vector is one point's multipliers.
    static LoadHistory through(const std::vector<Eigen::VectorXd> &points);
+   /// The same by names: through(problem, {{}, {{"P", 1}}, {{"P", 1}, {"Q", 0.2}}}).
+   static LoadHistory through(const ReducedProblem &problem,
+                              const std::vector<NamedLoads> &points);
 
    /// Number of linear pieces, repeated cycles counted.
    int segments() const;

@@ -17,6 +17,13 @@ int ReducedProblem::pattern(const std::string &name) const
    throw InputError("reduced problem: no load pattern '" + name + "'; there are: " + known);
 }
 
+Eigen::VectorXd ReducedProblem::multipliers(const NamedLoads &loads) const
+{
+   Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(patterns.size()));
+   for (const auto &[name, value] : loads) { result[pattern(name)] = value; }
+   return result;
+}
+
 Eigen::VectorXd ReducedProblem::clamped_forces(const Eigen::VectorXd &multipliers) const
 {
    require(multipliers.size() == static_cast<Eigen::Index>(patterns.size()),

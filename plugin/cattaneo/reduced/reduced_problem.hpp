@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +27,9 @@ struct LoadPattern
    Eigen::VectorXd q; ///< tangential, size c·n as ReducedProblem::A
    Eigen::VectorXd p; ///< normal, compression positive, size n
 };
+
+/// Load multipliers by the names of their patterns: {{"P", 1}, {"Q", 0.2}}.
+using NamedLoads = std::map<std::string, double>;
 
 /// How the boundary of a body goes on beyond an end of a contact line.
 enum class LineEnd : signed char
@@ -101,6 +105,10 @@ struct ReducedProblem
 
    /// Index of the pattern of that name; InputError with the list of names if there is none.
    int pattern(const std::string &name) const;
+
+   /// Multipliers in the order of the patterns, zero for those that are not named; InputError
+   /// for a name that no pattern has.
+   Eigen::VectorXd multipliers(const NamedLoads &loads) const;
 
    /// f^w = Σ λ_k {q_k; p_k}, size (c+1)·n.
    Eigen::VectorXd clamped_forces(const Eigen::VectorXd &multipliers) const;
