@@ -5,6 +5,7 @@
 #include "same_state.hpp"
 #include "small_problems.hpp"
 
+#include <array>
 #include <cattaneo/friction/march.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cstdio>
@@ -772,6 +773,45 @@ TEST(LoadHistory, PiecesOfRepeatedCyclesGoOnInTime)
    EXPECT_EQ(history.end_time(2), 5);
    EXPECT_EQ(history.cycle(2), 0);
    EXPECT_FALSE(history.ends_cycle(2));
+}
+
+TEST(March, RemembersTheLargestForceWhereverItIsLess)
+{
+   // Pressed, pushed by a fifth of it and unloaded in proportion: it sticks throughout.
+   const ReducedProblem problem = one_block(0.5);
+   const LoadHistory history = LoadHistory::through(
+      {Vector2d(0, 0), Vector2d(1, 0.2), Vector2d(0.5, 0.1), Vector2d(0.25, 0.05)});
+   for (const Stepping stepping : {Stepping::fixed, Stepping::advancing, Stepping::exact})
+   {
+      MarchSettings settings;
+      settings.stepping = stepping;
+      ContactState state = ContactState::virgin(problem);
+      ASSERT_EQ(march(problem, history, state, settings).status, FrictionStatus::converged);
+      EXPECT_EQ(state.peak_force, 1);
+   }
+}
+
+TEST(March, SlipWithoutFrictionTurnsWhereTheLoadDoes)
+{
+   // v = -shear / 2: forward is where v grows, whatever its sign.
+   const ReducedProblem problem = one_block(0);
+   MarchSettings settings;
+   settings.increments = 1;
+   ContactState state = ContactState::virgin(problem);
+   std::vector<std::array<int, 2>> counts;
+   const MarchReport report = march(
+      problem,
+      LoadHistory::through({Vector2d(0, 0), Vector2d(1, 0), Vector2d(1, 1), Vector2d(1, 0.5)}),
+      state, settings,
+      [&](const ContactState &, const IncrementRecord &record) {
+         counts.push_back({record.forward_slip, record.backward_slip});
+      });
+   ASSERT_EQ(report.status, FrictionStatus::converged);
+   ASSERT_EQ(counts.size(), 3u);
+   EXPECT_EQ(counts[1], (std::array<int, 2>{0, 1}));
+   EXPECT_EQ(counts[2], (std::array<int, 2>{1, 0}));
+   EXPECT_NEAR(state.v[0], -0.25, 1e-15);
+   EXPECT_NEAR(state.slip_origin[0], -0.5, 1e-15);
 }
 
 TEST(LoadHistory, LoadsHaveNames)

@@ -184,6 +184,13 @@ TEST(Method1, SaysBetweenWhichVerticesAndWhenThereIsNone)
    EXPECT_NEAR(method1_friction(problem, cycle, 1, {0, 2}).value, 1.5 / 3.75, 1e-15);
    EXPECT_NEAR(method1_load(problem, cycle, {0, 2}).value, 1.6 / 1.6, 1e-15);
    EXPECT_EQ(method1_load(problem, cycle, {0, 2}).node, 2);
+   // Each node has its own friction: 1.5 λ = 0.6 · 2 at node 1.
+   ReducedProblem unequal = problem;
+   unequal.friction << 2, 0.6, 0.4;
+   EXPECT_NEAR(method1_load(unequal, cycle).value, 0.8, 1e-14);
+   EXPECT_EQ(method1_load(unequal, cycle).node, 1);
+   EXPECT_NEAR(method1_load(unequal, cycle, {0, 2}).value, 1, 1e-14);
+   EXPECT_EQ(method1_load(unequal, cycle, {0, 2}).node, 2);
    // One vertex alone: nothing changes, until node 2 opens.
    cycle.varying = Eigen::Vector2d(0, 1);
    EXPECT_EQ(method1_friction(problem, cycle, 1).value, 0);

@@ -202,6 +202,55 @@ struct Ratchet
    }
 };
 
+TEST(Transient, ANodeThatOpensAtFirstOnlyIsNotSaidToOpen)
+{
+   // Node 0 is pressed by 0.1 and by half of node 1's slip. It begins with v1 = -0.8, open by
+   // 0.3; as soon as node 1 has come to -0.2 it is closed for good, under 0.05 of pressure, and
+   // slips by 0.13 to either side: 0.05 · 0.52 is lost in a cycle.
+   ReducedProblem problem;
+   problem.A = problem.C = Eigen::Matrix2d::Identity();
+   problem.B = Eigen::Matrix2d{{0, 0.5}, {0, 0}};
+   const Eigen::Vector2d zero(0, 0);
+   problem.patterns = {{"P", Control::force, zero, Eigen::Vector2d(0.1, 1)},
+                       {"Q", Control::force, Eigen::Vector2d(0.2, 1), zero}};
+   problem.H = Eigen::Matrix2d::Zero();
+   problem.gap = zero;
+   set_friction(problem, 1);
+   FrictionSolver solver(problem);
+   const LimitProblem limit = limit_problem(problem, held_and_cycled(problem, "P", 1, "Q", -1));
+   for (const Stepping stepping : {Stepping::advancing, Stepping::exact})
+   {
+      TransientSettings settings;
+      settings.march.stepping = stepping;
+      const TransientReport report =
+         transient(solver, limit, 0.9, Eigen::Vector2d(0, -0.8), settings);
+      EXPECT_EQ(report.verdict, Verdict::cyclic_slip);
+      EXPECT_TRUE(report.opened.empty());
+      EXPECT_EQ(report.opened_loss, 0);
+      EXPECT_NEAR(report.dissipation.back(), 0.026, 1e-14);
+      EXPECT_NEAR(std::abs(report.slip[1]), 0.1, 1e-14);
+   }
+}
+
+TEST(Transient, ABodyThatWalksDoesNotShakeDown)
+{
+   // Free, it walks by as much in every cycle: losses of 1.3 and then 0.4, below 0.35 · 1.3,
+   // which is what counts as little here, but not less from cycle to cycle.
+   Ratchet ratchet;
+   ratchet.problem.A << 1, -1, -1, 1;
+   FrictionSolver solver(ratchet.problem);
+   TransientSettings settings;
+   settings.cycles = 20;
+   settings.shaken_down = 0.35;
+   const TransientReport report =
+      transient(solver, limit_problem(ratchet.problem, ratchet.cycle), 1,
+                Eigen::Vector2d(-1, 0), settings);
+   EXPECT_NEAR(report.dissipation.front(), 1.3, 1e-14);
+   EXPECT_NEAR(report.dissipation.back(), 0.4, 1e-13);
+   EXPECT_EQ(report.verdict, Verdict::still_slipping);
+   EXPECT_NEAR(report.decay, 1, 1e-12);
+}
+
 TEST(Transient, DecayAndVerdictOfARatchetByHand)
 {
    // Slips of 0.1 · (1.5, 0.75), then a quarter of these in each cycle, against f P = 1.

@@ -156,12 +156,17 @@ TransientReport transient(FrictionSolver &solver, const LimitProblem &problem,
       }
    }
    std::size_t end = 0;
-   while (end < cycles && loss[end] > little) { ++end; }
+   const bool ends =
+      report.verdict == Verdict::shaken_down || report.verdict == Verdict::slips_and_opens;
+   while (end < cycles && (!ends || loss[end] > little)) { ++end; }
    if (end >= 2)
    {
       const std::size_t first = std::min(end / 2, end - 2);
-      report.decay =
-         std::pow(loss[end - 1] / loss[first], 1.0 / static_cast<double>(end - 1 - first));
+      if (loss[first] > 0)
+      {
+         report.decay =
+            std::pow(loss[end - 1] / loss[first], 1.0 / static_cast<double>(end - 1 - first));
+      }
    }
    return report;
 }
