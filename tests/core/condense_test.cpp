@@ -250,6 +250,33 @@ TEST(CondenseMatrix, SaysWhatIsWrong)
    beyond.dofs[1][1] = 24;
    expect_input_error([&] { condense(good, beyond); },
                       "contact dof 24 of node 1 of the line, must be from 0 to 23");
+   const auto refused = [&](const char *said, const auto &spoil)
+   {
+      AssembledBody spoilt = good;
+      spoil(spoilt);
+      expect_input_error([&] { condense(spoilt, line); }, said);
+   };
+   refused("places of 23, 24 and 24 dofs", [](auto &b) { b.places.x.conservativeResize(23); });
+   refused("dof 3 has component 2", [](auto &b) { b.places.component[3] = 2; });
+   refused("place of dof 4 is not finite", [](auto &b) { b.places.y[4] = INFINITY; });
+   refused("fixed dof 24, must be from 0 to 23", [](auto &b) { b.fixed.push_back(24); });
+   refused("fixed dof 16 follows 17", [](auto &b) { std::swap(b.fixed[0], b.fixed[1]); });
+   refused("load 'pull' has 5 values",
+           [](auto &b) { b.loads[0].values.conservativeResize(5); });
+   refused("load 'pull' has 24 values", [](auto &b) { b.loads[0].values[7] = NAN; });
+   refused("load 'lift' displaces dof 9", [](auto &b) { b.loads[1].values[9] = 1e-9; });
+   // One triangle, as many programs write it.
+   refused("not symmetric",
+           [&](auto &b)
+           {
+              const MatrixXd upper = frame.K.template triangularView<Eigen::Upper>();
+              b.K =
+                 SharedMatrix(Eigen::SparseMatrix<double, Eigen::RowMajor>(upper.sparseView()));
+           });
+   const std::vector<int> start{0, 1, 2}, column{0, 2};
+   const std::vector<double> value{1, 1};
+   refused("row 1 of the stiffness has an entry in column 2", [&](auto &b)
+           { b.K = SharedMatrix(2, start.data(), column.data(), value.data(), nullptr); });
    // A contact of one point lets the frame turn about it.
    ContactLine one = line;
    one.dofs.resize(1);

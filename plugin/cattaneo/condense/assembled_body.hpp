@@ -26,6 +26,11 @@ struct AssembledBody
    /// True if K may resist rigid motions (elastic foundations): those that it resists are then
    /// not free.
    bool grounded = false;
+
+   /// InputError that names what does not fit: sizes, columns, the order of the fixed dofs,
+   /// loads that are not finite or displace what is not fixed, a stiffness that is not
+   /// symmetric (one triangle of it).
+   void validate() const;
 };
 
 } // namespace cattaneo

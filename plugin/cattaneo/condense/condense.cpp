@@ -171,6 +171,7 @@ Condensation condense_by_factor(const AssembledBody &body, const std::vector<int
 CondensedBody condense(const AssembledBody &body, const ContactLine &line,
                        SparseFactor::Backend backend, const CondensedBody *alike)
 {
+   body.validate();
    const Formulation formulation = body.places.formulation;
    const std::vector<int> contact = contact_dofs(line, formulation, body.K.size());
    std::vector<int> fixed;

@@ -1,0 +1,68 @@
+#include <algorithm>
+#include <cattaneo/condense/assembled_body.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cmath>
+
+namespace cattaneo
+{
+
+void AssembledBody::validate() const
+{
+   const int size = K.size(), components = cattaneo::components(places.formulation);
+   const SparseView stiffness = K.view();
+   double largest = 0;
+   for (int row = 0; row < size; ++row)
+   {
+      for (SparseView::InnerIterator entry(stiffness, row); entry; ++entry)
+      {
+         require(entry.col() >= 0 && entry.col() < size, "assembled body: row ", row,
+                 " of the stiffness has an entry in column ", entry.col(),
+                 ", must be from 0 to ", size - 1);
+         require(std::isfinite(entry.value()), "assembled body: entry (", row, ", ",
+                 entry.col(), ") of the stiffness is ", entry.value(), ", must be finite");
+         largest = std::max(largest, std::abs(entry.value()));
+      }
+   }
+   // What an ElasticBody asks of a user's operator, too. By columns the entries are sorted.
+   const Eigen::SparseMatrix<double> by_columns = stiffness,
+                                     transposed = by_columns.transpose(),
+                                     difference = by_columns - transposed;
+   const double skew = difference.nonZeros() ? difference.coeffs().cwiseAbs().maxCoeff() : 0.0;
+   require(skew <= 1e-10 * largest,
+           "assembled body: the stiffness is not symmetric: largest |K - Kᵀ| is ", skew,
+           ", at most ", 1e-10 * largest, " is allowed (are both of its triangles there?)");
+   require(places.x.size() == size && places.y.size() == size &&
+              static_cast<int>(places.component.size()) == size,
+           "assembled body: places of ", places.x.size(), ", ", places.y.size(), " and ",
+           places.component.size(), " dofs, the stiffness has ", size);
+   std::vector<bool> held(size, false);
+   for (int dof = 0; dof < size; ++dof)
+   {
+      require(places.component[dof] >= 0 && places.component[dof] < components,
+              "assembled body: dof ", dof, " has component ", places.component[dof],
+              ", must be from 0 to ", components - 1);
+      require(std::isfinite(places.x[dof]) && std::isfinite(places.y[dof]),
+              "assembled body: the place of dof ", dof, " is not finite");
+   }
+   for (std::size_t k = 0; k < fixed.size(); ++k)
+   {
+      require(fixed[k] >= 0 && fixed[k] < size, "assembled body: fixed dof ", fixed[k],
+              ", must be from 0 to ", size - 1);
+      require(k == 0 || fixed[k - 1] < fixed[k], "assembled body: fixed dof ", fixed[k],
+              " follows ", fixed[k - 1], ", they must be sorted and each there once");
+      held[fixed[k]] = true;
+   }
+   for (const BodyLoad &load : loads)
+   {
+      require(load.values.size() == size && load.values.allFinite(), "assembled body: load '",
+              load.name, "' has ", load.values.size(), " values, must be ", size,
+              ", all finite");
+      for (int dof = 0; load.control == Control::displacement && dof < size; ++dof)
+      {
+         require(held[dof] || load.values[dof] == 0, "assembled body: load '", load.name,
+                 "' displaces dof ", dof, ", which is not fixed, it must be");
+      }
+   }
+}
+
+} // namespace cattaneo
