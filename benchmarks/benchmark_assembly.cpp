@@ -8,7 +8,7 @@
 
 #include <cattaneo/contact/condense_body.hpp>
 #include <cattaneo/elastic/axisymmetric.hpp>
-#include <cattaneo/elastic/graded_mesh.hpp>
+#include <cattaneo/mesh/graded_mesh.hpp>
 #include <cstdio>
 #include <ctime>
 #include <functional>

@@ -8,8 +8,8 @@
 #include "common/miniapp.hpp"
 
 #include <cattaneo/contact/condense_body.hpp>
-#include <cattaneo/elastic/graded_mesh.hpp>
 #include <cattaneo/friction/march.hpp>
+#include <cattaneo/mesh/graded_mesh.hpp>
 #include <cattaneo/reduced/reduction.hpp>
 #include <cstdio>
 #include <cstdlib>

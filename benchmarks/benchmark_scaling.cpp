@@ -10,9 +10,9 @@
 #include "common/miniapp.hpp"
 #include "common/punch.hpp"
 
-#include <cattaneo/elastic/graded_mesh.hpp>
 #include <cattaneo/friction/march.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/mesh/graded_mesh.hpp>
 #include <cmath>
 #include <cstdio>
 #include <ctime>

@@ -7,7 +7,7 @@
 #include "common/miniapp.hpp"
 
 #include <cattaneo/contact/condense_body.hpp>
-#include <cattaneo/elastic/graded_mesh.hpp>
+#include <cattaneo/mesh/graded_mesh.hpp>
 #include <cattaneo/reduced/reduction.hpp>
 #include <cattaneo/shakedown/limit.hpp>
 #include <cstdio>

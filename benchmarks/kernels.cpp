@@ -9,7 +9,7 @@
 #include "common/punch.hpp"
 
 #include <benchmark/benchmark.h>
-#include <cattaneo/condense/sparse_factor.hpp>
+#include <cattaneo/algebra/sparse_factor.hpp>
 #include <cattaneo/elastic/views.hpp>
 #include <cattaneo/friction/friction_solver.hpp>
 #include <cattaneo/shakedown/limit.hpp>

@@ -23,9 +23,9 @@
 #include <cattaneo/fretting/calibration.hpp>
 #include <cattaneo/friction/critical_friction.hpp>
 #include <cattaneo/friction/march.hpp>
-#include <cattaneo/friction/zones.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/output/history.hpp>
+#include <cattaneo/readout/zones.hpp>
 #include <cattaneo/reduced/reduced_file.hpp>
 #include <cattaneo/reduced/reduction.hpp>
 #include <cattaneo/whole_file.hpp>
@@ -561,7 +561,7 @@ int main(int argc, char *argv[])
                study.opposite = &snapshots.states[2];
                study.cycle = &report.cycles.back();
             }
-            if (sides.size() == 1) { study.cracked = fretting::CrackedBody::first; }
+            if (sides.size() == 1) { study.cracked = CrackedBody::first; }
             else if (sides[0].materials.size() == 1 && sides[1].materials.size() == 1 &&
                      similar(sides[0].materials[0], sides[1].materials[0]))
             {

@@ -106,7 +106,7 @@ struct SolvedContact
 /// Fewer spacings than two do not carry the slip in a zone, nor its energy.
 bool resolved(const SolvedEdge &edge, const SolvedContact &solved)
 {
-   const double predicted = slip_zone(edge.edge.near_edge());
+   const double predicted = slip_zone(near_edge(edge.edge));
    return std::min(predicted, edge.edge.slip_zone) >= 2 * solved.spacing;
 }
 
@@ -235,7 +235,7 @@ miniapp::ReferenceTable compare(const Design &design, const Setting &setting,
          const double spread = edge.edge.slip_zone_error / edge.edge.slip_zone;
          const double factor = 0.5 * (1 + std::sqrt(1 - x));
          table.add("predicted / computed d" + where, factor, {0, factor * (0.02 + spread)},
-                   unset, slip_zone(edge.edge.near_edge()) / edge.edge.slip_zone);
+                   unset, slip_zone(near_edge(edge.edge)) / edge.edge.slip_zone);
          const double y = 0.5 * (1 - design.load_ratio) * x;
          const double energy =
             0.5 * hertz_slip_energy(design.friction, design.normal, y, modulus);
@@ -619,7 +619,7 @@ void print_solution(const SolvedContact &solved, const miniapp::ReferenceTable &
       line("K_T", edge.k_t, "MPa√mm");
       print_line("slip zone d", number(edge.slip_zone, "mm"),
                  "± " + number(edge.slip_zone_error, "mm") + "; from K_N and K_T " +
-                    number(slip_zone(edge.near_edge()), "mm") +
+                    number(slip_zone(near_edge(edge)), "mm") +
                     (edge.slides ? "; the whole contact slides" : ""));
       print_line("energy per cycle", number(solution.energy->computed_total, "N"),
                  "from K_N and K_T " + number(solution.energy->predicted_total, "N"));

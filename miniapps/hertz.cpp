@@ -16,8 +16,8 @@
 
 #include <algorithm>
 #include <cattaneo/friction/march.hpp>
-#include <cattaneo/friction/zones.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/readout/zones.hpp>
 #include <cmath>
 #include <iostream>
 #include <limits>

@@ -19,8 +19,8 @@
 
 #include <algorithm>
 #include <cattaneo/friction/march.hpp>
-#include <cattaneo/friction/zones.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/readout/zones.hpp>
 #include <cmath>
 #include <iostream>
 #include <limits>
@@ -346,7 +346,7 @@ int Study::unload(FrictionSolver &solver, ContactState &state, double overhang, 
                       thesis[] = {-1.1, -0.7, -0.2, 0.5};
          for (int k = 0; k < 4; ++k)
          {
-            const Edge &border = found.zones[k].to;
+            const ZoneBorder &border = found.zones[k].to;
             // The inner borders are given to two digits and depend on the steps of unloading.
             const miniapp::Allowed allowed{k == 0 ? 0.003 : 0.005,
                                            border.error + (k == 0 ? 0 : 0.5 / steps)};

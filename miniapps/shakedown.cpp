@@ -23,8 +23,8 @@
 #include "common/study_output.hpp"
 
 #include <algorithm>
-#include <cattaneo/friction/zones.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/readout/zones.hpp>
 #include <cattaneo/reduced/reduced_file.hpp>
 #include <cattaneo/shakedown/closed_contact.hpp>
 #include <cattaneo/shakedown/estimates.hpp>

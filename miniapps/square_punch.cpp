@@ -15,8 +15,8 @@
 #include "common/study_output.hpp"
 
 #include <cattaneo/friction/march.hpp>
-#include <cattaneo/friction/zones.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/readout/zones.hpp>
 #include <iostream>
 #include <limits>
 
@@ -92,7 +92,7 @@ int main(int argc, char *argv[])
          output.reduced(problem, punch.dofs);
 
          // Arc length runs from the left corner: x = s - 1 in the tables.
-         auto x = [](const Edge &edge) { return edge.position - 1; };
+         auto x = [](const ZoneBorder &edge) { return edge.position - 1; };
          MarchSettings settings;
          settings.increments = increments;
          settings.stepping = miniapp::stepping("--march", march_by);

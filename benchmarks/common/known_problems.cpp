@@ -8,10 +8,10 @@
 #include "common/receding.hpp"
 #include "common/twisted_bodies.hpp"
 
-#include <cattaneo/elastic/graded_mesh.hpp>
 #include <cattaneo/friction/march.hpp>
-#include <cattaneo/friction/zones.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/mesh/graded_mesh.hpp>
+#include <cattaneo/readout/zones.hpp>
 #include <cattaneo/shakedown/limit.hpp>
 #include <cmath>
 

@@ -9,7 +9,7 @@
 #include "common/miniapp.hpp"
 
 #include <algorithm>
-#include <cattaneo/condense/sparse_factor.hpp>
+#include <cattaneo/algebra/sparse_factor.hpp>
 #include <cattaneo/contact/boundary_line.hpp>
 #include <cattaneo/contact/condense_body.hpp>
 #include <cattaneo/elastic/views.hpp>

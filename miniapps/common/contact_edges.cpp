@@ -28,7 +28,7 @@ void predict(const EdgeStudy &study, const ContactEdge *before, const ContactEdg
              SolvedEdge &solved)
 {
    const ContactEdge &edge = solved.edge;
-   const double d = slip_zone(edge.near_edge());
+   const double d = slip_zone(near_edge(edge));
    const Eigen::VectorXd &arc = study.problem.arc_length;
    const Eigen::Index end = edge.side > 0 ? edge.first : edge.last;
    const double spacing = std::abs(arc[end + edge.side] - arc[end]);
@@ -153,7 +153,7 @@ void print(const EdgeReport &report, const std::function<double(double)> &coordi
          line("K_N", edge.k_n);
          line("K_T", edge.k_t);
          std::printf("   slip zone    %11.4e ± %s, predicted %.4e\n", edge.slip_zone,
-                     error_text(edge.slip_zone_error).c_str(), slip_zone(edge.near_edge()));
+                     error_text(edge.slip_zone_error).c_str(), slip_zone(near_edge(edge)));
       }
       if (solved.energy)
       {
@@ -195,7 +195,7 @@ Json to_json(const SolvedEdge &solved)
       j["k_t"] = to_json(edge.k_t);
       j["slip_zone"] = edge.slip_zone;
       j["slip_zone_error"] = edge.slip_zone_error;
-      j["slip_zone_predicted"] = slip_zone(edge.near_edge());
+      j["slip_zone_predicted"] = slip_zone(near_edge(edge));
       j["slides"] = edge.slides;
       j["travel"] = solved.travel;
    }

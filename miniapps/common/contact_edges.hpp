@@ -15,7 +15,7 @@ namespace miniapp
 /// computed.
 struct SolvedEdge
 {
-   cattaneo::fretting::ContactEdge edge;
+   cattaneo::ContactEdge edge;
    double travel = 0;    ///< of the edge between the pressed state and the peak load
    double k_t_range = 0; ///< ΔK_T of the cycle
    std::optional<cattaneo::fretting::EnergyComparison> energy; ///< none without a cycle
@@ -32,7 +32,7 @@ struct EdgeStudy
    /// The other end of the cycle and the steady cycle itself: for the energy.
    const cattaneo::ContactState *opposite = nullptr;
    const cattaneo::CycleRecord *cycle = nullptr;
-   cattaneo::fretting::CrackedBody cracked = cattaneo::fretting::CrackedBody::second;
+   cattaneo::CrackedBody cracked = cattaneo::CrackedBody::second;
    double modulus = 0; ///< E* of similar bodies; 0: of different materials, no energy
    /// Eigensolutions of the corner at the first (side 1) or the last (side -1) node of the
    /// line, InputError where there are none. Without it corners are not fitted.
@@ -51,7 +51,7 @@ EdgeReport read_edges(const EdgeStudy &study);
 /// `coordinate` maps arc length to what is shown; units are those of the study.
 void print(const EdgeReport &report, const std::function<double(double)> &coordinate);
 
-nlohmann::ordered_json to_json(const cattaneo::fretting::FittedIntensity &fitted);
+nlohmann::ordered_json to_json(const cattaneo::FittedIntensity &fitted);
 nlohmann::ordered_json to_json(const SolvedEdge &solved);
 nlohmann::ordered_json to_json(const EdgeReport &report);
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <cattaneo/friction/zones.hpp>
+#include <cattaneo/readout/zones.hpp>
 #include <cmath>
 #include <functional>
 #include <limits>

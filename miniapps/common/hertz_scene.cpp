@@ -4,9 +4,9 @@
 #include "common/locking.hpp"
 #include "common/miniapp.hpp"
 
-#include <cattaneo/elastic/graded_mesh.hpp>
-#include <cattaneo/friction/zones.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/mesh/graded_mesh.hpp>
+#include <cattaneo/readout/zones.hpp>
 #include <cmath>
 
 namespace miniapp

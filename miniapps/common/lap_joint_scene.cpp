@@ -5,8 +5,8 @@
 #include "common/miniapp.hpp"
 
 #include <algorithm>
-#include <cattaneo/elastic/graded_mesh.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/mesh/graded_mesh.hpp>
 #include <cmath>
 
 namespace miniapp

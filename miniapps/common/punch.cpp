@@ -4,8 +4,8 @@
 #include "common/locking.hpp"
 #include "common/miniapp.hpp"
 
-#include <cattaneo/elastic/graded_mesh.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/mesh/graded_mesh.hpp>
 
 namespace miniapp
 {

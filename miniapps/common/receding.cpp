@@ -5,9 +5,9 @@
 #include "common/miniapp.hpp"
 
 #include <algorithm>
-#include <cattaneo/elastic/graded_mesh.hpp>
-#include <cattaneo/friction/zones.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/mesh/graded_mesh.hpp>
+#include <cattaneo/readout/zones.hpp>
 #include <cmath>
 #include <limits>
 

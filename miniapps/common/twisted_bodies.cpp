@@ -2,7 +2,7 @@
 
 #include "common/contact_grid.hpp"
 
-#include <cattaneo/elastic/graded_mesh.hpp>
+#include <cattaneo/mesh/graded_mesh.hpp>
 
 namespace miniapp
 {

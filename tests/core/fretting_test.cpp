@@ -3,11 +3,11 @@
 #include <cattaneo/fretting/assessment.hpp>
 #include <cattaneo/fretting/calibration.hpp>
 #include <cattaneo/fretting/edge_crack.hpp>
-#include <cattaneo/fretting/edge_fit.hpp>
 #include <cattaneo/fretting/hertz_field.hpp>
 #include <cattaneo/fretting/measures.hpp>
 #include <cattaneo/fretting/yield.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/readout/edge_fit.hpp>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -21,6 +21,7 @@
 namespace
 {
 
+using namespace cattaneo;
 using namespace cattaneo::fretting;
 using cattaneo::InputError;
 

@@ -1,9 +1,9 @@
 #include "random_problem.hpp"
 
+#include <cattaneo/algebra/semidefinite.hpp>
 #include <cattaneo/friction/friction_solver.hpp>
 #include <cattaneo/friction/lemke.hpp>
 #include <cattaneo/friction/mechanism.hpp>
-#include <cattaneo/friction/semidefinite.hpp>
 #include <cattaneo/input_error.hpp>
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include <algorithm>
-#include <cattaneo/friction/zones.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/readout/zones.hpp>
 #include <cmath>
 #include <gtest/gtest.h>
 

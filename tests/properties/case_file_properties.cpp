@@ -4,7 +4,7 @@
 #include "holds.hpp"
 #include "study/run_miniapp.hpp"
 
-#include <cattaneo/elastic/graded_mesh.hpp>
+#include <cattaneo/mesh/graded_mesh.hpp>
 
 namespace
 {

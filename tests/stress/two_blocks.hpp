@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cattaneo/contact/condense_body.hpp>
-#include <cattaneo/elastic/graded_mesh.hpp>
+#include <cattaneo/mesh/graded_mesh.hpp>
 #include <cattaneo/reduced/reduction.hpp>
 
 namespace cattaneo_test

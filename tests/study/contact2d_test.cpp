@@ -3,9 +3,9 @@
 #include "common/punch.hpp"
 
 #include <algorithm>
-#include <cattaneo/elastic/graded_mesh.hpp>
 #include <cattaneo/fretting/calibration.hpp>
 #include <cattaneo/fretting/measures.hpp>
+#include <cattaneo/mesh/graded_mesh.hpp>
 #include <cmath>
 #include <filesystem>
 #include <fstream>

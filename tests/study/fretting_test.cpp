@@ -267,16 +267,16 @@ TEST(Fretting, SquarePunchIsACornerWithIntensitiesOfItsOwn)
       const MarchReport report = march(
          problem, LoadHistory::through({Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 0)}), state);
       ASSERT_EQ(report.status, FrictionStatus::converged) << report.message;
-      const auto edges = fretting::contact_edges(problem, state, state);
+      const auto edges = contact_edges(problem, state, state);
       ASSERT_EQ(edges.size(), 2u);
       double found[2];
       for (const auto &edge : edges)
       {
          EXPECT_TRUE(edge.complete);
-         EXPECT_THROW(edge.near_edge(), InputError);
+         EXPECT_THROW(fretting::near_edge(edge), InputError);
          const fretting::CornerFit fit =
             fretting::fit_corner(fretting::corner_modes(fretting::Corner{pi / 2, pi}),
-                                 fretting::edge_tractions(problem, state, edge));
+                                 edge_tractions(problem, state, edge));
          // Symmetric: both corners alike, K_II included, as shear counts into the contact.
          if (edge.side > 0)
          {
@@ -318,10 +318,9 @@ TEST(Fretting, SquarePunchOnARigidPlaneHasItsOwnExponent)
       ContactState state = ContactState::virgin(problem);
       march(problem, LoadHistory::through({Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 0)}),
             state);
-      const auto edges = fretting::contact_edges(problem, state, state);
+      const auto edges = contact_edges(problem, state, state);
       ASSERT_EQ(edges.size(), 2u);
-      const fretting::EdgeTractions tractions =
-         fretting::edge_tractions(problem, state, edges[0]);
+      const EdgeTractions tractions = edge_tractions(problem, state, edges[0]);
       const fretting::CornerFit fit = fretting::fit_corner(modes, tractions);
       EXPECT_LT(fit.k_one.relative_error, 0.02);
       EXPECT_EQ(fit.k_two.nodes, 0);

@@ -3,9 +3,9 @@
 #include "stress/enumeration.hpp"
 
 #include <cattaneo/contact/condense_body.hpp>
-#include <cattaneo/elastic/graded_mesh.hpp>
 #include <cattaneo/friction/critical_friction.hpp>
 #include <cattaneo/friction/march.hpp>
+#include <cattaneo/mesh/graded_mesh.hpp>
 #include <cattaneo/reduced/reduction.hpp>
 #include <gtest/gtest.h>
 

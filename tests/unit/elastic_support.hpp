@@ -4,8 +4,8 @@
 
 #include <Eigen/Dense>
 #include <cattaneo/contact/condense_body.hpp>
-#include <cattaneo/elastic/graded_mesh.hpp>
 #include <cattaneo/elastic/views.hpp>
+#include <cattaneo/mesh/graded_mesh.hpp>
 #include <cattaneo/reduced/reduction.hpp>
 #include <cmath>
 #include <mfem.hpp>

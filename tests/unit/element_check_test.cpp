@@ -1,6 +1,6 @@
 #include "elastic_support.hpp"
 
-#include <cattaneo/elastic/element_check.hpp>
+#include <cattaneo/mesh/element_check.hpp>
 #include <numeric>
 
 namespace

@@ -2,10 +2,10 @@
 #include "small_problems.hpp"
 
 #include <cattaneo/contact/condense_body.hpp>
-#include <cattaneo/elastic/graded_mesh.hpp>
 #include <cattaneo/elastic/stress.hpp>
 #include <cattaneo/friction/march.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/mesh/graded_mesh.hpp>
 #include <cattaneo/output/history.hpp>
 #include <cattaneo/output/paraview.hpp>
 #include <cattaneo/reduced/reduction.hpp>

@@ -1,8 +1,8 @@
 #include "common/hertz_scene.hpp"
 #include "common/punch.hpp"
 
-#include <cattaneo/elastic/graded_mesh.hpp>
 #include <cattaneo/friction/march.hpp>
+#include <cattaneo/mesh/graded_mesh.hpp>
 #include <cmath>
 #include <gtest/gtest.h>
 

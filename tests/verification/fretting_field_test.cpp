@@ -28,7 +28,7 @@ Edge unit_edge(double friction)
 }
 
 /// Flamant's solution for unit forces at distance x along the surface: pressure, then shear.
-Stress flamant(double p, double q, double x, double y)
+InPlaneStress flamant(double p, double q, double x, double y)
 {
    const double r4 = std::pow(x * x + y * y, 2), c = -2 / (pi * r4);
    return {c * (p * y * x * x + q * x * x * x), c * (p * y * y * y + q * x * y * y),
@@ -36,14 +36,14 @@ Stress flamant(double p, double q, double x, double y)
 }
 
 /// Superposition of Flamant's solutions with the tractions of the near-edge field.
-Stress integrated_stress(double f, double t, double y)
+InPlaneStress integrated_stress(double f, double t, double y)
 {
    std::array<double, 3> result{};
    const auto part = [&](int component)
    {
       const auto of = [&](double s, double q)
       {
-         const Stress stress = flamant(std::sqrt(s), q, t - s, y);
+         const InPlaneStress stress = flamant(std::sqrt(s), q, t - s, y);
          return component == 0 ? stress.xx : component == 1 ? stress.yy : stress.xy;
       };
       const auto slip = [&](double s) { return of(s, f * std::sqrt(s)); };
@@ -57,11 +57,11 @@ Stress integrated_stress(double f, double t, double y)
 
 TEST(NearEdgeField, GivesTheSamples)
 {
-   const Stress a = stress(unit_edge(0.8), 0.5, 0.3);
+   const InPlaneStress a = stress(unit_edge(0.8), 0.5, 0.3);
    expect_relative(a.xx, -0.0465260136501, 1e-11);
    expect_relative(a.yy, -0.573965289834, 1e-11);
    expect_relative(a.xy, -0.126846556441, 1e-11);
-   const Stress b = stress(unit_edge(0.3), 2, 1);
+   const InPlaneStress b = stress(unit_edge(0.3), 2, 1);
    expect_relative(b.xx, -1.44634631865, 1e-11);
    expect_relative(b.yy, -1.39742959529, 1e-11);
    expect_relative(b.xy, 0.243649453235, 1e-11);
@@ -73,8 +73,8 @@ TEST(NearEdgeField, IsTheFieldOfItsTractions)
    {
       for (const auto &point : {std::array{0.5, 0.3}, {2.0, 1.0}, {-0.7, 0.4}, {0.0, 2.5}})
       {
-         const Stress closed = stress(unit_edge(f), point[0], point[1]);
-         const Stress integrated = integrated_stress(f, point[0], point[1]);
+         const InPlaneStress closed = stress(unit_edge(f), point[0], point[1]);
+         const InPlaneStress integrated = integrated_stress(f, point[0], point[1]);
          EXPECT_NEAR(closed.xx, integrated.xx, 1e-8);
          EXPECT_NEAR(closed.yy, integrated.yy, 1e-8);
          EXPECT_NEAR(closed.xy, integrated.xy, 1e-8);
@@ -87,7 +87,7 @@ TEST(NearEdgeField, MeetsItsTractionsOnTheSurface)
    const Edge edge{4000, 20, 0.6};
    for (const double t : {-0.01, 1e-4, 0.01, slip_zone(edge), 0.05})
    {
-      const Stress surface = stress(edge, t, 0);
+      const InPlaneStress surface = stress(edge, t, 0);
       const double p = t > 0 ? 4000 * std::sqrt(t) : 0;
       EXPECT_NEAR(surface.yy, -p, 1e-10);
       EXPECT_NEAR(surface.xy, -shear_traction(edge, t), 1e-10);
@@ -114,8 +114,8 @@ TEST(NearEdgeField, NegativeShearFlipsTheShearPartOnly)
    const Edge none{1, 0, 0.5};
    for (const auto &point : {std::array{0.5, 0.0}, {-1.0, 0.0}, {1.7, 0.6}})
    {
-      const Stress a = stress(plus, point[0], point[1]), b = stress(minus, point[0], point[1]);
-      const Stress c = stress(none, point[0], point[1]);
+      const InPlaneStress a = stress(plus, point[0], point[1]), b = stress(minus, point[0], point[1]);
+      const InPlaneStress c = stress(none, point[0], point[1]);
       EXPECT_NEAR(a.xx + b.xx, 2 * c.xx, 1e-14);
       EXPECT_NEAR(a.yy + b.yy, 2 * c.yy, 1e-14);
       EXPECT_NEAR(a.xy + b.xy, 2 * c.xy, 1e-14);
@@ -343,7 +343,7 @@ TEST(Yield, MapBoundsTheSlipZone)
 
 TEST(Yield, VonMisesIsThatOfTheThreeDimensionalStress)
 {
-   const Stress s{3, -5, 2};
+   const InPlaneStress s{3, -5, 2};
    for (const double c : {0.0, 0.3})
    {
       const double z = c * (s.xx + s.yy);
@@ -357,7 +357,7 @@ TEST(HertzField, IsTheFieldOfItsTractions)
 {
    const double f = 0.5, x = 0.6, c = std::sqrt(1 - x);
    const double X = -0.8, Y = 0.4;
-   const Stress closed = hertz_stress(f, x, X, Y);
+   const InPlaneStress closed = hertz_stress(f, x, X, Y);
    double xx = 0, yy = 0, xy = 0;
    const double ends[] = {-1, -c, c, 1};
    for (int i = 0; i < 3; i++)

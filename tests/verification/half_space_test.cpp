@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cattaneo/contact/condense_body.hpp>
-#include <cattaneo/elastic/graded_mesh.hpp>
 #include <cattaneo/friction/friction_solver.hpp>
-#include <cattaneo/friction/zones.hpp>
+#include <cattaneo/mesh/graded_mesh.hpp>
+#include <cattaneo/readout/zones.hpp>
 #include <cattaneo/reduced/reduction.hpp>
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // The whole chain, from mesh to march, must not care about units, orientation or numbering.
 
 #include <cattaneo/contact/condense_body.hpp>
-#include <cattaneo/elastic/graded_mesh.hpp>
 #include <cattaneo/friction/march.hpp>
+#include <cattaneo/mesh/graded_mesh.hpp>
 #include <cattaneo/reduced/reduction.hpp>
 #include <cmath>
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 #include "common/twisted_bodies.hpp"
 
 #include <cattaneo/friction/march.hpp>
-#include <cattaneo/friction/zones.hpp>
+#include <cattaneo/readout/zones.hpp>
 #include <cmath>
 #include <cstdio>
 #include <gtest/gtest.h>

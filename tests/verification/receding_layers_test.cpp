@@ -4,7 +4,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cattaneo/friction/friction_solver.hpp>
-#include <cattaneo/friction/zones.hpp>
+#include <cattaneo/readout/zones.hpp>
 #include <cmath>
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cattaneo/contact/condense_body.hpp>
-#include <cattaneo/elastic/graded_mesh.hpp>
 #include <cattaneo/friction/march.hpp>
-#include <cattaneo/friction/zones.hpp>
+#include <cattaneo/mesh/graded_mesh.hpp>
+#include <cattaneo/readout/zones.hpp>
 #include <cattaneo/reduced/reduction.hpp>
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <cattaneo/algebra/sparse_factor.hpp>
 #include <cattaneo/condense/condensed_body.hpp>
-#include <cattaneo/condense/sparse_factor.hpp>
 
 namespace cattaneo
 {

@@ -1,7 +1,7 @@
 #include <algorithm>
+#include <cattaneo/algebra/dense_algebra.hpp>
 #include <cattaneo/condense/condensed_body.hpp>
 #include <cattaneo/condense/local_frame.hpp>
-#include <cattaneo/dense_algebra.hpp>
 #include <cattaneo/input_error.hpp>
 
 namespace cattaneo

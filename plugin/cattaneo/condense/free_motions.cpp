@@ -1,5 +1,5 @@
+#include <cattaneo/algebra/dense_algebra.hpp>
 #include <cattaneo/condense/free_motions.hpp>
-#include <cattaneo/dense_algebra.hpp>
 #include <cattaneo/input_error.hpp>
 
 namespace cattaneo

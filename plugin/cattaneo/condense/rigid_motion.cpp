@@ -1,6 +1,6 @@
 #include <algorithm>
+#include <cattaneo/algebra/dense_algebra.hpp>
 #include <cattaneo/condense/rigid_motion.hpp>
-#include <cattaneo/dense_algebra.hpp>
 #include <cmath>
 #include <limits>
 

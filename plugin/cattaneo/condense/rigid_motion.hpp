@@ -1,7 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <cattaneo/condense/shared_matrix.hpp>
+#include <cattaneo/algebra/shared_matrix.hpp>
 #include <cattaneo/formulation.hpp>
 #include <vector>
 

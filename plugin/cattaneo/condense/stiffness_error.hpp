@@ -1,8 +1,8 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <cattaneo/condense/dense_cholesky.hpp>
-#include <cattaneo/condense/sparse_factor.hpp>
+#include <cattaneo/algebra/dense_cholesky.hpp>
+#include <cattaneo/algebra/sparse_factor.hpp>
 
 namespace cattaneo
 {

@@ -2,9 +2,9 @@
 #include <cattaneo/elastic/assembly.hpp>
 #include <cattaneo/elastic/body.hpp>
 #include <cattaneo/elastic/boundary_edge.hpp>
-#include <cattaneo/elastic/element_check.hpp>
 #include <cattaneo/elastic/views.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/mesh/element_check.hpp>
 #include <cmath>
 #include <type_traits>
 

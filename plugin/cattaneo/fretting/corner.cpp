@@ -1,8 +1,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
-#include <cattaneo/dense_algebra.hpp>
+#include <cattaneo/algebra/dense_algebra.hpp>
+#include <cattaneo/algebra/root.hpp>
 #include <cattaneo/fretting/corner.hpp>
-#include <cattaneo/fretting/root.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
 #include <complex>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cattaneo/fretting/edge_fit.hpp>
+#include <cattaneo/readout/edge_fit.hpp>
 #include <optional>
 
 namespace cattaneo::fretting

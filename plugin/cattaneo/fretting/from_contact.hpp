@@ -1,78 +1,14 @@
 #pragma once
 
-#include <cattaneo/fretting/edge_fit.hpp>
 #include <cattaneo/fretting/near_edge.hpp>
 #include <cattaneo/friction/march.hpp>
-#include <cattaneo/friction/zones.hpp>
-#include <string>
-#include <vector>
+#include <cattaneo/readout/contact_edges.hpp>
 
 namespace cattaneo::fretting
 {
 
-/// Which body the crack is in; its shear traction gives K_T its sign. Body 1 is the one whose
-/// contact line the reduced problem has.
-enum class CrackedBody
-{
-   first,
-   second
-};
-
-/** One end of a stretch of contact, with what the solution says of it. Units are those of the
-    reduced problem (forces per unit thickness); arc length as ReducedProblem::arc_length. */
-struct ContactEdge
-{
-   cattaneo::Edge position; ///< arc length, read out between the nodes by zones()
-   int side = 1;            ///< +1: the contact lies at larger arc length, -1: at smaller
-   double half_width = 0.0; ///< of the stretch of contact
-   Eigen::Index first = 0;  ///< nodes of this edge's half of the contact,
-   Eigen::Index last = -1;  ///< in increasing order
-   bool complete = false;   ///< the contact reaches the end of the contact line
-   std::string why_not;     ///< complete: why the incomplete-contact criteria are refused
-   FittedIntensity k_n;     ///< zero if complete
-   FittedIntensity k_t;     ///< zero if complete; signed as Edge::k_t
-   double friction = 0.0;   ///< at the outermost node in contact
-   double slip_zone = 0.0;  ///< computed: from the edge to where stick begins, 0 if it sticks
-   double slip_zone_error = 0.0; ///< of the two positions it is the difference of
-   bool slides = false; ///< no stick in this stretch of contact: slip_zone is its whole width
-
-   /// What the near-edge fields and criteria take. InputError with why_not if complete.
-   Edge near_edge() const;
-};
-
-/** Shear tractions if nothing had slipped since @a pressed: the nodes of @a tied keep the slip
-    of @a pressed, those closed in @a loaded stay closed, all others are free; the loads are
-    those of @a loaded. Plane problems with friction.
-    @param tied one entry a node */
-ContactState fully_stuck(const ReducedProblem &problem, const ContactState &pressed,
-                         const ContactState &loaded, const std::vector<bool> &tied);
-/// Tied are the nodes closed in @a loaded.
-ContactState fully_stuck(const ReducedProblem &problem, const ContactState &pressed,
-                         const ContactState &loaded);
-
-/** K_N, K_T and the slip zone at each end of each stretch of contact, in the order of the
-    nodes. An edge is incomplete unless the contact reaches an end of the contact line.
-
-    K_N is fitted to the pressure of @a loaded. K_T is fitted to the shear of fully_stuck().
-    Its singularity does not lie at the edge of contact but within a spacing of the last tied
-    node. Where it lies, an auxiliary stuck solution tells (a uniform misfit strain between the
-    bodies, singular at every edge); K_T is interpolated to the edge of contact between the
-    solutions that tie the nodes in contact and one node more at each edge. This brings the
-    error from first to second order in the spacing.
-
-    @param pressed state after the normal load alone, before the cyclic loads
-    @param loaded state at peak load: frictional, or fully stuck
-    InputError for a problem that is not plane or has no friction, for a contact line of several
-    pieces, and for a contact with too few nodes for the fit. */
-std::vector<ContactEdge> contact_edges(const ReducedProblem &problem,
-                                       const ContactState &pressed, const ContactState &loaded,
-                                       CrackedBody cracked = CrackedBody::second,
-                                       const FitSettings &settings = {});
-
-/// Tractions of a state in the half of the contact next to an edge; shear on the cracked body.
-EdgeTractions edge_tractions(const ReducedProblem &problem, const ContactState &state,
-                             const ContactEdge &edge,
-                             CrackedBody cracked = CrackedBody::second);
+/// What the near-edge fields and criteria take. InputError with why_not if it is complete.
+Edge near_edge(const ContactEdge &edge);
 
 /// Frictional energy of one marched cycle, computed and as the near-edge field predicts it.
 struct EnergyComparison

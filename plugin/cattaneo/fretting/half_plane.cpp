@@ -7,7 +7,7 @@ namespace cattaneo::fretting
 
 using Complex = std::complex<double>;
 
-Stress half_plane_stress(const Traction &pressure, const Traction &shear, double y)
+InPlaneStress half_plane_stress(const Traction &pressure, const Traction &shear, double y)
 {
    const Complex i(0, 1);
    const Complex normal = -0.5 * pressure.value, tangential = 0.5 * i * shear.value;
@@ -25,7 +25,7 @@ double out_of_plane_constraint(double poisson, bool plane_stress)
    return plane_stress ? 0.0 : poisson;
 }
 
-double von_mises(const Stress &s, double constraint)
+double von_mises(const InPlaneStress &s, double constraint)
 {
    const double sum = s.xx + s.yy, difference = s.xx - s.yy;
    return std::sqrt(0.75 * difference * difference + 3 * s.xy * s.xy +

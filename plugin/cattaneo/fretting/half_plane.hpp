@@ -6,7 +6,7 @@ namespace cattaneo::fretting
 {
 
 /// In-plane stress components, tension positive.
-struct Stress
+struct InPlaneStress
 {
    double xx = 0.0;
    double yy = 0.0;
@@ -28,7 +28,7 @@ struct Traction
    of p and q at x + iy; then σ_xx + σ_yy = 4 Re Φ and σ_yy - iσ_xy is 2 Re Φ_N + 2iy conj(Φ_N')
    for the pressure, 2i Im Φ_T + 2iy conj(Φ_T') for the shear. (2.13) and (2.14) are special
    cases. */
-Stress half_plane_stress(const Traction &pressure, const Traction &shear, double y);
+InPlaneStress half_plane_stress(const Traction &pressure, const Traction &shear, double y);
 
 /** σ_zz = c (σ_xx + σ_yy): the constraint c is Poisson's ratio in plane strain and 0 in plane
     stress. It is all that these criteria need to know of the third direction.
@@ -36,6 +36,6 @@ Stress half_plane_stress(const Traction &pressure, const Traction &shear, double
 double out_of_plane_constraint(double poisson, bool plane_stress);
 
 /// Von Mises' equivalent stress, the root of (2.17), which is 3 J₂: yield at √3 k (2.18).
-double von_mises(const Stress &stress, double constraint);
+double von_mises(const InPlaneStress &stress, double constraint);
 
 } // namespace cattaneo::fretting

@@ -1,6 +1,6 @@
 #include <algorithm>
+#include <cattaneo/algebra/root.hpp>
 #include <cattaneo/fretting/hertz_field.hpp>
-#include <cattaneo/fretting/root.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
 
@@ -45,7 +45,7 @@ double climb(const Function &value, double x, double y, double step)
 
 } // namespace
 
-Stress hertz_stress(double friction, double load_ratio, double x, double y)
+InPlaneStress hertz_stress(double friction, double load_ratio, double x, double y)
 {
    const Complex z(x, y + 0.0);
    const Traction pressure = semi_ellipse(1, z);

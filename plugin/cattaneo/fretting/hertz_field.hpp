@@ -9,7 +9,7 @@ namespace cattaneo::fretting
     pressure √(1-x²), shear f√(1-x²) less f c √(1-(x/c)²) in the stick zone |x| < c = √(1-Q/fP),
     pulling the body in +x, so that x = -1 is the trailing edge. y >= 0 is the depth.
     @param load_ratio Q/(fP), from 0 (no shear) to 1 (sliding) */
-Stress hertz_stress(double friction, double load_ratio, double x, double y);
+InPlaneStress hertz_stress(double friction, double load_ratio, double x, double y);
 
 /** The friction coefficient above which the largest von Mises stress of a Hertz contact lies on
     the surface and no longer below it (thesis 2.4): 0.262825847 for ν = 0.3 in plane strain and

@@ -48,7 +48,7 @@ double shear_traction(const Edge &edge, double t)
    return t <= d ? limit * std::sqrt(t) : limit * d / (std::sqrt(t) + std::sqrt(t - d));
 }
 
-Stress stress(const Edge &edge, double t, double y)
+InPlaneStress stress(const Edge &edge, double t, double y)
 {
    const double d = slip_zone(edge);
    require(std::isfinite(t) && std::isfinite(y) && y >= 0, "the point (t, y) = (", t, ", ", y,

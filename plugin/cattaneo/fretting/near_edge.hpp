@@ -30,7 +30,7 @@ double pressure(const Edge &edge, double t);
 double shear_traction(const Edge &edge, double t);
 
 /// Stress at (t, y), y >= 0, in the near-edge field ((2.13)-(2.16), corrected).
-Stress stress(const Edge &edge, double t, double y);
+InPlaneStress stress(const Edge &edge, double t, double y);
 
 /// σ_xx at the contact edge, ±√(8 f K_N |K_T|) with the sign of K_T (thesis 2.5.1, doubled).
 double edge_stress(const Edge &edge);

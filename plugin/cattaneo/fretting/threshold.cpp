@@ -1,6 +1,6 @@
 #include <algorithm>
+#include <cattaneo/algebra/root.hpp>
 #include <cattaneo/fretting/edge_crack.hpp>
-#include <cattaneo/fretting/root.hpp>
 #include <cattaneo/fretting/threshold.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>

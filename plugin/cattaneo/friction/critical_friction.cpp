@@ -1,8 +1,8 @@
-#include <cattaneo/dense_algebra.hpp>
+#include <cattaneo/algebra/dense_algebra.hpp>
+#include <cattaneo/algebra/nonnegative_fit.hpp>
 #include <cattaneo/friction/critical_friction.hpp>
 #include <cattaneo/friction/friction_disc.hpp>
 #include <cattaneo/friction/mechanism.hpp>
-#include <cattaneo/friction/nonnegative_fit.hpp>
 #include <cmath>
 #include <limits>
 

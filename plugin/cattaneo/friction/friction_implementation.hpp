@@ -1,10 +1,10 @@
 #pragma once
 
+#include <cattaneo/algebra/semidefinite.hpp>
 #include <cattaneo/friction/contact_laws.hpp>
 #include <cattaneo/friction/friction_disc.hpp>
 #include <cattaneo/friction/friction_solver.hpp>
 #include <cattaneo/friction/mechanism.hpp>
-#include <cattaneo/friction/semidefinite.hpp>
 #include <cattaneo/friction/state_equations.hpp>
 #include <limits>
 #include <optional>

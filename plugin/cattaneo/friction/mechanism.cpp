@@ -1,6 +1,6 @@
+#include <cattaneo/algebra/nonnegative_fit.hpp>
+#include <cattaneo/algebra/semidefinite.hpp>
 #include <cattaneo/friction/mechanism.hpp>
-#include <cattaneo/friction/nonnegative_fit.hpp>
-#include <cattaneo/friction/semidefinite.hpp>
 #include <cmath>
 #include <vector>
 

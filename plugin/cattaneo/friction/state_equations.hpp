@@ -1,9 +1,9 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <cattaneo/algebra/dense_lu.hpp>
 #include <cattaneo/friction/contact_laws.hpp>
 #include <cattaneo/friction/contact_state.hpp>
-#include <cattaneo/friction/dense_lu.hpp>
 #include <vector>
 
 namespace cattaneo

@@ -1,6 +1,6 @@
-#include <cattaneo/friction/zones.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/output/history.hpp>
+#include <cattaneo/readout/zones.hpp>
 #include <cattaneo/whole_file.hpp>
 #include <sstream>
 

@@ -1,9 +1,9 @@
 #include <array>
 #include <cattaneo/elastic/point_stress.hpp>
 #include <cattaneo/elastic/views.hpp>
-#include <cattaneo/friction/zones.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/output/paraview.hpp>
+#include <cattaneo/readout/zones.hpp>
 #include <cattaneo/whole_file.hpp>
 #include <filesystem>
 #include <sstream>

@@ -1,6 +1,6 @@
-#include <cattaneo/condense/dense_cholesky.hpp>
+#include <cattaneo/algebra/dense_algebra.hpp>
+#include <cattaneo/algebra/dense_cholesky.hpp>
 #include <cattaneo/condense/local_frame.hpp>
-#include <cattaneo/dense_algebra.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/reduction.hpp>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include <cattaneo/friction/dense_lu.hpp>
+#include <cattaneo/algebra/dense_lu.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/shakedown/cone_programme.hpp>
 #include <cmath>

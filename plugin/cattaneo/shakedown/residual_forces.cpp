@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <cattaneo/dense_algebra.hpp>
+#include <cattaneo/algebra/dense_algebra.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/shakedown/residual_forces.hpp>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include <algorithm>
-#include <cattaneo/dense_algebra.hpp>
-#include <cattaneo/friction/zones.hpp>
+#include <cattaneo/algebra/dense_algebra.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/readout/zones.hpp>
 #include <cmath>
 #include <limits>
 
@@ -69,7 +69,7 @@ struct Bracket
    Index step() const { return inside < outside ? -1 : 1; }
    Index nodes() const { return std::abs(last - inside) + 1; }
    double spacing() const { return std::abs(s[outside] - s[inside]); }
-   Edge middle() const { return {0.5 * (s[inside] + s[outside]), spacing()}; }
+   ZoneBorder middle() const { return {0.5 * (s[inside] + s[outside]), spacing()}; }
 
    /// Zero of a polynomial through the nodes from..to-1 of the zone (0: `inside`), in spacings
    /// from `inside` toward the zone; NaN if there are not that many.
@@ -88,7 +88,7 @@ struct Bracket
 
    /// The edge at `best` if that is between the two nodes or near; `other` tells how sure it
    /// is, but not surer than `least`, in spacings.
-   bool accept(double best, double other, double least, Edge &edge) const
+   bool accept(double best, double other, double least, ZoneBorder &edge) const
    {
       if (!(best > -1.3 && best < 0.3)) { return false; }
       const double doubt = std::isfinite(other) ? std::abs(best - other) : 1.0;
@@ -97,16 +97,16 @@ struct Bracket
    }
 };
 
-const Edge &surer(const Edge &a, const Edge &b)
+const ZoneBorder &surer(const ZoneBorder &a, const ZoneBorder &b)
 {
    return b.error < a.error ? b : a;
 }
 
 /// End of contact from inside: squared pressure. The last two nodes carry parts of elements
 /// that are not wholly in contact and are left out where there are enough others.
-Edge separation_edge(const Bracket &bracket, const VectorXd &pressure2)
+ZoneBorder separation_edge(const Bracket &bracket, const VectorXd &pressure2)
 {
-   Edge edge = bracket.middle();
+   ZoneBorder edge = bracket.middle();
    const Index count = std::min<Index>(10, bracket.nodes());
    if (count >= 7)
    {
@@ -124,7 +124,7 @@ Edge separation_edge(const Bracket &bracket, const VectorXd &pressure2)
 /// An edge from the side where a displacement vanishes at it: (displacement)^(2/3), a parabola
 /// through five nodes behind the first one. Much smoother than nodal forces, but more nodes
 /// would reach into whatever ends the zone on its other side.
-bool displacement_edge(const Bracket &bracket, const VectorXd &displacement23, Edge &edge)
+bool displacement_edge(const Bracket &bracket, const VectorXd &displacement23, ZoneBorder &edge)
 {
    return bracket.accept(bracket.extrapolate(displacement23, 1, 6, 2),
                          bracket.extrapolate(displacement23, 1, 5, 2), by_parabola, edge);
@@ -132,7 +132,7 @@ bool displacement_edge(const Bracket &bracket, const VectorXd &displacement23, E
 
 /// Slip front from the slipping side: a straight line where there are only few nodes, and where
 /// there are but two the one through them, which nothing confirms.
-bool slip_front(const Bracket &bracket, const VectorXd &way, Edge &edge)
+bool slip_front(const Bracket &bracket, const VectorXd &way, ZoneBorder &edge)
 {
    if (displacement_edge(bracket, way, edge)) { return true; }
    const Index first = bracket.nodes() >= 4 ? 1 : 0;
@@ -145,9 +145,9 @@ bool slip_front(const Bracket &bracket, const VectorXd &way, Edge &edge)
 
 /// Edge of a stick zone from its own side: squared frictional reserve. Nodes that stick on the
 /// limit have none, and say nothing of where slip ends.
-Edge stick_edge(const Bracket &bracket, const VectorXd &reserve2)
+ZoneBorder stick_edge(const Bracket &bracket, const VectorXd &reserve2)
 {
-   Edge edge = bracket.middle();
+   ZoneBorder edge = bracket.middle();
    for (Index k = 0; k < 4 && k < bracket.nodes(); ++k)
    {
       if (reserve2[bracket.inside + bracket.step() * k] == 0) { return edge; }
@@ -199,9 +199,9 @@ public:
    std::vector<Zone> zones();
 
 private:
-   Edge border(const Zone &left, const Zone &right) const;
-   Edge contact_edge(Index in, Index out, Index open_end) const;
-   Edge slip_edge(Index in, Index out, Index stick_end, Index slip_end) const;
+   ZoneBorder border(const Zone &left, const Zone &right) const;
+   ZoneBorder contact_edge(Index in, Index out, Index open_end) const;
+   ZoneBorder slip_edge(Index in, Index out, Index stick_end, Index slip_end) const;
    void untangle(std::vector<Zone> &all) const;
    double doubt_of_ends(Index i, Index j, double position) const;
 
@@ -218,7 +218,7 @@ private:
 };
 
 /// Node `in` is closed, `out` is open; the far end of the open zone.
-Edge Reader::contact_edge(Index in, Index out, Index open_end) const
+ZoneBorder Reader::contact_edge(Index in, Index out, Index open_end) const
 {
    const Index step = out < in ? 1 : -1;
    Index closed_end = in; // of the whole run of closed nodes, for their pressure
@@ -226,8 +226,8 @@ Edge Reader::contact_edge(Index in, Index out, Index open_end) const
    {
       closed_end += step;
    }
-   const Edge inside = separation_edge({s_, in, out, closed_end}, at_.pressure2);
-   Edge outside;
+   const ZoneBorder inside = separation_edge({s_, in, out, closed_end}, at_.pressure2);
+   ZoneBorder outside;
    return displacement_edge({s_, out, in, open_end}, at_.opening, outside)
              ? surer(outside, inside)
              : inside;
@@ -235,10 +235,10 @@ Edge Reader::contact_edge(Index in, Index out, Index open_end) const
 
 /// Node `in` sticks, `out` slips; the far ends of both zones. Where the front retreats, slip
 /// does not vanish at it and its extrapolation is in doubt.
-Edge Reader::slip_edge(Index in, Index out, Index stick_end, Index slip_end) const
+ZoneBorder Reader::slip_edge(Index in, Index out, Index stick_end, Index slip_end) const
 {
-   const Edge inside = stick_edge({s_, in, out, stick_end}, at_.reserve2);
-   Edge outside;
+   const ZoneBorder inside = stick_edge({s_, in, out, stick_end}, at_.reserve2);
+   ZoneBorder outside;
    if (!at_.usable[out]) { return inside; }
    const Index step = out < in ? -1 : 1;
    Index last = out;
@@ -246,7 +246,7 @@ Edge Reader::slip_edge(Index in, Index out, Index stick_end, Index slip_end) con
    return slip_front({s_, out, in, last}, at_.way, outside) ? surer(outside, inside) : inside;
 }
 
-Edge Reader::border(const Zone &left, const Zone &right) const
+ZoneBorder Reader::border(const Zone &left, const Zone &right) const
 {
    const Index i = left.last, j = right.first;
    if (!closed(left.state)) { return contact_edge(j, i, left.first); }
@@ -511,7 +511,7 @@ Zone stick_zone(const ReducedProblem &problem, const std::vector<Zone> &zones)
                             return slips(zone.state) && zone.first <= node && node <= zone.last;
                          });
    };
-   const auto doubt = [&](Index end, Index step, Edge &edge)
+   const auto doubt = [&](Index end, Index step, ZoneBorder &edge)
    {
       if (on_chain(end + step) && slips_at(end + step)) { return; }
       const Index next = on_chain(end + step) ? end + step : end - step;

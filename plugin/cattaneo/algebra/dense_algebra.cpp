@@ -1,6 +1,6 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
-#include <cattaneo/dense_algebra.hpp>
+#include <cattaneo/algebra/dense_algebra.hpp>
 
 namespace cattaneo
 {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-namespace cattaneo::fretting
+namespace cattaneo
 {
 
 /** Tractions near the edge of an incomplete contact, from any solution. All arrays have one
@@ -51,7 +51,8 @@ struct FittedIntensity
 struct EdgeFit
 {
    FittedIntensity k_n;
-   FittedIntensity k_t; ///< signed as Edge::k_t: > 0 pulls the body in, away from the edge
+   FittedIntensity
+      k_t; ///< signed as fretting::Edge::k_t: > 0 pulls the body in, away from the edge
 };
 
 /** K_N and K_T by least squares: p/√t = K_N + c t and q√t = K_T + c t (the next terms of both
@@ -59,4 +60,4 @@ struct EdgeFit
     not finite, pressure on both sides of the edge, or fewer than 4 nodes in the window. */
 EdgeFit fit_edge(const EdgeTractions &tractions, const FitSettings &settings = {});
 
-} // namespace cattaneo::fretting
+} // namespace cattaneo

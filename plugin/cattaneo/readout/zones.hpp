@@ -50,7 +50,7 @@ private:
 };
 
 /// A point on the contact line found between nodes.
-struct Edge
+struct ZoneBorder
 {
    double position = 0; ///< arc length
    /// Bound of the distance to the edge of the finest solution; exact ends of the line have 0.
@@ -61,7 +61,7 @@ struct Edge
 struct Zone
 {
    NodeState state;
-   Edge from, to;
+   ZoneBorder from, to;
    Eigen::Index first, last; ///< nodes
    int chain = 0;            ///< of the contact line, see chain_numbers()
 };

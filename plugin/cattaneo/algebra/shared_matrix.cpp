@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <cattaneo/condense/shared_matrix.hpp>
+#include <cattaneo/algebra/shared_matrix.hpp>
 #include <cattaneo/input_error.hpp>
 #include <numeric>
 #include <utility>

@@ -1,4 +1,4 @@
-#include <cattaneo/friction/dense_lu.hpp>
+#include <cattaneo/algebra/dense_lu.hpp>
 #include <cmath>
 
 #ifdef CATTANEO_USE_LAPACK

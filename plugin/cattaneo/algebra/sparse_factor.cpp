@@ -1,4 +1,4 @@
-#include <cattaneo/condense/sparse_factor.hpp>
+#include <cattaneo/algebra/sparse_factor.hpp>
 
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCholesky>

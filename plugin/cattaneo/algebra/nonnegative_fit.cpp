@@ -1,4 +1,4 @@
-#include <cattaneo/friction/nonnegative_fit.hpp>
+#include <cattaneo/algebra/nonnegative_fit.hpp>
 #include <vector>
 
 namespace cattaneo

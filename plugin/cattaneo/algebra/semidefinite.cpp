@@ -1,5 +1,5 @@
-#include <cattaneo/dense_algebra.hpp>
-#include <cattaneo/friction/semidefinite.hpp>
+#include <cattaneo/algebra/dense_algebra.hpp>
+#include <cattaneo/algebra/semidefinite.hpp>
 #include <limits>
 
 namespace cattaneo

@@ -1,12 +1,12 @@
 #include <Eigen/Dense>
 #include <algorithm>
-#include <cattaneo/dense_algebra.hpp>
-#include <cattaneo/fretting/edge_fit.hpp>
+#include <cattaneo/algebra/dense_algebra.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/readout/edge_fit.hpp>
 #include <cmath>
 #include <utility>
 
-namespace cattaneo::fretting
+namespace cattaneo
 {
 namespace
 {
@@ -128,4 +128,4 @@ EdgeFit fit_edge(const EdgeTractions &tractions, const FitSettings &settings)
    return {fit_in_window(normal, settings), fit_in_window(tangential, settings)};
 }
 
-} // namespace cattaneo::fretting
+} // namespace cattaneo

@@ -1,4 +1,4 @@
-#include <cattaneo/condense/dense_cholesky.hpp>
+#include <cattaneo/algebra/dense_cholesky.hpp>
 
 #ifdef CATTANEO_USE_LAPACK
 extern "C"

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <array>
-#include <cattaneo/elastic/graded_mesh.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/mesh/graded_mesh.hpp>
 #include <cmath>
 #include <limits>
 

@@ -1,0 +1,423 @@
+#include <algorithm>
+#include <cattaneo/algebra/dense_algebra.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cattaneo/readout/contact_edges.hpp>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace cattaneo
+{
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace
+{
+
+std::vector<bool> closed_nodes(const ReducedProblem &problem, const ContactState &state)
+{
+   const std::vector<NodeState> settled = settled_states(problem, state);
+   std::vector<bool> nodes(settled.size());
+   for (std::size_t i = 0; i < nodes.size(); i++) { nodes[i] = closed(settled[i]); }
+   return nodes;
+}
+
+/** Forces and displacements when v is given at the tied nodes and w at the closed ones, and the
+    others carry none: q = A v + Bᵀ w + q0, p = B v + C w + p0. */
+void release(const ReducedProblem &problem, const std::vector<bool> &tied,
+             const std::vector<bool> &shut, const VectorXd &clamped, ContactState &state)
+{
+   const Index n = problem.nodes();
+   VectorXd u(2 * n);
+   u << state.v, state.w;
+   std::vector<Index> free;
+   for (Index i = 0; i < n; i++)
+   {
+      if (!tied[i]) { free.push_back(i); }
+   }
+   for (Index i = 0; i < n; i++)
+   {
+      if (!shut[i]) { free.push_back(n + i); }
+   }
+   const Eigen::MatrixXd K = problem.stiffness();
+   for (const Index i : free) { u[i] = 0; }
+   if (!free.empty())
+   {
+      const VectorXd forces = K * u + clamped;
+      const VectorXd x = Eigen::MatrixXd(K(free, free)).ldlt().solve(-forces(free));
+      for (std::size_t i = 0; i < free.size(); i++) { u[free[i]] = x[i]; }
+   }
+   VectorXd forces = K * u + clamped;
+   for (const Index i : free) { forces[i] = 0; }
+   state.v = u.head(n);
+   state.w = u.tail(n);
+   state.q = forces.head(n);
+   state.p = forces.tail(n);
+}
+
+void check(const ReducedProblem &problem, const ContactState &pressed,
+           const ContactState &loaded)
+{
+   require(problem.components() == 1,
+           "the near-edge field is that of a plane contact with "
+           "friction; this problem has ",
+           problem.components(), " tangential components a node.");
+   pressed.validate(problem);
+   loaded.validate(problem);
+}
+
+void check_one_chain(const ReducedProblem &problem)
+{
+   const std::vector<int> chain = chain_numbers(problem);
+   for (Index i = 1; i < problem.nodes(); i++)
+   {
+      require(chain[i] == chain[i - 1],
+              "the contact line has separate pieces, one ends at node ", i - 1,
+              " at arc length ", problem.arc_length[i - 1],
+              "; edges can be read from a line of one piece only.");
+   }
+}
+
+/// Where a quantity that is smooth across an edge vanishes, with an estimate of the error.
+struct Zero
+{
+   double position = 0.0;
+   double error = std::numeric_limits<double>::infinity();
+};
+
+/** Zero of a parabola through values at distances t (increasing, in spacings), nearest to t =
+   0. The number of values is the one of least error: the larger of the standard error and the
+    change when a cubic is fitted. */
+Zero nearest_zero(const std::vector<double> &t, const std::vector<double> &values,
+                  const std::vector<double> &weights)
+{
+   Zero best;
+   for (Index count = 6; count <= Index(t.size()); count++)
+   {
+      const double scale = t[count - 1];
+      Eigen::MatrixXd terms(count, 4);
+      VectorXd rhs(count);
+      for (Index k = 0; k < count; k++)
+      {
+         const double x = t[k] / scale, root = std::sqrt(weights[k]);
+         terms.row(k) << root, root * x, root * x * x, root * x * x * x;
+         rhs[k] = root * values[k];
+      }
+      const Eigen::MatrixXd parabola = terms.leftCols(3);
+      const Eigen::Vector3d c = least_squares(parabola, rhs);
+      const double under = c[1] * c[1] - 4 * c[0] * c[2];
+      if (!(under > 0 && c[1] > 0)) { continue; }
+      const double zero = -2 * c[0] / (c[1] + std::sqrt(under));
+      const double slope = c[1] + 2 * c[2] * zero;
+      // At the zero: variance of the parabola, and the cubic's value.
+      const Eigen::Vector3d at(1, zero, zero * zero);
+      const double variance = (rhs - parabola * c).squaredNorm() / (count - 3);
+      const double standard =
+         std::sqrt(variance * at.dot((parabola.transpose() * parabola).ldlt().solve(at)));
+      const Eigen::Vector4d d = least_squares(terms, rhs);
+      const double other = d[0] + zero * (d[1] + zero * (d[2] + zero * d[3]));
+      const double error = std::max(standard, std::abs(other)) / slope * scale;
+      if (error < best.error) { best = {zero * scale, error}; }
+   }
+   return best;
+}
+
+/// Values at the nodes of a half stretch from its end inwards, without the last two, which
+/// carry parts of elements that are not wholly in contact.
+template <class Value>
+Zero zero_near_end(const ReducedProblem &problem, Index end, Index last, int side,
+                   const Value &value)
+{
+   const VectorXd &s = problem.arc_length;
+   const double h = std::abs(s[end + side] - s[end]);
+   std::vector<double> t, values, weights;
+   for (Index i = end + 2 * side; side * (last - i) >= 0; i += side)
+   {
+      t.push_back(std::abs(s[i] - s[end]) / h);
+      values.push_back(value(i));
+      weights.push_back(problem.weights[i]);
+   }
+   Zero zero = nearest_zero(t, values, weights);
+   // Further than a spacing from where it must be: not found.
+   if (!(zero.position > -2 && zero.position < 1)) { return {}; }
+   return {s[end] + side * h * zero.position, h * zero.error};
+}
+
+/// Positions where the stuck shear of these tied nodes is singular, one for each edge.
+std::vector<Zero> singular_positions(const ReducedProblem &problem, const ContactState &loaded,
+                                     const std::vector<Zone> &contact,
+                                     const std::vector<ContactEdge> &edges,
+                                     const std::vector<bool> &tied)
+{
+   const Index n = problem.nodes();
+   const VectorXd &s = problem.arc_length;
+   ContactState misfit = loaded;
+   misfit.v.setZero();
+   misfit.w.setZero();
+   for (const Zone &stretch : contact)
+   {
+      const double middle = 0.5 * (stretch.from.position + stretch.to.position);
+      for (Index i = std::max<Index>(stretch.first - 1, 0);
+           i <= std::min(stretch.last + 1, n - 1); i++)
+      {
+         misfit.v[i] = s[i] - middle;
+      }
+   }
+   const VectorXd strain = misfit.v;
+   release(problem, tied, closed_nodes(problem, loaded), VectorXd::Zero(2 * n), misfit);
+   const VectorXd q = tractions(problem, misfit.q);
+   std::vector<Zero> positions;
+   for (const ContactEdge &edge : edges)
+   {
+      if (edge.complete)
+      {
+         positions.push_back({});
+         continue;
+      }
+      const int side = edge.side;
+      Index end = side > 0 ? edge.first : edge.last;
+      if (tied[end - side]) { end -= side; }
+      // (strain/q)² is a parabola for a Hertz contact; near its middle both vanish.
+      const Index half = side > 0 ? edge.last - 1 : edge.first + 1;
+      Zero zero = zero_near_end(problem, end, half, side,
+                                [&](Index i) { return std::pow(strain[i] / q[i], 2); });
+      // Inwards: a tied node beyond the edge may be the last of the line.
+      const double h = std::abs(s[end + side] - s[end]);
+      if (!std::isfinite(zero.error)) { zero = {s[end] - 0.5 * side * h, 0.5 * h}; }
+      positions.push_back(zero);
+   }
+   return positions;
+}
+
+/// From the edge to the first stick zone.
+void read_slip_zone(const ReducedProblem &problem, const std::vector<Zone> &all,
+                    const Zone &stretch, ContactEdge &edge)
+{
+   std::vector<Zone> inside;
+   for (const Zone &zone : all)
+   {
+      if (zone.first >= stretch.first && zone.last <= stretch.last) { inside.push_back(zone); }
+   }
+   if (edge.side < 0) { std::reverse(inside.begin(), inside.end()); }
+   if (inside.front().state == NodeState::stick)
+   {
+      // Slip between the last two nodes does not show.
+      const Index end = edge.side > 0 ? stretch.first : stretch.last;
+      edge.slip_zone_error =
+         edge.complete
+            ? 0
+            : std::abs(problem.arc_length[end - edge.side] - problem.arc_length[end]);
+      return;
+   }
+   for (const Zone &zone : inside)
+   {
+      if (zone.state != NodeState::stick) { continue; }
+      const ZoneBorder front = edge.side > 0 ? zone.from : zone.to;
+      edge.slip_zone = std::abs(front.position - edge.position.position);
+      edge.slip_zone_error = front.error + edge.position.error;
+      return;
+   }
+   edge.slides = true;
+   edge.slip_zone = 2 * edge.half_width;
+}
+
+} // namespace
+
+ContactState fully_stuck(const ReducedProblem &problem, const ContactState &pressed,
+                         const ContactState &loaded, const std::vector<bool> &tied)
+{
+   check(problem, pressed, loaded);
+   require(Index(tied.size()) == problem.nodes(), "there are ", tied.size(),
+           " entries for tied nodes and ", problem.nodes(), " nodes.");
+   ContactState stuck = loaded;
+   stuck.v = pressed.v;
+   stuck.w = -problem.gap;
+   stuck.slip_origin = pressed.v;
+   const std::vector<bool> shut = closed_nodes(problem, loaded);
+   for (std::size_t i = 0; i < tied.size(); i++)
+   {
+      stuck.status[i] = shut[i] ? NodeState::stick : NodeState::separation;
+   }
+   release(problem, tied, closed_nodes(problem, loaded),
+           problem.clamped_forces(loaded.multipliers), stuck);
+   return stuck;
+}
+
+ContactState fully_stuck(const ReducedProblem &problem, const ContactState &pressed,
+                         const ContactState &loaded)
+{
+   return fully_stuck(problem, pressed, loaded, closed_nodes(problem, loaded));
+}
+
+EdgeTractions edge_tractions(const ReducedProblem &problem, const ContactState &state,
+                             const ContactEdge &edge, CrackedBody cracked)
+{
+   // q is the force on body 1 along increasing arc length.
+   const double sign = cracked == CrackedBody::first ? 1 : -1;
+   const VectorXd p = tractions(problem, state.p), q = tractions(problem, state.q);
+   EdgeTractions result;
+   result.edge = edge.position.position;
+   for (Index i = edge.first; i <= edge.last; i++)
+   {
+      // The nodes read as within the edge only.
+      if (edge.side * (problem.arc_length[i] - result.edge) <= 0) { continue; }
+      result.position.push_back(problem.arc_length[i]);
+      result.pressure.push_back(p[i]);
+      result.shear.push_back(sign * q[i]);
+   }
+   return result;
+}
+
+std::vector<ContactEdge> contact_edges(const ReducedProblem &problem,
+                                       const ContactState &pressed, const ContactState &loaded,
+                                       CrackedBody cracked, const FitSettings &settings)
+{
+   check(problem, pressed, loaded);
+   check_one_chain(problem);
+   settings.validate();
+   const Index n = problem.nodes();
+   const std::vector<Zone> all = zones(problem, loaded);
+   const std::vector<Zone> contact = contact_zones(all);
+   // Each edge has half of a stretch.
+   const bool chosen = settings.window.farthest == 0;
+   const Index least = 2 * (FitSettings::least_nodes + (chosen ? settings.skip : 0));
+   std::vector<ContactEdge> edges;
+   for (const Zone &stretch : contact)
+   {
+      const Index size = stretch.last - stretch.first + 1;
+      require(size >= least, "a stretch of contact has ", size,
+              " nodes; the fit of its edges needs at least ", least, ": refine the contact.");
+      const Index middle = (stretch.first + stretch.last) / 2;
+      for (const int side : {1, -1})
+      {
+         ContactEdge edge;
+         edge.side = side;
+         edge.position = side > 0 ? stretch.from : stretch.to;
+         edge.first = side > 0 ? stretch.first : middle + 1;
+         edge.last = side > 0 ? middle : stretch.last;
+         edge.friction = problem.friction[side > 0 ? edge.first : edge.last];
+         edge.complete = side > 0 ? stretch.first == 0 : stretch.last == n - 1;
+         if (edge.complete)
+         {
+            std::ostringstream text;
+            text << "the contact reaches the end of the contact line at arc length "
+                 << edge.position.position
+                 << ": the edge is complete (a corner) or cut off there, its pressure does not "
+                    "fall to zero as K_N √t and neither K_N nor K_T exists; fit the corner's "
+                    "own intensities, or lengthen the line if it was cut off.";
+            edge.why_not = text.str();
+         }
+         else
+         {
+            // p² is smooth, and a parabola for Hertz, but its last nodes are not: it is asked
+            // only where zones() has found no more than two nodes to lie between.
+            const VectorXd p = tractions(problem, loaded.p);
+            const Index end = side > 0 ? edge.first : edge.last;
+            const Zero zero = zero_near_end(problem, end, side > 0 ? edge.last : edge.first,
+                                            side, [&](Index i) { return p[i] * p[i]; });
+            const double h = std::abs(problem.arc_length[end - side] - problem.arc_length[end]);
+            const double error = std::max(zero.error, 0.5 * h);
+            if (error < edge.position.error) { edge.position = {zero.position, error}; }
+         }
+         edges.push_back(edge);
+      }
+      ContactEdge &left = edges[edges.size() - 2], &right = edges.back();
+      left.half_width = right.half_width =
+         0.5 * (right.position.position - left.position.position);
+      read_slip_zone(problem, all, stretch, left);
+      read_slip_zone(problem, all, stretch, right);
+   }
+
+   // Stuck solutions: the nodes in contact, then one more at each edge in turn.
+   const std::vector<bool> base = closed_nodes(problem, loaded);
+   std::vector<Zero> base_positions = singular_positions(problem, loaded, contact, edges, base);
+   const ContactState base_state = fully_stuck(problem, pressed, loaded, base);
+   std::vector<Zero> extended_positions(edges.size());
+   std::vector<std::vector<bool>> extended(edges.size(), base);
+   for (std::size_t e = 0; e < edges.size(); e++)
+   {
+      if (edges[e].complete) { continue; }
+      const int side = edges[e].side;
+      const Index end = side > 0 ? edges[e].first : edges[e].last;
+      extended[e][end - side] = true;
+      Zero &from = base_positions[e], &to = extended_positions[e];
+      to = singular_positions(problem, loaded, contact, edges, extended[e])[e];
+      // One node more moves the singularity by about a spacing. Where it was not found so,
+      // both are the middles beyond the last tied nodes.
+      const VectorXd &s = problem.arc_length;
+      const double h = std::abs(s[end - side] - s[end]),
+                   moved = side * (from.position - to.position);
+      if (std::max(from.error, to.error) >= 0.5 * h || moved < 0.5 * h || moved > 1.5 * h)
+      {
+         from = {s[end] - 0.5 * side * h, 0.5 * h};
+         to = {s[end] - 1.5 * side * h, 0.5 * h};
+      }
+      // The spread of a fit is no bound: as zones() has it, a quarter of a spacing at least.
+      from.error = std::max(from.error, 0.25 * h);
+      to.error = std::max(to.error, 0.25 * h);
+   }
+   const auto fit = [&](const ContactState &state, std::size_t e, double position)
+   {
+      ContactEdge edge = edges[e];
+      edge.position.position = position;
+      return edge_tractions(problem, state, edge, cracked);
+   };
+   const auto fit_shear = [&](const ContactState &stuck, std::size_t e, double position)
+   {
+      EdgeTractions tractions = fit(stuck, e, position);
+      // A node tied outside the contact has no pressure of its own, but counts.
+      std::fill(tractions.pressure.begin(), tractions.pressure.end(), 1.0);
+      return fit_edge(tractions, settings).k_t;
+   };
+   for (std::size_t e = 0; e < edges.size(); e++)
+   {
+      if (edges[e].complete) { continue; }
+      const ZoneBorder &at = edges[e].position;
+      FittedIntensity &k_n = edges[e].k_n;
+      k_n = fit_edge(fit(loaded, e, at.position), settings).k_n;
+      // What the error of the edge's position makes of it.
+      double change = 0;
+      for (const double shift : {-at.error, at.error})
+      {
+         const double shifted =
+            fit_edge(fit(loaded, e, at.position + shift), settings).k_n.value;
+         change = std::max(change, std::abs(shifted - k_n.value));
+      }
+      if (k_n.value != 0) { k_n.relative_error += change / std::abs(k_n.value); }
+      edges[e].k_t = fit_shear(base_state, e, base_positions[e].position);
+   }
+   std::vector<FittedIntensity> found(edges.size());
+   for (std::size_t e = 0; e < edges.size(); e++) { found[e] = edges[e].k_t; }
+   std::vector<double> read_out(edges.size(), 0.0);
+   for (std::size_t e = 0; e < edges.size(); e++)
+   {
+      if (edges[e].complete) { continue; }
+      const ContactState stuck = fully_stuck(problem, pressed, loaded, extended[e]);
+      const Zero &from = base_positions[e], &to = extended_positions[e];
+      const double step = to.position - from.position;
+      const double fraction = (edges[e].position.position - from.position) / step;
+      const double doubt = edges[e].position.error + std::abs(1 - fraction) * from.error +
+                           std::abs(fraction) * to.error;
+      for (std::size_t other = 0; other < edges.size(); other++)
+      {
+         if (edges[other].complete) { continue; }
+         const double k_t =
+            fit_shear(stuck, other, other == e ? to.position : base_positions[other].position)
+               .value;
+         const double change = k_t - edges[other].k_t.value;
+         found[other].value += fraction * change;
+         read_out[other] += std::abs(change / step) * doubt;
+      }
+   }
+   for (std::size_t e = 0; e < edges.size(); e++)
+   {
+      if (edges[e].complete) { continue; }
+      const double error = found[e].relative_error * std::abs(edges[e].k_t.value) + read_out[e];
+      edges[e].k_t = found[e];
+      edges[e].k_t.relative_error = error > 0 ? error / std::abs(found[e].value) : 0.0;
+   }
+   return edges;
+}
+
+} // namespace cattaneo
