@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <cattaneo/friction/friction_solver.hpp>
+#include <cattaneo/friction/settled_states.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/mesh/graded_mesh.hpp>
-#include <cattaneo/readout/zones.hpp>
 #include <cmath>
 #include <cstdio>
 #include <limits>

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace cattaneo::fretting
+namespace cattaneo
 {
 
 /** Root of a continuous function between @a a and @a b, where its signs differ (the Illinois
@@ -31,4 +31,4 @@ double find_root(const Function &function, double a, double b)
    return fa == 0 ? a : b;
 }
 
-} // namespace cattaneo::fretting
+} // namespace cattaneo

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cattaneo/algebra/root.hpp>
 #include <cattaneo/elastic/boundary_edge.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
@@ -6,36 +7,6 @@
 
 namespace cattaneo
 {
-
-namespace
-{
-
-/// Root of f in [a, b], where it changes sign: bisection that first tries the secant's point
-/// (exact for straight edges).
-template <class F>
-double root(F f, double a, double b, double fa, double fb)
-{
-   for (int step = 0; step < 200 && fa != 0 && fb != 0 && b - a > 1e-16; ++step)
-   {
-      double c = step % 2 == 0 ? a - fa * (b - a) / (fb - fa) : 0.5 * (a + b);
-      if (!(c > a && c < b)) { c = 0.5 * (a + b); }
-      if (!(c > a && c < b)) { break; }
-      const double fc = f(c);
-      if ((fc > 0) == (fa > 0))
-      {
-         a = c;
-         fa = fc;
-      }
-      else
-      {
-         b = c;
-         fb = fc;
-      }
-   }
-   return std::abs(fa) < std::abs(fb) ? a : b;
-}
-
-} // namespace
 
 BoundaryEdge::BoundaryEdge(mfem::Mesh &mesh, int boundary_element) : position_(2)
 {
@@ -116,10 +87,7 @@ std::vector<std::array<double, 2>> BoundaryEdge::pieces(const BoundaryPart &part
          const double a = static_cast<double>(k) / samples, b = (k + 1.0) / samples;
          const double after = distance(b);
          if (before == 0) { cuts.push_back(a); }
-         else if ((before < 0) != (after < 0))
-         {
-            cuts.push_back(root(distance, a, b, before, after));
-         }
+         else if ((before < 0) != (after < 0)) { cuts.push_back(find_root(distance, a, b)); }
          before = after;
       }
    }

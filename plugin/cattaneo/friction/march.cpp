@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cattaneo/friction/march.hpp>
+#include <cattaneo/friction/settled_states.hpp>
 #include <cattaneo/input_error.hpp>
-#include <cattaneo/readout/zones.hpp>
 #include <chrono>
 #include <cmath>
 #include <limits>

@@ -26,15 +26,6 @@ VectorXd tractions(const ReducedProblem &problem, const VectorXd &nodal_forces)
 namespace
 {
 
-/// Lengths of the tangential vectors of n nodes; zero without tangential components.
-VectorXd lengths(const VectorXd &x, Index n)
-{
-   if (x.size() == n) { return x.cwiseAbs(); }
-   VectorXd length = VectorXd::Zero(n);
-   for (Index i = 0; i < n && x.size() > 0; ++i) { length[i] = std::hypot(x[i], x[n + i]); }
-   return length;
-}
-
 /// Least-squares polynomial c0 + c1 x + … of the given degree.
 VectorXd fit(const std::vector<double> &x, const std::vector<double> &y, int degree)
 {
@@ -346,31 +337,6 @@ double width(const Zone &zone)
    return zone.to.position - zone.from.position;
 }
 
-/// Forces that cannot be told from none: a hundred times the solver's tolerance, and the
-/// round-off of displacements that are large against what deforms.
-double least_force(const ReducedProblem &problem, const ContactState &state)
-{
-   double largest = 0;
-   const auto stiff = [&](const Eigen::MatrixXd &K, const VectorXd &u)
-   {
-      if (u.size())
-      {
-         largest = std::max(largest, K.diagonal().cwiseProduct(u).cwiseAbs().maxCoeff());
-      }
-   };
-   stiff(problem.A, state.v);
-   stiff(problem.C, state.w);
-   return 1e-10 * state.peak_force + 1e-14 * largest;
-}
-
-/// What a node's slip must exceed to be told from round-off: what that force does to it alone.
-VectorXd least_slip(const ReducedProblem &problem, const ContactState &state)
-{
-   const Index n = problem.nodes();
-   if (problem.components() == 0) { return VectorXd::Zero(n); }
-   return least_force(problem, state) * problem.A.diagonal().head(n).cwiseInverse();
-}
-
 } // namespace
 
 std::vector<int> chain_numbers(const ReducedProblem &problem)
@@ -385,76 +351,13 @@ std::vector<int> chain_numbers(const ReducedProblem &problem)
    return number;
 }
 
-std::vector<NodeState> settled_states(const ReducedProblem &problem, const ContactState &state)
-{
-   const Index n = problem.nodes();
-   std::vector<NodeState> result = state.status;
-   const VectorXd way = lengths(state.v - state.slip_origin, n);
-   const VectorXd least = least_slip(problem, state);
-   const double force = least_force(problem, state);
-   const bool plane = problem.components() == 1, disc = problem.components() == 2;
-   std::vector<bool> held(n, false); // it has no law of friction
-   for (Index row : problem.held) { held[row % n] = true; }
-   for (Index i = 0; i < n; ++i)
-   {
-      NodeState &node = result[i];
-      if (state.p[i] <= force) { node = NodeState::separation; }
-      if (!closed(node)) { continue; }
-      const bool moved = way[i] > least[i];
-      if ((plane || disc) && problem.friction[i] == 0 && !held[i])
-      {
-         node = disc                                         ? NodeState::slip
-                : moved && state.v[i] < state.slip_origin[i] ? NodeState::backward_slip
-                                                             : NodeState::forward_slip;
-      }
-      else if (!moved) { node = NodeState::stick; }
-   }
-   return result;
-}
-
-Index touching_nodes(const ReducedProblem &problem, const ContactState &state)
-{
-   const double force = least_force(problem, state);
-   Index count = 0;
-   for (Index i = 0; i < problem.nodes(); ++i)
-   {
-      const bool open = state.w[i] + problem.gap[i] > force / problem.C(i, i);
-      if (state.p[i] <= force && !open) { ++count; }
-   }
-   return count;
-}
-
-void SlipRange::start(const ContactState &state)
-{
-   low_ = high_ = state.v;
-   closed_.assign(problem_->nodes(), true);
-   note(state);
-}
-
-void SlipRange::note(const ContactState &state)
-{
-   if (low_.size() != state.v.size()) { return start(state); }
-   low_ = low_.cwiseMin(state.v);
-   high_ = high_.cwiseMax(state.v);
-   const std::vector<NodeState> states = settled_states(*problem_, state);
-   for (std::size_t i = 0; i < states.size(); ++i)
-   {
-      closed_[i] = closed_[i] && closed(states[i]);
-   }
-}
-
-VectorXd SlipRange::range() const
-{
-   return lengths(high_ - low_, problem_->nodes());
-}
-
 std::vector<Zone> zones(const ReducedProblem &problem, const ContactState &state)
 {
    Profiles at = profiles(problem, state);
    const Index n = problem.nodes();
    const VectorXd p = tractions(problem, state.p);
-   const VectorXd q = tractions(problem, lengths(state.q, n));
-   at.way = lengths(state.v - state.slip_origin, n).array().pow(2.0 / 3);
+   const VectorXd q = tractions(problem, tangential_lengths(state.q, n));
+   at.way = tangential_lengths(state.v - state.slip_origin, n).array().pow(2.0 / 3);
    for (Index i = 0; i < n; ++i)
    {
       // Within round-off of the limit there is no reserve.

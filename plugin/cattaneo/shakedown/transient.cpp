@@ -1,5 +1,5 @@
+#include <cattaneo/friction/settled_states.hpp>
 #include <cattaneo/input_error.hpp>
-#include <cattaneo/readout/zones.hpp>
 #include <cattaneo/shakedown/transient.hpp>
 #include <cmath>
 #include <random>

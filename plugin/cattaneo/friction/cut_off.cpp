@@ -1,4 +1,4 @@
-#include <cattaneo/readout/cut_off.hpp>
+#include <cattaneo/friction/cut_off.hpp>
 #include <sstream>
 
 namespace cattaneo
