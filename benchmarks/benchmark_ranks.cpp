@@ -195,7 +195,7 @@ ordered_json contact(const Options &options)
                    formed_memory = body.ranks().max(peak());
       const double pays = forming / (applied - dense);
       difference /= formed.peak_force;
-      const long columns_of_S = static_cast<long>(reduced.A.rows() + reduced.nodes());
+      const long columns_of_S = static_cast<long>(reduced.slips() + reduced.nodes());
       std::printf("%5d %9d %7d | %11.1f %9.0f %11.2f %8.0f | %8ld %9.2f %11.3f %8.0f | %8.1f "
                   "%10.1e\n",
                   body.ranks().size(), static_cast<int>(body.dofs()), static_cast<int>(nodes),

@@ -176,7 +176,8 @@ int main()
    }
    set_friction(uncoupled, 0.3);
    ReducedProblem coupled = uncoupled;
-   coupled.B(0, 0) += 1e-9 * coupled.C.maxCoeff(); // of no consequence, but not zero
+   coupled.B()(0, 0) += 1e-9 * coupled.C().maxCoeff(); // of no consequence, but not zero
+   complete(coupled);
    const Eigen::VectorXd normal = Vector2d(1, 0), shear = Vector2d(1, 0.2);
    row(
       "uncoupled bodies: pressed in one increment, gaps apart", "increments",

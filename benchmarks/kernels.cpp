@@ -130,7 +130,7 @@ void union_of_two_bodies(benchmark::State &state)
    const Pairing pairing = pair_lines(one.line, two.line);
    for (auto _ : state)
    {
-      benchmark::DoNotOptimize(reduce(one, two, pairing).problem.A.data());
+      benchmark::DoNotOptimize(reduce(one, two, pairing).problem.A().data());
    }
 }
 

@@ -505,7 +505,8 @@ private:
       table.add("exact, f", 0.805, 1e-3, 0.85, least.limit);
       // With (4.10) as printed, whose coupling block is the transpose of (3.25)'s.
       ReducedProblem transposed = problem;
-      transposed.B = problem.B.transpose().eval();
+      transposed.B() = problem.B().transpose().eval();
+      complete(transposed);
       transposed.rigid_motions.reset(); // those of the bodies do not belong to this matrix
       const LimitReport other =
          friction_limit(limit_problem(transposed, cycle), options.lambda_max);
@@ -638,7 +639,7 @@ private:
       if (of.mechanism.slip.size() == 0) { return none; }
       const Eigen::Index n = problem.nodes();
       const Eigen::MatrixXd p =
-         stuck.p(load_factor).colwise() + Eigen::VectorXd(problem.B * of.slip);
+         stuck.p(load_factor).colwise() + Eigen::VectorXd(problem.B() * of.slip);
       const double length = problem.arc_length[n - 1] - problem.arc_length[0];
       double at_ends = 0, all = 0;
       for (Eigen::Index i = 0; i < n; ++i)
@@ -674,7 +675,7 @@ private:
       FrictionSolver solver(whole);
       TransientSettings settings;
       settings.cycles = options.cycles;
-      Eigen::VectorXd start = Eigen::VectorXd::Zero(whole.A.rows());
+      Eigen::VectorXd start = Eigen::VectorXd::Zero(whole.slips());
       for (std::size_t i = 0; i < part.closed.size(); ++i)
       {
          for (Eigen::Index c = 0; c < whole.components(); ++c)
@@ -772,7 +773,8 @@ private:
       const double at = options.finds_friction() ? options.lambda_max : most.limit;
       const double f = options.finds_friction() ? least.limit : options.friction;
       const StuckForces stuck = stuck_forces(problem, cycle);
-      const Eigen::VectorXd q_residual = problem.A * of.slip, p_residual = problem.B * of.slip;
+      const Eigen::VectorXd q_residual = problem.A() * of.slip,
+                            p_residual = problem.B() * of.slip;
       const Eigen::MatrixXd q = stuck.q(at), p = stuck.p(at).colwise() + p_residual;
       write_csv(std::string(options.plot) + "/optimal.csv",
                 {"x", "slip", "q_residual", "p_residual", "lowest", "highest"},

@@ -17,8 +17,7 @@ class LawChecker
 public:
    /// `start`: the state before the first increment that is checked; initial slip loads it.
    LawChecker(const cattaneo::ReducedProblem &problem, const cattaneo::ContactState &start)
-      : problem_(problem), n_(problem.nodes()), c_(problem.components()),
-        K_(problem.stiffness())
+      : problem_(problem), n_(problem.nodes()), c_(problem.components()), K_(problem.K)
    {
       sums_ = K_.cwiseAbs().rowwise().sum();
       norm_ = sums_.maxCoeff();
@@ -27,7 +26,7 @@ public:
       peak_ = (K_ * u).cwiseAbs().maxCoeff();
       for (Eigen::Index i = 0; i < n_; ++i)
       {
-         peak_ = std::max(peak_, -problem.gap[i] * problem.C(i, i));
+         peak_ = std::max(peak_, -problem.gap[i] * problem.C()(i, i));
       }
    }
 
@@ -57,7 +56,7 @@ public:
             allowed_ = std::max(allowed_, 1e-11 * peak_ + round_off[k]);
          }
          const Eigen::Index m = c_ * n_ + i;
-         const double p = F[m], y = problem_.C(i, i) * (u[m] + problem_.gap[i]);
+         const double p = F[m], y = problem_.C()(i, i) * (u[m] + problem_.gap[i]);
          const double fp = problem_.friction[i] * std::max(p, 0.0);
          Eigen::VectorXd q(c_), x(c_);
          double reported = std::abs(p - state.p[i]), kt = 0;
@@ -65,7 +64,7 @@ public:
          {
             const Eigen::Index t = k * n_ + i;
             q[k] = F[t];
-            kt = k ? std::min(kt, problem_.A(t, t)) : problem_.A(t, t);
+            kt = k ? std::min(kt, problem_.A()(t, t)) : problem_.A()(t, t);
             x[k] = u[t] - v_old[t];
             reported = std::max(reported, std::abs(q[k] - state.q[t]));
          }
@@ -149,7 +148,7 @@ inline bool proves_mechanism(const cattaneo::ReducedProblem &problem,
                              const Eigen::VectorXd &motion,
                              const Eigen::VectorXd &clamped_forces)
 {
-   const Eigen::MatrixXd K = problem.stiffness();
+   const Eigen::MatrixXd K = problem.K;
    const Eigen::Index n = problem.nodes(), c = problem.components();
    const double size = motion.cwiseAbs().maxCoeff();
    const double norm = K.cwiseAbs().rowwise().sum().maxCoeff();

@@ -18,8 +18,8 @@ inline cattaneo::ReducedProblem random_disc_problem(int n, double friction, doub
    };
    cattaneo::ReducedProblem problem = random_problem(n, friction, coupling, random);
    const Eigen::MatrixXd R = matrix(2 * n, 2 * n);
-   problem.A = Eigen::MatrixXd::Identity(2 * n, 2 * n) + R * R.transpose() / (2 * n);
-   problem.B = coupling / std::sqrt(n) * matrix(n, 2 * n);
+   problem.set_stiffness(Eigen::MatrixXd::Identity(2 * n, 2 * n) + R * R.transpose() / (2 * n),
+                         coupling / std::sqrt(n) * matrix(n, 2 * n), problem.C());
    for (cattaneo::LoadPattern &pattern : problem.patterns)
    {
       const Eigen::VectorXd radial = pattern.q;
@@ -40,10 +40,10 @@ inline cattaneo::ReducedProblem as_disc(const cattaneo::ReducedProblem &plane)
 {
    const Eigen::Index n = plane.nodes();
    cattaneo::ReducedProblem problem = plane;
-   problem.A = Eigen::MatrixXd::Zero(2 * n, 2 * n);
-   problem.A.topLeftCorner(n, n) = problem.A.bottomRightCorner(n, n) = plane.A;
-   problem.B = Eigen::MatrixXd::Zero(n, 2 * n);
-   problem.B.leftCols(n) = plane.B;
+   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * n, 2 * n), B = A.topRows(n);
+   A.topLeftCorner(n, n) = A.bottomRightCorner(n, n) = plane.A();
+   B.leftCols(n) = plane.B();
+   problem.set_stiffness(A, B, plane.C());
    for (cattaneo::LoadPattern &pattern : problem.patterns)
    {
       pattern.q.conservativeResizeLike(Eigen::VectorXd::Zero(2 * n));

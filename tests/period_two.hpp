@@ -18,11 +18,9 @@ inline cattaneo::ReducedProblem period_two(double stored = 0)
    const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
    const double soft = std::ldexp(1.0, -30);
    ReducedProblem problem;
-   problem.A = Eigen::Vector3d(1, 1, soft).asDiagonal();
-   problem.B = Eigen::Matrix3d::Zero();
-   problem.B(0, 1) = 2;
-   problem.B(1, 0) = -2;
-   problem.C = 8 * Eigen::Matrix3d::Identity();
+   problem.set_stiffness(Eigen::Vector3d(1, 1, soft).asDiagonal(),
+                         Eigen::Matrix3d{{0, 2, 0}, {-2, 0, 0}, {0, 0, 0}},
+                         8 * Eigen::Matrix3d::Identity());
    problem.patterns = {{"P", Control::force, std::sqrt(2 * soft * stored) * zero.Unit(2),
                         Eigen::Vector3d(2, 2, 8)},
                        {"Q0", Control::force, zero.Unit(0), zero},

@@ -20,9 +20,9 @@ inline cattaneo::ReducedProblem random_problem(int n, double friction, double co
    };
    cattaneo::ReducedProblem problem;
    const Eigen::MatrixXd R = matrix(n, n), T = matrix(n, n);
-   problem.A = Eigen::MatrixXd::Identity(n, n) + R * R.transpose() / n;
-   problem.C = Eigen::MatrixXd::Identity(n, n) + T * T.transpose() / n;
-   problem.B = coupling / std::sqrt(n) * matrix(n, n);
+   const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(n, n);
+   problem.set_stiffness(I + R * R.transpose() / n, coupling / std::sqrt(n) * matrix(n, n),
+                         I + T * T.transpose() / n);
    const Eigen::VectorXd p = Eigen::VectorXd::Constant(n, 1.0) + 0.8 * matrix(n, 1);
    problem.patterns = {{"press", cattaneo::Control::force, 0.3 * matrix(n, 1), p},
                        {"shear", cattaneo::Control::force, matrix(n, 1), 0.5 * matrix(n, 1)}};

@@ -42,9 +42,8 @@ inline ReducedProblem random_contact(unsigned seed, Eigen::Index n, Eigen::Index
       K = (0.5 * (K + K.transpose())).eval();
    }
    ReducedProblem problem;
-   problem.A = K.topLeftCorner(m, m);
-   problem.B = K.bottomLeftCorner(n, m);
-   problem.C = K.bottomRightCorner(n, n);
+   problem.set_stiffness(K.topLeftCorner(m, m), K.bottomLeftCorner(n, m),
+                         K.bottomRightCorner(n, n));
    const auto vector = [&](Eigen::Index size)
    { return Eigen::VectorXd(random_matrix(random, size, 1)); };
    const Eigen::VectorXd pressure = vector(n).array() * 0.3 + 1;
@@ -73,25 +72,24 @@ inline ReducedProblem punch_like(Eigen::Index n, double coupling = 0.1)
       weights[i] = 0.5 * (x[std::min(i + 1, n - 1)] - x[std::max<Eigen::Index>(i - 1, 0)]);
    }
    ReducedProblem problem;
-   problem.A = Eigen::MatrixXd::Zero(n, n);
-   problem.B = Eigen::MatrixXd::Zero(n, n);
+   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n), B = A;
    for (Eigen::Index i = 0; i < n; ++i)
    {
       for (Eigen::Index j = 0; j < n; ++j)
       {
          if (i == j) { continue; }
          const double spring = weights[i] * weights[j] / (M_PI * (x[i] - x[j]) * (x[i] - x[j]));
-         problem.A(i, i) += spring;
-         problem.A(i, j) -= spring;
+         A(i, i) += spring;
+         A(i, j) -= spring;
       }
    }
    for (Eigen::Index e = 0; e + 1 < n; ++e)
    {
-      problem.B.block(e, e, 2, 2) += 0.5 * coupling * Eigen::Matrix2d{{-1, 1}, {-1, 1}};
+      B.block(e, e, 2, 2) += 0.5 * coupling * Eigen::Matrix2d{{-1, 1}, {-1, 1}};
    }
    const Eigen::MatrixXd resultant = weights * Eigen::RowVectorXd::Ones(n) / weights.sum();
-   problem.B -= (resultant * problem.B).eval();
-   problem.C = problem.A;
+   B -= (resultant * B).eval();
+   problem.set_stiffness(A, B, A);
    problem.weights = weights;
    problem.arc_length = x;
    const Eigen::ArrayXd s = x.array(), bell = (1 - s.square()).square();
@@ -143,13 +141,16 @@ inline RandomLimit random_limit(unsigned seed, Eigen::Index components)
    const Eigen::MatrixXd stronger = random_matrix(random, m + n, 1 + n);
    if (n == 1 || chance(0.3))
    {
-      const Eigen::MatrixXd K = problem.stiffness() / problem.stiffness().norm() +
-                                power(-2, 2) * stronger * stronger.transpose();
-      problem.A = K.topLeftCorner(m, m);
-      problem.B = K.bottomLeftCorner(n, m);
-      problem.C = K.bottomRightCorner(n, n);
+      const Eigen::MatrixXd K =
+         problem.K / problem.K.norm() + power(-2, 2) * stronger * stronger.transpose();
+      problem.set_stiffness(K.topLeftCorner(m, m), K.bottomLeftCorner(n, m),
+                            K.bottomRightCorner(n, n));
    }
-   if (chance(0.3)) { problem.B *= chance(0.5) ? 0.0 : power(-3, 0); }
+   if (chance(0.3))
+   {
+      problem.set_stiffness(problem.A(), (chance(0.5) ? 0.0 : power(-3, 0)) * problem.B(),
+                            problem.C());
+   }
 
    Eigen::VectorXd &pressure = problem.patterns[0].p, &shear = problem.patterns[0].q;
    if (chance(0.3)) { pressure += power(-1, 0.5) * vector(n); }
@@ -173,7 +174,7 @@ inline RandomLimit random_limit(unsigned seed, Eigen::Index components)
       if (chance(0.5)) { cycle.varying.row(0).setZero(); }
    }
    const double force = power(-6, 6), length = power(-6, 6);
-   for (Eigen::MatrixXd *M : {&problem.A, &problem.B, &problem.C}) { *M *= force / length; }
+   problem.K *= force / length;
    for (LoadPattern &pattern : problem.patterns)
    {
       pattern.q *= force;
@@ -190,7 +191,7 @@ inline RandomLimit random_limit(unsigned seed, Eigen::Index components)
 inline double brute_force_load(const ReducedProblem &problem, const LoadCycle &cycle)
 {
    const Eigen::Index n = problem.nodes();
-   const bool rigid = (problem.A * Eigen::VectorXd::Ones(n)).norm() < 1e-10;
+   const bool rigid = (problem.A() * Eigen::VectorXd::Ones(n)).norm() < 1e-10;
    const Eigen::Index first = rigid ? 1 : 0, unknowns = 1 + n - first;
    const Eigen::VectorXd constant = problem.clamped_forces(cycle.constant);
    const Eigen::Index rows = 2 * n * cycle.vertices();
@@ -205,7 +206,7 @@ inline double brute_force_load(const ReducedProblem &problem, const LoadCycle &c
          for (const double sign : {1.0, -1.0})
          {
             const double f = problem.friction[i];
-            const Eigen::RowVectorXd slip = f * problem.B.row(i) + sign * problem.A.row(i);
+            const Eigen::RowVectorXd slip = f * problem.B().row(i) + sign * problem.A().row(i);
             G(row, 0) = f * varying[n + i] + sign * varying[i];
             G.row(row).tail(unknowns - 1) = slip.tail(n - first);
             h[row++] = f * constant[n + i] + sign * constant[i];

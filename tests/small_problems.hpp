@@ -10,9 +10,8 @@ namespace cattaneo_test
 inline cattaneo::ReducedProblem one_block(double f)
 {
    cattaneo::ReducedProblem problem;
-   problem.A = Eigen::MatrixXd::Constant(1, 1, 2.0);
-   problem.B = Eigen::MatrixXd::Zero(1, 1);
-   problem.C = Eigen::MatrixXd::Constant(1, 1, 3.0);
+   problem.set_stiffness(Eigen::MatrixXd::Constant(1, 1, 2.0), Eigen::MatrixXd::Zero(1, 1),
+                         Eigen::MatrixXd::Constant(1, 1, 3.0));
    problem.patterns = {
       {"press", cattaneo::Control::force, Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1)},
       {"shear", cattaneo::Control::force, Eigen::VectorXd::Ones(1), Eigen::VectorXd::Zero(1)}};
@@ -29,9 +28,8 @@ inline cattaneo::ReducedProblem one_block(double f)
 inline cattaneo::ReducedProblem four_springs()
 {
    cattaneo::ReducedProblem problem;
-   problem.A = 2 * Eigen::Matrix4d::Identity();
-   problem.B = Eigen::Matrix4d::Zero();
-   problem.C = 4 * Eigen::Matrix4d::Identity();
+   problem.set_stiffness(2 * Eigen::Matrix4d::Identity(), Eigen::Matrix4d::Zero(),
+                         4 * Eigen::Matrix4d::Identity());
    const Eigen::Vector4d none = Eigen::Vector4d::Zero();
    problem.patterns = {
       {"P", cattaneo::Control::force, none, Eigen::Vector4d(1, 1, 1, -0.4)},

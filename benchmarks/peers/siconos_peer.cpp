@@ -81,10 +81,8 @@ void scale_to_one(ReducedProblem &problem, const std::vector<VectorXd> &multipli
    {
       force = std::max(force, problem.clamped_forces(loads).cwiseAbs().maxCoeff());
    }
-   const double stiffness = problem.stiffness().diagonal().mean();
-   problem.A /= stiffness;
-   problem.B /= stiffness;
-   problem.C /= stiffness;
+   const double stiffness = problem.K.diagonal().mean();
+   problem.K /= stiffness;
    problem.gap *= stiffness / force;
    for (LoadPattern &pattern : problem.patterns)
    {
@@ -95,8 +93,9 @@ void scale_to_one(ReducedProblem &problem, const std::vector<VectorXd> &multipli
 
 void hold(ReducedProblem &problem)
 {
-   problem.A.diagonal() *= 1.01;
-   problem.C.diagonal() *= 1.01;
+   problem.A().diagonal() *= 1.01;
+   problem.C().diagonal() *= 1.01;
+   complete(problem);
 }
 
 /// The increments in the library's own solution. False if it found none.
@@ -122,7 +121,7 @@ class Comparison
 {
 public:
    explicit Comparison(const Increments &run)
-      : run(run), n(run.problem.nodes()), K(run.problem.stiffness())
+      : run(run), n(run.problem.nodes()), K(run.problem.K)
    {
       make_lcp_matrix();
       const Eigen::LLT<MatrixXd> factor(K);
@@ -207,9 +206,10 @@ private:
       const ReducedProblem &P = run.problem;
       const auto f = P.friction.asDiagonal();
       M.resize(3 * n, 3 * n);
-      M.topRows(n) << P.C, P.B, -P.B;
-      M.middleRows(n, n) << f * P.C + P.B.transpose(), f * P.B + P.A, -(f * P.B + P.A);
-      M.bottomRows(n) << f * P.C - P.B.transpose(), f * P.B - P.A, P.A - f * P.B;
+      M.topRows(n) << P.C(), P.B(), -P.B();
+      M.middleRows(n, n) << f * P.C() + P.B().transpose(), f * P.B() + P.A(),
+         -(f * P.B() + P.A());
+      M.bottomRows(n) << f * P.C() - P.B().transpose(), f * P.B() - P.A(), P.A() - f * P.B();
    }
 
    Answer lcp(std::size_t k, int id)

@@ -199,7 +199,7 @@ TEST(CondenseMatrix, TwoBodiesAreSpringsInSeries)
    for (int k = 0; k < 10; ++k) { turned.push_back(k / 5 * 5 + 4 - k % 5); }
    const MatrixXd series =
       (first.S.inverse() + MatrixXd(second.S(turned, turned)).inverse()).inverse();
-   EXPECT_LT(difference(both.problem.stiffness(), series), 1e-11);
+   EXPECT_LT(difference(both.problem.K, series), 1e-11);
    EXPECT_EQ(both.problem.gap, VectorXd::Zero(5));
    EXPECT_EQ(both.counters.factorisations, 2);
 }

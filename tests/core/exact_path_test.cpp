@@ -41,8 +41,8 @@ double violation(const ReducedProblem &problem, const ContactState &before,
 {
    const VectorXd f = problem.clamped_forces(now.multipliers);
    const Index n = problem.nodes();
-   const VectorXd q = problem.A * now.v + problem.B.transpose() * now.w + f.head(n);
-   const VectorXd p = problem.B * now.v + problem.C * now.w + f.tail(n);
+   const VectorXd q = problem.A() * now.v + problem.B().transpose() * now.w + f.head(n);
+   const VectorXd p = problem.B() * now.v + problem.C() * now.w + f.tail(n);
    double worst =
       std::max((now.q - q).cwiseAbs().maxCoeff(), (now.p - p).cwiseAbs().maxCoeff());
    for (Index i = 0; i < n; ++i)
@@ -67,7 +67,7 @@ TEST(StateEquations, UpdatesAgreeWithAFreshFactor)
    std::mt19937 random(31);
    const int n = 12;
    const ReducedProblem problem = random_problem(n, 0.6, 0.15, random);
-   const Eigen::MatrixXd K = problem.stiffness();
+   const Eigen::MatrixXd K = problem.K;
    StateEquations equations(K, problem.friction);
    const VectorXd b = problem.clamped_forces(Vector2d(1, 0.4));
    VectorXd x, F, x_fresh, F_fresh;
@@ -290,9 +290,7 @@ TEST(ExactPath, UnitsDoNotMatter)
    const ReducedProblem problem = random_problem(15, 0.4, 0.12, random);
    ReducedProblem scaled = problem;
    const double length = std::ldexp(1.0, -20), force = std::ldexp(1.0, 27); // exact in binary
-   scaled.A *= force / length;
-   scaled.B *= force / length;
-   scaled.C *= force / length;
+   scaled.K *= force / length;
    scaled.gap *= length;
    for (LoadPattern &pattern : scaled.patterns)
    {
@@ -318,9 +316,8 @@ TEST(ExactPath, UnitsDoNotMatter)
 TEST(ExactPath, GrossSlidingAtItsExactLoad)
 {
    ReducedProblem problem;
-   problem.A = Eigen::Matrix2d{{1, -1}, {-1, 1}};
-   problem.B = Eigen::Matrix2d::Zero();
-   problem.C = Eigen::Matrix2d{{1, -1}, {-1, 1}};
+   problem.set_stiffness(Eigen::Matrix2d{{1, -1}, {-1, 1}}, Eigen::Matrix2d::Zero(),
+                         Eigen::Matrix2d{{1, -1}, {-1, 1}});
    problem.patterns = {{"press", Control::force, Vector2d(0, 0), Vector2d(0.5, 0.5)},
                        {"shear", Control::force, Vector2d(0.8, 0.2), Vector2d(0, 0)}};
    problem.H = Eigen::Matrix2d::Zero();

@@ -29,8 +29,8 @@ double violation(const ReducedProblem &problem, const ContactState &state,
 {
    const VectorXd f = problem.clamped_forces(state.multipliers);
    const Index n = problem.nodes();
-   const VectorXd q = problem.A * state.v + problem.B.transpose() * state.w + f.head(2 * n);
-   const VectorXd p = problem.B * state.v + problem.C * state.w + f.tail(n);
+   const VectorXd q = problem.A() * state.v + problem.B().transpose() * state.w + f.head(2 * n);
+   const VectorXd p = problem.B() * state.v + problem.C() * state.w + f.tail(n);
    double worst =
       std::max((q - state.q).cwiseAbs().maxCoeff(), (p - state.p).cwiseAbs().maxCoeff());
    for (Index i = 0; i < n; ++i)
@@ -185,9 +185,10 @@ ReducedProblem with_separate_twist(int n, double friction, double coupling,
                                    std::mt19937 &random)
 {
    ReducedProblem problem = random_disc_problem(n, friction, coupling, random);
-   problem.A.topRightCorner(n, n).setZero();
-   problem.A.bottomLeftCorner(n, n).setZero();
-   problem.B.rightCols(n).setZero();
+   problem.A().topRightCorner(n, n).setZero();
+   problem.A().bottomLeftCorner(n, n).setZero();
+   problem.B().rightCols(n).setZero();
+   complete(problem);
    for (int k : {0, 1}) { problem.patterns[k].q.tail(n).setZero(); }
    return problem;
 }
@@ -196,8 +197,7 @@ ReducedProblem first_component(const ReducedProblem &problem)
 {
    const Index n = problem.nodes();
    ReducedProblem plane = problem;
-   plane.A = problem.A.topLeftCorner(n, n);
-   plane.B = problem.B.leftCols(n);
+   plane.set_stiffness(problem.A().topLeftCorner(n, n), problem.B().leftCols(n), problem.C());
    for (LoadPattern &pattern : plane.patterns) { pattern.q = VectorXd(pattern.q.head(n)); }
    return plane;
 }
@@ -241,12 +241,13 @@ TEST(FrictionDisc, AnUncoupledNodeStaysInStick)
    problem.gap[0] = 0;
    for (int r : {0, 12})
    {
-      problem.A.row(r).setZero();
-      problem.A.col(r).setZero();
-      problem.A(r, r) = 2;
-      problem.B.col(r).setZero();
+      problem.A().row(r).setZero();
+      problem.A().col(r).setZero();
+      problem.A()(r, r) = 2;
+      problem.B().col(r).setZero();
       for (LoadPattern &pattern : problem.patterns) { pattern.q[r] = 0; }
    }
+   complete(problem);
    problem.patterns[0].p[0] = 3;
    ContactState state = ContactState::virgin(problem);
    ASSERT_EQ(march(problem, press_then_twist(1.0, 2), state).status, FrictionStatus::converged);
@@ -270,9 +271,10 @@ TEST(FrictionDisc, TurningThePlaneTurnsTheAnswer)
    std::mt19937 random(5);
    const int n = 15;
    ReducedProblem problem = random_disc_problem(n, 0.6, 0.0, random);
-   problem.A.topRightCorner(n, n).setZero();
-   problem.A.bottomLeftCorner(n, n).setZero();
-   problem.A.bottomRightCorner(n, n) = problem.A.topLeftCorner(n, n);
+   problem.A().topRightCorner(n, n).setZero();
+   problem.A().bottomLeftCorner(n, n).setZero();
+   problem.A().bottomRightCorner(n, n) = problem.A().topLeftCorner(n, n);
+   complete(problem);
    ReducedProblem other = problem;
    for (LoadPattern &pattern : other.patterns) { pattern.q = turned(pattern.q, 0.7); }
    ContactState state = ContactState::virgin(problem), image = state;
@@ -318,9 +320,7 @@ TEST(FrictionDisc, UnitsDoNotMatter)
       for (double length : {1e-9, 1e9})
       {
          ReducedProblem other = problem;
-         other.A *= force / length;
-         other.B *= force / length;
-         other.C *= force / length;
+         other.K *= force / length;
          other.gap *= length;
          for (LoadPattern &pattern : other.patterns)
          {
@@ -369,9 +369,8 @@ TEST(FrictionDisc, SavedAndResumedToTheLastBit)
 ReducedProblem one_disc_node()
 {
    ReducedProblem problem;
-   problem.A = 2 * Eigen::Matrix2d::Identity();
-   problem.B = Eigen::MatrixXd::Zero(1, 2);
-   problem.C = Eigen::MatrixXd::Ones(1, 1);
+   problem.set_stiffness(2 * Eigen::Matrix2d::Identity(), Eigen::MatrixXd::Zero(1, 2),
+                         Eigen::MatrixXd::Ones(1, 1));
    const VectorXd none = VectorXd::Zero(1);
    problem.patterns = {{"press", Control::force, Vector2d(0, 0), VectorXd::Ones(1)},
                        {"along", Control::force, Vector2d(1, 0), none},
@@ -426,11 +425,11 @@ TEST(FrictionDisc, CriticalFrictionIsThatOfTheWeakestDirection)
    // Two nodes that feel each other, which does not count: each node's block of A has
    // off-diagonal entries of its own.
    ReducedProblem problem;
-   problem.A.resize(4, 4);
-   problem.A << 2, 0.3, 0.5, 0.2, 0.3, 3, -0.1, -1, 0.5, -0.1, 1, 0.15, 0.2, -1, 0.15, 2;
-   problem.B.resize(2, 4);
-   problem.B << 0.3, 0.07, 0.4, -0.05, 0.02, 1, 0.06, -0.8;
-   problem.C = 10 * Eigen::Matrix2d::Identity();
+   problem.set_stiffness(
+      Eigen::Matrix4d{
+         {2, 0.3, 0.5, 0.2}, {0.3, 3, -0.1, -1}, {0.5, -0.1, 1, 0.15}, {0.2, -1, 0.15, 2}},
+      Eigen::MatrixXd{{0.3, 0.07, 0.4, -0.05}, {0.02, 1, 0.06, -0.8}},
+      10 * Eigen::Matrix2d::Identity());
    problem.gap = Vector2d(0, 0);
    double least[2];
    const Eigen::Matrix2d blocks[] = {Eigen::Matrix2d{{2, 0.5}, {0.5, 1}},
@@ -554,7 +553,7 @@ TEST(FrictionDisc, WithoutFrictionThereAreNoTangentialUnknowns)
    ASSERT_EQ(march(solver, press_then_twist(0.5, 1), state).status, FrictionStatus::converged);
    EXPECT_EQ(solver.counters().tangential_unknowns, 0);
    const VectorXd f = problem.clamped_forces(state.multipliers);
-   EXPECT_LT((problem.A * state.v + problem.B.transpose() * state.w + f.head(2 * n))
+   EXPECT_LT((problem.A() * state.v + problem.B().transpose() * state.w + f.head(2 * n))
                 .cwiseAbs()
                 .maxCoeff(),
              1e-12);
@@ -576,17 +575,16 @@ ReducedProblem free_disc(int n, double friction, double coupling)
    ReducedProblem problem;
    const VectorXd r = VectorXd::LinSpaced(n, 0.2, 1.0), one = VectorXd::Ones(n);
    const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(n, n);
-   problem.A = Eigen::MatrixXd::Zero(2 * n, 2 * n);
-   problem.A.topLeftCorner(n, n) = 2 * I;
-   problem.A.bottomRightCorner(n, n) = I - r * r.transpose() / r.squaredNorm();
-   problem.C = I - one * one.transpose() / n;
-   problem.B = Eigen::MatrixXd::Zero(n, 2 * n);
+   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * n, 2 * n), B = A.topRows(n);
+   A.topLeftCorner(n, n) = 2 * I;
+   A.bottomRightCorner(n, n) = I - r * r.transpose() / r.squaredNorm();
    // A rise moves nothing else: rows of B that add up to zero.
    for (int i = 0; i + 1 < n; ++i)
    {
-      problem.B(i, i) += coupling;
-      problem.B(i + 1, i) -= coupling;
+      B(i, i) += coupling;
+      B(i + 1, i) -= coupling;
    }
+   problem.set_stiffness(A, B, I - one * one.transpose() / n);
    LoadPattern press{"press", Control::force, VectorXd::Zero(2 * n), VectorXd::Zero(n)};
    press.p = one / n + 0.3 / n * (one - 2 * r);
    press.p *= 1 / press.p.sum();
@@ -695,10 +693,9 @@ TEST(FrictionDisc, SlidesInTheDirectionOfTheLoad)
    ReducedProblem problem;
    const Eigen::MatrixXd relative =
       Eigen::MatrixXd::Identity(n, n) - Eigen::MatrixXd::Constant(n, n, 1.0 / n);
-   problem.A = Eigen::MatrixXd::Zero(2 * n, 2 * n);
-   problem.A.topLeftCorner(n, n) = problem.A.bottomRightCorner(n, n) = relative;
-   problem.B = Eigen::MatrixXd::Zero(n, 2 * n);
-   problem.C = relative;
+   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+   A.topLeftCorner(n, n) = A.bottomRightCorner(n, n) = relative;
+   problem.set_stiffness(A, Eigen::MatrixXd::Zero(n, 2 * n), relative);
    problem.patterns = {
       {"press", Control::force, VectorXd::Zero(2 * n), VectorXd::Constant(n, 1.0 / n)}};
    for (double angle : {0.0, 0.3, 0.9, 2.0, 4.5})

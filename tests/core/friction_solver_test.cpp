@@ -19,9 +19,8 @@ using Eigen::VectorXd;
 ReducedProblem one_node(double a, double b, double c, double q, double p, double f, double gap)
 {
    ReducedProblem problem;
-   problem.A = Eigen::MatrixXd::Constant(1, 1, a);
-   problem.B = Eigen::MatrixXd::Constant(1, 1, b);
-   problem.C = Eigen::MatrixXd::Constant(1, 1, c);
+   problem.set_stiffness(Eigen::MatrixXd::Constant(1, 1, a), Eigen::MatrixXd::Constant(1, 1, b),
+                         Eigen::MatrixXd::Constant(1, 1, c));
    problem.patterns = {
       {"load", Control::force, VectorXd::Constant(1, q), VectorXd::Constant(1, p)}};
    problem.H = Eigen::MatrixXd::Zero(1, 1);
@@ -34,8 +33,8 @@ ReducedProblem one_node(double a, double b, double c, double q, double p, double
 ReducedProblem free_nodes()
 {
    ReducedProblem problem;
-   problem.A = problem.C = Eigen::Matrix2d::Identity();
-   problem.B = 0.5 * problem.A;
+   problem.set_stiffness(Eigen::Matrix2d::Identity(), 0.5 * Eigen::Matrix2d::Identity(),
+                         Eigen::Matrix2d::Identity());
    problem.patterns = {{"load", Control::force, Vector2d(0, 0), Vector2d(1, 1)}};
    problem.H = Eigen::MatrixXd::Zero(1, 1);
    problem.gap = Vector2d(0, 0);
@@ -50,8 +49,8 @@ double violation(const ReducedProblem &problem, const ContactState &state,
 {
    const VectorXd f = problem.clamped_forces(state.multipliers);
    const Eigen::Index n = problem.nodes();
-   const VectorXd q = problem.A * state.v + problem.B.transpose() * state.w + f.head(n);
-   const VectorXd p = problem.B * state.v + problem.C * state.w + f.tail(n);
+   const VectorXd q = problem.A() * state.v + problem.B().transpose() * state.w + f.head(n);
+   const VectorXd p = problem.B() * state.v + problem.C() * state.w + f.tail(n);
    double worst = 0;
    for (Eigen::Index i = 0; i < n; ++i)
    {
@@ -83,7 +82,7 @@ double violation(const ReducedProblem &problem, const ContactState &state,
 /// All states of one node for which the laws hold, by trying the four of them.
 std::vector<NodeState> enumerate(const ReducedProblem &problem, double v_old)
 {
-   const double a = problem.A(0, 0), b = problem.B(0, 0), c = problem.C(0, 0);
+   const double a = problem.A()(0, 0), b = problem.B()(0, 0), c = problem.C()(0, 0);
    const double g = problem.gap[0], f = problem.friction[0];
    const double q0 = problem.patterns[0].q[0] + a * v_old - b * g;
    const double p0 = problem.patterns[0].p[0] + b * v_old - c * g;
@@ -138,9 +137,7 @@ TEST(FrictionSolver, ThreeMethodsAgreeOnRandomProblems)
       const int n = 2 + k % 14;
       const double scale = std::pow(10.0, 9 * (2 * uniform(random) - 1));
       ReducedProblem problem = random_problem(n, 3.0 * k / 199.0, 0.12, random);
-      problem.A *= scale;
-      problem.B *= scale;
-      problem.C *= scale;
+      problem.K *= scale;
       for (LoadPattern &pattern : problem.patterns)
       {
          pattern.q *= scale;
@@ -166,9 +163,7 @@ TEST(FrictionSolver, ThreeMethodsAgreeOnRandomProblems)
             plain.q /= scale;
             plain.p /= scale;
             ReducedProblem unit = problem;
-            unit.A /= scale;
-            unit.B /= scale;
-            unit.C /= scale;
+            unit.K /= scale;
             for (LoadPattern &pattern : unit.patterns)
             {
                pattern.q /= scale;
@@ -225,9 +220,7 @@ ReducedProblem node_on_a_slope(double stiffness)
 {
    ReducedProblem problem;
    const auto one = [](double x) { return Eigen::MatrixXd::Constant(1, 1, x); };
-   problem.A = one(1);
-   problem.B = one(-0.5);
-   problem.C = one(0.25 + stiffness);
+   problem.set_stiffness(one(1), one(-0.5), one(0.25 + stiffness));
    problem.patterns = {{"press", Control::force, VectorXd::Zero(1), VectorXd::Ones(1)}};
    problem.H = one(0);
    problem.gap = VectorXd::Zero(1);
@@ -283,8 +276,8 @@ TEST(FrictionSolver, FrictionlessHasNoTangentialUnknownsAndNoShear)
    EXPECT_EQ(solver.counters().tangential_unknowns, 0);
    EXPECT_TRUE(solver.frictionless());
    const VectorXd f = problem.clamped_forces(Vector2d(1, 0.4));
-   const VectorXd q = problem.A * state.v + problem.B.transpose() * state.w + f.head(9);
-   const VectorXd p = problem.B * state.v + problem.C * state.w + f.tail(9);
+   const VectorXd q = problem.A() * state.v + problem.B().transpose() * state.w + f.head(9);
+   const VectorXd p = problem.B() * state.v + problem.C() * state.w + f.tail(9);
    EXPECT_LT(q.cwiseAbs().maxCoeff(), 1e-13);
    EXPECT_LT((p - state.p).cwiseAbs().maxCoeff(), 1e-13);
    EXPECT_GE(state.p.minCoeff(), 0);
@@ -304,9 +297,8 @@ TEST(FrictionSolver, WithoutCouplingStuckNodesAreHeldWhereTheyWere)
    // (1/2 - 2) / 2 = -3/4 and sheds 3/8 on the second, less than friction. The sweeps find
    // these states, so one active-set solve is the answer, and one more may confirm it.
    ReducedProblem problem;
-   problem.A = Eigen::Matrix3d{{2, -0.5, 0}, {-0.5, 2, -0.5}, {0, -0.5, 2}};
-   problem.B = Eigen::Matrix3d::Zero();
-   problem.C = Eigen::Matrix3d::Identity();
+   problem.set_stiffness(Eigen::Matrix3d{{2, -0.5, 0}, {-0.5, 2, -0.5}, {0, -0.5, 2}},
+                         Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Identity());
    problem.patterns = {{"load", Control::force, Vector3d(2, 0, 0), Vector3d(1, 1, 1)}};
    problem.H = Eigen::MatrixXd::Zero(1, 1);
    problem.gap = Vector3d::Zero();
@@ -450,9 +442,8 @@ TEST(FrictionSolver, RefusesBadSettings)
 ReducedProblem free_block(double f)
 {
    ReducedProblem problem;
-   problem.A = Eigen::Matrix2d{{1, -1}, {-1, 1}};
-   problem.B = Eigen::Matrix2d::Zero();
-   problem.C = Eigen::Matrix2d{{1, -1}, {-1, 1}};
+   problem.set_stiffness(Eigen::Matrix2d{{1, -1}, {-1, 1}}, Eigen::Matrix2d::Zero(),
+                         Eigen::Matrix2d{{1, -1}, {-1, 1}});
    problem.patterns = {
       {"press", Control::force, Vector2d(0, 0), Vector2d(0.5, 0.5)},
       {"shear", Control::force, Vector2d(0.8, 0.2), Vector2d(0, 0)},
@@ -485,7 +476,7 @@ TEST(Mechanism, FindsTheMotionThatTheLoadsDrive)
    const ReducedProblem problem = free_block(0.4);
    const Eigen::MatrixXd Z = rigid_motions(problem);
    ASSERT_EQ(Z.cols(), 2);
-   EXPECT_LT((problem.stiffness() * Z).cwiseAbs().maxCoeff(), 1e-15);
+   EXPECT_LT((problem.K * Z).cwiseAbs().maxCoeff(), 1e-15);
    EXPECT_FALSE(
       find_mechanism(problem, Z, problem.clamped_forces(Eigen::Vector3d(1, 0.39, 0))).exists);
    const Mechanism sliding =

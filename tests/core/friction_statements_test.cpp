@@ -17,9 +17,7 @@ ReducedProblem two_nodes(const Matrix2d &A, const Matrix2d &B, const Matrix2d &C
                          const Vector2d &q, const Vector2d &p, const Vector2d &friction)
 {
    ReducedProblem problem;
-   problem.A = A;
-   problem.B = B;
-   problem.C = C;
+   problem.set_stiffness(A, B, C);
    problem.patterns = {{"L", Control::force, q, p}};
    problem.H = MatrixXd::Zero(1, 1);
    problem.gap = Vector2d::Zero();
@@ -56,9 +54,9 @@ TEST(FrictionStatements, WithoutFrictionABodyThatIsPushedAlongSlides)
 TEST(FrictionStatements, WithoutFrictionABodyThatIsTwistedSpins)
 {
    ReducedProblem problem = two_nodes(I, O, I, Vector2d(0, 0), Vector2d(1, 1), Vector2d(0, 0));
-   problem.A = MatrixXd::Identity(4, 4);
-   problem.A.bottomRightCorner(2, 2) = free_along;
-   problem.B = MatrixXd::Zero(2, 4);
+   MatrixXd A = MatrixXd::Identity(4, 4);
+   A.bottomRightCorner(2, 2) = free_along;
+   problem.set_stiffness(A, MatrixXd::Zero(2, 4), I);
    problem.patterns[0].q = Eigen::Vector4d(0, 0, 1, 1);
    ContactState state;
    EXPECT_EQ(loaded(problem, state).status, FrictionStatus::gross_sliding);
@@ -144,10 +142,10 @@ TEST(FrictionStatements, ASlipFromFarAwayLeavesNoRoundOff)
          problem.H = MatrixXd::Zero(2, 2);
          if (components == 2)
          {
-            problem.A = MatrixXd::Identity(4, 4);
-            problem.A.topLeftCorner(2, 2) = soft;
-            problem.B = MatrixXd::Zero(2, 4);
-            problem.B.leftCols(2) = B;
+            MatrixXd wide = MatrixXd::Identity(4, 4), beside = MatrixXd::Zero(2, 4);
+            wide.topLeftCorner(2, 2) = soft;
+            beside.leftCols(2) = B;
+            problem.set_stiffness(wide, beside, problem.C());
             for (LoadPattern &pattern : problem.patterns)
             {
                pattern.q.conservativeResizeLike(VectorXd::Zero(4));
@@ -188,8 +186,7 @@ TEST(FrictionStatements, ALossWhereSlipTurnsIsThatOfTheLinearPath)
    // then P falls to 0.4 and Q rises to 2: it sticks until s = 4/9.8 of the way, where
    // p = 4 - 3.6 s, and slips back by 5.8 against f p, which falls linearly to 0.2.
    ReducedProblem problem;
-   problem.A = problem.C = MatrixXd::Ones(1, 1);
-   problem.B = MatrixXd::Zero(1, 1);
+   problem.set_stiffness(MatrixXd::Ones(1, 1), MatrixXd::Zero(1, 1), MatrixXd::Ones(1, 1));
    const VectorXd zero = VectorXd::Zero(1), one = VectorXd::Ones(1);
    problem.patterns = {{"P", Control::force, zero, one}, {"Q", Control::force, one, zero}};
    problem.H = MatrixXd::Zero(2, 2);

@@ -47,13 +47,13 @@ ReducedProblem half_planes(int n, double half, const std::function<double(double
       }
    }
    const Eigen::MatrixXd K = G.inverse();
-   problem.A = problem.C = 0.5 * (K + K.transpose());
-   problem.B = Eigen::MatrixXd::Zero(n, n);
+   const Eigen::MatrixXd symmetric = 0.5 * (K + K.transpose());
+   problem.set_stiffness(symmetric, Eigen::MatrixXd::Zero(n, n), symmetric);
    const VectorXd zero = VectorXd::Zero(n), one = VectorXd::Ones(n);
    // A load moves body 1 by `soft` against no contact force: q = A (v - v_load).
-   problem.patterns = {{"P", Control::force, zero, problem.C * (soft * one)},
-                       {"Q", Control::force, -problem.A * (soft * one), zero},
-                       {"bulk", Control::force, problem.A * x / (2 * modulus), zero}};
+   problem.patterns = {{"P", Control::force, zero, problem.C() * (soft * one)},
+                       {"Q", Control::force, -problem.A() * (soft * one), zero},
+                       {"bulk", Control::force, problem.A() * x / (2 * modulus), zero}};
    problem.H = Eigen::MatrixXd::Zero(3, 3);
    problem.gap = x.unaryExpr(gap);
    problem.weights = VectorXd::Constant(n, h);
@@ -247,8 +247,7 @@ TEST(FromContact, RefusesWhatItCannotJudge)
    pieces.arc_length[20] = pieces.arc_length[19];
    EXPECT_THROW(contact_edges(pieces, two.pressed, two.peak), InputError);
    ReducedProblem frictionless = coarse;
-   frictionless.A.resize(0, 0);
-   frictionless.B.resize(9, 0);
+   frictionless.set_stiffness({}, Eigen::MatrixXd(9, 0), frictionless.C());
    EXPECT_THROW(contact_edges(frictionless, solved.pressed, solved.peak), InputError);
 }
 
@@ -256,9 +255,7 @@ TEST(FromContact, RefusesWhatItCannotJudge)
 ReducedProblem mirror(const ReducedProblem &problem)
 {
    ReducedProblem result = problem;
-   result.A = problem.A.reverse();
-   result.B = -problem.B.reverse();
-   result.C = problem.C.reverse();
+   result.set_stiffness(problem.A().reverse(), -problem.B().reverse(), problem.C().reverse());
    for (LoadPattern &pattern : result.patterns)
    {
       pattern.q = (-pattern.q.reverse()).eval();
@@ -406,7 +403,7 @@ TEST(FromContact, EnergyOfAnEdgeIsThatOfItsNodesAndOfThoseThatRubBeyond)
 {
    const int n = 10;
    ReducedProblem problem;
-   problem.C = Eigen::MatrixXd::Identity(n, n);
+   problem.set_stiffness({}, Eigen::MatrixXd(n, 0), Eigen::MatrixXd::Identity(n, n));
    problem.weights.resize(n);
    problem.weights << 1, 1, 4, 1, 1, 2, 0, 2, 1, 1;
    CycleRecord cycle;

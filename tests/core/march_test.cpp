@@ -116,8 +116,7 @@ TEST(March, AHistoryThatIsACycleFromItsStartIsComparedWithIt)
    for (double stiffness : {1.0, 1e12})
    {
       ReducedProblem problem = one_block(0.4);
-      problem.A *= stiffness;
-      problem.C *= stiffness;
+      problem.K *= stiffness;
       ContactState state = ContactState::virgin(problem);
       FrictionSolver(problem).solve(state, Vector2d(1, 0));
       const MarchReport report = march(problem, history, state);
@@ -136,9 +135,8 @@ TEST(March, RecordsOfACycleByHand)
    // q = 2 v + Q, |q| <= 0.4. P and Q go from 1 to (-3, -1) in one increment and back in two:
    // w from 0 to 1, 1/3 and 0, v from -0.3 to 0.3, 0.2 and -0.3.
    ReducedProblem problem;
-   problem.A = 2 * Eigen::Matrix2d::Identity();
-   problem.B = Eigen::Matrix2d::Zero();
-   problem.C = 3 * Eigen::Matrix2d::Identity();
+   problem.set_stiffness(2 * Eigen::Matrix2d::Identity(), Eigen::Matrix2d::Zero(),
+                         3 * Eigen::Matrix2d::Identity());
    const Vector2d zero(0, 0), first(1, 0), second(0, 1);
    problem.patterns = {{"P", Control::force, zero, first},
                        {"N", Control::force, zero, second},
@@ -194,9 +192,8 @@ TEST(March, LossInTheDiscByHand)
    // f = ½. A slip of (0.3, 0.4) against f p from 1 to 2; where the friction has turned round,
    // |q0 + s (trial - q0)| = f p at s = 7.6/10.84: trial = q1 - A Δv = (-1.8, -2), q0 = (1, 0).
    ReducedProblem problem;
-   problem.A = Vector2d(2, 1).asDiagonal();
-   problem.B = Eigen::MatrixXd::Zero(1, 2);
-   problem.C = Eigen::MatrixXd::Ones(1, 1);
+   problem.set_stiffness(Vector2d(2, 1).asDiagonal(), Eigen::MatrixXd::Zero(1, 2),
+                         Eigen::MatrixXd::Ones(1, 1));
    problem.gap = VectorXd::Zero(1);
    set_friction(problem, 0.5);
    ContactState before = ContactState::virgin(problem), after = before;
@@ -268,7 +265,8 @@ TEST(March, OneIncrementOnlyWhereItIsExact)
    };
    const Vector2d none(0, 0), pressed(1, 0), both(1, 0.9), harder(2, 0), less(0.2, 0);
    ReducedProblem problem = one_block(0.4), coupled = problem;
-   coupled.B(0, 0) = 0.1;
+   coupled.B()(0, 0) = 0.1;
+   complete(coupled);
    const ContactState virgin = ContactState::virgin(problem);
    // In proportion, from nothing: neither gap nor slip, force or load.
    EXPECT_EQ(increments(coupled, LoadHistory::through({none, both}), virgin), 1u);
@@ -288,7 +286,8 @@ TEST(March, OneIncrementOnlyWhereItIsExact)
    EXPECT_EQ(increments(problem, LoadHistory::through({pressed, harder, less}), loaded), 2u);
    EXPECT_EQ(increments(coupled, LoadHistory::through({pressed, harder}), loaded), 7u);
    EXPECT_EQ(increments(problem, LoadHistory::through({pressed, both}), loaded), 7u);
-   apart.B.setZero();
+   apart.B().setZero();
+   complete(apart);
    EXPECT_EQ(
       increments(apart, LoadHistory::through({none, pressed}), ContactState::virgin(apart)),
       1u);
@@ -306,8 +305,8 @@ TEST(March, SaysWhereItFirstWasNotUnique)
    // Both nodes are above their critical friction of 2; node 1 is pressed from the start, node
    // 0 closes its gap of 0.3 later, at P = 0.225.
    ReducedProblem problem;
-   problem.A = problem.C = Eigen::Matrix2d::Identity();
-   problem.B = 0.5 * problem.A;
+   problem.set_stiffness(Eigen::Matrix2d::Identity(), 0.5 * Eigen::Matrix2d::Identity(),
+                         Eigen::Matrix2d::Identity());
    problem.patterns = {{"P", Control::force, Vector2d(0, 0), Vector2d(1, 1)}};
    problem.H = Eigen::MatrixXd::Zero(1, 1);
    problem.gap = Vector2d(0.3, 0);
@@ -464,9 +463,8 @@ TEST(March, BeginsAtAnyTimeWithTheSameBits)
 TEST(March, GrossSlidingIsReportedWithItsLoad)
 {
    ReducedProblem problem;
-   problem.A = Eigen::Matrix2d{{1, -1}, {-1, 1}};
-   problem.B = Eigen::Matrix2d::Zero();
-   problem.C = Eigen::Matrix2d{{1, -1}, {-1, 1}};
+   problem.set_stiffness(Eigen::Matrix2d{{1, -1}, {-1, 1}}, Eigen::Matrix2d::Zero(),
+                         Eigen::Matrix2d{{1, -1}, {-1, 1}});
    problem.patterns = {{"press", Control::force, Vector2d(0, 0), Vector2d(0.5, 0.5)},
                        {"shear", Control::force, Vector2d(0.8, 0.2), Vector2d(0, 0)}};
    problem.H = Eigen::Matrix2d::Zero();
@@ -542,8 +540,8 @@ TEST(March, AnErrorOfAdvancingContactIsStatedHoweverItIsCut)
    for (double gap : {0.3, 0.6, 0.97})
    {
       ReducedProblem problem;
-      problem.A = problem.C = Eigen::Matrix2d::Identity();
-      problem.B = Eigen::Matrix2d::Zero();
+      problem.set_stiffness(Eigen::Matrix2d::Identity(), Eigen::Matrix2d::Zero(),
+                            Eigen::Matrix2d::Identity());
       problem.gap = Vector2d(0, gap);
       problem.friction = Vector2d(1, 1);
       problem.patterns = {{"L", Control::force, Vector2d(0, 0.3), Vector2d(1, 1)}};
@@ -617,19 +615,18 @@ TEST(March, AdvancingContactClosesALayerAtATime)
 {
    const int n = 41;
    ReducedProblem problem;
-   problem.A = Eigen::MatrixXd::Zero(n, n);
+   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n), B = A;
    for (int i = 0; i < n; ++i)
    {
-      problem.A(i, i) = 2.2;
-      if (i > 0) { problem.A(i, i - 1) = problem.A(i - 1, i) = -1; }
+      A(i, i) = 2.2;
+      if (i > 0) { A(i, i - 1) = A(i - 1, i) = -1; }
    }
-   problem.C = problem.A;
-   problem.B = Eigen::MatrixXd::Zero(n, n);
    for (int i = 0; i + 1 < n; ++i)
    {
-      problem.B(i, i + 1) = 0.2;
-      problem.B(i + 1, i) = -0.2;
+      B(i, i + 1) = 0.2;
+      B(i + 1, i) = -0.2;
    }
+   problem.set_stiffness(A, B, A);
    problem.patterns = {{"press", Control::force, VectorXd::Zero(n), VectorXd::Ones(n)}};
    problem.H = Eigen::MatrixXd::Zero(1, 1);
    problem.gap = VectorXd::NullaryExpr(n, [&](int i) { return 0.01 * (i - 20) * (i - 20); });
@@ -672,18 +669,18 @@ TEST(March, ARingOfNodesMayBeginAnywhere)
    for (int begin : {0, 1, 5, 11})
    {
       ReducedProblem problem;
-      problem.A = problem.B = Eigen::MatrixXd::Zero(n, n);
+      Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n), B = A;
       problem.gap.resize(n);
       for (int i = 0; i < n; ++i)
       {
          const int j = (i + 1) % n, away = std::min((i - begin + n) % n, (begin - i + n) % n);
-         problem.A(i, i) = 2.2;
-         problem.A(i, j) = problem.A(j, i) = -1;
-         problem.B(i, j) = 0.2;
-         problem.B(j, i) = -0.2;
+         A(i, i) = 2.2;
+         A(i, j) = A(j, i) = -1;
+         B(i, j) = 0.2;
+         B(j, i) = -0.2;
          problem.gap[i] = 0.25 * away * away;
       }
-      problem.C = problem.A;
+      problem.set_stiffness(A, B, A);
       problem.patterns = {{"press", Control::force, VectorXd::Zero(n), VectorXd::Ones(n)}};
       problem.H = Eigen::MatrixXd::Zero(1, 1);
       set_friction(problem, 0.3);
@@ -719,8 +716,9 @@ TEST(March, AContactMayBeginAtTwoNodesBesideEachOther)
    for (bool neighbours : {true, false})
    {
       ReducedProblem problem;
-      problem.A = problem.C = 5 * Eigen::Matrix4d::Identity();
-      problem.B = 0.1 * problem.A;
+      problem.set_stiffness(5 * Eigen::Matrix4d::Identity(),
+                            0.1 * 5 * Eigen::Matrix4d::Identity(),
+                            5 * Eigen::Matrix4d::Identity());
       problem.patterns = {{"press", Control::force, VectorXd::Zero(4), VectorXd::Ones(4)}};
       problem.H = Eigen::MatrixXd::Zero(1, 1);
       problem.gap =

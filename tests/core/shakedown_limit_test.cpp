@@ -13,8 +13,8 @@ ReducedProblem springs(const Eigen::VectorXd &p, const Eigen::VectorXd &q)
 {
    const Eigen::Index n = p.size();
    ReducedProblem problem;
-   problem.A = problem.C = Eigen::MatrixXd::Identity(n, n);
-   problem.B = Eigen::MatrixXd::Zero(n, n);
+   problem.set_stiffness(Eigen::MatrixXd::Identity(n, n), Eigen::MatrixXd::Zero(n, n),
+                         Eigen::MatrixXd::Identity(n, n));
    problem.patterns = {{"P", Control::force, Eigen::VectorXd::Zero(n), p},
                        {"Q", Control::force, q, Eigen::VectorXd::Zero(n)}};
    problem.H = Eigen::MatrixXd::Zero(2, 2);
@@ -110,9 +110,8 @@ TEST(FrictionLimit, DiscOfOneSpringIsHalfTheLargestDistance)
    // One node, three load vertices whose shears form a 3-4-5 triangle: the smallest disc that
    // holds it has the long side as its diameter.
    ReducedProblem problem;
-   problem.A = Eigen::Matrix2d::Identity();
-   problem.B = Eigen::MatrixXd::Zero(1, 2);
-   problem.C = Eigen::MatrixXd::Identity(1, 1);
+   problem.set_stiffness(Eigen::Matrix2d::Identity(), Eigen::MatrixXd::Zero(1, 2),
+                         Eigen::MatrixXd::Identity(1, 1));
    problem.patterns = {
       {"P", Control::force, Eigen::Vector2d::Zero(), Eigen::VectorXd::Constant(1, 10)},
       {"r", Control::force, Eigen::Vector2d(1, 0), Eigen::VectorXd::Zero(1)},
@@ -144,7 +143,7 @@ TEST(Limit, DegenerateCasesHaveStatusesAndMessages)
    EXPECT_NE(report.message, "");
    // A shear that the pressing itself causes can be relieved altogether: no friction needed.
    ReducedProblem relieved = problem;
-   relieved.patterns[0].q = relieved.A * Eigen::VectorXd::LinSpaced(5, 0, 0.1);
+   relieved.patterns[0].q = relieved.A() * Eigen::VectorXd::LinSpaced(5, 0, 0.1);
    report = friction_limit(limit_problem(relieved, steady), 1.0);
    EXPECT_EQ(report.status, LimitStatus::certified) << report.message;
    EXPECT_LT(report.upper, 1e-6);
@@ -199,10 +198,9 @@ TEST(Limit, DegenerateCasesHaveStatusesAndMessages)
 ReducedProblem one_node(double press, double f, Eigen::Index components)
 {
    ReducedProblem problem;
-   problem.A = Eigen::MatrixXd::Identity(components, components);
-   problem.B = Eigen::MatrixXd::Zero(1, components);
-   problem.B(0, 0) = press;
-   problem.C = Eigen::MatrixXd::Identity(1, 1);
+   problem.set_stiffness(Eigen::MatrixXd::Identity(components, components),
+                         press * Eigen::RowVectorXd::Unit(components, 0),
+                         Eigen::MatrixXd::Identity(1, 1));
    const auto pattern = [&](const char *name, double q, double p)
    {
       return LoadPattern{name, Control::force, q * Eigen::VectorXd::Unit(components, 0),
@@ -299,7 +297,8 @@ TEST(Limit, ComesAfterTheConstantLoads)
    // Nothing varies, but the constant shear is beyond gross sliding (q = 5 on a free body of
    // two nodes, f p = 0.1).
    ReducedProblem free = springs(Eigen::Vector2d(1, 1), Eigen::Vector2d(5, 5));
-   free.A << 1, -1, -1, 1;
+   free.A() << 1, -1, -1, 1;
+   complete(free);
    set_friction(free, 0.1);
    LoadCycle cycle{Eigen::Vector2d(1, 1), Eigen::MatrixXd::Zero(2, 2)};
    LimitReport report = load_limit(limit_problem(free, cycle));
@@ -364,8 +363,9 @@ TEST(Limit, RefusesBadInput)
    EXPECT_THROW(limit_problem(problem, cycle), InputError);
    problem.gap[1] = 0;
    // A slip that needs no tangential force but changes the pressure would be free energy.
-   problem.A = Eigen::MatrixXd::Identity(4, 4) - Eigen::MatrixXd::Constant(4, 4, 0.25);
-   problem.B = Eigen::MatrixXd::Identity(4, 4);
+   problem.A() = Eigen::MatrixXd::Identity(4, 4) - Eigen::MatrixXd::Constant(4, 4, 0.25);
+   problem.B() = Eigen::MatrixXd::Identity(4, 4);
+   complete(problem);
    EXPECT_THROW(limit_problem(problem, cycle), InputError);
 }
 
@@ -382,7 +382,7 @@ TEST(Limit, DoesNotDependOnUnits)
       for (const double length : {1e-9, 1e9})
       {
          ReducedProblem scaled = problem;
-         for (Eigen::MatrixXd *M : {&scaled.A, &scaled.B, &scaled.C}) { *M *= force / length; }
+         scaled.K *= force / length;
          for (LoadPattern &pattern : scaled.patterns)
          {
             pattern.q *= force;
@@ -444,8 +444,8 @@ TEST(WeakDuality, BoundsTheLimitFromAnyMotion)
          if (!std::isfinite(bound)) { continue; }
          // The mechanism that proves it does so by its own figures.
          const Eigen::VectorXd imbalance =
-            problem.A * mechanism.slip.rowwise().sum() +
-            problem.B.transpose() * mechanism.opening.rowwise().sum();
+            problem.A() * mechanism.slip.rowwise().sum() +
+            problem.B().transpose() * mechanism.opening.rowwise().sum();
          EXPECT_LT(imbalance.norm(), 1e-11 * mechanism.opening.norm());
          for (Eigen::Index j = 0; j < 2; ++j)
          {

@@ -27,13 +27,16 @@ double slip_in_the_last_cycle(const ReducedProblem &problem, const LoadCycle &cy
          for (Eigen::Index i = 0; i < n; ++i)
          {
             const double f = problem.friction[i];
-            const double q = clamped[i] + problem.A.row(i).dot(v);
-            const double p = clamped[n + i] + problem.B.row(i).dot(v);
+            const double q = clamped[i] + problem.A().row(i).dot(v);
+            const double p = clamped[n + i] + problem.B().row(i).dot(v);
             double step = 0;
-            if (q > f * p) { step = -(q - f * p) / (problem.A(i, i) - f * problem.B(i, i)); }
+            if (q > f * p)
+            {
+               step = -(q - f * p) / (problem.A()(i, i) - f * problem.B()(i, i));
+            }
             else if (q < -f * p)
             {
-               step = -(q + f * p) / (problem.A(i, i) + f * problem.B(i, i));
+               step = -(q + f * p) / (problem.A()(i, i) + f * problem.B()(i, i));
             }
             v[i] += step;
             change = std::max(change, std::abs(step));
@@ -41,7 +44,7 @@ double slip_in_the_last_cycle(const ReducedProblem &problem, const LoadCycle &cy
          if (change < 1e-15) { break; }
       }
       last += (v - before).cwiseAbs().sum();
-      const Eigen::VectorXd p = clamped.tail(n) + problem.B * v;
+      const Eigen::VectorXd p = clamped.tail(n) + problem.B() * v;
       return p.minCoeff() > -1e-12;
    };
    for (int k = 0; k < cycles; ++k)
@@ -68,9 +71,8 @@ double slip_in_the_last_cycle(const ReducedProblem &problem, const LoadCycle &cy
 ReducedProblem chain(double a, double b, double r, double s)
 {
    ReducedProblem problem;
-   problem.A = a * Eigen::Matrix2d::Identity();
-   problem.B = Eigen::Matrix2d{{0, 0}, {b, 0}};
-   problem.C = a * Eigen::Matrix2d::Identity();
+   problem.set_stiffness(a * Eigen::Matrix2d::Identity(), Eigen::Matrix2d{{0, 0}, {b, 0}},
+                         a * Eigen::Matrix2d::Identity());
    problem.patterns = {{"P", Control::force, Eigen::Vector2d::Zero(), Eigen::Vector2d(1, 1)},
                        {"Q", Control::force, Eigen::Vector2d(r, s), Eigen::Vector2d::Zero()}};
    problem.H = Eigen::MatrixXd::Zero(2, 2);
@@ -113,11 +115,12 @@ TEST(LowerLimit, OfTwoUnlikeNodesByHandInAnyOrderAndSense)
          {
             const int second = 1 - first;
             ReducedProblem problem = chain(1, 0, 0, 0);
-            problem.A.setZero();
-            problem.B.setZero();
-            problem.A(first, first) = a0;
-            problem.A(second, second) = a1;
-            problem.B(second, first) = sense * b;
+            problem.A().setZero();
+            problem.B().setZero();
+            problem.A()(first, first) = a0;
+            problem.A()(second, second) = a1;
+            problem.B()(second, first) = sense * b;
+            complete(problem);
             problem.patterns[0].p[first] = P0;
             problem.patterns[0].p[second] = P1;
             problem.patterns[1].q[first] = sense * r;
@@ -148,9 +151,9 @@ TEST(LowerLimit, OfOneNodeThatPressesItselfByHand)
    for (const double b : {1.0, -1.0, 3.0})
    {
       ReducedProblem problem;
-      problem.A = Eigen::MatrixXd::Constant(1, 1, a);
-      problem.B = Eigen::MatrixXd::Constant(1, 1, b);
-      problem.C = Eigen::MatrixXd::Constant(1, 1, 10);
+      problem.set_stiffness(Eigen::MatrixXd::Constant(1, 1, a),
+                            Eigen::MatrixXd::Constant(1, 1, b),
+                            Eigen::MatrixXd::Constant(1, 1, 10));
       const Eigen::VectorXd zero = Eigen::VectorXd::Zero(1), one = Eigen::VectorXd::Ones(1);
       problem.patterns = {{"P", Control::force, zero, one}, {"Q", Control::force, one, zero}};
       problem.H = Eigen::MatrixXd::Zero(2, 2);
@@ -206,8 +209,8 @@ TEST(LowerLimit, OfTwoNodesAgreesWithMarches)
       ASSERT_EQ(lower.kind, LowerLimitKind::two_nodes);
       EXPECT_LE(lower.value, upper.limit);
       // The theory is for a rate problem with one solution.
-      if ((problem.friction.asDiagonal() * problem.B.cwiseAbs() *
-           problem.A.diagonal().cwiseInverse().asDiagonal())
+      if ((problem.friction.asDiagonal() * problem.B().cwiseAbs() *
+           problem.A().diagonal().cwiseInverse().asDiagonal())
              .maxCoeff() > 0.5)
       {
          continue;
@@ -241,7 +244,7 @@ TEST(LowerLimit, BoundHoldsInMarches)
    for (const unsigned seed : {1u, 2u, 3u, 4u})
    {
       ReducedProblem problem = random_contact(seed, 5, 1, seed % 2 == 0);
-      problem.B *= 0.2;
+      problem.set_stiffness(problem.A(), 0.2 * problem.B(), problem.C());
       const LoadCycle cycle = held_and_cycled(problem, "press", 1, "shear", -0.7);
       const LimitProblem limit = limit_problem(problem, cycle);
       const LimitReport upper = load_limit(limit);
@@ -267,7 +270,7 @@ TEST(LowerLimit, LeastPressureIsThatOfTheWorstState)
    for (const unsigned seed : {3u, 4u, 5u})
    {
       ReducedProblem problem = random_contact(seed, n, 1, false);
-      problem.B *= 0.3;
+      problem.set_stiffness(problem.A(), 0.3 * problem.B(), problem.C());
       const ResidualForces residual = residual_forces(problem);
       const Eigen::VectorXd load = Eigen::VectorXd::Ones(n);
       const LeastPressure least = least_pressure(problem, residual, load);
@@ -300,7 +303,7 @@ TEST(LowerLimit, LeastPressureHoldsForFreeBodiesAndDiscs)
    {
       const int n = 6;
       ReducedProblem problem = random_contact(7, n, components, true);
-      problem.B *= 0.3;
+      problem.set_stiffness(problem.A(), 0.3 * problem.B(), problem.C());
       const ResidualForces residual = residual_forces(problem);
       const Eigen::VectorXd load = Eigen::VectorXd::Ones(n);
       const LeastPressure least = least_pressure(problem, residual, load);
@@ -314,7 +317,7 @@ TEST(LowerLimit, LeastPressureHoldsForFreeBodiesAndDiscs)
       {
          const Eigen::VectorXd slip =
             residual.flexibility * (0.4 * random_matrix(random, components * n, 1));
-         const Eigen::VectorXd q = shear + problem.A * slip, p = load + problem.B * slip;
+         const Eigen::VectorXd q = shear + problem.A() * slip, p = load + problem.B() * slip;
          bool inside = p.minCoeff() > 0;
          for (int i = 0; i < n; ++i)
          {
@@ -352,11 +355,8 @@ TEST(LowerLimit, OfAnUncoupledContactIsTheUpper)
 ReducedProblem mutual(double b, bool feedback)
 {
    ReducedProblem problem;
-   problem.A = Eigen::Matrix3d::Identity();
-   problem.B = Eigen::Matrix3d::Zero();
-   problem.B(1, 0) = b;
-   if (feedback) { problem.B(0, 1) = b; }
-   problem.C = problem.A;
+   const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
+   problem.set_stiffness(I, Eigen::Matrix3d{{0, feedback ? b : 0, 0}, {b, 0, 0}, {0, 0, 0}}, I);
    const Eigen::Vector3d one = Eigen::Vector3d::Ones(), zero = Eigen::Vector3d::Zero();
    problem.patterns = {{"P", Control::force, zero, one}, {"Q", Control::force, one, zero}};
    problem.H = Eigen::MatrixXd::Zero(2, 2);

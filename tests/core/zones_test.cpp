@@ -20,9 +20,8 @@ Sampled cattaneo_mindlin(int n, double c, double shift)
 {
    Sampled result;
    ReducedProblem &problem = result.problem;
-   problem.C = Eigen::MatrixXd::Identity(n, n);
-   problem.A = problem.C;
-   problem.B = Eigen::MatrixXd::Zero(n, n);
+   const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(n, n);
+   problem.set_stiffness(I, Eigen::MatrixXd::Zero(n, n), I);
    problem.gap = Eigen::VectorXd::Zero(n);
    problem.arc_length = Eigen::VectorXd::LinSpaced(n, 0, 3);
    problem.weights = Eigen::VectorXd::Constant(n, 3.0 / (n - 1));
@@ -568,8 +567,8 @@ TEST(Zones, OfACycleLeaveOutNodesThatWereOpenAtAnyTime)
    EXPECT_EQ(zones(s.problem, s.state, first)[1].from.error, 2);
    // Two tangential components: the diagonal of the box.
    ReducedProblem disc = s.problem;
-   disc.A = Eigen::MatrixXd::Identity(28, 28);
-   disc.B = Eigen::MatrixXd::Zero(14, 28);
+   disc.set_stiffness(Eigen::MatrixXd::Identity(28, 28), Eigen::MatrixXd::Zero(14, 28),
+                      disc.C());
    ContactState turning = ContactState::virgin(disc);
    SlipRange box(disc);
    box.note(turning);

@@ -337,10 +337,10 @@ TEST(MeshProperties, SwappedBodiesAreTheSameProblem)
                   const auto turned = [](const MatrixXd &M)
                   { return MatrixXd(M.colwise().reverse().rowwise().reverse()); };
                   // The normal stiffness of a free body on two nodes is nothing but round-off.
-                  const double scale = one.A.cwiseAbs().maxCoeff();
-                  RC_ASSERT(difference(two.A, turned(one.A)) < elastic);
-                  RC_ASSERT(difference(two.B, turned(one.B), scale) < elastic);
-                  RC_ASSERT(difference(two.C, turned(one.C), scale) < elastic);
+                  const double scale = one.A().cwiseAbs().maxCoeff();
+                  RC_ASSERT(difference(two.A(), turned(one.A())) < elastic);
+                  RC_ASSERT(difference(two.B(), turned(one.B()), scale) < elastic);
+                  RC_ASSERT(difference(two.C(), turned(one.C()), scale) < elastic);
                   for (const LoadPattern &pattern : one.patterns)
                   {
                      const LoadPattern &same =

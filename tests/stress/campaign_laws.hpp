@@ -32,7 +32,7 @@ class Laws
 {
 public:
    explicit Laws(const ReducedProblem &problem)
-      : n(problem.nodes()), c(problem.components()), K(problem.stiffness().cast<Real>()),
+      : n(problem.nodes()), c(problem.components()), K(problem.K.cast<Real>()),
         F(K.rows(), problem.patterns.size()), gap(problem.gap.cast<Real>()),
         f(problem.friction.cast<Real>())
    {

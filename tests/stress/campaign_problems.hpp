@@ -88,10 +88,15 @@ public:
    {
       const MatrixXd K = 0.5 * (K0 + K0.transpose());
       ReducedProblem &p = made.problem;
-      p.A = K.topLeftCorner(c * n, c * n);
-      p.B = K.bottomLeftCorner(n, c * n);
-      p.C = K.bottomRightCorner(n, n);
+      p.set_stiffness(K.topLeftCorner(c * n, c * n), K.bottomLeftCorner(n, c * n),
+                      K.bottomRightCorner(n, n));
       p.gap = VectorXd::Zero(n);
+   }
+
+   void uncouple()
+   {
+      made.problem.B().setZero();
+      cattaneo::complete(made.problem);
    }
 
    /// K = Gᵀ W G with G the differences that some rigid motions do not change; in whole numbers
@@ -141,8 +146,8 @@ public:
       double least = 1e30;
       for (int i = 0; i < n; ++i)
          for (int a = 0; a < c; ++a)
-            least = std::min(least, p.A(a * n + i, a * n + i) /
-                                       std::max(1e-30, std::abs(p.B(i, a * n + i))));
+            least = std::min(least, p.A()(a * n + i, a * n + i) /
+                                       std::max(1e-30, std::abs(p.B()(i, a * n + i))));
       return least;
    }
 
@@ -157,7 +162,7 @@ public:
 
    void gaps(double size_of_gap)
    {
-      const double soft = made.problem.C.diagonal().mean();
+      const double soft = made.problem.C().diagonal().mean();
       for (double &g : made.problem.gap)
          g = (r.chance(0.2) ? -0.3 : 1) * size_of_gap * r.uniform() / soft;
    }
@@ -406,14 +411,14 @@ inline const std::vector<FamilyEntry> &families()
        {
           MatrixXd K = b.definite(b.size, 3);
           b.stiffness(K);
-          if (b.r.chance(0.5)) b.made.problem.B.setZero();
+          if (b.r.chance(0.5)) b.uncouple();
           b.moderate_friction();
        }},
       {"uncoupled", 10, 6,
        [](Builder &b)
        {
           b.stiffness(b.definite(b.size, b.r.power(0.5, 2)));
-          b.made.problem.B.setZero();
+          b.uncouple();
           b.moderate_friction();
           if (b.r.chance(0.3)) b.gaps(b.r.power(-3, 0.5));
        }},
@@ -501,7 +506,7 @@ inline Case make_case(const FamilyEntry &family, int components, std::uint64_t s
    {
       made.slip = r.power(-3, 0.5) * r.normals(components * n);
       for (int i = 0; i < components * n; ++i)
-         made.slip[i] *= b.force_scale[i] / made.problem.A(i, i);
+         made.slip[i] *= b.force_scale[i] / made.problem.A()(i, i);
       for (const Index row : b.held) made.slip[row] = 0;
    }
    // Half of the problems come with what a program that makes them knows.

@@ -49,9 +49,8 @@ ReducedProblem dense_problem(int n, Stiffness kind, std::mt19937 &random)
    }
    MatrixXd K = Q * eigenvalues.asDiagonal() * Q.transpose();
    K = (0.5 * (K + K.transpose())).eval();
-   problem.A = K.topLeftCorner(n, n);
-   problem.B = K.bottomLeftCorner(n, n);
-   problem.C = K.bottomRightCorner(n, n);
+   problem.set_stiffness(K.topLeftCorner(n, n), K.bottomLeftCorner(n, n),
+                         K.bottomRightCorner(n, n));
    return problem;
 }
 
@@ -59,7 +58,7 @@ ReducedProblem dense_problem(int n, Stiffness kind, std::mt19937 &random)
 void set_friction_near_critical(ReducedProblem &problem, double times)
 {
    problem.friction =
-      (times * problem.A.diagonal().cwiseQuotient(problem.B.diagonal().cwiseAbs()))
+      (times * problem.A().diagonal().cwiseQuotient(problem.B().diagonal().cwiseAbs()))
          .cwiseMin(10.0);
 }
 

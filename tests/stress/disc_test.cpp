@@ -30,15 +30,14 @@ ReducedProblem disc_problem(int n, double decades, double times, std::mt19937 &r
       VectorXd::NullaryExpr(3 * n, [&] { return std::pow(10, -decades * uniform(random)); });
    MatrixXd K = Q * eigenvalues.asDiagonal() * Q.transpose();
    K = (0.5 * (K + K.transpose())).eval();
-   problem.A = K.topLeftCorner(2 * n, 2 * n);
-   problem.B = K.bottomLeftCorner(n, 2 * n);
-   problem.C = K.bottomRightCorner(n, n);
+   problem.set_stiffness(K.topLeftCorner(2 * n, 2 * n), K.bottomLeftCorner(n, 2 * n),
+                         K.bottomRightCorner(n, n));
    for (Index i = 0; i < n; ++i)
    {
-      const Eigen::Matrix2d own = problem.A({i, n + i}, {i, n + i});
+      const Eigen::Matrix2d own = problem.A()({i, n + i}, {i, n + i});
       const double least =
          Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(own).eigenvalues().minCoeff();
-      const double coupling = std::hypot(problem.B(i, i), problem.B(i, n + i));
+      const double coupling = std::hypot(problem.B()(i, i), problem.B()(i, n + i));
       problem.friction[i] = std::min(10.0, times * least / coupling);
    }
    return problem;

@@ -24,7 +24,7 @@ enumerate_solutions(const cattaneo::ReducedProblem &problem, const Eigen::Vector
 {
    using cattaneo::NodeState;
    const Eigen::Index n = problem.nodes();
-   const Eigen::MatrixXd K = problem.stiffness();
+   const Eigen::MatrixXd K = problem.K;
    Eigen::VectorXd start(2 * n);
    start << v_old, -problem.gap;
    const Eigen::VectorXd clamped = problem.clamped_forces(multipliers);

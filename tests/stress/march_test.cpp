@@ -167,7 +167,7 @@ TEST(Marches, RandomInitialSlips)
       set_friction(problem, friction);
       // Slips of 1e-9 to 1e3 times what the loads would cause, rough or smooth.
       const VectorXd force = problem.clamped_forces(Vector2d(1, 0));
-      const double natural = force.cwiseAbs().maxCoeff() / problem.A.diagonal().minCoeff();
+      const double natural = force.cwiseAbs().maxCoeff() / problem.A().diagonal().minCoeff();
       const double size = natural * std::pow(10, 6 * uniform(random) - 3);
       const double wave = 4 * uniform(random);
       const VectorXd v = VectorXd::NullaryExpr(

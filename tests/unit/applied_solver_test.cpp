@@ -202,7 +202,7 @@ TEST(AppliedSolver, SaysWhatIsWrongWithAnAppliedProblem)
            [](auto &p)
            {
               auto formed = std::make_shared<ReducedProblem>();
-              formed->C = Eigen::MatrixXd::Identity(7, 7);
+              formed->set_stiffness({}, Eigen::MatrixXd(7, 0), Eigen::MatrixXd::Identity(7, 7));
               p.formed = formed;
            });
    // Gap, friction, diagonal and product are the problem's own.
@@ -212,12 +212,12 @@ TEST(AppliedSolver, SaysWhatIsWrongWithAnAppliedProblem)
    const AppliedProblem same = applied(other);
    EXPECT_EQ(same.gap, other.gap);
    EXPECT_EQ(same.friction, other.friction);
-   EXPECT_EQ(same.diagonal, other.stiffness().diagonal());
+   EXPECT_EQ(same.diagonal, other.K.diagonal());
    const VectorXd u = VectorXd::LinSpaced(18, -1, 2);
-   EXPECT_LT((same.apply(u) - other.stiffness() * u).norm(), 1e-14);
+   EXPECT_LT((same.apply(u) - other.K * u).norm(), 1e-14);
    // Torsion has two components, a problem without friction none.
-   other.A = Eigen::MatrixXd::Identity(18, 18);
-   other.B = Eigen::MatrixXd::Zero(9, 18);
+   other.set_stiffness(Eigen::MatrixXd::Identity(18, 18), Eigen::MatrixXd::Zero(9, 18),
+                       other.C());
    for (LoadPattern &pattern : other.patterns) { pattern.q = VectorXd::Zero(18); }
    other.rigid_motions.reset();
    expect_input_error([&] { applied(other); }, "2 tangential components a node, must have 1");

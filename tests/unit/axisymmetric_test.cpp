@@ -340,11 +340,11 @@ TEST(Torsion, JoinsTheReducedProblemAsAThirdBlock)
    problem.validate();
    const Eigen::Index n = problem.nodes();
    ASSERT_EQ(problem.components(), 2);
-   EXPECT_EQ(problem.A.topLeftCorner(n, n), plain.problem.A);
-   EXPECT_EQ(problem.B.leftCols(n), plain.problem.B);
-   EXPECT_EQ(problem.C, plain.problem.C);
-   EXPECT_EQ(problem.A.topRightCorner(n, n).norm(), 0);
-   EXPECT_EQ(problem.B.rightCols(n).norm(), 0);
+   EXPECT_EQ(problem.A().topLeftCorner(n, n), plain.problem.A());
+   EXPECT_EQ(problem.B().leftCols(n), plain.problem.B());
+   EXPECT_EQ(problem.C(), plain.problem.C());
+   EXPECT_EQ(problem.A().topRightCorner(n, n).norm(), 0);
+   EXPECT_EQ(problem.B().rightCols(n).norm(), 0);
    ASSERT_EQ(problem.patterns.size(), 2u);
    EXPECT_EQ(problem.patterns[0].q.tail(n).norm(), 0);
    EXPECT_EQ(problem.patterns[1].q.head(n).norm(), 0);
@@ -361,7 +361,7 @@ TEST(Torsion, JoinsTheReducedProblemAsAThirdBlock)
    const VectorXd r = problem.position.col(0);
    EXPECT_NEAR(problem.patterns[1].q.tail(n).dot(r), -2 * M_PI * 31 / 5, 1e-11);
    // The upper ring can spin: no torque resists where nothing presses it to the lower one.
-   const MatrixXd A_theta = problem.A.bottomRightCorner(n, n);
+   const MatrixXd A_theta = problem.A().bottomRightCorner(n, n);
    EXPECT_LT((A_theta * r).norm(), 1e-12 * A_theta.norm() * r.norm());
 
    // Bonded: the same displacements as the one body.
@@ -431,7 +431,7 @@ TEST(Torsion, SlipIsThatOfBodyOneRelativeToBodyTwo)
       // Bonded, the contact is carried along: the force on body 1 opposes its own turning.
       EXPECT_LT((turned == 0 ? 1 : -1) * q.dot(r), 0);
       // Slipping freely, q = 0: the turned body turns rigidly.
-      const VectorXd v = -problem.A.bottomRightCorner(n, n).llt().solve(q);
+      const VectorXd v = -problem.A().bottomRightCorner(n, n).llt().solve(q);
       EXPECT_LT(difference(v, (turned == 0 ? 0.1 : -0.1) * r), 1e-10);
       VectorXd slip = VectorXd::Zero(2 * n);
       slip.tail(n) = v;

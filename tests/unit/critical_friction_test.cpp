@@ -130,19 +130,18 @@ TEST(CriticalFriction, OneNodeIsSharp)
 {
    std::mt19937 random(1);
    ReducedProblem problem = random_problem(1, 0.0, 0.0, random);
-   problem.A << 1;
-   problem.C << 2;
+   const auto one = [](double x) { return MatrixXd::Constant(1, 1, x); };
    for (double b : {0.01, 0.5, -0.9})
    {
-      problem.B << b;
+      problem.set_stiffness(one(1), one(b), one(2));
       const CriticalFriction critical = critical_friction(problem);
       EXPECT_NEAR(critical.node, 1 / std::abs(b), 1e-14);
       EXPECT_NEAR(critical.unique_below, 1 / std::abs(b), 1e-12);
    }
-   problem.B << 0;
+   problem.set_stiffness(one(1), one(0), one(2));
    EXPECT_TRUE(std::isinf(critical_friction(problem).unique_below));
    // Strong coupling: the bound is safe, no more.
-   problem.B << 1.3;
+   problem.set_stiffness(one(1), one(1.3), one(2));
    const double bound = critical_friction(problem).unique_below;
    EXPECT_LT(bound, 1 / 1.3);
    EXPECT_GT(bound, 0.5 / 1.3);

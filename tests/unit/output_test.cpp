@@ -214,9 +214,8 @@ TEST_F(Output, AUsersOperatorHasDisplacementsOnly)
 ReducedProblem three_nodes()
 {
    ReducedProblem problem;
-   problem.A = Eigen::Matrix3d::Identity();
-   problem.B = Eigen::Matrix3d::Zero();
-   problem.C = Eigen::Matrix3d::Identity();
+   problem.set_stiffness(Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Zero(),
+                         Eigen::Matrix3d::Identity());
    problem.patterns = {{"P", Control::force, Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()}};
    problem.H = Eigen::MatrixXd::Zero(1, 1);
    problem.gap = Eigen::Vector3d(0, 0, 0.1);
@@ -470,8 +469,8 @@ TEST_F(Output, EachColumnOfTheHistoryIsItsOwn)
    expected["backward_slip"] = 6;
    expect(plane, expected);
    // With torsion slip has a direction of its own.
-   problem.A = Eigen::MatrixXd::Identity(8, 8);
-   problem.B = Eigen::MatrixXd::Zero(4, 8);
+   problem.set_stiffness(Eigen::MatrixXd::Identity(8, 8), Eigen::MatrixXd::Zero(4, 8),
+                         problem.C());
    std::map<std::string, std::vector<std::string>> disc = read();
    expected = common;
    expected["slip"] = 7;
@@ -492,8 +491,8 @@ TEST_F(Output, EachColumnOfTheHistoryIsItsOwn)
 TEST_F(Output, NodesWithTorsionAndWithoutFriction)
 {
    ReducedProblem problem = four_springs();
-   problem.A = Eigen::MatrixXd::Identity(8, 8);
-   problem.B = Eigen::MatrixXd::Zero(4, 8);
+   problem.set_stiffness(Eigen::MatrixXd::Identity(8, 8), Eigen::MatrixXd::Zero(4, 8),
+                         problem.C());
    for (LoadPattern &pattern : problem.patterns) { pattern.q = Eigen::VectorXd::Zero(8); }
    ContactState state = ContactState::virgin(problem);
    state.p << 1, 1, 1, 0;
@@ -513,8 +512,7 @@ TEST_F(Output, NodesWithTorsionAndWithoutFriction)
    EXPECT_EQ(disc["state"], (std::vector<std::string>{"slip", "slip", "stick", "separation"}));
 
    ReducedProblem smooth = four_springs();
-   smooth.A.resize(0, 0);
-   smooth.B.resize(4, 0);
+   smooth.set_stiffness({}, Eigen::MatrixXd(4, 0), smooth.C());
    for (LoadPattern &pattern : smooth.patterns) { pattern.q.resize(0); }
    ContactState pressed = ContactState::virgin(smooth);
    pressed.p << 1, 1, 1, 0;
@@ -608,7 +606,7 @@ TEST_F(Output, AContactLineIsReadBackArrayByArray)
    bad.position.resize(0, 0);
    EXPECT_THROW(ContactLineFields(bad, {0, 0, 0, 0}, folder, "x"), InputError);
    bad = problem;
-   bad.A = Eigen::MatrixXd::Identity(8, 8);
+   bad.K = Eigen::MatrixXd::Identity(12, 12);
    EXPECT_THROW(ContactLineFields(bad, {0, 0, 0, 0}, folder, "x"), InputError);
    state.p.resize(3);
    EXPECT_THROW(fields.write(state), InputError);

@@ -17,8 +17,8 @@ using Eigen::VectorXd;
 ReducedProblem three_nodes()
 {
    ReducedProblem problem;
-   problem.A = problem.C = Eigen::Matrix3d::Identity();
-   problem.B = Eigen::Matrix3d::Zero();
+   problem.set_stiffness(Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Zero(),
+                         Eigen::Matrix3d::Identity());
    problem.gap = Eigen::Vector3d::Zero();
    problem.position = Eigen::MatrixXd{{0, 5}, {1, 6}, {3, 7}};
    const auto smooth = LineEnd::smooth;

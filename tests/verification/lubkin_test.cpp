@@ -97,11 +97,11 @@ struct Spheres
       // Under a torque the rotation is free: no stiffness against it.
       const VectorXd held = A * arm;
       const double stiffness = arm.dot(held);
-      problem.A = MatrixXd::Zero(2 * n, 2 * n);
-      problem.A.topLeftCorner(n, n) = A;
-      problem.A.bottomRightCorner(n, n) = A - held * held.transpose() / stiffness;
-      problem.B = MatrixXd::Zero(n, 2 * n);
-      problem.C = A; // any: the pressure is given and no node opens
+      MatrixXd both = MatrixXd::Zero(2 * n, 2 * n);
+      both.topLeftCorner(n, n) = A;
+      both.bottomRightCorner(n, n) = A - held * held.transpose() / stiffness;
+      // A as C: any would do, the pressure is given and no node opens.
+      problem.set_stiffness(both, MatrixXd::Zero(n, 2 * n), A);
       problem.patterns = {{"press", Control::force, VectorXd::Zero(2 * n), pressure},
                           {"torque", Control::force, VectorXd::Zero(2 * n), VectorXd::Zero(n)}};
       problem.patterns[1].q.tail(n) = -held / stiffness;
@@ -240,10 +240,11 @@ TEST(Lubkin, SpinsAtThreeSixteenthsOfPi)
    // A prescribed rotation goes on: the torque stays at its limit.
    ReducedProblem turned = spheres.problem;
    const Index n = turned.nodes();
-   turned.A.bottomRightCorner(n, n) = turned.A.topLeftCorner(n, n);
+   turned.A().bottomRightCorner(n, n) = turned.A().topLeftCorner(n, n);
+   complete(turned);
    turned.patterns[1] = {"rotation", Control::displacement, VectorXd::Zero(2 * n),
                          VectorXd::Zero(n)};
-   turned.patterns[1].q.tail(n) = -turned.A.topLeftCorner(n, n) * spheres.arm;
+   turned.patterns[1].q.tail(n) = -turned.A().topLeftCorner(n, n) * spheres.arm;
    turned.H(1, 1) = -spheres.arm.dot(turned.patterns[1].q.tail(n));
    state = ContactState::virgin(turned);
    const MarchReport going =

@@ -61,8 +61,8 @@ protected:
    {
       const StuckForces loads = stuck_forces(problem, cycle);
       nlohmann::json question = {{"ask", what},
-                                 {"A", rows(problem.A)},
-                                 {"B", rows(problem.B)},
+                                 {"A", rows(problem.A())},
+                                 {"B", rows(problem.B())},
                                  {"friction", list(problem.friction)}};
       for (Eigen::Index j = 0; j < loads.vertices(); ++j)
       {
@@ -195,7 +195,7 @@ void expect_proof(const LimitProblem &limit, const LimitReport &report)
    }
    if (report.status != LimitStatus::unlimited) { return; }
    // Far beyond any limit: |q| ≤ f p with the slip that the ray gives, but for round-off.
-   ASSERT_EQ(report.ray.size(), limit.reduced.A.rows());
+   ASSERT_EQ(report.ray.size(), limit.reduced.slips());
    const StuckForces loads = stuck_forces(limit.reduced, limit.cycle);
    const Eigen::Index n = limit.reduced.nodes(), c = limit.reduced.components();
    const double varying =
@@ -205,9 +205,9 @@ void expect_proof(const LimitProblem &limit, const LimitReport &report)
    const double factor = varying > 0 ? 1e6 * constant / varying : 1.0;
    const Eigen::VectorXd slip = report.slip + factor * report.ray;
    const Eigen::MatrixXd q =
-      loads.q(factor).colwise() + Eigen::VectorXd(limit.reduced.A * slip);
+      loads.q(factor).colwise() + Eigen::VectorXd(limit.reduced.A() * slip);
    const Eigen::MatrixXd p =
-      loads.p(factor).colwise() + Eigen::VectorXd(limit.reduced.B * slip);
+      loads.p(factor).colwise() + Eigen::VectorXd(limit.reduced.B() * slip);
    const double largest =
       std::max(loads.q(factor).cwiseAbs().maxCoeff(), loads.p(factor).cwiseAbs().maxCoeff());
    for (Eigen::Index j = 0; j < loads.vertices(); ++j)

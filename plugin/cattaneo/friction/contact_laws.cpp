@@ -25,7 +25,7 @@ double magnitude(const NodeVector &x)
 
 } // namespace
 
-RoundOff::RoundOff(const MatrixXd &K) : K_(K)
+RoundOff::RoundOff(const Eigen::Ref<const MatrixXd> &K) : K_(K)
 {
    VectorXd sums = VectorXd::Zero(K.rows()); // by columns: K is symmetric
    for (Index j = 0; j < K.cols(); ++j) { sums[j] = K.col(j).cwiseAbs().sum(); }
@@ -70,7 +70,7 @@ LawCheck check_laws(const ReducedProblem &problem, const VectorXd &v_old,
                     const ContactState &state, const VectorXd &forces, double allowed,
                     const VectorXd &round_off)
 {
-   const Index n = problem.nodes(), m = problem.A.rows(), c = problem.components();
+   const Index n = problem.nodes(), m = problem.slips(), c = problem.components();
    const auto q = forces.head(m), p = forces.tail(n);
    LawCheck check;
    const auto judge = [&](double violation, double limit)
@@ -85,7 +85,7 @@ LawCheck check_laws(const ReducedProblem &problem, const VectorXd &v_old,
    NodeVector q_i(c), x_i(c);
    for (Index i = 0; i < n; ++i)
    {
-      const double gap = problem.C(i, i) * (state.w[i] + problem.gap[i]);
+      const double gap = problem.C()(i, i) * (state.w[i] + problem.gap[i]);
       const double limit = std::max(allowed, round_off[m + i]);
       note(check.normal, std::abs(p[i] - state.p[i]), limit);
       note(check.normal, std::abs(std::min(p[i], gap)), limit);
@@ -102,8 +102,8 @@ LawCheck check_laws(const ReducedProblem &problem, const VectorXd &v_old,
          note(check.tangential, std::abs(q[row] - state.q[row]), most);
       }
       if (!closed(state.status[i])) { x_i.setZero(); } // no law but that it bears nothing
-      const double k = c == 2 ? std::max(problem.A(i, i), problem.A(n + i, n + i))
-                              : problem.A(i, i),
+      const double k = c == 2 ? std::max(problem.A()(i, i), problem.A()(n + i, n + i))
+                              : problem.A()(i, i),
                    uncertain = c == 2 ? slip_round_off(size) : 0.0;
       const double violation = slip_violation(q_i, x_i, k, bound);
       check.tangential = std::max(check.tangential, violation);

@@ -12,12 +12,12 @@ class RoundOff
 {
 public:
    /// Keeps a reference to K, symmetric.
-   explicit RoundOff(const Eigen::MatrixXd &K);
+   explicit RoundOff(const Eigen::Ref<const Eigen::MatrixXd> &K);
    /// `size`: bound of |u| entry by entry; f: forces with u = 0.
    Eigen::VectorXd rows(const Eigen::VectorXd &size, const Eigen::VectorXd &f) const;
 
 private:
-   const Eigen::MatrixXd &K_;
+   const Eigen::Ref<const Eigen::MatrixXd> K_;
    double norm_ = 0;
    bool graded_ = false;
 };

@@ -28,19 +28,19 @@ const char *name(NodeState state)
 
 ContactState ContactState::virgin(const ReducedProblem &problem)
 {
-   return with_slip(problem, Eigen::VectorXd::Zero(problem.A.rows()));
+   return with_slip(problem, Eigen::VectorXd::Zero(problem.slips()));
 }
 
 ContactState ContactState::with_slip(const ReducedProblem &problem, const Eigen::VectorXd &v)
 {
    const Eigen::Index n = problem.nodes();
-   require(v.size() == problem.A.rows(), "contact state: initial slip has ", v.size(),
-           " entries, must be ", problem.A.rows());
+   require(v.size() == problem.slips(), "contact state: initial slip has ", v.size(),
+           " entries, must be ", problem.slips());
    ContactState state;
    state.v = v;
    state.slip_origin = v;
    state.w = Eigen::VectorXd::Zero(n);
-   state.q = Eigen::VectorXd::Zero(problem.A.rows());
+   state.q = Eigen::VectorXd::Zero(problem.slips());
    state.p = Eigen::VectorXd::Zero(n);
    state.status.resize(n);
    for (Eigen::Index i = 0; i < n; ++i)
@@ -53,7 +53,7 @@ ContactState ContactState::with_slip(const ReducedProblem &problem, const Eigen:
 
 void ContactState::validate(const ReducedProblem &problem) const
 {
-   const Eigen::Index n = problem.nodes(), m = problem.A.rows();
+   const Eigen::Index n = problem.nodes(), m = problem.slips();
    const auto patterns = static_cast<Eigen::Index>(problem.patterns.size());
    require(v.size() == m && q.size() == m && slip_origin.size() == m && w.size() == n &&
               p.size() == n && static_cast<Eigen::Index>(status.size()) == n &&

@@ -55,17 +55,17 @@ double locking_friction(const ReducedProblem &problem)
 
 double uniqueness_bound(const ReducedProblem &problem)
 {
-   if (problem.uncoupled()) { return infinity; }
-   const Index n = problem.nodes(), m = problem.A.rows();
-   const VectorXd s = problem.C.diagonal().cwiseSqrt().cwiseInverse(),
+   if (!problem.coupled) { return infinity; }
+   const Index n = problem.nodes(), m = problem.slips();
+   const VectorXd s = problem.C().diagonal().cwiseSqrt().cwiseInverse(),
                   st = s.replicate(m / n, 1);
-   const MatrixXd C = s.asDiagonal() * problem.C * s.asDiagonal();
+   const MatrixXd C = s.asDiagonal() * problem.C() * s.asDiagonal();
    const Eigen::LLT<MatrixXd> factor(C);
    if (factor.info() != Eigen::Success || factor.rcond() < 1e-11) { return 0; }
-   MatrixXd X = s.asDiagonal() * problem.B * st.asDiagonal();
+   MatrixXd X = s.asDiagonal() * problem.B() * st.asDiagonal();
    factor.matrixL().solveInPlace(X);
    const MatrixXd coupling = X.transpose() * X;
-   const MatrixXd rest = st.asDiagonal() * problem.A * st.asDiagonal() - coupling;
+   const MatrixXd rest = st.asDiagonal() * problem.A() * st.asDiagonal() - coupling;
    const VectorXd of_rest = symmetric_eigenvalues(rest);
    const double a = of_rest.minCoeff(), c = std::sqrt(symmetric_eigenvalues(C).maxCoeff()),
                 b = std::sqrt(symmetric_eigenvalues(coupling).maxCoeff());
@@ -85,13 +85,13 @@ CriticalFriction critical_friction(const ReducedProblem &problem)
    if (c == 0) { return result; }
    for (Index i = 0; i < n; ++i)
    {
-      double own = problem.A(i, i) / std::abs(problem.B(i, i));
+      double own = problem.A()(i, i) / std::abs(problem.B()(i, i));
       if (c == 2)
       {
          Eigen::Matrix2d A;
-         A << problem.A(i, i), problem.A(i, n + i), problem.A(n + i, i),
-            problem.A(n + i, n + i);
-         own = critical_friction(A, Eigen::Vector2d(problem.B(i, i), problem.B(i, n + i)));
+         A << problem.A()(i, i), problem.A()(i, n + i), problem.A()(n + i, i),
+            problem.A()(n + i, n + i);
+         own = critical_friction(A, Eigen::Vector2d(problem.B()(i, i), problem.B()(i, n + i)));
       }
       if (own < result.node)
       {

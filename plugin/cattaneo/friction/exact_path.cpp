@@ -17,7 +17,7 @@ const int newton_steps = 30;
 } // namespace
 
 ExactPath::ExactPath(const ReducedProblem &problem)
-   : problem_(problem), K_(problem.stiffness()), equations_(K_, problem.friction)
+   : problem_(problem), K_(problem.K), equations_(K_, problem.friction)
 {
    require(problem.components() == 1, "exact path: the reduced problem has ",
            problem.components(), " tangential components a node, must have 1");

@@ -53,7 +53,7 @@ private:
    double way_to_event() const;
 
    const ReducedProblem &problem_;
-   const Eigen::MatrixXd K_;
+   const Eigen::MatrixXd &K_; // the problem's
    StateEquations equations_;
    Eigen::VectorXd u_, F_;           // displacements {v; w} and forces {q; p}
    Eigen::VectorXd u_rate_, F_rate_; // over the rest of the piece

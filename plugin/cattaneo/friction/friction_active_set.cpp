@@ -61,11 +61,9 @@ VectorXd FrictionSolver::Implementation::closed_gaps() const
 
 /// Moves the nodes that slip or are open from displacements `u` to those that meet the
 /// equations of the states; forces: K u + f, and with u = 0.
-bool FrictionSolver::Implementation::solve_equations(std::unique_ptr<StateEquations> &equations,
-                                                     const MatrixXd &stiffness,
-                                                     const std::vector<NodeState> &states,
-                                                     const VectorXd &f, VectorXd &u,
-                                                     VectorXd &forces)
+bool FrictionSolver::Implementation::solve_equations(
+   std::unique_ptr<StateEquations> &equations, const Eigen::Ref<const MatrixXd> &stiffness,
+   const std::vector<NodeState> &states, const VectorXd &f, VectorXd &u, VectorXd &forces)
 {
    if (!equations)
    {
@@ -90,14 +88,16 @@ bool FrictionSolver::Implementation::solve_equations(std::unique_ptr<StateEquati
 /// Frictionless, or B = 0: gaps from the normal equations of the open nodes alone.
 bool FrictionSolver::Implementation::solve_normal()
 {
-   const MatrixXd &C = frictionless ? K : problem.C;
    std::vector<NodeState> states(n);
    for (Index i = 0; i < n; ++i)
    {
       states[i] = closed(status[i]) ? NodeState::stick : NodeState::separation;
    }
    VectorXd w = from_here ? u.tail(n) : closed_gaps(), p;
-   if (!solve_equations(normal_equations, C, states, f.tail(n), w, p)) { return false; }
+   if (!solve_equations(normal_equations, K.bottomRightCorner(n, n), states, f.tail(n), w, p))
+   {
+      return false;
+   }
    u.tail(n) = w;
    F.tail(n) = p;
    return true;
@@ -116,7 +116,8 @@ bool FrictionSolver::Implementation::solve_uncoupled()
       if (moves) { resistance[i] = sense(status[i]) * problem.friction[i] * F[m(i)]; }
    }
    VectorXd v = from_here ? u.head(n) : v_old, q;
-   if (!solve_equations(tangential_equations, problem.A, states, f.head(n) + resistance, v, q))
+   if (!solve_equations(tangential_equations, problem.A(), states, f.head(n) + resistance, v,
+                        q))
    {
       return false;
    }

@@ -39,17 +39,18 @@ struct FrictionSolver::Implementation
    Counters counters;
 
    Index n = 0, c = 0; // nodes and tangential components (frictionless: none)
-   bool frictionless = false, uncoupled = false;
+   const bool frictionless;
+   bool uncoupled = false;
    VectorXd ktt, ktn, knn; // each node's own stiffness block (disc: ktt is its mean)
    VectorXd critical;      // friction of each node
    VectorXd no_friction;   // zeros
-   MatrixXd K;             // [A Bᵀ; B C], or the normal stiffness alone if frictionless
+   MatrixXd normal;        // frictionless: the normal stiffness, slip eliminated
+   const MatrixXd &K;      // the problem's, or `normal` if frictionless
    std::unique_ptr<RoundOff> arithmetic; // of sums K u + f
    // Frictionless: motions along the contact that nothing resists, and how much of each is in
    // some displacements, by the length of the contact.
    MatrixXd slides_freely, share_of_motion;
-   MatrixXd whole; // frictionless with slip: [A Bᵀ; B C]
-   std::unique_ptr<RoundOff> whole_arithmetic;
+   std::unique_ptr<RoundOff> whole_arithmetic; // frictionless with slip: of the problem's K
    double critical_friction = std::numeric_limits<double>::infinity();
    Index critical_node = 0;
    std::unique_ptr<SemidefiniteSolver> tangential; // frictionless: A⁻¹
@@ -108,7 +109,8 @@ struct FrictionSolver::Implementation
    bool eliminate_open();
    bool solve_disc();
    VectorXd closed_gaps() const;
-   bool solve_equations(std::unique_ptr<StateEquations> &equations, const MatrixXd &stiffness,
+   bool solve_equations(std::unique_ptr<StateEquations> &equations,
+                        const Eigen::Ref<const MatrixXd> &stiffness,
                         const std::vector<NodeState> &states, const VectorXd &f, VectorXd &u,
                         VectorXd &forces);
    bool update_states();

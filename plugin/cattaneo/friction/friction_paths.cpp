@@ -29,7 +29,7 @@ bool FrictionSolver::Implementation::lemke_start()
    const double scale = reference > 0 ? reference : 1.0;
    const VectorXd base = (f + K * base_u) / scale;
    // Without friction a free body's node may have no stiffness of its own.
-   const VectorXd dn = knn.cwiseMax(1e-12 * problem.C.diagonal()).cwiseSqrt().cwiseInverse();
+   const VectorXd dn = knn.cwiseMax(1e-12 * problem.C().diagonal()).cwiseSqrt().cwiseInverse();
    VectorXd fs; // friction between rows scaled by dt and rows scaled by dn
    if (frictionless)
    {
@@ -39,9 +39,9 @@ bool FrictionSolver::Implementation::lemke_start()
    else
    {
       const VectorXd dt = ktt.cwiseSqrt().cwiseInverse();
-      const MatrixXd A = dt.asDiagonal() * problem.A * dt.asDiagonal();
-      const MatrixXd B = dn.asDiagonal() * problem.B * dt.asDiagonal();
-      const MatrixXd C = dn.asDiagonal() * problem.C * dn.asDiagonal();
+      const MatrixXd A = dt.asDiagonal() * problem.A() * dt.asDiagonal();
+      const MatrixXd B = dn.asDiagonal() * problem.B() * dt.asDiagonal();
+      const MatrixXd C = dn.asDiagonal() * problem.C() * dn.asDiagonal();
       fs = problem.friction.cwiseProduct(dt.cwiseQuotient(dn));
       const MatrixXd fB = fs.asDiagonal() * B, fC = fs.asDiagonal() * C;
       M << C, B, -B, fC + B.transpose(), fB + A, -fB - A, fC - B.transpose(), fB - A, A - fB;

@@ -47,26 +47,27 @@ void FrictionSettings::validate() const
 FrictionSolver::Implementation::Implementation(const ReducedProblem &given,
                                                const FrictionSettings &chosen,
                                                bool tangential_unknowns)
-   : problem(given), settings(chosen), n(given.nodes())
+   : problem(given), settings(chosen), n(given.nodes()),
+     frictionless(given.components() == 0 ||
+                  (given.friction.maxCoeff() == 0 && !tangential_unknowns)),
+     K(frictionless ? normal : problem.K)
 {
    settings.validate();
    problem.validate();
    require(problem.components() <= 2, "friction solver: the reduced problem has ",
            problem.components(), " tangential components a node, at most 2 are supported");
-   frictionless =
-      problem.components() == 0 || (problem.friction.maxCoeff() == 0 && !tangential_unknowns);
    c = frictionless ? 0 : problem.components();
    require(!disc() || settings.method != FrictionMethod::lemke,
            "friction solver: method lemke needs one tangential component a node, the reduced "
            "problem has 2");
-   knn = problem.C.diagonal();
+   knn = problem.C().diagonal();
    if (frictionless)
    {
-      K = problem.C;
+      normal = problem.C();
       uncoupled = true;
       if (problem.components() > 0)
       {
-         tangential = std::make_unique<SemidefiniteSolver>(problem.A);
+         tangential = std::make_unique<SemidefiniteSolver>(problem.A());
          slides_freely = tangential->null_space();
          const bool lengths = problem.weights.size() == n && problem.weights.minCoeff() > 0;
          const VectorXd weight = lengths ? problem.weights : VectorXd::Ones(n);
@@ -77,21 +78,19 @@ FrictionSolver::Implementation::Implementation(const ReducedProblem &given,
             const MatrixXd square = slides_freely.transpose() * weighted;
             share_of_motion = square.ldlt().solve(weighted.transpose());
          }
-         whole = problem.stiffness();
-         whole_arithmetic = std::make_unique<RoundOff>(whole);
+         whole_arithmetic = std::make_unique<RoundOff>(problem.K);
          ++counters.dense_factorisations;
-         K -= problem.B * tangential->solve(problem.B.transpose());
-         K = (0.5 * (K + K.transpose())).eval();
+         normal -= problem.B() * tangential->solve(problem.B().transpose());
+         normal = (0.5 * (normal + normal.transpose())).eval();
          knn = K.diagonal();
       }
    }
    else
    {
       counters.tangential_unknowns = c * n;
-      ktt = problem.A.diagonal().head(n);
-      ktn = problem.B.diagonal();
-      uncoupled = problem.uncoupled();
-      K = problem.stiffness();
+      ktt = problem.A().diagonal().head(n);
+      ktn = problem.B().diagonal();
+      uncoupled = !problem.coupled;
       critical = ktt.cwiseQuotient(ktn.cwiseAbs());
       for (Index i = 0; i < n; ++i)
       {
@@ -111,7 +110,7 @@ FrictionSolver::Implementation::Implementation(const ReducedProblem &given,
    no_friction = VectorXd::Zero(n);
    // Without friction what little is left of K where a body is free to slide away up a slope is
    // round-off of C.
-   arithmetic = std::make_unique<RoundOff>(frictionless ? problem.C : K);
+   arithmetic = std::make_unique<RoundOff>(problem.K.bottomRightCorner(K.rows(), K.rows()));
 }
 
 void FrictionSolver::Implementation::start(const ContactState &state,
@@ -132,7 +131,7 @@ void FrictionSolver::Implementation::start(const ContactState &state,
    else
    {
       f = clamped.tail(n);
-      if (tangential) { f -= problem.B * tangential->solve(clamped.head(problem.A.rows())); }
+      if (tangential) { f -= problem.B() * tangential->solve(clamped.head(problem.slips())); }
       u = state.w;
    }
    for (Index i = 0; i < n; ++i)
@@ -172,9 +171,9 @@ void FrictionSolver::Implementation::finish(ContactState &state, const VectorXd 
    }
    else if (tangential)
    {
-      const VectorXd clamped = problem.clamped_forces(multipliers).head(problem.A.rows());
+      const VectorXd clamped = problem.clamped_forces(multipliers).head(problem.slips());
       const VectorXd before = state.v;
-      state.v = -tangential->solve(problem.B.transpose() * state.w + clamped);
+      state.v = -tangential->solve(problem.B().transpose() * state.w + clamped);
       // What nothing holds has not moved on the whole, as the contact's length goes.
       if (slides_freely.cols() > 0)
       {
@@ -224,7 +223,7 @@ bool FrictionSolver::Implementation::obeys_laws(const ContactState &next,
    VectorXd all(next.v.size() + n);
    all << next.v, next.w;
    const VectorXd clamped = problem.clamped_forces(next.multipliers);
-   const VectorXd forces = clamped + (tangential ? whole : K) * all;
+   const VectorXd forces = clamped + (tangential ? problem.K : K) * all;
    const VectorXd rows =
       (tangential ? whole_arithmetic : arithmetic)->rows(all.cwiseAbs(), clamped);
    report.round_off = std::max(report.round_off, rows.maxCoeff() / scale);
@@ -334,11 +333,11 @@ bool FrictionSolver::Implementation::drifts(const ContactState &state,
    find_motions();
    if (motions->cols() == 0) { return false; }
    const MatrixXd &Z = *motions;
-   const Index along = problem.A.rows(), components = problem.components();
+   const Index along = problem.slips(), components = problem.components();
    const auto count = static_cast<Index>(problem.patterns.size());
    mechanism = {};
    VectorXd own(along + n), borne;
-   own << problem.A.diagonal(), problem.C.diagonal();
+   own << problem.A().diagonal(), problem.C().diagonal();
    const double soft = own.minCoeff(), mean = own.mean();
    // Weak against the softest node and felt by the stiffest, or they prove nothing.
    // Above critical friction a body that slides may as well lock itself.
@@ -356,10 +355,8 @@ bool FrictionSolver::Implementation::drifts(const ContactState &state,
       const double spring = weakness * (tell ? soft : mean);
       if (spring < 1e-13 * own.maxCoeff()) { break; } // round-off
       ReducedProblem held = problem;
-      const auto Zt = Z.topRows(along), Zn = Z.bottomRows(n);
-      held.A += spring * Zt * Zt.transpose();
-      held.B += spring * Zn * Zt.transpose();
-      held.C += spring * Zn * Zn.transpose();
+      held.K += spring * Z * Z.transpose();
+      complete(held);
       const VectorXd pull = -spring * Z * (Z.transpose() * anchor);
       held.patterns.push_back({"springs", Control::force, pull.head(along), pull.tail(n)});
       held.H.conservativeResizeLike(MatrixXd::Zero(count + 1, count + 1));
@@ -427,7 +424,7 @@ bool FrictionSolver::Implementation::spins(const VectorXd &multipliers)
       ReducedProblem without = problem;
       set_friction(without, 0);
       // It could not bear the torque.
-      const MatrixXd Z = SemidefiniteSolver(problem.A).null_space();
+      const MatrixXd Z = SemidefiniteSolver(problem.A()).null_space();
       for (LoadPattern &pattern : without.patterns)
       {
          pattern.q -= Z * (Z.transpose() * pattern.q);

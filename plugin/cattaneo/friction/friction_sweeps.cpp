@@ -35,8 +35,8 @@ DiscNode FrictionSolver::Implementation::disc_node(Index i) const
 {
    const Index r = t(i, 0), s = t(i, 1);
    DiscNode node;
-   node.A << problem.A(r, r), problem.A(r, s), problem.A(s, r), problem.A(s, s);
-   node.b << problem.B(i, r), problem.B(i, s);
+   node.A << problem.A()(r, r), problem.A()(r, s), problem.A()(s, r), problem.A()(s, s);
+   node.b << problem.B()(i, r), problem.B()(i, s);
    node.c = knn[i];
    node.friction = problem.friction[i];
    return node;

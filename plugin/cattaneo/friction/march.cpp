@@ -155,7 +155,7 @@ bool March::exact_in_one(int piece) const
    if (!solver_.uncoupled() || !state_.v.isZero(0)) { return false; }
    const VectorXd f = problem_.clamped_forces(history_.end(piece));
    const double normal = f.tail(problem_.nodes()).cwiseAbs().maxCoeff();
-   return f.head(problem_.A.rows()).cwiseAbs().maxCoeff() <= 1e-8 * normal &&
+   return f.head(problem_.slips()).cwiseAbs().maxCoeff() <= 1e-8 * normal &&
           (state_.q.isZero(0) || state_.q.cwiseAbs().maxCoeff() <= 1e-8 * normal);
 }
 
@@ -667,7 +667,7 @@ VectorXd frictional_loss(const ReducedProblem &problem, const ContactState &befo
          double a = -f * f * (p1 - p0) * (p1 - p0), b = -2 * f * f * p0 * (p1 - p0);
          for (Index k = i; k < c * n; k += n)
          {
-            const double trial = after.q[k] - problem.A(k, k) * (after.v[k] - before.v[k]);
+            const double trial = after.q[k] - problem.A()(k, k) * (after.v[k] - before.v[k]);
             const double way = trial - before.q[k];
             a += way * way;
             b += 2 * before.q[k] * way;
@@ -683,7 +683,7 @@ VectorXd frictional_loss(const ReducedProblem &problem, const ContactState &befo
 double elastic_energy(const ReducedProblem &problem, const ContactState &state)
 {
    const VectorXd u = displacements(state);
-   double energy = 0.5 * u.dot(problem.stiffness() * u);
+   double energy = 0.5 * u.dot(problem.K * u);
    for (std::size_t k = 0; k < problem.patterns.size(); ++k)
    {
       const Control control = problem.patterns[k].control;

@@ -28,7 +28,7 @@ bool proves(const NonnegativeFit &fit, const MatrixXd &G)
 MatrixXd rigid_motions(const ReducedProblem &problem)
 {
    return problem.rigid_motions ? *problem.rigid_motions
-                                : SemidefiniteSolver(problem.stiffness()).null_space();
+                                : SemidefiniteSolver(problem.K).null_space();
 }
 
 Mechanism find_mechanism(const ReducedProblem &problem, const MatrixXd &motions,
@@ -39,7 +39,7 @@ Mechanism find_mechanism(const ReducedProblem &problem, const MatrixXd &motions,
    // A lever of round-off would balance any load, with forces of any size.
    const double lever = 1e-13 * motions.cwiseAbs().maxCoeff();
    const MatrixXd Z = (motions.array().abs() < lever).select(0.0, motions);
-   const Index n = problem.nodes(), m = problem.A.rows();
+   const Index n = problem.nodes(), m = problem.slips();
    // Equilibrium along the rigid motions: Zᵀ{q; p} = Zᵀ f^w. Columns of G: the edges (± f, 1)
    // of every node's friction cone, for each tangential component.
    const Index c = std::max<Index>(problem.components(), 1);
@@ -59,7 +59,7 @@ Mechanism find_mechanism(const ReducedProblem &problem, const MatrixXd &motions,
    VectorXd &r = fit.residual;
    // What the motions lack to be rigid does work too. The least squares are solved to 1e-13 of
    // the slope; r goes as its root where edges are only approached.
-   const MatrixXd K = problem.stiffness();
+   const MatrixXd &K = problem.K;
    const double lack = (K * Z).cwiseAbs().maxCoeff() / K.cwiseAbs().maxCoeff();
    const double least = (c == 2 ? 1e-5 : std::max(1e-12, 100 * lack)) * g.norm();
    bool proven = c == 1 && proves(fit, G);
@@ -116,7 +116,7 @@ Mechanism find_spinning(const ReducedProblem &problem, const VectorXd &frictionl
    Mechanism mechanism;
    const Index n = problem.nodes();
    if (problem.components() != 2) { return mechanism; }
-   const MatrixXd Z = SemidefiniteSolver(problem.A).null_space();
+   const MatrixXd Z = SemidefiniteSolver(problem.A()).null_space();
    if (Z.cols() != 1) { return mechanism; }
    double resistance = 0;
    for (Index i = 0; i < n; ++i)

@@ -23,8 +23,8 @@ double least_force(const ReducedProblem &problem, const ContactState &state)
          largest = std::max(largest, K.diagonal().cwiseProduct(u).cwiseAbs().maxCoeff());
       }
    };
-   stiff(problem.A, state.v);
-   stiff(problem.C, state.w);
+   stiff(problem.A(), state.v);
+   stiff(problem.C(), state.w);
    return 1e-10 * state.peak_force + 1e-14 * largest;
 }
 
@@ -42,7 +42,7 @@ VectorXd least_slip(const ReducedProblem &problem, const ContactState &state)
 {
    const Index n = problem.nodes();
    if (problem.components() == 0) { return VectorXd::Zero(n); }
-   return least_force(problem, state) * problem.A.diagonal().head(n).cwiseInverse();
+   return least_force(problem, state) * problem.A().diagonal().head(n).cwiseInverse();
 }
 
 std::vector<NodeState> settled_states(const ReducedProblem &problem, const ContactState &state)
@@ -78,7 +78,7 @@ Index touching_nodes(const ReducedProblem &problem, const ContactState &state)
    Index count = 0;
    for (Index i = 0; i < problem.nodes(); ++i)
    {
-      const bool open = state.w[i] + problem.gap[i] > force / problem.C(i, i);
+      const bool open = state.w[i] + problem.gap[i] > force / problem.C()(i, i);
       if (state.p[i] <= force && !open) { ++count; }
    }
    return count;

@@ -18,7 +18,7 @@ constexpr double least_corner = 1e-9;
 
 } // namespace
 
-StateEquations::StateEquations(const MatrixXd &K, const VectorXd &friction)
+StateEquations::StateEquations(const Eigen::Ref<const MatrixXd> &K, const VectorXd &friction)
    : K_(K), friction_(friction), n_(friction.size()), tangential_(K.rows() > n_),
      diagonal_(K.diagonal()), arithmetic_(K), states_(n_, NodeState::stick), held_(n_, false),
      slot_of_(K.rows(), -1), border_of_(K.rows(), -1)

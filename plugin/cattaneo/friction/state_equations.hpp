@@ -30,9 +30,9 @@ class StateEquations
 {
 public:
    /// Keeps references to both: K of size (c+1)·n, c = 0 or 1, and n friction coefficients.
-   StateEquations(const Eigen::MatrixXd &K, const Eigen::VectorXd &friction);
+   StateEquations(const Eigen::Ref<const Eigen::MatrixXd> &K, const Eigen::VectorXd &friction);
 
-   const Eigen::MatrixXd &stiffness() const { return K_; }
+   const Eigen::Ref<const Eigen::MatrixXd> &stiffness() const { return K_; }
    const Eigen::VectorXd &diagonal() const { return diagonal_; } ///< of K
    const std::vector<NodeState> &states() const { return states_; }
    /// Changes the states of all nodes or of one. False if the equations would be singular: then
@@ -91,7 +91,7 @@ private:
    void add_columns(const std::vector<Eigen::Index> &rows);
    void step(const Eigen::VectorXd &F, Eigen::VectorXd &x) const;
 
-   const Eigen::MatrixXd &K_;
+   const Eigen::Ref<const Eigen::MatrixXd> K_;
    const Eigen::VectorXd &friction_;
    const Eigen::Index n_;
    const bool tangential_;

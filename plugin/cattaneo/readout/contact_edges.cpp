@@ -40,7 +40,7 @@ void release(const ReducedProblem &problem, const std::vector<bool> &tied,
    {
       if (!shut[i]) { free.push_back(n + i); }
    }
-   const Eigen::MatrixXd K = problem.stiffness();
+   const Eigen::MatrixXd &K = problem.K;
    for (const Index i : free) { u[i] = 0; }
    if (!free.empty())
    {

@@ -35,7 +35,7 @@ AppliedProblem applied(const ReducedProblem &problem)
    require(problem.components() == 1, "applied problem: the reduced problem has ",
            problem.components(), " tangential components a node, must have 1");
    AppliedProblem result;
-   const Eigen::MatrixXd S = problem.stiffness();
+   const Eigen::MatrixXd S = problem.K;
    result.apply = [S](const Eigen::VectorXd &u) -> Eigen::VectorXd { return S * u; };
    result.diagonal = S.diagonal();
    result.patterns = problem.patterns;

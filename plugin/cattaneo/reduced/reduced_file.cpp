@@ -65,9 +65,9 @@ void from_json(const nlohmann::json &j, Matrix &M)
 void save(const ReducedProblem &problem, const std::string &file)
 {
    nlohmann::json j = {{"format", format_name},
-                       {"A", to_json(problem.A)},
-                       {"B", to_json(problem.B)},
-                       {"C", to_json(problem.C)},
+                       {"A", to_json(Eigen::MatrixXd(problem.A()))},
+                       {"B", to_json(Eigen::MatrixXd(problem.B()))},
+                       {"C", to_json(Eigen::MatrixXd(problem.C()))},
                        {"H", to_json(problem.H)},
                        {"gap", to_json(problem.gap)},
                        {"friction", to_json(problem.friction)},
@@ -108,11 +108,13 @@ ReducedProblem load_reduced_problem(const std::string &file)
       const nlohmann::json j = nlohmann::json::parse(in);
       require(j.at("format") == format_name || j.at("format") == format_1,
               "reduced problem: file '", file, "' is not a '", format_name, "' (or 1)");
-      from_json(j.at("A"), problem.A);
-      from_json(j.at("B"), problem.B);
-      from_json(j.at("C"), problem.C);
-      from_json(j.at("H"), problem.H);
+      Eigen::MatrixXd A, B, C;
+      from_json(j.at("A"), A);
+      from_json(j.at("B"), B);
+      from_json(j.at("C"), C);
+      problem.set_stiffness(A, B, C);
       from_json(j.at("gap"), problem.gap);
+      from_json(j.at("H"), problem.H);
       from_json(j.at("friction"), problem.friction);
       from_json(j.at("weights"), problem.weights);
       from_json(j.at("arc_length"), problem.arc_length);

@@ -6,6 +6,20 @@
 namespace cattaneo
 {
 
+void ReducedProblem::set_stiffness(const Eigen::MatrixXd &A, const Eigen::MatrixXd &B,
+                                   const Eigen::MatrixXd &C)
+{
+   const Eigen::Index m = A.rows(), n = C.rows();
+   require(A.cols() == m && B.rows() == n && B.cols() == m && C.cols() == n,
+           "reduced problem: sizes of A (", m, "×", A.cols(), "), B (", B.rows(), "×", B.cols(),
+           ") and C (", n, "×", C.cols(), ") do not fit");
+   K.resize(m + n, m + n);
+   K << A, B.transpose(), B, C;
+   if (gap.size() != n) { gap = Eigen::VectorXd::Zero(n); }
+   if (friction.size() != n) { friction = Eigen::VectorXd::Zero(n); }
+   complete(*this);
+}
+
 int ReducedProblem::pattern(const std::string &name) const
 {
    std::string known;
@@ -29,7 +43,7 @@ Eigen::VectorXd ReducedProblem::clamped_forces(const Eigen::VectorXd &multiplier
    require(multipliers.size() == static_cast<Eigen::Index>(patterns.size()),
            "reduced problem: ", multipliers.size(), " load multipliers for ", patterns.size(),
            " load patterns");
-   const Eigen::Index m = A.rows();
+   const Eigen::Index m = slips();
    Eigen::VectorXd f = Eigen::VectorXd::Zero(m + nodes());
    for (std::size_t k = 0; k < patterns.size(); ++k)
    {
@@ -39,23 +53,11 @@ Eigen::VectorXd ReducedProblem::clamped_forces(const Eigen::VectorXd &multiplier
    return f;
 }
 
-Eigen::MatrixXd ReducedProblem::stiffness() const
-{
-   const Eigen::Index m = A.rows(), n = nodes();
-   Eigen::MatrixXd K(m + n, m + n);
-   K.topLeftCorner(m, m) = A;
-   K.topRightCorner(m, n) = B.transpose();
-   K.bottomLeftCorner(n, m) = B;
-   K.bottomRightCorner(n, n) = C;
-   return K;
-}
-
 namespace
 {
 
-void check_symmetric(const char *name, const Eigen::MatrixXd &M)
+void check_symmetric(const char *name, const Eigen::Ref<const Eigen::MatrixXd> &M)
 {
-   require(M.allFinite(), "reduced problem: ", name, " has an entry that is not finite");
    if (M.size() == 0) { return; }
    const double allowed = 1e-9 * M.cwiseAbs().maxCoeff();
    const double skew = (M - M.transpose()).cwiseAbs().maxCoeff();
@@ -77,7 +79,7 @@ void check_vector(const char *name, const Eigen::VectorXd &x, Eigen::Index size)
 /// What the upper half knew: chains, rigid motions, held components.
 void check_facts(const ReducedProblem &problem)
 {
-   const Eigen::Index n = problem.nodes(), m = problem.A.rows();
+   const Eigen::Index n = problem.nodes(), m = problem.slips();
    Eigen::Index next = 0;
    for (const ContactChain &chain : problem.chains)
    {
@@ -92,9 +94,9 @@ void check_facts(const ReducedProblem &problem)
    {
       require(row >= 0 && row < m, "reduced problem: held row ", row,
               " of A, must be from 0 to ", m - 1);
-      bool alone = (problem.A.row(row).array() != 0).count() == 1 &&
-                   (problem.A.col(row).array() != 0).count() == 1 &&
-                   problem.B.col(row).isZero(0);
+      bool alone = (problem.A().row(row).array() != 0).count() == 1 &&
+                   (problem.A().col(row).array() != 0).count() == 1 &&
+                   problem.B().col(row).isZero(0);
       for (const LoadPattern &pattern : problem.patterns)
       {
          alone = alone && pattern.q[row] == 0;
@@ -110,33 +112,32 @@ void check_facts(const ReducedProblem &problem)
    require((Z.transpose() * Z).isIdentity(1e-9),
            "reduced problem: the rigid motions are not orthonormal");
    if (Z.cols() == 0) { return; }
-   const auto &A = problem.A, &B = problem.B, &C = problem.C;
-   const auto size = [](const auto &M) { return M.cwiseAbs().maxCoeff(); };
-   const auto Zt = Z.topRows(m), Zn = Z.bottomRows(n);
-   double norm = size(C), resisted = size(B * Zt + C * Zn);
-   if (m > 0)
-   {
-      norm = std::max(norm, size(A));
-      resisted = std::max(resisted, size(A * Zt + B.transpose() * Zn));
-   }
-   require(resisted <= 1e-11 * norm, "reduced problem: a rigid motion meets forces of ",
-           resisted / norm, " of the stiffness, must meet none (1e-11)");
+   const double resisted =
+      (problem.K * Z).cwiseAbs().maxCoeff() / problem.K.cwiseAbs().maxCoeff();
+   require(resisted <= 1e-11, "reduced problem: a rigid motion meets forces of ", resisted,
+           " of the stiffness, must meet none (1e-11)");
 }
 
 } // namespace
 
 void ReducedProblem::validate() const
 {
-   const Eigen::Index n = nodes(), m = A.rows();
+   const Eigen::Index n = nodes(), m = slips();
    require(n > 0, "reduced problem: there are no contact nodes");
-   require(C.cols() == n && A.cols() == m && B.rows() == n && B.cols() == m && m % n == 0,
-           "reduced problem: sizes of A (", A.rows(), "×", A.cols(), "), B (", B.rows(), "×",
-           B.cols(), ") and C (", C.rows(), "×", C.cols(), ") do not fit");
+   require(K.cols() == K.rows() && m >= 0 && m % n == 0, "reduced problem: the stiffness is ",
+           K.rows(), "×", K.cols(), " for the ", n,
+           " nodes that have a gap, must have 1, 2 or 3 rows and columns for each");
    require(m <= 2 * n, "reduced problem: ", m / n,
            " tangential components a node, must be 0, 1 or 2");
-   check_symmetric("A", A);
-   check_symmetric("C", C);
-   require(B.allFinite(), "reduced problem: B has an entry that is not finite");
+   require(K.allFinite(), "reduced problem: the stiffness has an entry that is not finite");
+   check_symmetric("A", A());
+   check_symmetric("C", C());
+   require(K.topRightCorner(m, n) == B().transpose(),
+           "reduced problem: the stiffness is not symmetric: it has B, but not its transpose "
+           "(complete() writes it)");
+   require(coupled == !B().isZero(0), "reduced problem: said to be ",
+           coupled ? "coupled, but B is" : "uncoupled, but B is not",
+           " zero (complete() sets it)");
    std::set<std::string> names;
    for (const LoadPattern &pattern : patterns)
    {
@@ -173,18 +174,25 @@ void hold(ReducedProblem &problem, const std::vector<Eigen::Index> &rows)
 {
    for (Eigen::Index row : rows)
    {
-      require(row >= 0 && row < problem.A.rows(), "hold: row ", row,
-              " of A, must be from 0 to ", problem.A.rows() - 1);
+      require(row >= 0 && row < problem.slips(), "hold: row ", row, " of A, must be from 0 to ",
+              problem.slips() - 1);
       if (std::count(problem.held.begin(), problem.held.end(), row)) { continue; }
-      const double own = problem.A(row, row);
-      problem.A.row(row).setZero();
-      problem.A.col(row).setZero();
-      problem.A(row, row) = own;
-      problem.B.col(row).setZero();
+      const double own = problem.A()(row, row);
+      problem.A().row(row).setZero();
+      problem.A().col(row).setZero();
+      problem.A()(row, row) = own;
+      problem.B().col(row).setZero();
       for (LoadPattern &pattern : problem.patterns) { pattern.q[row] = 0; }
       problem.held.push_back(row);
    }
+   complete(problem);
    problem.rigid_motions.reset(); // those that move the held rows are no more
+}
+
+void complete(ReducedProblem &problem)
+{
+   problem.K.topRightCorner(problem.slips(), problem.nodes()) = problem.B().transpose();
+   problem.coupled = !problem.B().isZero(0);
 }
 
 std::vector<ContactChain> chains_of(const ReducedProblem &problem)
@@ -213,8 +221,8 @@ void set_friction(ReducedProblem &problem, double coefficient)
 ReducedProblem absorb_gap(const ReducedProblem &problem)
 {
    ReducedProblem result = problem;
-   LoadPattern closing{"gap", Control::force, problem.B.transpose() * -problem.gap,
-                       problem.C * -problem.gap};
+   LoadPattern closing{"gap", Control::force, problem.B().transpose() * -problem.gap,
+                       problem.C() * -problem.gap};
    result.patterns.push_back(closing);
    const Eigen::Index k = problem.H.rows();
    result.H = Eigen::MatrixXd::Zero(k + 1, k + 1);

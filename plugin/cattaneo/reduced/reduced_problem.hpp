@@ -68,9 +68,11 @@ struct ContactChain
    data: it knows no mesh. */
 struct ReducedProblem
 {
-   Eigen::MatrixXd A; ///< tangential stiffness, c·n × c·n, symmetric
-   Eigen::MatrixXd B; ///< coupling, n × c·n: normal force by tangential displacement
-   Eigen::MatrixXd C; ///< normal stiffness, n × n, symmetric
+   /// The whole reduced stiffness [A Bᵀ; B C], (c+1)·n × (c+1)·n, symmetric.
+   Eigen::MatrixXd K;
+   /// Is B not zero? Where it is, to the last bit, the normal problem does not know of
+   /// friction. Nothing below the reduction takes a small B for zero.
+   bool coupled = false;
 
    std::vector<LoadPattern> patterns;
 
@@ -80,7 +82,7 @@ struct ReducedProblem
    /// external work only.
    Eigen::MatrixXd H;
 
-   Eigen::VectorXd gap;      ///< initial gap g, size n: a node is closed where w + g = 0
+   Eigen::VectorXd gap;      ///< initial gap g of each of the n nodes: closed where w + g = 0
    Eigen::VectorXd friction; ///< Coulomb coefficient f of each node, size n
    Eigen::VectorXd weights; ///< consistent weight ∫φ_i of each node: traction = force / weight
 
@@ -100,8 +102,21 @@ struct ReducedProblem
    /// and no law of friction. They are coupled to nothing and loaded by nothing, see hold().
    std::vector<Eigen::Index> held;
 
-   Eigen::Index nodes() const { return C.rows(); }
-   Eigen::Index components() const { return C.rows() ? A.rows() / C.rows() : 0; }
+   Eigen::Index nodes() const { return gap.size(); }
+   Eigen::Index components() const { return nodes() ? slips() / nodes() : 0; }
+   /// Number of tangential displacements, c·n.
+   Eigen::Index slips() const { return K.rows() - nodes(); }
+
+   /// Tangential stiffness, c·n × c·n; a view of K, as the other two.
+   auto A() const { return K.topLeftCorner(slips(), slips()); }
+   auto A() { return K.topLeftCorner(slips(), slips()); }
+   /// Coupling, n × c·n: normal force by tangential displacement. K has its transpose as well:
+   /// who writes B calls complete().
+   auto B() const { return K.bottomLeftCorner(nodes(), slips()); }
+   auto B() { return K.bottomLeftCorner(nodes(), slips()); }
+   /// Normal stiffness, n × n.
+   auto C() const { return K.bottomRightCorner(nodes(), nodes()); }
+   auto C() { return K.bottomRightCorner(nodes(), nodes()); }
 
    /// Index of the pattern of that name; InputError with the list of names if there is none.
    int pattern(const std::string &name) const;
@@ -113,18 +128,19 @@ struct ReducedProblem
    /// f^w = Σ λ_k {q_k; p_k}, size (c+1)·n.
    Eigen::VectorXd clamped_forces(const Eigen::VectorXd &multipliers) const;
 
-   /// The whole reduced stiffness [A Bᵀ; B C].
-   Eigen::MatrixXd stiffness() const;
+   /// Made by hand: K of its blocks, and complete(). Gap and friction are zero unless they have
+   /// the size of C already.
+   void set_stiffness(const Eigen::MatrixXd &A, const Eigen::MatrixXd &B,
+                      const Eigen::MatrixXd &C);
 
-   /// True if B is exactly zero: the normal problem does not know of friction. Nothing below
-   /// the reduction takes a small B for zero.
-   bool uncoupled() const { return B.isZero(0); }
-
-   /// InputError if sizes disagree, entries are not finite, A or C is not symmetric, a diagonal
-   /// is not positive, a friction coefficient is negative, chains do not cover the nodes, a
-   /// rigid motion is resisted, or a held row is coupled or loaded.
+   /// InputError if sizes disagree, entries are not finite, K is not symmetric, a diagonal
+   /// is not positive, `coupled` is wrong, a friction coefficient is negative, chains do not
+   /// cover the nodes, a rigid motion is resisted, or a held row is coupled or loaded.
    void validate() const;
 };
+
+/// Completes a problem whose A, B or C were written by hand: Bᵀ in K, and `coupled`.
+void complete(ReducedProblem &problem);
 
 /// The chains of a problem; where these are not known, one for all nodes, or a new one wherever
 /// the arc length, if there is one, does not grow.

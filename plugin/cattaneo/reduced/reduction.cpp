@@ -100,9 +100,9 @@ void fill(ReducedProblem &problem, const Block &block, const ContactLine &line)
 {
    const Eigen::MatrixXd &S = block.S, &f = block.f;
    const Eigen::Index n = line.size();
-   problem.A = S.topLeftCorner(n, n);
-   problem.B = S.bottomLeftCorner(n, n);
-   problem.C = S.bottomRightCorner(n, n);
+   problem.gap = Eigen::VectorXd::Zero(n);
+   problem.K = S;
+   complete(problem);
    for (std::size_t k = 0; k < problem.patterns.size(); ++k)
    {
       const auto column = static_cast<Eigen::Index>(k);
@@ -430,9 +430,13 @@ void Reduction::add_torsion(std::vector<CondensedBody> twisting)
          united(twisting[0], twisting[1], union_->partner, torsion_pattern_, problem.patterns);
       torsion_union_ = block.way_back;
    }
-   problem.A.conservativeResizeLike(Eigen::MatrixXd::Zero(2 * n, 2 * n));
-   problem.A.bottomRightCorner(n, n) = block.S;
-   problem.B.conservativeResizeLike(Eigen::MatrixXd::Zero(n, 2 * n));
+   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(3 * n, 3 * n);
+   K.topLeftCorner(n, n) = problem.A();
+   K.block(n, n, n, n) = block.S;
+   K.bottomLeftCorner(n, n) = problem.B();
+   K.bottomRightCorner(n, n) = problem.C();
+   problem.K = std::move(K);
+   complete(problem);
    for (Eigen::Index k = 0; k < count; ++k)
    {
       LoadPattern &pattern = problem.patterns[k];

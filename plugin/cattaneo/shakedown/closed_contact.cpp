@@ -49,7 +49,7 @@ ClosedContact closed_contact(const ReducedProblem &problem,
       forces.col(k) << pattern.q, pattern.p;
       sign[k] = pattern.control == Control::force ? -1 : 1;
    }
-   const Eigen::MatrixXd K = problem.stiffness();
+   const Eigen::MatrixXd &K = problem.K;
    Eigen::MatrixXd S = K(kept, kept), F = forces(kept, Eigen::all);
    Eigen::MatrixXd H = problem.H;
    Eigen::MatrixXd by_kept(freed.size(), kept.size()), by_load(freed.size(), patterns);
@@ -68,16 +68,15 @@ ClosedContact closed_contact(const ReducedProblem &problem,
 
    ReducedProblem &reduced = contact.reduced;
    const Eigen::Index m = c * n_closed;
-   reduced.A = S.topLeftCorner(m, m);
-   reduced.B = S.bottomLeftCorner(n_closed, m);
-   reduced.C = S.bottomRightCorner(n_closed, n_closed);
+   reduced.gap = Eigen::VectorXd::Zero(n_closed);
+   reduced.K = std::move(S);
+   complete(reduced);
    reduced.H = H;
    for (Eigen::Index k = 0; k < patterns; ++k)
    {
       reduced.patterns.push_back({problem.patterns[k].name, problem.patterns[k].control,
                                   F.col(k).head(m), F.col(k).tail(n_closed)});
    }
-   reduced.gap = Eigen::VectorXd::Zero(n_closed);
    reduced.friction = problem.friction(contact.closed);
    if (problem.weights.size()) { reduced.weights = problem.weights(contact.closed); }
    if (problem.arc_length.size()) { reduced.arc_length = problem.arc_length(contact.closed); }

@@ -29,9 +29,9 @@ double worst_violation(const ConeProgramme &programme, const ReducedProblem &pro
 {
    const Eigen::Index n = programme.nodes();
    const Eigen::MatrixXd q =
-      programme.loads.q(theta).colwise() + Eigen::VectorXd(problem.A * slip);
+      programme.loads.q(theta).colwise() + Eigen::VectorXd(problem.A() * slip);
    const Eigen::MatrixXd p =
-      programme.loads.p(theta).colwise() + Eigen::VectorXd(problem.B * slip);
+      programme.loads.p(theta).colwise() + Eigen::VectorXd(problem.B() * slip);
    double worst = -std::numeric_limits<double>::infinity();
    for (Eigen::Index j = 0; j < q.cols(); ++j)
    {
@@ -175,9 +175,9 @@ double weak_duality_bound(const ConeProgramme &programme, const ReducedProblem &
          }
       }
       const Eigen::VectorXd slips = slip.rowwise().sum(), openings = opening.rowwise().sum();
-      imbalance = problem.A * slips + problem.B.transpose() * openings;
-      const Eigen::VectorXd gross = problem.A.cwiseAbs() * slip.cwiseAbs().rowwise().sum() +
-                                    problem.B.transpose().cwiseAbs() * openings;
+      imbalance = problem.A() * slips + problem.B().transpose() * openings;
+      const Eigen::VectorXd gross = problem.A().cwiseAbs() * slip.cwiseAbs().rowwise().sum() +
+                                    problem.B().transpose().cwiseAbs() * openings;
       // Until it is round-off: small, and no longer halved.
       const double before = share;
       share = (imbalance.array().abs() / (gross.array() + tiny)).maxCoeff();

@@ -34,7 +34,7 @@ void check(const ReducedProblem &reduced, const ResidualForces &residual,
 {
    settings.validate();
    reduced.validate();
-   const Eigen::Index m = reduced.A.rows();
+   const Eigen::Index m = reduced.slips();
    require(residual.flexibility.rows() == m && residual.transfer.rows() == reduced.nodes(),
            "shakedown: the residual forces do not belong to the reduced problem: ",
            residual.flexibility.rows(), " tangential unknowns instead of ", m);
@@ -216,7 +216,7 @@ LimitReport load_limit(const ReducedProblem &reduced, const ResidualForces &resi
 {
    const Stopwatch stopwatch;
    check(reduced, residual, settings);
-   const Eigen::Index n = reduced.nodes(), m = reduced.A.rows();
+   const Eigen::Index n = reduced.nodes(), m = reduced.slips();
    for (Eigen::Index i = 0; i < n; ++i)
    {
       require(reduced.friction[i] > 0, "shakedown: friction coefficient ", reduced.friction[i],
@@ -274,7 +274,7 @@ LimitReport load_limit(const ReducedProblem &reduced, const ResidualForces &resi
    if (report.violation > -1e-3)
    {
       const Eigen::VectorXd relief = -(residual.flexibility * loads.q0.col(0));
-      take(relief, reduced.A * relief);
+      take(relief, reduced.A() * relief);
       Clearance constant =
          largest_clearance(reduced, residual, loads, programme.force_scale, settings, report);
       if (constant.solution.outcome == ConeOutcome::unavailable)
@@ -319,7 +319,7 @@ LimitReport load_limit(const ReducedProblem &reduced, const ResidualForces &resi
        std::isfinite(settings.start->limit))
    {
       start.theta = settings.start->limit;
-      start.r = reduced.A * settings.start->slip;
+      start.r = reduced.A() * settings.start->slip;
       if (settings.start->mechanism.slip.cols() == loads.vertices())
       {
          start.mechanism = settings.start->mechanism;
@@ -425,7 +425,7 @@ LimitReport friction_limit(const LimitProblem &problem, double load_factor,
    check(problem.reduced, problem.residual, settings);
    require(std::isfinite(load_factor), "shakedown: the load factor is not finite");
    const ReducedProblem &reduced = problem.reduced;
-   const Eigen::Index n = reduced.nodes(), m = reduced.A.rows();
+   const Eigen::Index n = reduced.nodes(), m = reduced.slips();
    const StuckForces loads = stuck_forces(reduced, problem.cycle);
    const Eigen::MatrixXd q = loads.q(load_factor), p = loads.p(load_factor);
 
@@ -453,8 +453,8 @@ LimitReport friction_limit(const LimitProblem &problem, double load_factor,
    /// best.
    const auto take = [&](const Eigen::VectorXd &v)
    {
-      const Eigen::MatrixXd qv = q.colwise() + Eigen::VectorXd(reduced.A * v);
-      const Eigen::MatrixXd pv = p.colwise() + Eigen::VectorXd(reduced.B * v);
+      const Eigen::MatrixXd qv = q.colwise() + Eigen::VectorXd(reduced.A() * v);
+      const Eigen::MatrixXd pv = p.colwise() + Eigen::VectorXd(reduced.B() * v);
       double worst = 0;
       for (Eigen::Index j = 0; j < pv.cols(); ++j)
       {
@@ -482,7 +482,7 @@ LimitReport friction_limit(const LimitProblem &problem, double load_factor,
    if (settings.start && settings.start->slip.size() == m)
    {
       take(settings.start->slip);
-      start.r = reduced.A * settings.start->slip;
+      start.r = reduced.A() * settings.start->slip;
    }
 
    constexpr int max_programmes = 40;

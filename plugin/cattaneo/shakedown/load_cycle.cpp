@@ -36,7 +36,7 @@ LoadCycle held_and_cycled(const ReducedProblem &problem, const std::string &held
 StuckForces stuck_forces(const ReducedProblem &problem, const LoadCycle &cycle)
 {
    cycle.validate(problem);
-   const Eigen::Index n = problem.nodes(), m = problem.A.rows(), vertices = cycle.vertices();
+   const Eigen::Index n = problem.nodes(), m = problem.slips(), vertices = cycle.vertices();
    const Eigen::VectorXd constant = problem.clamped_forces(cycle.constant);
    StuckForces forces{constant.head(m).replicate(1, vertices), Eigen::MatrixXd(m, vertices),
                       constant.tail(n).replicate(1, vertices), Eigen::MatrixXd(n, vertices)};

@@ -30,7 +30,7 @@ double two_node_limit(const ReducedProblem &problem, const StuckForces &loads,
       for (int side = 0; side < 2; ++side)
       {
          const double f = problem.friction[i], sign = side == 0 ? 1 : -1;
-         conditions[i][side] = {f * problem.B.row(i) + sign * problem.A.row(i),
+         conditions[i][side] = {f * problem.B().row(i) + sign * problem.A().row(i),
                                 f * loads.p0.row(i) + sign * loads.q0.row(i),
                                 f * loads.p1.row(i) + sign * loads.q1.row(i)};
       }
@@ -212,7 +212,8 @@ LowerLimitReport lower_limit(const LimitProblem &problem, const LimitReport &upp
    lowest.p0 = least.by_normal * loads.p0 + least.by_shear * loads.q0;
    lowest.p1 = least.by_normal * loads.p1 + least.by_shear * loads.q1;
    ReducedProblem uncoupled = reduced;
-   uncoupled.B.setZero();
+   uncoupled.B().setZero();
+   complete(uncoupled);
    ResidualForces shear = residual;
    shear.transfer.setZero();
    shear.uncoupled = true;

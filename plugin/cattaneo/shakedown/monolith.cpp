@@ -52,7 +52,7 @@ NodeList chosen_nodes(const ReducedProblem &problem, const NodeList &nodes)
 Eigen::VectorXd traction_ratio(const ReducedProblem &problem,
                                const Eigen::VectorXd &multipliers)
 {
-   const Eigen::Index n = problem.nodes(), m = problem.A.rows();
+   const Eigen::Index n = problem.nodes(), m = problem.slips();
    const Eigen::VectorXd forces = problem.clamped_forces(multipliers);
    Eigen::VectorXd ratio(n);
    for (Eigen::Index i = 0; i < n; ++i)
@@ -109,7 +109,7 @@ Incipience incipient_slip(const ReducedProblem &problem, const LoadCycle &cycle,
 {
    check_vertex(cycle, vertex);
    const StuckForces forces = stuck_forces(problem, cycle);
-   const Eigen::Index n = problem.nodes(), m = problem.A.rows();
+   const Eigen::Index n = problem.nodes(), m = problem.slips();
    Incipience first = incipient_separation(problem, cycle, vertex, nodes);
    for (const Eigen::Index i : chosen_nodes(problem, nodes))
    {

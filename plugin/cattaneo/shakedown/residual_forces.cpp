@@ -53,27 +53,27 @@ ResidualForces residual_forces(const ReducedProblem &problem)
    require(problem.gap.cwiseAbs().maxCoeff() == 0, "shakedown: the largest gap is ",
            problem.gap.cwiseAbs().maxCoeff(),
            ", must be zero (absorb_gap makes it a load pattern)");
-   const Spectrum spectrum("A", problem.A);
+   const Spectrum spectrum("A", problem.A());
    ResidualForces residual;
    const Eigen::MatrixXd root = spectrum.inverse_root();
    residual.flexibility = root * root.transpose();
    residual.rigid = spectrum.scale.asDiagonal() * spectrum.vectors.leftCols(spectrum.rigid);
    residual.rigid.colwise().normalize();
 
-   residual.uncoupled = problem.uncoupled();
+   residual.uncoupled = !problem.coupled;
    if (residual.uncoupled)
    {
-      residual.transfer = Eigen::MatrixXd::Zero(problem.nodes(), problem.A.rows());
+      residual.transfer = Eigen::MatrixXd::Zero(problem.nodes(), problem.slips());
    }
    else
    {
-      residual.transfer = problem.B * residual.flexibility;
+      residual.transfer = problem.B() * residual.flexibility;
       const double leak =
-         residual.rigid.cols() ? (problem.B * residual.rigid).cwiseAbs().maxCoeff() : 0.0;
+         residual.rigid.cols() ? (problem.B() * residual.rigid).cwiseAbs().maxCoeff() : 0.0;
       // A coupling near round-off leaks round-off of the stiffnesses.
-      const double round_off =
-         1e-13 * std::sqrt(problem.A.diagonal().maxCoeff() * problem.C.diagonal().maxCoeff());
-      require(leak <= std::max(1e-6 * problem.B.cwiseAbs().maxCoeff(), round_off),
+      const double round_off = 1e-13 * std::sqrt(problem.A().diagonal().maxCoeff() *
+                                                 problem.C().diagonal().maxCoeff());
+      require(leak <= std::max(1e-6 * problem.B().cwiseAbs().maxCoeff(), round_off),
               "reduced problem: stiffness is not positive semidefinite: a slip without "
               "tangential forces causes normal forces, largest ",
               leak);
@@ -84,9 +84,9 @@ ResidualForces residual_forces(const ReducedProblem &problem)
 double degree_of_coupling(const ReducedProblem &problem)
 {
    problem.validate();
-   if (problem.components() == 0 || problem.uncoupled()) { return 0; }
-   const Eigen::MatrixXd N = Spectrum("C", problem.C).inverse_root().transpose() * problem.B *
-                             Spectrum("A", problem.A).inverse_root();
+   if (problem.components() == 0 || !problem.coupled) { return 0; }
+   const Eigen::MatrixXd N = Spectrum("C", problem.C()).inverse_root().transpose() *
+                             problem.B() * Spectrum("A", problem.A()).inverse_root();
    const Eigen::MatrixXd gram = N * N.transpose();
    // A rigid motion that both slips and opens (rotation of a curved contact) correlates
    // exactly.

@@ -176,7 +176,7 @@ TransientBracket transient_bracket(const LimitProblem &problem, const LimitRepor
 {
    require(margin > 0 && margin < 1, "transient bracket: margin is ", margin,
            ", must be above 0 and below 1");
-   require(limit.slip.size() == problem.reduced.A.rows(),
+   require(limit.slip.size() == problem.reduced.slips(),
            "transient bracket: the limit has no optimal slip: ", limit.message);
    FrictionSolver solver(problem.reduced, settings.march.friction);
    TransientBracket bracket;
@@ -195,7 +195,7 @@ CounterExample find_counter_example(const LimitProblem &problem, const LimitRepo
 {
    settings.validate();
    const ReducedProblem &reduced = problem.reduced;
-   const Eigen::Index m = reduced.A.rows(), n = reduced.nodes();
+   const Eigen::Index m = reduced.slips(), n = reduced.nodes();
    require(limit.slip.size() == m,
            "counter-example: the limit has no optimal slip: ", limit.message);
    FrictionSolver solver(reduced, settings.transient.march.friction);
