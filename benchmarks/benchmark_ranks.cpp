@@ -232,7 +232,7 @@ int main(int argc, char *argv[])
          const char *sizes = "112 224", *nodes_of_contact = "", *method = "both", *json = "";
          bool weak = false;
          int nodes = 5;
-         mfem::OptionsParser args(argc, argv);
+         miniapp::Options args(argc, argv);
          args.AddOption(&sizes, "-elements", "--elements", "Elements a side: a list.");
          args.AddOption(&nodes, "-nodes", "--nodes", "Contact nodes.");
          args.AddOption(&method, "-method", "--method", "factor, iterations or both.");
@@ -240,8 +240,9 @@ int main(int argc, char *argv[])
                         "Dofs in proportion to the ranks.");
          args.AddOption(&nodes_of_contact, "-contact", "--contact",
                         "Contact nodes (odd) of increments with S applied and formed: a list.");
-         args.AddOption(&json, "-json", "--json", "File for the results.");
-         miniapp::parse(args);
+         args.add(miniapp::Options::Names::output, &json, "-json", "--json",
+                  "File for the results.");
+         args.parse();
          miniapp::check_choice("--method", method, {"factor", "iterations", "both"});
          ordered_json results;
 #ifdef MFEM_USE_MPI

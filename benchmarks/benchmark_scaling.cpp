@@ -184,12 +184,14 @@ int main(int argc, char *argv[])
          const char *csv = "", *picture = "";
          double largest = 2e6;
          int most = 4001;
-         mfem::OptionsParser args(argc, argv);
+         miniapp::Options args(argc, argv);
          args.AddOption(&largest, "-dofs", "--dofs", "Largest number of dofs.");
          args.AddOption(&most, "-nodes", "--nodes", "Largest number of contact nodes.");
-         args.AddOption(&csv, "-csv", "--csv", "Prefix of the panels' files.");
-         args.AddOption(&picture, "-plot", "--plot", "File for the picture.");
-         miniapp::parse(args);
+         args.add(miniapp::Options::Names::prefix, &csv, "-csv", "--csv",
+                  "Prefix of the panels' files.");
+         args.add(miniapp::Options::Names::picture, &picture, "-plot", "--plot",
+                  "File for the picture.");
+         args.parse();
          std::vector<miniapp::Panel> panels;
          {
             Table table("Condensation of a square to 201 contact nodes or fewer",

@@ -256,16 +256,18 @@ int main(int argc, char *argv[])
       {
          const char *wanted = "", *orders = "1 2 3 4", *csv = "", *picture = "";
          int levels = 3, samples = 2;
-         mfem::OptionsParser args(argc, argv);
+         miniapp::Options args(argc, argv);
          args.AddOption(&wanted, "-problems", "--problems",
                         "Names: hertz lubkin punch strip disc lap_joint shakedown (all).");
          args.AddOption(&orders, "-orders", "--orders", "Orders of the elements.");
          args.AddOption(&levels, "-levels", "--levels", "Meshes of each kind and order.");
          args.AddOption(&samples, "-samples", "--samples",
                         "Meshes of slightly different spacing for each error.");
-         args.AddOption(&csv, "-csv", "--csv", "File for the table.");
-         args.AddOption(&picture, "-plot", "--plot", "File for the picture (needs --csv).");
-         miniapp::parse(args);
+         args.add(miniapp::Options::Names::output, &csv, "-csv", "--csv",
+                  "File for the table.");
+         args.add(miniapp::Options::Names::picture, &picture, "-plot", "--plot",
+                  "File for the picture (needs --csv).");
+         args.parse();
          require(levels >= 1 && levels <= 8, "option --levels is ", levels, ", must be 1 to 8");
          require(!*picture || *csv, "option --plot needs --csv");
          std::istringstream words(wanted);

@@ -165,7 +165,8 @@ struct Study
    {
       return standard() && options.disc_radius == b_ && a == a_ && f == f_;
    }
-   VectorXd loads(double load, double twist) const;
+   NamedLoads loads(double load, double twist = 0) const;
+   double load(const ContactState &state) const;
    VectorXd radii() const { return problem->position.col(0); }
    double torque(const ContactState &state) const;
    double rotation(const ContactState &state) const;
@@ -189,12 +190,16 @@ struct Study
 };
 
 /// The study's own load and its twist, if anything twists.
-VectorXd Study::loads(double load, double twist) const
+NamedLoads Study::loads(double load, double twist) const
 {
-   VectorXd at = VectorXd::Zero(problem->patterns.size());
-   at[0] = load;
-   if (options.twist != miniapp::Twist::none) { at[problem->pattern("twist")] = twist; }
+   NamedLoads at = {{miniapp::radius_load(a), load}};
+   if (options.twist != miniapp::Twist::none) { at["twist"] = twist; }
    return at;
+}
+
+double Study::load(const ContactState &state) const
+{
+   return named(*problem, state.multipliers).at(miniapp::radius_load(a));
 }
 
 /// Torque that the disc passes on: Σ r q_θ, opposed to its slip.
@@ -216,16 +221,8 @@ double Study::rotation(const ContactState &state) const
 int Study::marched(const MarchReport &report)
 {
    counters += report.counters;
-   results["status"] = name(report.status);
-   if (report.status != FrictionStatus::converged)
-   {
-      results["event_load"] = report.event_multipliers[0];
-      if (options.twist != miniapp::Twist::none)
-      {
-         results["event_twist"] = report.event_multipliers[problem->pattern("twist")];
-      }
-   }
-   return miniapp::exit_code(report);
+   miniapp::add_outcome(*problem, report, results);
+   return miniapp::exit_code(*problem, report);
 }
 
 /// The bonded disc (thesis 7.3), pressed at several radii.
@@ -241,7 +238,8 @@ void Study::bonded(const std::vector<double> &wanted)
    std::printf("\nBonded disc\n   a/t    lowest p/p0   at r/t   f for full adhesion\n");
    for (double a_ : wanted)
    {
-      const LoadPattern &pattern = problem->patterns[options.load(a_)];
+      const LoadPattern &pattern =
+         problem->patterns[problem->pattern(miniapp::radius_load(a_))];
       const VectorXd p = tractions(*problem, pattern.p).segment(first, count),
                      q = tractions(*problem, pattern.q.head(problem->nodes()))
                             .segment(first, count),
@@ -301,8 +299,8 @@ void Study::compare_loading(double load_radius, double friction, const Extent &f
 
 int Study::load(FrictionSolver &solver, ContactState &state)
 {
-   const VectorXd full = loads(1, 0);
-   const MarchReport report = march(solver, LoadHistory::through({0 * full, full}), state);
+   const MarchReport report =
+      march(solver, LoadHistory::through(*problem, {{}, loads(1)}), state);
    if (const int code = marched(report)) { return code; }
    const Extent found = extent(*problem, state);
    std::printf("\nLoading, b = %g, a = %g, f = %g: d/t = %.4f ± %s, c/t = %.4f ± %s\n",
@@ -335,12 +333,9 @@ int Study::map(const std::vector<double> &wanted, const std::vector<double> &fri
          ContactState state = ContactState::virgin(rubbed);
          // The states of the nodes at the friction before are where the search starts.
          if (!guesses[k].empty()) { state.status = guesses[k]; }
-         const VectorXd full = VectorXd::Unit(rubbed.patterns.size(), options.load(wanted[k]));
-         if (const int code =
-                marched(march(solver, LoadHistory::through({0 * full, full}), state)))
-         {
-            return code;
-         }
+         const LoadHistory loading =
+            LoadHistory::through(rubbed, {{}, {{miniapp::radius_load(wanted[k]), 1}}});
+         if (const int code = marched(march(solver, loading, state))) { return code; }
          guesses[k] = state.status;
          const Extent found = extent(rubbed, state);
          d.push_back(found.d);
@@ -433,10 +428,10 @@ int Study::unload(FrictionSolver &solver, ContactState state, const std::vector<
    };
    diagram.add(1.0, extent(*problem, state).zones, same);
    add_profile(1, state);
-   std::vector<VectorXd> points{loads(1, 0)};
+   std::vector<NamedLoads> points{loads(1)};
    for (double level : miniapp::unloading_levels(steps, wanted.back(), wanted))
    {
-      points.push_back(loads(level, 0));
+      points.push_back(loads(level));
    }
    MarchSettings settings;
    settings.increments = 1;
@@ -445,8 +440,8 @@ int Study::unload(FrictionSolver &solver, ContactState state, const std::vector<
    auto observe = [&](const ContactState &now, const IncrementRecord &)
    {
       const Extent found = extent(*problem, now);
-      diagram.add(now.multipliers[0], found.zones, same);
-      auto is_at = [&](double level) { return std::abs(now.multipliers[0] - level) < 1e-9; };
+      diagram.add(load(now), found.zones, same);
+      auto is_at = [&](double level) { return std::abs(load(now) - level) < 1e-9; };
       const auto target = std::find_if(wanted.begin(), wanted.end(), is_at);
       if (target == wanted.end()) { return; }
       if (is_at(0.5) || is_at(0.1)) { add_profile(*target, now); }
@@ -473,7 +468,7 @@ int Study::unload(FrictionSolver &solver, ContactState state, const std::vector<
       }
    };
    const int code =
-      marched(march(solver, LoadHistory::through(points), state, settings, observe));
+      marched(march(solver, LoadHistory::through(*problem, points), state, settings, observe));
    results["unloading"] = list;
    diagram.reverse_x();
    panels.push_back(profiles);
@@ -488,11 +483,8 @@ int Study::spinning_limit()
    ReducedProblem smooth = *problem;
    set_friction(smooth, 0);
    ContactState pressed = ContactState::virgin(smooth);
-   const VectorXd full = loads(1, 0);
-   if (const int code = marched(march(smooth, LoadHistory::through({0 * full, full}), pressed)))
-   {
-      return code;
-   }
+   const LoadHistory pressing = LoadHistory::through(smooth, {{}, loads(1)});
+   if (const int code = marched(march(smooth, pressing, pressed))) { return code; }
    limit = f * radii().dot(pressed.p);
    const Extent found = extent(smooth, pressed);
    const double d = found.d;
@@ -524,8 +516,8 @@ int Study::advance(FrictionSolver &solver, Turning &now, double by,
    settings.increments = 1;
    now.state.time = 0;
    const MarchReport report =
-      march(solver, LoadHistory::through({loads(1, now.at), loads(1, now.at + by)}), now.state,
-            settings, observe);
+      march(solver, LoadHistory::through(*problem, {loads(1, now.at), loads(1, now.at + by)}),
+            now.state, settings, observe);
    if (const int code = marched(report)) { return code; }
    const double before = now.torque;
    now.at += by;
@@ -709,7 +701,7 @@ int Study::cycle(FrictionSolver &solver, const ContactState &loaded, double ampl
    require(!now.descended, "option --amplitude is ", amplitude,
            ", which is above the greatest torque, ", now.greatest / limit, " T_s");
    LoadHistory history =
-      LoadHistory::through({loads(1, now.at), loads(1, -now.at), loads(1, now.at)});
+      LoadHistory::through(*problem, {loads(1, now.at), loads(1, -now.at), loads(1, now.at)});
    history.cycle_start = 0;
    history.cycles = cycles;
    MarchSettings settings;
@@ -721,14 +713,16 @@ int Study::cycle(FrictionSolver &solver, const ContactState &loaded, double ampl
    miniapp::Panel diagram = miniapp::Panel::zones("cycle_zones", "Zones under cyclic torsion",
                                                   "cycles of the torque", "r/t");
    diagram.add(0, ends[0].zones, same);
-   const int twisting = problem->pattern("twist");
    const MarchReport report =
       march(solver, history, state, settings,
             [&](const ContactState &at, const IncrementRecord &record)
             {
                const Extent found = extent(*problem, at);
                diagram.add(0.5 * record.time, found.zones, same);
-               if (std::abs(at.multipliers[twisting]) < (1 - 1e-9) * now.at) { return; }
+               if (std::abs(named(*problem, at.multipliers).at("twist")) < (1 - 1e-9) * now.at)
+               {
+                  return;
+               }
                ends.push_back(found);
                torques.push_back(torque(at));
             });
@@ -782,7 +776,7 @@ int main(int argc, char *argv[])
          const char *critical_list = "", *critical_friction_list = "0 0.5 0.8";
          double friction = 0.5, load_radius = 2.5, amplitude = 0.5;
          int cycles = 0;
-         mfem::OptionsParser args(argc, argv);
+         miniapp::Options args(argc, argv);
          args.AddOption(&options.disc_radius, "-disc-radius", "--disc-radius", "b, in t.");
          args.AddOption(&load_radius, "-load-radius", "--load-radius", "a, in t.");
          args.AddOption(&friction, "-friction", "--friction",
@@ -818,7 +812,7 @@ int main(int argc, char *argv[])
          args.AddOption(&critical_friction_list, "-critical-friction", "--critical-friction",
                         "Critical radius of the load: list of f.");
          output.add_options(args);
-         miniapp::parse(args);
+         args.parse();
          require(friction >= 0, "option --friction is ", friction, ", must not be negative");
          require(study.steps >= 2, "option --steps is ", study.steps, ", must be at least 2");
          require(cycles >= 0, "option --cycles is ", cycles, ", must not be negative");
@@ -853,6 +847,15 @@ int main(int argc, char *argv[])
          {
             require(f >= 0, "option --critical-friction: ", f, " must not be negative");
          }
+         for (double b : discs)
+         {
+            require(b >= 1, "option --critical: ", b,
+                    " must be at least 1 (radius of a disc, in t)");
+         }
+         require(map_a.empty() || !map_f.empty(),
+                 "option --map-friction is empty, must list the coefficients of the map");
+         require(discs.empty() || !critical_f.empty(),
+                 "option --critical-friction is empty, must list the coefficients");
          require(torques.empty() || rotations.empty(),
                  "options --torque and --rotation exclude each other");
          const bool twists = !torques.empty() || !rotations.empty() || cycles > 0;

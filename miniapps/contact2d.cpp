@@ -28,7 +28,6 @@
 #include <cattaneo/readout/zones.hpp>
 #include <cattaneo/reduced/reduced_file.hpp>
 #include <cattaneo/reduced/reduction.hpp>
-#include <cattaneo/whole_file.hpp>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -86,8 +85,15 @@ Side make_side(const BodyOptions &options, const std::string &k, int order, bool
       require(options.contact[0], "option contact", k,
               " is empty, must name boundary attributes");
       Side side;
-      side.mesh = miniapp::distribute(miniapp::read_mesh(options.mesh), order);
+      mfem::Mesh mesh = miniapp::read_mesh(options.mesh);
+      const int attributes = mesh.attributes.Size() ? mesh.attributes.Max() : 1;
+      side.mesh = miniapp::distribute(std::move(mesh), order);
       side.materials = materials(options, k, plane_stress);
+      require(side.materials.size() == 1 ||
+                 side.materials.size() <= static_cast<std::size_t>(attributes),
+              "options young", k, " and poisson", k, " have ", side.materials.size(),
+              " values, must have one, or one for each element attribute of the mesh, 1 to ",
+              attributes);
       const std::vector<Material> &list = side.materials;
       side.body = list.size() == 1 ? std::make_unique<ElasticBody>(*side.mesh, order, list[0])
                                    : std::make_unique<ElasticBody>(*side.mesh, order, list);
@@ -180,6 +186,18 @@ Reduction on_rigid_line(const CondensedBody &body)
                  [=](double x, double y) { return normal.dot(Eigen::Vector2d(x, y)) - level; });
 }
 
+Pairing paired(const ContactLine &line1, const ContactLine &line2, double tolerance)
+{
+   try
+   {
+      return pair_lines(line1, line2, tolerance);
+   }
+   catch (const InputError &error)
+   {
+      throw InputError(std::string("option ") + error.what());
+   }
+}
+
 struct Wedge
 {
    double angle; ///< that the body fills
@@ -248,7 +266,7 @@ void add_options(miniapp::CaseOptions &args, BodyOptions &body, const std::strin
             "Young's modulus: one, or one for each element attribute.");
    args.add(&body.poisson, "poisson" + k, Text::numbers,
             "Poisson's ratio: one, or one for each element attribute.");
-   args.add(&body.contact, "contact" + k, Text::word,
+   args.add(&body.contact, "contact" + k, Text::attributes,
             "Boundary attributes of the contact, as 3 or 3,4 or 3[-1<x<1].");
    args.add(&body.support, "support" + k, Text::statements,
             "Fixed components, as '1:xy 2:x @0,-1:x' (attributes, or the node near a point).");
@@ -297,14 +315,21 @@ std::string what_is_left(double accuracy)
    return text.str();
 }
 
-ordered_json loads_json(const ReducedProblem &problem, const VectorXd &multipliers)
+/// An interference fit moves nodes by less than their distance; more is a body in a wrong
+/// place, or in other units.
+void warn_of_overlap(const ReducedProblem &problem, const ContactLine &line)
 {
-   ordered_json j;
-   for (std::size_t k = 0; k < problem.patterns.size(); ++k)
-   {
-      j[problem.patterns[k].name] = multipliers[k];
-   }
-   return j;
+   Eigen::Index deepest = 0;
+   const double overlap = -problem.gap.cwiseQuotient(line.spacing).minCoeff(&deepest);
+   if (overlap <= 1) { return; }
+   std::ostringstream text;
+   text << "the bodies overlap by " << -problem.gap[deepest] << " at ("
+        << line.position(deepest, 0) << ", " << line.position(deepest, 1) << "), which is "
+        << overlap
+        << " distances of nodes: small displacements do not open that, see that both meshes "
+           "are in "
+           "their places and in one unit";
+   miniapp::warn(text.str());
 }
 
 } // namespace
@@ -350,15 +375,19 @@ int main(int argc, char *argv[])
                   "Times of two states: pressed, and at the peak of the cyclic loads. Reports "
                   "K_N, K_T and slip at the contact edges; a third time is the other end of "
                   "the cycle, for the energy.");
-         mfem::OptionsParser &line = args.command_line();
-         line.AddOption(&json, "-json", "--json", "File for the results.");
-         line.AddOption(&csv, "-csv", "--csv",
-                        "Prefix of the tables PREFIX_history.csv and PREFIX_nodes.csv.");
-         line.AddOption(&paraview, "-paraview", "--paraview", "Folder for ParaView files.");
+         miniapp::Options &line = args.command_line();
+         line.add(miniapp::Options::Names::output, &json, "-json", "--json",
+                  "File for the results.");
+         line.add(miniapp::Options::Names::prefix, &csv, "-csv", "--csv",
+                  "Prefix of the tables PREFIX_history.csv and PREFIX_nodes.csv.");
+         line.add(miniapp::Options::Names::folder, &paraview, "-paraview", "--paraview",
+                  "Folder for ParaView files.");
          line.AddOption(&frames, "-frames", "--frames",
                         "Times to be written besides the last one, or all (every increment).");
-         line.AddOption(&save_file, "-save-state", "--save-state", "File for the last state.");
-         line.AddOption(&load_file, "-load-state", "--load-state", "State to go on from.");
+         line.add(miniapp::Options::Names::output, &save_file, "-save-state", "--save-state",
+                  "File for the last state.");
+         line.add(miniapp::Options::Names::input, &load_file, "-load-state", "--load-state",
+                  "State to go on from.");
          miniapp::add_save_option(line, &reduced_file);
          args.parse();
 
@@ -374,13 +403,15 @@ int main(int argc, char *argv[])
          require(increments >= 1, "option increments is ", increments, ", must be at least 1");
          require(cycle_start >= -1, "option cycle-start is ", cycle_start,
                  ", must be a point of the history, from 0, or -1 for no cycle");
+         require(cycles >= 1, "option cycles: ", cycles, " cycles, at least 1 is needed");
+         if (cycles > 1 && cycle_start < 0)
+         {
+            miniapp::warn("option cycles is " + std::to_string(cycles) +
+                          ", but the history has no cycle: option cycle-start says where it "
+                          "starts");
+         }
          miniapp::check_choice("gap", gap, {"geometry", "closed"});
          const std::string prefix = csv, folder = paraview;
-         if (json[0]) { require_writable(json); }
-         if (save_file[0]) { require_writable(save_file); }
-         if (reduced_file[0]) { require_writable(reduced_file); }
-         if (csv[0]) { require_writable(prefix + "_nodes.csv"); }
-         if (paraview[0]) { miniapp::check_folder(folder); }
          const bool all_frames = std::string(frames) == "all";
          std::vector<double> wanted =
             all_frames ? std::vector<double>() : miniapp::numbers("frames", frames);
@@ -391,6 +422,12 @@ int main(int argc, char *argv[])
                     snapshots.times.size() == 3,
                  "option edges has ", snapshots.times.size(),
                  " times, must have two (pressed, peak) or three (the other end of the cycle)");
+         for (std::size_t k = 1; k < snapshots.times.size(); ++k)
+         {
+            require(snapshots.times[k] > snapshots.times[0], "option edges: time ",
+                    snapshots.times[k], " must be after the pressed state's, ",
+                    snapshots.times[0]);
+         }
          require(snapshots.times.empty() || friction > 0,
                  "option edges needs friction: without it nothing is stuck");
 
@@ -407,10 +444,10 @@ int main(int argc, char *argv[])
          {
             accuracy = std::max(accuracy, side.condensed.error_estimate());
          }
-         Reduction reduction =
-            sides.size() == 1 ? on_rigid_line(sides[0].condensed)
-                              : reduce(sides[0].condensed, sides[1].condensed,
-                                       pair_lines(sides[0].condensed.line,
+         Reduction reduction = sides.size() == 1
+                                  ? on_rigid_line(sides[0].condensed)
+                                  : reduce(sides[0].condensed, sides[1].condensed,
+                                           paired(sides[0].condensed.line,
                                                   sides[1].condensed.line, pairing_tolerance));
          const ContactLine &contact = sides[0].condensed.line;
          ReducedProblem &problem = reduction.problem;
@@ -418,7 +455,7 @@ int main(int argc, char *argv[])
          if (std::string(gap) == "closed") { problem.gap.setZero(); }
          require(!problem.patterns.empty(),
                  "there is no load: option load1 or load2 must name one");
-         LoadHistory history = miniapp::load_history("history", history_text, problem.patterns);
+         LoadHistory history = miniapp::load_history("history", history_text, problem);
          history.cycle_start = cycle_start;
          history.cycles = cycles;
          history.validate(static_cast<int>(problem.patterns.size()));
@@ -428,6 +465,7 @@ int main(int argc, char *argv[])
                    << problem.gap.maxCoeff() << "; stiffness right to " << accuracy
                    << " of itself" << std::endl;
          if (!(accuracy <= stated_accuracy)) { miniapp::warn(what_is_left(accuracy)); }
+         warn_of_overlap(problem, contact);
 
          ContactState state = ContactState::virgin(problem);
          if (load_file[0])
@@ -476,7 +514,7 @@ int main(int argc, char *argv[])
             std::isfinite(report.energy_imbalance) && std::isfinite(state.dissipation),
             "the energies of the march overflow: the loads or the moduli need other units");
          if (reduced_file[0] && miniapp::writes()) { save(problem, reduced_file); }
-         const int code = miniapp::exit_code(report);
+         const int code = miniapp::exit_code(problem, report);
          if (beyond_corners) { beyond_corners->warn(); }
          if (recording && (recorded.empty() || recorded.back().time != state.time))
          {
@@ -502,8 +540,10 @@ int main(int argc, char *argv[])
          const double peak = tractions(problem, state.p).maxCoeff();
          ordered_json results, zone_list = ordered_json::array(),
                                losses = ordered_json::array();
-         std::cout << "\nAt time " << state.time << ": contact force on body 1 ("
-                   << force.transpose() << "), peak pressure " << peak
+         std::cout << "\nAt time " << state.time
+                   << (report.not_unique ? ", one of several states" : "")
+                   << ": contact force on body 1 (" << force.transpose() << "), peak pressure "
+                   << peak
                    << "\n\n state            from          to   (arc length)        ±\n";
          const std::vector<Zone> all_zones = zones(problem, state);
          const bool one_line = all_zones.back().chain == 0;
@@ -594,15 +634,9 @@ int main(int argc, char *argv[])
             {"node", miniapp::json_number(critical.node)},
             {"locking", miniapp::json_number(critical.locking)},
             {"unique_below", miniapp::json_number(critical.unique_below)}};
-         results["status"] = name(report.status);
-         if (code != 0)
-         {
-            results["message"] = report.message;
-            results["event_time"] = report.event_time;
-            results["event_loads"] = loads_json(problem, report.event_multipliers);
-         }
+         miniapp::add_outcome(problem, report, results);
          results["time"] = state.time;
-         results["loads"] = loads_json(problem, state.multipliers);
+         results["loads"] = named(problem, state.multipliers);
          results["peak_pressure"] = peak;
          results["contact_force"] = {force[0], force[1]};
          results["zones"] = zone_list;
@@ -621,7 +655,7 @@ int main(int argc, char *argv[])
          Counters counters = reduction.counters;
          counters += report.counters;
          results["counters"] = miniapp::to_json(counters);
-         miniapp::add_exact_path(report, settings, results);
+         miniapp::add_exact_path(problem, report, settings, results);
          results["seconds"] = watch.seconds();
          results["seconds_condensation"] = condensed;
          miniapp::write_json(results, json);

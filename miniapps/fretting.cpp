@@ -137,12 +137,14 @@ SolvedContact solve_contact(const Design &design, const Setting &setting,
    set_friction(problem, design.friction);
    problem.gap = problem.position.col(0).array().square() / (2 * design.radius);
 
-   Eigen::VectorXd none = Eigen::VectorXd::Zero(problem.patterns.size()), normal = none;
-   normal[problem.pattern("P")] = 1;
-   Eigen::VectorXd cyclic = none;
-   cyclic[problem.pattern("Q")] = design.shear / design.normal;
-   if (options.bulk) { cyclic[problem.pattern("bulk")] = bulk_of(design); }
-   if (options.bulk_pad) { cyclic[problem.pattern("bulk pad")] = design.bulk_pad; }
+   /// The normal load, and a share of the peak of what varies.
+   const auto loads = [&](double share)
+   {
+      NamedLoads at = {{"P", 1}, {"Q", share * (design.shear / design.normal)}};
+      if (options.bulk) { at["bulk"] = share * bulk_of(design); }
+      if (options.bulk_pad) { at["bulk pad"] = share * design.bulk_pad; }
+      return at;
+   };
 
    SolvedContact solved;
    solved.dofs = scene.dofs;
@@ -161,12 +163,12 @@ SolvedContact solve_contact(const Design &design, const Setting &setting,
               "' before the peak load: ", report.message);
       return report;
    };
-   go(LoadHistory::through({none, normal}));
+   go(LoadHistory::through(problem, {{}, loads(0)}));
    const ContactState pressed = state;
-   go(LoadHistory::through({normal, normal + cyclic}));
+   go(LoadHistory::through(problem, {loads(0), loads(1)}));
    const ContactState peak = state;
-   LoadHistory cycle = LoadHistory::through(
-      {normal + cyclic, normal + design.load_ratio * cyclic, normal + cyclic});
+   LoadHistory cycle =
+      LoadHistory::through(problem, {loads(1), loads(design.load_ratio), loads(1)});
    cycle.cycle_start = 0;
    cycle.cycles = 4;
    const MarchReport report = go(cycle);
@@ -864,7 +866,7 @@ int program(int argc, char *argv[])
    std::string json, plot, records;
    double young = unset, poisson = unset, threshold = unset, limit = unset, yield = unset;
 
-   mfem::OptionsParser options(argc, argv);
+   miniapp::Options options(argc, argv);
    options.AddOption(&design.pad, "-p", "--pad",
                      "hertz (cylinder on flat), fe (the same by finite elements), "
                      "flat-rounded, or kn (K_N and K_T given).");
@@ -892,8 +894,8 @@ int program(int argc, char *argv[])
    options.AddOption(&design.nodes, "-nodes", "--nodes", "Contact nodes (pad fe).");
    options.AddOption(&design.order, "-order", "--order", "Order of the elements (pad fe).");
    options.AddOption(&material, "-m", "--material", "Name of a material record.");
-   options.AddOption(&material_file, "-mf", "--material-file",
-                     "File of material records, JSON.");
+   options.add(miniapp::Options::Names::input, &material_file, "-mf", "--material-file",
+               "File of material records, JSON.");
    options.AddOption(&young, "-E", "--young", "Young's modulus, GPa (default: the record's).");
    options.AddOption(&poisson, "-nu", "--poisson", "Poisson's ratio (default: the record's).");
    options.AddOption(&threshold, "-kth", "--threshold",
@@ -904,13 +906,18 @@ int program(int argc, char *argv[])
                      "Plane stress or plane strain.");
    options.AddOption(&criterion, "-c", "--criterion",
                      "What drives the crack: open (part of the cycle), range, or half-range.");
-   options.AddOption(&json, "-j", "--json", "Write the assessment to this JSON file.");
-   options.AddOption(&plot, "-plot", "--plot", "Write tables and figures to this directory.");
-   options.AddOption(
-      &records, "-rec", "--records",
-      "CSV of tests (P, Q, bulk, ..., cycles, runout) to correlate; needs --plot.");
-   miniapp::parse(options);
+   options.add(miniapp::Options::Names::output, &json, "-j", "--json",
+               "Write the assessment to this JSON file.");
+   options.add(miniapp::Options::Names::folder, &plot, "-plot", "--plot",
+               "Write tables and figures to this directory.");
+   options.add(miniapp::Options::Names::input, &records, "-rec", "--records",
+               "CSV of tests (P, Q, bulk, ..., cycles, runout) to correlate; needs --plot.");
+   options.parse();
 
+   require(!given(young) || (young > 0 && young < 2000), "option --young is ", young,
+           ", must be positive and below 2000 (GPa, not MPa)");
+   require(!given(threshold) || threshold > 0, "option --threshold is ", threshold,
+           ", must be positive (MPa sqrt(m))");
    setting.criteria.criterion = criterion_of(criterion);
    FatigueMaterial &m = setting.material;
    m = find_material(read_materials(material_file), material);
@@ -932,7 +939,6 @@ int program(int argc, char *argv[])
    require(records.empty() || !plot.empty(), "--records needs --plot for its figures.");
 
    const bool solve = design.pad == "fe";
-   if (!json.empty()) { require_writable(json); }
 
    Contact contact = calibrate(design, setting);
    SolvedContact solved;
@@ -961,8 +967,7 @@ int program(int argc, char *argv[])
    if (!plot.empty() && miniapp::writes())
    {
       std::error_code error;
-      std::filesystem::create_directories(plot, error);
-      require(!error, "cannot make the directory ", plot, ".");
+      std::filesystem::create_directory(plot, error);
       // The tests of an earlier run would belong to another design.
       std::filesystem::remove(plot + "/records.csv", error);
       for (const auto &[name, text] : files) { write_whole(plot + "/" + name, text); }

@@ -42,7 +42,7 @@ int main(int argc, char *argv[])
          const char *body = "half-plane", *shear_list = "0.6";
          double friction = 0.4, poisson = 0.3, ratio = 0.4, domain = 1e4, span = 1.67;
          int order = 2, nodes = 101, increments = 20;
-         mfem::OptionsParser args(argc, argv);
+         miniapp::Options args(argc, argv);
          args.AddOption(&body, "-body", "--body",
                         "half-plane (two of them) or block (on a half-plane).");
          args.AddOption(&friction, "-friction", "--friction", "Coefficient of friction.");
@@ -59,12 +59,13 @@ int main(int argc, char *argv[])
          args.AddOption(&increments, "-increments", "--increments",
                         "Load increments between two values (more where contact advances).");
          output.add_options(args);
-         miniapp::parse(args);
+         args.parse();
          miniapp::check_choice("--body", body, {"half-plane", "block"});
          const bool on_block = std::string(body) == "block";
          require(order >= 1 && order <= 8, "option --order is ", order, ", must be 1 to 8");
          require(nodes >= 9 && (nodes - 1) % order == 0, "option --nodes is ", nodes,
                  ", must be at least 9 and one more than a multiple of the order ", order);
+         require(friction >= 0, "option --friction is ", friction, ", must not be negative");
          require(ratio > 0 && ratio < 1, "option --ratio is ", ratio,
                  ", must be between 0 and 1");
          require(span > 1, "option --span is ", span, ", must be above 1");
@@ -96,7 +97,7 @@ int main(int argc, char *argv[])
          Counters counters = scene.reduction.counters;
          counters += made;
          counters += report.counters;
-         int code = miniapp::exit_code(report);
+         int code = miniapp::exit_code(problem, report);
          miniapp::ReferenceTable table;
          nlohmann::ordered_json results;
          miniapp::Panel profiles = miniapp::Panel::lines("tractions", "Pressure and shear",
@@ -152,12 +153,13 @@ int main(int argc, char *argv[])
          nlohmann::ordered_json levels = nlohmann::ordered_json::array();
          for (std::size_t k = 0; k < shear.size() && code == 0; ++k)
          {
-            const VectorXd to = problem.multipliers({{"P", 1}, {"Q", shear[k] * friction}});
+            const LoadHistory further =
+               LoadHistory::through(problem, {named(problem, state.multipliers),
+                                              {{"P", 1}, {"Q", shear[k] * friction}}});
             state.time = 0;
-            report =
-               march(solver, LoadHistory::through({state.multipliers, to}), state, settings);
+            report = march(solver, further, state, settings);
             counters += report.counters;
-            code = miniapp::exit_code(report);
+            code = miniapp::exit_code(problem, report);
             if (code != 0) { break; }
             const Zone stick = stick_zone(problem, state);
             const bool any = stick.last >= stick.first;
@@ -191,7 +193,7 @@ int main(int argc, char *argv[])
             results["levels"] = levels;
             results["stick_half_width"] = levels.back()["stick_half_width"];
          }
-         results["status"] = name(report.status);
+         miniapp::add_outcome(problem, report, results);
          output.write(results, counters, table, {profiles});
          return code;
       });

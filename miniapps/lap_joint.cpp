@@ -83,16 +83,16 @@ struct Outcome
 using Observer = std::function<void(const ContactState &)>;
 
 /// Marches through the tightening points, then cycles the remote load between 0 and `load`.
-Outcome run(FrictionSolver &solver, std::vector<VectorXd> points, int remote, double load,
-            int cycles, const MarchSettings &settings, const Observer &observe = {})
+Outcome run(FrictionSolver &solver, std::vector<NamedLoads> points, double load, int cycles,
+            const MarchSettings &settings, const Observer &observe = {})
 {
    Outcome outcome;
    const ReducedProblem &problem = solver.problem();
    const int tightened = static_cast<int>(points.size()) - 1;
-   VectorXd loaded = points.back();
-   loaded[remote] = load;
+   NamedLoads loaded = points.back();
+   loaded["T"] = load;
    points.insert(points.end(), {loaded, points.back()});
-   LoadHistory history = LoadHistory::through(points);
+   LoadHistory history = LoadHistory::through(problem, points);
    history.cycle_start = tightened;
    history.cycles = cycles;
    ContactState state = ContactState::virgin(problem);
@@ -120,7 +120,7 @@ Outcome run(FrictionSolver &solver, std::vector<VectorXd> points, int remote, do
       }
    };
    outcome.report = march(solver, history, state, settings, note);
-   outcome.code = miniapp::exit_code(outcome.report);
+   outcome.code = miniapp::exit_code(problem, outcome.report);
    if (outcome.code != 0) { return outcome; }
    Zone zone = contact_zone(problem, outcome.tightened);
    outcome.a0 = half_width(zone);
@@ -142,30 +142,33 @@ Outcome run(FrictionSolver &solver, std::vector<VectorXd> points, int remote, do
 
 /// Remote compression at which a free end touches the other lap; NaN if none does before
 /// `limit`.
-double touch_load(FrictionSolver &solver, const VectorXd &pinched, int remote, double limit)
+double touch_load(FrictionSolver &solver, NamedLoads loads, double limit)
 {
-   ContactState state = ContactState::virgin(solver.problem());
-   if (solver.solve(state, pinched).status != FrictionStatus::converged) { return none; }
+   const ReducedProblem &problem = solver.problem();
+   ContactState state = ContactState::virgin(problem);
+   const auto solves = [&](ContactState &from) {
+      return solver.solve(from, problem.multipliers(loads)).status == FrictionStatus::converged;
+   };
+   if (!solves(state)) { return none; }
    auto touches = [&](const ContactState &s)
    {
-      const std::vector<NodeState> settled = settled_states(solver.problem(), s);
+      const std::vector<NodeState> settled = settled_states(problem, s);
       return closed(settled.front()) || closed(settled.back());
    };
    if (touches(state)) { return 0; }
-   double step = limit / 50;
+   double step = limit / 50, remote = 0;
    while (std::abs(step) > 1e-7 * std::abs(limit))
    {
-      VectorXd loads = state.multipliers;
-      loads[remote] += step;
+      loads["T"] = remote + step;
       ContactState next = state;
-      const bool solved = solver.solve(next, loads).status == FrictionStatus::converged;
-      if (solved && !touches(next) && std::abs(loads[remote]) <= std::abs(limit))
+      if (solves(next) && !touches(next) && std::abs(loads["T"]) <= std::abs(limit))
       {
          state = next;
+         remote = loads["T"];
       }
       else { step *= 0.5; }
    }
-   const double load = state.multipliers[remote] + 2 * step;
+   const double load = remote + 2 * step;
    return std::abs(load) < 0.999 * std::abs(limit) ? load : none;
 }
 
@@ -223,8 +226,8 @@ struct Study
    double x(double arc_length) { return arc_length + problem().position(0, 0); }
    /// Multipliers of the pinch pressures: several bolts are first drawn together to the snug
    /// pressure, then tightened one after another.
-   std::vector<VectorXd> tightening(const std::vector<int> &order, int width = 0,
-                                    double pressure = 1);
+   std::vector<NamedLoads> tightening(const std::vector<int> &order, double width,
+                                      double pressure = 1);
 
    std::string paraview; ///< folder for the frames of the first cycle; none if empty
    int frames = 8;
@@ -238,19 +241,22 @@ struct Study
    void draw(const Outcome &outcome, const miniapp::Panel &diagram);
 };
 
-std::vector<VectorXd> Study::tightening(const std::vector<int> &order, int width,
-                                        double pressure)
+std::vector<NamedLoads> Study::tightening(const std::vector<int> &order, double width,
+                                          double pressure)
 {
-   std::vector<VectorXd> points{VectorXd::Zero(problem().patterns.size())};
+   std::vector<NamedLoads> points(1);
    if (order.size() > 1 && snug > 0)
    {
       points.push_back(points.back());
-      for (int bolt : order) { points.back()[joint.pinch(bolt, width)] = snug * pressure; }
+      for (int bolt : order)
+      {
+         points.back()[miniapp::pinch_load(bolt, width)] = snug * pressure;
+      }
    }
    for (int bolt : order)
    {
       points.push_back(points.back());
-      points.back()[joint.pinch(bolt, width)] = pressure;
+      points.back()[miniapp::pinch_load(bolt, width)] = pressure;
    }
    return points;
 }
@@ -390,18 +396,17 @@ int Study::single()
                          {"from", x(zone.from.position)},
                          {"to", x(zone.to.position)}});
       }
-      evolution.push_back(
-         {{"time", state.time}, {"load", state.multipliers[joint.remote()]}, {"zones", list}});
+      evolution.push_back({{"time", state.time},
+                           {"load", named(problem(), state.multipliers).at("T")},
+                           {"zones", list}});
    };
-   const std::vector<VectorXd> points = tightening({0});
    const miniapp::Stopwatch watch;
-   const Outcome o =
-      run(solver, points, joint.remote(), load * P0(), cycles, settings, observe);
+   const Outcome o = run(solver, tightening({0}, P0()), load * P0(), cycles, settings, observe);
    counters += o.report.counters;
-   miniapp::add_exact_path(o.report, settings, results);
+   miniapp::add_exact_path(problem(), o.report, settings, results);
    if (o.code != 0)
    {
-      results["event_load"] = o.report.event_multipliers[joint.remote()] / P0();
+      miniapp::add_outcome(problem(), o.report, results);
       return o.code;
    }
    const auto pm = [](double error) { return miniapp::error_text(error); };
@@ -493,16 +498,14 @@ int Study::sweep(const std::vector<double> &loads, const std::vector<double> &fr
       std::vector<std::vector<double>> by_p0(loads.size()), by_P0(loads.size());
       for (double width : widths)
       {
-         const int index = std::find(options.widths.begin(), options.widths.end(), width) -
-                           options.widths.begin();
          std::vector<double> pressures{1.0};
          if (width != P0()) { pressures.push_back(P0() / width); }
          for (double pressure : pressures)
          {
             for (std::size_t k = 0; k < loads.size(); ++k)
             {
-               const Outcome o = run(solver, tightening({0}, index, pressure), joint.remote(),
-                                     loads[k] * P0(), cycles, to_steady);
+               const Outcome o = run(solver, tightening({0}, width, pressure), loads[k] * P0(),
+                                     cycles, to_steady);
                counters += o.report.counters;
                // Gross sliding is a result of a sweep, not its end.
                const double first = o.code ? none : o.first() / unit;
@@ -571,8 +574,7 @@ int Study::row(const std::vector<std::vector<int>> &all)
    std::printf("\n order of tightening   largest q/fp0   D first   D steady   steady from\n");
    for (const std::vector<int> &order : all)
    {
-      const Outcome o =
-         run(solver, tightening(order), joint.remote(), load * P0(), cycles, settings);
+      const Outcome o = run(solver, tightening(order, P0()), load * P0(), cycles, settings);
       counters += o.report.counters;
       if (o.code != 0) { return o.code; }
       std::string label;
@@ -616,7 +618,7 @@ int main(int argc, char *argv[])
          const char *bolts = "0", *tightening = "", *sweep_load = "", *sweep_friction = "",
                     *sweep_width = "", *march_by = "advancing", *paraview = "";
          bool touch = false, all_cycles = false;
-         mfem::OptionsParser args(argc, argv);
+         miniapp::Options args(argc, argv);
          args.AddOption(&options.widths[0], "-width", "--width",
                         "Width w of the pinch pressure, in t.");
          args.AddOption(&options.protrusion, "-protrusion", "--protrusion",
@@ -653,17 +655,16 @@ int main(int argc, char *argv[])
                         "Distance of the contact nodes, in t.");
          args.AddOption(&options.poisson, "-poisson", "--poisson",
                         "Poisson's ratio of both laps.");
-         args.AddOption(&paraview, "-paraview", "--paraview",
-                        "Folder for ParaView files of the first cycle (one bolt).");
+         args.add(miniapp::Options::Names::folder, &paraview, "-paraview", "--paraview",
+                  "Folder for ParaView files of the first cycle (one bolt).");
          args.AddOption(&study.frames, "-frames", "--frames",
                         "Intervals between the frames of --paraview.");
          output.add_options(args);
-         miniapp::parse(args);
+         args.parse();
 
          require(study.frames >= 1, "option --frames is ", study.frames,
                  ", must be at least 1");
          study.paraview = paraview;
-         if (paraview[0]) { miniapp::check_folder(paraview); }
          require(study.friction > 0, "option --friction is ", study.friction,
                  ", must be positive");
          require(study.cycles >= 1, "option --cycles is ", study.cycles,
@@ -678,6 +679,10 @@ int main(int argc, char *argv[])
          const std::vector<double> loads = miniapp::numbers("--sweep-load", sweep_load);
          std::vector<double> frictions = miniapp::numbers("--sweep-friction", sweep_friction);
          std::vector<double> widths = miniapp::numbers("--sweep-width", sweep_width);
+         for (double f : frictions)
+         {
+            require(f > 0, "option --sweep-friction: ", f, " must be positive");
+         }
          if (frictions.empty()) { frictions = {study.friction}; }
          if (widths.empty()) { widths = {options.widths[0]}; }
          for (double w : widths)
@@ -705,7 +710,7 @@ int main(int argc, char *argv[])
             FrictionSolver solver(study.problem());
             const double limit = -study.friction * study.P0() * options.bolts.size();
             const double load =
-               touch_load(solver, study.tightening(all[0]).back(), study.joint.remote(), limit);
+               touch_load(solver, study.tightening(all[0], study.P0()).back(), limit);
             study.counters += solver.counters();
             const double ratio = load / study.P0();
             std::printf("\nThe free ends touch at T/P0 = %.5f\n", ratio);

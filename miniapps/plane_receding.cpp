@@ -92,12 +92,10 @@ void print(const Extent &extent, double overhang)
    std::printf("\n");
 }
 
-/// Loads of 0 → p0 of one pattern.
-LoadHistory loading(const ReducedProblem &problem, int pattern)
+/// 0 → p0 with one overhang.
+LoadHistory loading(const ReducedProblem &problem, double overhang)
 {
-   VectorXd zero = VectorXd::Zero(problem.patterns.size()), full = zero;
-   full[pattern] = 1;
-   return LoadHistory::through({zero, full});
+   return LoadHistory::through(problem, {{}, {{miniapp::overhang_load(overhang), 1}}});
 }
 
 double interpolate(const VectorXd &x, const VectorXd &y, double at)
@@ -144,9 +142,9 @@ struct Study
 
    void compare_loading(double n, double f, const Extent &found);
    int map(const std::vector<double> &overhangs, const std::vector<double> &frictions);
-   void bonded(double overhang, int pattern);
-   int unload(FrictionSolver &solver, ContactState &state, double overhang, int pattern,
-              int steps, double lowest, const std::vector<double> &wanted,
+   void bonded(double overhang);
+   int unload(FrictionSolver &solver, ContactState &state, double overhang, int steps,
+              double lowest, const std::vector<double> &wanted,
               const std::vector<double> &points);
 };
 
@@ -172,9 +170,9 @@ void Study::compare_loading(double n, double f, const Extent &found)
 }
 
 /// The bonded strip (thesis 5.2).
-void Study::bonded(double overhang, int pattern)
+void Study::bonded(double overhang)
 {
-   const miniapp::BondedTractions b = miniapp::bonded_tractions(*problem, pattern);
+   const miniapp::BondedTractions b = miniapp::bonded_tractions(*problem, overhang);
    std::printf("\nBonded: corner ratio q/p %.4f (Williams %.4f), k1 %.4f, k2 %.4f, lowest "
                "pressure %.3g p0 at x > 0\n",
                b.corner_ratio, miniapp::williams_ratio[0], b.k1_pressure, b.k2_pressure,
@@ -232,10 +230,9 @@ int Study::map(const std::vector<double> &overhangs, const std::vector<double> &
          ContactState state = ContactState::virgin(*problem);
          // The states of the nodes at the friction before are where the search starts.
          if (!guesses[k].empty()) { state.status = guesses[k]; }
-         const int pattern = options.load(overhangs[k]);
-         const MarchReport report = march(solver, loading(*problem, pattern), state);
+         const MarchReport report = march(solver, loading(*problem, overhangs[k]), state);
          counters += report.counters;
-         if (const int code = miniapp::exit_code(report)) { return code; }
+         if (const int code = miniapp::exit_code(*problem, report)) { return code; }
          guesses[k] = state.status;
          const Extent found = extent(*problem, state, overhangs[k]);
          s.push_back(found.s);
@@ -262,16 +259,17 @@ int Study::map(const std::vector<double> &overhangs, const std::vector<double> &
 }
 
 /// Unloading from the loaded state (thesis 5.3.2).
-int Study::unload(FrictionSolver &solver, ContactState &state, double overhang, int pattern,
-                  int steps, double lowest, const std::vector<double> &wanted,
+int Study::unload(FrictionSolver &solver, ContactState &state, double overhang, int steps,
+                  double lowest, const std::vector<double> &wanted,
                   const std::vector<double> &points)
 {
    const ContactState full = state;
    const VectorXd x = problem->arc_length;
    const VectorXd xi = x.array() - overhang;
-   std::vector<VectorXd> loads{full.multipliers};
+   const std::string load = miniapp::overhang_load(overhang);
+   std::vector<NamedLoads> loads{{{load, 1}}};
    const std::vector<double> levels = miniapp::unloading_levels(steps, lowest, wanted);
-   for (double level : levels) { loads.push_back(level * full.multipliers); }
+   for (double level : levels) { loads.push_back({{load, level}}); }
 
    std::vector<PointHistory> histories;
    for (double point : points)
@@ -306,7 +304,7 @@ int Study::unload(FrictionSolver &solver, ContactState &state, double overhang, 
    std::printf("\n   p/p0    zones and their right ends, ξ/t\n");
    auto observe = [&](const ContactState &now, const IncrementRecord &)
    {
-      const double level = now.multipliers[pattern];
+      const double level = named(*problem, now.multipliers).at(load);
       const Extent found = extent(*problem, now, overhang);
       diagram.add(level, found.zones, [&](double s) { return s - overhang; });
       const std::vector<NodeState> settled = settled_states(*problem, now);
@@ -361,10 +359,10 @@ int Study::unload(FrictionSolver &solver, ContactState &state, double overhang, 
    settings.stepping = stepping;
    state.time = 0;
    const MarchReport report =
-      march(solver, LoadHistory::through(loads), state, settings, observe);
+      march(solver, LoadHistory::through(*problem, loads), state, settings, observe);
    counters += report.counters;
-   if (const int code = miniapp::exit_code(report)) { return code; }
-   miniapp::add_exact_path(report, settings, results);
+   if (const int code = miniapp::exit_code(*problem, report)) { return code; }
+   miniapp::add_exact_path(*problem, report, settings, results);
    results["levels"] = list;
    results["unloading_increments"] = report.increments.size();
    nlohmann::ordered_json slip_list = nlohmann::ordered_json::array();
@@ -432,10 +430,10 @@ int domain_study(miniapp::RecedingOptions options, double overhang, double frict
       ReducedProblem &problem = scene.reduction.problem;
       set_friction(problem, friction);
       ContactState state = ContactState::virgin(problem);
-      const MarchReport report = march(problem, loading(problem, 0), state);
+      const MarchReport report = march(problem, loading(problem, overhang), state);
       counters += scene.reduction.counters;
       counters += report.counters;
-      if (const int code = miniapp::exit_code(report)) { return code; }
+      if (const int code = miniapp::exit_code(problem, report)) { return code; }
       const Extent found = extent(problem, state, overhang);
       std::printf("%8g %8g %8g %8.4f %8.4f\n", length, depth, side, found.s, found.e);
    }
@@ -458,7 +456,7 @@ int main(int argc, char *argv[])
          double overhang = 4, friction = 0.7, length = 0, depth = 0, side = 0, lowest = 0.05;
          int steps = 50;
          bool study_domain = false;
-         mfem::OptionsParser args(argc, argv);
+         miniapp::Options args(argc, argv);
          args.AddOption(&overhang, "-overhang", "--overhang",
                         "n: the strip's end to the edge of the load, in t.");
          args.AddOption(&friction, "-friction", "--friction", "Coefficient of friction.");
@@ -491,7 +489,7 @@ int main(int argc, char *argv[])
          args.AddOption(&study_domain, "-domain-study", "--domain-study", "-no-domain-study",
                         "--no-domain-study", "Print s and e for growing domains.");
          output.add_options(args);
-         miniapp::parse(args);
+         args.parse();
 
          miniapp::check_choice("--domain", domain, {"hp", "th0"});
          if (std::string(domain) == "hp") { options.half_plane_domain(); }
@@ -517,6 +515,20 @@ int main(int argc, char *argv[])
          const std::vector<double> map_n = miniapp::numbers("--map", map_list);
          const std::vector<double> map_f =
             miniapp::numbers("--map-friction", map_friction_list);
+         require(map_n.empty() || !map_f.empty(),
+                 "option --map-friction is empty, must list the "
+                 "coefficients of the map");
+         for (double f : map_f)
+         {
+            require(f > 0, "option --map-friction: ", f, " must be positive");
+         }
+         for (double point : points)
+         {
+            require(wanted.empty() ||
+                       (point >= -overhang && point <= options.length - overhang),
+                    "option --slip: ", point, " must be on the strip, from ", -overhang, " to ",
+                    options.length - overhang, " (in t)");
+         }
          options.overhangs = {overhang};
          for (double n : map_n)
          {
@@ -530,15 +542,15 @@ int main(int argc, char *argv[])
          study.counters = scene.reduction.counters;
          set_friction(problem, friction);
          output.reduced(problem, scene.dofs);
-         study.bonded(overhang, 0);
+         study.bonded(overhang);
 
          set_friction(problem, friction);
          FrictionSolver solver(problem);
          study.counters += solver.counters();
          ContactState state = ContactState::virgin(problem);
-         const MarchReport report = march(solver, loading(problem, 0), state);
+         const MarchReport report = march(solver, loading(problem, overhang), state);
          study.counters += report.counters;
-         int code = miniapp::exit_code(report);
+         int code = miniapp::exit_code(problem, report);
          if (code == 0)
          {
             const Extent found = extent(problem, state, overhang);
@@ -550,7 +562,7 @@ int main(int argc, char *argv[])
          }
          if (code == 0 && !wanted.empty())
          {
-            code = study.unload(solver, state, overhang, 0, steps, lowest, wanted, points);
+            code = study.unload(solver, state, overhang, steps, lowest, wanted, points);
          }
          if (code == 0 && !map_n.empty()) { code = study.map(map_n, map_f); }
          if (code == 0 && study_domain)
@@ -566,7 +578,7 @@ int main(int argc, char *argv[])
                "(compare --domain hp and th0); s is less sensitive, and its values "
                "were read off figures.");
          }
-         study.results["status"] = name(report.status);
+         miniapp::add_outcome(problem, report, study.results);
          output.write(study.results, study.counters, study.table, study.panels);
          return code;
       });

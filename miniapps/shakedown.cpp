@@ -78,11 +78,13 @@ std::vector<Eigen::Index> stay_closed(const ReducedProblem &problem, const LoadC
 {
    std::vector<bool> closed_so_far(problem.nodes(), true);
    const Eigen::MatrixXd vertices = cycle.multipliers(load_factor);
-   std::vector<Eigen::VectorXd> points = {Eigen::VectorXd::Zero(cycle.constant.size()),
-                                          cycle.constant};
-   for (Eigen::Index j = 0; j < vertices.cols(); ++j) { points.push_back(vertices.col(j)); }
+   std::vector<NamedLoads> points = {{}, named(problem, cycle.constant)};
+   for (Eigen::Index j = 0; j < vertices.cols(); ++j)
+   {
+      points.push_back(named(problem, vertices.col(j)));
+   }
    points.push_back(points[2]);
-   LoadHistory history = LoadHistory::through(points);
+   LoadHistory history = LoadHistory::through(problem, points);
    history.cycle_start = 2;
    history.cycles = cycles;
    ContactState state = ContactState::virgin(problem);
@@ -184,7 +186,7 @@ struct Options
 
    void parse(int argc, char *argv[])
    {
-      mfem::OptionsParser args(argc, argv);
+      miniapp::Options args(argc, argv);
       args.AddOption(&friction, "-friction", "--friction",
                      "Coefficient of friction of the largest load and of the marches.");
       args.AddOption(&lambda_max, "-lambda-max", "--lambda-max",
@@ -217,20 +219,20 @@ struct Options
       args.AddOption(&obstacle, "-obstacle", "--obstacle",
                      "What the block stands on: rigid or half-plane.");
       add_options(args, punch);
-      args.AddOption(&reduced, "-reduced", "--reduced",
-                     "A saved reduced problem instead of the punch.");
+      args.add(miniapp::Options::Names::input, &reduced, "-reduced", "--reduced",
+               "A saved reduced problem instead of the punch.");
       args.AddOption(&held, "-held", "--held", "Load pattern that is held at 1.");
       args.AddOption(&cycled, "-cycled", "--cycled", "Load pattern that is cycled.");
       args.AddOption(&closed, "-closed", "--closed", "-no-closed", "--no-closed",
                      "Keep only the nodes that stay closed in three cycles at the largest load "
                      "(--lambda-max, or with --find load the limit).");
       miniapp::add_save_option(args, &save);
-      args.AddOption(
-         &plot, "-plot", "--plot",
-         "Directory for tables and figures 4.3, 4.9 and 4.15 to 4.19; makes the maps "
-         "and the marches.");
-      args.AddOption(&json, "-json", "--json", "File for the results.");
-      miniapp::parse(args);
+      args.add(miniapp::Options::Names::folder, &plot, "-plot", "--plot",
+               "Directory for tables and figures 4.3, 4.9 and 4.15 to 4.19; makes the maps "
+               "and the marches.");
+      args.add(miniapp::Options::Names::output, &json, "-json", "--json",
+               "File for the results.");
+      args.parse();
 
       miniapp::check_choice("--obstacle", obstacle, {"rigid", "half-plane"});
       miniapp::check_choice("--find", find, {"friction", "load", "both"});
@@ -241,14 +243,18 @@ struct Options
       require(cycles >= 1, "option --cycles is ", cycles, ", must be at least 1");
       require(starts >= 0, "option --starts is ", starts, ", must not be negative");
       punch.half_plane = std::string(obstacle) == "half-plane";
-      if (std::isnan(reversal)) { reversal = lambda_min / lambda_max; }
-      if (*plot)
+      if (std::isnan(reversal))
       {
-         std::error_code error;
-         std::filesystem::create_directories(plot, error);
-         require(!error, "option --plot: cannot make the directory '", plot, "'");
-         map = adhesion_map = march = true;
+         require(std::abs(lambda_min) <= lambda_max, "option --lambda-min is ", lambda_min,
+                 ", must be between the negative and the positive value of --lambda-max, ",
+                 lambda_max, " (call the larger load the largest)");
+         reversal = lambda_min / lambda_max;
       }
+      require(reversal >= -1 && reversal <= 1, "option --reversal is ", reversal,
+              ", must be between -1 and 1");
+      require(std::string(held) != cycled, "options --held and --cycled are both '", held,
+              "', must be two load patterns");
+      if (*plot) { map = adhesion_map = march = true; }
    }
 
    bool finds_friction() const { return std::string(find) != "load"; }
@@ -315,6 +321,10 @@ private:
       if (options.closed) { keep_closed(options.lambda_max); }
       set_up();
       if (*options.save && miniapp::writes()) { save(gapped, options.save); }
+      if (*options.plot && miniapp::writes())
+      {
+         std::filesystem::create_directory(options.plot);
+      }
       std::printf(
          "%ld contact nodes, condensed in %.2f s; degree of coupling %.4f (0: none, 1: "
          "most)\n",
@@ -384,13 +394,14 @@ private:
 
    LoadCycle cycle_of(const ReducedProblem &of, double reversal) const
    {
-      LoadCycle result = held_and_cycled(of, options.held, 1, options.cycled, reversal);
+      NamedLoads constant = {{options.held, 1}};
       // The forces that close an initial gap are always there.
-      for (std::size_t k = 0; k < of.patterns.size(); ++k)
+      for (const LoadPattern &pattern : of.patterns)
       {
-         if (of.patterns[k].name == "gap") { result.constant[k] = 1; }
+         if (pattern.name == "gap") { constant["gap"] = 1; }
       }
-      return result;
+      return LoadCycle::through(of, constant,
+                                {{{options.cycled, 1}}, {{options.cycled, reversal}}});
    }
 
    void note(const LimitReport &report)
@@ -426,8 +437,9 @@ private:
       bool by_fit = false;
       if (standard)
       {
-         const double corner_opens = corner_opening(problem, problem.patterns[0].p,
-                                                    problem.patterns[1].p, options.punch.order);
+         const double corner_opens = corner_opening(
+            problem, problem.patterns[problem.pattern(options.held)].p,
+            problem.patterns[problem.pattern(options.cycled)].p, options.punch.order);
          if (std::isfinite(corner_opens))
          {
             std::printf("the trailing corner opens at λ = %.4f (fit of Williams' modes)\n",

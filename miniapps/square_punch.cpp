@@ -53,14 +53,14 @@ int main(int argc, char *argv[])
          miniapp::StudyOutput output;
          miniapp::PunchOptions options;
          const char *obstacle = "rigid";
-         double friction = -1;
+         double friction = none; // by the obstacle
          const char *shear_list = "0.25 0.5 0.75 0.9";
          int cycles = 0;
          double amplitude = 0.8;
          int increments = 20;
          const char *march_by = "advancing";
 
-         mfem::OptionsParser args(argc, argv);
+         miniapp::Options args(argc, argv);
          args.AddOption(&obstacle, "-obstacle", "--obstacle",
                         "What the block stands on: rigid or half-plane.");
          args.AddOption(&friction, "-friction", "--friction",
@@ -76,11 +76,12 @@ int main(int argc, char *argv[])
                         "Load increments between two values of the shear.");
          args.AddOption(&march_by, "-march", "--march", miniapp::stepping_help);
          output.add_options(args);
-         miniapp::parse(args);
+         args.parse();
 
          miniapp::check_choice("--obstacle", obstacle, {"rigid", "half-plane"});
          options.half_plane = std::string(obstacle) == "half-plane";
-         if (friction == -1) { friction = options.half_plane ? 0.4 : 0.2; }
+         if (std::isnan(friction)) { friction = options.half_plane ? 0.4 : 0.2; }
+         require(friction >= 0, "option --friction is ", friction, ", must not be negative");
          require(cycles >= 0, "option --cycles is ", cycles, ", must not be negative");
          const std::vector<double> shear = miniapp::numbers("--shear", shear_list);
          require(increments >= 1, "option --increments is ", increments,
@@ -99,12 +100,10 @@ int main(int argc, char *argv[])
          FrictionSolver solver(problem, settings.friction);
          const Counters made = solver.counters();
          ContactState state = ContactState::virgin(problem);
-         const auto sheared = [&](double Q) {
-            return problem.multipliers({{"P", 1}, {"Q", Q}});
-         };
+         const auto sheared = [](double Q) { return NamedLoads{{"P", 1}, {"Q", Q}}; };
          MarchReport report =
             march(solver, LoadHistory::through(problem, {{}, {{"P", 1}}}), state, settings);
-         int code = miniapp::exit_code(report);
+         int code = miniapp::exit_code(problem, report);
          Counters counters = punch.reduction.counters;
          counters += made;
          counters += report.counters;
@@ -166,12 +165,12 @@ int main(int argc, char *argv[])
          }
          for (std::size_t k = 0; k < shear.size() && code == 0; ++k)
          {
-            const LoadHistory further =
-               LoadHistory::through({state.multipliers, sheared(shear[k] * friction)});
+            const LoadHistory further = LoadHistory::through(
+               problem, {named(problem, state.multipliers), sheared(shear[k] * friction)});
             state.time = 0;
             report = march(solver, further, state, settings);
             counters += report.counters;
-            code = miniapp::exit_code(report);
+            code = miniapp::exit_code(problem, report);
             if (code != 0) { break; }
             draw(shear[k], state);
             const Zone zone = stick_zone(problem, state);
@@ -201,7 +200,7 @@ int main(int argc, char *argv[])
             cyclic.dissipation = 0;
             const double Q = amplitude * friction;
             LoadHistory history =
-               LoadHistory::through({sheared(0), sheared(Q), sheared(-Q), sheared(0)});
+               LoadHistory::through(problem, {sheared(0), sheared(Q), sheared(-Q), sheared(0)});
             history.cycle_start = 0;
             history.cycles = cycles;
             // Loss is an integral over the path: finer increments, of equal size in both
@@ -209,8 +208,8 @@ int main(int argc, char *argv[])
             settings.increments_of_piece = {2 * increments, 4 * increments, 2 * increments};
             report = march(solver, history, cyclic, settings);
             counters += report.counters;
-            code = miniapp::exit_code(report);
-            miniapp::add_exact_path(report, settings, results);
+            code = miniapp::exit_code(problem, report);
+            miniapp::add_exact_path(problem, report, settings, results);
             nlohmann::ordered_json losses = nlohmann::ordered_json::array();
             std::cout << "\n cycle   dissipation   external work   slip change\n";
             for (std::size_t k = 0; k < report.cycles.size(); ++k)
@@ -236,12 +235,7 @@ int main(int argc, char *argv[])
                          none, report.cycles.back().dissipation);
             }
          }
-         results["status"] = name(report.status);
-         if (code != 0)
-         {
-            results["event_multipliers"] = {report.event_multipliers[0],
-                                            report.event_multipliers[1]};
-         }
+         miniapp::add_outcome(problem, report, results);
          output.write(results, counters, table, {slip, shear_traction});
          return code;
       });

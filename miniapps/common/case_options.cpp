@@ -15,10 +15,10 @@ namespace miniapp
 using cattaneo::InputError;
 using cattaneo::require;
 
-CaseOptions::CaseOptions(int argc, char *argv[]) : words_(argv, argv + argc), args_(argc, argv)
+CaseOptions::CaseOptions(int argc, char *argv[]) : args_(argc, argv)
 {
-   args_.AddOption(&case_file_, "-case", "--case",
-                   "JSON file with options; those of the command line override it.");
+   args_.add(Options::Names::input, &case_file_, "-case", "--case",
+             "JSON file with options; those of the command line override it.");
 }
 
 const char *CaseOptions::keep(const std::string &text)
@@ -49,37 +49,17 @@ void CaseOptions::add(bool *value, const std::string &name, const char *help)
 void CaseOptions::add(const char **value, const std::string &name, Text text, const char *help)
 {
    args_.AddOption(value, keep("-" + name), keep("--" + name), help);
+   if (text == Text::file) { args_.note(Options::Names::input, value, keep("--" + name)); }
    keys_.push_back({name, value, text});
-}
-
-/// MFEM's message for a number that is none does not name the option.
-void CaseOptions::check_numbers() const
-{
-   for (std::size_t i = 0; i + 1 < words_.size(); ++i)
-   {
-      for (const Key &key : keys_)
-      {
-         const bool integer = std::holds_alternative<int *>(key.value);
-         if (!integer && !std::holds_alternative<double *>(key.value)) { continue; }
-         if (words_[i] != "-" + key.name && words_[i] != "--" + key.name) { continue; }
-         const std::string &word = words_[i + 1];
-         char *end = nullptr;
-         const double value = std::strtod(word.c_str(), &end);
-         require(!word.empty() && *end == 0 && std::isfinite(value) &&
-                    (!integer || word.find_first_not_of("+-0123456789") == std::string::npos),
-                 "option ", words_[i], ": '", word, "' is not ",
-                 integer ? "an integer" : "a number");
-      }
-   }
 }
 
 void CaseOptions::parse()
 {
-   check_numbers();
+   args_.check_words();
    // First for the name of the case file only; a bad command line is reported below.
    args_.Parse();
    if (args_.Good() && case_file_[0]) { read(case_file_); }
-   miniapp::parse(args_);
+   args_.parse();
 }
 
 void CaseOptions::read(const std::string &file)
@@ -123,6 +103,8 @@ void CaseOptions::set(const Key &key, const nlohmann::json &value, const std::st
    const auto all = [&value](auto is)
    { return value.is_array() && std::all_of(value.begin(), value.end(), is); };
    const auto is_number = [](const nlohmann::json &v) { return v.is_number(); };
+   const auto is_attribute = [](const nlohmann::json &v)
+   { return v.is_number_integer() && v.get<double>() > 0; };
    const auto is_string = [](const nlohmann::json &v) { return v.is_string(); };
    const auto joined = [&value](const char *between)
    {
@@ -159,6 +141,14 @@ void CaseOptions::set(const Key &key, const nlohmann::json &value, const std::st
       case Text::word:
          expect(value.is_string(), "a string");
          text = value.get<std::string>();
+         break;
+      case Text::attributes:
+         expect(value.is_string() || is_attribute(value) || all(is_attribute),
+                "boundary attributes: a string such as \"3,4\" or \"3[-1<x<1]\", a positive "
+                "integer, or an array of positive integers");
+         text = value.is_string()  ? value.get<std::string>()
+                : value.is_array() ? joined(",")
+                                   : value.dump();
          break;
       case Text::file:
          expect(value.is_string(), "a string (the path of a file)");

@@ -1,7 +1,8 @@
 #pragma once
 
+#include "common/options.hpp"
+
 #include <deque>
-#include <mfem.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <variant>
@@ -21,6 +22,7 @@ public:
    enum class Text
    {
       word,       ///< a string
+      attributes, ///< a string, a number or an array of numbers
       file,       ///< a string: a path, relative to the folder of the case file
       numbers,    ///< a number or an array of numbers
       statements, ///< a string with statements between semicolons, or an array of them
@@ -32,11 +34,10 @@ public:
    void add(const char **value, const std::string &name, Text text, const char *help);
 
    /// For options that only the command line may give.
-   mfem::OptionsParser &command_line() { return args_; }
+   Options &command_line() { return args_; }
 
-   /// Sets all options, echoes them, prints help for -h. Leaves through miniapp::run() as
-   /// miniapp::parse does; InputError naming file, key, value and what is allowed for a bad
-   /// file.
+   /// Sets all options, echoes them, prints help for -h, as Options::parse() does; InputError
+   /// naming file, key, value and what is allowed for a bad file.
    void parse();
 
 private:
@@ -48,13 +49,11 @@ private:
    };
 
    const char *keep(const std::string &text);
-   void check_numbers() const;
    void read(const std::string &file);
    void set(const Key &key, const nlohmann::json &value, const std::string &where,
             const std::string &file);
 
-   const std::vector<std::string> words_; ///< of the command line
-   mfem::OptionsParser args_;
+   Options args_;
    const char *case_file_ = "";
    std::vector<Key> keys_;
    std::deque<std::string> texts_; ///< MFEM keeps pointers only: these stay where they are

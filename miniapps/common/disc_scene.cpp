@@ -38,11 +38,9 @@ void DiscOptions::validate() const
    }
 }
 
-int DiscOptions::load(double radius) const
+std::string radius_load(double radius)
 {
-   const auto at = std::find(load_radii.begin(), load_radii.end(), radius);
-   require(at != load_radii.end(), "there is no load of radius ", exact_text(radius));
-   return static_cast<int>(at - load_radii.begin());
+   return exact_text("a = ", radius);
 }
 
 Disc make_disc(const DiscOptions &options)
@@ -94,7 +92,7 @@ Disc make_disc(const DiscOptions &options)
    ElasticBody &disc = *scene.bodies[0], &below = *scene.bodies[1];
    for (double a : options.load_radii)
    {
-      disc.add_pressure(exact_text("a = ", a), BoundaryPart({top}, 0, 0, a), 1.0);
+      disc.add_pressure(radius_load(a), BoundaryPart({top}, 0, 0, a), 1.0);
    }
    const ContactLine upper = line_of_disc(disc), lower = line_below(below);
    scene.reduction = reduce(condense(disc, upper, condensation()),
@@ -154,18 +152,19 @@ double CriticalLoad::radius(double friction)
    {
       const int above = std::lower_bound(grid.begin(), grid.end(), a) - grid.begin();
       const int first = std::clamp(above - 2, 0, static_cast<int>(grid.size()) - 4);
-      Eigen::VectorXd load = Eigen::VectorXd::Zero(problem.patterns.size());
+      NamedLoads load;
       for (int i = first; i < first + 4; ++i)
       {
-         load[i] = 1;
+         double &share = load[radius_load(grid[i])] = 1;
          for (int j = first; j < first + 4; ++j)
          {
-            if (j != i) { load[i] *= (a - grid[j]) / (grid[i] - grid[j]); }
+            if (j != i) { share *= (a - grid[j]) / (grid[i] - grid[j]); }
          }
       }
       ContactState state = ContactState::virgin(problem);
       if (!guess_.empty()) { state.status = guess_; }
-      const IncrementReport report = solver.solve(state, load); // self-similar: one increment
+      const IncrementReport report =
+         solver.solve(state, problem.multipliers(load)); // self-similar: one increment
       require(report.status == FrictionStatus::converged,
               "critical load radius, f = ", friction, ", a = ", a, ": ", report.message);
       guess_ = state.status;

@@ -23,9 +23,9 @@ enum class Twist
    cylinder r < R, -R < z < 0 of the same material, which stands for a half-space and is fixed
    on its side and bottom. Dead pressure p0 on r < a of the disc's top.
 
-    Units t = p0 = E = 1. Every load radius is a load pattern of its own, in the given order, on
+    Units t = p0 = E = 1. Every load radius is a load pattern of its own, see radius_load(), on
    one condensed pair: the end of the load need not be a mesh line. The twist is the pattern
-   after them, "twist", of angle φ = 1 or torque 1. */
+   "twist", of angle φ = 1 or torque 1. */
 struct DiscOptions
 {
    double disc_radius = 5;                 ///< b, in t
@@ -41,8 +41,6 @@ struct DiscOptions
    double poisson = 0.3;
    Twist twist = Twist::none;
 
-   /// Index of the load pattern of that radius (exactly that one); InputError if there is none.
-   int load(double radius) const;
    /// InputError naming the option, its value and what is allowed.
    void validate() const;
 };
@@ -56,6 +54,9 @@ struct Disc
    cattaneo::Reduction reduction;
    int dofs = 0; ///< of all bodies
 };
+
+/// Name of the load pattern of a radius.
+std::string radius_load(double radius);
 
 Disc make_disc(const DiscOptions &options);
 

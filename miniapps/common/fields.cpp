@@ -3,18 +3,11 @@
 #include "common/miniapp.hpp"
 
 #include <cattaneo/output/paraview.hpp>
-#include <cattaneo/whole_file.hpp>
-#include <filesystem>
 
 namespace miniapp
 {
 
 using namespace cattaneo;
-
-void check_folder(const std::string &folder)
-{
-   if (!std::filesystem::is_directory(folder)) { require_writable(folder); }
-}
 
 void write_paraview(const std::string &folder, Reduction &reduction,
                     const std::vector<const ElasticBody *> &bodies,

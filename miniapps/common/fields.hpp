@@ -9,9 +9,6 @@
 namespace miniapp
 {
 
-/// InputError if the folder is no folder and cannot be made.
-void check_folder(const std::string &folder);
-
 /// Series for ParaView in a folder: contact.pvd, and body1.pvd (and body2.pvd) with the fields
 /// of the bodies, which are recovered for these states and no others.
 void write_paraview(const std::string &folder, cattaneo::Reduction &reduction,

@@ -148,7 +148,9 @@ bool run_plot_script(const std::string &script, const std::vector<std::string> &
 void output(const std::vector<Panel> &panels, const std::string &csv_prefix,
             const std::string &picture)
 {
-   if (panels.empty() || (csv_prefix.empty() && picture.empty()) || !writes()) { return; }
+   if ((csv_prefix.empty() && picture.empty()) || !writes()) { return; }
+   if (panels.empty()) { warn("options --csv and --plot: this run has no figures"); }
+   if (panels.empty()) { return; }
    const std::string prefix = csv_prefix.empty() ? picture : csv_prefix;
    std::vector<std::string> names;
    for (const Panel &panel : panels)

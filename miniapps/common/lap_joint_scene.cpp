@@ -21,27 +21,38 @@ void LapJointOptions::validate() const
            ", must be above 0 and at most 0.1 (in t)");
    require(growth > 1 && growth <= 2, "growth is ", growth, ", must be above 1 and at most 2");
    require(!widths.empty(), "there is no width of the pinch pressure");
-   require(!bolts.empty(), "there is no bolt");
+   require(!bolts.empty(),
+           "option --bolts is empty, must list the position of one bolt at least");
    require(protrusion > 0, "option --protrusion is ", protrusion, ", must be positive (in t)");
-   require(remote > 2, "the loaded ends are ", remote,
-           " from the bolt, must be above 2 (in t)");
+   require(remote > 2, "option --remote is ", remote, ", must be above 2 (in t)");
    require(lower_thickness > 0.1 && lower_thickness < 100, "option --lower-thickness is ",
            lower_thickness, ", must be between 0.1 and 100 (of the upper's)");
    for (double w : widths)
    {
-      require(w > 0 && 0.5 * w <= protrusion, "a width of the pinch pressure is ", w,
-              ", must be positive and within the protrusion ", protrusion, " to both sides");
+      require(w > 0 && 0.5 * w <= protrusion, "option --width or --sweep-width: ", w,
+              " must be positive and within the protrusion ", protrusion, " to both sides");
       require(std::count(widths.begin(), widths.end(), w) == 1, "the width ", exact_text(w),
               " is given twice: each is a load pattern of its own");
    }
-   for (double x : bolts) { require(std::isfinite(x), "a bolt is at ", x, ", must be finite"); }
+   for (double x : bolts)
+   {
+      require(std::isfinite(x), "option --bolts: ", x, " must be finite");
+      require(std::count(bolts.begin(), bolts.end(), x) == 1,
+              "option --bolts: there are two bolts "
+              "at ",
+              x, ", each must have a place of its own");
+   }
+}
+
+std::string pinch_load(int bolt, double width)
+{
+   return "bolt " + std::to_string(bolt + 1) + exact_text(", w = ", width);
 }
 
 LapJoint make_lap_joint(const LapJointOptions &options)
 {
    options.validate();
    LapJoint joint;
-   joint.bolts = static_cast<int>(options.bolts.size());
    const Material material{1 - options.poisson * options.poisson, options.poisson,
                            PlaneState::strain};
    double d = 0;
@@ -97,7 +108,7 @@ LapJoint make_lap_joint(const LapJointOptions &options)
       {
          for (std::size_t k = 0; k < options.bolts.size(); ++k)
          {
-            const std::string name = "bolt " + std::to_string(k + 1) + exact_text(", w = ", w);
+            const std::string name = pinch_load(static_cast<int>(k), w);
             const double centre = options.bolts[k];
             lap.add_pressure(name, BoundaryPart({outer}, 0, centre - 0.5 * w, centre + 0.5 * w),
                              1.0);

@@ -16,8 +16,8 @@ namespace miniapp
    are free bodies whose common motions (x only) do no work.
 
     Units t = p0 = E' = 1, E' = E/(1-ν²). Load patterns: one pinch pressure p0 on both outer
-   faces for every bolt and every width, bolt by bolt ("P" names: see pinch()), and last "T",
-   the uniform traction of resultant 1 on both far ends, outward. */
+   faces for every bolt and every width, see pinch_load(), and "T", the uniform traction of
+   resultant 1 on both far ends, outward. */
 struct LapJointOptions
 {
    std::vector<double> widths = {1.0}; ///< of the pinch pressure, in t
@@ -48,13 +48,10 @@ struct LapJoint
    std::vector<std::unique_ptr<cattaneo::ElasticBody>> bodies;
    cattaneo::Reduction reduction;
    int dofs = 0; ///< of both laps
-   int bolts = 0;
-
-   /// Index of the pattern of a bolt's pinch pressure of the given width (index of both).
-   int pinch(int bolt, int width = 0) const { return width * bolts + bolt; }
-   /// Index of the remote load's pattern.
-   int remote() const { return static_cast<int>(reduction.problem.patterns.size()) - 1; }
 };
+
+/// Name of the load pattern of a bolt's (from 0) pinch pressure of the given width.
+std::string pinch_load(int bolt, double width);
 
 LapJoint make_lap_joint(const LapJointOptions &options);
 

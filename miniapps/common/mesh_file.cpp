@@ -12,6 +12,7 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <sstream>
 #include <vector>
 
 namespace miniapp
@@ -63,6 +64,11 @@ void check_attribute(long attribute, const std::string &what)
            " for ", what, ", must be positive");
 }
 
+std::string of_attribute(const std::string &what, long attribute)
+{
+   return what + " of attribute " + std::to_string(attribute);
+}
+
 void check_coordinate(const std::string &word, const std::string &what)
 {
    char *end = nullptr;
@@ -71,21 +77,33 @@ void check_coordinate(const std::string &word, const std::string &what)
            word, "' for ", what, ", must be a finite number");
 }
 
-/// Edges of the elements, by their ends, and boundary elements, which must be among them.
+/// Edges of the elements, by their ends, and boundary elements, which must be among them and be
+/// there once: what an edge is counted for twice would be twice a load.
 class Edges
 {
 public:
    /// A segment is one of the boundary; of others the first vertices are the corners.
    void add(const std::vector<long> &vertices, std::size_t corners, const std::string &what)
    {
-      if (corners == 2) { boundary_.emplace_back(ends(vertices[0], vertices[1]), what); }
+      if (corners == 2)
+      {
+         const auto [first, is_new] = boundary_.emplace(ends(vertices[0], vertices[1]), what);
+         require(is_new, "mesh file has one edge twice, as ", first->second, " and as ", what,
+                 ": an edge must be in one part of the boundary only (in Gmsh, put each curve "
+                 "into one physical group)");
+      }
       for (std::size_t k = 0; k < corners && corners > 2; ++k)
       {
          edges_.insert(ends(vertices[k], vertices[(k + 1) % corners]));
       }
    }
+   /// At the end of a file.
    void check() const
    {
+      require(!boundary_.empty(),
+              "mesh file has no boundary elements, which contact, supports "
+              "and loads are named by (in Gmsh, put the curves of the "
+              "boundary into physical groups: Physical Curve(1) = {1, 2};)");
       for (const auto &[edge, what] : boundary_)
       {
          require(edges_.count(edge), "mesh file has the boundary ", what,
@@ -97,7 +115,7 @@ private:
    using Ends = std::pair<long, long>;
    static Ends ends(long a, long b) { return std::minmax(a, b); }
    std::set<Ends> edges_;
-   std::vector<std::pair<Ends, std::string>> boundary_;
+   std::map<Ends, std::string> boundary_;
 };
 
 /// MFEM mesh v1.x, up to the coordinates.
@@ -126,7 +144,8 @@ void check_mfem(std::istream &in, long size)
          for (long k = 0; k < elements; ++k)
          {
             const std::string what = kind + std::to_string(k);
-            check_attribute(integer(in, "the attribute of " + what), what);
+            const long attribute = integer(in, "the attribute of " + what);
+            check_attribute(attribute, what);
             const long geometry = integer(in, "the geometry of " + what);
             require(boundary ? geometry == 1 : geometry == 2 || geometry == 3,
                     "mesh file has the geometry ", geometry, " for ", what, ", must be ",
@@ -141,7 +160,7 @@ void check_mfem(std::istream &in, long size)
                highest = std::max(highest, vertex);
                lowest = std::min(lowest, vertex);
             }
-            edges.add(own, own.size(), "element " + std::to_string(k));
+            edges.add(own, own.size(), of_attribute(what, attribute));
          }
       }
       else if (word == "vertices")
@@ -182,25 +201,61 @@ const std::map<long, GmshType> gmsh_types = {
    {21, {10, 3, 3}}, {23, {15, 3, 4}}, {25, {21, 3, 5}}, {3, {4, 4, 1}},
    {10, {9, 4, 2}},  {36, {16, 4, 3}}, {37, {25, 4, 4}}, {38, {36, 4, 5}}};
 
+const char *const save_as_msh22 =
+   ": save it anew (gmsh -2 NAME.geo -format msh22, or File > Export as 'Version 2 ASCII')";
+
+/// Why an element of Gmsh is not one of these.
+std::string why_not(long type)
+{
+   static const std::map<std::string, std::set<long>> solids = {
+      {"tetrahedron", {4, 11, 29, 30, 31}},
+      {"hexahedron", {5, 12, 17, 92, 93}},
+      {"prism", {6, 13, 18, 90, 91}},
+      {"pyramid", {7, 14, 19}}};
+   for (const auto &[name, types] : solids)
+   {
+      if (types.count(type))
+      {
+         return "a " + name +
+                ": bodies are plane, in Gmsh mesh their surface alone (gmsh -2) "
+                "and save no volume";
+      }
+   }
+   const std::string allowed = ", must be a line, triangle or quadrilateral of order 1 to 5";
+   return std::set<long>{16, 20, 22, 24}.count(type)
+             ? "one without inner nodes (type " + std::to_string(type) + ")" + allowed +
+                  " with them: in Gmsh set Mesh.SecondOrderIncomplete = 0"
+             : "one of type " + std::to_string(type) + allowed;
+}
+
+/// That an element of Gmsh is in no physical group, and what to do. Its tags: the physical
+/// group (0: none), then the curve or surface.
+void check_group(const std::vector<long> &tags, std::size_t corners, const std::string &what)
+{
+   const std::string kind = corners == 2 ? "curve" : "surface",
+                     place = tags.size() > 1 ? " " + std::to_string(tags[1]) : "";
+   require(!tags.empty() && tags[0] != 0, "mesh file has ", what, ", of ", kind, place,
+           ", in no physical group: in Gmsh put every curve of the boundary and every surface "
+           "into one (Physical ",
+           corners == 2 ? "Curve" : "Surface", "(1) = {", place.empty() ? "1" : place.substr(1),
+           "};) and save nothing else (Mesh.SaveAll = 0)");
+   check_attribute(tags[0], what);
+}
+
 /// Gmsh 2.2, ASCII, after $MeshFormat.
 void check_gmsh(std::istream &in, long size)
 {
-   const double version = [&]
-   {
-      std::string word;
-      in >> word;
-      require(word[0] == '2', "Gmsh file of format ", word,
-              ", must be 2.2 (gmsh -format msh22)");
-      return std::strtod(word.c_str(), nullptr);
-   }();
-   require(version == 2.2, "Gmsh file of format ", version,
-           ", must be 2.2 (gmsh -format msh22)");
-   require(integer(in, "the file type") == 0, "Gmsh file is binary, must be ASCII");
+   std::string version;
+   in >> version;
+   require(version == "2.2", "Gmsh file is of format ", version, ", must be 2.2, ASCII",
+           save_as_msh22);
+   require(integer(in, "the file type") == 0, "Gmsh file is binary, must be ASCII",
+           save_as_msh22);
    std::map<long, double> nodes; // and their z
    double extent = 0, level = 0; // largest coordinate, z of the first node
    Edges edges;
    int order = 0;
-   bool has_elements = false;
+   bool has_elements = false, has_areas = false;
    std::string word;
    while (in >> word)
    {
@@ -235,19 +290,15 @@ void check_gmsh(std::istream &in, long size)
                "element " + std::to_string(integer(in, "the number of an element"));
             const long type = integer(in, "the type of " + what);
             const auto known = gmsh_types.find(type);
-            require(known != gmsh_types.end(), "mesh file has the type ", type, " for ", what,
-                    ", must be a line, triangle or quadrilateral of order 1 to 5");
+            require(known != gmsh_types.end(), "mesh file has ", what, ", ", why_not(type));
             const GmshType &shape = known->second;
             if (order == 0) { order = shape.order; }
             require(shape.order == 0 || shape.order == order, "mesh file has ", what,
                     " of order ", shape.order, ", must be ", order, " as those before");
-            const long tags = count(in, "tags of " + what, size);
-            require(tags >= 1, "mesh file has no physical group for ", what);
-            for (long t = 0; t < tags; ++t)
-            {
-               const long tag = integer(in, "a tag of " + what);
-               if (t == 0 && type != 15) { check_attribute(tag, what); }
-            }
+            std::vector<long> tags(count(in, "tags of " + what, size));
+            for (long &tag : tags) { tag = integer(in, "a tag of " + what); }
+            if (shape.order > 0) { check_group(tags, shape.corners, what); }
+            has_areas = has_areas || shape.corners > 2;
             std::vector<long> own;
             for (int v = 0; v < shape.nodes; ++v)
             {
@@ -262,13 +313,17 @@ void check_gmsh(std::istream &in, long size)
                        node, " of ", what, " at z = ", at->second, ", the first node at ",
                        level, ", must be equal: turn the mesh into the xy plane");
             }
-            edges.add(own, shape.corners, what);
+            edges.add(own, shape.corners, shape.order > 0 ? of_attribute(what, tags[0]) : what);
          }
          require(in >> word && word == "$EndElements", "mesh file has '", word, "' after ",
                  expected, " elements, must be $EndElements");
       }
    }
    require(has_elements, "mesh file has no section $Elements");
+   require(has_areas,
+           "mesh file has no triangles or quadrilaterals: in Gmsh make a surface of the "
+           "curves (Plane Surface), put it into a physical group (Physical "
+           "Surface(1) = {1};) and mesh it (gmsh -2)");
    edges.check();
 }
 
@@ -290,10 +345,63 @@ public:
    ~SilentErrors() { mfem::err.Enable(); }
 };
 
+/// Vertices that lie on one another are a crack, or were meant to be one.
+void warn_of_unjoined(const mfem::Mesh &mesh, const std::string &file)
+{
+   struct Vertex
+   {
+      double along, x, y, near;
+   };
+   std::vector<Vertex> vertices;
+   for (int v = 0; v < mesh.GetNV(); ++v)
+   {
+      const double *at = mesh.GetVertex(v);
+      // In the order along a direction that no mesh has, few are near each other.
+      vertices.push_back({0.8191 * at[0] + 0.5736 * at[1], at[0], at[1], 0});
+   }
+   double farthest = 0;
+   for (int e = 0; e < mesh.GetNEdges(); ++e)
+   {
+      mfem::Array<int> ends;
+      mesh.GetEdgeVertices(e, ends);
+      Vertex &a = vertices[ends[0]], &b = vertices[ends[1]];
+      const double near = 1e-6 * std::hypot(a.x - b.x, a.y - b.y);
+      for (Vertex *end : {&a, &b})
+      {
+         end->near = end->near > 0 ? std::min(end->near, near) : near;
+      }
+      farthest = std::max(farthest, near);
+   }
+   std::sort(vertices.begin(), vertices.end(),
+             [](const Vertex &a, const Vertex &b) { return a.along < b.along; });
+   int pairs = 0;
+   const Vertex *first = nullptr;
+   for (std::size_t k = 0; k < vertices.size(); ++k)
+   {
+      const Vertex &a = vertices[k];
+      for (std::size_t l = k + 1; l < vertices.size(); ++l)
+      {
+         const Vertex &b = vertices[l];
+         if (b.along - a.along > farthest) { break; }
+         if (std::hypot(a.x - b.x, a.y - b.y) > std::min(a.near, b.near)) { continue; }
+         ++pairs;
+         if (!first) { first = &a; }
+      }
+   }
+   if (pairs == 0) { return; }
+   std::ostringstream text;
+   text << "mesh '" << file << "': " << pairs << " pairs of nodes lie on one another, as at ("
+        << first->x << ", " << first->y
+        << "): the body is cut there, and its faces may pass through each other; if it is one "
+           "piece, join them (in Gmsh: Coherence Mesh)";
+   warn(text.str());
+}
+
 } // namespace
 
 mfem::Mesh read_mesh(const std::string &file)
 {
+   require(std::filesystem::exists(file), "mesh file cannot be read: there is no such file");
    std::ifstream in(file);
    require(in.good() && std::filesystem::is_regular_file(file), "mesh file cannot be read");
    const long size = static_cast<long>(std::filesystem::file_size(file));
@@ -302,21 +410,32 @@ mfem::Mesh read_mesh(const std::string &file)
    if (line.rfind("$MeshFormat", 0) == 0) { check_gmsh(in, size); }
    else
    {
+      require(size > 0, "mesh file is empty");
+      require(line.rfind("$NOD", 0) != 0, "Gmsh file is of format 1, must be 2.2, ASCII",
+              save_as_msh22);
+      const bool geometry = std::filesystem::path(file).extension() == ".geo";
       require(line.rfind("MFEM mesh v1.", 0) == 0,
               "mesh file must begin with 'MFEM mesh v1.' or '$MeshFormat' (Gmsh), not with '",
-              line.substr(0, 20), "'");
+              line.substr(0, 20), "'",
+              geometry
+                 ? ": this is a geometry, which gmsh -2 NAME.geo -format msh22 makes a mesh "
+                   "of"
+                 : "");
       check_mfem(in, size);
    }
    in.close();
    const SilentErrors silent;
+   mfem::Mesh mesh;
    try
    {
-      return mfem::Mesh(file.c_str(), 1, 1);
+      mesh = mfem::Mesh(file.c_str(), 1, 1);
    }
    catch (const std::exception &error)
    {
       throw InputError("mesh file cannot be read: " + reason(error.what()));
    }
+   warn_of_unjoined(mesh, file);
+   return mesh;
 }
 
 } // namespace miniapp

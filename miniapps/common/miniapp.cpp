@@ -233,7 +233,8 @@ cattaneo::Stepping stepping(const char *option, const std::string &value)
                              : cattaneo::Stepping::advancing;
 }
 
-void add_exact_path(const cattaneo::MarchReport &report,
+void add_exact_path(const cattaneo::ReducedProblem &problem,
+                    const cattaneo::MarchReport &report,
                     const cattaneo::MarchSettings &settings, nlohmann::ordered_json &results)
 {
    if (settings.stepping != cattaneo::Stepping::exact) { return; }
@@ -241,13 +242,11 @@ void add_exact_path(const cattaneo::MarchReport &report,
    nlohmann::ordered_json changes = nlohmann::ordered_json::array();
    for (const cattaneo::StateChange &change : report.changes)
    {
-      const Eigen::VectorXd &loads = change.multipliers;
-      changes.push_back(
-         {{"time", change.time},
-          {"loads", std::vector<double>(loads.data(), loads.data() + loads.size())},
-          {"node", change.node},
-          {"from", name(change.from)},
-          {"to", name(change.to)}});
+      changes.push_back({{"time", change.time},
+                         {"loads", named(problem, change.multipliers)},
+                         {"node", change.node},
+                         {"from", name(change.from)},
+                         {"to", name(change.to)}});
    }
    results["state_changes"] = changes;
    results["fallbacks"] = report.fallbacks;
@@ -281,7 +280,30 @@ void warn_of_cut_off(const std::vector<cattaneo::CutOffContact> &ends)
    }
 }
 
-int exit_code(const cattaneo::MarchReport &report)
+namespace
+{
+
+/// "time 0.3 (P = 1, 'n = 4' = 0.2)"
+std::string event_text(const cattaneo::ReducedProblem &problem, double time,
+                       const Eigen::VectorXd &multipliers)
+{
+   std::ostringstream text;
+   text << "time " << time;
+   const char *before = " (";
+   for (const auto &[name, value] : named(problem, multipliers))
+   {
+      // Names of studies' loads hold numbers of their own.
+      const char *quote = name.find(' ') == std::string::npos ? "" : "'";
+      text << before << quote << name << quote << " = " << value;
+      before = ", ";
+   }
+   text << ")";
+   return text.str();
+}
+
+} // namespace
+
+int exit_code(const cattaneo::ReducedProblem &problem, const cattaneo::MarchReport &report)
 {
    warn_of_cut_off(report.cut_off);
    if (report.fallbacks > 0)
@@ -305,10 +327,34 @@ int exit_code(const cattaneo::MarchReport &report)
                 << std::endl;
    }
    if (report.status == cattaneo::FrictionStatus::converged) { return 0; }
-   std::cout << "\nEnded with status '" << name(report.status) << "' at time "
-             << report.event_time << ", load multipliers "
-             << report.event_multipliers.transpose() << ":\n  " << report.message << std::endl;
+   if (const auto &first = report.not_unique)
+   {
+      std::cout << "\nNot unique: from " << event_text(problem, first->time, first->multipliers)
+                << " on, the states are one of several:\n  " << first->message << std::endl;
+   }
+   if (report.status != cattaneo::FrictionStatus::not_unique)
+   {
+      std::cout << "\nEnded with status '" << name(report.status) << "' at "
+                << event_text(problem, report.event_time, report.event_multipliers) << ":\n  "
+                << report.message << std::endl;
+   }
    return 2;
+}
+
+void add_outcome(const cattaneo::ReducedProblem &problem, const cattaneo::MarchReport &report,
+                 nlohmann::ordered_json &results)
+{
+   results["status"] = name(report.status);
+   if (report.status == cattaneo::FrictionStatus::converged) { return; }
+   results["message"] = report.message;
+   results["event_time"] = report.event_time;
+   results["event_loads"] = named(problem, report.event_multipliers);
+   if (const auto &first = report.not_unique)
+   {
+      results["not_unique"] = {{"time", first->time},
+                               {"loads", named(problem, first->multipliers)},
+                               {"message", first->message}};
+   }
 }
 
 nlohmann::ordered_json to_json(const cattaneo::Counters &counters)

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "common/options.hpp"
+
 #include <cattaneo/contact/condense_body.hpp>
 #include <cattaneo/counters.hpp>
 #include <cattaneo/friction/march.hpp>
@@ -31,9 +33,9 @@ bool writes();
 /// would do, to the same bits.
 std::unique_ptr<mfem::Mesh> distribute(mfem::Mesh mesh, int order);
 
-/// Parses the options, echoes them, prints help for -h. Leaves through run() with exit code 0
-/// after help and 1, with one sentence, after a bad option. On several ranks there are two more
-/// options, which say how bodies are condensed.
+/// What Options::parse() leaves to MFEM: parses the options, echoes them, prints help for -h.
+/// Leaves through run() with exit code 0 after help and 1, with one sentence, after a bad
+/// option. On several ranks there are two more options, which say how bodies are condensed.
 void parse(mfem::OptionsParser &options);
 
 /// How bodies are to be condensed, as the options say.
@@ -53,7 +55,8 @@ extern const char *const stepping_help;
 
 /// Of an exact march: its changes of state, printed (their number) and added to the results
 /// (the list), and whether it had to fall back. Nothing for other marches.
-void add_exact_path(const cattaneo::MarchReport &report,
+void add_exact_path(const cattaneo::ReducedProblem &problem,
+                    const cattaneo::MarchReport &report,
                     const cattaneo::MarchSettings &settings, nlohmann::ordered_json &results);
 
 /// Levels of a load that is taken back, descending from below 1 to `lowest`: steps of 1/steps
@@ -64,9 +67,15 @@ std::vector<double> unloading_levels(int steps, double lowest, std::vector<doubl
 /// Warns of contact that reached an end of its line where the bodies go on, once for each end.
 void warn_of_cut_off(const std::vector<cattaneo::CutOffContact> &ends);
 
-/// Exit code of a march's outcome; prints where and why it ended early, or left its exact path,
-/// and by how much its increments matter where contact advanced with friction.
-int exit_code(const cattaneo::MarchReport &report);
+/// Exit code of a march's outcome; prints where and why it ended early, was not unique or left
+/// its exact path, and by how much its increments matter where contact advanced with friction.
+int exit_code(const cattaneo::ReducedProblem &problem, const cattaneo::MarchReport &report);
+
+/// Adds the status of a march and, of one that is not `converged`, what there is to say: where
+/// and why it ended (`message`, `event_time`, `event_loads`), and from where on its states are
+/// one of several (`not_unique`).
+void add_outcome(const cattaneo::ReducedProblem &problem, const cattaneo::MarchReport &report,
+                 nlohmann::ordered_json &results);
 
 nlohmann::ordered_json to_json(const cattaneo::Counters &counters);
 

@@ -25,7 +25,7 @@ void PunchOptions::validate() const
    require(domain > 2, "option --domain is ", domain, ", must be above 2 (in a)");
 }
 
-void add_options(mfem::OptionsParser &args, PunchOptions &options)
+void add_options(Options &args, PunchOptions &options)
 {
    args.AddOption(&options.poisson, "-poisson", "--poisson", "Poisson's ratio of both bodies.");
    args.AddOption(&options.order, "-order", "--order", "Order of the elements.");

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "common/options.hpp"
+
 #include <cattaneo/contact/condense_body.hpp>
 #include <cattaneo/reduced/reduction.hpp>
 #include <functional>
@@ -48,7 +50,7 @@ struct Punch
 };
 
 /// The options --poisson, --order, --nodes, --grading and --domain.
-void add_options(mfem::OptionsParser &args, PunchOptions &options);
+void add_options(Options &args, PunchOptions &options);
 
 Punch make_punch(const PunchOptions &options);
 

@@ -43,23 +43,22 @@ void RecedingOptions::validate() const
    require(corner > 0 && corner <= spacing, "option --corner is ", corner,
            ", must be above 0 and at most the spacing ", spacing);
    require(growth > 1 && growth <= 2, "growth is ", growth, ", must be above 1 and at most 2");
+   require(length > 0 && depth > 1 && side > 1, "options --length, --depth and --side are ",
+           length, ", ", depth, " and ", side,
+           ", must be positive, above 1 and above 1 (in t)");
    require(!overhangs.empty(), "there is no overhang");
    for (double n : overhangs)
    {
-      require(n > 0 && n < length, "an overhang is ", n, ", must be between 0 and the length ",
-              length, " (in t)");
+      require(n > 0 && n < length, "option --overhang or --map: ", n,
+              " must be between 0 and the strip's length ", length, " (in t)");
       require(std::count(overhangs.begin(), overhangs.end(), n) == 1, "the overhang ",
               exact_text(n), " is given twice: each is a load pattern of its own");
    }
-   require(depth > 1 && side > 1, "options --depth and --side are ", depth, " and ", side,
-           ", must be above 1 (in t)");
 }
 
-int RecedingOptions::load(double overhang) const
+std::string overhang_load(double overhang)
 {
-   const auto at = std::find(overhangs.begin(), overhangs.end(), overhang);
-   require(at != overhangs.end(), "there is no load of overhang ", exact_text(overhang));
-   return static_cast<int>(at - overhangs.begin());
+   return exact_text("n = ", overhang);
 }
 
 Receding make_receding(const RecedingOptions &options)
@@ -98,7 +97,7 @@ Receding make_receding(const RecedingOptions &options)
    ElasticBody &strip = *scene.bodies[0];
    for (double n : options.overhangs)
    {
-      strip.add_pressure(exact_text("n = ", n), BoundaryPart({top}, 0, n, L), 1.0);
+      strip.add_pressure(overhang_load(n), BoundaryPart({top}, 0, n, L), 1.0);
    }
    // The contact node at the end of the line stays free: a contact dof cannot be fixed, and L
    // is far from the zones of interest.
@@ -149,11 +148,12 @@ Eigen::Vector2d fit_corner(const std::vector<double> &x, const std::vector<doubl
 
 } // namespace
 
-BondedTractions bonded_tractions(const ReducedProblem &problem, int pattern)
+BondedTractions bonded_tractions(const ReducedProblem &problem, double overhang)
 {
    BondedTractions result;
-   result.p = tractions(problem, problem.patterns.at(pattern).p);
-   result.q = tractions(problem, problem.patterns.at(pattern).q);
+   const LoadPattern &load = problem.patterns[problem.pattern(overhang_load(overhang))];
+   result.p = tractions(problem, load.p);
+   result.q = tractions(problem, load.q);
    const VectorXd &x = problem.arc_length;
    std::vector<double> near, p_near, q_near;
    // The last few nodes at the corner never converge; what they spoil must stay small, so that

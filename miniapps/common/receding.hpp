@@ -14,9 +14,9 @@ namespace miniapp
    on the similar block -side < x < length, -depth < y < 0. A pressure p0 acts on the strip's
    top for x > n t. u_x = 0 at x = length (of both), u_y = 0 at the bottom of the block.
 
-    Units t = p0 = E' = 1, E' = E/(1-ν²). Every overhang n is a load pattern of its own, in the
-    given order: the end of the load need not be a mesh line, so that one condensed pair serves
-    all n. */
+    Units t = p0 = E' = 1, E' = E/(1-ν²). Every overhang n is a load pattern of its own, see
+    overhang_load(): the end of the load need not be a mesh line, so that one condensed pair
+   serves all n. */
 struct RecedingOptions
 {
    double length = 100, depth = 1e4, side = 1e4; ///< in t
@@ -37,9 +37,6 @@ struct RecedingOptions
    /// The limit of a half-plane, or the finite block that comes close to what the thesis used.
    void half_plane_domain();
    void thesis_domain();
-   /// Index of the load pattern of that overhang (exactly that one); InputError if there is
-   /// none.
-   int load(double overhang) const;
    /// InputError naming the option, its value and what is allowed.
    void validate() const;
 };
@@ -75,6 +72,9 @@ struct BondedTractions
 /// Eigenvalues and ratios q/p on the interface of the Williams corner, modes I and II.
 extern const double williams_eigenvalue[2], williams_ratio[2];
 
-BondedTractions bonded_tractions(const cattaneo::ReducedProblem &problem, int pattern);
+/// Name of the load pattern of an overhang.
+std::string overhang_load(double overhang);
+
+BondedTractions bonded_tractions(const cattaneo::ReducedProblem &problem, double overhang);
 
 } // namespace miniapp

@@ -1,10 +1,13 @@
 #include "common/statements.hpp"
 
+#include <algorithm>
 #include <cattaneo/input_error.hpp>
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 namespace miniapp
@@ -52,6 +55,36 @@ double number(const std::string &where, const std::string &text)
    require(!text.empty() && *end == 0 && std::isfinite(value), where, ": '", text,
            "' is not a number");
    return value;
+}
+
+/// The node nearest to a point far off is none that was meant.
+void check_point(const ElasticBody &body, const std::string &where, double x, double y)
+{
+   const mfem::DenseMatrix &nodes = body.node_coordinates();
+   constexpr double far = std::numeric_limits<double>::max();
+   std::vector<double> box = {far, far, -far, -far}; // low x, low y, high x, high y
+   for (int node = 0; node < nodes.Width(); ++node)
+   {
+      for (int c : {0, 1})
+      {
+         box[c] = std::min(box[c], nodes(c, node));
+         box[2 + c] = std::max(box[2 + c], nodes(c, node));
+      }
+   }
+   const std::vector<double> all = body.ranks().gather(box);
+   for (std::size_t k = 0; k < all.size(); k += 4)
+   {
+      for (int c : {0, 1})
+      {
+         box[c] = std::min(box[c], all[k + c]);
+         box[2 + c] = std::max(box[2 + c], all[k + 2 + c]);
+      }
+   }
+   const double slack = 0.01 * std::hypot(box[2] - box[0], box[3] - box[1]);
+   require(x >= box[0] - slack && x <= box[2] + slack && y >= box[1] - slack &&
+              y <= box[3] + slack,
+           where, ": (", x, ", ", y, ") is outside of the body, which reaches from (", box[0],
+           ", ", box[1], ") to (", box[2], ", ", box[3], ")");
 }
 
 std::vector<int> components(const std::string &where, const std::string &text)
@@ -141,6 +174,7 @@ void add_supports(ElasticBody &body, const std::string &option, const std::strin
          const std::vector<std::string> point = split(place.substr(1), ",");
          require(point.size() == 2, where, ": '", place, "', must be a point such as @0,-1");
          const double x = number(where, point[0]), y = number(where, point[1]);
+         check_point(body, where, x, y);
          for (int component : fixed) { body.fix_node(x, y, component); }
          continue;
       }
@@ -198,37 +232,47 @@ void add_loads(ElasticBody &body, const std::string &option, const std::string &
 }
 
 LoadHistory load_history(const std::string &option, const std::string &text,
-                         const std::vector<LoadPattern> &patterns)
+                         const ReducedProblem &problem)
 {
-   Eigen::VectorXd loads = Eigen::VectorXd::Zero(patterns.size());
-   std::vector<Eigen::VectorXd> points;
+   NamedLoads loads;
+   std::vector<NamedLoads> points;
    for (const std::string &statement : split(text, ";"))
    {
       const std::string where = option + " '" + statement + "'";
+      std::set<std::string> named;
       for (const std::string &word : split(statement, ", \t\n"))
       {
          const std::size_t equals = word.find('=');
          require(equals != std::string::npos, where, ": '", word,
                  "', must be PATTERN=number such as P=1");
-         std::size_t k = 0;
-         std::string known;
-         for (; k < patterns.size() && patterns[k].name != word.substr(0, equals); ++k)
+         const std::string name = word.substr(0, equals);
+         require(named.insert(name).second, where, ": '", name,
+                 "' is there twice, each point has one value of it; points are separated by "
+                 "semicolons, as 'P=0; P=1'");
+         try
          {
-            known += (k ? ", " : "") + patterns[k].name;
+            problem.pattern(name);
          }
-         require(k < patterns.size(), where, ": there is no load pattern '",
-                 word.substr(0, equals), "'; there are: ", known);
-         loads[k] = number(where, word.substr(equals + 1));
+         catch (const InputError &error)
+         {
+            throw InputError(where + ": " + error.what());
+         }
+         loads[name] = number(where, word.substr(equals + 1));
       }
       points.push_back(loads);
    }
    if (points.empty())
    {
-      points = {Eigen::VectorXd::Zero(loads.size()), Eigen::VectorXd::Ones(loads.size())};
+      points.emplace_back();
+      for (const LoadPattern &pattern : problem.patterns) { loads[pattern.name] = 1; }
+      points.push_back(loads);
    }
-   require(points[0].isZero(0), option, ": the loads of the first point are (",
-           points[0].transpose(), "), must be 0: the bodies start without load");
-   return LoadHistory::through(points);
+   for (const auto &[name, value] : points[0])
+   {
+      require(value == 0, option, ": ", name, " is ", value,
+              " at the first point, must be 0: the bodies start without load");
+   }
+   return LoadHistory::through(problem, points);
 }
 
 } // namespace miniapp

@@ -31,6 +31,6 @@ void add_loads(cattaneo::ElasticBody &body, const std::string &option, const std
 /// that is not named keeps its value; all are 0 at the first point. Without text: all from 0
 /// to 1.
 cattaneo::LoadHistory load_history(const std::string &option, const std::string &text,
-                                   const std::vector<cattaneo::LoadPattern> &patterns);
+                                   const cattaneo::ReducedProblem &problem);
 
 } // namespace miniapp

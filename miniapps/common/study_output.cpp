@@ -6,17 +6,19 @@
 namespace miniapp
 {
 
-void add_save_option(mfem::OptionsParser &args, const char **file)
+void add_save_option(Options &args, const char **file)
 {
-   args.AddOption(file, "-save", "--save",
-                  "File for the reduced problem (shakedown --reduced reads it).");
+   args.add(Options::Names::output, file, "-save", "--save",
+            "File for the reduced problem (shakedown --reduced reads it).");
 }
 
-void StudyOutput::add_options(mfem::OptionsParser &args)
+void StudyOutput::add_options(Options &args)
 {
-   args.AddOption(&json_, "-json", "--json", "File for the results.");
-   args.AddOption(&csv_, "-csv", "--csv", "Prefix of CSV files for the figures.");
-   args.AddOption(&plot_, "-plot", "--plot", "Picture of the results (png, pdf, svg).");
+   args.add(Options::Names::output, &json_, "-json", "--json", "File for the results.");
+   args.add(Options::Names::prefix, &csv_, "-csv", "--csv",
+            "Prefix of CSV files for the figures.");
+   args.add(Options::Names::picture, &plot_, "-plot", "--plot",
+            "Picture of the results (png, pdf, svg).");
    add_save_option(args, &save_);
 }
 

@@ -14,7 +14,7 @@ class StudyOutput
 {
 public:
    /// --json, --csv, --plot and --save.
-   void add_options(mfem::OptionsParser &args);
+   void add_options(Options &args);
 
    /// To be called when the problem has been reduced: prints its size and writes it to the file
    /// of --save, if any.
@@ -34,6 +34,6 @@ private:
 };
 
 /// The option --save alone.
-void add_save_option(mfem::OptionsParser &args, const char **file);
+void add_save_option(Options &args, const char **file);
 
 } // namespace miniapp

@@ -323,6 +323,11 @@ TEST(March, SaysWhereItFirstWasNotUnique)
    EXPECT_NEAR(report.event_time, 0.1, 1e-15);
    EXPECT_NEAR(report.event_multipliers[0], 0.1, 1e-15);
    EXPECT_EQ(report.time, 1);
+   ASSERT_TRUE(report.not_unique);
+   EXPECT_EQ(report.not_unique->time, report.event_time);
+   EXPECT_EQ(named(problem, report.not_unique->multipliers).at("P"),
+             report.event_multipliers[0]);
+   EXPECT_EQ(report.not_unique->message, report.message);
 }
 
 TEST(March, CountsItsOwnWorkOnly)

@@ -89,6 +89,24 @@ std::map<std::string, std::vector<double>> table(const std::string &file)
    return columns;
 }
 
+/// A pad 4 wide and 2 high, of so many elements along a bottom y = curvature x².
+mfem::Mesh pad(int elements, double curvature, double grading = 1)
+{
+   std::vector<double> x, y;
+   for (int k = 0; k <= elements; ++k)
+   {
+      x.push_back(-2 + 4 * std::pow(static_cast<double>(k) / elements, grading));
+   }
+   for (int k = 0; k <= elements / 2; ++k) { y.push_back(4.0 * k / elements); }
+   mfem::Mesh mesh = cattaneo::rectangle_mesh(x, y);
+   for (int v = 0; v < mesh.GetNV(); ++v)
+   {
+      double *at = mesh.GetVertex(v);
+      at[1] += (1 - at[1] / 2) * curvature * at[0] * at[0];
+   }
+   return mesh;
+}
+
 TEST_F(Contact2D, DovetailCarriesItsLoadOnTheFlank)
 {
    const auto run = contact2d("--case meshes/dovetail.json --csv '" + folder + "/dovetail'");
@@ -477,16 +495,30 @@ TEST_F(Contact2D, BadInputIsOneSentenceAndLeavesNoFile)
       {pressed + "--history 'P=0; P=one'", {"history", "'one'", "not a number"}},
       {pressed + "--history 'P=1; P=2'", {"history", "first point", "must be 0"}},
       {pressed + "--history 'P=0'", {"1 points", "at least 2"}},
+      {pressed + "--history 'P=0 P=1'",
+       {"history 'P=0 P=1'", "'P' is there twice", "P=0; P=1"}},
+      {pressed + "--history 'P=0; P=1,P=1'", {"history 'P=1,P=1'", "'P' is there twice"}},
+      {pressed + "--poisson1 '0.1 0.2'", {"poisson1", "2 values", "1 to 1"}},
+      {pressed + "--young1 '1 2 3'", {"young1", "3 values", "1 to 1"}},
+      {pressed + "--support1 @70,5:x", {"@70,5:x", "outside of the body", "reaches from"}},
+      {pressed + "--increments 99999999999",
+       {"--increments", "99999999999", "at most 2147483647"}},
+      {pressed + "--friction --order 2", {"--friction", "has no value"}},
+      {pressed + "--save '" + folder + "/out/state.json'",
+       {"--save", "--save-state", "state.json", "name another"}},
+      {pressed + "--save meshes/rounded_punch.msh", {"--save", "rounded_punch.msh", "--mesh1"}},
       {pressed + "--history 'P=0; P=1; P=2' --cycle-start 1",
        {"end of the cycle (2)", "start (1)"}},
       {pressed + "--cycle-start -2", {"cycle-start", "-2", "-1 for no cycle"}},
       {pressed + "--cycle-start 4", {"cycle starts at point 4", "0 to 0"}},
       {pressed + "--history 'P=0; P=1; P=0' --cycle-start 0 --cycles 0",
        {"0 cycles", "at least 1"}},
+      {pressed + "--cycles 0", {"cycles", "0 cycles", "at least 1"}},
+      {pressed + "--friction 0.3 --edges '1 0.5'", {"edges", "0.5", "after", "1"}},
       {pressed + "--frames 2", {"frames", "time 2", "from 0 to 1"}},
       {pressed + "--load-state nowhere.json", {"nowhere.json", "cannot read"}},
       {pressed + "--wrong 3", {"Unrecognized option", "--wrong"}},
-      {pressed + "--friction", {"--friction", "is not a number"}},
+      {pressed + "--friction", {"--friction", "has no value"}},
       {"--case nowhere.json", {"nowhere.json", "cannot be read"}},
       {case_file("broken.json", "{\"order\": 2"), {"broken.json", "is not JSON"}},
       {case_file("list.json", "[1, 2]"), {"list.json", "array", "must be an object"}},
@@ -497,7 +529,10 @@ TEST_F(Contact2D, BadInputIsOneSentenceAndLeavesNoFile)
       {case_file("type2.json", "{\"order\": 1.5}"), {"'order'", "1.5", "an integer"}},
       {case_file("type3.json", "{\"young1\": [1, \"2\"]}"), {"'young1'", "array of numbers"}},
       {case_file("type4.json", "{\"load1\": {\"P\": 1}}"), {"'load1'", "array of strings"}},
-      {case_file("type5.json", "{\"contact1\": 3}"), {"'contact1'", "3", "a string"}},
+      {case_file("type5.json", "{\"contact1\": 1.5}"),
+       {"'contact1'", "1.5", "positive integer"}},
+      {case_file("type7.json", "{\"contact1\": [1, -3]}"),
+       {"'contact1'", "array of positive integers"}},
       {case_file("type6.json", "{\"plane-stress\": 1}"), {"'plane-stress'", "true or false"}},
       {case_file("path.json", "{\"mesh1\": \"no.msh\", \"contact1\": \"3\"}"),
        {folder + "/no.msh"}},
@@ -537,6 +572,209 @@ TEST_F(Contact2D, BadInputIsOneSentenceAndLeavesNoFile)
                                   " 2>&1 >/dev/null | grep -q 'no folder'";
       EXPECT_EQ(std::system(command.c_str()), 0) << option;
    }
+}
+
+/// Two squares side by side over 0 < x < 2, 0 < y < 1 as Gmsh writes them: nodes are "x y z",
+/// elements "type tags … nodes …".
+std::string gmsh(const std::vector<std::string> &nodes,
+                 const std::vector<std::string> &elements)
+{
+   std::ostringstream text;
+   const auto section = [&](const char *name, const std::vector<std::string> &lines)
+   {
+      text << "$" << name << "\n" << lines.size() << "\n";
+      for (std::size_t k = 0; k < lines.size(); ++k)
+      {
+         text << k + 1 << " " << lines[k] << "\n";
+      }
+      text << "$End" << name << "\n";
+   };
+   text << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+   section("Nodes", nodes);
+   section("Elements", elements);
+   return text.str();
+}
+
+const std::vector<std::string> two_squares = {"0 0 0", "1 0 0", "2 0 0",
+                                              "0 1 0", "1 1 0", "2 1 0"};
+const std::vector<std::string> their_boundary = {"1 2 1 5 1 2", "1 2 1 5 2 3", "1 2 2 6 3 6",
+                                                 "1 2 3 7 6 5", "1 2 3 7 5 4", "1 2 4 8 4 1"};
+const std::vector<std::string> their_surface = {"3 2 1 9 1 2 5 4", "3 2 1 9 2 3 6 5"};
+
+std::vector<std::string> joined(std::vector<std::string> list,
+                                const std::vector<std::string> &more)
+{
+   list.insert(list.end(), more.begin(), more.end());
+   return list;
+}
+
+TEST_F(Contact2D, MistakesInGmshAreToldWithWhatToDoThere)
+{
+   const std::vector<std::string> whole = joined(their_boundary, their_surface);
+   const auto with = [&](const std::vector<std::string> &more) { return joined(whole, more); };
+   std::vector<std::string> ungrouped = whole, unjoined_nodes = two_squares;
+   ungrouped[3] = "1 2 0 7 6 5";
+   std::vector<std::string> bare_surface = whole;
+   bare_surface[7] = "3 2 0 9 2 3 6 5";
+   // The second square has its own nodes on the line between them.
+   for (const char *node : {"1 0 0", "1 1e-12 0", "1 1 0"}) { unjoined_nodes.push_back(node); }
+   unjoined_nodes.erase(unjoined_nodes.begin() + 6);
+   const std::vector<std::string> unjoined = {
+      "1 2 1 5 1 2", "1 2 1 5 7 3", "1 2 2 6 3 6",     "1 2 3 7 6 8",
+      "1 2 3 7 5 4", "1 2 4 8 4 1", "3 2 1 9 1 2 5 4", "3 2 1 9 7 3 6 8"};
+   struct Mistake
+   {
+      std::string name, text;
+      std::vector<std::string> words;
+   };
+   const std::string body = gmsh(two_squares, whole);
+   const auto of_format = [&](const std::string &format)
+   { return std::string(body).replace(body.find("2.2 0 8"), 7, format); };
+   const std::vector<Mistake> mistakes = {
+      {"curve.msh",
+       gmsh(two_squares, ungrouped),
+       {"element 4, of curve 7", "no physical group", "Physical Curve(1) = {7};", "SaveAll"}},
+      {"surface.msh",
+       gmsh(two_squares, bare_surface),
+       {"element 8, of surface 9", "no physical group", "Physical Surface(1) = {9};"}},
+      {"lines.msh",
+       gmsh(two_squares, their_boundary),
+       {"no triangles or quadrilaterals", "Plane Surface", "gmsh -2"}},
+      {"areas.msh",
+       gmsh(two_squares, their_surface),
+       {"no boundary elements", "Physical Curve"}},
+      {"solid.msh",
+       gmsh(two_squares, with({"4 2 1 1 1 2 4 3"})),
+       {"element 9, a tetrahedron", "plane", "gmsh -2", "no volume"}},
+      {"eight.msh",
+       gmsh(two_squares, with({"16 2 1 1 1 3 6 4 2 5 1 3"})),
+       {"element 9, one without inner nodes", "Mesh.SecondOrderIncomplete = 0"}},
+      {"format4.msh", of_format("4.1 0 8"), {"format 4.1", "2.2", "gmsh -2", "-format msh22"}},
+      {"binary4.msh", of_format("4.1 1 8"), {"format 4.1", "ASCII", "-format msh22"}},
+      {"binary.msh", of_format("2.2 1 8"), {"binary", "ASCII", "-format msh22"}},
+      {"block.geo", "Point(1) = {0, 0, 0};\n", {"geometry", "gmsh -2 NAME.geo -format msh22"}},
+      {"groups.msh",
+       gmsh(two_squares, with({"1 2 7 5 2 1"})),
+       {"one edge twice", "element 1 of attribute 1", "element 9 of attribute 7",
+        "one physical group"}},
+      {"twice.msh", gmsh(two_squares, with({"1 2 1 5 1 2"})), {"one edge twice"}},
+      {"unjoined.msh",
+       gmsh(unjoined_nodes, unjoined),
+       {"contact line", "two nodes lie on one another", "not joined", "Coherence Mesh"}},
+   };
+   for (const Mistake &mistake : mistakes)
+   {
+      const auto run = contact2d("--mesh1 '" + write(mistake.name, mistake.text) +
+                                 "' --contact1 1 --load1 'P pressure 3 1'");
+      EXPECT_EQ(run.code, 1) << mistake.name << run.output;
+      const std::size_t at = run.output.find("error:");
+      ASSERT_NE(at, std::string::npos) << mistake.name << run.output;
+      const std::string message = run.output.substr(at);
+      EXPECT_EQ(message.find('\n'), message.size() - 1) << "one line: " << message;
+      for (const std::string &word : mistake.words)
+      {
+         EXPECT_NE(message.find(word), std::string::npos)
+            << mistake.name << " should say '" << word << "': " << message;
+      }
+      EXPECT_TRUE(run.results.is_null()) << mistake.name;
+   }
+   const auto right = contact2d("--mesh1 '" + write("right.msh", body) +
+                                "' --contact1 1 --load1 'P pressure 3 1'");
+   EXPECT_EQ(right.code, 0) << right.output;
+}
+
+TEST_F(Contact2D, AnOutputIsNeverWrittenOverAnInput)
+{
+   const std::string text = gmsh(two_squares, joined(their_boundary, their_surface));
+   const std::string mesh = write("body.msh", text);
+   for (const char *option : {"--csv", "--save", "--save-state", "--paraview"})
+   {
+      const auto run =
+         contact2d("--mesh1 '" + mesh + "' --contact1 1 --load1 'P pressure 3 1' " + option +
+                   " '" + folder + "/../contact2d/body.msh'");
+      // A prefix is not the name of a file.
+      EXPECT_EQ(run.code, option == std::string("--csv") ? 0 : 1) << run.output;
+      std::ifstream in(mesh);
+      std::stringstream now;
+      now << in.rdbuf();
+      EXPECT_EQ(now.str(), text) << option;
+   }
+}
+
+TEST_F(Contact2D, ANumberStandsForAListOfOne)
+{
+   write("body.msh", gmsh(two_squares, joined(their_boundary, their_surface)));
+   const std::string rest = R"(, "mesh1": "body.msh", "load1": "P pressure 3 1"})";
+   const auto force = [&](const std::string &contact)
+   {
+      const auto run =
+         contact2d("--case '" + write("case.json", "{\"contact1\": " + contact + rest) + "'");
+      EXPECT_EQ(run.code, 0) << run.output;
+      return run.results["contact_force"];
+   };
+   const json expected = force("\"1\"");
+   EXPECT_EQ(force("1"), expected);
+   EXPECT_EQ(force("[1]"), expected);
+}
+
+TEST_F(Contact2D, LinesThatDoNotPairAreToldWhatWouldDo)
+{
+   mfem::Mesh upper = cattaneo::rectangle_mesh({-1, -0.5, 0, 0.5, 1}, {0.2, 0.7, 1.2});
+   const auto run = [&](std::vector<double> x, std::vector<double> y, const std::string &rest)
+   {
+      mfem::Mesh lower = cattaneo::rectangle_mesh(x, y);
+      return contact2d("--mesh1 '" + write("upper.mesh", upper) + "' --mesh2 '" +
+                       write("lower.mesh", lower) +
+                       "' --order 1 --contact1 1 --contact2 3 --support2 1:xy "
+                       "--load1 'P pressure 3 1' " +
+                       rest);
+   };
+   // Nodes 0.01 beside those of the other line, whose distance is 0.5, and 0.2 below them.
+   const std::vector<double> beside = {-0.99, -0.49, 0.01, 0.51, 1.01}, below = {-1, -0.5, 0};
+   const auto refused = run(beside, below, "");
+   EXPECT_EQ(refused.code, 1) << refused.output;
+   EXPECT_NE(refused.output.find("option pairing: "), std::string::npos) << refused.output;
+   EXPECT_NE(refused.output.find("the nearest nodes are 0.20025 apart"), std::string::npos)
+      << refused.output; // √(0.2² + 0.01²)
+   const std::string says = "a tolerance of ";
+   const std::size_t at = refused.output.find(says);
+   ASSERT_NE(at, std::string::npos) << refused.output;
+   const std::string tolerance = refused.output.substr(
+      at + says.size(), refused.output.find(' ', at + says.size()) - at - says.size());
+   // 0.01 of 0.5, rounded up to two digits.
+   EXPECT_GE(std::stod(tolerance), 0.02);
+   EXPECT_LE(std::stod(tolerance), 0.021);
+   EXPECT_EQ(run(beside, below, "--pairing " + tolerance).code, 0) << tolerance;
+   const auto longer = run({-2, -1, -0.5, 0, 0.5, 1, 2}, below, "");
+   EXPECT_EQ(longer.code, 1);
+   EXPECT_NE(longer.output.find("no tolerance would pair all"), std::string::npos)
+      << longer.output;
+   EXPECT_NE(longer.output.find("line 2 from (-2, 0) to (2, 0)"), std::string::npos)
+      << longer.output;
+}
+
+/// Far above the critical friction a pad that is pressed and sheared goes on, and says of all
+/// that follows that it is one of several.
+TEST_F(Contact2D, WhatIsNotUniqueIsSaidOfAllThatFollows)
+{
+   mfem::Mesh mesh = pad(8, 0);
+   const auto run = contact2d("--mesh1 '" + write("pad.mesh", mesh) +
+                              "' --contact1 1 --load1 'P pressure 3 1;Q traction 3 1 0' "
+                              "--history 'P=0;P=1;Q=0.1' --friction 20");
+   ASSERT_EQ(run.code, 2) << run.output;
+   const json &r = run.results;
+   EXPECT_EQ(r["status"], "not unique");
+   EXPECT_EQ(r["time"], 2);
+   const json &first = r["not_unique"];
+   EXPECT_GT(first["time"], 0);
+   EXPECT_LT(first["time"], 2);
+   EXPECT_EQ(first["time"], r["event_time"]);
+   EXPECT_EQ(first["loads"], r["event_loads"]);
+   EXPECT_EQ(first["message"], r["message"]);
+   EXPECT_NE(r["message"].get<std::string>().find("critical value"), std::string::npos);
+   EXPECT_NE(run.output.find("Not unique: from time "), std::string::npos) << run.output;
+   EXPECT_NE(run.output.find("At time 2, one of several states: "), std::string::npos);
+   EXPECT_EQ(run.output.find("Ended with"), std::string::npos) << run.output;
 }
 
 TEST_F(Contact2D, AnUnsupportedBodyIsRefused)
@@ -618,24 +856,6 @@ TEST_F(Contact2D, SaysWhatAccuracyMaterialsFarApartLeave)
       ASSERT_EQ(run.results["warnings"].size(), hard > 1e9 ? 1u : 0u) << run.output;
    }
    EXPECT_GT(before, 1e-6);
-}
-
-/// A pad 4 wide and 2 high, of so many elements along a bottom y = curvature x².
-mfem::Mesh pad(int elements, double curvature, double grading = 1)
-{
-   std::vector<double> x, y;
-   for (int k = 0; k <= elements; ++k)
-   {
-      x.push_back(-2 + 4 * std::pow(static_cast<double>(k) / elements, grading));
-   }
-   for (int k = 0; k <= elements / 2; ++k) { y.push_back(4.0 * k / elements); }
-   mfem::Mesh mesh = cattaneo::rectangle_mesh(x, y);
-   for (int v = 0; v < mesh.GetNV(); ++v)
-   {
-      double *at = mesh.GetVertex(v);
-      at[1] += (1 - at[1] / 2) * curvature * at[0] * at[0];
-   }
-   return mesh;
 }
 
 /// Nothing but the contact holds a pad that is pressed onto a line: it may rock on its lowest

@@ -94,7 +94,7 @@ TEST(SquarePunch, GrossSlidingIsAnAnswerWithItsLoad)
    EXPECT_EQ(run.code, 2) << run.output;
    EXPECT_EQ(run.results["status"], "gross sliding");
    // Q = f P, whatever the elasticity.
-   EXPECT_NEAR(run.results["event_multipliers"][1].get<double>(), 0.2, 1e-8);
+   EXPECT_NEAR(run.results["event_loads"]["Q"].get<double>(), 0.2, 1e-8);
    EXPECT_NE(run.output.find("slides"), std::string::npos);
 }
 

@@ -609,6 +609,33 @@ TEST(Pairing, FindsThePartnerOfEveryNode)
    EXPECT_LT((swapped.gap - pairing.gap).norm(), 1e-14);
 }
 
+/// Two blocks of a mesh side by side, not joined at x = 0, or a distance apart there.
+mfem::Mesh two_blocks(double apart)
+{
+   mfem::Mesh left = rectangle_mesh(uniform(-1, 0, 4), {0, 1}),
+              right = rectangle_mesh(uniform(apart, 1, 4), {0, 1});
+   mfem::Mesh *both[] = {&left, &right};
+   return {both, 2};
+}
+
+TEST(ContactLine, NodesThatLieOnOneAnotherAreRefused)
+{
+   for (double apart : {0.0, 1e-12, 1e-8})
+   {
+      mfem::Mesh mesh = two_blocks(apart);
+      for (int order : {1, 2})
+      {
+         ElasticBody body(mesh, order, Material{});
+         expect_input_error([&] { contact_line(body, 1); },
+                            "two nodes lie on one another at (");
+         // What is not in contact is the user's own: a crack, for instance.
+         EXPECT_NO_THROW(contact_line(body, BoundaryPart({1}, 0, -1, -0.5)));
+      }
+   }
+   mfem::Mesh slit = two_blocks(1e-3);
+   EXPECT_NO_THROW(contact_line(ElasticBody(slit, 2, Material{}), 1));
+}
+
 TEST(Pairing, SaysWhichNodesHaveNoPartner)
 {
    std::vector<double> x = uniform(0, 1, 4);
@@ -619,12 +646,17 @@ TEST(Pairing, SaysWhichNodesHaveNoPartner)
    const ContactLine line1 = contact_line(upper, 1), line2 = contact_line(lower, 3);
    expect_input_error([&] { pair_lines(line1, line2); },
                       "of body 1 (5 nodes): (0.5, 0); of body 2 (5 nodes): (0.50001, 0)");
+   // 1e-5 over the shorter distance of nodes there, 0.25 - 1e-5, and a little more.
+   expect_input_error([&] { pair_lines(line1, line2); },
+                      "a tolerance of 4.1e-05 would pair all; the nearest nodes are 0 apart");
+   EXPECT_EQ(pair_lines(line1, line2, 4.1e-5).partner[2], 2);
    EXPECT_EQ(pair_lines(line1, line2, 1e-3).partner[2], 2);
    mfem::Mesh fine = rectangle_mesh(uniform(0, 1, 40), {-1, 0});
    ElasticBody other(fine, 1, Material{});
    expect_input_error([&] { pair_lines(line1, contact_line(other, 3)); }, " … and 28 more");
    // Lines that look the same way do not face each other.
    expect_input_error([&] { pair_lines(line1, line1); }, "without a partner");
+   expect_input_error([&] { pair_lines(line1, line1); }, "do not face each other");
    expect_input_error([&] { pair_lines(line1, line2, 0.0); }, "tolerance is 0");
 }
 

@@ -141,7 +141,8 @@ TEST(RecedingLayers, LapJointWithLongFreeEndsMatchesTheIntegralEquation)
    {
       const Layers exact = solve_layers(2 * options.widths[k], false);
       ContactState state = ContactState::virgin(problem);
-      const VectorXd loads = VectorXd::Unit(problem.patterns.size(), joint.pinch(0, k));
+      const VectorXd loads =
+         problem.multipliers({{miniapp::pinch_load(0, options.widths[k]), 1}});
       ASSERT_EQ(solver.solve(state, loads).status, FrictionStatus::converged);
       const Zone contact = contact_zone(problem, state);
       // In units of h: a fifth of the spacing.

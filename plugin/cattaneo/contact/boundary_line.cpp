@@ -214,6 +214,35 @@ LineEnd goes_on(const std::vector<WayOn> &ways, int node, double x, double y, do
    return straightest >= std::cos(turn) ? LineEnd::smooth : LineEnd::corner;
 }
 
+/// Nodes of elements that lie on one another without being joined would bear side by side, and
+/// have two partners each.
+void check_joined(const ContactLine &line, const std::string &where)
+{
+   // In the order along a direction that no mesh has, few are near each other.
+   const Eigen::VectorXd along = line.position * Eigen::Vector2d(0.8191, 0.5736);
+   std::vector<Eigen::Index> order(line.size());
+   std::iota(order.begin(), order.end(), 0);
+   std::sort(order.begin(), order.end(),
+             [&](Eigen::Index a, Eigen::Index b) { return along[a] < along[b]; });
+   const double near = 1e-6;
+   const double farthest = near * line.spacing.maxCoeff();
+   for (std::size_t k = 0; k < order.size(); ++k)
+   {
+      const Eigen::Index i = order[k];
+      for (std::size_t l = k + 1; l < order.size() && along[order[l]] - along[i] <= farthest;
+           ++l)
+      {
+         const Eigen::Index j = order[l];
+         require((line.position.row(i) - line.position.row(j)).norm() >
+                    near * std::min(line.spacing[i], line.spacing[j]),
+                 where, ": two nodes lie on one another at (", line.position(i, 0), ", ",
+                 line.position(i, 1),
+                 "), the elements there are not joined: make them one node (in Gmsh: Coherence "
+                 "Mesh)");
+      }
+   }
+}
+
 } // namespace
 
 ContactLine contact_line(const ElasticBody &body, const BoundaryPart &part)
@@ -432,6 +461,7 @@ ContactLine contact_line(const ElasticBody &body, const BoundaryPart &part)
       line.normal.row(i) << -line.tangent(i, 1), line.tangent(i, 0);
       line.dofs.push_back(node.dofs);
    }
+   check_joined(line, where);
    return line;
 }
 

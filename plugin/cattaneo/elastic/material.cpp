@@ -24,13 +24,13 @@ double Material::plane_modulus() const
 
 void Material::validate() const
 {
-   require(std::isfinite(young) && young > 0, "material: Young's modulus is ", young,
-           ", must be positive and finite");
    const bool strain = state == PlaneState::strain;
    const double limit = strain ? 0.5 : 1.0;
    require(poisson > -1 && poisson < limit, "material: Poisson's ratio is ", poisson,
            ", must be above -1 and below ", limit,
            strain ? " in plane strain" : " in plane stress");
+   require(std::isfinite(young) && young > 0, "material: Young's modulus is ", young,
+           ", must be positive and finite");
 }
 
 } // namespace cattaneo

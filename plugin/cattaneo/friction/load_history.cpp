@@ -4,6 +4,16 @@
 namespace cattaneo
 {
 
+NamedLoads named(const ReducedProblem &problem, const Eigen::VectorXd &multipliers)
+{
+   NamedLoads loads;
+   for (std::size_t k = 0; k < problem.patterns.size(); ++k)
+   {
+      loads[problem.patterns[k].name] = multipliers[k];
+   }
+   return loads;
+}
+
 LoadHistory LoadHistory::through(const std::vector<Eigen::VectorXd> &points)
 {
    require(!points.empty(), "load history: there are no points");

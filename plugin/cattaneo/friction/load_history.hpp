@@ -8,6 +8,10 @@
 namespace cattaneo
 {
 
+/// Load multipliers, given in the order of the patterns, by the names of these: the other way
+/// of ReducedProblem::multipliers().
+NamedLoads named(const ReducedProblem &problem, const Eigen::VectorXd &multipliers);
+
 /** A piecewise-linear history of load multipliers: an opening part, then a cycle that repeats.
 
     The points 0 … cycle_start are marched once, the points cycle_start … last `cycles` times;

@@ -296,13 +296,10 @@ void March::accept(ContactState &&next, int piece, const IncrementReport &increm
    report_.largest_residual =
       std::max({report_.largest_residual, record.residual_normal, record.residual_tangential});
    ++report_.counters.increments;
-   if (increment.status == FrictionStatus::not_unique &&
-       report_.status == FrictionStatus::converged)
+   if (increment.status == FrictionStatus::not_unique && !report_.not_unique)
    {
-      report_.status = increment.status;
-      report_.message = increment.message;
-      report_.event_time = state_.time;
-      report_.event_multipliers = state_.multipliers;
+      report_.not_unique = {state_.time, state_.multipliers, increment.message};
+      stop(increment); // the status, which an end of the march may still replace
    }
    if (observer_) { observer_(state_, record); }
 }

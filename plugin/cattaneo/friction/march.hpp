@@ -5,6 +5,7 @@
 #include <cattaneo/friction/friction_solver.hpp>
 #include <cattaneo/friction/load_history.hpp>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace cattaneo
@@ -70,16 +71,27 @@ struct CycleRecord
    Eigen::VectorXd node_dissipation; ///< size n
 };
 
+/// The first state of a march of which there may be others: from there on its states are one of
+/// several.
+struct NotUnique
+{
+   double time = 0;
+   Eigen::VectorXd multipliers;
+   std::string message; ///< the node and its friction
+};
+
 struct MarchReport
 {
    FrictionStatus status = FrictionStatus::converged;
    std::string message;
    double time = 0; ///< reached
-   /// Where the outcome is not `converged`: time and load multipliers at which it came about
-   /// (the last equilibrium found, by bisection). The state is the last one whose forces are
-   /// known to 1e-9.
+   /// Where the outcome is not `converged`: time and load multipliers at which it came about,
+   /// the last equilibrium found, by bisection. The state is the last one whose forces are
+   /// known to 1e-9. `not_unique` does not end a march: these are then the ones of
+   /// `not_unique`.
    double event_time = 0;
    Eigen::VectorXd event_multipliers;
+   std::optional<NotUnique> not_unique; ///< also where the march ended later for another reason
    std::vector<IncrementRecord> increments;
    std::vector<CycleRecord> cycles;
    /// Stepping::exact: every change of state, in the order of the path. A piece that took one

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/pairing.hpp>
 #include <cmath>
@@ -26,21 +27,24 @@ std::string listed(const ContactLine &line, const std::vector<bool> &matched)
    return count ? text.str() : "none";
 }
 
-} // namespace
-
-Pairing pair_lines(const ContactLine &line1, const ContactLine &line2, double tolerance)
+/// Nodes of line 2 for those of line 1, as far as there are.
+struct Matches
 {
-   require(tolerance > 0 && tolerance < 0.5, "pairing: tolerance is ", tolerance,
-           ", must be above 0 and below 0.5 (edge lengths)");
+   std::vector<int> partner; ///< -1: none
+   std::vector<bool> matched1, matched2;
+   bool complete = false;
+   bool facing = false; ///< somewhere the lines have opposite normals
+   double offset = 0;   ///< the largest along the tangent, in distances of nodes
+};
+
+Matches match(const ContactLine &line1, const ContactLine &line2, double tolerance)
+{
    const Eigen::Index n1 = line1.size(), n2 = line2.size();
-   Pairing pairing;
-   pairing.partner.assign(n1, -1);
-   pairing.gap = Eigen::VectorXd::Zero(n1);
-   std::vector<bool> matched1(n1, false), matched2(n2, false);
-   bool complete = n1 == n2;
+   Matches found{std::vector<int>(n1, -1), std::vector<bool>(n1, false),
+                 std::vector<bool>(n2, false), n1 == n2};
    for (Eigen::Index i = 0; i < n1; ++i)
    {
-      double nearest = std::numeric_limits<double>::infinity();
+      double nearest = std::numeric_limits<double>::infinity(), offset_of_nearest = 0;
       Eigen::Index partner = -1;
       for (Eigen::Index j = 0; j < n2; ++j)
       {
@@ -52,25 +56,93 @@ Pairing pair_lines(const ContactLine &line1, const ContactLine &line2, double to
          const double ty = line1.tangent(i, 1) - line2.tangent(j, 1);
          const double square = tx * tx + ty * ty; // 4 for exactly opposite lines
          const double offset = dx * tx + dy * ty; // times the length of (tx, ty)
-         const double allowed = tolerance * std::min(line1.spacing[i], line2.spacing[j]);
+         const double spacing = std::min(line1.spacing[i], line2.spacing[j]);
+         const double allowed = tolerance * spacing;
+         found.facing = found.facing || square >= 2;
          if (square < 2 || offset * offset > allowed * allowed * square) { continue; }
          nearest = distance;
+         offset_of_nearest = std::abs(offset) / (std::sqrt(square) * spacing);
          partner = j;
       }
-      if (partner < 0 || matched2[partner])
+      if (partner < 0 || found.matched2[partner])
       {
-         complete = false;
+         found.complete = false;
          continue;
       }
-      matched1[i] = matched2[partner] = true;
-      pairing.partner[i] = static_cast<int>(partner);
-      const double gap =
-         (line1.position.row(i) - line2.position.row(partner)).dot(line1.normal.row(i));
+      found.matched1[i] = found.matched2[partner] = true;
+      found.partner[i] = static_cast<int>(partner);
+      found.offset = std::max(found.offset, offset_of_nearest);
+   }
+   return found;
+}
+
+/// The box around a line.
+std::string extent(const ContactLine &line)
+{
+   const Eigen::RowVector2d low = line.position.colwise().minCoeff(),
+                            high = line.position.colwise().maxCoeff();
+   std::ostringstream text;
+   text << "from (" << low[0] << ", " << low[1] << ") to (" << high[0] << ", " << high[1]
+        << ")";
+   return text.str();
+}
+
+/// What would pair the lines, and where they are.
+std::string advice(const ContactLine &line1, const ContactLine &line2)
+{
+   double nearest = std::numeric_limits<double>::infinity();
+   for (Eigen::Index i = 0; i < line1.size(); ++i)
+   {
+      nearest = std::min(
+         nearest,
+         (line2.position.rowwise() - line1.position.row(i)).rowwise().norm().minCoeff());
+   }
+   const Matches loose = match(line1, line2, 0.4999);
+   std::ostringstream text;
+   if (loose.complete)
+   {
+      const double unit = std::pow(10.0, std::floor(std::log10(loose.offset)) - 1);
+      text << "a tolerance of " << std::ceil(loose.offset / unit * (1 + 1e-9)) * unit
+           << " would pair all";
+   }
+   else if (!loose.facing)
+   {
+      text << "the lines do not face each other anywhere (their outward normals must be "
+              "opposite)";
+   }
+   else
+   {
+      text << "no tolerance would pair all: both lines must have the same nodes over the same "
+              "length";
+   }
+   text << "; the nearest nodes are " << nearest << " apart, line 1 reaches " << extent(line1)
+        << ", line 2 " << extent(line2);
+   return text.str();
+}
+
+} // namespace
+
+Pairing pair_lines(const ContactLine &line1, const ContactLine &line2, double tolerance)
+{
+   require(tolerance > 0 && tolerance < 0.5, "pairing: tolerance is ", tolerance,
+           ", must be above 0 and below 0.5 (edge lengths)");
+   const Matches found = match(line1, line2, tolerance);
+   if (!found.complete)
+   {
+      std::ostringstream text;
+      text << "pairing: contact nodes without a partner within " << tolerance
+           << " edge lengths; of body 1 (" << line1.size()
+           << " nodes): " << listed(line1, found.matched1) << "; of body 2 (" << line2.size()
+           << " nodes): " << listed(line2, found.matched2) << "; " << advice(line1, line2);
+      throw InputError(text.str());
+   }
+   Pairing pairing{found.partner, Eigen::VectorXd::Zero(line1.size())};
+   for (Eigen::Index i = 0; i < line1.size(); ++i)
+   {
+      const double gap = (line1.position.row(i) - line2.position.row(found.partner[i]))
+                            .dot(line1.normal.row(i));
       pairing.gap[i] = std::abs(gap) > 1e-9 * line1.spacing[i] ? gap : 0.0;
    }
-   require(complete, "pairing: contact nodes without a partner within ", tolerance,
-           " edge lengths; of body 1 (", n1, " nodes): ", listed(line1, matched1),
-           "; of body 2 (", n2, " nodes): ", listed(line2, matched2));
    return pairing;
 }
 

@@ -16,9 +16,9 @@ struct Pairing
    and is nearest to it across the interface, among those whose offset along the tangent is at
    most `tolerance` times the local edge length (the shorter one of the two lines). The tangent
    is the mean of both bodies', so that the pairing does not depend on which body is called the
-   first. Offsets along the normal are the gap; one of
-    less than 1e-9 edge lengths is round-off of coordinates, and zero. InputError with both
-   lists of unmatched nodes (coordinates) unless every node of both lines has one partner. */
+   first. Offsets along the normal are the gap; one of less than 1e-9 edge lengths is round-off
+   of coordinates, and zero. InputError unless every node of both lines has one partner, with
+   unmatched nodes (coordinates), a tolerance that would do, and where the lines are. */
 Pairing pair_lines(const ContactLine &line1, const ContactLine &line2, double tolerance = 1e-6);
 
 } // namespace cattaneo

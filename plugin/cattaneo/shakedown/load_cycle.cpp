@@ -4,6 +4,18 @@
 namespace cattaneo
 {
 
+LoadCycle LoadCycle::through(const ReducedProblem &problem, const NamedLoads &constant,
+                             const std::vector<NamedLoads> &vertices)
+{
+   LoadCycle cycle{problem.multipliers(constant),
+                   Eigen::MatrixXd(problem.patterns.size(), vertices.size())};
+   for (std::size_t j = 0; j < vertices.size(); ++j)
+   {
+      cycle.varying.col(j) = problem.multipliers(vertices[j]);
+   }
+   return cycle;
+}
+
 Eigen::MatrixXd LoadCycle::multipliers(double load_factor) const
 {
    return (load_factor * varying).colwise() + constant;
@@ -26,11 +38,7 @@ LoadCycle held_and_cycled(const ReducedProblem &problem, const std::string &held
 {
    require(reversal >= -1 && reversal <= 1, "load cycle: reversal R is ", reversal,
            ", must be between -1 and 1");
-   const auto patterns = static_cast<Eigen::Index>(problem.patterns.size());
-   LoadCycle cycle{Eigen::VectorXd::Zero(patterns), Eigen::MatrixXd::Zero(patterns, 2)};
-   cycle.constant[problem.pattern(held)] = load;
-   cycle.varying.row(problem.pattern(cycled)) << 1, reversal;
-   return cycle;
+   return LoadCycle::through(problem, {{held, load}}, {{{cycled, 1}}, {{cycled, reversal}}});
 }
 
 StuckForces stuck_forces(const ReducedProblem &problem, const LoadCycle &cycle)

@@ -15,8 +15,15 @@ namespace cattaneo
    in the loads, so that only the vertices matter to a limit. */
 struct LoadCycle
 {
-   Eigen::VectorXd constant; ///< one entry for each load pattern
+   Eigen::VectorXd constant; ///< one entry for each load pattern, in their order
    Eigen::MatrixXd varying;  ///< patterns × vertices
+
+   /// By names: a constant load, and the varying one at each vertex. through(problem, {{"P",
+   /// 1}},
+   /// {{{"Q", 1}}, {{"Q", -1}}}) holds P and cycles Q to and fro. InputError on an unknown
+   /// name.
+   static LoadCycle through(const ReducedProblem &problem, const NamedLoads &constant,
+                            const std::vector<NamedLoads> &vertices);
 
    Eigen::Index vertices() const { return varying.cols(); }
 

@@ -1,0 +1,120 @@
+// Mistakes that can be made with any miniapp: one sentence that names the option, exit code 1
+// and no file.
+
+#include "study/run_miniapp.hpp"
+
+#include <filesystem>
+
+namespace
+{
+
+using cattaneo_test::run_miniapp;
+namespace fs = std::filesystem;
+
+const char *const programs[] = {"square_punch", "hertz",     "plane_receding",
+                                "shakedown",    "lap_joint", "axisymmetric_receding"};
+
+class Options : public testing::Test
+{
+protected:
+   void SetUp() override
+   {
+      folder = testing::TempDir() + "options";
+      fs::remove_all(folder);
+      fs::create_directories(folder);
+   }
+   void TearDown() override { fs::remove_all(folder); }
+
+   void expect_refused(const std::string &program, const std::string &options,
+                       const std::vector<std::string> &words) const
+   {
+      const auto run = run_miniapp(program, options);
+      const std::string what = program + " " + options + "\n" + run.output;
+      EXPECT_EQ(run.code, 1) << what;
+      EXPECT_TRUE(run.results.is_null()) << what;
+      EXPECT_TRUE(fs::is_empty(folder)) << what;
+      const std::size_t at = run.output.find("error: ");
+      ASSERT_NE(at, std::string::npos) << what;
+      EXPECT_EQ(run.output.find('\n', at), run.output.size() - 1) << what;
+      for (const std::string &word : words)
+      {
+         EXPECT_NE(run.output.find(word, at), std::string::npos) << word << ": " << what;
+      }
+   }
+
+   std::string folder;
+};
+
+TEST_F(Options, NumbersAreNamedWithTheirOption)
+{
+   for (const char *program : programs)
+   {
+      expect_refused(program, "--friction abc", {"option --friction", "'abc'", "not a number"});
+      expect_refused(program, "--friction 0,3", {"option --friction", "'0,3'", "not a number"});
+      expect_refused(program, "--friction nan", {"option --friction", "'nan'"});
+      expect_refused(program, "--friction ''", {"option --friction", "''", "not a number"});
+      expect_refused(program, "--friction -0.5", {"option --friction", "-0.5"});
+      expect_refused(program, "--order 1.5", {"option --order", "'1.5'", "an integer"});
+      expect_refused(program, "--order 99999999999", {"option --order", "too large"});
+      expect_refused(program, "--poisson -2", {"Poisson's ratio", "-2", "above -1"});
+   }
+   expect_refused("fretting", "-P abc", {"option -P", "'abc'", "not a number"});
+   expect_refused("fretting", "-nodes 1.5", {"option -nodes", "'1.5'", "an integer"});
+   // -1 is no longer "as the obstacle has it".
+   expect_refused("square_punch", "--friction -1", {"option --friction", "-1"});
+}
+
+TEST_F(Options, EveryOptionHasAValue)
+{
+   for (const char *program : programs)
+   {
+      expect_refused(program, "--save --order 2", {"option --save has no value"});
+      expect_refused(program, "--friction --order 2", {"option --friction has no value"});
+   }
+   expect_refused("fretting", "--plot -P 3", {"option --plot has no value"});
+}
+
+TEST_F(Options, FilesAreCheckedBeforeTheWork)
+{
+   const std::string none = "'" + folder + "/none/x";
+   for (const char *program : programs)
+   {
+      expect_refused(program, "--save " + none + "'", {"option --save", "no folder"});
+      expect_refused(program, "--plot " + none + ".png'", {"option --plot", "no folder"});
+      expect_refused(program, "--save '" + folder + "'",
+                     {"option --save", "a folder of that name"});
+      if (program != std::string("shakedown"))
+      {
+         expect_refused(program, "--csv " + none + "'", {"option --csv", "no folder"});
+         expect_refused(program, "--plot '" + folder + "/x.xyz'", {"option --plot", ".png"});
+      }
+   }
+   expect_refused("fretting", "--plot " + none + "'", {"option --plot", "no folder"});
+   expect_refused("fretting", "--plot meshes/README.md", {"option --plot", "must be a folder"});
+   expect_refused("fretting", "--young 210000", {"option --young", "210000", "GPa, not MPa"});
+   expect_refused("fretting", "--threshold -1", {"option --threshold", "-1", "positive"});
+   expect_refused("lap_joint", "--paraview " + none + "'", {"option --paraview", "no folder"});
+   const std::string save = " --save '" + testing::TempDir();
+   expect_refused("hertz", save + "hertz.json'", {"--json", "--save", "name another"});
+}
+
+TEST_F(Options, ListsAndChoicesSayWhatIsAllowed)
+{
+   expect_refused("lap_joint", "--bolts '0 0'", {"option --bolts", "two bolts at 0"});
+   expect_refused("lap_joint", "--bolts ''", {"option --bolts"});
+   expect_refused("lap_joint", "--remote -1", {"option --remote is -1"});
+   expect_refused("lap_joint", "--sweep-load 0.01 --sweep-friction -1",
+                  {"option --sweep-friction", "-1"});
+   expect_refused("lap_joint", "--sweep-width 0", {"--sweep-width", "0", "positive"});
+   expect_refused("plane_receding", "--length 1", {"--overhang", "4", "length 1"});
+   expect_refused("plane_receding", "--length -1", {"--length", "-1"});
+   expect_refused("plane_receding", "--unload 0.5 --slip 99", {"--slip", "99", "on the strip"});
+   expect_refused("plane_receding", "--map 4 --map-friction ''", {"--map-friction"});
+   expect_refused("plane_receding", "--map 4 --map-friction -1", {"--map-friction", "-1"});
+   expect_refused("shakedown", "--lambda-max 0.2 --lambda-min 0.5",
+                  {"--lambda-min", "0.5", "0.2"});
+   expect_refused("shakedown", "--reversal 2", {"--reversal", "2", "-1 and 1"});
+   expect_refused("shakedown", "--held Q", {"--held", "--cycled", "'Q'"});
+}
+
+} // namespace
