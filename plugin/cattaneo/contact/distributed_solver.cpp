@@ -89,7 +89,11 @@ DistributedSolver::DistributedSolver(const ElasticBody &body, const std::vector<
    my.preconditioner->SetPrintLevel(0);
    // The unknown-based approach: safe in the plane and about an axis, where rotation is no null
    // vector.
-   if (body.components() > 1) { my.preconditioner->SetSystemsOptions(body.components()); }
+   if (body.components() > 1)
+   {
+      my.preconditioner->SetSystemsOptions(body.components(), body.space().GetOrdering() ==
+                                                                 mfem::Ordering::byNODES);
+   }
    // Half-planes are rings of elements that are needles far away: only strong couplings must
    // count, and no level be skipped (docs/ranks.md: 16 iterations instead of 123).
    my.preconditioner->SetStrengthThresh(0.7);

@@ -102,27 +102,18 @@ private:
    }
 };
 
-const mfem::IntegrationRule &rule(const mfem::FiniteElement &element,
-                                  const mfem::IsoparametricTransformation &transformation,
-                                  Formulation formulation)
-{
-   if (formulation != Formulation::plane)
-   {
-      return rule_of_revolution(element, transformation, formulation);
-   }
-   return mfem::IntRules.Get(element.GetGeomType(), 2 * transformation.OrderGrad(&element));
-}
-
 /// Element matrices, nodes × nodes a block: block[c][d] is of component c of the row's node and
 /// d of the column's.
 class Elements
 {
 public:
-   MatrixXd block[2][2];
+   std::array<std::array<MatrixXd, 2>, 2> block;
 
-   Elements(const mfem::FiniteElementSpace &space, const std::vector<Material> &materials,
-            Formulation formulation)
-      : space_(space), mesh_(*space.GetMesh()), materials_(materials), formulation_(formulation)
+   /// A material for each attribute, or one that varies.
+   Elements(const mfem::FiniteElementSpace &space, const std::vector<Material> *materials,
+            const VaryingMaterial *varying, Formulation formulation)
+      : space_(space), mesh_(*space.GetMesh()), materials_(materials), varying_(varying),
+        formulation_(formulation)
    {
    }
 
@@ -134,21 +125,68 @@ public:
       if (!kept)
       {
          kept = std::make_unique<ReferenceElement>(
-            element, *transformation_.GetFE(), rule(element, transformation_, formulation_));
+            element, *transformation_.GetFE(),
+            stiffness_rule(element, transformation_, formulation_, varying_ != nullptr));
       }
       const ReferenceElement &reference = *kept;
       const mfem::DenseMatrix &points = transformation_.GetPointMat();
       const Eigen::Map<const MatrixXd> corners(points.Data(), 2, points.Width());
       by_xi_.noalias() = corners * reference.place_by_xi;
       by_eta_.noalias() = corners * reference.place_by_eta;
-      const Material &material = materials_[mesh_.GetAttribute(e) - 1];
-      const double lambda = material.lambda(), mu = material.mu();
+      if (varying_)
+      {
+         vary(element, reference, corners);
+         return;
+      }
+      const Material &material = (*materials_)[mesh_.GetAttribute(e) - 1];
       if (formulation_ == Formulation::plane && affine(corners))
       {
          integrate_affine(reference);
       }
-      else { integrate(reference, corners); }
+      else { integrate(reference, corners, reference.weight); }
+      combine(material.lambda(), material.mu());
+   }
 
+private:
+   const mfem::FiniteElementSpace &space_;
+   mfem::Mesh &mesh_;
+   const std::vector<Material> *materials_;
+   const VaryingMaterial *varying_;
+   const Formulation formulation_;
+   std::array<std::unique_ptr<ReferenceElement>, mfem::Geometry::NUM_GEOMETRIES> references_;
+   mfem::IsoparametricTransformation transformation_;
+   MatrixXd by_xi_, by_eta_; // of x and y (rows) at the points (columns)
+   MatrixXd gx_, gy_, h_;    // ∂φ/∂x, ∂φ/∂y and φ/r
+   MatrixXd weighted_;
+   MatrixXd xx_, xy_, yy_, xh_, hy_, hh_; // integrals of their products, first by second
+
+   /// The blocks are linear in λ and μ: those of the integrals with λ, and with μ.
+   void vary(const mfem::FiniteElement &element, const ReferenceElement &reference,
+             const Eigen::Map<const MatrixXd> &corners)
+   {
+      const mfem::IntegrationRule &points =
+         stiffness_rule(element, transformation_, formulation_, true);
+      VectorXd with_lambda = reference.weight, with_mu = reference.weight;
+      for (int k = 0; k < points.GetNPoints(); ++k)
+      {
+         transformation_.SetIntPoint(&points.IntPoint(k));
+         const Material material = varying_->at(transformation_);
+         with_lambda[k] *= material.lambda();
+         with_mu[k] *= material.mu();
+      }
+      integrate(reference, corners, with_lambda);
+      combine(1, 0);
+      const auto first = block;
+      integrate(reference, corners, with_mu);
+      combine(0, 1);
+      for (int c : {0, 1})
+      {
+         for (int d : {0, 1}) { block[c][d] += first[c][d]; }
+      }
+   }
+
+   void combine(double lambda, double mu)
+   {
       if (formulation_ == Formulation::torsion)
       {
          block[0][0] = mu * (xx_ + yy_);
@@ -167,18 +205,6 @@ public:
       mirror(block[1][1]);
       block[1][0] = block[0][1].transpose();
    }
-
-private:
-   const mfem::FiniteElementSpace &space_;
-   mfem::Mesh &mesh_;
-   const std::vector<Material> &materials_;
-   const Formulation formulation_;
-   std::array<std::unique_ptr<ReferenceElement>, mfem::Geometry::NUM_GEOMETRIES> references_;
-   mfem::IsoparametricTransformation transformation_;
-   MatrixXd by_xi_, by_eta_; // of x and y (rows) at the points (columns)
-   MatrixXd gx_, gy_, h_;    // ∂φ/∂x, ∂φ/∂y and φ/r
-   MatrixXd weighted_;
-   MatrixXd xx_, xy_, yy_, xh_, hy_, hh_; // integrals of their products, first by second
 
    /// To the last bit, whatever the order of the sums.
    static void mirror(MatrixXd &symmetric)
@@ -219,7 +245,9 @@ private:
             (a * c / area) * eta;
    }
 
-   void integrate(const ReferenceElement &reference, const Eigen::Map<const MatrixXd> &corners)
+   /// `weights`: of the points, before they are mapped.
+   void integrate(const ReferenceElement &reference, const Eigen::Map<const MatrixXd> &corners,
+                  const VectorXd &weights)
    {
       const Eigen::Index points = reference.weight.size();
       gx_.resizeLike(reference.by_xi);
@@ -238,7 +266,7 @@ private:
             (d / area) * reference.by_xi.col(k) - (c / area) * reference.by_eta.col(k);
          gy_.col(k) =
             (a / area) * reference.by_eta.col(k) - (b / area) * reference.by_xi.col(k);
-         weight[k] = reference.weight[k] * area;
+         weight[k] = weights[k] * area;
          if (formulation_ == Formulation::plane) { continue; }
          const double r = radius[k], arm = lever(formulation_, r);
          weight[k] *= measure(formulation_, r) * arm * arm;
@@ -262,11 +290,8 @@ private:
    }
 };
 
-} // namespace
-
-std::unique_ptr<mfem::SparseMatrix> assemble_stiffness(const mfem::FiniteElementSpace &space,
-                                                       const std::vector<Material> &materials,
-                                                       Formulation formulation)
+std::unique_ptr<mfem::SparseMatrix> assembled(const mfem::FiniteElementSpace &space,
+                                              Elements elements, Formulation formulation)
 {
    const NodeGraph graph(space);
    const int nodes = space.GetNDofs(), components = cattaneo::components(formulation);
@@ -293,7 +318,6 @@ std::unique_ptr<mfem::SparseMatrix> assemble_stiffness(const mfem::FiniteElement
    }
    auto K = std::make_unique<mfem::SparseMatrix>(I, J, data, size, size, true, true, true);
 
-   Elements elements(space, materials, formulation);
    mfem::Array<int> dofs;
    for (int e = 0; e < space.GetNE(); ++e)
    {
@@ -316,6 +340,35 @@ std::unique_ptr<mfem::SparseMatrix> assemble_stiffness(const mfem::FiniteElement
       }
    }
    return K;
+}
+
+} // namespace
+
+const mfem::IntegrationRule &
+stiffness_rule(const mfem::FiniteElement &element,
+               const mfem::IsoparametricTransformation &transformation, Formulation formulation,
+               bool varying_material)
+{
+   const mfem::IntegrationRule &rule =
+      formulation != Formulation::plane
+         ? rule_of_revolution(element, transformation, formulation)
+         : mfem::IntRules.Get(element.GetGeomType(), 2 * transformation.OrderGrad(&element));
+   if (!varying_material) { return rule; }
+   return mfem::IntRules.Get(element.GetGeomType(), rule.GetOrder() + 4);
+}
+
+std::unique_ptr<mfem::SparseMatrix> assemble_stiffness(const mfem::FiniteElementSpace &space,
+                                                       const std::vector<Material> &materials,
+                                                       Formulation formulation)
+{
+   return assembled(space, {space, &materials, nullptr, formulation}, formulation);
+}
+
+std::unique_ptr<mfem::SparseMatrix> assemble_stiffness(const mfem::FiniteElementSpace &space,
+                                                       const VaryingMaterial &material,
+                                                       Formulation formulation)
+{
+   return assembled(space, {space, nullptr, &material, formulation}, formulation);
 }
 
 } // namespace cattaneo

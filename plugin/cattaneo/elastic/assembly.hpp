@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cattaneo/elastic/material.hpp>
+#include <cattaneo/elastic/varying_material.hpp>
 #include <cattaneo/formulation.hpp>
 #include <memory>
 #include <mfem.hpp>
@@ -22,5 +22,18 @@ namespace cattaneo
 std::unique_ptr<mfem::SparseMatrix> assemble_stiffness(const mfem::FiniteElementSpace &space,
                                                        const std::vector<Material> &materials,
                                                        Formulation formulation);
+
+/// The same of a material that varies within the elements: more points are taken, which is
+/// exact for Lamé coefficients of degree 4 on affine elements.
+std::unique_ptr<mfem::SparseMatrix> assemble_stiffness(const mfem::FiniteElementSpace &space,
+                                                       const VaryingMaterial &material,
+                                                       Formulation formulation);
+
+/// Where the stiffness of an element is integrated. Forces of initial strains taken at the same
+/// points let a body expand without stress, on curved elements too.
+const mfem::IntegrationRule &
+stiffness_rule(const mfem::FiniteElement &element,
+               const mfem::IsoparametricTransformation &transformation, Formulation formulation,
+               bool varying_material);
 
 } // namespace cattaneo

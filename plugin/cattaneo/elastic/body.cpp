@@ -32,12 +32,25 @@ int checked_order(int order)
    return order;
 }
 
-double value_at(const ScalarField &field, double x, double y, const std::string &where)
+/// InputError if an entry is not finite.
+double largest_entry(const mfem::SparseMatrix &K)
 {
-   const double value = field(x, y);
-   require(std::isfinite(value), where, ": the value at (", x, ", ", y, ") is ", value,
-           ", must be finite");
-   return value;
+   double largest = 0.0;
+   for (int k = 0; k < K.NumNonZeroElems(); ++k)
+   {
+      const double entry = K.GetData()[k];
+      require(std::isfinite(entry), "elastic body: entry ", k, " of the stiffness is ", entry,
+              ", must be finite");
+      largest = std::max(largest, std::abs(entry));
+   }
+   return largest;
+}
+
+void check_symmetric(double largest, double skew)
+{
+   require(skew <= 1e-10 * largest,
+           "elastic body: the stiffness is not symmetric: largest |K - Kᵀ| is ", skew,
+           ", at most ", 1e-10 * largest, " is allowed");
 }
 
 const char *name(Control control)
@@ -76,6 +89,26 @@ ElasticBody::ElasticBody(mfem::Mesh &mesh, int order, const std::vector<Material
               "elastic body: element attribute ", attribute, " has no material, there are ",
               materials_.size(), " (for the attributes from 1)");
    }
+   make_space(mesh, order);
+   assemble();
+}
+
+ElasticBody::ElasticBody(mfem::Mesh &mesh, int order, Field young, Field poisson,
+                         Formulation formulation, PlaneState state)
+   : formulation_(formulation),
+     varying_(VaryingMaterial{std::move(young), std::move(poisson), state})
+{
+   checked(mesh);
+   checked_order(order);
+   ranks_ = Ranks(mesh);
+   require(formulation == Formulation::plane || state == PlaneState::strain,
+           "elastic body: the material is in plane stress, which a body of revolution is not");
+   make_space(mesh, order);
+   assemble();
+}
+
+void ElasticBody::make_space(mfem::Mesh &mesh, int order)
+{
    owned_collection_ = std::make_unique<mfem::H1_FECollection>(order, 2);
 #ifdef MFEM_USE_MPI
    if (ranks_.distributed())
@@ -92,17 +125,11 @@ ElasticBody::ElasticBody(mfem::Mesh &mesh, int order, const std::vector<Material
    }
    space_ = owned_space_.get();
    adopt_space();
-   assemble();
 }
 
-ElasticBody::ElasticBody(mfem::FiniteElementSpace &space, const mfem::SparseMatrix &stiffness,
-                         Formulation formulation)
-   : space_(&space), formulation_(formulation)
+void ElasticBody::check_space() const
 {
-   checked(*space.GetMesh());
-   require(
-      Ranks(*space.GetMesh()).size() == 1,
-      "elastic body: the mesh is distributed, an operator of one's own must be on one rank");
+   const mfem::FiniteElementSpace &space = *space_;
    require(space.GetVDim() == components(), "elastic body: the space has ", space.GetVDim(),
            " components, must have ", components());
    const auto *collection = dynamic_cast<const mfem::H1_FECollection *>(space.FEColl());
@@ -115,26 +142,58 @@ ElasticBody::ElasticBody(mfem::FiniteElementSpace &space, const mfem::SparseMatr
       ", must be Gauss-Lobatto: contact forces need nodal values and positive edge weights");
    require(!space.IsVariableOrder(),
            "elastic body: the order of the space varies from element to element, must be one");
+}
+
+ElasticBody::ElasticBody(mfem::FiniteElementSpace &space, const mfem::SparseMatrix &stiffness,
+                         Formulation formulation)
+   : space_(&space), formulation_(formulation)
+{
+   checked(*space.GetMesh());
+   require(Ranks(*space.GetMesh()).size() == 1,
+           "elastic body: the mesh is distributed, an operator of one's own on it must be a "
+           "HypreParMatrix");
+   check_space();
    require(stiffness.Finalized(), "elastic body: the stiffness is not finalized");
    const int size = space.GetTrueVSize();
    require(stiffness.Height() == size && stiffness.Width() == size,
            "elastic body: the stiffness is ", stiffness.Height(), "×", stiffness.Width(),
            ", must be ", size, "×", size, " (true dofs of the space)");
-   double largest = 0.0;
-   for (int k = 0; k < stiffness.NumNonZeroElems(); ++k)
-   {
-      const double entry = stiffness.GetData()[k];
-      require(std::isfinite(entry), "elastic body: entry ", k, " of the stiffness is ", entry,
-              ", must be finite");
-      largest = std::max(largest, std::abs(entry));
-   }
-   const double skew = stiffness.IsSymmetric();
-   require(skew <= 1e-10 * largest,
-           "elastic body: the stiffness is not symmetric: largest |K - Kᵀ| is ", skew,
-           ", at most ", 1e-10 * largest, " is allowed");
+   check_symmetric(largest_entry(stiffness), stiffness.IsSymmetric());
    stiffness_ = std::make_shared<mfem::SparseMatrix>(stiffness);
    adopt_space();
 }
+
+#ifdef MFEM_USE_MPI
+
+ElasticBody::ElasticBody(mfem::ParFiniteElementSpace &space,
+                         const mfem::HypreParMatrix &stiffness, Formulation formulation)
+   : space_(&space), formulation_(formulation)
+{
+   checked(*space.GetMesh());
+   ranks_ = Ranks(*space.GetMesh());
+   check_space();
+   const int size = space.GetTrueVSize();
+   const bool fits = stiffness.Height() == size && stiffness.Width() == size;
+   require(!ranks_.any(!fits), "elastic body: the stiffness on this rank is ",
+           stiffness.Height(), "×", stiffness.Width(), ", must be ", size, "×", size,
+           " (true dofs of the space), and so on all others");
+   const auto largest = [this](const mfem::HypreParMatrix &K)
+   {
+      mfem::SparseMatrix own, others;
+      HYPRE_BigInt *columns = nullptr;
+      K.GetDiag(own);
+      K.GetOffd(others, columns);
+      return ranks_.max(std::max(largest_entry(own), largest_entry(others)));
+   };
+   const std::unique_ptr<mfem::HypreParMatrix> transposed(stiffness.Transpose());
+   const std::unique_ptr<mfem::HypreParMatrix> difference(
+      mfem::Add(1.0, stiffness, -1.0, *transposed));
+   check_symmetric(largest(stiffness), largest(*difference));
+   distributed_ = std::make_shared<mfem::HypreParMatrix>(stiffness);
+   adopt_space();
+}
+
+#endif
 
 void ElasticBody::adopt_space()
 {
@@ -235,7 +294,8 @@ void ElasticBody::check_component(const std::string &where, int component) const
 void ElasticBody::assemble()
 {
    std::unique_ptr<mfem::SparseMatrix> local =
-      assemble_stiffness(*space_, materials_, formulation_);
+      varying_ ? assemble_stiffness(*space_, *varying_, formulation_)
+               : assemble_stiffness(*space_, materials_, formulation_);
    ++counters_.assemblies;
 #ifdef MFEM_USE_MPI
    if (ranks_.distributed())
@@ -328,6 +388,16 @@ void ElasticBody::fix_node(double x, double y, int component)
    }
 }
 
+void ElasticBody::fix(const mfem::Array<int> &true_dofs)
+{
+   const int size = space_->GetTrueVSize();
+   for (int dof : true_dofs)
+   {
+      require(dof >= 0 && dof < size, "fix: true dof ", dof, ", must be from 0 to ", size - 1);
+   }
+   for (int dof : true_dofs) { essential_[dof] = true; }
+}
+
 BodyLoad &ElasticBody::load(const std::string &name_, Control control)
 {
    for (BodyLoad &pattern : patterns_)
@@ -354,7 +424,28 @@ void ElasticBody::add_to_pattern(const std::string &name_, const mfem::Vector &l
       forces.SetSize(P->Width());
       P->MultTranspose(local_forces, forces);
    }
-   load(name_, Control::force).values += view(forces);
+   add_forces(name_, forces);
+}
+
+void ElasticBody::add_forces(const std::string &pattern, const mfem::Vector &forces)
+{
+   const int size = space_->GetTrueVSize();
+   require(forces.Size() == size, "forces '", pattern, "': ", forces.Size(),
+           " are given, must be ", size, " (true dofs of the space)");
+   for (int dof = 0; dof < size; ++dof)
+   {
+      require(std::isfinite(forces(dof)), "forces '", pattern, "': that of true dof ", dof,
+              " is ", forces(dof), ", must be finite");
+   }
+   load(pattern, Control::force).values += view(forces);
+}
+
+void ElasticBody::add_forces(const std::string &pattern, const mfem::LinearForm &form)
+{
+   require(form.FESpace() == space_, "forces '", pattern,
+           "': the linear form is on a space of ", form.Size(),
+           " dofs that is not the body's, must be on ElasticBody::space()");
+   add_to_pattern(pattern, form);
 }
 
 template <class Density>
@@ -402,36 +493,37 @@ void ElasticBody::add_boundary_load(const std::string &pattern, const BoundaryPa
 }
 
 void ElasticBody::add_pressure(const std::string &pattern, const BoundaryPart &part,
-                               const ScalarField &p)
+                               const Field &p)
 {
    check_component("pressure '" + pattern + "'", 1);
    add_boundary_load(pattern, part, "pressure",
                      [&p](BoundaryEdge &edge, double s, const std::string &where)
                      {
-                        const auto x = edge.point(s), d = edge.derivative(s);
+                        const auto d = edge.derivative(s);
                         // Left of the direction with the body on the left, of length ds.
                         const double value =
-                           (edge.body_on_left() ? 1.0 : -1.0) * value_at(p, x[0], x[1], where);
+                           (edge.body_on_left() ? 1.0 : -1.0) * p.at(edge.at(s), where);
                         return std::array<double, 2>{-d[1] * value, d[0] * value};
                      });
 }
 
 void ElasticBody::add_traction(const std::string &pattern, const BoundaryPart &part,
-                               const ScalarField &tx, const ScalarField &ty)
+                               const Field &tx, const Field &ty)
 {
    check_component("traction '" + pattern + "'", 1);
-   add_boundary_load(pattern, part, "traction",
-                     [&tx, &ty](BoundaryEdge &edge, double s, const std::string &where)
-                     {
-                        const auto x = edge.point(s), d = edge.derivative(s);
-                        const double ds = std::hypot(d[0], d[1]);
-                        return std::array<double, 2>{ds * value_at(tx, x[0], x[1], where),
-                                                     ds * value_at(ty, x[0], x[1], where)};
-                     });
+   add_boundary_load(
+      pattern, part, "traction",
+      [&tx, &ty](BoundaryEdge &edge, double s, const std::string &where)
+      {
+         const auto d = edge.derivative(s);
+         const double ds = std::hypot(d[0], d[1]);
+         mfem::ElementTransformation &place = edge.at(s);
+         return std::array<double, 2>{ds * tx.at(place, where), ds * ty.at(place, where)};
+      });
 }
 
 void ElasticBody::add_traction(const std::string &pattern, const BoundaryPart &part,
-                               const ScalarField &t)
+                               const Field &t)
 {
    require(formulation_ == Formulation::torsion, "traction '", pattern,
            "': one component is given, must be two unless the body is one of torsion");
@@ -441,19 +533,25 @@ void ElasticBody::add_traction(const std::string &pattern, const BoundaryPart &p
                         const auto x = edge.point(s), d = edge.derivative(s);
                         return std::array<double, 2>{std::hypot(d[0], d[1]) *
                                                         lever(Formulation::torsion, x[0]) *
-                                                        value_at(t, x[0], x[1], where),
+                                                        t.at(edge.at(s), where),
                                                      0.0};
                      });
 }
 
-void ElasticBody::add_body_force(const std::string &pattern, const ScalarField &bx,
-                                 const ScalarField &by)
+/// What the virtual displacement φ of component c meets at a point: force[c] φ + flux[c] · ∇φ.
+struct ElasticBody::PointLoad
 {
-   const std::string where = "body force '" + pattern + "'";
-   check_component(where, 1);
+   double force[2], flux[2][2];
+};
+
+template <class Density>
+void ElasticBody::add_volume_load(const std::string &pattern, bool at_points_of_stiffness,
+                                  Density density)
+{
    load(pattern, Control::force);
    mfem::Mesh &mesh = *space_->GetMesh();
    mfem::Vector forces(space_->GetVSize()), shape, x(2);
+   mfem::DenseMatrix gradient;
    forces = 0.0;
    mfem::Array<int> dofs;
    mfem::IsoparametricTransformation transformation;
@@ -461,30 +559,146 @@ void ElasticBody::add_body_force(const std::string &pattern, const ScalarField &
    {
       const mfem::FiniteElement &element = *space_->GetFE(e);
       shape.SetSize(element.GetDof());
+      gradient.SetSize(element.GetDof(), 2);
       space_->GetElementDofs(e, dofs);
       mesh.GetElementTransformation(e, &transformation);
-      const mfem::IntegrationRule &rule = mfem::IntRules.Get(
-         element.GetGeomType(), 2 * element.GetOrder() + transformation.OrderW() + 2);
+      const mfem::IntegrationRule &rule =
+         at_points_of_stiffness
+            ? stiffness_rule(element, transformation, formulation_, varying_.has_value())
+            : mfem::IntRules.Get(element.GetGeomType(),
+                                 2 * element.GetOrder() + transformation.OrderW() + 2);
       for (int k = 0; k < rule.GetNPoints(); ++k)
       {
          const mfem::IntegrationPoint &ip = rule.IntPoint(k);
          transformation.SetIntPoint(&ip);
          transformation.Transform(ip, x);
          element.CalcShape(ip, shape);
+         element.CalcPhysDShape(transformation, gradient);
          const double weight =
             ip.weight * transformation.Weight() * measure(formulation_, x(0));
-         const double force[2] = {weight * value_at(bx, x(0), x(1), where),
-                                  weight * value_at(by, x(0), x(1), where)};
+         const PointLoad here = density(transformation, x(0));
          for (int a = 0; a < dofs.Size(); ++a)
          {
             for (int c = 0; c < 2; ++c)
             {
-               forces(space_->DofToVDof(dofs[a], c)) += shape(a) * force[c];
+               forces(space_->DofToVDof(dofs[a], c)) +=
+                  weight * (here.force[c] * shape(a) + here.flux[c][0] * gradient(a, 0) +
+                            here.flux[c][1] * gradient(a, 1));
             }
          }
       }
    }
    add_to_pattern(pattern, forces);
+}
+
+void ElasticBody::add_body_force(const std::string &pattern, const Field &bx, const Field &by)
+{
+   const std::string where = "body force '" + pattern + "'";
+   check_component(where, 1);
+   add_volume_load(pattern, false,
+                   [&](mfem::ElementTransformation &place, double) -> PointLoad {
+                      return {{bx.at(place, where), by.at(place, where)}, {}};
+                   });
+}
+
+void ElasticBody::add_initial_strain(const std::string &pattern, const Field &strain)
+{
+   const std::string where = "initial strain '" + pattern + "'";
+   add_strain_field(pattern,
+                    [strain, where](mfem::ElementTransformation &place)
+                    {
+                       const double e = strain.at(place, where);
+                       return Strain{e, e, e, 0};
+                    });
+}
+
+void ElasticBody::add_initial_strain(const std::string &pattern,
+                                     mfem::MatrixCoefficient &strain)
+{
+   const std::string where = "initial strain '" + pattern + "'";
+   require(strain.GetHeight() == 3 && strain.GetWidth() == 3, where, ": the matrix is ",
+           strain.GetHeight(), "×", strain.GetWidth(), ", must be 3×3");
+   add_strain_field(
+      pattern,
+      [&strain, where](mfem::ElementTransformation &place)
+      {
+         mfem::DenseMatrix e(3);
+         strain.Eval(e, place, place.GetIntPoint());
+         const bool sound = e(0, 1) == e(1, 0) && e(0, 2) == 0 && e(2, 0) == 0 &&
+                            e(1, 2) == 0 && e(2, 1) == 0 && std::isfinite(e.FNorm());
+         mfem::Vector x(2);
+         if (!sound) { place.Transform(place.GetIntPoint(), x); }
+         require(sound, where, ": the matrix at (", x(0), ", ", x(1),
+                 ") must be finite, symmetric and without shear out of the plane");
+         return Strain{e(0, 0), e(1, 1), e(2, 2), 2 * e(0, 1)};
+      });
+}
+
+void ElasticBody::add_strain_field(const std::string &pattern, StrainField strain)
+{
+   require(
+      has_material() && components() == 2, "initial strain '", pattern, "': the body ",
+      has_material() ? "twists" : "has an operator of one's own",
+      ", it must be plane or axisymmetric and have a material (add_forces takes the forces "
+      "of a strain, set_stress its stresses)");
+   add_volume_load(pattern, true,
+                   [&](mfem::ElementTransformation &place, double r) -> PointLoad
+                   {
+                      const Stress s = stress(material(place), strain(place));
+                      const double hoop =
+                         formulation_ == Formulation::axisymmetric ? s.zz / r : 0.0;
+                      return {{hoop, 0}, {{s.xx, s.xy}, {s.xy, s.yy}}};
+                   });
+   initial_strains_.push_back({pattern, std::move(strain)});
+}
+
+Strain ElasticBody::initial_strain(mfem::ElementTransformation &at,
+                                   const NamedLoads &loads) const
+{
+   Strain sum;
+   for (const InitialStrain &one : initial_strains_)
+   {
+      const auto load = loads.find(one.pattern);
+      require(load != loads.end(), "stress: the multiplier of the initial strain '",
+              one.pattern, "' is not given, it must be ({{\"", one.pattern, "\", 1}})");
+      const Strain e = one.at(at);
+      sum.xx += load->second * e.xx;
+      sum.yy += load->second * e.yy;
+      sum.zz += load->second * e.zz;
+      sum.xy += load->second * e.xy;
+   }
+   return sum;
+}
+
+void ElasticBody::set_stress(StressLaw law)
+{
+   require(components() == 2,
+           "set stress: the body is one of torsion, must be plane or axisymmetric");
+   stress_law_ = std::move(law);
+}
+
+void ElasticBody::prescribe(const std::string &pattern, int node, int component, double value)
+{
+   const std::string where = "displacement '" + pattern + "'";
+   Eigen::VectorXd &values = load(pattern, Control::displacement).values;
+   std::size_t k = 0;
+   while (patterns_[k].name != pattern) { ++k; }
+   const int dof = true_dof(node, component);
+   if (dof < 0) { return; }
+   const double x = coordinates_(0, node), y = coordinates_(1, node);
+   require(std::isfinite(value), where, ": the value at (", x, ", ", y, ") is ", value,
+           ", must be finite");
+   require(value == 0 || formulation_ != Formulation::axisymmetric || component != 0 ||
+              !on_axis(node),
+           where, ": component r at (", x, ", ", y, ") is to be ", value,
+           ", must be zero on the axis");
+   const double other = values(dof);
+   require(!prescribed_[k][dof] ||
+              std::abs(value - other) <= 1e-9 * (std::abs(value) + std::abs(other)),
+           where, ": component ", component, " at (", x, ", ", y, ") is to be ", value,
+           " but was already prescribed as ", other, " by the same pattern");
+   values(dof) = value;
+   prescribed_[k][dof] = essential_[dof] = true;
 }
 
 void ElasticBody::add_displacement(const std::string &pattern, const BoundaryPart &part,
@@ -493,26 +707,27 @@ void ElasticBody::add_displacement(const std::string &pattern, const BoundaryPar
    const std::string where = "displacement '" + pattern + "'";
    check_component(where, component);
    const std::vector<int> nodes = nodes_on(part, where);
-   Eigen::VectorXd &values = load(pattern, Control::displacement).values;
-   std::size_t k = 0;
-   while (patterns_[k].name != pattern) { ++k; }
+   load(pattern, Control::displacement);
    for (int node : nodes)
    {
-      const int dof = true_dof(node, component);
-      if (dof < 0) { continue; }
-      const double x = coordinates_(0, node), y = coordinates_(1, node);
-      const double value = value_at(u, x, y, where);
-      require(value == 0 || formulation_ != Formulation::axisymmetric || component != 0 ||
-                 !on_axis(node),
-              where, ": component r at (", x, ", ", y, ") is to be ", value,
-              ", must be zero on the axis");
-      const double other = values(dof);
-      require(!prescribed_[k][dof] ||
-                 std::abs(value - other) <= 1e-9 * (std::abs(value) + std::abs(other)),
-              where, ": component ", component, " at (", x, ", ", y, ") is to be ", value,
-              " but was already prescribed as ", other, " by the same pattern");
-      values(dof) = value;
-      prescribed_[k][dof] = essential_[dof] = true;
+      prescribe(pattern, node, component, u(coordinates_(0, node), coordinates_(1, node)));
+   }
+}
+
+void ElasticBody::add_displacement(const std::string &pattern, const BoundaryPart &part,
+                                   const mfem::GridFunction &u)
+{
+   const std::string where = "displacement '" + pattern + "'";
+   require(u.FESpace() == space_, where, ": the grid function is on a space of ", u.Size(),
+           " dofs that is not the body's, must be on ElasticBody::space()");
+   const std::vector<int> nodes = nodes_on(part, where);
+   load(pattern, Control::displacement);
+   for (int node : nodes)
+   {
+      for (int c = 0; c < components(); ++c)
+      {
+         prescribe(pattern, node, c, u(space_->DofToVDof(node, c)));
+      }
    }
 }
 
@@ -535,10 +750,16 @@ const Material &ElasticBody::material(int attribute) const
 {
    require(has_material(),
            "elastic body: its operator was given as a matrix, it has no material");
+   require(!varying_, "elastic body: its material varies, ask for that of a point");
    require(attribute >= 1 && attribute <= static_cast<int>(materials_.size()),
            "elastic body: there is no material for element attribute ", attribute,
            ", there are those from 1 to ", materials_.size());
    return materials_[attribute - 1];
+}
+
+Material ElasticBody::material(mfem::ElementTransformation &at) const
+{
+   return varying_ ? varying_->at(at) : material(at.Attribute);
 }
 
 int ElasticBody::true_dof(int scalar_dof, int component) const

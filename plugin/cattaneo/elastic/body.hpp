@@ -4,16 +4,26 @@
 #include <cattaneo/condense/assembled_body.hpp>
 #include <cattaneo/counters.hpp>
 #include <cattaneo/elastic/boundary_part.hpp>
-#include <cattaneo/elastic/material.hpp>
 #include <cattaneo/elastic/ranks.hpp>
+#include <cattaneo/elastic/stress.hpp>
+#include <cattaneo/elastic/varying_material.hpp>
 #include <cattaneo/formulation.hpp>
+#include <cattaneo/scalar_field.hpp>
+#include <functional>
 #include <memory>
 #include <mfem.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace cattaneo
 {
+
+/// A user's stress at a point of a body (the transformation's) that moves by `displacement`
+/// under these load multipliers, by the names of the patterns.
+using StressLaw =
+   std::function<Stress(const mfem::GridFunction &displacement, mfem::ElementTransformation &at,
+                        const NamedLoads &loads)>;
 
 /** One elastic body: its stiffness on the true dofs of an H1 space, its supports and its load
     patterns. Knows nothing of contact.
@@ -46,11 +56,23 @@ public:
    ElasticBody(mfem::Mesh &mesh, int order, const std::vector<Material> &materials,
                Formulation formulation = Formulation::plane);
 
+   /// Young's modulus and Poisson's ratio that vary: numbers, functions of (x, y) or
+   /// coefficients of MFEM, which must outlive the body. Ranges as Material has them
+   /// (InputError that names the point).
+   ElasticBody(mfem::Mesh &mesh, int order, Field young, Field poisson,
+               Formulation formulation = Formulation::plane,
+               PlaneState state = PlaneState::strain);
+
    /// The user's own symmetric operator on the true dofs of an H1 space of 2 components, in
    /// torsion 1 (orthotropic, user integrators, …). Copies the matrix; the space must outlive
    /// the body.
    ElasticBody(mfem::FiniteElementSpace &space, const mfem::SparseMatrix &stiffness,
                Formulation formulation = Formulation::plane);
+#ifdef MFEM_USE_MPI
+   /// The same on several ranks, nothing eliminated from it either.
+   ElasticBody(mfem::ParFiniteElementSpace &space, const mfem::HypreParMatrix &stiffness,
+               Formulation formulation = Formulation::plane);
+#endif
 
    ElasticBody(ElasticBody &&) = default;
    ElasticBody &operator=(ElasticBody &&) = default;
@@ -59,34 +81,74 @@ public:
    void fix(const BoundaryPart &part, int component);
    /// No displacement of this component at the node of the space nearest to (x, y).
    void fix_node(double x, double y, int component);
+   /// No displacement at these true dofs of the space (of this rank), as
+   /// mfem::FiniteElementSpace::GetEssentialTrueDofs lists them. InputError for a number that
+   /// is none.
+   void fix(const mfem::Array<int> &true_dofs);
+
+   /// Forces on the true dofs of the space (of this rank), in axisymmetry on the whole
+   /// circumference, in torsion torques: whatever the other functions do not say. InputError if
+   /// the size is another or a force is not finite.
+   void add_forces(const std::string &pattern, const mfem::Vector &forces);
+   /// Those of an assembled linear form on the body's own space.
+   void add_forces(const std::string &pattern, const mfem::LinearForm &form);
+   /** An isotropic strain that the material takes without stress, such as α ΔT: the pattern
+       gets the forces ∫ σ₀ : ε(v), σ₀ = D ε₀, at the points where the stiffness is integrated,
+      and stresses are D (ε - λ ε₀), λ the pattern's multiplier. In plane strain and axisymmetry
+      it is a strain in all three directions. Asked again by stress_at: a coefficient must
+      outlive the body. InputError for a user's operator and for torsion. */
+   void add_initial_strain(const std::string &pattern, const Field &strain);
+   /// The same of any symmetric 3 × 3 tensor, in the order x, y and out of the plane (r, z and
+   /// θ in axisymmetry); without shear out of the plane (InputError).
+   void add_initial_strain(const std::string &pattern, mfem::MatrixCoefficient &strain);
 
    /// Pressure on a boundary part (positive pushes into the body), force per area.
-   void add_pressure(const std::string &pattern, const BoundaryPart &part,
-                     const ScalarField &p);
+   void add_pressure(const std::string &pattern, const BoundaryPart &part, const Field &p);
    /// Traction (t_x, t_y) on a boundary part, force per area.
-   void add_traction(const std::string &pattern, const BoundaryPart &part,
-                     const ScalarField &tx, const ScalarField &ty);
+   void add_traction(const std::string &pattern, const BoundaryPart &part, const Field &tx,
+                     const Field &ty);
    /// Circumferential traction t_θ on a boundary part of a torsion body, force per area.
-   void add_traction(const std::string &pattern, const BoundaryPart &part,
-                     const ScalarField &t);
+   void add_traction(const std::string &pattern, const BoundaryPart &part, const Field &t);
    /// Body force (b_x, b_y), force per volume.
-   void add_body_force(const std::string &pattern, const ScalarField &bx,
-                       const ScalarField &by);
+   void add_body_force(const std::string &pattern, const Field &bx, const Field &by);
    /// Prescribed displacement of one component on the nodes of a boundary part. A pattern is
    /// either force- or displacement-controlled (InputError if mixed); a node's displacement may
    /// be prescribed by several patterns (they add) and need not be fixed as well. Within one
    /// pattern parts may share nodes, on which they must agree (InputError otherwise).
    void add_displacement(const std::string &pattern, const BoundaryPart &part, int component,
                          const ScalarField &u);
+   /// The same of all components, as a grid function on the body's own space has them
+   /// (mfem::GridFunction::ProjectCoefficient, ProjectBdrCoefficient, …).
+   void add_displacement(const std::string &pattern, const BoundaryPart &part,
+                         const mfem::GridFunction &u);
 
-   Formulation formulation() const { return formulation_; }
-   int components() const { return cattaneo::components(formulation_); }
-   mfem::FiniteElementSpace &space() const { return *space_; }
-   const Ranks &ranks() const { return ranks_; }
+   /// How stress_at and the output of fields find stresses, of a user's operator above all. Not
+   /// of torsion (InputError).
+   void set_stress(StressLaw law);
+
+   Formulation formulation() const
+   {
+      return formulation_;
+   }
+   int components() const
+   {
+      return cattaneo::components(formulation_);
+   }
+   mfem::FiniteElementSpace &space() const
+   {
+      return *space_;
+   }
+   const Ranks &ranks() const
+   {
+      return ranks_;
+   }
    /// True dofs of all ranks.
    int dofs() const;
    /// Of a body that is not distributed.
-   const mfem::SparseMatrix &stiffness() const { return *stiffness_; }
+   const mfem::SparseMatrix &stiffness() const
+   {
+      return *stiffness_;
+   }
    /// The same matrix, to be kept beyond the life of the body (never changed).
    SharedMatrix shared_stiffness() const;
 #ifdef MFEM_USE_MPI
@@ -103,12 +165,27 @@ public:
    }
    /// Sorted true dofs that are fixed or prescribed by a displacement pattern.
    mfem::Array<int> essential_dofs() const;
-   /// Material of an element attribute; InputError for a user's operator.
+   /// Material of an element attribute; InputError for a user's operator and for one that
+   /// varies.
    const Material &material(int attribute) const;
+   /// At the point that is set in an element's transformation.
+   Material material(mfem::ElementTransformation &at) const;
    bool has_material() const
    {
-      return !materials_.empty();
+      return varying_ || !materials_.empty();
    }
+   /// Set by set_stress(), or empty.
+   const StressLaw &stress_law() const
+   {
+      return stress_law_;
+   }
+   bool has_stress() const
+   {
+      return has_material() || stress_law_;
+   }
+   /// Of all patterns that have one, at the point that is set; InputError if one of these is
+   /// not among the loads.
+   Strain initial_strain(mfem::ElementTransformation &at, const NamedLoads &loads) const;
 
    /// True dof of component c of the scalar node (local dof) of the space, -1 if it hangs on
    /// others (nonconforming meshes) or belongs to another rank.
@@ -134,12 +211,21 @@ public:
    }
 
 private:
+   void make_space(mfem::Mesh &mesh, int order);
+   void check_space() const;
    void adopt_space();
    void assemble();
    void hold_axis();
    void check_component(const std::string &where, int component) const;
    BodyLoad &load(const std::string &name, Control control);
    void add_to_pattern(const std::string &name, const mfem::Vector &local_forces);
+   using StrainField = std::function<Strain(mfem::ElementTransformation &)>;
+   struct PointLoad;
+   template <class Density>
+   void add_volume_load(const std::string &pattern, bool at_points_of_stiffness,
+                        Density density);
+   void add_strain_field(const std::string &pattern, StrainField strain);
+   void prescribe(const std::string &pattern, int node, int component, double value);
    template <class Density>
    void add_boundary_load(const std::string &pattern, const BoundaryPart &part,
                           const char *what, Density density);
@@ -157,6 +243,14 @@ private:
    std::shared_ptr<const mfem::HypreParMatrix> distributed_;
 #endif
    std::vector<Material> materials_;
+   std::optional<VaryingMaterial> varying_;
+   StressLaw stress_law_;
+   struct InitialStrain
+   {
+      std::string pattern;
+      StrainField at;
+   };
+   std::vector<InitialStrain> initial_strains_;
    std::vector<BodyLoad> patterns_;
    std::vector<std::vector<bool>>
       prescribed_;               ///< by pattern and true dof (empty: force control)

@@ -44,6 +44,13 @@ std::array<double, 2> BoundaryEdge::point(double s)
    return {position_(0), position_(1)};
 }
 
+mfem::ElementTransformation &BoundaryEdge::at(double s)
+{
+   point_.Set1w(s, 0.0);
+   transformation_.SetIntPoint(&point_);
+   return transformation_;
+}
+
 std::array<double, 2> BoundaryEdge::derivative(double s)
 {
    mfem::IntegrationPoint ip;

@@ -18,6 +18,8 @@ public:
    BoundaryEdge(mfem::Mesh &mesh, int boundary_element);
 
    std::array<double, 2> point(double s);
+   /// With the point set, for what is evaluated there.
+   mfem::ElementTransformation &at(double s);
    /// dx/ds; its length is the Jacobian of the curve.
    std::array<double, 2> derivative(double s);
    /// Unit tangent with the body on the left.
@@ -38,6 +40,7 @@ public:
 
 private:
    mfem::IsoparametricTransformation transformation_;
+   mfem::IntegrationPoint point_;
    mfem::Vector position_;
    bool body_on_left_ = true;
    double size_ = 0.0;

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <cattaneo/scalar_field.hpp>
+#include <cattaneo/input_error.hpp>
 #include <limits>
+#include <mfem.hpp>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,20 @@ struct BoundaryPart
 
    BoundaryPart(int attribute) : attributes{attribute} {}
    BoundaryPart(std::vector<int> some) : attributes(std::move(some)) {}
+   /// MFEM's marker: for each boundary attribute, from 1, whether it belongs to the part (1) or
+   /// not (0).
+   BoundaryPart(const mfem::Array<int> &marker)
+   {
+      for (int k = 0; k < marker.Size(); ++k)
+      {
+         require(marker[k] == 0 || marker[k] == 1, "boundary marker: entry ", k, " of ",
+                 marker.Size(), " is ", marker[k],
+                 ", must be 0 or 1 (a list of attributes is a std::vector<int>)");
+         if (marker[k] == 1) { attributes.push_back(k + 1); }
+      }
+      require(!attributes.empty(), "boundary marker: none of its ", marker.Size(),
+              " entries is 1, at least one must be");
+   }
    BoundaryPart(std::vector<int> some, int axis_, double lo_, double hi_)
       : attributes(std::move(some)), axis(axis_), lo(lo_), hi(hi_)
    {

@@ -5,23 +5,25 @@ namespace cattaneo
 {
 
 Stress stress_at(const ElasticBody &body, const mfem::GridFunction &displacement,
-                 mfem::ElementTransformation &transformation)
+                 mfem::ElementTransformation &transformation, const NamedLoads &loads)
 {
-   const Material &material = body.material(transformation.Attribute);
+   if (body.stress_law()) { return body.stress_law()(displacement, transformation, loads); }
+   const Material material = body.material(transformation);
    mfem::DenseMatrix gradient;
    displacement.GetVectorGradient(transformation, gradient);
-   const double shear_angle = gradient(0, 1) + gradient(1, 0);
-   if (body.formulation() == Formulation::plane)
+   Strain strain{gradient(0, 0), gradient(1, 1), 0, gradient(0, 1) + gradient(1, 0)};
+   if (body.formulation() == Formulation::axisymmetric)
    {
-      return stress(material, gradient(0, 0), gradient(1, 1), shear_angle);
+      mfem::Vector x(2), u(2);
+      transformation.Transform(transformation.GetIntPoint(), x);
+      displacement.GetVectorValue(transformation, transformation.GetIntPoint(), u);
+      // Round-off of u_r over a tiny radius would be no strain.
+      const double size = std::sqrt(std::abs(transformation.Weight()));
+      strain.zz = x(0) > 1e-9 * size ? u(0) / x(0) : gradient(0, 0);
    }
-   mfem::Vector x(2), u(2);
-   transformation.Transform(transformation.GetIntPoint(), x);
-   displacement.GetVectorValue(transformation, transformation.GetIntPoint(), u);
-   // Round-off of u_r over a tiny radius would be no strain.
-   const double size = std::sqrt(std::abs(transformation.Weight()));
-   const double hoop = x(0) > 1e-9 * size ? u(0) / x(0) : gradient(0, 0);
-   return stress(material, gradient(0, 0), gradient(1, 1), hoop, shear_angle);
+   const Strain free = body.initial_strain(transformation, loads);
+   return stress(material, Strain{strain.xx - free.xx, strain.yy - free.yy, strain.zz - free.zz,
+                                  strain.xy - free.xy});
 }
 
 TorsionStress torsion_stress_at(const ElasticBody &body, const mfem::GridFunction &twist,
@@ -30,8 +32,7 @@ TorsionStress torsion_stress_at(const ElasticBody &body, const mfem::GridFunctio
    mfem::Vector x(2), gradient(2);
    transformation.Transform(transformation.GetIntPoint(), x);
    twist.GetGradient(transformation, gradient);
-   return torsion_stress(body.material(transformation.Attribute), x(0), gradient(0),
-                         gradient(1));
+   return torsion_stress(body.material(transformation), x(0), gradient(0), gradient(1));
 }
 
 } // namespace cattaneo

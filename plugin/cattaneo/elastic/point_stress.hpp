@@ -7,9 +7,10 @@ namespace cattaneo
 {
 
 /// Stress at a point of a body, not one of torsion, from its displacement: `transformation` of
-/// the point's element with the point set. On the axis ε_θθ is its limit ε_rr.
+/// the point's element with the point set. On the axis ε_θθ is its limit ε_rr. `loads`: the
+/// multipliers, of those patterns at least that are initial strains (InputError otherwise).
 Stress stress_at(const ElasticBody &body, const mfem::GridFunction &displacement,
-                 mfem::ElementTransformation &transformation);
+                 mfem::ElementTransformation &transformation, const NamedLoads &loads = {});
 
 /// The same of a torsion body, from its twist.
 TorsionStress torsion_stress_at(const ElasticBody &body, const mfem::GridFunction &twist,

@@ -30,6 +30,13 @@ Stress stress(const Material &material, double strain_rr, double strain_zz, doub
            spherical + 2 * mu * strain_hoop, mu * shear_angle};
 }
 
+Stress stress(const Material &material, const Strain &strain)
+{
+   return material.state == PlaneState::stress
+             ? stress(material, strain.xx, strain.yy, strain.xy)
+             : stress(material, strain.xx, strain.yy, strain.zz, strain.xy);
+}
+
 TorsionStress torsion_stress(const Material &material, double r, double dtwist_dr,
                              double dtwist_dz)
 {

@@ -17,6 +17,17 @@ struct Stress
    double von_mises() const;
 };
 
+/// Strains at a point: along x, y and out of the plane (r, z and θ in axisymmetry), and the
+/// shear angle γ_xy = 2 ε_xy.
+struct Strain
+{
+   double xx = 0, yy = 0, zz = 0, xy = 0;
+};
+
+/// Stress of an isotropic material that is kept from straining freely; zz is not asked for in
+/// plane stress.
+Stress stress(const Material &material, const Strain &strain);
+
 /// Stress of an isotropic material for the strains ε_xx, ε_yy and the shear angle γ_xy = 2
 /// ε_xy.
 Stress stress(const Material &material, double strain_xx, double strain_yy, double shear_angle);

@@ -49,7 +49,7 @@ BodyFields::BodyFields(const ElasticBody &body, const std::string &directory,
    mfem::FiniteElementSpace &space = body.space();
    const int order = space.GetMaxElementOrder();
    fields_[unknown(body.formulation())] = std::make_unique<mfem::GridFunction>(&space);
-   if (body.has_material())
+   if (body.has_stress())
    {
       collection_ =
          std::make_unique<mfem::L2_FECollection>(order, 2, mfem::BasisType::GaussLobatto);
@@ -70,12 +70,13 @@ BodyFields::BodyFields(const ElasticBody &body, const std::string &directory,
    }
 }
 
-void BodyFields::write(const Eigen::VectorXd &displacement, double time)
+void BodyFields::write(const Eigen::VectorXd &displacement, double time,
+                       const NamedLoads &loads)
 {
-   write(to_mfem(displacement), time);
+   write(to_mfem(displacement), time, loads);
 }
 
-void BodyFields::write(const mfem::Vector &displacement, double time)
+void BodyFields::write(const mfem::Vector &displacement, double time, const NamedLoads &loads)
 {
    require(displacement.Size() == body_.space().GetTrueVSize(),
            "ParaView output: ", displacement.Size(), " displacements, the body has ",
@@ -86,7 +87,7 @@ void BodyFields::write(const mfem::Vector &displacement, double time)
       P->Mult(displacement, field);
    }
    else { field = displacement; }
-   if (stress_space_) { evaluate_stress(); }
+   if (stress_space_) { evaluate_stress(loads); }
    make_folder(directory_);
    series_.SetCycle(series_.GetCycle() + 1);
    series_.SetTime(time);
@@ -97,7 +98,7 @@ void BodyFields::write(const mfem::Vector &displacement, double time)
 
 /// The nodes of the stress elements are points of the body's elements: the stress is
 /// interpolated there, exactly where it is a polynomial of the elements' order.
-void BodyFields::evaluate_stress()
+void BodyFields::evaluate_stress(const NamedLoads &loads)
 {
    const mfem::GridFunction &u = *fields_.at(unknown(body_.formulation()));
    mfem::Mesh &mesh = *stress_space_->GetMesh();
@@ -124,7 +125,7 @@ void BodyFields::evaluate_stress()
          }
          else
          {
-            const Stress s = stress_at(body_, u, transformation);
+            const Stress s = stress_at(body_, u, transformation, loads);
             values = {s.xx, s.yy, s.zz, s.xy, s.von_mises()};
          }
          for (std::size_t c = 0; c < component.size(); ++c)

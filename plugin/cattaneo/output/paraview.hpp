@@ -15,7 +15,7 @@ namespace cattaneo
    (tension positive) and "von_mises" on discontinuous elements of the body's own order, from
    each element's own material. Axisymmetric: "sigma_rr", "sigma_zz", "sigma_tt" (hoop) and
    "tau_rz"; a torsion body has "twist", "tau_rt" and "tau_tz" instead. A body with a user's
-   operator has no material: displacement only.
+   operator has stresses if it was told them (ElasticBody::set_stress), else displacement only.
 
     The body must outlive this. Nothing is computed or written before write(). */
 class BodyFields
@@ -24,16 +24,16 @@ public:
    BodyFields(const ElasticBody &body, const std::string &directory, const std::string &name);
 
    /// Writes one more time of the series. `displacement`: all true dofs, as
-   /// Reduction::displacement gives them. InputError if the size is wrong or the folder cannot
-   /// be written.
-   void write(const mfem::Vector &displacement, double time);
-   void write(const Eigen::VectorXd &displacement, double time);
+   /// Reduction::displacement gives them; `loads`: as stress_at() asks for them. InputError if
+   /// the size is wrong, an initial strain has no multiplier or the folder cannot be written.
+   void write(const mfem::Vector &displacement, double time, const NamedLoads &loads = {});
+   void write(const Eigen::VectorXd &displacement, double time, const NamedLoads &loads = {});
 
    /// A field as last written; InputError with the list of names if there is none of that name.
    const mfem::GridFunction &field(const std::string &name) const;
 
 private:
-   void evaluate_stress();
+   void evaluate_stress(const NamedLoads &loads);
 
    const ElasticBody &body_;
    std::string directory_;

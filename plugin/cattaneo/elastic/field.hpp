@@ -1,0 +1,45 @@
+#pragma once
+
+#include <functional>
+#include <mfem.hpp>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+namespace cattaneo
+{
+
+/// A value that may vary over a body: a number, a function of (x, y), or an mfem::Coefficient,
+/// which must live as long as it may be asked.
+class Field
+{
+public:
+   Field(double constant) : f_([constant](mfem::ElementTransformation &) { return constant; })
+   {
+   }
+   Field(mfem::Coefficient &coefficient)
+      : f_([&coefficient](mfem::ElementTransformation &at)
+           { return coefficient.Eval(at, at.GetIntPoint()); })
+   {
+   }
+   template <class F,
+             class = std::enable_if_t<std::is_invocable_r_v<double, F, double, double>>>
+   Field(F f)
+      : f_(
+           [f = std::move(f)](mfem::ElementTransformation &at)
+           {
+              mfem::Vector x(2);
+              at.Transform(at.GetIntPoint(), x);
+              return f(x(0), x(1));
+           })
+   {
+   }
+   /// At the point that is set in the transformation of an element or a boundary element.
+   /// InputError, starting with `where`, if it is not finite.
+   double at(mfem::ElementTransformation &place, const std::string &where) const;
+
+private:
+   std::function<double(mfem::ElementTransformation &)> f_;
+};
+
+} // namespace cattaneo
