@@ -233,9 +233,9 @@ TEST(Condensation, RefusesWhatNothingHolds)
    EXPECT_EQ(condense(body, one).counters.factorisations, 1);
 
    ElasticBody fixed(mesh, 1, Material{});
-   fixed.fix(4, 0); // takes the corner node of the bottom with it
+   fixed.add_displacement("side", 4, 0, 1.0); // takes the corner node of the bottom with it
    expect_input_error([&] { condense(fixed, contact_line(fixed, 1)); },
-                      "is fixed or prescribed");
+                      "is displaced by load pattern 'side'");
 
    ElasticBody other(mesh, 2, Material{});
    expect_input_error(

@@ -173,19 +173,25 @@ CondensedBody condense(const AssembledBody &body, const ContactLine &line,
 {
    body.validate();
    const Formulation formulation = body.places.formulation;
-   const std::vector<int> contact = contact_dofs(line, formulation, body.K.size());
-   std::vector<int> fixed;
-   for (std::size_t a = 0; a < contact.size(); ++a)
+   ContactDofs contact = contact_dofs(line, formulation, body.K.size());
+   for (std::size_t a = 0; a < contact.all.size(); ++a)
    {
-      if (std::binary_search(body.fixed.begin(), body.fixed.end(), contact[a]))
+      if (!std::binary_search(body.fixed.begin(), body.fixed.end(), contact.all[a]))
       {
-         fixed.push_back(static_cast<int>(a));
+         continue;
+      }
+      contact.held.push_back(static_cast<int>(a));
+      for (const BodyLoad &load : body.loads)
+      {
+         if (load.control == Control::displacement && load.values[contact.all[a]] != 0)
+         {
+            require_unmoved(line, formulation, load.name, {static_cast<int>(a)});
+         }
       }
    }
-   require_free(line, formulation, fixed);
    return in_local_frames(
-      line, formulation, body.loads,
-      condense_by_factor(body, contact, backend, alike ? alike->solver.get() : nullptr));
+      line, formulation, body.loads, contact,
+      condense_by_factor(body, contact.free(), backend, alike ? alike->solver.get() : nullptr));
 }
 
 } // namespace cattaneo

@@ -3,6 +3,8 @@
 #include <cattaneo/condense/condensed_body.hpp>
 #include <cattaneo/condense/local_frame.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cmath>
+#include <numeric>
 
 namespace cattaneo
 {
@@ -40,9 +42,85 @@ Eigen::MatrixXd load_by_load(const std::vector<BodyLoad> &loads, const ClampedLo
    return H;
 }
 
+/// Positions that are not held, of so many.
+std::vector<int> others(const std::vector<int> &held, Eigen::Index count)
+{
+   std::vector<int> all(count), rest;
+   std::iota(all.begin(), all.end(), 0);
+   std::set_difference(all.begin(), all.end(), held.begin(), held.end(),
+                       std::back_inserter(rest));
+   return rest;
+}
+
+/// Puts rows at their positions among so many, and zeros elsewhere.
+void spread(Eigen::MatrixXd &M, const std::vector<int> &positions, Eigen::Index rows)
+{
+   const Eigen::MatrixXd dense = std::move(M);
+   M = Eigen::MatrixXd::Zero(rows, dense.cols());
+   M(positions, Eigen::all) = dense;
+}
+
+/// Turns the frames of nodes of which one component is held along it, and returns the rows in
+/// the frames that are held. A chain that ends at a node that cannot slide ends at a plane of
+/// symmetry.
+std::vector<int> align(ContactLine &line, Formulation formulation, const std::vector<int> &held)
+{
+   if (formulation == Formulation::torsion) { return held; }
+   const auto n = static_cast<int>(line.size());
+   const double degrees = 180 / std::acos(-1.0);
+   std::vector<int> rows;
+   for (int position : held)
+   {
+      const int i = position % n, c = position / n;
+      const bool both = std::binary_search(held.begin(), held.end(), (1 - c) * n + i);
+      if (both)
+      {
+         rows.push_back(position);
+         continue;
+      }
+      const double along = line.tangent(i, c), across = line.normal(i, c);
+      const bool tangential = std::abs(along) >= std::abs(across);
+      const double turn = degrees * std::asin(std::min(std::abs(along), std::abs(across)));
+      require(turn <= LineChain::smooth_turn, "condense: component ",
+              component_name(formulation, c), " of the contact node at (", line.position(i, 0),
+              ", ", line.position(i, 1), ") is fixed, and the line meets it at ",
+              tangential ? turn : 90 - turn, " degrees, must be 0 or 90, to ",
+              LineChain::smooth_turn);
+      line.tangent.row(i).setZero();
+      // The normal is the tangent turned to the left.
+      line.tangent(i, tangential ? c : 1 - c) = std::copysign(1.0, tangential ? along
+                                                                   : c == 0   ? -across
+                                                                              : across);
+      line.normal.row(i) << -line.tangent(i, 1), line.tangent(i, 0);
+      rows.push_back(tangential ? i : n + i);
+      for (LineChain &chain : line.chains)
+      {
+         if (!tangential || chain.loop) { continue; }
+         if (i == chain.first) { chain.ends[0] = LineEnd::axis; }
+         if (i == chain.first + chain.nodes - 1) { chain.ends[1] = LineEnd::axis; }
+      }
+   }
+   std::sort(rows.begin(), rows.end());
+   return rows;
+}
+
 } // namespace
 
-std::vector<int> contact_dofs(const ContactLine &line, Formulation formulation, int dofs)
+std::vector<int> ContactDofs::free_positions() const
+{
+   return others(held, static_cast<Eigen::Index>(all.size()));
+}
+
+std::vector<int> ContactDofs::free() const
+{
+   std::vector<int> dofs;
+   for (int position : free_positions()) { dofs.push_back(all[position]); }
+   require(!dofs.empty(), "condense: all components of all ", all.size(),
+           " contact dofs are fixed, one at least must be free");
+   return dofs;
+}
+
+ContactDofs contact_dofs(const ContactLine &line, Formulation formulation, int dofs)
 {
    const auto n = line.size();
    require(n > 0 && line.dofs.size() == static_cast<std::size_t>(n),
@@ -59,25 +137,38 @@ std::vector<int> contact_dofs(const ContactLine &line, Formulation formulation, 
          contact[c * n + i] = dof;
       }
    }
-   return contact;
+   return {contact, {}};
 }
 
-void require_free(const ContactLine &line, Formulation formulation,
-                  const std::vector<int> &fixed)
+void require_unmoved(const ContactLine &line, Formulation formulation,
+                     const std::string &pattern, const std::vector<int> &moved)
 {
-   if (fixed.empty()) { return; }
+   if (moved.empty()) { return; }
    const auto n = line.size();
-   const Eigen::Index a = *std::min_element(fixed.begin(), fixed.end()), i = a % n;
+   const Eigen::Index a = *std::min_element(moved.begin(), moved.end()), i = a % n;
    require(false, "condense: component ", component_name(formulation, static_cast<int>(a / n)),
            " of the contact node at (", line.position(i, 0), ", ", line.position(i, 1),
-           ") is fixed or prescribed, contact nodes must be free");
+           ") is displaced by load pattern '", pattern,
+           "', contact nodes must be free or fixed");
 }
 
 CondensedBody in_local_frames(const ContactLine &line, Formulation formulation,
-                              const std::vector<BodyLoad> &loads, Condensation found)
+                              const std::vector<BodyLoad> &loads, const ContactDofs &contact,
+                              Condensation found)
 {
    CondensedBody result;
    result.line = line;
+   if (!contact.held.empty())
+   {
+      result.held = align(result.line, formulation, contact.held);
+      const std::vector<int> free = contact.free_positions();
+      const auto rows = static_cast<Eigen::Index>(contact.all.size());
+      spread(found.S, free, rows);
+      found.S.transposeInPlace();
+      spread(found.S, free, rows);
+      spread(found.free.contact, free, rows);
+      spread(found.clamped.forces, free, rows);
+   }
    result.formulation = formulation;
    result.counters = found.counters;
    result.solver = std::move(found.solver);
@@ -86,7 +177,7 @@ CondensedBody in_local_frames(const ContactLine &line, Formulation formulation,
    const Equilibrium equilibrium(found.free);
    equilibrium.impose_on_stiffness(found.S);
    equilibrium.impose_on_forces(found.clamped.forces);
-   const FrameChange frames = FrameChange::of(line, formulation);
+   const FrameChange frames = FrameChange::of(result.line, formulation);
    result.S = frames.both(found.S);
    // Displacements change with the frames as forces do, but for those of torsion, r times the
    // twist.
@@ -116,8 +207,24 @@ Eigen::VectorXd CondensedBody::recover(const Eigen::VectorXd &u,
    require(u.allFinite() && multipliers.allFinite(),
            "recover: a contact displacement or a load multiplier is not finite");
    ++counters.field_recoveries;
-   return solver->recover(FrameChange::of(line, formulation).transposed().rows(u), multipliers,
-                          counters);
+   const Eigen::VectorXd contact = FrameChange::of(line, formulation).transposed().rows(u);
+   return solver->recover(contact(free_positions()), multipliers, counters);
+}
+
+std::vector<int> CondensedBody::free_positions() const
+{
+   const auto n = static_cast<int>(line.size());
+   std::vector<int> positions;
+   for (int row : held)
+   {
+      const int i = row % n;
+      const Eigen::MatrixXd &axis = row < n ? line.tangent : line.normal;
+      const bool both = std::binary_search(held.begin(), held.end(), row < n ? row + n : i);
+      const int c = formulation == Formulation::torsion || both ? row / n : axis(i, 0) == 0;
+      positions.push_back(c * n + i);
+   }
+   std::sort(positions.begin(), positions.end());
+   return others(positions, S.rows());
 }
 
 double CondensedBody::error_estimate()
@@ -133,7 +240,8 @@ double CondensedBody::error_estimate()
       motions = line.position.col(0).cwiseInverse().asDiagonal() * motions;
       motions.col(0).normalize();
    }
-   return solver->error(back.both(S), motions, counters);
+   const std::vector<int> free = free_positions();
+   return solver->error(back.both(S)(free, free), motions(free, Eigen::all), counters);
 }
 
 Eigen::MatrixXd CondensedBody::rigid_motions() const

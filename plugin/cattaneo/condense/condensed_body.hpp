@@ -36,7 +36,11 @@ class CondensedBody
 public:
    ContactLine line;
    Formulation formulation = Formulation::plane;
-   Eigen::MatrixXd S;                 ///< 2n × 2n (torsion: n × n), symmetric
+   /// 2n × 2n (torsion: n × n), symmetric; zero in the rows and columns that are held.
+   Eigen::MatrixXd S;
+   /// Rows of S of components that supports hold, increasing. At a node of which one component
+   /// is held the frame of the line lies along it.
+   std::vector<int> held;
    std::vector<LoadPattern> patterns; ///< f_k, by name (torsion: p is empty)
    Eigen::MatrixXd H; ///< loads by loads with the contact clamped (see ReducedProblem::H)
    int rigid_modes =
@@ -48,7 +52,7 @@ public:
 
    /// Displacement of all dofs (of this rank's, if the body is on several) for contact
    /// displacements {v; w} of *this body* and load multipliers (order of `patterns`). One solve
-   /// with the kept factor.
+   /// with the kept factor. Displacements of held components are not asked for.
    Eigen::VectorXd recover(const Eigen::VectorXd &u, const Eigen::VectorXd &multipliers);
 
    /** Relative error of S, an estimate from above by energies, see stiffness_error(); of a body
@@ -63,7 +67,11 @@ public:
    /// about the origin), axisymmetric 2n × 1 (z), torsion n × 1 (rotation).
    Eigen::MatrixXd rigid_motions() const;
 
-   std::shared_ptr<const BodySolver> solver; ///< shared by copies
+   std::shared_ptr<const BodySolver> solver; ///< shared by copies, of the free components
+
+private:
+   /// Positions in {x; y} of all nodes of the components that are free.
+   std::vector<int> free_positions() const;
 };
 
 /// What load patterns do to a body whose contact nodes are clamped, in global components.
@@ -76,7 +84,7 @@ struct ClampedLoads
    Eigen::MatrixXd reaction;
 };
 
-/// What a solver finds of a body, in global components.
+/// What a solver finds of a body, in global components, of contact dofs that are free.
 struct Condensation
 {
    Eigen::MatrixXd S;
@@ -86,17 +94,31 @@ struct Condensation
    std::shared_ptr<const BodySolver> solver;
 };
 
-/// The same in the frames of the contact line, freed of what round-off makes of rigid motions.
-/// Of `loads` names and controls alone are asked for.
-CondensedBody in_local_frames(const ContactLine &line, Formulation formulation,
-                              const std::vector<BodyLoad> &loads, Condensation found);
+/// Dofs of a contact line, {x; y} of all its nodes (torsion: the twist), and which of them
+/// supports hold: no part of the body's trace.
+struct ContactDofs
+{
+   std::vector<int> all;
+   std::vector<int> held; ///< positions in `all`, increasing
 
-/// Dofs of a contact line, {x; y} of all its nodes (torsion: the twist). InputError if there
-/// are none, or if they are not from 0 to dofs - 1.
-std::vector<int> contact_dofs(const ContactLine &line, Formulation formulation, int dofs);
-/// InputError that names the node, if positions in contact_dofs() are given of dofs that are
-/// fixed.
-void require_free(const ContactLine &line, Formulation formulation,
-                  const std::vector<int> &fixed);
+   std::vector<int> free() const;
+   std::vector<int> free_positions() const;
+};
+
+/// Of a line whose body has so many dofs; InputError if there are none, or if they are not from
+/// 0 to dofs - 1.
+ContactDofs contact_dofs(const ContactLine &line, Formulation formulation, int dofs);
+
+/// InputError that names the node and the pattern if a load displaces a contact dof: `moved`
+/// are positions of those.
+void require_unmoved(const ContactLine &line, Formulation formulation,
+                     const std::string &pattern, const std::vector<int> &moved);
+
+/// The same in the frames of the contact line, freed of what round-off makes of rigid motions.
+/// Of `loads` names and controls alone are asked for. InputError if one component of a node is
+/// held and the line meets it at neither 0 nor 90 degrees, to LineChain::smooth_turn.
+CondensedBody in_local_frames(const ContactLine &line, Formulation formulation,
+                              const std::vector<BodyLoad> &loads, const ContactDofs &contact,
+                              Condensation found);
 
 } // namespace cattaneo

@@ -16,9 +16,12 @@ AppliedProblem distributed(const ElasticBody &body, const ContactLine &line,
                            const ScalarField &gap, const CondenseSettings &settings,
                            Counters *counters)
 {
-   const std::vector<int> contact = free_contact_dofs(body, line);
+   const ContactDofs contact = contact_dofs(body, line);
+   require(contact.held.empty(), "apply reduction: ", contact.held.size(),
+           " components of contact nodes are fixed, none may be of a stiffness that is not "
+           "formed (CondenseSettings::formed_nodes)");
    const auto solver =
-      std::make_shared<const DistributedSolver>(body, contact, settings.max_iterations);
+      std::make_shared<const DistributedSolver>(body, contact.all, settings.max_iterations);
    const Equilibrium equilibrium(free_motions_by_places(body, line));
    const FrameChange frames = FrameChange::of(line, body.formulation());
    Counters own;

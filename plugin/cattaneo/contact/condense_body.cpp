@@ -115,11 +115,12 @@ public:
 };
 
 Condensation by_iterations(const ElasticBody &body, const ContactLine &line,
-                           const std::vector<int> &contact, int max_iterations,
-                           const BodySolver *alike)
+                           const ContactDofs &dofs, int max_iterations, const BodySolver *alike)
 {
    Condensation found;
+   const std::vector<int> contact = dofs.free();
    found.free = free_motions_by_places(body, line);
+   found.free.contact = found.free.contact(dofs.free_positions(), Eigen::all).eval();
    auto solver = std::make_shared<IterativeSolver>();
    solver->loads = body.patterns();
    solver->solver = std::make_shared<const DistributedSolver>(body, contact, max_iterations);
@@ -154,22 +155,34 @@ void CondenseSettings::validate() const
            ", must be at least 1");
 }
 
-std::vector<int> free_contact_dofs(const ElasticBody &body, const ContactLine &line)
+ContactDofs contact_dofs(const ElasticBody &body, const ContactLine &line)
 {
-   const std::vector<int> contact = contact_dofs(line, body.formulation(), body.dofs());
+   ContactDofs contact = contact_dofs(line, body.formulation(), body.dofs());
    const mfem::Array<int> essential = body.essential_dofs();
    // On all ranks alike, the owner of a dof knows.
-   std::vector<double> fixed;
-   for (std::size_t a = 0; a < contact.size(); ++a)
+   const auto known_by_owner = [&](auto said_of)
    {
-      if (std::binary_search(essential.begin(), essential.end(),
-                             contact[a] - body.first_global_dof()))
+      std::vector<double> here;
+      for (std::size_t a = 0; a < contact.all.size(); ++a)
       {
-         fixed.push_back(static_cast<double>(a));
+         const int dof = contact.all[a] - body.first_global_dof();
+         if (std::binary_search(essential.begin(), essential.end(), dof) && said_of(dof))
+         {
+            here.push_back(static_cast<double>(a));
+         }
       }
+      here = body.ranks().gather(here);
+      std::vector<int> positions(here.begin(), here.end());
+      std::sort(positions.begin(), positions.end());
+      return positions;
+   };
+   contact.held = known_by_owner([](int) { return true; });
+   for (const BodyLoad &load : body.patterns())
+   {
+      if (load.control == Control::force) { continue; }
+      require_unmoved(line, body.formulation(), load.name,
+                      known_by_owner([&](int dof) { return load.values[dof] != 0; }));
    }
-   fixed = body.ranks().gather(fixed);
-   require_free(line, body.formulation(), std::vector<int>(fixed.begin(), fixed.end()));
    return contact;
 }
 
@@ -283,13 +296,14 @@ CondensedBody condense(const ElasticBody &body, const ContactLine &line,
                        const CondenseSettings &settings, const CondensedBody *alike)
 {
    settings.validate();
-   const std::vector<int> contact = free_contact_dofs(body, line);
+   const ContactDofs dofs = contact_dofs(body, line);
+   const std::vector<int> contact = dofs.free();
    const BodySolver *other = alike ? alike->solver.get() : nullptr;
    Condensation found;
 #ifdef MFEM_USE_MPI
    if (body.ranks().distributed() && body.dofs() > settings.direct_dofs)
    {
-      found = by_iterations(body, line, contact, settings.max_iterations, other);
+      found = by_iterations(body, line, dofs, settings.max_iterations, other);
    }
    else
 #endif
@@ -297,7 +311,7 @@ CondensedBody condense(const ElasticBody &body, const ContactLine &line,
       found = gathered(body, contact, settings.backend, other);
    }
    found.counters += body.counters();
-   return in_local_frames(line, body.formulation(), body.patterns(), std::move(found));
+   return in_local_frames(line, body.formulation(), body.patterns(), dofs, std::move(found));
 }
 
 } // namespace cattaneo

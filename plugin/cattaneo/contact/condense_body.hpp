@@ -31,8 +31,9 @@ CondensedBody condense(const ElasticBody &body, const ContactLine &line,
                        const CondenseSettings &settings = {},
                        const CondensedBody *alike = nullptr);
 
-/// contact_dofs() of an MFEM body, global numbers. InputError, on all ranks, if one is fixed.
-std::vector<int> free_contact_dofs(const ElasticBody &body, const ContactLine &line);
+/// contact_dofs() of an MFEM body, global numbers, and which are held. InputError, on all
+/// ranks, if one is displaced by a load pattern.
+ContactDofs contact_dofs(const ElasticBody &body, const ContactLine &line);
 
 /// Free motions of a body on several ranks, taken for connected, from what holds it: the places
 /// of the supports and of the contact nodes. The errors of find_free_motions().

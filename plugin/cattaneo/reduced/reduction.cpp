@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cattaneo/algebra/dense_algebra.hpp>
 #include <cattaneo/algebra/dense_cholesky.hpp>
 #include <cattaneo/condense/local_frame.hpp>
@@ -10,9 +11,10 @@ namespace cattaneo
 
 struct Reduction::Union
 {
-   DenseCholesky sum;          ///< of S1 + S2 (+ springs on common rigid motions)
-   Eigen::MatrixXd S2;         ///< body 2 in the order of body 1 and the opposite frames
+   DenseCholesky sum;    ///< of S1 + S2 (+ springs on common rigid motions) where both are free
+   Eigen::MatrixXd pull; ///< S2 in the order of body 1 and the opposite frames, see pull()
    Eigen::MatrixXd difference; ///< f1 - f2 of each pattern
+   std::vector<int> held2;     ///< rows that body 2 holds: body 1 alone moves there
    std::vector<int> partner;
    FrameChange frames; ///< from body 2's own frames (in the order of body 1)
 
@@ -32,8 +34,9 @@ struct Reduction::Union
    Eigen::VectorXd own(int b, const Eigen::VectorXd &relative,
                        const Eigen::VectorXd &multipliers) const
    {
-      Eigen::VectorXd u1 = S2 * relative - difference * multipliers.head(difference.cols());
+      Eigen::VectorXd u1 = pull * relative - difference * multipliers.head(difference.cols());
       sum.solve(u1);
+      u1(held2) = relative(held2);
       if (b == 0) { return u1; }
       Eigen::VectorXd u2(u1.size());
       u2(order(u1.size())) = frames.transposed().rows(relative - u1);
@@ -93,6 +96,7 @@ struct Block
 {
    Eigen::MatrixXd S, f, H;
    Eigen::MatrixXd motions;                          ///< that nothing resists, orthonormal
+   std::vector<int> held;                            ///< rows that no body moves
    std::shared_ptr<const Reduction::Union> way_back; ///< of two bodies
 };
 
@@ -115,6 +119,15 @@ void fill(ReducedProblem &problem, const Block &block, const ContactLine &line)
    problem.arc_length = line.arc_length;
    problem.position = line.position;
    problem.rigid_motions = block.motions;
+   for (int row : block.held)
+   {
+      require(row < n, "reduce: the contact node at (", line.position(row % n, 0), ", ",
+              line.position(row % n, 1),
+              ") is fixed normal to the line, it must be able to open: the contact line must "
+              "end before it");
+      problem.K(row, row) = problem.K(n + row, n + row); // any stiffness would do
+      problem.held.push_back(row);
+   }
    // A rigid obstacle is known where the line is, and taken to go on.
    for (const LineChain &chain : line.chains)
    {
@@ -200,10 +213,64 @@ bool mirrored(const Eigen::MatrixXd &S1, const Eigen::MatrixXd &S2, Eigen::Index
    return true;
 }
 
+/** Components of the relative displacement u = u1 + u2 that body a holds (u_a = 0) are those of
+    body b alone. With F the rows that both are free to move in, and body a's displacement on F
+    eliminated: K = [S_a + (S_b of what a holds)] - pullᵀ (S1 + S2)_F⁻¹ pull, pull the rows F of
+    S_a - S_b (columns that a holds). Either body may be a. Where nothing is held pull is S_a.
+ */
+Eigen::MatrixXd pull(const Eigen::MatrixXd &Sa, const Eigen::MatrixXd &Sb,
+                     const std::vector<int> &held_a, const std::vector<int> &held_b)
+{
+   Eigen::MatrixXd result = Sa;
+   for (int row : held_a) { result.col(row) = -Sb.col(row); }
+   for (int row : held_a) { result.row(row).setZero(); }
+   for (int row : held_b) { result.row(row).setZero(); }
+   return result;
+}
+Eigen::MatrixXd with_those_of(const Eigen::MatrixXd &Sb, Eigen::MatrixXd Sa,
+                              const std::vector<int> &held_a)
+{
+   for (int row : held_a)
+   {
+      for (int column : held_a) { Sa(row, column) = Sb(row, column); }
+   }
+   return Sa;
+}
+
+/// Where body 2 holds components, as rows in body 1's order; there its frame must be that of
+/// body 1, which `frames` then has to the last bit.
+std::vector<int> held_by_second(const CondensedBody &first, const CondensedBody &second,
+                                const std::vector<int> &order, FrameChange &frames)
+{
+   const Eigen::Index n = first.line.size();
+   std::vector<int> rows;
+   const auto holds = [&](int row)
+   { return std::binary_search(second.held.begin(), second.held.end(), order[row]); };
+   for (int row = 0; row < static_cast<int>(order.size()); ++row)
+   {
+      if (!holds(row)) { continue; }
+      rows.push_back(row);
+      const Eigen::Index i = row % n;
+      const auto other = static_cast<int>(row < n ? row + n : i);
+      if (frames.b.size() == 0 || holds(other)) { continue; }
+      require(std::abs(frames.b[i]) <= 1e-12, "reduce: body 2 is fixed at the contact node (",
+              first.line.position(i, 0), ", ", first.line.position(i, 1),
+              ") in a direction that is not one of body 1's frame there (off by ",
+              std::abs(frames.b[i]), "), it must be body 1, or body 1 be fixed there too");
+      frames.a[i] = frames.d[i] = 1;
+      frames.b[i] = frames.c[i] = 0;
+   }
+   return rows;
+}
+
 Block alone(const CondensedBody &body, const std::vector<int> &index, Eigen::Index count)
 {
-   Block block{body.S, clamped_forces(body, index, count), Eigen::MatrixXd::Zero(count, count),
-               body.free_motions, nullptr};
+   Block block{body.S,
+               clamped_forces(body, index, count),
+               Eigen::MatrixXd::Zero(count, count),
+               body.free_motions,
+               body.held,
+               nullptr};
    add_response(body, index, block.H);
    return block;
 }
@@ -233,17 +300,27 @@ Block united(const CondensedBody &first, const CondensedBody &second,
               "reduce: the bodies do not face each other at the contact node (",
               line1.position(i, 0), ", ", line1.position(i, 1), ")");
    }
-   const std::vector<int> order = shared->order(size);
-   Eigen::MatrixXd S2 = second.S(order, order);
-   shared->S2 = frames.both(S2);
+   const std::vector<int> order = shared->order(size), &held1 = first.held;
+   const std::vector<int> &held2 = shared->held2 = held_by_second(first, second, order, frames);
+   const Eigen::MatrixXd S2 = frames.both(second.S(order, order));
    const Eigen::MatrixXd forces = clamped_forces(second, index[1], count);
    const Eigen::MatrixXd f2 = frames.rows(forces(order, Eigen::all));
 
    const Eigen::MatrixXd &S1 = first.S;
    const Eigen::MatrixXd f1 = clamped_forces(first, index[0], count);
    shared->difference = f1 - f2;
-   Eigen::MatrixXd &sum = S2; // no longer needed as it was
-   sum = S1 + shared->S2;
+   Eigen::MatrixXd sum = S1 + S2;
+   const double own = sum.diagonal().mean();
+   for (const std::vector<int> *held : {&held1, &held2})
+   {
+      for (int row : *held)
+      {
+         sum.row(row).setZero();
+         sum.col(row).setZero();
+         sum(row, row) = own;
+         shared->difference.row(row).setZero();
+      }
+   }
    if (first.rigid_modes > 0 && second.rigid_modes > 0)
    {
       const Eigen::MatrixXd Z = free_motions(first, sum);
@@ -270,14 +347,23 @@ Block united(const CondensedBody &first, const CondensedBody &second,
    // a free one's rigid motions stay without forces only if one begins with it.
    const bool by_first = first.rigid_modes != second.rigid_modes
                             ? first.rigid_modes > second.rigid_modes
-                            : S1.trace() <= shared->S2.trace();
-   const Eigen::MatrixXd &base = by_first ? S1 : shared->S2;
-   Eigen::MatrixXd Y = base, D = shared->difference;
+                            : S1.trace() <= S2.trace();
+   shared->pull = pull(S2, S1, held2, held1);
+   Eigen::MatrixXd Y = by_first ? pull(S1, S2, held1, held2) : shared->pull,
+                   D = shared->difference;
+   Eigen::MatrixXd f = by_first ? f1 : f2;
+   for (int row : by_first ? held1 : held2) { f.row(row) = (by_first ? f2 : f1).row(row); }
    shared->sum.solve_half(Y);
    shared->sum.solve_half(D);
-   Block block{minus_square(base, Y), f1, Eigen::MatrixXd::Zero(count, count), {}, nullptr};
-   if (by_first) { block.f -= Y.transpose() * D; }
-   else { block.f = f2 + Y.transpose() * D; }
+   Block block{
+      minus_square(by_first ? with_those_of(S2, S1, held1) : with_those_of(S1, S2, held2), Y),
+      f + (by_first ? -1.0 : 1.0) * Y.transpose() * D,
+      Eigen::MatrixXd::Zero(count, count),
+      {},
+      {},
+      nullptr};
+   std::set_intersection(held1.begin(), held1.end(), held2.begin(), held2.end(),
+                         std::back_inserter(block.held));
    // What moves freely relative to the other must do so to round-off of S, not of the stiffer,
    // and feels its own loads only.
    const auto release = [&](const Eigen::MatrixXd &Q, const Eigen::MatrixXd &loads)
@@ -292,7 +378,7 @@ Block united(const CondensedBody &first, const CondensedBody &second,
    release(first.free_motions, f1);
    release(motions2, f2);
    block.motions = spanned(first.free_motions, motions2);
-   if (mirrored(S1, shared->S2, n))
+   if (mirrored(S1, S2, n))
    {
       block.S.bottomLeftCorner(n, n).setZero();
       block.S.topRightCorner(n, n).setZero();
@@ -402,6 +488,8 @@ void Reduction::add_torsion(CondensedBody body1, CondensedBody body2)
 void Reduction::add_torsion(std::vector<CondensedBody> twisting)
 {
    const Eigen::Index n = problem.nodes();
+   require(obstacle_.size() == 0,
+           "add torsion: the obstacle already moves, torsion must be added before");
    require(torsion.empty() && problem.components() == 1, "add torsion: the reduction has ",
            problem.components(), " tangential components a node, must have 1");
    require(twisting.size() == bodies.size(), "add torsion: of ", twisting.size(),
@@ -435,6 +523,11 @@ void Reduction::add_torsion(std::vector<CondensedBody> twisting)
    K.block(n, n, n, n) = block.S;
    K.bottomLeftCorner(n, n) = problem.B();
    K.bottomRightCorner(n, n) = problem.C();
+   for (int row : block.held)
+   {
+      K(n + row, n + row) = K(2 * n + row, 2 * n + row);
+      problem.held.push_back(n + row);
+   }
    problem.K = std::move(K);
    complete(problem);
    for (Eigen::Index k = 0; k < count; ++k)
@@ -455,6 +548,61 @@ void Reduction::add_torsion(std::vector<CondensedBody> twisting)
    motions.block(n, meridian.cols(), n, block.motions.cols()) = block.motions;
    problem.rigid_motions = motions;
    torsion = std::move(twisting);
+}
+
+void Reduction::add_obstacle_motion(const std::string &name, const ScalarField &ux,
+                                    const ScalarField &uy, const ScalarField &u_theta)
+{
+   const std::string where = "obstacle motion '" + name + "'";
+   require(bodies.size() == 1, where, ": the reduction is of ", bodies.size(),
+           " bodies, must be of one on a rigid obstacle");
+   for (const LoadPattern &pattern : problem.patterns)
+   {
+      require(pattern.name != name, where, ": a load pattern of that name is there already");
+   }
+   const ContactLine &line = bodies[0].line;
+   const Eigen::Index n = problem.nodes(), m = problem.slips();
+   Eigen::VectorXd u(2 * n), theta(n);
+   for (Eigen::Index i = 0; i < n; ++i)
+   {
+      const double x = line.position(i, 0), y = line.position(i, 1);
+      u[i] = ux(x, y);
+      u[n + i] = uy(x, y);
+      theta[i] = u_theta(x, y);
+      require(std::isfinite(u[i]) && std::isfinite(u[n + i]) && std::isfinite(theta[i]), where,
+              ": the displacement at (", x, ", ", y, ") is (", u[i], ", ", u[n + i], ", ",
+              theta[i], "), must be finite");
+      require(!torsion.empty() || theta[i] == 0, where, ": at (", x, ", ", y, ") it is ",
+              theta[i], " along the circumference, must be 0 in a reduction without torsion");
+   }
+   u = FrameChange::to_local(line.tangent, line.normal).rows(u).col(0);
+   Eigen::VectorXd d(m + n);
+   d << u.head(n), theta.head(m - n), u.tail(n);
+   for (Eigen::Index row : problem.held)
+   {
+      const Eigen::Index i = row % n;
+      require(std::abs(d[row]) <= 1e-12 * d.cwiseAbs().maxCoeff(), where, ": it moves by ",
+              d[row], " along the component that is fixed at the node (", line.position(i, 0),
+              ", ", line.position(i, 1), "), must not");
+      d[row] = 0;
+   }
+   // The body moves by u + λ d: f = K (u + λ d) + …, and the reaction is dᵀ f.
+   const Eigen::VectorXd f = problem.K * d;
+   const auto k = static_cast<Eigen::Index>(problem.patterns.size());
+   problem.H.conservativeResizeLike(Eigen::MatrixXd::Zero(k + 1, k + 1));
+   problem.H(k, k) = d.dot(f);
+   for (Eigen::Index j = 0; j < k; ++j)
+   {
+      const LoadPattern &other = problem.patterns[j];
+      problem.H(k, j) = d.head(m).dot(other.q) + d.tail(n).dot(other.p);
+      problem.H(j, k) = other.control == Control::force ? -problem.H(k, j) : problem.H(k, j);
+   }
+   problem.patterns.push_back({name, Control::displacement, f.head(m), f.tail(n)});
+   if (obstacle_.size() == 0) { obstacle_.resize(m + n, 0); }
+   Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(m + n, k + 1);
+   motions.leftCols(obstacle_.cols()) = obstacle_;
+   motions.col(k) = d;
+   obstacle_ = motions;
 }
 
 Eigen::VectorXd Reduction::recover(CondensedBody &body, const Eigen::VectorXd &u,
@@ -486,6 +634,11 @@ Eigen::VectorXd Reduction::displacement(int b, const Eigen::VectorXd &v,
            problem.patterns.size());
    Eigen::VectorXd u(2 * n);
    u << v.head(n), w;
+   if (obstacle_.size() > 0)
+   {
+      u.head(n) += (obstacle_ * multipliers).head(n);
+      u.tail(n) += (obstacle_ * multipliers).tail(n);
+   }
    if (union_) { u = union_->own(b, u, multipliers); }
    return recover(bodies[b], u, pattern_[b], multipliers);
 }
@@ -502,6 +655,7 @@ Eigen::VectorXd Reduction::twist(int b, const Eigen::VectorXd &v,
            "twist: ", multipliers.size(), " load multipliers, must be ",
            problem.patterns.size());
    Eigen::VectorXd u = v.tail(n);
+   if (obstacle_.size() > 0) { u += (obstacle_ * multipliers).segment(n, n); }
    if (torsion_union_) { u = torsion_union_->own(b, u, multipliers); }
    return recover(torsion[b], u, torsion_pattern_[b], multipliers);
 }

@@ -30,6 +30,17 @@ public:
    /// The same of two bodies: v_θ = u_θ1 - u_θ2, q_θ the force on body 1.
    void add_torsion(CondensedBody body1, CondensedBody body2);
 
+   /** A load pattern that moves the rigid obstacle of one body (or deforms it) by (ux, uy) per
+       unit multiplier, functions of the contact nodes' places, in axisymmetry (ur, uz); with
+       torsion also by u_θ along the circumference. (0, 1) moves it up; (c - y, x) turns it
+       about (0, c). Displacements of the reduced problem are relative to it; the gap stays as
+       it is, and the conjugate of the pattern is the obstacle's reaction.
+
+       InputError if the name is taken, if there are two bodies, if a displacement is not
+       finite, or if it moves along a component that is held (a plane of symmetry). */
+   void add_obstacle_motion(const std::string &name, const ScalarField &ux,
+                            const ScalarField &uy, const ScalarField &u_theta = 0.0);
+
    /// Displacement of all true dofs of body `b` (0 or 1), for relative displacements v (of all
    /// tangential components) and w of the contact nodes and multipliers of problem.patterns.
    /// One solve with that body's factor. If two free bodies move together unresisted, the
@@ -53,9 +64,14 @@ private:
 
    std::shared_ptr<const Union> union_, torsion_union_;
    PatternIndex pattern_, torsion_pattern_;
+   /// Displacements {v; w} of a rigid obstacle, one column a pattern of the problem; empty if
+   /// it rests.
+   Eigen::MatrixXd obstacle_;
 };
 
 /// One body against a rigid obstacle; gap as a function of the contact nodes' coordinates.
+/// Tangential components that the body holds are ReducedProblem::held; InputError if a normal
+/// one is.
 Reduction reduce(CondensedBody body, const ScalarField &gap = 0.0);
 
 /** Two bodies (thesis 3.3) by the symmetric formulas
@@ -63,7 +79,9 @@ Reduction reduce(CondensedBody body, const ScalarField &gap = 0.0);
        S = S1 - S1 (S1 + S2)⁻¹ S1,     f = f1 - S1 (S1 + S2)⁻¹ (f1 - f2);
 
     either or both may be free. Gap of the pairing, which may be overwritten in the result. Body
-   2's frames are turned onto the opposite of body 1's first. InputError if a common rigid
+   2's frames are turned onto the opposite of body 1's first. A component that one body holds
+   is the other's alone; one that both hold is held in the problem. InputError if that is a
+   normal one, if body 2 alone holds a component across body 1's frame, if a common rigid
    motion of two free bodies is loaded, or if a pattern is force-controlled in one and
    displacement-controlled in the other. */
 Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairing);
