@@ -478,7 +478,7 @@ TEST_F(Contact2D, BadInputIsOneSentenceAndLeavesNoFile)
       {pressed + "--increments 0", {"increments", "0", "at least 1"}},
       {pressed + "--gap wide", {"gap", "wide", "geometry, closed"}},
       {pressed + "--stepping fast", {"stepping", "fast", "advancing, fixed"}},
-      {pressed + "--support1 3:x", {"contact node", "fixed or prescribed"}},
+      {pressed + "--support1 3:xy", {"contact dofs are fixed", "one at least must be free"}},
       {pressed + "--support1 2", {"support1 '2'", "must be"}},
       {pressed + "--support1 2:z", {"support1 '2:z'", "x, y or xy"}},
       {pressed + "--support1 @1:x", {"@1", "must be a point"}},
