@@ -1,12 +1,9 @@
 // Bodies on several ranks, gathered and factored or condensed by iterations, against the same
-// body on one: stiffness, loads, fields, and contact with a stiffness that is applied. Exit
-// code 1, with a sentence for each, where they differ.
+// body on one: stiffness, loads and fields. Exit code 1, with a sentence for each, where they
+// differ.
 
 #include <algorithm>
-#include <cattaneo/contact/applied_reduction.hpp>
 #include <cattaneo/contact/condense_body.hpp>
-#include <cattaneo/friction/applied_solver.hpp>
-#include <cattaneo/friction/friction_solver.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/reduction.hpp>
 #include <cstdio>
@@ -158,61 +155,6 @@ void compare(const Scene &scene, int direct_dofs)
    expect(again.S == found.S, name, "an equal body has another stiffness");
 }
 
-/// A parabola pressed and sheared, with the stiffness applied and with it formed on one rank.
-void applied_contact(const Scene &scene, const std::vector<double> &shears)
-{
-   const std::string name = scene.name + ", applied";
-   mfem::Mesh whole = mesh();
-   mfem::ParMesh shared(MPI_COMM_WORLD, whole);
-   const auto alone = make_body(whole, scene), parts = make_body(shared, scene);
-   const auto gap = [](double x, double) { return 0.2 * (x - 0.9) * (x - 0.9); };
-   ReducedProblem expected =
-      reduce(condense(*alone, contact_line(*alone, bottom)), gap).problem;
-   CondenseSettings settings;
-   settings.direct_dofs = 0;
-   Counters counters;
-   // A contact set as small as this one is formed unless one asks.
-   AppliedProblem formed =
-      apply_reduction(*parts, contact_line(*parts, bottom), gap, settings, &counters);
-   expect(bool(formed.formed), name, "a small contact set is not formed");
-   settings.formed_nodes = 0;
-   counters = {};
-   AppliedProblem found =
-      apply_reduction(*parts, contact_line(*parts, bottom), gap, settings, &counters);
-   expect(!found.formed, name, "S was formed");
-   const VectorXd u = VectorXd::LinSpaced(2 * expected.nodes(), 1, 3).array().sin();
-   expect_close(found.apply(u), expected.K * u, 1e-10, name, "S u");
-   expect(counters.krylov_iterations > 0, name, "nothing was iterated");
-
-   set_friction(expected, 0.3);
-   found.friction = formed.friction = expected.friction;
-   FrictionSolver solver(expected);
-   ContactState dense = ContactState::virgin(expected), state = virgin(found),
-                by_factors = virgin(formed);
-   for (const double shear : shears)
-   {
-      // Pressed by what is prescribed at the top, or by the pressure there.
-      const Eigen::Vector3d loads(scene.held ? 0.0 : 0.1, scene.held ? shear : 0.1 * shear,
-                                  1.0);
-      const VectorXd multipliers = loads.head(static_cast<Eigen::Index>(found.patterns.size()));
-      const FrictionStatus status = solver.solve(dense, multipliers).status;
-      expect(status == FrictionStatus::converged, name,
-             std::string("formed: ") + cattaneo::name(status));
-      const AppliedReport direct = solve(formed, by_factors, multipliers);
-      expect(direct.status == FrictionStatus::converged, name, direct.message);
-      expect(direct.applications == 0, name, "S is formed, but was applied");
-      expect(by_factors.status == dense.status, name, "node states differ with S formed");
-      const AppliedReport report = solve(found, state, multipliers);
-      expect(report.status == FrictionStatus::converged, name, report.message);
-      expect(state.status == dense.status, name, "node states differ");
-      expect(std::count(dense.status.begin(), dense.status.end(), NodeState::separation) > 0,
-             name, "all nodes are closed");
-      const double worst = std::max((state.p - dense.p).cwiseAbs().maxCoeff(),
-                                    (state.q - dense.q).cwiseAbs().maxCoeff());
-      expect(worst <= 1e-8 * dense.peak_force, name, "forces differ", worst / dense.peak_force);
-   }
-}
-
 void expect_error(const std::string &part, const std::function<void()> &act)
 {
    std::string message = "nothing";
@@ -284,9 +226,6 @@ int main()
    {
       for (int direct_dofs : {0, 1000000}) { compare(scene, direct_dofs); }
    }
-   applied_contact({"held plane body", Formulation::plane, true}, {0, 0.1, -0.05});
-   applied_contact({"free plane body", Formulation::plane, false}, {0});
-   applied_contact({"held body of revolution", Formulation::axisymmetric, true}, {0});
    errors();
    int all = 0;
    MPI_Allreduce(&failures, &all, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);

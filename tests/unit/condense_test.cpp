@@ -1,5 +1,4 @@
 #include "elastic_support.hpp"
-#include <cattaneo/contact/applied_reduction.hpp>
 
 namespace
 {
@@ -277,7 +276,6 @@ TEST(Condensation, SaysWhichNodeAndWhichSettingIsWrong)
                       "a load multiplier is not finite");
    for (const auto &[said, member] :
         {std::pair("direct_dofs is -1", &CondenseSettings::direct_dofs),
-         {"formed_nodes is -1", &CondenseSettings::formed_nodes},
          {"max_iterations is -1", &CondenseSettings::max_iterations}})
    {
       CondenseSettings settings;
@@ -303,9 +301,6 @@ TEST(Condensation, SaysWhichNodeAndWhichSettingIsWrong)
          condense(body, contact_line(body, {{1}, 0, 0.4, 2.0}));
       },
       "component y of the contact node at (2, 0) is fixed");
-   const ElasticBody shaft(mesh, 1, Material{}, Formulation::torsion);
-   expect_input_error([&] { apply_reduction(shaft, contact_line(shaft, 1), 0.0, {}, nullptr); },
-                      "must be plane or axisymmetric");
 }
 
 TEST(Condensation, RefusesASeparatePartThatNothingHolds)

@@ -85,9 +85,4 @@ void Equilibrium::impose_on_stiffness(Eigen::MatrixXd &S) const
    S = (0.5 * (S + S.transpose())).eval();
 }
 
-Eigen::VectorXd Equilibrium::without_motions(const Eigen::VectorXd &x) const
-{
-   return x - Q_ * (Q_.transpose() * x);
-}
-
 } // namespace cattaneo

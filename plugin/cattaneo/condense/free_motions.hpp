@@ -29,8 +29,6 @@ public:
    void impose_on_forces(Eigen::MatrixXd &f) const;
    /// On the reduced stiffness S.
    void impose_on_stiffness(Eigen::MatrixXd &S) const;
-   /// x without its part along the free motions: S x is P S P x, P this projection.
-   Eigen::VectorXd without_motions(const Eigen::VectorXd &x) const;
    /// The motions of the contact dofs, orthonormal columns.
    const Eigen::MatrixXd &motions() const { return Q_; }
 

@@ -78,6 +78,39 @@ Condensation gathered(const ElasticBody &body, const std::vector<int> &contact,
    return found;
 }
 
+/// contact_dofs() of an MFEM body, global numbers, and which are held. InputError, on all
+/// ranks, if one is displaced by a load pattern.
+ContactDofs contact_dofs(const ElasticBody &body, const ContactLine &line)
+{
+   ContactDofs contact = contact_dofs(line, body.formulation(), body.dofs());
+   const mfem::Array<int> essential = body.essential_dofs();
+   // On all ranks alike, the owner of a dof knows.
+   const auto known_by_owner = [&](auto said_of)
+   {
+      std::vector<double> here;
+      for (std::size_t a = 0; a < contact.all.size(); ++a)
+      {
+         const int dof = contact.all[a] - body.first_global_dof();
+         if (std::binary_search(essential.begin(), essential.end(), dof) && said_of(dof))
+         {
+            here.push_back(static_cast<double>(a));
+         }
+      }
+      here = body.ranks().gather(here);
+      std::vector<int> positions(here.begin(), here.end());
+      std::sort(positions.begin(), positions.end());
+      return positions;
+   };
+   contact.held = known_by_owner([](int) { return true; });
+   for (const BodyLoad &load : body.patterns())
+   {
+      if (load.control == Control::force) { continue; }
+      require_unmoved(line, body.formulation(), load.name,
+                      known_by_owner([&](int dof) { return load.values[dof] != 0; }));
+   }
+   return contact;
+}
+
 #ifdef MFEM_USE_MPI
 
 class IterativeSolver : public BodySolver
@@ -114,78 +147,8 @@ public:
    }
 };
 
-Condensation by_iterations(const ElasticBody &body, const ContactLine &line,
-                           const ContactDofs &dofs, int max_iterations, const BodySolver *alike)
-{
-   Condensation found;
-   const std::vector<int> contact = dofs.free();
-   found.free = free_motions_by_places(body, line);
-   found.free.contact = found.free.contact(dofs.free_positions(), Eigen::all).eval();
-   auto solver = std::make_shared<IterativeSolver>();
-   solver->loads = body.patterns();
-   solver->solver = std::make_shared<const DistributedSolver>(body, contact, max_iterations);
-   const auto *other = dynamic_cast<const IterativeSolver *>(alike);
-   if (other && solver->solver->equals(*other->solver))
-   {
-      solver->solver = other->solver;
-      solver->S = other->S;
-   }
-   else
-   {
-      solver->S = solver->solver->schur(found.counters);
-      ++found.counters.factorisations;
-   }
-   found.clamped = solver->solver->loads(solver->loads, found.counters);
-   found.S = solver->S;
-   found.solver = std::move(solver);
-   return found;
-}
-
-#endif
-
-} // namespace
-
-void CondenseSettings::validate() const
-{
-   require(formed_nodes >= 0, "condense: formed_nodes is ", formed_nodes,
-           ", must not be negative");
-   require(direct_dofs >= 0, "condense: direct_dofs is ", direct_dofs,
-           ", must not be negative");
-   require(max_iterations >= 1, "condense: max_iterations is ", max_iterations,
-           ", must be at least 1");
-}
-
-ContactDofs contact_dofs(const ElasticBody &body, const ContactLine &line)
-{
-   ContactDofs contact = contact_dofs(line, body.formulation(), body.dofs());
-   const mfem::Array<int> essential = body.essential_dofs();
-   // On all ranks alike, the owner of a dof knows.
-   const auto known_by_owner = [&](auto said_of)
-   {
-      std::vector<double> here;
-      for (std::size_t a = 0; a < contact.all.size(); ++a)
-      {
-         const int dof = contact.all[a] - body.first_global_dof();
-         if (std::binary_search(essential.begin(), essential.end(), dof) && said_of(dof))
-         {
-            here.push_back(static_cast<double>(a));
-         }
-      }
-      here = body.ranks().gather(here);
-      std::vector<int> positions(here.begin(), here.end());
-      std::sort(positions.begin(), positions.end());
-      return positions;
-   };
-   contact.held = known_by_owner([](int) { return true; });
-   for (const BodyLoad &load : body.patterns())
-   {
-      if (load.control == Control::force) { continue; }
-      require_unmoved(line, body.formulation(), load.name,
-                      known_by_owner([&](int dof) { return load.values[dof] != 0; }));
-   }
-   return contact;
-}
-
+/// Free motions of a body on several ranks, taken for connected, from what holds it: the places
+/// of the supports and of the contact nodes. The errors of find_free_motions().
 FreeMotions free_motions_by_places(const ElasticBody &body, const ContactLine &line)
 {
    // Two unheld corners of the bounding box carry the body's size.
@@ -290,6 +253,45 @@ FreeMotions free_motions_by_places(const ElasticBody &body, const ContactLine &l
    }
    ranks.sum(free.resultant);
    return free;
+}
+
+Condensation by_iterations(const ElasticBody &body, const ContactLine &line,
+                           const ContactDofs &dofs, int max_iterations, const BodySolver *alike)
+{
+   Condensation found;
+   const std::vector<int> contact = dofs.free();
+   found.free = free_motions_by_places(body, line);
+   found.free.contact = found.free.contact(dofs.free_positions(), Eigen::all).eval();
+   auto solver = std::make_shared<IterativeSolver>();
+   solver->loads = body.patterns();
+   solver->solver = std::make_shared<const DistributedSolver>(body, contact, max_iterations);
+   const auto *other = dynamic_cast<const IterativeSolver *>(alike);
+   if (other && solver->solver->equals(*other->solver))
+   {
+      solver->solver = other->solver;
+      solver->S = other->S;
+   }
+   else
+   {
+      solver->S = solver->solver->schur(found.counters);
+      ++found.counters.factorisations;
+   }
+   found.clamped = solver->solver->loads(solver->loads, found.counters);
+   found.S = solver->S;
+   found.solver = std::move(solver);
+   return found;
+}
+
+#endif
+
+} // namespace
+
+void CondenseSettings::validate() const
+{
+   require(direct_dofs >= 0, "condense: direct_dofs is ", direct_dofs,
+           ", must not be negative");
+   require(max_iterations >= 1, "condense: max_iterations is ", max_iterations,
+           ", must be at least 1");
 }
 
 CondensedBody condense(const ElasticBody &body, const ContactLine &line,

@@ -227,13 +227,6 @@ Eigen::VectorXd DistributedSolver::forces(const Eigen::VectorXd &field) const
    return impl_->at_contact(impl_->times(to_mfem(field)));
 }
 
-Eigen::VectorXd DistributedSolver::diagonal() const
-{
-   mfem::Vector all;
-   impl_->K->GetDiag(all);
-   return impl_->at_contact(all);
-}
-
 int DistributedSolver::size() const
 {
    return static_cast<int>(impl_->held.size());

@@ -36,8 +36,6 @@ public:
                            const Eigen::VectorXd &prescribed, Counters &counters) const;
    /// Forces at the contact dofs of a field on this rank's true dofs, on all ranks.
    Eigen::VectorXd forces(const Eigen::VectorXd &field) const;
-   /// Diagonal entries of the stiffness at the contact dofs, on all ranks.
-   Eigen::VectorXd diagonal() const;
    int size() const; ///< true dofs of this rank
    /// True on every rank if the other stands for an equal operator, supports and contact.
    bool equals(const DistributedSolver &other) const;
