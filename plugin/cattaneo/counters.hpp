@@ -22,7 +22,6 @@ struct Counters
    long newton_steps = 0;         ///< active-set (semismooth Newton) steps
    long dense_factorisations = 0; ///< dense factorisations by the friction solver
    long dense_updates = 0;        ///< unknowns bordered to a dense factor instead
-   long lemke_pivots = 0;         ///< pivots of Lemke's method
    long pivots = 0;               ///< node states exchanged one by one, along a path
    long limit_solves = 0;         ///< shakedown limit programmes solved
 
@@ -43,7 +42,6 @@ struct Counters
       visit("newton_steps", self.newton_steps);
       visit("dense_factorisations", self.dense_factorisations);
       visit("dense_updates", self.dense_updates);
-      visit("lemke_pivots", self.lemke_pivots);
       visit("pivots", self.pivots);
       visit("limit_solves", self.limit_solves);
    }

@@ -68,7 +68,7 @@ TEST(StateEquations, UpdatesAgreeWithAFreshFactor)
    const int n = 12;
    const ReducedProblem problem = random_problem(n, 0.6, 0.15, random);
    const Eigen::MatrixXd K = problem.K;
-   StateEquations equations(K, problem.friction);
+   StateEquations equations(K, friction_bounds(problem.friction));
    const VectorXd b = problem.clamped_forces(Vector2d(1, 0.4));
    VectorXd x, F, x_fresh, F_fresh;
    for (int k = 0; k < 400; ++k)
@@ -76,7 +76,7 @@ TEST(StateEquations, UpdatesAgreeWithAFreshFactor)
       const auto node = static_cast<Index>(random() % n);
       ASSERT_TRUE(equations.set(node, static_cast<NodeState>(random() % 4)));
       ASSERT_TRUE(equations.solve(b, x, F));
-      StateEquations fresh(K, problem.friction);
+      StateEquations fresh(K, friction_bounds(problem.friction));
       ASSERT_TRUE(fresh.set(equations.states()));
       ASSERT_TRUE(fresh.solve(b, x_fresh, F_fresh));
       EXPECT_LT((x - x_fresh).cwiseAbs().maxCoeff(), 1e-13);
@@ -98,8 +98,7 @@ TEST(StateEquations, RefusesStatesWithoutSupport)
    const Eigen::Matrix2d stiffness{{1, -1}, {-1, 1}}; // free to move along and away
    Eigen::MatrixXd K = Eigen::MatrixXd::Zero(4, 4);
    K.topLeftCorner(2, 2) = K.bottomRightCorner(2, 2) = stiffness;
-   const VectorXd friction = VectorXd::Constant(2, 0.5);
-   StateEquations equations(K, friction);
+   StateEquations equations(K, friction_bounds(VectorXd::Constant(2, 0.5)));
    EXPECT_TRUE(equations.set(0, NodeState::forward_slip));
    EXPECT_FALSE(equations.set(1, NodeState::forward_slip));
    EXPECT_EQ(equations.states()[1], NodeState::stick);

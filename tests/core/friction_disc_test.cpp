@@ -2,8 +2,8 @@
 #include "disc_problems.hpp"
 #include "same_state.hpp"
 
+#include <cattaneo/friction/contact_law.hpp>
 #include <cattaneo/friction/critical_friction.hpp>
-#include <cattaneo/friction/friction_disc.hpp>
 #include <cattaneo/friction/march.hpp>
 #include <cattaneo/friction/mechanism.hpp>
 #include <cattaneo/input_error.hpp>
@@ -56,20 +56,24 @@ TEST(FrictionDisc, OneNodeObeysTheLawInEveryState)
    int seen[5] = {0, 0, 0, 0, 0};
    for (int k = 0; k < 5000; ++k)
    {
-      DiscNode node;
+      LoneNode node = {};
+      node.c = 1.5;
+      node.A.resize(2, 2);
+      node.b.resize(2);
+      node.q0.resize(2);
       node.A << 1 + uniform(random) / 2, 0, 0, 1 + uniform(random) / 2;
       node.A(0, 1) = node.A(1, 0) = 0.3 * uniform(random);
       node.b << 0.2 * uniform(random), 0.2 * uniform(random);
-      node.c = 1.5;
-      node.friction = 1 + uniform(random);
+      const double friction = 1 + uniform(random);
+      node.bound = FrictionBound(friction);
       node.q0 << uniform(random), uniform(random);
       node.p0 = uniform(random);
-      if (node.friction >= critical_friction(node.A, node.b)) { continue; }
-      const DiscMove move = solve_node(node);
+      if (friction >= critical_friction(node)) { continue; }
+      const NodeMove move = solve_node(node);
       ASSERT_TRUE(move.found);
       const Vector2d q = node.q0 + node.A * move.slip + node.b * move.gap;
       const double p = node.p0 + node.b.dot(move.slip) + node.c * move.gap;
-      const double fp = node.friction * p;
+      const double fp = friction * p;
       switch (move.state)
       {
       case NodeState::separation:
@@ -563,9 +567,7 @@ TEST(FrictionDisc, WithoutFrictionThereAreNoTangentialUnknowns)
 TEST(FrictionDisc, RefusesWhatNeedsThePlane)
 {
    std::mt19937 random(12);
-   FrictionSettings settings;
-   settings.method = FrictionMethod::lemke;
-   EXPECT_THROW(FrictionSolver(random_disc_problem(4, 0.5, 0, random), settings), InputError);
+   EXPECT_THROW(ExactPath(random_disc_problem(4, 0.5, 0, random)), InputError);
 }
 
 /// A disc on a foundation of springs, free to rotate and to rise: circumferential springs only

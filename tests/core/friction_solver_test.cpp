@@ -1,8 +1,8 @@
+#include "lemke.hpp"
 #include "random_problem.hpp"
 
 #include <cattaneo/algebra/semidefinite.hpp>
 #include <cattaneo/friction/friction_solver.hpp>
-#include <cattaneo/friction/lemke.hpp>
 #include <cattaneo/friction/mechanism.hpp>
 #include <cattaneo/input_error.hpp>
 #include <gtest/gtest.h>
@@ -11,7 +11,10 @@ namespace
 {
 
 using namespace cattaneo;
+using cattaneo_test::lemke;
+using cattaneo_test::LemkeReport;
 using cattaneo_test::random_problem;
+using cattaneo_test::solve_by_lemke;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
@@ -109,13 +112,16 @@ TEST(FrictionSolver, OneNodeAgreesWithEnumeration)
       const double v_old = 0.2 * uniform(random);
       const std::vector<NodeState> expected = enumerate(problem, v_old);
       ASSERT_EQ(expected.size(), 1u); // f < A/|B|: unique
-      for (FrictionMethod method :
-           {FrictionMethod::automatic, FrictionMethod::gauss_seidel, FrictionMethod::lemke})
+      const ContactState start = ContactState::with_slip(problem, VectorXd::Constant(1, v_old));
+      const auto oracle = solve_by_lemke(problem, start, VectorXd::Ones(1));
+      ASSERT_TRUE(oracle) << "problem " << k;
+      EXPECT_EQ(oracle->status[0], expected[0]);
+      for (FrictionMethod method : {FrictionMethod::automatic, FrictionMethod::gauss_seidel})
       {
          FrictionSettings settings;
          settings.method = method;
          FrictionSolver solver(problem, settings);
-         ContactState state = ContactState::with_slip(problem, VectorXd::Constant(1, v_old));
+         ContactState state = start;
          const IncrementReport report = solver.solve(state, VectorXd::Ones(1));
          ASSERT_EQ(report.status, FrictionStatus::converged)
             << "problem " << k << " method " << static_cast<int>(method) << ": "
@@ -144,21 +150,28 @@ TEST(FrictionSolver, ThreeMethodsAgreeOnRandomProblems)
          pattern.p *= scale;
       }
       ContactState states[3];
-      const FrictionMethod methods[] = {FrictionMethod::automatic, FrictionMethod::gauss_seidel,
-                                        FrictionMethod::lemke};
       for (int method = 0; method < 3; ++method)
       {
          FrictionSettings settings;
-         settings.method = methods[method];
+         if (method == 1) { settings.method = FrictionMethod::gauss_seidel; }
          FrictionSolver solver(problem, settings);
          ContactState &state = states[method];
          state = ContactState::virgin(problem);
          for (const Vector2d &loads : {Vector2d(1, 0), Vector2d(1, 0.7), Vector2d(1, -0.6)})
          {
             const VectorXd v_old = state.v;
-            const IncrementReport report = solver.solve(state, loads);
-            ASSERT_EQ(report.status, FrictionStatus::converged)
-               << "problem " << k << " method " << method << ": " << report.message;
+            if (method == 2)
+            {
+               const auto found = solve_by_lemke(problem, state, loads);
+               ASSERT_TRUE(found) << "problem " << k;
+               state = *found;
+            }
+            else
+            {
+               const IncrementReport report = solver.solve(state, loads);
+               ASSERT_EQ(report.status, FrictionStatus::converged)
+                  << "problem " << k << " method " << method << ": " << report.message;
+            }
             ContactState plain = state;
             plain.q /= scale;
             plain.p /= scale;
@@ -210,7 +223,6 @@ TEST(FrictionSolver, PathAloneAgreesWithActiveSet)
          EXPECT_LT((other.w - state.w).cwiseAbs().maxCoeff(), 1e-9) << "problem " << k;
       }
       pivots += path.counters().pivots;
-      EXPECT_EQ(path.counters().lemke_pivots, 0);
    }
    EXPECT_GT(pivots, 10000);
 }
@@ -231,39 +243,28 @@ ReducedProblem node_on_a_slope(double stiffness)
 TEST(FrictionSolver, SaysWhenRoundOffHidesTheForces)
 {
    const VectorXd pull = -VectorXd::Ones(1);
-   for (auto method : {FrictionMethod::automatic, FrictionMethod::lemke})
-   {
-      FrictionSettings settings;
-      settings.method = method;
-      ReducedProblem problem = node_on_a_slope(1e-6);
-      ContactState state = ContactState::virgin(problem);
-      EXPECT_EQ(FrictionSolver(problem, settings).solve(state, pull).status,
-                FrictionStatus::converged);
-      EXPECT_NEAR(state.w[0], 1e6, 1e-3);
-      problem = node_on_a_slope(1e-10);
-      state = ContactState::virgin(problem);
-      const IncrementReport report = FrictionSolver(problem, settings).solve(state, pull);
-      EXPECT_EQ(report.status, FrictionStatus::stalled);
-      EXPECT_NE(report.message.find("lost in round-off"), std::string::npos) << report.message;
-      EXPECT_EQ(state.w[0], 0);
-   }
+   ReducedProblem problem = node_on_a_slope(1e-6);
+   ContactState state = ContactState::virgin(problem);
+   EXPECT_EQ(FrictionSolver(problem).solve(state, pull).status, FrictionStatus::converged);
+   EXPECT_NEAR(state.w[0], 1e6, 1e-3);
+   problem = node_on_a_slope(1e-10);
+   state = ContactState::virgin(problem);
+   const IncrementReport report = FrictionSolver(problem).solve(state, pull);
+   EXPECT_EQ(report.status, FrictionStatus::stalled);
+   EXPECT_NE(report.message.find("lost in round-off"), std::string::npos) << report.message;
+   EXPECT_EQ(state.w[0], 0);
 }
 
 TEST(FrictionSolver, AFreeNodeWithoutFrictionCarriesWhatPressesIt)
 {
-   for (auto method : {FrictionMethod::automatic, FrictionMethod::lemke})
-   {
-      FrictionSettings settings;
-      settings.method = method;
-      ReducedProblem problem = node_on_a_slope(0);
-      problem.gap[0] = -0.2;
-      set_friction(problem, 0);
-      ContactState state = ContactState::virgin(problem);
-      EXPECT_EQ(FrictionSolver(problem, settings).solve(state, VectorXd::Ones(1)).status,
-                FrictionStatus::converged);
-      EXPECT_NEAR(state.w[0], 0.2, 1e-15);
-      EXPECT_NEAR(state.p[0], 1, 1e-12);
-   }
+   ReducedProblem problem = node_on_a_slope(0);
+   problem.gap[0] = -0.2;
+   set_friction(problem, 0);
+   ContactState state = ContactState::virgin(problem);
+   EXPECT_EQ(FrictionSolver(problem).solve(state, VectorXd::Ones(1)).status,
+             FrictionStatus::converged);
+   EXPECT_NEAR(state.w[0], 0.2, 1e-15);
+   EXPECT_NEAR(state.p[0], 1, 1e-12);
 }
 
 TEST(FrictionSolver, FrictionlessHasNoTangentialUnknownsAndNoShear)

@@ -1,3 +1,5 @@
+#include "lemke.hpp"
+
 #include <cattaneo/friction/friction_solver.hpp>
 #include <cattaneo/reduced/reduced_file.hpp>
 #include <cstdlib>
@@ -51,24 +53,32 @@ TEST_P(PublicProblem, HasTheSolutionThatIsStored)
       }
       force = std::max(force, vector(increment.at("p")).cwiseAbs().maxCoeff());
    }
-   for (const FrictionMethod method : {FrictionMethod::automatic, FrictionMethod::lemke})
+   for (const bool by_lemke : {false, true})
    {
-      if (method == FrictionMethod::lemke && !GetParam().lemke) { continue; }
-      FrictionSettings settings;
-      settings.method = method;
-      FrictionSolver solver(problem, settings);
+      if (by_lemke && !GetParam().lemke) { continue; }
+      FrictionSolver solver(problem);
       ContactState state = ContactState::virgin(problem);
       for (std::size_t k = 0; k < increments.size(); ++k)
       {
          const nlohmann::json &stored = increments[k];
-         const IncrementReport report = solver.solve(state, vector(stored.at("multipliers")));
-         ASSERT_EQ(report.status, FrictionStatus::converged)
-            << "increment " << k << ": " << report.message;
+         const Eigen::VectorXd loads = vector(stored.at("multipliers"));
+         if (by_lemke)
+         {
+            const auto found = cattaneo_test::solve_by_lemke(problem, state, loads);
+            ASSERT_TRUE(found) << "increment " << k;
+            state = *found;
+         }
+         else
+         {
+            const IncrementReport report = solver.solve(state, loads);
+            ASSERT_EQ(report.status, FrictionStatus::converged)
+               << "increment " << k << ": " << report.message;
+         }
          // Round-off, magnified by the condition of the equations.
          const auto near = [&](const char *key, const Eigen::VectorXd &x, double scale)
          {
             EXPECT_LE((x - vector(stored.at(key))).cwiseAbs().maxCoeff(), 1e-8 * scale)
-               << key << " of increment " << k << ", method " << static_cast<int>(method);
+               << key << " of increment " << k << (by_lemke ? " by Lemke" : "");
          };
          near("v", state.v, length);
          near("w", state.w, length);

@@ -113,7 +113,6 @@ TEST(PlaneReceding, LongFreeEndsThatCloseAtOnceNeedAPath)
    ASSERT_EQ(run.code, 0) << run.output;
    ASSERT_EQ(run.results["map"].size(), 3u);
    EXPECT_GT(run.results["counters"]["pivots"], 0);
-   EXPECT_EQ(run.results["counters"]["lemke_pivots"], 0);
    const auto &longest = run.results["map"][2];
    for (const auto &state : run.results["map"]) // nearly independent of n
    {

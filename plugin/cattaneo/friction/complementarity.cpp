@@ -16,14 +16,18 @@ namespace
 class Rows
 {
 public:
-   Rows(const VectorXd &friction, bool tangential)
-      : friction_(friction), n_(friction.size()), tangential_(tangential)
+   explicit Rows(const StateEquations &equations)
+      : bound_(equations.bound()), n_(static_cast<Index>(bound_.size())),
+        tangential_(equations.diagonal().size() > n_)
    {
    }
 
+   Index nodes() const { return n_; }
+   bool tangential() const { return tangential_; }
+   const FrictionBound &bound(Index i) const { return bound_[i]; }
    /// Row of a node's normal displacement and force; the tangential one is the node's number.
    Index normal(Index i) const { return tangential_ ? n_ + i : i; }
-   bool smooth(Index i) const { return !tangential_ || friction_[i] == 0; }
+   bool smooth(Index i) const { return !tangential_ || bound_[i].none(); }
    /// The state of a node in contact without friction: the sense is of no consequence.
    NodeState smooth_contact(Index i, const VectorXd &x) const
    {
@@ -32,18 +36,17 @@ public:
    }
 
 private:
-   const VectorXd &friction_;
+   const std::vector<FrictionBound> &bound_;
    const Index n_;
    const bool tangential_;
 };
 
-/// The state that a Newton step gives node i: what the present solution asks for.
-NodeState wanted(const Rows &rows, const VectorXd &friction, Choice choice, Index i,
-                 NodeState s, const VectorXd &x, const VectorXd &F, const VectorXd &stiffness,
-                 const VectorXd &round_off)
+/// The state that a Newton step gives node i, in state s: what the present solution asks for.
+NodeState wanted(const Rows &rows, Choice choice, Index i, NodeState s, const VectorXd &x,
+                 const VectorXd &F, const VectorXd &stiffness, const VectorXd &round_off)
 {
-   const double tiny = std::max(round_off[i], round_off[rows.normal(i)]);
-   const double p = F[rows.normal(i)];
+   const Index m = rows.normal(i);
+   const double tiny = std::max(round_off[i], round_off[m]);
    switch (choice)
    {
    case Choice::open:
@@ -55,42 +58,40 @@ NodeState wanted(const Rows &rows, const VectorXd &friction, Choice choice, Inde
    case Choice::forward:
    case Choice::backward:
    {
-      const double side = choice == Choice::forward ? 1 : -1;
-      const NodeState slip = side > 0 ? NodeState::forward_slip : NodeState::backward_slip;
-      if (s == slip) { return stiffness[i] * side * x[i] < -tiny ? NodeState::stick : slip; }
-      return friction[i] * p + side * F[i] < -tiny ? slip : NodeState::stick;
+      const NodeState slip =
+         choice == Choice::forward ? NodeState::forward_slip : NodeState::backward_slip;
+      const double way = sense(slip), left = s == slip ? stiffness[i] * way * x[i]
+                                                       : rows.bound(i).reserve(F[i], F[m], way);
+      return (s == slip) == (left >= -tiny) ? slip : NodeState::stick;
    }
    case Choice::any:
       break;
    }
-   const Index m = rows.normal(i);
-   if (!closed(s))
+   ContactNode node;
+   node.gap = x[m];
+   node.p = F[m];
+   node.kn = stiffness[m];
+   if (rows.smooth(i))
    {
-      if (stiffness[m] * x[m] >= -tiny) { return s; }
-      if (rows.smooth(i)) { return rows.smooth_contact(i, x); }
-      // A node that penetrates sticks first: which way it slips is not known yet.
-      return NodeState::stick;
+      const NodeState next = wanted_state(node, s, tiny, tiny);
+      return closed(next) ? rows.smooth_contact(i, x) : next;
    }
-   if (p < -tiny) { return NodeState::separation; }
-   if (rows.smooth(i)) { return rows.smooth_contact(i, x); }
-   const double bound = friction[i] * std::max(p, 0.0);
-   const double trial = F[i] - stiffness[i] * x[i];
-   const double margin = slips(s) ? -tiny : tiny;
-   if (trial < -bound - margin) { return NodeState::forward_slip; }
-   if (trial > bound + margin) { return NodeState::backward_slip; }
-   return NodeState::stick;
+   node.slip = x.segment<1>(i);
+   node.q = F.segment<1>(i);
+   node.kt = stiffness[i];
+   node.bound = rows.bound(i);
+   return wanted_state(node, s, tiny, tiny);
 }
 
 } // namespace
 
-ComplementarityReport solve_by_newton(StateEquations &equations, const VectorXd &friction,
+ComplementarityReport solve_by_newton(StateEquations &equations,
                                       const ComplementarityProblem &problem, int max_steps,
                                       ComplementarityReport start)
 {
    ComplementarityReport report = std::move(start);
    bool known = report.x.size() == problem.b.size();
-   const Index n = friction.size();
-   const Rows rows(friction, problem.b.size() > n);
+   const Rows rows(equations);
    const VectorXd &stiffness = equations.diagonal();
    std::set<std::vector<NodeState>> visited;
    while (report.newton_steps < max_steps)
@@ -104,10 +105,10 @@ ComplementarityReport solve_by_newton(StateEquations &equations, const VectorXd 
       known = false;
       const VectorXd tiny = equations.round_off(problem.b, report.x);
       std::vector<NodeState> next = equations.states();
-      for (Index i = 0; i < n; ++i)
+      for (Index i = 0; i < rows.nodes(); ++i)
       {
-         next[i] = wanted(rows, friction, problem.choice[i], i, next[i], report.x, report.F,
-                          stiffness, tiny);
+         next[i] =
+            wanted(rows, problem.choice[i], i, next[i], report.x, report.F, stiffness, tiny);
       }
       if (next == equations.states())
       {
@@ -126,9 +127,8 @@ namespace
 class Path
 {
 public:
-   Path(StateEquations &equations, const VectorXd &friction,
-        const ComplementarityProblem &problem, const VectorXd &x, const VectorXd &F,
-        double slack, unsigned seed);
+   Path(StateEquations &equations, const ComplementarityProblem &problem, const VectorXd &x,
+        const VectorXd &F, double slack, unsigned seed);
 
    bool follow(ComplementarityReport &report);
 
@@ -152,11 +152,10 @@ private:
    bool meets_all(const VectorXd &x, const VectorXd &F);
 
    StateEquations &equations_;
-   const VectorXd &friction_;
    const ComplementarityProblem &problem_;
+   const Rows rows_;
    const Index n_;
    const bool tangential_;
-   const Rows rows_;
    /// Sense of slip: of nodes in contact that of their state; nodes in separation have one too
    /// as long as θ h holds them, 0 if it does not let them move.
    VectorXd sense_;
@@ -165,12 +164,11 @@ private:
    VectorXd dx_, dF_;      // by dθ
 };
 
-Path::Path(StateEquations &equations, const VectorXd &friction,
-           const ComplementarityProblem &problem, const VectorXd &x, const VectorXd &F,
-           double slack, unsigned seed)
-   : equations_(equations), friction_(friction), problem_(problem), n_(friction.size()),
-     tangential_(problem.b.size() > n_), rows_(friction, tangential_),
-     sense_(VectorXd::Zero(n_)), h_(VectorXd::Zero(n_)), x_(x), F_(F)
+Path::Path(StateEquations &equations, const ComplementarityProblem &problem, const VectorXd &x,
+           const VectorXd &F, double slack, unsigned seed)
+   : equations_(equations), problem_(problem), rows_(equations), n_(rows_.nodes()),
+     tangential_(rows_.tangential()), sense_(VectorXd::Zero(n_)), h_(VectorXd::Zero(n_)), x_(x),
+     F_(F)
 {
    std::mt19937_64 random(seed);
    const VectorXd &stiffness = equations.diagonal();
@@ -199,7 +197,7 @@ Path::Path(StateEquations &equations, const VectorXd &friction,
          h_[i] = some();
          if (!closed(state)) { sense_[i] = x_[i] >= 0 ? 1 : -1; }
       }
-      const double bound = friction[i] * F_[m] + h_[i];
+      const double bound = rows_.bound(i).line(F_[m], sense_[i]) + h_[i];
       if (state == NodeState::stick)
       {
          x_[i] = 0;
@@ -244,9 +242,9 @@ double Path::value(Index i, Kind kind, const VectorXd &x, const VectorXd &F, dou
    case pressure:
       return F[m];
    case forward:
-      return friction_[i] * F[m] + theta * h_[i] + F[i];
+      return rows_.bound(i).reserve(F[i], F[m], 1) + theta * h_[i];
    case backward:
-      return friction_[i] * F[m] + theta * h_[i] - F[i];
+      return rows_.bound(i).reserve(F[i], F[m], -1) + theta * h_[i];
    case way:
       return equations_.diagonal()[i] * sense_[i] * x[i];
    }
@@ -362,20 +360,20 @@ bool Path::follow(ComplementarityReport &report)
 
 } // namespace
 
-ComplementarityReport solve_by_path(StateEquations &equations, const VectorXd &friction,
+ComplementarityReport solve_by_path(StateEquations &equations,
                                     const ComplementarityProblem &problem, const VectorXd &x,
                                     const VectorXd &F, double slack, unsigned seed)
 {
    ComplementarityReport report;
    // Without friction there is no stick.
-   const Rows rows(friction, problem.b.size() > friction.size());
+   const Rows rows(equations);
    std::vector<NodeState> states = equations.states();
-   for (Index i = 0; i < friction.size(); ++i)
+   for (Index i = 0; i < rows.nodes(); ++i)
    {
       if (closed(states[i]) && rows.smooth(i)) { states[i] = rows.smooth_contact(i, x); }
    }
    if (!equations.set(states)) { return report; }
-   report.solved = Path(equations, friction, problem, x, F, slack, seed).follow(report);
+   report.solved = Path(equations, problem, x, F, slack, seed).follow(report);
    return report;
 }
 

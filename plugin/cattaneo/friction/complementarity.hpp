@@ -37,7 +37,6 @@ struct ComplementarityReport
 /// Semismooth Newton steps from the states of `equations`, which hold the solution's if solved.
 /// `start` may bring x and F of these states, to save their solution.
 ComplementarityReport solve_by_newton(StateEquations &equations,
-                                      const Eigen::VectorXd &friction,
                                       const ComplementarityProblem &problem, int max_steps,
                                       ComplementarityReport start = {});
 
@@ -50,7 +49,7 @@ ComplementarityReport solve_by_newton(StateEquations &equations,
     beyond f p, in separation too, that vanishes at the end: slip, stick, opening and closing
    are then one exchange each. A path may end in a ray, above critical friction for instance:
     another start may do better. */
-ComplementarityReport solve_by_path(StateEquations &equations, const Eigen::VectorXd &friction,
+ComplementarityReport solve_by_path(StateEquations &equations,
                                     const ComplementarityProblem &problem,
                                     const Eigen::VectorXd &x, const Eigen::VectorXd &F,
                                     double slack, unsigned seed);

@@ -1,7 +1,7 @@
 #include <cattaneo/algebra/dense_algebra.hpp>
 #include <cattaneo/algebra/nonnegative_fit.hpp>
+#include <cattaneo/friction/contact_law.hpp>
 #include <cattaneo/friction/critical_friction.hpp>
-#include <cattaneo/friction/friction_disc.hpp>
 #include <cattaneo/friction/mechanism.hpp>
 #include <cmath>
 #include <limits>
@@ -85,14 +85,7 @@ CriticalFriction critical_friction(const ReducedProblem &problem)
    if (c == 0) { return result; }
    for (Index i = 0; i < n; ++i)
    {
-      double own = problem.A()(i, i) / std::abs(problem.B()(i, i));
-      if (c == 2)
-      {
-         Eigen::Matrix2d A;
-         A << problem.A()(i, i), problem.A()(i, n + i), problem.A()(n + i, i),
-            problem.A()(n + i, n + i);
-         own = critical_friction(A, Eigen::Vector2d(problem.B()(i, i), problem.B()(i, n + i)));
-      }
+      const double own = critical_friction(lone_node(problem, i));
       if (own < result.node)
       {
          result.node = own;

@@ -9,15 +9,8 @@ namespace cattaneo
 using Eigen::Index;
 using Eigen::VectorXd;
 
-namespace
-{
-
-const int newton_steps = 30;
-
-} // namespace
-
 ExactPath::ExactPath(const ReducedProblem &problem)
-   : problem_(problem), K_(problem.K), equations_(K_, problem.friction)
+   : problem_(problem), K_(problem.K), equations_(K_, friction_bounds(problem.friction))
 {
    require(problem.components() == 1, "exact path: the reduced problem has ",
            problem.components(), " tangential components a node, must have 1");
@@ -31,21 +24,19 @@ void ExactPath::find_choices(const ContactState &state)
    for (Index i = 0; i < n; ++i)
    {
       Choice &choice = rates_.choice[i];
-      const double f = problem_.friction[i], q = F_[i], p = F_[n + i];
+      const FrictionBound &bound = equations_.bound()[i];
+      const double q = F_[i], p = F_[n + i], way = sense(state.status[i]),
+                   forward = bound.reserve(q, p, 1), backward = bound.reserve(q, p, -1);
       if (!closed(state.status[i]))
       {
          const double gap = u_[n + i] + problem_.gap[i];
          choice = K_(n + i, n + i) * gap > noise_[i] ? Choice::open : Choice::any;
-         continue;
       }
-      if (p <= noise_[i]) { choice = Choice::any; }
-      else if (f == 0) { choice = Choice::sliding; }
-      else if (slips(state.status[i]))
-      {
-         choice = sense(state.status[i]) > 0 ? Choice::forward : Choice::backward;
-      }
-      else if (f * p - std::abs(q) > noise_[i]) { choice = Choice::held; }
-      else { choice = q < 0 ? Choice::forward : Choice::backward; }
+      else if (p <= noise_[i]) { choice = Choice::any; }
+      else if (bound.none()) { choice = Choice::sliding; }
+      else if (way != 0) { choice = way > 0 ? Choice::forward : Choice::backward; }
+      else if (std::min(forward, backward) > noise_[i]) { choice = Choice::held; }
+      else { choice = forward < backward ? Choice::forward : Choice::backward; }
    }
 }
 
@@ -74,8 +65,7 @@ bool ExactPath::find_rates(const ContactState &state, const VectorXd &multiplier
       known.x = u_rate_;
       known.F = F_rate_;
    }
-   ComplementarityReport found =
-      solve_by_newton(equations_, problem_.friction, rates_, newton_steps, std::move(known));
+   ComplementarityReport found = solve_by_newton(equations_, rates_, 30, std::move(known));
    counters_.newton_steps += found.newton_steps;
    unsigned seed = 0;
    for (double slack : {1.0, 0.1, 10.0, 0.01, 1.0, 1e-3, 1.0, 0.1})
@@ -83,7 +73,7 @@ bool ExactPath::find_rates(const ContactState &state, const VectorXd &multiplier
       if (found.solved) { break; }
       const VectorXd rest = VectorXd::Zero(K_.rows());
       if (!equations_.set(states)) { break; }
-      found = solve_by_path(equations_, problem_.friction, rates_, rest, rest, slack, ++seed);
+      found = solve_by_path(equations_, rates_, rest, rest, slack, ++seed);
       counters_.pivots += found.pivots;
    }
    if (!found.solved)
@@ -110,10 +100,12 @@ double ExactPath::way_to_event() const
    };
    for (Index i = 0; i < n; ++i)
    {
-      const double f = problem_.friction[i];
       const double p = F_[n + i], p_rate = F_rate_[n + i];
-      auto forward = [&] { meet(i, f * p + F_[i], f * p_rate + F_rate_[i]); };
-      auto backward = [&] { meet(i, f * p - F_[i], f * p_rate - F_rate_[i]); };
+      const auto friction_exhausted = [&](double way)
+      {
+         const FrictionBound &bound = equations_.bound()[i];
+         meet(i, bound.reserve(F_[i], p, way), bound.slope(p, way) * p_rate + way * F_rate_[i]);
+      };
       const Choice choice = rates_.choice[i];
       switch (choice)
       {
@@ -124,8 +116,8 @@ double ExactPath::way_to_event() const
               K_(n + i, n + i) * u_rate_[n + i]);
          break;
       case Choice::held:
-         forward();
-         backward();
+         friction_exhausted(1);
+         friction_exhausted(-1);
          break;
       case Choice::sliding:
          meet(i, p, p_rate);
@@ -133,8 +125,7 @@ double ExactPath::way_to_event() const
       case Choice::forward:
       case Choice::backward:
          if (slips(equations_.states()[i])) { meet(i, p, p_rate); }
-         else if (choice == Choice::forward) { backward(); }
-         else { forward(); }
+         else { friction_exhausted(choice == Choice::forward ? -1 : 1); }
          break;
       }
    }
@@ -154,11 +145,11 @@ bool ExactPath::starts_from(const ContactState &state) const
    for (Index i = 0; i < n; ++i)
    {
       const double limit = std::max({allowed, round_off[i], round_off[n + i]}),
-                   off =
-                      state.q[i] + sense(state.status[i]) * problem_.friction[i] * state.p[i],
+                   way = sense(state.status[i]),
+                   off = equations_.bound()[i].reserve(state.q[i], state.p[i], way),
                    gap = K_(n + i, n + i) * (state.w[i] + problem_.gap[i]);
       starts = starts && (!closed(state.status[i]) || gap <= limit) &&
-               (sense(state.status[i]) == 0 || std::abs(off) <= limit);
+               (way == 0 || std::abs(off) <= limit);
    }
    return starts;
 }

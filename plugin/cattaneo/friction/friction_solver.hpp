@@ -9,13 +9,13 @@
 namespace cattaneo
 {
 
+struct FrictionSystem;
+
 enum class FrictionMethod
 {
-   automatic,    ///< a few Gauss–Seidel sweeps, active-set finish; if both fail a path, then
-                 ///< weak springs on the rigid motions and damped Newton from several starts
-   gauss_seidel, ///< node by node only (thesis 3.5, appendix D)
-   lemke ///< the complementarity problem on (w, v⁺, v⁻) by a dense tableau, then one
-         ///< active-set solve: slow, a check of the others (one tangential component only)
+   automatic,   ///< a few Gauss–Seidel sweeps, active-set finish; if both fail a path, then
+                ///< weak springs on the rigid motions and damped Newton from several starts
+   gauss_seidel ///< node by node only (thesis 3.5, appendix D)
 };
 
 struct FrictionSettings
@@ -41,7 +41,8 @@ struct IncrementReport
    /// Largest violation of the equations as given and of the laws by the state that is
    /// returned (see check_laws), over the largest force so far.
    double residual_normal = 0, residual_tangential = 0;
-   double round_off = 0; ///< estimate of what arithmetic can reach, relative
+   double round_off = 0;      ///< estimate of what arithmetic can reach, relative
+   const char *found_by = ""; ///< the method that found the solution, if one was found
 };
 
 /** Solves increments of the frictional contact of a reduced problem: given the state at the
@@ -49,8 +50,8 @@ struct IncrementReport
    and 3.6).
 
     With two tangential components a node the friction force is a vector in the disc
-    |q| <= f p, opposed to the slip increment; what differs from the plane is in
-    friction_disc.hpp.
+    |q| <= f p, opposed to the slip increment. The law of a node is in contact_law.hpp, the
+    methods are listed in friction_solver.cpp in the order in which they are tried.
 
     Where there are several answers the one found need not be the nearest to the state at the
     start: if a body jumps there, that is not reported.
@@ -89,8 +90,7 @@ public:
    const Counters &counters() const;
 
 private:
-   struct Implementation;
-   std::unique_ptr<Implementation> impl_;
+   std::unique_ptr<FrictionSystem> system_;
 };
 
 } // namespace cattaneo

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cattaneo/friction/contact_law.hpp>
 #include <cattaneo/friction/march.hpp>
 #include <cattaneo/friction/settled_states.hpp>
 #include <cattaneo/input_error.hpp>
@@ -648,8 +649,9 @@ VectorXd frictional_loss(const ReducedProblem &problem, const ContactState &befo
    VectorXd lost = VectorXd::Zero(c > 0 ? n : 0);
    for (Index i = 0; i < lost.size(); ++i)
    {
-      const double f = problem.friction[i], p1 = std::max(after.p[i], 0.0);
-      double p0 = std::max(before.p[i], 0.0), length = 0, along = 0;
+      const FrictionBound bound(problem.friction[i]);
+      const double g1 = bound.at(after.p[i]);
+      double g0 = bound.at(before.p[i]), length = 0, along = 0;
       for (Index k = i; k < c * n; k += n)
       {
          const double step = after.v[k] - before.v[k];
@@ -659,9 +661,9 @@ VectorXd frictional_loss(const ReducedProblem &problem, const ContactState &befo
       if (length == 0) { continue; }
       if (slips(before.status[i]) && slips(after.status[i]) && along < 0)
       {
-         // |q0 + s (trial - q0)|² = f² (p0 + s (p1 - p0))²: the root in 0…1 beyond s = 0, where
-         // friction was exhausted the other way.
-         double a = -f * f * (p1 - p0) * (p1 - p0), b = -2 * f * f * p0 * (p1 - p0);
+         // |q0 + s (trial - q0)|² = (g0 + s (g1 - g0))², g the bounds: the root in 0…1 beyond
+         // s = 0, where friction was exhausted the other way.
+         double a = -(g1 - g0) * (g1 - g0), b = -2 * g0 * (g1 - g0);
          for (Index k = i; k < c * n; k += n)
          {
             const double trial = after.q[k] - problem.A()(k, k) * (after.v[k] - before.v[k]);
@@ -670,9 +672,9 @@ VectorXd frictional_loss(const ReducedProblem &problem, const ContactState &befo
             b += 2 * before.q[k] * way;
          }
          const double turn = a > 0 ? std::clamp(-b / a, 0.0, 1.0) : 0.0;
-         p0 += turn * (p1 - p0);
+         g0 += turn * (g1 - g0);
       }
-      lost[i] = 0.5 * f * (p0 + p1) * length;
+      lost[i] = 0.5 * (g0 + g1) * length;
    }
    return lost;
 }

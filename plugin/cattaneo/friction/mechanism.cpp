@@ -1,5 +1,6 @@
 #include <cattaneo/algebra/nonnegative_fit.hpp>
 #include <cattaneo/algebra/semidefinite.hpp>
+#include <cattaneo/friction/contact_law.hpp>
 #include <cattaneo/friction/mechanism.hpp>
 #include <cmath>
 #include <vector>
@@ -43,6 +44,7 @@ Mechanism find_mechanism(const ReducedProblem &problem, const MatrixXd &motions,
    // Equilibrium along the rigid motions: Zᵀ{q; p} = Zᵀ f^w. Columns of G: the edges (± f, 1)
    // of every node's friction cone, for each tangential component.
    const Index c = std::max<Index>(problem.components(), 1);
+   const std::vector<FrictionBound> bound = friction_bounds(problem.friction);
    MatrixXd G(Z.cols(), 2 * c * n);
    for (Index k = 0; k < c; ++k)
    {
@@ -50,8 +52,8 @@ Mechanism find_mechanism(const ReducedProblem &problem, const MatrixXd &motions,
       {
          const VectorXd normal = Z.row(m + i);
          const VectorXd tangential = m ? VectorXd(Z.row(k * n + i)) : VectorXd::Zero(Z.cols());
-         G.col(2 * (k * n + i)) = normal + problem.friction[i] * tangential;
-         G.col(2 * (k * n + i) + 1) = normal - problem.friction[i] * tangential;
+         G.col(2 * (k * n + i)) = normal + bound[i].slope(0, -1) * tangential;
+         G.col(2 * (k * n + i) + 1) = normal - bound[i].slope(0, 1) * tangential;
       }
    }
    const VectorXd g = Z.transpose() * clamped_forces;
@@ -74,7 +76,7 @@ Mechanism find_mechanism(const ReducedProblem &problem, const MatrixXd &motions,
          VectorXd edge = Z.row(m + i);
          if (along.norm() > 0)
          {
-            edge += problem.friction[i] / along.norm() * tangential.transpose() * along;
+            edge += bound[i].slope() / along.norm() * tangential.transpose() * along;
          }
          if (edge.dot(r) > 1e-12 * edge.norm() * g.norm()) { edges.push_back(edge); }
       }
@@ -121,8 +123,8 @@ Mechanism find_spinning(const ReducedProblem &problem, const VectorXd &frictionl
    double resistance = 0;
    for (Index i = 0; i < n; ++i)
    {
-      resistance +=
-         problem.friction[i] * frictionless_pressure[i] * std::hypot(Z(i, 0), Z(n + i, 0));
+      resistance += FrictionBound(problem.friction[i]).line(frictionless_pressure[i]) *
+                    std::hypot(Z(i, 0), Z(n + i, 0));
    }
    const double drive = Z.col(0).dot(clamped_forces.head(2 * n));
    if (std::abs(drive) * Z.cwiseAbs().maxCoeff() <= negligible ||

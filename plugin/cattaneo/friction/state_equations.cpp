@@ -18,10 +18,12 @@ constexpr double least_corner = 1e-9;
 
 } // namespace
 
-StateEquations::StateEquations(const Eigen::Ref<const MatrixXd> &K, const VectorXd &friction)
-   : K_(K), friction_(friction), n_(friction.size()), tangential_(K.rows() > n_),
-     diagonal_(K.diagonal()), arithmetic_(K), states_(n_, NodeState::stick), held_(n_, false),
-     slot_of_(K.rows(), -1), border_of_(K.rows(), -1)
+StateEquations::StateEquations(const Eigen::Ref<const MatrixXd> &K,
+                               std::vector<FrictionBound> bound)
+   : K_(K), bound_(std::move(bound)), n_(static_cast<Index>(bound_.size())),
+     tangential_(K.rows() > n_), diagonal_(K.diagonal()), arithmetic_(K),
+     states_(n_, NodeState::stick), held_(n_, false), slot_of_(K.rows(), -1),
+     border_of_(K.rows(), -1)
 {
 }
 
@@ -31,7 +33,8 @@ void StateEquations::for_each_equation(Index node, Visitor visit) const
    const NodeState state = states_[node];
    if (tangential_ && state != NodeState::stick && !held_[node])
    {
-      visit(Equation{node, normal_row(node), sense(state) * friction_[node]});
+      const double way = sense(state);
+      visit(Equation{node, normal_row(node), way * bound_[node].slope(0, way)});
    }
    if (!closed(state)) { visit(Equation{normal_row(node), normal_row(node), 0.0}); }
 }

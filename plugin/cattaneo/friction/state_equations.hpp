@@ -2,8 +2,8 @@
 
 #include <Eigen/Dense>
 #include <cattaneo/algebra/dense_lu.hpp>
-#include <cattaneo/friction/contact_laws.hpp>
-#include <cattaneo/friction/contact_state.hpp>
+#include <cattaneo/algebra/round_off.hpp>
+#include <cattaneo/friction/contact_law.hpp>
 #include <vector>
 
 namespace cattaneo
@@ -29,11 +29,12 @@ namespace cattaneo
 class StateEquations
 {
 public:
-   /// Keeps references to both: K of size (c+1)·n, c = 0 or 1, and n friction coefficients.
-   StateEquations(const Eigen::Ref<const Eigen::MatrixXd> &K, const Eigen::VectorXd &friction);
+   /// Keeps a reference to K, of size (c+1)·n, c = 0 or 1, with bounds for n nodes.
+   StateEquations(const Eigen::Ref<const Eigen::MatrixXd> &K, std::vector<FrictionBound> bound);
 
    const Eigen::Ref<const Eigen::MatrixXd> &stiffness() const { return K_; }
-   const Eigen::VectorXd &diagonal() const { return diagonal_; } ///< of K
+   const Eigen::VectorXd &diagonal() const { return diagonal_; }      ///< of K
+   const std::vector<FrictionBound> &bound() const { return bound_; } ///< of each node
    const std::vector<NodeState> &states() const { return states_; }
    /// Changes the states of all nodes or of one. False if the equations would be singular: then
    /// nothing has changed.
@@ -92,7 +93,7 @@ private:
    void step(const Eigen::VectorXd &F, Eigen::VectorXd &x) const;
 
    const Eigen::Ref<const Eigen::MatrixXd> K_;
-   const Eigen::VectorXd &friction_;
+   const std::vector<FrictionBound> bound_;
    const Eigen::Index n_;
    const bool tangential_;
    const Eigen::VectorXd diagonal_;

@@ -1,0 +1,45 @@
+#include <cattaneo/algebra/round_off.hpp>
+#include <limits>
+
+namespace cattaneo
+{
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace
+{
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+} // namespace
+
+RoundOff::RoundOff(const Eigen::Ref<const MatrixXd> &K) : K_(K)
+{
+   VectorXd sums = VectorXd::Zero(K.rows()); // by columns: K is symmetric
+   for (Index j = 0; j < K.cols(); ++j) { sums[j] = K.col(j).cwiseAbs().sum(); }
+   norm_ = sums.maxCoeff();
+   graded_ = K.diagonal().minCoeff() < 1e-4 * K.diagonal().maxCoeff();
+}
+
+VectorXd RoundOff::rows(const VectorXd &size, const VectorXd &f) const
+{
+   if (!graded_)
+   {
+      const double largest = f.cwiseAbs().maxCoeff(), all = norm_ * size.maxCoeff() + largest;
+      // Where that is much, it is worth knowing better.
+      if (4 * eps * all <= 1e-11 * largest)
+      {
+         return VectorXd::Constant(K_.rows(), 4 * eps * all);
+      }
+   }
+   VectorXd sum = f.cwiseAbs();
+   for (Index j = 0; j < K_.cols(); ++j)
+   {
+      if (size[j] != 0) { sum += size[j] * K_.col(j).cwiseAbs(); }
+   }
+   return 4 * eps * sum;
+}
+
+} // namespace cattaneo

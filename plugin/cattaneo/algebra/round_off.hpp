@@ -1,0 +1,25 @@
+#pragma once
+
+#include <Eigen/Dense>
+
+namespace cattaneo
+{
+
+/// What arithmetic leaves of the sums K u + f, row by row: 4 ε (|K| |u| + |f|). All rows are
+/// given the bound by the largest row sum, which is cheaper, where it is below 1e-11 of the
+/// largest f and the diagonal of K spans less than four decades.
+class RoundOff
+{
+public:
+   /// Keeps a reference to K, symmetric.
+   explicit RoundOff(const Eigen::Ref<const Eigen::MatrixXd> &K);
+   /// `size`: bound of |u| entry by entry; f: forces with u = 0.
+   Eigen::VectorXd rows(const Eigen::VectorXd &size, const Eigen::VectorXd &f) const;
+
+private:
+   const Eigen::Ref<const Eigen::MatrixXd> K_;
+   double norm_ = 0;
+   bool graded_ = false;
+};
+
+} // namespace cattaneo

@@ -1,0 +1,99 @@
+#include <cattaneo/friction/methods.hpp>
+#include <set>
+
+namespace cattaneo
+{
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace
+{
+
+/// Takes the states that the present displacements and forces ask for. True if none changed.
+bool update_states(Increment &at)
+{
+   // Violations that change nothing.
+   const VectorXd tiny =
+      (0.5 * at.round_off()).cwiseMax(0.1 * at.system.settings.tolerance * at.reference);
+   bool unchanged = true;
+   for (Index i = 0; i < at.system.n; ++i)
+   {
+      const ContactNode node = at.node(i);
+      const NodeState next =
+         wanted_state(node, at.status[i], tiny[at.system.m(i)], at.round_off_along(tiny, i));
+      if (next == NodeState::slip)
+      {
+         at.direction[i] = DiscSlip(node.trial(), node.bound.at(node.p));
+      }
+      unchanged = unchanged && next == at.status[i];
+      at.status[i] = next;
+   }
+   return unchanged;
+}
+
+/// In the disc the directions of slip change from step to step as well: done when the residual
+/// is small enough, given up when it has stopped falling.
+bool newton_in_the_disc(Increment &at)
+{
+   update_states(at); // finds the directions
+   double best = std::numeric_limits<double>::infinity();
+   int patience = 8;
+   for (int k = 0; k < at.system.settings.max_newton && patience > 0; ++k)
+   {
+      if (!solve_for_states(at)) { return false; }
+      const bool small = at.residuals();
+      if (update_states(at) && small) { return at.solved(); }
+      const double size = std::max(at.report.residual_normal, at.report.residual_tangential);
+      if (size < 0.5 * best)
+      {
+         best = size;
+         patience = 8;
+      }
+      else { --patience; }
+   }
+   return false;
+}
+
+} // namespace
+
+bool newton(Increment &at)
+{
+   if (at.system.disc()) { return newton_in_the_disc(at); }
+   std::set<std::vector<NodeState>> visited;
+   for (int k = 0; k < at.system.settings.max_newton; ++k)
+   {
+      if (!visited.insert(at.status).second) { return false; } // it cycles
+      if (!solve_for_states(at)) { return false; }
+      if (update_states(at)) { return at.solved(); }
+   }
+   return false;
+}
+
+bool polished(Increment &at)
+{
+   const VectorXd u = at.u;
+   const std::vector<NodeState> status = at.status;
+   if (newton(at)) { return true; }
+   at.take(u, status);
+   return at.solved();
+}
+
+Search active_set(Increment &at)
+{
+   const FrictionSettings &settings = at.system.settings;
+   int sweeps = settings.sweeps;
+   for (int k = 0; k < settings.max_attempts; ++k)
+   {
+      if (k > 0) { at.go_back(); }
+      if (k == 2 && at.finds_mechanism()) { return Search::hopeless; }
+      for (int j = 0; j < sweeps; ++j) { sweep(at); }
+      at.u_swept = at.u;
+      at.status_swept = at.status;
+      if (newton(at)) { return Search::found; }
+      sweeps = std::max(4, 2 * sweeps);
+   }
+   return Search::not_here;
+}
+
+} // namespace cattaneo

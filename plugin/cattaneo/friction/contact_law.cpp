@@ -1,0 +1,299 @@
+#include <cattaneo/friction/contact_law.hpp>
+#include <cmath>
+#include <limits>
+
+namespace cattaneo
+{
+
+using Eigen::Index;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+
+namespace
+{
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+double dot(const NodeVector &a, const NodeVector &b)
+{
+   double sum = 0;
+   for (Index k = 0; k < a.size(); ++k) { sum += a[k] * b[k]; }
+   return sum;
+}
+
+/// A⁻¹ b by cofactors: a mirrored A and b give the mirrored answer to the last bit.
+NodeVector solve(const NodeMatrix &A, const NodeVector &b)
+{
+   if (b.size() < 2) { return b.size() == 0 ? b : NodeVector(b / A(0, 0)); }
+   const double det = A(0, 0) * A(1, 1) - A(0, 1) * A(1, 0);
+   return Vector2d((A(1, 1) * b[0] - A(0, 1) * b[1]) / det,
+                   (A(0, 0) * b[1] - A(1, 0) * b[0]) / det);
+}
+
+/// The bound on a force that goes against this direction.
+double bound_against(const ContactNode &node, const NodeVector &way)
+{
+   return node.bound.at(node.p, way.size() == 2 ? 0.0 : way[0] > 0 ? 1.0 : -1.0);
+}
+
+/// The slip equation of the disc over t = s/(s + k) in 0…1, k of the size of A: finite at both
+/// ends and linear where A is a multiple of I.
+struct SlipEquation
+{
+   const LoneNode &node;
+   double k = 0.5 * node.A.trace();
+
+   /// x = -(1-t) y with ((1-t) A + t k I) y = q0.
+   NodeVector y(double t) const
+   {
+      return solve((1 - t) * node.A + t * k * NodeMatrix::Identity(2, 2), node.q0);
+   }
+   /// |q| less its bound.
+   double operator()(double t) const
+   {
+      const NodeVector at = y(t);
+      const double p = node.p0 - (1 - t) * dot(node.b, at);
+      return k * t * std::hypot(at[0], at[1]) - node.bound.line(p);
+   }
+};
+
+/// Sign change in low…high, where g(low) <= 0 < g(high) (Illinois variant of false position).
+double root(const SlipEquation &g, double low, double high)
+{
+   double g_low = g(low), g_high = g(high);
+   const double scale = std::max(std::abs(g_low), std::abs(g_high));
+   for (int k = 0, last = 0; k < 100 && high - low > eps * high; ++k)
+   {
+      const double t =
+         k < 50 ? (low * g_high - high * g_low) / (g_high - g_low) : 0.5 * (low + high);
+      const double value = g(t);
+      if (value > 0)
+      {
+         high = t;
+         g_high = value;
+         if (last == 1) { g_low *= 0.5; }
+         last = 1;
+      }
+      else
+      {
+         low = t;
+         g_low = value;
+         if (last == -1) { g_high *= 0.5; }
+         last = -1;
+      }
+      if (std::abs(value) <= eps * scale) { return t; }
+   }
+   return low;
+}
+
+} // namespace
+
+double magnitude(const NodeVector &x)
+{
+   const double other = x.size() > 1 ? x[1] : 0.0;
+   return x.size() == 0 ? 0.0 : other == 0 ? std::abs(x[0]) : std::hypot(x[0], other);
+}
+
+std::vector<FrictionBound> friction_bounds(const VectorXd &coefficients)
+{
+   std::vector<FrictionBound> bounds;
+   for (double f : coefficients) { bounds.emplace_back(f); }
+   return bounds;
+}
+
+NodeState friction_state(const ContactNode &node, double margin)
+{
+   const NodeVector trial = node.trial();
+   if (trial.size() == 2)
+   {
+      const double size = std::hypot(trial[0], trial[1]);
+      const bool held = size <= node.bound.at(node.p) + margin || size == 0;
+      return held ? NodeState::stick : NodeState::slip;
+   }
+   if (trial[0] < -node.bound.at(node.p, 1) - margin) { return NodeState::forward_slip; }
+   if (trial[0] > node.bound.at(node.p, -1) + margin) { return NodeState::backward_slip; }
+   return NodeState::stick;
+}
+
+NodeState wanted_state(const ContactNode &node, NodeState now, double tiny, double tiny_along)
+{
+   if (!closed(now))
+   {
+      // A node that penetrates sticks first: which way it slips is not known yet.
+      return node.kn * node.gap < -tiny ? NodeState::stick : now;
+   }
+   if (node.p < -tiny) { return NodeState::separation; }
+   if (node.q.size() == 0) { return now; }
+   return friction_state(node, slips(now) ? -tiny_along : tiny_along);
+}
+
+NodeState natural_state(const ContactNode &node)
+{
+   if (node.kn * node.gap > node.p) { return NodeState::separation; }
+   return friction_state(node);
+}
+
+NodeResidual residual(const ContactNode &node)
+{
+   NodeResidual R{std::min(node.kn * node.gap, node.p), node.trial()};
+   NodeVector &held = R.tangential;
+   if (held.size() == 1)
+   {
+      held[0] = std::clamp(held[0], -node.bound.at(node.p, 1), node.bound.at(node.p, -1));
+   }
+   if (held.size() == 2)
+   {
+      const double size = std::hypot(held[0], held[1]), limit = node.bound.at(node.p);
+      if (size > limit) { held *= limit / size; }
+   }
+   R.tangential = node.q - held;
+   return R;
+}
+
+FrictionDerivative friction_derivative(const ContactNode &node)
+{
+   const NodeVector trial = node.trial();
+   const Index c = trial.size();
+   FrictionDerivative d{NodeMatrix::Identity(c, c), NodeVector::Zero(c), 0.0};
+   const double size = magnitude(trial), limit = bound_against(node, -trial);
+   if (size <= limit) { return d; }
+   d.n = trial / size;
+   d.P.setZero();
+   d.slope = node.bound.derivative(node.p, c == 2 ? 0.0 : -d.n[0]);
+   if (c == 2)
+   {
+      const DiscSlip to(trial, limit);
+      d.P = to.share * to.t() * to.t().transpose();
+   }
+   return d;
+}
+
+DiscSlip::DiscSlip(const Vector2d &trial, double bound)
+{
+   const double length = std::hypot(trial[0], trial[1]);
+   n = trial / length;
+   share = std::min(bound / length, 1.0);
+}
+
+LoneNode lone_node(const ReducedProblem &problem, Index i)
+{
+   const Index n = problem.nodes(), c = problem.components();
+   LoneNode node{NodeMatrix(c, c), NodeVector(c), problem.C()(i, i),
+                 NodeVector(c),    0.0,           FrictionBound(problem.friction[i])};
+   for (Index k = 0; k < c; ++k)
+   {
+      node.b[k] = problem.B()(i, k * n + i);
+      for (Index l = 0; l < c; ++l) { node.A(k, l) = problem.A()(k * n + i, l * n + i); }
+   }
+   return node;
+}
+
+NodeMove solve_node(const LoneNode &node)
+{
+   const NodeVector free = solve(node.A, node.q0), lift = solve(node.A, node.b);
+   const double frictionless = node.p0 - dot(node.b, free);
+   NodeMove move{true, NodeState::stick, NodeVector::Zero(node.q0.size()), 0.0};
+   if (frictionless < 0)
+   {
+      move.state = NodeState::separation;
+      move.gap = -frictionless / (node.c - dot(node.b, lift));
+      move.slip = -free - move.gap * lift;
+      return move;
+   }
+   if (node.q0.size() == 0) { return move; }
+   const auto presses = [&] { return node.p0 + dot(node.b, move.slip) >= 0; };
+   if (node.q0.size() == 2)
+   {
+      if (node.p0 >= 0 && magnitude(node.q0) <= node.bound.line(node.p0)) { return move; }
+      const SlipEquation equation{node};
+      const double t = root(equation, 0, 1);
+      move.state = NodeState::slip;
+      move.slip = -(1 - t) * equation.y(t);
+      move.found = presses();
+      return move;
+   }
+   const auto reserve = [&](double sense)
+   { return node.bound.reserve(node.q0[0], node.p0, sense); };
+   if (node.p0 >= 0 && reserve(1) >= 0 && reserve(-1) >= 0) { return move; }
+   for (const NodeState slip : {NodeState::forward_slip, NodeState::backward_slip})
+   {
+      const double s = sense(slip), slope = node.bound.slope(node.p0, s),
+                   x = -s * reserve(s) / (node.A(0, 0) + s * slope * node.b[0]);
+      move.slip[0] = x;
+      move.state = slip;
+      if (s * x > 0 && presses()) { return move; }
+   }
+   move.found = false;
+   return move;
+}
+
+double critical_friction(const LoneNode &node)
+{
+   if (node.b.size() == 1) { return node.A(0, 0) / std::abs(node.b[0]); }
+   const double mean = 0.5 * node.A.trace();
+   const double spread = std::hypot(0.5 * (node.A(0, 0) - node.A(1, 1)), node.A(0, 1));
+   return (mean - spread) / std::hypot(node.b[0], node.b[1]);
+}
+
+double slip_violation(const ContactNode &node, double uncertain)
+{
+   const double length = magnitude(node.slip),
+                beyond = std::max(magnitude(node.q) - bound_against(node, -node.q), 0.0);
+   if (length == 0) { return beyond; }
+   const double bound = bound_against(node, node.slip),
+                off = magnitude(node.q + bound / length * node.slip) -
+                      bound * (uncertain / length);
+   return std::max(beyond, std::min(off, node.kt * length));
+}
+
+double slip_round_off(double size)
+{
+   return 4 * eps * size;
+}
+
+LawCheck check_laws(const ReducedProblem &problem, const VectorXd &v_old,
+                    const ContactState &state, const VectorXd &forces, double allowed,
+                    const VectorXd &round_off)
+{
+   const Index n = problem.nodes(), m = problem.slips(), c = problem.components();
+   LawCheck check;
+   const auto judge = [&](double violation, double limit)
+   {
+      if (!(violation <= limit)) { check.obeyed = false; } // nor if it is not a number
+   };
+   const auto note = [&](double &largest, double violation, double limit)
+   {
+      largest = std::max(largest, violation);
+      judge(violation, limit);
+   };
+   for (Index i = 0; i < n; ++i)
+   {
+      ContactNode node{
+         NodeVector(c), NodeVector(c),     state.w[i] + problem.gap[i],       forces[m + i],
+         0.0,           problem.C()(i, i), FrictionBound(problem.friction[i])};
+      double most = std::max(allowed, round_off[m + i]), size = 0;
+      note(check.normal, std::abs(node.p - state.p[i]), most);
+      note(check.normal, std::abs(std::min(node.p, node.kn * node.gap)), most);
+      if (c == 0) { continue; }
+      most = std::max(allowed, node.bound.slope(node.p) * round_off[m + i]);
+      for (Index k = 0; k < c; ++k)
+      {
+         const Index row = k * n + i;
+         most = std::max(most, round_off[row]);
+         node.q[k] = forces[row];
+         node.slip[k] = state.v[row] - v_old[row];
+         node.kt = std::max(node.kt, problem.A()(row, row));
+         size = std::max(size, std::abs(state.v[row]));
+         note(check.tangential, std::abs(forces[row] - state.q[row]), most);
+      }
+      if (!closed(state.status[i]))
+      {
+         node.slip.setZero();
+      } // it bears nothing: no law but that
+      check.tangential = std::max(check.tangential, slip_violation(node));
+      judge(slip_violation(node, c == 2 ? slip_round_off(size) : 0.0), most);
+   }
+   return check;
+}
+
+} // namespace cattaneo

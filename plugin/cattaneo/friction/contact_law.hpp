@@ -1,0 +1,184 @@
+#pragma once
+
+#include <algorithm>
+#include <cattaneo/friction/contact_state.hpp>
+
+namespace cattaneo
+{
+
+// The laws of contact and friction of one node: its methods, checks and paths all ask here.
+//
+// A node has no tangential entries without friction, one in the plane, two in the disc
+// |q| <= f p (radial, circumferential), where a slip increment x opposes the friction force,
+// q = -f p x/|x|.
+
+/// Tangential entries of one node, none, one or two.
+using NodeVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2, 1>;
+using NodeMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2, 2>;
+
+/// Length, without overflow. (Not `size`: of an expression that would be Eigen's, the number of
+/// its entries.)
+double magnitude(const NodeVector &x);
+
+/** What the tangential force of a node is bounded by at its normal force p: Coulomb's f p. The
+    only place that multiplies f by p.
+
+    Everyone asks for the bound at a p and in a sense of slip (+1 forward, -1 backward, 0: any
+    direction of the disc), and linearises it by its slope there, so that a bound that differs
+    from sense to sense or bends with p is a matter of this class alone. */
+class FrictionBound
+{
+public:
+   FrictionBound() = default;
+   explicit FrictionBound(double coefficient) : coefficient_(coefficient) {}
+   /// No friction at any p.
+   bool none() const { return coefficient_ == 0; }
+   /// Nothing in tension.
+   double at(double p, double sense = 0) const { return line(std::max(p, 0.0), sense); }
+   /// Without the end at p = 0: the straight piece of it goes on into tension.
+   double line(double p, double sense = 0) const { return slope(p, sense) * p; }
+   /// Of that line.
+   double slope(double /*p*/ = 0, double /*sense*/ = 0) const { return coefficient_; }
+   /// Of the bound itself, of which nothing is left in tension.
+   double derivative(double p, double sense = 0) const
+   {
+      return at(p, sense) > 0 ? slope(p, sense) : 0.0;
+   }
+   /// What is left of it before the node slips in a sense (plane), negative beyond.
+   double reserve(double q, double p, double sense) const { return line(p, sense) + sense * q; }
+
+private:
+   double coefficient_ = 0;
+};
+
+std::vector<FrictionBound> friction_bounds(const Eigen::VectorXd &coefficients);
+
+/// One node at the end of an increment. Lengths count as forces by its own stiffness.
+struct ContactNode
+{
+   NodeVector slip; ///< since the start of the increment
+   NodeVector q;
+   double gap = 0, p = 0;
+   double kt = 0, kn = 0; ///< own stiffness
+   FrictionBound bound;
+
+   /// The force that the bound would have to hold were the slip taken back.
+   NodeVector trial() const { return q - kt * slip; }
+};
+
+/// What friction makes of the node's trial force: stick where the bound holds it with a
+/// margin, a force, else slip against it.
+NodeState friction_state(const ContactNode &node, double margin = 0);
+
+/** The state that displacements and forces ask for, which solve the equations of the state that
+    the node has `now`. Violations up to `tiny` (normal) and `tiny_along` (tangential) change
+    nothing, lest states flicker where two of them meet. */
+NodeState wanted_state(const ContactNode &node, NodeState now, double tiny, double tiny_along);
+
+/// The state in which the natural map takes the node, whatever it was.
+NodeState natural_state(const ContactNode &node);
+
+/// The laws as one equation, the natural map: zero in a solution, else forces.
+struct NodeResidual
+{
+   double normal; ///< the smaller of k gap and p
+   /// q less the trial force brought into the bound. Alart and Curnier, with own stiffness.
+   NodeVector tangential;
+};
+
+NodeResidual residual(const ContactNode &node);
+
+/** Derivative of the tangential residual: (1 - P) dq + P k dx - slope n dp, where the trial
+   force has the direction n and P leaves of a change what the bound does not fix. In stick P =
+   1, n = 0; in slip of the plane P = 0; in that of the disc P = β t tᵀ with t across n and β =
+   (bound)/|trial|, since the derivative of τ/|τ| is (1 - n nᵀ)/|τ|. */
+struct FrictionDerivative
+{
+   NodeMatrix P;
+   NodeVector n;
+   double slope = 0;
+};
+
+FrictionDerivative friction_derivative(const ContactNode &node);
+
+/** Linearised slip of a node in the disc. With the unit vectors n along the trial force and t
+    across, and β as above, Newton's equations for the new q, p and x are
+
+        n·q - f p = 0,      (1 - β) t·q + β k t·x = 0. */
+struct DiscSlip
+{
+   Eigen::Vector2d n = Eigen::Vector2d::UnitX();
+   double share = 0; ///< β, at most 1
+
+   DiscSlip() = default;
+   /// |trial| > 0.
+   DiscSlip(const Eigen::Vector2d &trial, double bound);
+   Eigen::Vector2d t() const { return {-n[1], n[0]}; }
+};
+
+/// A node that moves alone: q = q0 + A x + b y and p = p0 + b·x + c y, with x its slip
+/// increment and y its gap. [A b; bᵀ c] is its own block of the reduced stiffness.
+struct LoneNode
+{
+   NodeMatrix A;
+   NodeVector b;
+   double c;
+   NodeVector q0;
+   double p0;
+   FrictionBound bound;
+};
+
+/// Stiffness and bound of node i, without forces.
+LoneNode lone_node(const ReducedProblem &problem, Eigen::Index i);
+
+struct NodeMove
+{
+   bool found = false; ///< false: no consistent state (above the critical friction)
+   NodeState state = NodeState::stick;
+   NodeVector slip;
+   double gap = 0;
+};
+
+/** Exact state of the node: separation if it opens when free, else stick if friction suffices,
+    else slip. In the disc, with s = f p/|x|, slip is (A + s I) x = -q0, and what remains is one
+    equation for s, which changes sign between s = 0 (p of the node without friction, not
+    negative or it would have opened) and s = ∞ (|q0| - f p0, positive or it would have
+    stuck). */
+NodeMove solve_node(const LoneNode &node);
+
+/// Coefficient of friction above which a node's slip has no unique answer (in the disc: from
+/// which on it need not have one): smallest eigenvalue of A over |b|.
+double critical_friction(const LoneNode &node);
+
+/// How far a state is from an answer of an increment, in forces.
+struct LawCheck
+{
+   double normal = 0, tangential = 0; ///< largest violations
+   bool obeyed = true;                ///< no node is violated by more than is allowed to it
+};
+
+/** Judges the end of an increment that began with the slip v_old, from the problem as it is
+    given: the stated forces are those of the stated displacements, F = K u + Σ λ_k f_k, and
+    these obey the laws: no penetration, no tension, no pressure across a gap, no friction
+    beyond its bound, and what slips does so against a friction force of its bound. A gap and a
+    slip count by the node's own stiffness; a slip that does not oppose its friction by
+    slip_violation().
+
+    `forces`: K u + Σ λ_k f_k of the state's own displacements, {q; p}, formed anew by the
+    caller from the stiffness as it is given. `allowed`: what is allowed to each node, a force
+    (tolerance); `round_off` what arithmetic leaves, for each row of {q; p}. The direction of a
+    slip in the disc is known to the round-off of displacements over its length only, which is
+    allowed too (and counted all the same). */
+LawCheck check_laws(const ReducedProblem &problem, const Eigen::VectorXd &v_old,
+                    const ContactState &state, const Eigen::VectorXd &forces, double allowed,
+                    const Eigen::VectorXd &round_off);
+
+/// By how much a closed node breaks the law of friction: a force beyond the bound; or, of a
+/// slip x that does not oppose it, the smaller of the force that is missing, |q + bound x/|x||,
+/// and of that of the slip itself. `uncertain`: what round-off leaves of x, which excuses that
+/// much of an angle.
+double slip_violation(const ContactNode &node, double uncertain = 0);
+/// That of displacements of such size.
+double slip_round_off(double size);
+
+} // namespace cattaneo

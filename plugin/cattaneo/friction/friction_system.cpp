@@ -1,0 +1,150 @@
+#include <cattaneo/friction/increment.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cmath>
+#include <sstream>
+
+namespace cattaneo
+{
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+FrictionSystem::FrictionSystem(const ReducedProblem &given, const FrictionSettings &chosen,
+                               bool tangential_unknowns)
+   : problem(given), settings(chosen), n(given.nodes()),
+     frictionless(given.components() == 0 ||
+                  (given.friction.maxCoeff() == 0 && !tangential_unknowns)),
+     K(frictionless ? normal : problem.K)
+{
+   settings.validate();
+   problem.validate();
+   require(problem.components() <= 2, "friction solver: the reduced problem has ",
+           problem.components(), " tangential components a node, at most 2 are supported");
+   c = frictionless ? 0 : problem.components();
+   bound = friction_bounds(problem.friction);
+   knn = problem.C().diagonal();
+   if (!frictionless)
+   {
+      counters.tangential_unknowns = c * n;
+      ktt = problem.A().diagonal().head(n);
+      uncoupled = !problem.coupled;
+      critical.resize(n);
+      for (Index i = 0; i < n; ++i)
+      {
+         const LoneNode node = lone_node(problem, i);
+         if (disc()) { ktt[i] = std::sqrt(node.A.determinant()); }
+         critical[i] = cattaneo::critical_friction(node);
+         if (critical[i] < critical_friction)
+         {
+            critical_friction = critical[i];
+            critical_node = i;
+         }
+      }
+      arithmetic = std::make_unique<RoundOff>(K);
+      return;
+   }
+   normal = problem.C();
+   // What little is left of K where a body is free to slide away up a slope is round-off of C.
+   arithmetic = std::make_unique<RoundOff>(problem.C());
+   if (problem.components() == 0) { return; }
+   tangential = std::make_unique<SemidefiniteSolver>(problem.A());
+   slides_freely = tangential->null_space();
+   if (slides_freely.cols() > 0)
+   {
+      const bool lengths = problem.weights.size() == n && problem.weights.minCoeff() > 0;
+      const VectorXd weight = lengths ? problem.weights : VectorXd::Ones(n);
+      const MatrixXd weighted =
+         weight.replicate(problem.components(), 1).asDiagonal() * slides_freely;
+      const MatrixXd square = slides_freely.transpose() * weighted;
+      share_of_motion = square.ldlt().solve(weighted.transpose());
+   }
+   whole_arithmetic = std::make_unique<RoundOff>(problem.K);
+   ++counters.dense_factorisations;
+   normal -= problem.B() * tangential->solve(problem.B().transpose());
+   normal = (0.5 * (normal + normal.transpose())).eval();
+   knn = K.diagonal();
+}
+
+const MatrixXd &FrictionSystem::motions()
+{
+   if (!found_motions)
+   {
+      found_motions = std::make_unique<MatrixXd>(rigid_motions(problem));
+      if (!problem.rigid_motions) { ++counters.dense_factorisations; }
+   }
+   return *found_motions;
+}
+
+Index FrictionSystem::above_critical(const std::vector<NodeState> *states) const
+{
+   for (Index i = 0; !frictionless && i < n; ++i)
+   {
+      if ((!states || closed((*states)[i])) && problem.friction[i] >= critical[i]) { return i; }
+   }
+   return -1;
+}
+
+bool FrictionSystem::obeys_laws(const VectorXd &v_old, const ContactState &next, double scale,
+                                IncrementReport &report) const
+{
+   // With the tangential displacements also where they were eliminated: what slips without
+   // friction may go far, and bears on the pressure.
+   VectorXd all(next.v.size() + n);
+   all << next.v, next.w;
+   const VectorXd clamped = problem.clamped_forces(next.multipliers);
+   const VectorXd forces = clamped + (tangential ? problem.K : K) * all;
+   const VectorXd rows =
+      (tangential ? whole_arithmetic : arithmetic)->rows(all.cwiseAbs(), clamped);
+   report.round_off = std::max(report.round_off, rows.maxCoeff() / scale);
+   if (!(report.round_off < lost)) { return false; }
+   const LawCheck check =
+      check_laws(problem, v_old, next, forces, settings.tolerance * scale, rows);
+   report.residual_normal = check.normal / scale;
+   report.residual_tangential = check.tangential / scale;
+   return check.obeyed;
+}
+
+IncrementReport FrictionSystem::judge(const ContactState &before,
+                                      const ContactState &after) const
+{
+   const VectorXd clamped = problem.clamped_forces(after.multipliers);
+   const double reference =
+      std::max({before.peak_force, after.peak_force, clamped.cwiseAbs().maxCoeff()});
+   IncrementReport report = uniqueness(after.status);
+   const bool obeyed = obeys_laws(before.v, after, reference > 0 ? reference : 1.0, report);
+   std::ostringstream message;
+   if (!(report.round_off < lost))
+   {
+      message << "the forces of the state are lost in round-off (" << report.round_off
+              << " of the largest)";
+   }
+   else if (!obeyed)
+   {
+      message << "the state breaks the equations or the laws by "
+              << std::max(report.residual_normal, report.residual_tangential)
+              << " of the largest force";
+   }
+   if (!message.str().empty())
+   {
+      report.status = FrictionStatus::stalled;
+      report.message = message.str();
+   }
+   return report;
+}
+
+IncrementReport FrictionSystem::uniqueness(const std::vector<NodeState> &states) const
+{
+   IncrementReport report;
+   report.status = FrictionStatus::converged;
+   const Index node = above_critical(&states);
+   if (node < 0) { return report; }
+   std::ostringstream message;
+   message << "friction " << problem.friction[node] << " at node " << node
+           << " is above its critical value " << critical[node];
+   report.status = FrictionStatus::not_unique;
+   report.message = message.str();
+   return report;
+}
+
+} // namespace cattaneo

@@ -1,0 +1,63 @@
+#include <cattaneo/friction/methods.hpp>
+
+namespace cattaneo
+{
+
+using Eigen::Index;
+
+namespace
+{
+
+/// Moves one displacement and all forces with it.
+void move(Increment &at, Index row, double from, double to, double displacement)
+{
+   if (to == from) { return; }
+   at.F.noalias() += (to - from) * at.system.K.col(row);
+   at.u[row] = displacement;
+}
+
+} // namespace
+
+void sweep(Increment &at)
+{
+   FrictionSystem &s = at.system;
+   ++s.counters.sweeps;
+   for (Index i = 0; i < s.n; ++i)
+   {
+      // A body that is free to slide away up a slope meets no resistance.
+      if (s.frictionless && !(s.knn[i] > 0)) { continue; }
+      LoneNode node = s.frictionless ? LoneNode{} : lone_node(s.problem, i);
+      node.c = s.knn[i];
+      const NodeVector slip = at.slip(i);
+      const double gap = at.gap(i);
+      node.q0 = at.along(at.F, i) - node.A * slip - gap * node.b;
+      node.p0 = at.F[s.m(i)] - node.b.dot(slip) - node.c * gap;
+      const NodeMove found = solve_node(node);
+      // Above the critical friction there may be no consistent state: it is left as it is.
+      if (!found.found) { continue; }
+      move(at, s.m(i), gap, found.gap, found.gap - s.problem.gap[i]);
+      for (Index k = 0; k < s.c; ++k)
+      {
+         const Index row = s.t(i, k);
+         move(at, row, slip[k], found.slip[k], at.v_old[row] + found.slip[k]);
+      }
+      at.status[i] = found.state;
+   }
+}
+
+Search gauss_seidel(Increment &at)
+{
+   for (long k = 0; k < at.system.settings.max_sweeps; ++k)
+   {
+      sweep(at);
+      // The forces are updated by columns; now and then they are formed anew, against drift.
+      if (k % 64 == 63) { at.F = at.f + at.system.K * at.u; }
+      if (!at.u.allFinite()) { break; }
+      if (!at.residuals()) { continue; }
+      at.F = at.f + at.system.K * at.u;
+      if (at.residuals()) { return at.solved() ? Search::found : Search::not_here; }
+   }
+   return Search::not_here;
+}
+
+} // namespace cattaneo

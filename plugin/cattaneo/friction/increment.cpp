@@ -1,0 +1,185 @@
+#include <cattaneo/friction/increment.hpp>
+#include <cmath>
+
+namespace cattaneo
+{
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+Increment::Increment(FrictionSystem &s, const ContactState &state, const VectorXd &loads)
+   : system(s), start(state), multipliers(loads), v_old(state.v), status(state.status),
+     direction(s.disc() ? s.n : 0)
+{
+   const VectorXd clamped = s.problem.clamped_forces(multipliers);
+   reference = std::max(state.peak_force, clamped.cwiseAbs().maxCoeff());
+   // Initial interference loads the contact too.
+   reference = std::max(reference, (-s.problem.gap.array() * s.knn.array()).maxCoeff());
+   if (!s.frictionless)
+   {
+      f = clamped;
+      u.resize(f.size());
+      u << state.v, state.w;
+   }
+   else
+   {
+      f = clamped.tail(s.n);
+      if (s.tangential)
+      {
+         f -= s.problem.B() * s.tangential->solve(clamped.head(s.problem.slips()));
+      }
+      u = state.w;
+   }
+   for (Index i = 0; i < s.n; ++i)
+   {
+      if (closed(status[i])) { u[s.m(i)] = -s.problem.gap[i]; }
+   }
+   if (!s.frictionless && state.peak_force > 0)
+   {
+      // The state of an increment before: where sweeps begin; what is accepted is formed anew.
+      F.resize(f.size());
+      F << state.q, state.p;
+      F -= s.problem.clamped_forces(state.multipliers);
+   }
+   else { F = s.K * u; }
+   // So does initial slip; slip that displacements elsewhere follow does not.
+   reference = std::max(reference, F.cwiseAbs().maxCoeff());
+   F += f;
+   u_swept = u;
+   status_swept = status;
+   // What comes out depends on the state and the loads, not on increments before: a march that
+   // is cut and resumed gives the same bits.
+   for (auto *equations : {&s.coupled_equations, &s.normal_equations, &s.tangential_equations})
+   {
+      if (*equations) { (*equations)->begin(); }
+   }
+}
+
+NodeVector Increment::along(const VectorXd &x, Index i) const
+{
+   NodeVector entries(system.c);
+   for (Index k = 0; k < system.c; ++k) { entries[k] = x[system.t(i, k)]; }
+   return entries;
+}
+
+ContactNode Increment::node(Index i) const
+{
+   return {slip(i),
+           along(F, i),
+           gap(i),
+           F[system.m(i)],
+           system.frictionless ? 0.0 : system.ktt[i],
+           system.knn[i],
+           system.bound[i]};
+}
+
+double Increment::round_off_along(const VectorXd &rows, Index i) const
+{
+   double most = system.bound[i].slope(F[system.m(i)]) * rows[system.m(i)];
+   for (Index k = 0; k < system.c; ++k) { most = std::max(most, rows[system.t(i, k)]); }
+   return most;
+}
+
+void Increment::take(const VectorXd &displacements, const std::vector<NodeState> &states)
+{
+   u = displacements;
+   F = f + system.K * u;
+   status = states;
+}
+
+ContactState Increment::end() const
+{
+   const FrictionSystem &s = system;
+   ContactState next = start;
+   next.multipliers = multipliers;
+   next.peak_force = reference;
+   next.status = status;
+   next.w = u.tail(s.n);
+   next.p = F.tail(s.n);
+   if (!s.frictionless)
+   {
+      next.v = u.head(s.c * s.n);
+      next.q = F.head(s.c * s.n);
+   }
+   else if (s.tangential)
+   {
+      const VectorXd clamped = s.problem.clamped_forces(multipliers).head(s.problem.slips());
+      next.v = -s.tangential->solve(s.problem.B().transpose() * next.w + clamped);
+      // What nothing holds has not moved on the whole, as the contact's length goes.
+      if (s.slides_freely.cols() > 0)
+      {
+         const VectorXd moved = next.v - start.v;
+         next.v -= s.slides_freely * (s.share_of_motion * moved);
+      }
+      next.q.setZero();
+      for (Index i = 0; i < s.n; ++i)
+      {
+         if (!closed(status[i])) { continue; }
+         next.status[i] = s.problem.components() == 2 ? NodeState::slip
+                          : next.v[i] >= v_old[i]     ? NodeState::forward_slip
+                                                      : NodeState::backward_slip;
+      }
+   }
+   // Round-off must not look like traction or penetration.
+   for (Index i = 0; i < s.n; ++i)
+   {
+      if (closed(status[i])) { continue; }
+      next.p[i] = 0;
+      for (Index k = i; k < next.q.size(); k += s.n) { next.q[k] = 0; }
+   }
+   return next;
+}
+
+bool Increment::residuals()
+{
+   const FrictionSystem &s = system;
+   const VectorXd left = round_off();
+   const double allowed = 0.5 * s.settings.tolerance * scale(); // room for the last word
+   double normal = 0, tangential = 0;
+   bool small = true;
+   for (Index i = 0; i < s.n; ++i)
+   {
+      ContactNode at = node(i);
+      const NodeResidual R = residual(at);
+      normal = std::max(normal, std::abs(R.normal));
+      small = small && std::abs(R.normal) <= std::max(allowed, left[s.m(i)]);
+      if (s.frictionless) { continue; }
+      const double limit = std::max(allowed, round_off_along(left, i));
+      // An open node bears nothing, not f times what is left of its pressure.
+      double size = magnitude(closed(status[i]) ? R.tangential : at.q);
+      small = small && size <= limit;
+      if (s.disc() && closed(status[i]))
+      {
+         // The natural map multiplies the error in the direction of a slip by the slip.
+         const Index r = s.t(i, 0), c = s.t(i, 1);
+         at.kt = std::max(s.K(r, r), s.K(c, c));
+         const double uncertain = slip_round_off(magnitude(along(u, i)));
+         small = small && slip_violation(at, uncertain) <= limit;
+         size = std::max(size, slip_violation(at));
+      }
+      tangential = std::max(tangential, size);
+   }
+   report.residual_normal = normal / scale();
+   report.residual_tangential = tangential / scale();
+   report.round_off = left.maxCoeff() / scale();
+   return small;
+}
+
+bool Increment::solved()
+{
+   if (!residuals()) { return false; }
+   if (report.round_off < lost) { return true; }
+   if (report.round_off < 0.1) { lost_in_round_off = report.round_off; }
+   return false;
+}
+
+bool Increment::finds_mechanism()
+{
+   mechanism = find_mechanism(system.problem, system.motions(),
+                              system.problem.clamped_forces(multipliers),
+                              system.settings.tolerance * reference);
+   return mechanism.exists;
+}
+
+} // namespace cattaneo
