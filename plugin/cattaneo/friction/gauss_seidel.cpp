@@ -35,12 +35,12 @@ void sweep(Increment &at)
       const NodeMove found = solve_node(node);
       // Above the critical friction there may be no consistent state: it is left as it is.
       if (!found.found) { continue; }
-      move(at, s.m(i), gap, found.gap, found.gap - s.problem.gap[i]);
       for (Index k = 0; k < s.c; ++k)
       {
          const Index row = s.t(i, k);
          move(at, row, slip[k], found.slip[k], at.v_old[row] + found.slip[k]);
       }
+      move(at, s.m(i), gap, found.gap, found.gap - s.problem.gap[i]);
       at.status[i] = found.state;
    }
 }
