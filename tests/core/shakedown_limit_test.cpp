@@ -292,6 +292,55 @@ TEST(Limit, MayLieFarBeyondGrossSliding)
    EXPECT_NEAR(report.limit * small / (4 * (1 - small)), 1, 1e-6);
 }
 
+/// The last bits of a solver's point fall otherwise in other units, and on other processors.
+/// Here they decide: the forces at the limit are up to 4e6 of those that the loads bring.
+TEST(Limit, DoesNotDependOnRoundOff)
+{
+   constexpr double press = -0.3;
+   const std::pair<double, double> units[] = {{1, 1}, {3, 1}, {1.0 / 7, 3}, {1024, 1.0 / 3}};
+   for (const int digits : {12, 20})
+   {
+      for (const auto &[stiffness, load] : units)
+      {
+         const double small = std::ldexp(1, -digits);
+         ReducedProblem problem = one_node(press, (1 - small) / -press, 1);
+         problem.K *= stiffness;
+         for (LoadPattern &pattern : problem.patterns)
+         {
+            pattern.q *= load;
+            pattern.p *= load;
+         }
+         LimitProblem limit =
+            limit_problem(problem, held_and_cycled(problem, "pressure", 1, "shear", 0));
+         const LimitReport report = load_limit(limit);
+         SCOPED_TRACE("2^-" + std::to_string(digits) + ", stiffness " +
+                      std::to_string(stiffness) + ", load " + std::to_string(load));
+         ASSERT_EQ(report.status, LimitStatus::certified) << report.message;
+         // As in the test above, of the numbers as they were rounded.
+         const long double a = problem.A()(0, 0), b = -problem.B()(0, 0),
+                           f = problem.friction[0], exact = 2 * f * a / (a - f * b);
+         constexpr long double arithmetic = 16 * 1e-19L; // of the line above; lost by a - f b
+         EXPECT_LE(report.lower, exact * (1 + arithmetic / small));
+         EXPECT_GE(report.upper, exact * (1 - arithmetic / small));
+         EXPECT_LE(report.upper - report.lower, 1e-6L * exact);
+
+         // The friction that a tenth of this load needs, of the same two conditions.
+         const double factor = static_cast<double>(0.1L * exact);
+         const LimitReport friction = friction_limit(limit, factor);
+         ASSERT_EQ(friction.status, LimitStatus::certified) << friction.message;
+         const long double least = factor * a / (2 * a + factor * b);
+         EXPECT_LE(friction.lower, least * (1 + arithmetic));
+         EXPECT_GE(friction.upper, least * (1 - arithmetic));
+
+         // Friction that wedges the node holds any load.
+         set_friction(limit.reduced, (1 + 2 * small) / -press);
+         const LimitReport wedged = load_limit(limit);
+         EXPECT_EQ(wedged.status, LimitStatus::unlimited) << wedged.message;
+         EXPECT_NE(wedged.message.find("(proven)"), std::string::npos) << wedged.message;
+      }
+   }
+}
+
 TEST(Limit, ComesAfterTheConstantLoads)
 {
    // Nothing varies, but the constant shear is beyond gross sliding (q = 5 on a free body of

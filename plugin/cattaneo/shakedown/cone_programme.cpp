@@ -13,31 +13,46 @@
 namespace cattaneo
 {
 
-namespace
-{
-
-/// Length of the tangential force of node @a i, whose components are n apart.
 double length(const Eigen::Ref<const Eigen::VectorXd> &q, Eigen::Index i, Eigen::Index n)
 {
    return q.size() == n ? std::abs(q[i]) : std::hypot(q[i], q[n + i]);
 }
 
-} // namespace
+SlippedForces slipped_forces(const ReducedProblem &problem, const StuckForces &loads,
+                             double theta, const Eigen::VectorXd &slip)
+{
+   // A sum of k terms is wrong by at most k units of round-off of the sum of their sizes; here
+   // they are the slips, the loads' two parts and their product with θ.
+   const double share =
+      static_cast<double>(slip.size() + 4) * std::numeric_limits<double>::epsilon();
+   const auto error = [&](const Eigen::MatrixXd &constant, const Eigen::MatrixXd &varying,
+                          const auto &stiffness)
+   {
+      const Eigen::MatrixXd of_loads =
+         constant.cwiseAbs() + std::abs(theta) * varying.cwiseAbs();
+      const Eigen::VectorXd of_slip = stiffness.cwiseAbs() * slip.cwiseAbs();
+      return Eigen::MatrixXd(share * (of_loads.colwise() + of_slip));
+   };
+   return {loads.q(theta).colwise() + Eigen::VectorXd(problem.A() * slip),
+           loads.p(theta).colwise() + Eigen::VectorXd(problem.B() * slip),
+           error(loads.q0, loads.q1, problem.A()), error(loads.p0, loads.p1, problem.B())};
+}
 
 double worst_violation(const ConeProgramme &programme, const ReducedProblem &problem,
-                       double theta, const Eigen::VectorXd &slip)
+                       double theta, const Eigen::VectorXd &slip, Rounding rounding)
 {
    const Eigen::Index n = programme.nodes();
-   const Eigen::MatrixXd q =
-      programme.loads.q(theta).colwise() + Eigen::VectorXd(problem.A() * slip);
-   const Eigen::MatrixXd p =
-      programme.loads.p(theta).colwise() + Eigen::VectorXd(problem.B() * slip);
+   SlippedForces forces = slipped_forces(problem, programme.loads, theta, slip);
+   if (rounding == Rounding::against) { forces.p -= forces.p_error; }
+   else { forces.q_error.setZero(); }
    double worst = -std::numeric_limits<double>::infinity();
-   for (Eigen::Index j = 0; j < q.cols(); ++j)
+   for (Eigen::Index j = 0; j < forces.q.cols(); ++j)
    {
       for (Eigen::Index i = 0; i < n; ++i)
       {
-         const double excess = length(q.col(j), i, n) - programme.friction[i] * p(i, j);
+         const double shear =
+            length(forces.q.col(j), i, n) + length(forces.q_error.col(j), i, n);
+         const double excess = shear - programme.friction[i] * forces.p(i, j);
          worst = std::max(worst, excess / programme.force_scale[i]);
       }
    }

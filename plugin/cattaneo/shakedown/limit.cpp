@@ -102,7 +102,7 @@ struct Clearance
 {
    ConeSolution solution;
    Eigen::VectorXd slip;
-   double reached = -infinity; ///< by the slip, in plain arithmetic, in typical forces
+   double reached = -infinity; ///< by the slip for certain, in typical forces
    double bound = infinity;    ///< of all states, proven by the mechanism of the solution
 };
 
@@ -119,45 +119,62 @@ Clearance largest_clearance(const ReducedProblem &reduced, const ResidualForces 
    largest.solution = solve_counted(programme, settings, stuck, report);
    if (!usable(largest.solution)) { return largest; }
    largest.slip = residual.flexibility * largest.solution.r;
-   largest.reached = -worst_violation(programme, reduced, 0, largest.slip);
+   largest.reached = -worst_violation(programme, reduced, 0, largest.slip, Rounding::against);
    largest.bound = weak_duality_bound(programme, reduced, largest.solution.mechanism,
                                       slip_size(largest.slip));
    return largest;
 }
 
-/// Largest θ near @a theta at which @a slip is admissible in plain arithmetic; -infinity if
-/// none.
-double largest_admissible(const ConeProgramme &programme, const ReducedProblem &problem,
-                          double theta, const Eigen::VectorXd &slip)
+/// A load factor and the slip that holds it; -infinity if none does.
+struct Held
 {
-   // The violation is convex in θ: where it is negative is one interval.
-   const auto admissible = [&](double t)
-   { return worst_violation(programme, problem, t, slip) <= -round_off; };
-   const double unit = 1e-12 * (std::abs(theta) + programme.theta_scale);
-   double inside = theta, outside = theta, step = unit;
-   if (admissible(theta))
+   double theta = -infinity;
+   Eigen::VectorXd slip;
+};
+
+/** The largest load factor that is held for certain on the way from a solver's point, @a theta
+    and @a slip, to @a inside at load factor 0, or on the way continued beyond the point. A
+   point is found to lie inside to a share of typical forces only, and far beyond gross sliding
+   the round-off of the forces is more than that; as the conditions are convex, all of them gain
+   on the way to a state that meets them with room to spare. */
+Held largest_held(const ConeProgramme &programme, const ReducedProblem &problem, double theta,
+                  const Eigen::VectorXd &slip, const Eigen::VectorXd &inside)
+{
+   const auto at = [&](double share) {
+      return Held{(1 - share) * theta, slip + share * (inside - slip)};
+   };
+   const auto admissible = [&](double share)
    {
-      while (step < 1e3 * programme.theta_scale && admissible(outside = theta + step))
+      const Held state = at(share);
+      return worst_violation(programme, problem, state.theta, state.slip, Rounding::against) <=
+             0;
+   };
+   // The violation is convex along the way: where it is negative is one interval.
+   constexpr double unit = 1e-12, furthest = 1e3;
+   double good = 0, bad = 0, step = unit;
+   if (admissible(0))
+   {
+      while (step < furthest && admissible(bad = -step))
       {
-         inside = outside;
+         good = bad;
          step *= 4;
       }
    }
    else
    {
-      while (!admissible(inside = theta - step))
+      while (!admissible(good = step))
       {
-         outside = inside;
+         bad = good;
          step *= 4;
-         if (step > 1e-2 * programme.theta_scale) { return -infinity; }
+         if (step >= 1) { return {}; }
       }
    }
-   while (outside - inside > unit)
+   while (good - bad > unit)
    {
-      const double middle = 0.5 * (inside + outside);
-      (admissible(middle) ? inside : outside) = middle;
+      const double middle = 0.5 * (good + bad);
+      (admissible(middle) ? good : bad) = middle;
    }
-   return inside;
+   return at(good);
 }
 
 } // namespace
@@ -355,12 +372,13 @@ LimitReport load_limit(const ReducedProblem &reduced, const ResidualForces &resi
       if (usable(solution))
       {
          const Eigen::VectorXd slip = residual.flexibility * solution.r;
-         const double lower = largest_admissible(programme, reduced, solution.theta, slip);
-         if (lower > report.lower)
+         const Held best =
+            largest_held(programme, reduced, solution.theta, slip, held ? first_slip : slip);
+         if (best.theta > report.lower)
          {
-            report.lower = lower;
-            report.slip = slip;
-            report.violation = worst_violation(programme, reduced, lower, slip);
+            report.lower = best.theta;
+            report.slip = best.slip;
+            report.violation = worst_violation(programme, reduced, best.theta, best.slip);
          }
          lower_the_upper(std::move(solution.mechanism));
       }
@@ -369,7 +387,7 @@ LimitReport load_limit(const ReducedProblem &reduced, const ResidualForces &resi
       {
          Clearance ray =
             largest_clearance(reduced, residual, alone.loads, varying_scale, settings, report);
-         if (held && ray.reached >= round_off)
+         if (held && ray.reached > 0)
          {
             report.slip = first_slip;
             return unlimited(ray.slip, infinity,
@@ -378,7 +396,7 @@ LimitReport load_limit(const ReducedProblem &reduced, const ResidualForces &resi
          lower_the_upper(std::move(ray.solution.mechanism));
          if (closed()) { return finish(LimitStatus::certified, ""); }
          const Eigen::VectorXd relief = -(residual.flexibility * loads.q1.rowwise().mean());
-         const double relieved = -worst_violation(alone, reduced, 0, relief);
+         const double relieved = -worst_violation(alone, reduced, 0, relief, Rounding::against);
          if (!(ray.reached > relieved))
          {
             ray.slip = relief;
@@ -408,6 +426,7 @@ LimitReport load_limit(const ReducedProblem &reduced, const ResidualForces &resi
       }
       if (solution.outcome != ConeOutcome::ceiling) { break; }
       programme.theta_scale *= programme.ceiling;
+      programme.reach *= programme.ceiling;
    }
    if (!std::isfinite(report.lower))
    {
@@ -453,18 +472,17 @@ LimitReport friction_limit(const LimitProblem &problem, double load_factor,
    /// best.
    const auto take = [&](const Eigen::VectorXd &v)
    {
-      const Eigen::MatrixXd qv = q.colwise() + Eigen::VectorXd(reduced.A() * v);
-      const Eigen::MatrixXd pv = p.colwise() + Eigen::VectorXd(reduced.B() * v);
+      const SlippedForces forces = slipped_forces(reduced, loads, load_factor, v);
       double worst = 0;
-      for (Eigen::Index j = 0; j < pv.cols(); ++j)
+      for (Eigen::Index j = 0; j < loads.vertices(); ++j)
       {
          for (Eigen::Index i = 0; i < n; ++i)
          {
-            const double allowance = round_off * force_scale[i];
-            if (pv(i, j) <= 2 * allowance) { return; }
+            const double pressure = forces.p(i, j) - forces.p_error(i, j);
+            if (pressure <= 0) { return; }
             const double shear =
-               m == n ? std::abs(qv(i, j)) : std::hypot(qv(i, j), qv(n + i, j));
-            worst = std::max(worst, (shear + allowance) / (pv(i, j) - allowance));
+               length(forces.q.col(j), i, n) + length(forces.q_error.col(j), i, n);
+            worst = std::max(worst, shear / pressure);
          }
       }
       if (worst < report.upper)
@@ -472,7 +490,7 @@ LimitReport friction_limit(const LimitProblem &problem, double load_factor,
          report.upper = report.limit = worst;
          report.slip = v;
          // Clearance per normal force makes Dinkelbach's iteration superlinear.
-         weight = pv.cwiseMax(1e-3 * force_scale.replicate(1, pv.cols()));
+         weight = forces.p.cwiseMax(1e-3 * force_scale.replicate(1, loads.vertices()));
       }
    };
 
