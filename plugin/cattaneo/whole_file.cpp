@@ -13,7 +13,6 @@ namespace cattaneo
 void write_whole(const std::string &file, const std::string &text)
 {
    const std::string part = file + ".part";
-   errno = 0;
    std::ofstream out(part);
    out << text;
    out.close();

@@ -115,6 +115,9 @@ TEST(FromContact, HertzIntensitiesSlipZoneAndEnergy)
       EXPECT_NEAR(edge.k_n.value, k_n, 0.01 * k_n);
       EXPECT_NEAR(edge.k_t.value, exact, 0.01 * std::abs(exact));
       EXPECT_LT(edge.k_t.relative_error, 0.02);
+      // What is stated of the error covers it.
+      EXPECT_LE(std::abs(edge.k_n.value / k_n - 1), edge.k_n.relative_error);
+      EXPECT_LE(std::abs(edge.k_t.value / exact - 1), edge.k_t.relative_error);
       EXPECT_GE(edge.k_n.nodes, 4);
       EXPECT_GT(edge.k_n.window.farthest, edge.k_n.window.nearest);
       // Both its ends are read between nodes, of which 161 span 2.8.

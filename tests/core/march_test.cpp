@@ -714,11 +714,19 @@ TEST(March, ARingOfNodesMayBeginAnywhere)
 
 TEST(March, AContactMayBeginAtTwoNodesBesideEachOther)
 {
-   // Of four nodes alike the two in the middle close together, at 0.1, in one increment; the
-   // outer ones stay apart. Two that are not neighbours are closed one after the other if that
-   // can be, and are not told apart here: the increment is halved as often as is allowed.
+   // Of four nodes alike two close together, at 0.1, in one increment; the others stay apart.
+   // Two that are not neighbours are closed one after the other if that can be, and are not
+   // told apart here: the increment is halved as often as is allowed. The first and the last
+   // node are neighbours on a loop.
    const VectorXd none = VectorXd::Zero(1), pressed = VectorXd::Ones(1);
-   for (bool neighbours : {true, false})
+   const Eigen::Vector4d middle(1, 0.1, 0.1, 1), apart(0.1, 1, 0.1, 1), ends(0.1, 1, 1, 0.1);
+   struct Case
+   {
+      Eigen::Vector4d gap;
+      bool loop, neighbours;
+   };
+   for (const Case &at : {Case{middle, false, true}, Case{apart, false, false},
+                          Case{ends, true, true}, Case{ends, false, false}})
    {
       ReducedProblem problem;
       problem.set_stiffness(5 * Eigen::Matrix4d::Identity(),
@@ -726,10 +734,13 @@ TEST(March, AContactMayBeginAtTwoNodesBesideEachOther)
                             5 * Eigen::Matrix4d::Identity());
       problem.patterns = {{"press", Control::force, VectorXd::Zero(4), VectorXd::Ones(4)}};
       problem.H = Eigen::MatrixXd::Zero(1, 1);
-      problem.gap =
-         neighbours ? Eigen::Vector4d(1, 0.1, 0.1, 1) : Eigen::Vector4d(0.1, 1, 0.1, 1);
+      problem.gap = at.gap;
       set_friction(problem, 0.3);
       problem = as_disc(problem);
+      ContactChain chain; // an open line unless it is said to be a loop
+      chain.nodes = 4;
+      if (at.loop) { chain.loop = true; }
+      problem.chains = {chain};
       MarchSettings settings;
       settings.increments = 1;
       settings.max_halvings = 3;
@@ -737,7 +748,7 @@ TEST(March, AContactMayBeginAtTwoNodesBesideEachOther)
       const MarchReport report =
          march(problem, LoadHistory::through({none, pressed}), state, settings);
       ASSERT_EQ(report.status, FrictionStatus::converged);
-      if (neighbours) { EXPECT_EQ(report.counters.rejected_increments, 0); }
+      if (at.neighbours) { EXPECT_EQ(report.counters.rejected_increments, 0); }
       else { EXPECT_GE(report.counters.rejected_increments, 3); }
       EXPECT_EQ(report.increments.back().separation, 2);
    }

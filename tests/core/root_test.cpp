@@ -4,7 +4,9 @@
 #include <cattaneo/counters.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/whole_file.hpp>
+#include <cerrno>
 #include <csignal>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -85,7 +87,8 @@ TEST(WholeFile, IsWrittenWholeOrNotAtAll)
    const rlimit small{10, before.rlim_max};
    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
-   EXPECT_THROW(write_whole(file, std::string(100, 'x')), InputError);
+   expect_input_error([&] { write_whole(file, std::string(100, 'x')); },
+                      (file + "': " + std::strerror(EFBIG)).c_str());
    setrlimit(RLIMIT_FSIZE, &before);
    std::signal(SIGXFSZ, handler);
    EXPECT_TRUE(std::filesystem::is_empty(folder));

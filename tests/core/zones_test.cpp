@@ -314,6 +314,11 @@ Sampled mirrored(const Sampled &s)
       s.problem.arc_length[s.problem.nodes() - 1] - s.problem.arc_length.reverse().array();
    image.problem.weights = s.problem.weights.reverse();
    image.problem.gap = s.problem.gap.reverse();
+   for (ContactChain &chain : image.problem.chains)
+   {
+      std::swap(chain.ends[0], chain.ends[1]);
+      std::swap(chain.other_ends[0], chain.other_ends[1]);
+   }
    for (Eigen::VectorXd ContactState::*x :
         {&ContactState::v, &ContactState::w, &ContactState::q, &ContactState::p,
          &ContactState::slip_origin})
@@ -578,6 +583,49 @@ TEST(Zones, OfACycleLeaveOutNodesThatWereOpenAtAnyTime)
    turning.v[14 + 3] = -4;
    box.note(turning);
    EXPECT_DOUBLE_EQ(box.range()[3], 5);
+}
+
+/// As zones() states it: 16 spacings over the number of nodes from the middle of the border to
+/// a corner that is in contact, at most the way there.
+TEST(Zones, BordersNearACornerAreDoubted)
+{
+   const auto slipping = [](int nodes, LineEnd first, LineEnd last, LineEnd other)
+   {
+      Sampled s = row(30);
+      ContactChain chain;
+      chain.nodes = 30;
+      chain.ends = {first, last};
+      chain.other_ends = {other, LineEnd::smooth};
+      s.problem.chains = {chain};
+      for (int i = 0; i < nodes; ++i)
+      {
+         s.state.status[i] = NodeState::forward_slip;
+         s.state.v[i] = 1;
+      }
+      return s;
+   };
+   const LineEnd corner = LineEnd::corner, smooth = LineEnd::smooth;
+   // Errors in spacings, of which the border lies half of one beyond the last slipping node.
+   expect_border(slipping(10, corner, smooth, smooth), 0.5, 16 / 9.5,
+                 "ten nodes from a corner");
+   expect_border(slipping(10, smooth, smooth, corner), 0.5, 16 / 9.5, "of the other body");
+   expect_border(slipping(4, corner, smooth, smooth), 0.5, 3.5, "as far as the corner");
+   expect_border(slipping(10, smooth, smooth, smooth), 0.5, 1, "no corner");
+   // 19.5 spacings on the other side.
+   expect_border(slipping(10, smooth, corner, smooth), 0.5, 1, "a corner far away");
+   // Corners that are not in contact: the line goes on, open.
+   Sampled open = slipping(10, corner, corner, smooth);
+   for (int i : {0, 29})
+   {
+      open.state.status[i] = NodeState::separation;
+      open.state.v[i] = 0;
+      open.state.p[i] = 0;
+   }
+   EXPECT_EQ(zones(open.problem, open.state)[1].to.error, 2);
+   // A loop has no ends.
+   Sampled loop = slipping(10, corner, corner, corner);
+   loop.problem.chains[0].loop = true;
+   EXPECT_EQ(zones(loop.problem, loop.state)[0].to.error, 2);
 }
 
 TEST(Zones, StickUpToTheEndsIsKnownToASpacing)

@@ -140,11 +140,13 @@ TEST(CriticalFriction, OneNodeIsSharp)
    }
    problem.set_stiffness(one(1), one(0), one(2));
    EXPECT_TRUE(std::isinf(critical_friction(problem).unique_below));
-   // Strong coupling: the bound is safe, no more.
+   // Strong coupling: the bound is safe, no more. In displacements over which C is 1 the node
+   // has the coupling b = B / C and the stiffness a + b² = A / C; the bound (a + t²) / t, least
+   // at t = √a < b, is 2 √a.
    problem.set_stiffness(one(1), one(1.3), one(2));
    const double bound = critical_friction(problem).unique_below;
    EXPECT_LT(bound, 1 / 1.3);
-   EXPECT_GT(bound, 0.5 / 1.3);
+   EXPECT_NEAR(bound, 2 * std::sqrt(0.5 - 0.65 * 0.65), 1e-12);
 }
 
 /// By trying all states: never two answers below the bound, and sometimes above.
