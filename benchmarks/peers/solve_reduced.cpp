@@ -81,7 +81,7 @@ int main(int argc, char *argv[])
          std::cout << argv[1] << ": " << problem.nodes() << " nodes, " << increments.size()
                    << " increments, largest residual " << report.largest_residual
                    << ", dissipation " << state.dissipation << std::endl;
-         const int code = miniapp::exit_code(report);
+         const int code = miniapp::exit_code(problem, report);
          if (code != 0) { return code; }
          const nlohmann::ordered_json solution = {
             {"format", "cattaneo reduced solution 1"},
