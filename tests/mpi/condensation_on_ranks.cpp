@@ -189,7 +189,8 @@ void errors()
    for (int direct_dofs : {0, 1000000})
    {
       settings.direct_dofs = direct_dofs;
-      expect_error("is displaced by load pattern 'aside'", [&] { condense(body, line, settings); });
+      expect_error("is displaced by load pattern 'aside'",
+                   [&] { condense(body, line, settings); });
    }
    ElasticBody loose(shared, 2, Material{2.0, 0.3});
    ContactLine point = contact_line(loose, bottom);

@@ -114,7 +114,8 @@ TEST(NearEdgeField, NegativeShearFlipsTheShearPartOnly)
    const Edge none{1, 0, 0.5};
    for (const auto &point : {std::array{0.5, 0.0}, {-1.0, 0.0}, {1.7, 0.6}})
    {
-      const InPlaneStress a = stress(plus, point[0], point[1]), b = stress(minus, point[0], point[1]);
+      const InPlaneStress a = stress(plus, point[0], point[1]),
+                          b = stress(minus, point[0], point[1]);
       const InPlaneStress c = stress(none, point[0], point[1]);
       EXPECT_NEAR(a.xx + b.xx, 2 * c.xx, 1e-14);
       EXPECT_NEAR(a.yy + b.yy, 2 * c.yy, 1e-14);
