@@ -336,6 +336,28 @@ TEST(HeldContact, WhatOneOfTwoBodiesHoldsIsTheOthersAlone)
    }
 }
 
+TEST(HeldContact, HeldRowsAreEmptyToTheLastBitWhereBodiesMoveFreely)
+{
+   mfem::Mesh upper = whole_or_half(true, 0), lower = whole_or_half(true, -1);
+   ElasticBody top(upper, 2, Material{1.0, 0.3}), bottom(lower, 2, Material{2.0, 0.2});
+   for (ElasticBody *body : {&top, &bottom}) { body->fix(4, 0); }
+   top.add_pressure("P", 3, 0.7);
+   bottom.add_pressure("P", 1, 0.7);
+   const CondensedBody first = condense(top, contact_line(top, 1)),
+                       second = condense(bottom, contact_line(bottom, 3));
+   EXPECT_EQ(first.rigid_modes, 1);
+   EXPECT_EQ(second.rigid_modes, 1);
+   const Reduction alone = reduce(first),
+                   both = reduce(first, second, pair_lines(first.line, second.line));
+   for (const Reduction *reduction : {&alone, &both})
+   {
+      reduction->problem.validate(); // asks for exact zeros
+      EXPECT_EQ(reduction->problem.held, std::vector<Eigen::Index>{0});
+      // Half of the whole's force comes through, to the round-off of an equilibrium.
+      EXPECT_NEAR(reduction->problem.patterns[0].p.sum(), 0.7, 1e-12);
+   }
+}
+
 TEST(HeldContact, TwistThatIsHeldIsHeld)
 {
    mfem::Mesh mesh = block("quads");

@@ -185,8 +185,15 @@ CondensedBody in_local_frames(const ContactLine &line, Formulation formulation,
    result.free_motions = formulation == Formulation::torsion
                             ? thin_qr(frames.a.cwiseInverse().asDiagonal() * motions).Q
                             : frames.rows(motions);
+   Eigen::MatrixXd local = frames.rows(found.clamped.forces);
+   for (int row : result.held) // not even round-off of the free motions
+   {
+      result.S.row(row).setZero();
+      result.S.col(row).setZero();
+      result.free_motions.row(row).setZero();
+      local.row(row).setZero();
+   }
    if (loads.empty()) { return result; }
-   const Eigen::MatrixXd local = frames.rows(found.clamped.forces);
    const auto n = line.size();
    for (std::size_t k = 0; k < loads.size(); ++k)
    {

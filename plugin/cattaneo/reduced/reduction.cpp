@@ -378,6 +378,13 @@ Block united(const CondensedBody &first, const CondensedBody &second,
    release(first.free_motions, f1);
    release(motions2, f2);
    block.motions = spanned(first.free_motions, motions2);
+   for (int row : block.held) // not even round-off of the free motions
+   {
+      block.S.row(row).setZero();
+      block.S.col(row).setZero();
+      block.f.row(row).setZero();
+      block.motions.row(row).setZero();
+   }
    if (mirrored(S1, S2, n))
    {
       block.S.bottomLeftCorner(n, n).setZero();
