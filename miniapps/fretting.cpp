@@ -967,7 +967,7 @@ int program(int argc, char *argv[])
    if (!plot.empty() && miniapp::writes())
    {
       std::error_code error;
-      std::filesystem::create_directory(plot, error);
+      std::filesystem::create_directories(plot, error);
       // The tests of an earlier run would belong to another design.
       std::filesystem::remove(plot + "/records.csv", error);
       for (const auto &[name, text] : files) { write_whole(plot + "/" + name, text); }

@@ -323,7 +323,7 @@ private:
       if (*options.save && miniapp::writes()) { save(gapped, options.save); }
       if (*options.plot && miniapp::writes())
       {
-         std::filesystem::create_directory(options.plot);
+         std::filesystem::create_directories(options.plot);
       }
       std::printf(
          "%ld contact nodes, condensed in %.2f s; degree of coupling %.4f (0: none, 1: "

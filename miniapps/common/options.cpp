@@ -98,7 +98,13 @@ void Options::check_files() const
          require(!folder || !fs::exists(name) || fs::is_directory(name), "'", name,
                  "' is a file, must be a folder");
          if (file.what == Names::prefix) { cattaneo::require_writable(name + "_.csv"); }
-         else if (!folder || !fs::exists(name)) { cattaneo::require_writable(name); }
+         else if (!folder) { cattaneo::require_writable(name); }
+         else
+         {
+            fs::path there = name;
+            while (!there.empty() && !fs::exists(there)) { there = there.parent_path(); }
+            cattaneo::require_writable(there / "file");
+         }
       }
       catch (const cattaneo::InputError &error)
       {

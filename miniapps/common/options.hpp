@@ -23,7 +23,7 @@ public:
       input,   ///< a file that is read
       output,  ///< a file that is written
       prefix,  ///< the beginning of the names of files that are written
-      folder,  ///< a folder for files, made if there is none
+      folder,  ///< a folder for files, made with those above it if there is none
       picture, ///< a file of matplotlib's: png, pdf or svg
    };
 

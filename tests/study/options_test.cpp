@@ -80,20 +80,25 @@ TEST_F(Options, FilesAreCheckedBeforeTheWork)
    for (const char *program : programs)
    {
       expect_refused(program, "--save " + none + "'", {"option --save", "no folder"});
-      expect_refused(program, "--plot " + none + ".png'", {"option --plot", "no folder"});
       expect_refused(program, "--save '" + folder + "'",
                      {"option --save", "a folder of that name"});
       if (program != std::string("shakedown"))
       {
          expect_refused(program, "--csv " + none + "'", {"option --csv", "no folder"});
+         expect_refused(program, "--plot " + none + ".png'", {"option --plot", "no folder"});
          expect_refused(program, "--plot '" + folder + "/x.xyz'", {"option --plot", ".png"});
       }
    }
-   expect_refused("fretting", "--plot " + none + "'", {"option --plot", "no folder"});
+   for (const char *program : {"fretting", "shakedown"})
+   {
+      expect_refused(program, "--plot meshes/README.md/figures",
+                     {"option --plot", "no folder"});
+   }
    expect_refused("fretting", "--plot meshes/README.md", {"option --plot", "must be a folder"});
    expect_refused("fretting", "--young 210000", {"option --young", "210000", "GPa, not MPa"});
    expect_refused("fretting", "--threshold -1", {"option --threshold", "-1", "positive"});
-   expect_refused("lap_joint", "--paraview " + none + "'", {"option --paraview", "no folder"});
+   expect_refused("lap_joint", "--paraview meshes/README.md/fields",
+                  {"option --paraview", "no folder"});
    const std::string save = " --save '" + testing::TempDir();
    expect_refused("hertz", save + "hertz.json'", {"--json", "--save", "name another"});
 }
