@@ -518,8 +518,7 @@ private:
       // With (4.10) as printed, whose coupling block is the transpose of (3.25)'s.
       ReducedProblem transposed = problem;
       transposed.B() = problem.B().transpose().eval();
-      complete(transposed);
-      transposed.rigid_motions.reset(); // those of the bodies do not belong to this matrix
+      complete(transposed); // rigid motions of the bodies do not belong to this matrix
       const LimitReport other =
          friction_limit(limit_problem(transposed, cycle), options.lambda_max);
       note(other);

@@ -26,6 +26,7 @@ inline cattaneo::ReducedProblem period_two(double stored = 0)
                        {"Q0", Control::force, zero.Unit(0), zero},
                        {"Q1", Control::force, zero.Unit(1), zero}};
    problem.H = Eigen::Matrix3d::Zero();
+   problem.chains = one_chain(3);
    problem.gap = zero;
    set_friction(problem, 0.5);
    return problem;

@@ -29,6 +29,7 @@ inline cattaneo::ReducedProblem random_problem(int n, double friction, double co
    problem.H = Eigen::MatrixXd::Identity(2, 2);
    problem.gap = (0.3 * matrix(n, 1)).cwiseAbs().cwiseMax(0.1).array() - 0.1;
    problem.weights = Eigen::VectorXd::Ones(n);
+   problem.chains = cattaneo::one_chain(n);
    set_friction(problem, friction);
    return problem;
 }

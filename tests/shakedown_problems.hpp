@@ -52,6 +52,7 @@ inline ReducedProblem random_contact(unsigned seed, Eigen::Index n, Eigen::Index
       {"shear", Control::force, vector(m).array() * 0.4 + 0.6, 0.3 * vector(n)},
       {"twist", Control::force, 0.5 * vector(m), 0.3 * vector(n)}};
    problem.H = Eigen::MatrixXd::Zero(3, 3);
+   problem.chains = one_chain(n);
    problem.gap = Eigen::VectorXd::Zero(n);
    problem.friction = vector(n).array() * 0.2 + 0.5;
    return problem;
@@ -91,6 +92,7 @@ inline ReducedProblem punch_like(Eigen::Index n, double coupling = 0.1)
    B -= (resultant * B).eval();
    problem.set_stiffness(A, B, A);
    problem.weights = weights;
+   problem.chains = one_chain(n);
    problem.arc_length = x;
    const Eigen::ArrayXd s = x.array(), bell = (1 - s.square()).square();
    const Eigen::ArrayXd h = weights.array();

@@ -36,6 +36,7 @@ inline cattaneo::ReducedProblem four_springs()
       {"Q right", cattaneo::Control::force, Eigen::Vector4d(0.1, -0.8, 0.7, 0.3), none}};
    problem.H = Eigen::MatrixXd::Zero(2, 2);
    problem.gap = Eigen::Vector4d(0, 0, 0, 0.05);
+   problem.chains = cattaneo::one_chain(4);
    problem.weights = Eigen::Vector4d(0.25, 0.5, 1, 2);
    problem.arc_length = Eigen::Vector4d(0, 1.0 / 3, 0.5, 2);
    problem.position.resize(4, 2);

@@ -475,16 +475,16 @@ TEST(FrictionSolver, ReportsSlidingAndLiftingApart)
 TEST(Mechanism, FindsTheMotionThatTheLoadsDrive)
 {
    const ReducedProblem problem = free_block(0.4);
-   const Eigen::MatrixXd Z = rigid_motions(problem);
+   const Eigen::MatrixXd &Z = problem.rigid_motions;
    ASSERT_EQ(Z.cols(), 2);
    EXPECT_LT((problem.K * Z).cwiseAbs().maxCoeff(), 1e-15);
    EXPECT_FALSE(
-      find_mechanism(problem, Z, problem.clamped_forces(Eigen::Vector3d(1, 0.39, 0))).exists);
+      find_mechanism(problem, problem.clamped_forces(Eigen::Vector3d(1, 0.39, 0))).exists);
    const Mechanism sliding =
-      find_mechanism(problem, Z, problem.clamped_forces(Eigen::Vector3d(1, 0.41, 0)));
+      find_mechanism(problem, problem.clamped_forces(Eigen::Vector3d(1, 0.41, 0)));
    EXPECT_TRUE(sliding.exists && sliding.slides);
    const Mechanism lifting =
-      find_mechanism(problem, Z, problem.clamped_forces(Eigen::Vector3d(0, 0, 1)));
+      find_mechanism(problem, problem.clamped_forces(Eigen::Vector3d(0, 0, 1)));
    EXPECT_TRUE(lifting.exists && !lifting.slides);
 }
 
@@ -516,12 +516,16 @@ TEST(Lemke, SolvesRandomProblemsAndReportsRays)
 TEST(Semidefinite, SolvesOnTheRangeAndFindsRigidMotions)
 {
    const Eigen::Matrix3d A{{1, -1, 0}, {-1, 2, -1}, {0, -1, 1}};
-   const SemidefiniteSolver solver(A);
-   const Eigen::MatrixXd Z = solver.null_space();
+   const Eigen::MatrixXd Z = null_space(A);
+   const SemidefiniteSolver solver(A, Z);
    ASSERT_EQ(Z.cols(), 1);
    EXPECT_LT((Z - Eigen::Vector3d::Constant(Z(0, 0))).norm(), 1e-14);
    const Eigen::Vector3d b(1, 1, -2);
    EXPECT_LT((A * solver.solve(b) - b).norm(), 1e-14);
+   // What pushes along the motion is left out; a motion that was not told shows.
+   EXPECT_LT((A * solver.solve(b + Eigen::Vector3d::Ones()) - b).norm(), 1e-14);
+   EXPECT_TRUE(solver.definite());
+   EXPECT_FALSE(SemidefiniteSolver(A, Eigen::MatrixXd(3, 0)).definite());
 }
 
 } // namespace

@@ -114,13 +114,13 @@ TEST(FrictionStatements, RoundOffOfALoadDecidesNothing)
 
 TEST(FrictionStatements, ALeverOfRoundOffBalancesNothing)
 {
-   const ReducedProblem problem =
+   ReducedProblem problem =
       two_nodes(free_along, O, I, Vector2d(1, 1), Vector2d(1, 1), Vector2d::Zero());
    for (double lever : {0.0, 1e-17, 1e-15})
    {
-      const MatrixXd motion = Eigen::Vector4d(1, 1, lever, -lever);
+      problem.rigid_motions = Eigen::Vector4d(1, 1, lever, -lever);
       const Mechanism found =
-         find_mechanism(problem, motion, problem.clamped_forces(VectorXd::Ones(1)), 1e-12);
+         find_mechanism(problem, problem.clamped_forces(VectorXd::Ones(1)), 1e-12);
       EXPECT_TRUE(found.exists && found.slides) << lever;
    }
 }

@@ -57,6 +57,7 @@ ReducedProblem half_planes(int n, double half, const std::function<double(double
    problem.H = Eigen::MatrixXd::Zero(3, 3);
    problem.gap = x.unaryExpr(gap);
    problem.weights = VectorXd::Constant(n, h);
+   problem.chains = one_chain(n);
    problem.arc_length = x.array() + half;
    set_friction(problem, 0.5);
    return problem;
@@ -247,7 +248,8 @@ TEST(FromContact, RefusesWhatItCannotJudge)
    ReducedProblem pieces = hertz_pair(41);
    const Solved two = solve(pieces, {load, 0, 0}, {0, 0.1 * 0.5 * load, 0});
    EXPECT_NO_THROW(contact_edges(pieces, two.pressed, two.peak));
-   pieces.arc_length[20] = pieces.arc_length[19];
+   pieces.chains = {one_chain(20)[0], one_chain(21)[0]};
+   pieces.chains[1].first = 20;
    EXPECT_THROW(contact_edges(pieces, two.pressed, two.peak), InputError);
    ReducedProblem frictionless = coarse;
    frictionless.set_stiffness({}, Eigen::MatrixXd(9, 0), frictionless.C());

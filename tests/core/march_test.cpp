@@ -634,6 +634,7 @@ TEST(March, AdvancingContactClosesALayerAtATime)
    problem.set_stiffness(A, B, A);
    problem.patterns = {{"press", Control::force, VectorXd::Zero(n), VectorXd::Ones(n)}};
    problem.H = Eigen::MatrixXd::Zero(1, 1);
+   problem.chains = cattaneo::one_chain(n);
    problem.gap = VectorXd::NullaryExpr(n, [&](int i) { return 0.01 * (i - 20) * (i - 20); });
    set_friction(problem, 0.3);
    problem = as_disc(problem);

@@ -64,12 +64,13 @@ const char *const fields = R"(
        "q": {"rows": 2, "cols": 1, "values": [61, 0]},
        "p": {"rows": 2, "cols": 1, "values": [63, 64]}}])";
 const char *const facts = R"(,
+   "coupled": true,
    "held": [1],
    "chains": [
       {"interface": "left", "first": 0, "nodes": 1, "loop": true,
-       "ends": ["smooth", "corner"], "other_ends": ["axis", "unknown"]},
+       "ends": ["smooth", "corner"], "other_ends": ["axis", "unknown"], "bodies": [1, 0]},
       {"interface": "right", "first": 1, "nodes": 1, "loop": false,
-       "ends": ["unknown", "smooth"], "other_ends": ["corner", "axis"]}])";
+       "ends": ["unknown", "smooth"], "other_ends": ["corner", "axis"], "bodies": [0, -1]}])";
 const char *const motion = R"(,
    "rigid_motions": {"rows": 4, "cols": 1,
                      "values": [0, 0, 0.70710678118654757, 0.70710678118654757]})";
@@ -120,6 +121,8 @@ void expect_facts(const ReducedProblem &problem)
    const auto ends = [](LineEnd a, LineEnd b) { return std::array<LineEnd, 2>{a, b}; };
    const ContactChain &left = problem.chains[0], &right = problem.chains[1];
    EXPECT_EQ(left.interface, "left");
+   EXPECT_EQ(left.bodies, (std::array<int, 2>{1, 0}));
+   EXPECT_EQ(right.bodies, (std::array<int, 2>{0, -1}));
    EXPECT_EQ(left.first, 0);
    EXPECT_EQ(left.nodes, 1);
    EXPECT_TRUE(left.loop);
@@ -147,37 +150,38 @@ TEST(ReducedFile, EveryFieldIsReadAndWrittenAgain)
    {
       expect_fields(problem);
       expect_facts(problem);
-      ASSERT_TRUE(problem.rigid_motions);
-      ASSERT_EQ(problem.rigid_motions->cols(), 1);
-      EXPECT_LT((*problem.rigid_motions - together).norm(), 1e-15);
+      ASSERT_EQ(problem.rigid_motions.cols(), 1);
+      EXPECT_LT((problem.rigid_motions - together).norm(), 1e-15);
    }
-   // None are known to be none, or nothing is known of them.
+   // Held bodies have none, whatever a search would find.
    const ReducedProblem none =
       read(text(2, std::string(fields) + facts +
                       R"(, "rigid_motions": {"rows": 4, "cols": 0, "values": []})"));
    for (const ReducedProblem &problem : {none, again(none)})
    {
       expect_facts(problem);
-      ASSERT_TRUE(problem.rigid_motions);
-      EXPECT_EQ(problem.rigid_motions->rows(), 4);
-      EXPECT_EQ(problem.rigid_motions->cols(), 0);
+      EXPECT_EQ(problem.rigid_motions.rows(), 4);
+      EXPECT_EQ(problem.rigid_motions.cols(), 0);
    }
-   const ReducedProblem unknown = read(text(2, std::string(fields) + facts));
-   for (const ReducedProblem &problem : {unknown, again(unknown)})
-   {
-      expect_facts(problem);
-      EXPECT_FALSE(problem.rigid_motions);
-   }
-   // The first format had no facts.
+   // The first format had no facts: the motion is found, and one chain is taken for granted.
    for (const std::string &content :
         {text(1, fields), text(1, std::string(fields) + facts + motion)})
    {
       const ReducedProblem old = read(content);
       expect_fields(old);
       EXPECT_TRUE(old.held.empty());
-      EXPECT_TRUE(old.chains.empty());
-      EXPECT_FALSE(old.rigid_motions);
-      EXPECT_TRUE(again(old).chains.empty());
+      for (const ReducedProblem &problem : {old, again(old)})
+      {
+         ASSERT_EQ(problem.chains.size(), 1u);
+         EXPECT_EQ(problem.chains[0].first, 0);
+         EXPECT_EQ(problem.chains[0].nodes, 2);
+         EXPECT_EQ(problem.chains[0].bodies, (std::array<int, 2>{0, -1}));
+         ASSERT_EQ(problem.rigid_motions.cols(), 1);
+         EXPECT_LT((problem.rigid_motions * problem.rigid_motions.transpose() -
+                    together * together.transpose())
+                      .norm(),
+                   1e-14);
+      }
    }
    save(present, file);
    std::string written;
@@ -201,6 +205,19 @@ TEST(ReducedFile, SaysWhichFactIsWrong)
    refused("problem 2", "problem 3", "is not a 'cattaneo reduced problem 2' (or 1)");
    refused("[\"smooth\", \"corner\"]", "[\"smooth\", \"bend\"]", "a line that ends 'bend'");
    refused("\"held\": [1],", "", "held");
+   refused("\"coupled\": true,", "", "coupled");
+   refused("\"coupled\": true,", "\"coupled\": false,", "said to be uncoupled, but B is not");
+   refused("\"coupled\": true,", "\"coupled\": 1,", "is not a reduced problem");
+   refused(", \"bodies\": [1, 0]", "", "bodies");
+   refused("\"bodies\": [1, 0]", "\"bodies\": [1]", "is not a reduced problem");
+   refused("\"bodies\": [1, 0]", "\"bodies\": [1, 1]", "of body 1 that faces body 1");
+   refused("\"bodies\": [1, 0]", "\"bodies\": [-1, 0]", "of body -1 that faces body 0");
+   refused("\"bodies\": [1, 0]", "\"bodies\": [0, -2]", "of body 0 that faces body -2");
+   refused("\"bodies\": [1, 0]", "\"bodies\": [0, 2]", "of body 0 that faces body 2");
+   refused("[0.125, -0.25]", "[0.125]", "1 entries for a matrix of 2×1");
+   refused("{\"rows\": 2, \"cols\": 1, \"values\": [0.125, -0.25]}",
+           "{\"rows\": 1, \"cols\": 1, \"values\": [0.125]}", "gap has 1 entries, must be 2");
+   refused("rigid_motions", "rigid motions", "rigid_motions");
    refused("\"held\": [1]", "\"held\": [2]", "held row 2 of A, must be from 0 to 1");
    refused("\"held\": [1]", "\"held\": [-1]", "held row -1 of A");
    refused("\"held\": [1]", "\"held\": [0]", "row 0 of A is said to be held");

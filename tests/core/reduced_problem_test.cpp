@@ -133,7 +133,6 @@ TEST(ReducedProblem, SaysWhichSizeIsWrong)
 TEST(ReducedProblem, HoldingARowTakesItOutAndAllThatMovesIt)
 {
    ReducedProblem problem = two_nodes();
-   problem.rigid_motions.emplace(4, 0);
    cattaneo::hold(problem, {1, 1});
    EXPECT_EQ(problem.A(), (Eigen::Matrix2d{{4, 0}, {0, 4}}));
    EXPECT_EQ(problem.B(), (Eigen::Matrix2d{{0.5, 0}, {-0.2, 0}}));
@@ -141,7 +140,6 @@ TEST(ReducedProblem, HoldingARowTakesItOutAndAllThatMovesIt)
    EXPECT_EQ(problem.patterns[0].q, Eigen::Vector2d(0.1, 0));
    EXPECT_EQ(problem.patterns[0].p, Eigen::Vector2d(1, 1));
    EXPECT_EQ(problem.held, std::vector<Eigen::Index>{1});
-   EXPECT_FALSE(problem.rigid_motions); // no longer known
    EXPECT_NO_THROW(problem.validate());
    EXPECT_TRUE(problem.coupled);
    cattaneo::hold(problem, {1, 0}); // one that is held already does not end it

@@ -1,3 +1,5 @@
+#include "expect_input_error.hpp"
+
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/readout/zones.hpp>
@@ -22,6 +24,7 @@ Sampled cattaneo_mindlin(int n, double c, double shift)
    ReducedProblem &problem = result.problem;
    const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(n, n);
    problem.set_stiffness(I, Eigen::MatrixXd::Zero(n, n), I);
+   problem.chains = one_chain(n);
    problem.gap = Eigen::VectorXd::Zero(n);
    problem.arc_length = Eigen::VectorXd::LinSpaced(n, 0, 3);
    problem.weights = Eigen::VectorXd::Constant(n, 3.0 / (n - 1));
@@ -255,22 +258,16 @@ TEST(Zones, OfACycleAreReadFromSlipAlone)
 
 TEST(Zones, EndWhereAChainEnds)
 {
-   // Two feet, 0 … 1 and 1 … 2 in arc length; that they are two is known from the chains, or
-   // from an arc length that does not grow.
-   for (bool known : {true, false})
+   // Two feet, 0 … 1 and 1 … 2 in arc length, which may grow from one to the other or not.
+   for (bool grows : {true, false})
    {
       Sampled s = cattaneo_mindlin(12, 0.5, 0);
       s.state.p.setOnes();
       s.state.status.assign(12, NodeState::stick);
       for (int i = 0; i < 12; ++i) { s.problem.arc_length[i] = 0.2 * (i < 6 ? i : i - 1); }
-      if (known)
-      {
-         ContactChain foot;
-         foot.nodes = 6;
-         s.problem.chains.assign(2, foot);
-         s.problem.chains[1].first = 6;
-         s.problem.arc_length.tail(6).array() += 0.1; // so that it grows
-      }
+      s.problem.chains.assign(2, one_chain(6).front());
+      s.problem.chains[1].first = 6;
+      if (grows) { s.problem.arc_length.tail(6).array() += 0.1; }
       const std::vector<Zone> all = zones(s.problem, s.state);
       ASSERT_EQ(all.size(), 2u);
       EXPECT_EQ(all[0].last, 5);
@@ -280,6 +277,9 @@ TEST(Zones, EndWhereAChainEnds)
       const Zone contact = contact_zone(s.problem, s.state);
       EXPECT_NEAR(contact.to.position - contact.from.position, 1, 1e-14);
       EXPECT_EQ(contact_zones(all).size(), 2u);
+      s.problem.chains.clear();
+      expect_input_error([&] { zones(s.problem, s.state); },
+                         "does not say which nodes follow each other");
    }
 }
 

@@ -88,6 +88,7 @@ Case random_case(int least_components, int most_components, bool held)
    }
    problem.H = MatrixXd::Zero(2, 2);
    problem.weights = VectorXd::Ones(n);
+   problem.chains = one_chain(n);
    problem.arc_length = VectorXd::LinSpaced(n, 0, static_cast<double>(n - 1));
    result.loads.push_back(VectorXd::Zero(2));
    for (const auto &point : points)
@@ -330,6 +331,7 @@ TEST(ReducedProblemProperties, ChainsAndFilesChangeNoBit)
                       [&]
                       {
                          Case split = c, restored = c;
+                         split.problem.chains.clear();
                          for (Index i = 0; i < c.problem.nodes(); ++i)
                          {
                             split.problem.chains.push_back({"one by one", i, 1, false, {}, {}});

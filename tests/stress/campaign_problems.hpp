@@ -509,7 +509,8 @@ inline Case make_case(const FamilyEntry &family, int components, std::uint64_t s
          made.slip[i] *= b.force_scale[i] / made.problem.A()(i, i);
       for (const Index row : b.held) made.slip[row] = 0;
    }
-   // Half of the problems come with what a program that makes them knows.
+   // Half of the problems come with the motions that a program which makes them knows; of the
+   // others they were sought.
    if (number % 2)
    {
       if (b.rigid.cols())
@@ -517,10 +518,8 @@ inline Case make_case(const FamilyEntry &family, int components, std::uint64_t s
             MatrixXd(b.rigid.householderQr().householderQ()).leftCols(b.rigid.cols());
       else if (family.name != "duplicates" && family.name != "hilbert")
          made.problem.rigid_motions = MatrixXd(b.size, 0);
-      cattaneo::ContactChain line;
-      line.nodes = n;
-      made.problem.chains = {line};
    }
+   made.problem.chains = cattaneo::one_chain(n);
    return made;
 }
 

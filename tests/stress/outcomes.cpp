@@ -179,7 +179,7 @@ Verdict march_and_verify(const ReducedProblem &problem, const LoadHistory &histo
    const Eigen::VectorXd loads =
       history.start(piece) + beyond * (history.end(piece) - history.start(piece));
    const Eigen::VectorXd forces = problem.clamped_forces(loads);
-   const Mechanism mechanism = find_mechanism(problem, rigid_motions(problem), forces);
+   const Mechanism mechanism = find_mechanism(problem, forces);
    if (!mechanism.exists || !proves_mechanism(problem, mechanism.motion, forces))
    {
       verdict.outcome = Outcome::wrong;

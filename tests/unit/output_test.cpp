@@ -220,6 +220,7 @@ ReducedProblem three_nodes()
    problem.H = Eigen::MatrixXd::Zero(1, 1);
    problem.gap = Eigen::Vector3d(0, 0, 0.1);
    problem.weights = Eigen::Vector3d(0.5, 0.5, 0.25);
+   problem.chains = one_chain(3);
    problem.arc_length = Eigen::Vector3d(0, 1.0 / 3, 1);
    problem.position.resize(3, 2);
    problem.position << 0, 0, 1.0 / 3, 0, 1, 0;

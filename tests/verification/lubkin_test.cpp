@@ -70,6 +70,7 @@ struct Spheres
       VectorXd square(n);
       arm.resize(n);
       problem.weights.resize(n);
+      problem.chains = one_chain(n);
       problem.arc_length.resize(n);
       VectorXd pressure(n);
       auto outside = [](double r) { return std::pow(1 - r * r, 1.5); }; // of Hertz' force

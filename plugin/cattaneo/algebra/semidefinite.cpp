@@ -5,36 +5,19 @@
 namespace cattaneo
 {
 
-SemidefiniteSolver::SemidefiniteSolver(const Eigen::MatrixXd &A)
+namespace
 {
-   // Every row by its own stiffness, so that a soft node beside a stiff one is not taken for
-   // one that nothing holds.
+
+/// Every row by its own stiffness, so that a soft node beside a stiff one is not taken for one
+/// that nothing holds.
+Eigen::VectorXd scale_of(const Eigen::MatrixXd &A)
+{
    const Eigen::VectorXd own = A.diagonal();
-   scale_ = (own.array() > 0).select(own.cwiseSqrt().cwiseInverse(), 1.0);
-   const Eigen::MatrixXd scaled = scale_.asDiagonal() * A * scale_.asDiagonal();
-   ldlt_.compute(scaled);
-   inverse_pivots_ = ldlt_.vectorD();
-   // Candidates are motions of little energy; a pivot is the energy of the motion that is 1 at
-   // the pivot, where a rotation about a point nearby hardly moves.
-   const Eigen::Index n = inverse_pivots_.size();
-   Eigen::MatrixXd Z(n, 0);
-   for (Eigen::Index k = 0; k < n; ++k)
-   {
-      double &d = inverse_pivots_[k];
-      bool free = d <= 1e-5;
-      if (free)
-      {
-         Eigen::VectorXd motion = Eigen::VectorXd::Unit(n, k);
-         ldlt_.matrixU().solveInPlace(motion);
-         motion = (ldlt_.transpositionsP().transpose() * motion).eval();
-         free = rests(scaled, motion);
-      }
-      d = free ? 0.0 : 1 / d;
-   }
+   return (own.array() > 0).select(own.cwiseSqrt().cwiseInverse(), 1.0);
 }
 
 /// Does a motion meet no more energy than the rounding of the entries makes?
-bool SemidefiniteSolver::rests(const Eigen::MatrixXd &A, const Eigen::VectorXd &motion)
+bool rests(const Eigen::MatrixXd &A, const Eigen::VectorXd &motion)
 {
    using Long = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
    const Long x = motion.cast<long double>();
@@ -47,27 +30,53 @@ bool SemidefiniteSolver::rests(const Eigen::MatrixXd &A, const Eigen::VectorXd &
    return energy <= 8 * std::numeric_limits<double>::epsilon() * round_off;
 }
 
-Eigen::MatrixXd SemidefiniteSolver::solve(const Eigen::MatrixXd &rhs) const
+} // namespace
+
+SemidefiniteSolver::SemidefiniteSolver(const Eigen::MatrixXd &A,
+                                       const Eigen::MatrixXd &null_space)
+   : scale_(scale_of(A)), null_(scale_.cwiseInverse().asDiagonal() * null_space)
 {
-   Eigen::MatrixXd x = ldlt_.transpositionsP() * (scale_.asDiagonal() * rhs);
-   ldlt_.matrixL().solveInPlace(x);
-   x = (inverse_pivots_.asDiagonal() * x).eval();
-   ldlt_.matrixU().solveInPlace(x);
-   return scale_.asDiagonal() * (ldlt_.transpositionsP().transpose() * x);
+   Eigen::MatrixXd scaled = scale_.asDiagonal() * A * scale_.asDiagonal();
+   if (null_.cols() > 0)
+   {
+      null_ = thin_qr(null_).Q;
+      scaled += null_ * null_.transpose();
+   }
+   ldlt_.compute(scaled);
 }
 
-Eigen::MatrixXd SemidefiniteSolver::null_space() const
+bool SemidefiniteSolver::definite() const
 {
-   const Eigen::Index n = inverse_pivots_.size(), rank = (inverse_pivots_.array() != 0).count();
-   Eigen::MatrixXd Z = Eigen::MatrixXd::Zero(n, n - rank);
-   for (Eigen::Index i = 0, k = 0; i < n; ++i)
+   return ldlt_.vectorD().minCoeff() > 1e-13;
+}
+
+Eigen::MatrixXd SemidefiniteSolver::solve(const Eigen::MatrixXd &rhs) const
+{
+   Eigen::MatrixXd x = ldlt_.solve(scale_.asDiagonal() * rhs);
+   x -= null_ * (null_.transpose() * x);
+   return scale_.asDiagonal() * x;
+}
+
+Eigen::MatrixXd null_space(const Eigen::MatrixXd &A)
+{
+   const Eigen::Index n = A.rows();
+   const Eigen::VectorXd scale = scale_of(A);
+   const Eigen::MatrixXd scaled = scale.asDiagonal() * A * scale.asDiagonal();
+   const Eigen::LDLT<Eigen::MatrixXd> ldlt(scaled);
+   Eigen::MatrixXd Z(n, 0);
+   for (Eigen::Index k = 0; k < n; ++k)
    {
-      if (inverse_pivots_[i] == 0) { Z(i, k++) = 1; }
+      // Candidates are motions of little energy; a pivot is the energy of the motion that is 1
+      // at the pivot, where a rotation about a point nearby hardly moves.
+      if (ldlt.vectorD()[k] > 1e-5) { continue; }
+      Eigen::VectorXd motion = Eigen::VectorXd::Unit(n, k);
+      ldlt.matrixU().solveInPlace(motion);
+      motion = (ldlt.transpositionsP().transpose() * motion).eval();
+      if (!rests(scaled, motion)) { continue; }
+      Z.conservativeResize(Eigen::NoChange, Z.cols() + 1);
+      Z.rightCols(1) = scale.asDiagonal() * motion;
    }
-   if (Z.cols() == 0) { return Z; }
-   ldlt_.matrixU().solveInPlace(Z);
-   Z = (scale_.asDiagonal() * (ldlt_.transpositionsP().transpose() * Z)).eval();
-   return thin_qr(Z).Q;
+   return Z.cols() > 0 ? thin_qr(Z).Q : Z;
 }
 
 } // namespace cattaneo

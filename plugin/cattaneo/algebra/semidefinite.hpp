@@ -5,23 +5,29 @@
 namespace cattaneo
 {
 
-/** Pivoted LDLᵀ of a symmetric positive *semi*definite matrix. Pivots at round-off belong to
-   rigid motions: solve() adds no motion along them, null_space() returns them. */
+/// Solves with a symmetric positive *semi*definite matrix whose null space is known.
 class SemidefiniteSolver
 {
 public:
-   explicit SemidefiniteSolver(const Eigen::MatrixXd &A);
+   /// null_space: orthonormal columns, none if A is definite.
+   SemidefiniteSolver(const Eigen::MatrixXd &A, const Eigen::MatrixXd &null_space);
 
+   /// False if A is not semidefinite, or resists nothing else than the null space as well.
+   bool definite() const;
+   /// x with A x = rhs, for a rhs orthogonal to the null space, as any multiple of that is left
+   /// out. Of all such x the one that is orthogonal to the null space where every row counts
+   /// with its diagonal entry.
    Eigen::MatrixXd solve(const Eigen::MatrixXd &rhs) const;
-   /// Orthonormal basis of the null space, one column a rigid motion.
-   Eigen::MatrixXd null_space() const;
 
 private:
-   static bool rests(const Eigen::MatrixXd &A, const Eigen::VectorXd &motion);
-
-   Eigen::VectorXd scale_; ///< of the rows, unit diagonal
-   Eigen::LDLT<Eigen::MatrixXd> ldlt_;
-   Eigen::VectorXd inverse_pivots_; ///< zero where the pivot is
+   Eigen::VectorXd scale_;             ///< of the rows, unit diagonal
+   Eigen::MatrixXd null_;              ///< of the scaled matrix
+   Eigen::LDLT<Eigen::MatrixXd> ldlt_; ///< with springs on the null space
 };
+
+/** Orthonormal basis of what a symmetric positive semidefinite matrix does not resist by more
+    than the rounding of its entries, by pivoted LDLᵀ: the search for those who know the matrix
+    and nothing else. */
+Eigen::MatrixXd null_space(const Eigen::MatrixXd &A);
 
 } // namespace cattaneo

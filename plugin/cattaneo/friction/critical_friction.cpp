@@ -2,7 +2,6 @@
 #include <cattaneo/algebra/nonnegative_fit.hpp>
 #include <cattaneo/friction/contact_law.hpp>
 #include <cattaneo/friction/critical_friction.hpp>
-#include <cattaneo/friction/mechanism.hpp>
 #include <cmath>
 #include <limits>
 
@@ -42,7 +41,7 @@ bool locks(const ReducedProblem &problem, const MatrixXd &Z, double f)
 /// Cones grow with friction: bisection.
 double locking_friction(const ReducedProblem &problem)
 {
-   const MatrixXd Z = rigid_motions(problem);
+   const MatrixXd &Z = problem.rigid_motions;
    double low = 1e-6, high = 1e6;
    if (Z.cols() == 0 || !locks(problem, Z, high)) { return infinity; }
    while (high > (1 + 1e-12) * low)
@@ -97,10 +96,10 @@ CriticalFriction critical_friction(const ReducedProblem &problem)
    return result;
 }
 
-bool can_lock(const ReducedProblem &problem, const MatrixXd &rigid_motions)
+bool can_lock(const ReducedProblem &problem)
 {
-   return rigid_motions.cols() > 0 && problem.components() > 0 &&
-          locks(problem, rigid_motions, problem.friction.maxCoeff());
+   return problem.rigid_motions.cols() > 0 && problem.components() > 0 &&
+          locks(problem, problem.rigid_motions, problem.friction.maxCoeff());
 }
 
 } // namespace cattaneo

@@ -51,7 +51,6 @@ struct CriticalFriction
 CriticalFriction critical_friction(const ReducedProblem &problem);
 
 /// Can the contact lock itself with the friction it has, the largest everywhere?
-/// `rigid_motions` as found by rigid_motions().
-bool can_lock(const ReducedProblem &problem, const Eigen::MatrixXd &rigid_motions);
+bool can_lock(const ReducedProblem &problem);
 
 } // namespace cattaneo

@@ -130,7 +130,8 @@ Search damped_newton(Increment &at)
       }
       // From afar a free body that slides away looks like an answer: round-off hides what
       // drives it.
-      if (polished(at) && (s.motions().cols() == 0 || at.report.round_off <= may_hide_sliding))
+      if (polished(at) &&
+          (s.problem.rigid_motions.cols() == 0 || at.report.round_off <= may_hide_sliding))
       {
          return Search::found;
       }

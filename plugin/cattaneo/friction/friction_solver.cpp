@@ -135,7 +135,7 @@ void explain_failure(Increment &at)
       report.status = FrictionStatus::stalled;
       at.residuals();
       message << "no equilibrium was found";
-      if (s.found_motions && can_lock(s.problem, *s.found_motions))
+      if (can_lock(s.problem))
       {
          message
             << ", and there may be none near the last one: the contact can lock itself, and "

@@ -48,8 +48,8 @@ FrictionSystem::FrictionSystem(const ReducedProblem &given, const FrictionSettin
    // What little is left of K where a body is free to slide away up a slope is round-off of C.
    arithmetic = std::make_unique<RoundOff>(problem.C());
    if (problem.components() == 0) { return; }
-   tangential = std::make_unique<SemidefiniteSolver>(problem.A());
-   slides_freely = tangential->null_space();
+   slides_freely = rigid_slips(problem);
+   tangential = std::make_unique<SemidefiniteSolver>(problem.A(), slides_freely);
    if (slides_freely.cols() > 0)
    {
       const bool lengths = problem.weights.size() == n && problem.weights.minCoeff() > 0;
@@ -64,16 +64,6 @@ FrictionSystem::FrictionSystem(const ReducedProblem &given, const FrictionSettin
    normal -= problem.B() * tangential->solve(problem.B().transpose());
    normal = (0.5 * (normal + normal.transpose())).eval();
    knn = K.diagonal();
-}
-
-const MatrixXd &FrictionSystem::motions()
-{
-   if (!found_motions)
-   {
-      found_motions = std::make_unique<MatrixXd>(rigid_motions(problem));
-      if (!problem.rigid_motions) { ++counters.dense_factorisations; }
-   }
-   return *found_motions;
 }
 
 Index FrictionSystem::above_critical(const std::vector<NodeState> *states) const

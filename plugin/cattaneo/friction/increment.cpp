@@ -176,8 +176,7 @@ bool Increment::solved()
 
 bool Increment::finds_mechanism()
 {
-   mechanism = find_mechanism(system.problem, system.motions(),
-                              system.problem.clamped_forces(multipliers),
+   mechanism = find_mechanism(system.problem, system.problem.clamped_forces(multipliers),
                               system.settings.tolerance * reference);
    return mechanism.exists;
 }

@@ -68,7 +68,6 @@ struct FrictionSystem
    // Equations of the states: all at once, or the gaps and then the slip (B = 0).
    std::unique_ptr<StateEquations> coupled_equations, normal_equations, tangential_equations;
    EliminatedNodes eliminated;
-   std::unique_ptr<MatrixXd> found_motions;  // see motions()
    std::unique_ptr<FrictionSolver> smooth;   // disc: the contact without friction, when asked
    std::unique_ptr<FrictionSystem> slippery; // see solve_whole()
    bool brief = false;                       // give up where sweeps, active set and path fail
@@ -76,8 +75,6 @@ struct FrictionSystem
    bool disc() const { return c == 2; }                      // friction force in the disc
    Index t(Index i, Index k = 0) const { return k * n + i; } // row of a tangential entry
    Index m(Index i) const { return c * n + i; }              // row of the normal entry
-   /// Rigid motions, found when first needed.
-   const MatrixXd &motions();
    /// The first node with friction above its critical value, closed if states are given; -1: no
    /// node.
    Index above_critical(const std::vector<NodeState> *states = nullptr) const;

@@ -163,7 +163,7 @@ bool March::exact_in_one(int piece) const
 bool March::advances_too_far(const ContactState &next) const
 {
    if (settings_.stepping == Stepping::fixed || solver_.frictionless()) { return false; }
-   for (const ContactChain &chain : chains_of(problem_))
+   for (const ContactChain &chain : problem_.chains)
    {
       const Index first = chain.first, count = chain.nodes;
       const auto was_closed = [&](Index k)

@@ -1,5 +1,4 @@
 #include <cattaneo/algebra/nonnegative_fit.hpp>
-#include <cattaneo/algebra/semidefinite.hpp>
 #include <cattaneo/friction/contact_law.hpp>
 #include <cattaneo/friction/mechanism.hpp>
 #include <cmath>
@@ -26,16 +25,11 @@ bool proves(const NonnegativeFit &fit, const MatrixXd &G)
 
 } // namespace
 
-MatrixXd rigid_motions(const ReducedProblem &problem)
-{
-   return problem.rigid_motions ? *problem.rigid_motions
-                                : SemidefiniteSolver(problem.K).null_space();
-}
-
-Mechanism find_mechanism(const ReducedProblem &problem, const MatrixXd &motions,
-                         const VectorXd &clamped_forces, double negligible)
+Mechanism find_mechanism(const ReducedProblem &problem, const VectorXd &clamped_forces,
+                         double negligible)
 {
    Mechanism mechanism;
+   const MatrixXd &motions = problem.rigid_motions;
    if (motions.cols() == 0) { return mechanism; }
    // A lever of round-off would balance any load, with forces of any size.
    const double lever = 1e-13 * motions.cwiseAbs().maxCoeff();
@@ -118,7 +112,7 @@ Mechanism find_spinning(const ReducedProblem &problem, const VectorXd &frictionl
    Mechanism mechanism;
    const Index n = problem.nodes();
    if (problem.components() != 2) { return mechanism; }
-   const MatrixXd Z = SemidefiniteSolver(problem.A()).null_space();
+   const MatrixXd Z = rigid_slips(problem);
    if (Z.cols() != 1) { return mechanism; }
    double resistance = 0;
    for (Index i = 0; i < n; ++i)

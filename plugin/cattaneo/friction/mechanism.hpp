@@ -14,11 +14,6 @@ struct Mechanism
    bool spins = false;     ///< slides in the circumferential direction somewhere
 };
 
-/// Orthonormal basis of the rigid motions {v; w} of a reduced problem, one column a motion,
-/// none if both bodies are held: those that were imposed, or, where these are not known, what
-/// the stiffness does not resist by more than the rounding of its entries.
-Eigen::MatrixXd rigid_motions(const ReducedProblem &problem);
-
 /** Can contact forces inside the friction cones (p >= 0, |q| <= f p) balance the given clamped
     forces {q; p} along the rigid motions? By Farkas' lemma either they can, or there is a
     mechanism: the residual of a non-negative least-squares problem in the edges of the cones.
@@ -28,8 +23,8 @@ Eigen::MatrixXd rigid_motions(const ReducedProblem &problem);
 
     `negligible`: a resultant whose largest share of a node is no larger is none (loads that
     balance each other to round-off). */
-Mechanism find_mechanism(const ReducedProblem &problem, const Eigen::MatrixXd &rigid_motions,
-                         const Eigen::VectorXd &clamped_forces, double negligible = 0);
+Mechanism find_mechanism(const ReducedProblem &problem, const Eigen::VectorXd &clamped_forces,
+                         double negligible = 0);
 
 /** Do the clamped forces drive a steady rotation about the axis? It meets f p at every node,
     with the pressure of a contact without friction: all of friction is circumferential then,

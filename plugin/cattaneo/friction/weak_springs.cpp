@@ -19,7 +19,7 @@ bool drifts(Increment &at)
 {
    FrictionSystem &s = at.system;
    const ReducedProblem &problem = s.problem;
-   const MatrixXd &Z = s.motions();
+   const MatrixXd &Z = problem.rigid_motions;
    if (Z.cols() == 0) { return false; }
    const Index n = s.n;
    const double negligible = s.settings.tolerance * at.reference;
@@ -47,7 +47,7 @@ bool drifts(Increment &at)
       if (spring < 1e-13 * own.maxCoeff()) { break; } // round-off
       ReducedProblem held = problem;
       held.K += spring * Z * Z.transpose();
-      complete(held);
+      join_coupling(held);
       const VectorXd pull = -spring * Z * (Z.transpose() * anchor);
       held.patterns.push_back({"springs", Control::force, pull.head(along), pull.tail(n)});
       held.H.conservativeResizeLike(MatrixXd::Zero(count + 1, count + 1));
@@ -109,7 +109,7 @@ bool spins(Increment &at)
 {
    FrictionSystem &s = at.system;
    const ReducedProblem &problem = s.problem;
-   if (!s.disc() || problem.friction.maxCoeff() == 0 || s.motions().cols() == 0)
+   if (!s.disc() || problem.friction.maxCoeff() == 0 || problem.rigid_motions.cols() == 0)
    {
       return false;
    }
@@ -118,7 +118,7 @@ bool spins(Increment &at)
       ReducedProblem without = problem;
       set_friction(without, 0);
       // It could not bear the torque.
-      const MatrixXd Z = SemidefiniteSolver(problem.A()).null_space();
+      const MatrixXd Z = rigid_slips(problem);
       for (LoadPattern &pattern : without.patterns)
       {
          pattern.q -= Z * (Z.transpose() * pattern.q);

@@ -161,6 +161,9 @@ void check_line(const ReducedProblem &problem)
    const Index n = problem.nodes();
    require(problem.arc_length.size() == n && problem.weights.size() == n,
            "zones: the reduced problem has no arc length or weights");
+   require(!problem.chains.empty(),
+           "zones: the reduced problem does not say which nodes follow each other, chains must "
+           "be set (one_chain() if it is one line)");
 }
 
 /// Without reserve and way.
@@ -183,7 +186,7 @@ class Reader
 public:
    Reader(const ReducedProblem &problem, const Profiles &at, const VectorXd &shear)
       : s_(problem.arc_length), at_(at), shear_(shear), chain_(chain_numbers(problem)),
-        chains_(chains_of(problem))
+        chains_(problem.chains)
    {
    }
 
@@ -205,7 +208,7 @@ private:
    const Profiles &at_;
    const VectorXd &shear_;
    const std::vector<int> chain_;
-   const std::vector<ContactChain> chains_;
+   const std::vector<ContactChain> &chains_;
 };
 
 /// Node `in` is closed, `out` is open; the far end of the open zone.
@@ -344,7 +347,7 @@ std::vector<int> chain_numbers(const ReducedProblem &problem)
    const Index n = problem.nodes();
    std::vector<int> number(n, 0);
    int k = 0;
-   for (const ContactChain &chain : chains_of(problem))
+   for (const ContactChain &chain : problem.chains)
    {
       std::fill_n(number.begin() + chain.first, chain.nodes, k++);
    }

@@ -23,7 +23,7 @@ struct Zone
    int chain = 0;            ///< of the contact line, see chain_numbers()
 };
 
-/// Number of the chain of each node, from 0, see chains_of().
+/// Number of the chain of each node, from 0.
 std::vector<int> chain_numbers(const ReducedProblem &problem);
 
 /** Zones of a state along the contact line, in the order of the nodes, from settled_states().

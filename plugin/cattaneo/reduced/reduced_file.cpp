@@ -60,11 +60,29 @@ void from_json(const nlohmann::json &j, Matrix &M)
    std::copy(values.begin(), values.end(), M.data());
 }
 
+/// Chains of format 1, which does not say them: one of all nodes, or a new one wherever the arc
+/// length, if there is one, does not grow.
+std::vector<ContactChain> found_chains(const Eigen::VectorXd &arc_length, Eigen::Index nodes)
+{
+   std::vector<ContactChain> chains;
+   const bool known = arc_length.size() == nodes;
+   for (Eigen::Index i = 0; i < nodes; ++i)
+   {
+      if (i == 0 || (known && arc_length[i] <= arc_length[i - 1]))
+      {
+         chains.emplace_back().first = i;
+      }
+      ++chains.back().nodes;
+   }
+   return chains;
+}
+
 } // namespace
 
 void save(const ReducedProblem &problem, const std::string &file)
 {
    nlohmann::json j = {{"format", format_name},
+                       {"coupled", problem.coupled},
                        {"A", to_json(Eigen::MatrixXd(problem.A()))},
                        {"B", to_json(Eigen::MatrixXd(problem.B()))},
                        {"C", to_json(Eigen::MatrixXd(problem.C()))},
@@ -91,9 +109,10 @@ void save(const ReducedProblem &problem, const std::string &file)
                              {"nodes", chain.nodes},
                              {"loop", chain.loop},
                              {"ends", to_json(chain.ends)},
-                             {"other_ends", to_json(chain.other_ends)}});
+                             {"other_ends", to_json(chain.other_ends)},
+                             {"bodies", chain.bodies}});
    }
-   if (problem.rigid_motions) { j["rigid_motions"] = to_json(*problem.rigid_motions); }
+   j["rigid_motions"] = to_json(problem.rigid_motions);
    write_whole(file, j.dump() + '\n');
 }
 
@@ -112,8 +131,6 @@ ReducedProblem load_reduced_problem(const std::string &file)
       from_json(j.at("A"), A);
       from_json(j.at("B"), B);
       from_json(j.at("C"), C);
-      problem.set_stiffness(A, B, C);
-      from_json(j.at("gap"), problem.gap);
       from_json(j.at("H"), problem.H);
       from_json(j.at("friction"), problem.friction);
       from_json(j.at("weights"), problem.weights);
@@ -131,18 +148,26 @@ ReducedProblem load_reduced_problem(const std::string &file)
       }
       if (j.at("format") == format_name)
       {
+         Eigen::MatrixXd motions;
+         from_json(j.at("rigid_motions"), motions);
+         problem.set_stiffness(A, B, C, motions);
+         problem.coupled = j.at("coupled");
          problem.held = j.at("held").get<std::vector<Eigen::Index>>();
          for (const nlohmann::json &c : j.at("chains"))
          {
             problem.chains.push_back({c.at("interface"), c.at("first"), c.at("nodes"),
                                       c.at("loop"), ends_from_json(c.at("ends")),
-                                      ends_from_json(c.at("other_ends"))});
-         }
-         if (j.contains("rigid_motions"))
-         {
-            from_json(j["rigid_motions"], problem.rigid_motions.emplace());
+                                      ends_from_json(c.at("other_ends")), c.at("bodies")});
          }
       }
+      else
+      {
+         problem.set_stiffness(A, B, C);
+         problem.chains = found_chains(problem.arc_length, problem.nodes());
+      }
+      from_json(j.at("gap"), problem.gap);
+      require(problem.gap.size() == C.rows(), "reduced problem: gap has ", problem.gap.size(),
+              " entries, must be ", C.rows());
    }
    catch (const nlohmann::json::exception &error)
    {

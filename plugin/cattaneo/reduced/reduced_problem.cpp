@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cattaneo/algebra/dense_algebra.hpp>
+#include <cattaneo/algebra/semidefinite.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/reduced_problem.hpp>
 #include <set>
@@ -7,7 +9,7 @@ namespace cattaneo
 {
 
 void ReducedProblem::set_stiffness(const Eigen::MatrixXd &A, const Eigen::MatrixXd &B,
-                                   const Eigen::MatrixXd &C)
+                                   const Eigen::MatrixXd &C, const Eigen::MatrixXd &motions)
 {
    const Eigen::Index m = A.rows(), n = C.rows();
    require(A.cols() == m && B.rows() == n && B.cols() == m && C.cols() == n,
@@ -17,6 +19,14 @@ void ReducedProblem::set_stiffness(const Eigen::MatrixXd &A, const Eigen::Matrix
    K << A, B.transpose(), B, C;
    if (gap.size() != n) { gap = Eigen::VectorXd::Zero(n); }
    if (friction.size() != n) { friction = Eigen::VectorXd::Zero(n); }
+   rigid_motions = motions;
+   join_coupling(*this);
+}
+
+void ReducedProblem::set_stiffness(const Eigen::MatrixXd &A, const Eigen::MatrixXd &B,
+                                   const Eigen::MatrixXd &C)
+{
+   set_stiffness(A, B, C, {});
    complete(*this);
 }
 
@@ -88,6 +98,14 @@ void check_facts(const ReducedProblem &problem)
               ", chains must follow each other from node 0 (the next is ", next, ")");
       next += chain.nodes;
    }
+   for (const ContactChain &chain : problem.chains)
+   {
+      const auto [own, other] = chain.bodies;
+      const auto known = problem.dofs.size() ? problem.dofs.cols() / 2 : own + other + 2;
+      require(own >= 0 && other >= -1 && own != other && std::max(own, other) < known,
+              "reduced problem: a chain of nodes of body ", own, " that faces body ", other,
+              ", must be two of the bodies from 0, or -1 for a rigid obstacle that is faced");
+   }
    require(problem.chains.empty() || next == n, "reduced problem: the chains have ", next,
            " nodes, must have all ", n);
    for (Eigen::Index row : problem.held)
@@ -104,10 +122,10 @@ void check_facts(const ReducedProblem &problem)
       require(alone, "reduced problem: row ", row,
               " of A is said to be held, but is coupled or loaded");
    }
-   if (!problem.rigid_motions) { return; }
-   const Eigen::MatrixXd &Z = *problem.rigid_motions;
+   const Eigen::MatrixXd &Z = problem.rigid_motions;
    require(Z.rows() == m + n, "reduced problem: rigid motions have ", Z.rows(),
-           " rows, must have ", m + n);
+           " rows, must have ", m + n,
+           " (and no columns if the bodies are held; complete() seeks them)");
    require(Z.allFinite(), "reduced problem: a rigid motion has an entry that is not finite");
    require((Z.transpose() * Z).isIdentity(1e-9),
            "reduced problem: the rigid motions are not orthonormal");
@@ -170,6 +188,20 @@ void ReducedProblem::validate() const
    check_facts(*this);
 }
 
+namespace
+{
+
+/// Combinations of orthonormal motions Z that leave some of their rows at rest. What moves
+/// these by less than 1e-7 of the rest meets, by the forces of its square, less than round-off.
+Eigen::MatrixXd at_rest(const Eigen::MatrixXd &Z, const Eigen::MatrixXd &rows)
+{
+   if (Z.cols() == 0) { return Z; }
+   const SymmetricModes modes = symmetric_modes(rows.transpose() * rows);
+   return Z * modes.vectors.leftCols((modes.values.array() < 1e-14).count());
+}
+
+} // namespace
+
 void hold(ReducedProblem &problem, const std::vector<Eigen::Index> &rows)
 {
    for (Eigen::Index row : rows)
@@ -185,31 +217,40 @@ void hold(ReducedProblem &problem, const std::vector<Eigen::Index> &rows)
       for (LoadPattern &pattern : problem.patterns) { pattern.q[row] = 0; }
       problem.held.push_back(row);
    }
-   complete(problem);
-   problem.rigid_motions.reset(); // those that move the held rows are no more
+   join_coupling(problem);
+   const Eigen::MatrixXd &Z = problem.rigid_motions;
+   problem.rigid_motions = at_rest(Z, Z(problem.held, Eigen::all));
 }
 
 void complete(ReducedProblem &problem)
+{
+   join_coupling(problem);
+   problem.rigid_motions = null_space(problem.K);
+}
+
+void join_coupling(ReducedProblem &problem)
 {
    problem.K.topRightCorner(problem.slips(), problem.nodes()) = problem.B().transpose();
    problem.coupled = !problem.B().isZero(0);
 }
 
-std::vector<ContactChain> chains_of(const ReducedProblem &problem)
+std::vector<ContactChain> one_chain(Eigen::Index nodes)
 {
-   if (!problem.chains.empty()) { return problem.chains; }
-   std::vector<ContactChain> chains;
-   const bool known = problem.arc_length.size() == problem.nodes();
-   for (Eigen::Index i = 0; i < problem.nodes(); ++i)
-   {
-      if (i == 0 || (known && problem.arc_length[i] <= problem.arc_length[i - 1]))
-      {
-         chains.emplace_back();
-         chains.back().first = i;
-      }
-      ++chains.back().nodes;
-   }
-   return chains;
+   ContactChain chain;
+   chain.nodes = nodes;
+   return {chain};
+}
+
+Eigen::MatrixXd rigid_slips(const ReducedProblem &problem)
+{
+   const Eigen::MatrixXd &Z = problem.rigid_motions;
+   return at_rest(Z, Z.bottomRows(problem.nodes())).topRows(problem.slips());
+}
+
+Eigen::MatrixXd rigid_openings(const ReducedProblem &problem)
+{
+   const Eigen::MatrixXd &Z = problem.rigid_motions;
+   return at_rest(Z, Z.topRows(problem.slips())).bottomRows(problem.nodes());
 }
 
 void set_friction(ReducedProblem &problem, double coefficient)

@@ -3,7 +3,6 @@
 #include <Eigen/Dense>
 #include <array>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,6 +50,9 @@ struct ContactChain
    /// nodes and of the other one (a rigid obstacle goes on smoothly).
    std::array<LineEnd, 2> ends{LineEnd::unknown, LineEnd::unknown};
    std::array<LineEnd, 2> other_ends{LineEnd::unknown, LineEnd::unknown};
+   /// Numbers of the bodies that carry the nodes and that face them, as in the columns of
+   /// `dofs`; -1: a rigid obstacle.
+   std::array<int, 2> bodies{0, -1};
 };
 
 /** The narrow waist: a frictional contact problem reduced to its n contact nodes.
@@ -92,12 +94,13 @@ struct ReducedProblem
    /// n × 2k: true dofs (x, y) of each contact node in each of the k bodies, -1 where none.
    Eigen::MatrixXi dofs;
 
-   /// Lines that the nodes form, in their order, each node on one; empty if not known.
+   /// Lines that the nodes form, in their order, each node on one: the interface and the bodies
+   /// of each node. Empty for nodes that do not follow each other, see also one_chain().
    std::vector<ContactChain> chains;
    /// Rigid motions {v; w} that nothing resists, one orthonormal column each, as they were
-   /// imposed on the stiffness: (c+1)·n × k, k = 0 if the bodies are held. Not set: not known,
-   /// and whoever must know them seeks them in the stiffness.
-   std::optional<Eigen::MatrixXd> rigid_motions;
+   /// imposed on the stiffness: (c+1)·n × k, k = 0 if the bodies are held. Of a problem made by
+   /// hand complete() seeks them; nobody else does.
+   Eigen::MatrixXd rigid_motions;
    /// Rows of A (tangential components of nodes) that are held: v = 0 there whatever happens,
    /// and no law of friction. They are coupled to nothing and loaded by nothing, see hold().
    std::vector<Eigen::Index> held;
@@ -128,8 +131,11 @@ struct ReducedProblem
    /// f^w = Σ λ_k {q_k; p_k}, size (c+1)·n.
    Eigen::VectorXd clamped_forces(const Eigen::VectorXd &multipliers) const;
 
-   /// Made by hand: K of its blocks, and complete(). Gap and friction are zero unless they have
-   /// the size of C already.
+   /// K of its blocks, with the rigid motions that are known. Gap and friction are zero unless
+   /// they have the size of C already. InputError if the sizes of the blocks disagree.
+   void set_stiffness(const Eigen::MatrixXd &A, const Eigen::MatrixXd &B,
+                      const Eigen::MatrixXd &C, const Eigen::MatrixXd &rigid_motions);
+   /// Of a problem made by hand: the same, and complete().
    void set_stiffness(const Eigen::MatrixXd &A, const Eigen::MatrixXd &B,
                       const Eigen::MatrixXd &C);
 
@@ -139,12 +145,21 @@ struct ReducedProblem
    void validate() const;
 };
 
-/// Completes a problem whose A, B or C were written by hand: Bᵀ in K, and `coupled`.
+/// Completes a problem whose A, B or C were written by hand: Bᵀ in K, whether it is coupled,
+/// and the rigid motions, which are those that the stiffness does not resist by more than the
+/// rounding of its entries.
 void complete(ReducedProblem &problem);
+/// The first two of these alone, for who knows the rigid motions.
+void join_coupling(ReducedProblem &problem);
 
-/// The chains of a problem; where these are not known, one for all nodes, or a new one wherever
-/// the arc length, if there is one, does not grow.
-std::vector<ContactChain> chains_of(const ReducedProblem &problem);
+/// One chain of all nodes, in their order, for problems made by hand.
+std::vector<ContactChain> one_chain(Eigen::Index nodes);
+
+/// Of the rigid motions those that are slips alone (c·n × k, their openings are zero) and those
+/// that are openings alone (n × k), orthonormal columns. They are all that A and C do not
+/// resist, because K is semidefinite.
+Eigen::MatrixXd rigid_slips(const ReducedProblem &problem);
+Eigen::MatrixXd rigid_openings(const ReducedProblem &problem);
 
 /// The same friction coefficient at every node.
 void set_friction(ReducedProblem &problem, double coefficient);

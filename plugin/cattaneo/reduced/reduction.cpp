@@ -106,7 +106,7 @@ void fill(ReducedProblem &problem, const Block &block, const ContactLine &line)
    const Eigen::Index n = line.size();
    problem.gap = Eigen::VectorXd::Zero(n);
    problem.K = S;
-   complete(problem);
+   join_coupling(problem);
    for (std::size_t k = 0; k < problem.patterns.size(); ++k)
    {
       const auto column = static_cast<Eigen::Index>(k);
@@ -155,44 +155,23 @@ LineEnd goes_on_at(const ContactLine &line, Eigen::Index node)
    return first ? chain.ends[0] : last ? chain.ends[1] : LineEnd::smooth;
 }
 
-/// Rigid motions of the contact nodes that a stiffness in body 1's frames does not resist,
-/// orthonormal.
-Eigen::MatrixXd free_motions(const CondensedBody &body1, const Eigen::MatrixXd &S)
+/// What two bodies may do, orthonormal columns each.
+struct JoinedMotions
 {
-   const Eigen::Index n = body1.line.size();
-   Eigen::MatrixXd Z = body1.rigid_motions();
-   if (Z.cols() == 3)
-   {
-      // Turn about the middle of the line, at its own scale: the columns are then near
-      // orthogonal.
-      const Eigen::RowVector2d middle = body1.line.position.colwise().mean();
-      Z.col(2) += middle[1] * Z.col(0) - middle[0] * Z.col(1);
-      const double extent = (body1.line.position.rowwise() - middle).cwiseAbs().maxCoeff();
-      if (n == 1 || extent == 0) { Z.conservativeResize(Eigen::NoChange, 2); }
-      else { Z.col(2) /= extent; }
-   }
-   const Eigen::MatrixXd Q = thin_qr(Z).Q;
-   const Eigen::MatrixXd stiffness = Q.transpose() * S * Q;
-   const SymmetricModes modes = symmetric_modes(0.5 * (stiffness + stiffness.transpose()));
-   const double allowed = 1e-11 * S.diagonal().mean();
-   Eigen::Index free = 0;
-   while (free < modes.values.size() && modes.values[free] <= allowed) { ++free; }
-   return Q * modes.vectors.leftCols(free);
-}
+   Eigen::MatrixXd common; ///< that both may
+   Eigen::MatrixXd all;    ///< and that one of them may
+};
 
-/// Orthonormal columns that span those of both.
-Eigen::MatrixXd spanned(const Eigen::MatrixXd &Q1, const Eigen::MatrixXd &Q2)
+JoinedMotions joined(const Eigen::MatrixXd &Q1, const Eigen::MatrixXd &Q2)
 {
-   // Two free bodies share their motions, to round-off of their coordinates.
-   Eigen::MatrixXd rest = Q2 - Q1 * (Q1.transpose() * Q2);
-   if (rest.cols() == 0) { return Q1; }
+   const Eigen::MatrixXd rest = Q2 - Q1 * (Q1.transpose() * Q2);
+   if (rest.cols() == 0) { return {rest, Q1}; }
+   // They are the same to round-off of the bodies' coordinates.
    const SymmetricModes modes = symmetric_modes(rest.transpose() * rest);
-   Eigen::Index shared = 0;
-   while (shared < modes.values.size() && modes.values[shared] < 1e-12) { ++shared; }
-   const Eigen::Index own = modes.values.size() - shared;
+   const Eigen::Index same = (modes.values.array() < 1e-12).count(), own = Q2.cols() - same;
    Eigen::MatrixXd all(Q1.rows(), Q1.cols() + own);
    all << Q1, rest * modes.vectors.rightCols(own);
-   return thin_qr(all).Q;
+   return {Q2 * modes.vectors.leftCols(same), thin_qr(all).Q};
 }
 
 /// True if body 2 is the mirror image of body 1 in the contact line, so that tangential and
@@ -321,9 +300,10 @@ Block united(const CondensedBody &first, const CondensedBody &second,
          shared->difference.row(row).setZero();
       }
    }
-   if (first.rigid_modes > 0 && second.rigid_modes > 0)
+   const Eigen::MatrixXd motions2 = frames.rows(second.free_motions(order, Eigen::all));
+   const JoinedMotions motions = joined(first.free_motions, motions2);
+   if (const Eigen::MatrixXd &Z = motions.common; Z.cols() > 0)
    {
-      const Eigen::MatrixXd Z = free_motions(first, sum);
       const Eigen::MatrixXd push = Z.transpose() * shared->difference;
       for (Eigen::Index k = 0; k < push.cols(); ++k)
       {
@@ -374,10 +354,9 @@ Block united(const CondensedBody &first, const CondensedBody &second,
       block.S.triangularView<Eigen::StrictlyUpper>() = block.S.transpose();
       block.f -= Q * (Q.transpose() * (block.f - loads));
    };
-   const Eigen::MatrixXd motions2 = frames.rows(second.free_motions(order, Eigen::all));
    release(first.free_motions, f1);
    release(motions2, f2);
-   block.motions = spanned(first.free_motions, motions2);
+   block.motions = motions.all;
    for (int row : block.held) // not even round-off of the free motions
    {
       block.S.row(row).setZero();
@@ -466,6 +445,7 @@ Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairin
       chain.other_ends = {
          goes_on_at(second.line, pairing.partner[chain.first]),
          goes_on_at(second.line, pairing.partner[chain.first + chain.nodes - 1])};
+      chain.bodies = {0, 1};
    }
    problem.gap = pairing.gap;
    problem.dofs.resize(n, 4);
@@ -536,7 +516,7 @@ void Reduction::add_torsion(std::vector<CondensedBody> twisting)
       problem.held.push_back(n + row);
    }
    problem.K = std::move(K);
-   complete(problem);
+   join_coupling(problem);
    for (Eigen::Index k = 0; k < count; ++k)
    {
       LoadPattern &pattern = problem.patterns[k];
@@ -547,7 +527,7 @@ void Reduction::add_torsion(std::vector<CondensedBody> twisting)
    problem.H.conservativeResizeLike(Eigen::MatrixXd::Zero(count, count));
    problem.H += block.H;
    // Rigid motions in the plane of the axis, and about it.
-   const Eigen::MatrixXd meridian = *problem.rigid_motions;
+   const Eigen::MatrixXd meridian = std::move(problem.rigid_motions);
    Eigen::MatrixXd motions =
       Eigen::MatrixXd::Zero(3 * n, meridian.cols() + block.motions.cols());
    motions.topLeftCorner(n, meridian.cols()) = meridian.topRows(n);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cattaneo/algebra/dense_algebra.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/shakedown/closed_contact.hpp>
 
@@ -69,8 +70,13 @@ ClosedContact closed_contact(const ReducedProblem &problem,
    ReducedProblem &reduced = contact.reduced;
    const Eigen::Index m = c * n_closed;
    reduced.gap = Eigen::VectorXd::Zero(n_closed);
-   reduced.K = std::move(S);
-   complete(reduced);
+   // What nothing resists moves the open nodes along. Round-off of their elimination goes.
+   const Eigen::MatrixXd Q = thin_qr(problem.rigid_motions(kept, Eigen::all)).Q;
+   S -= Q * (Q.transpose() * S);
+   S -= (S * Q) * Q.transpose();
+   reduced.K = 0.5 * (S + S.transpose());
+   reduced.rigid_motions = Q;
+   join_coupling(reduced);
    reduced.H = H;
    for (Eigen::Index k = 0; k < patterns; ++k)
    {

@@ -213,7 +213,11 @@ LowerLimitReport lower_limit(const LimitProblem &problem, const LimitReport &upp
    lowest.p1 = least.by_normal * loads.p1 + least.by_shear * loads.q1;
    ReducedProblem uncoupled = reduced;
    uncoupled.B().setZero();
-   complete(uncoupled);
+   join_coupling(uncoupled);
+   const Eigen::MatrixXd slips = rigid_slips(reduced), openings = rigid_openings(reduced);
+   uncoupled.rigid_motions.setZero(reduced.K.rows(), slips.cols() + openings.cols());
+   uncoupled.rigid_motions.topLeftCorner(slips.rows(), slips.cols()) = slips;
+   uncoupled.rigid_motions.bottomRightCorner(openings.rows(), openings.cols()) = openings;
    ResidualForces shear = residual;
    shear.transfer.setZero();
    shear.uncoupled = true;
