@@ -523,7 +523,7 @@ TEST(Semidefinite, SolvesOnTheRangeAndFindsRigidMotions)
    const Eigen::Vector3d b(1, 1, -2);
    EXPECT_LT((A * solver.solve(b) - b).norm(), 1e-14);
    // What pushes along the motion is left out; a motion that was not told shows.
-   EXPECT_LT((A * solver.solve(b + Eigen::Vector3d::Ones()) - b).norm(), 1e-14);
+   EXPECT_LT((A * solver.solve(b + A.diagonal()) - b).norm(), 1e-14);
    EXPECT_TRUE(solver.definite());
    EXPECT_FALSE(SemidefiniteSolver(A, Eigen::MatrixXd(3, 0)).definite());
 }

@@ -1,5 +1,6 @@
 #include <cattaneo/algebra/dense_algebra.hpp>
 #include <cattaneo/algebra/semidefinite.hpp>
+#include <cmath>
 #include <limits>
 
 namespace cattaneo
@@ -27,7 +28,8 @@ bool rests(const Eigen::MatrixXd &A, const Eigen::VectorXd &motion)
       energy += x[j] * A.col(j).cast<long double>().dot(x);
       round_off += std::abs(x[j]) * A.col(j).cwiseAbs().cast<long double>().dot(x.cwiseAbs());
    }
-   return energy <= 8 * std::numeric_limits<double>::epsilon() * round_off;
+   // Energy below zero is no rest: the matrix is not semidefinite then.
+   return std::abs(energy) <= 8 * std::numeric_limits<double>::epsilon() * round_off;
 }
 
 } // namespace

@@ -14,7 +14,7 @@ public:
 
    /// False if A is not semidefinite, or resists nothing else than the null space as well.
    bool definite() const;
-   /// x with A x = rhs, for a rhs orthogonal to the null space, as any multiple of that is left
+   /// x with A x = rhs, for a rhs orthogonal to the null space; diag(A) times that is left
    /// out. Of all such x the one that is orthogonal to the null space where every row counts
    /// with its diagonal entry.
    Eigen::MatrixXd solve(const Eigen::MatrixXd &rhs) const;
