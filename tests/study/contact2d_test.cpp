@@ -563,7 +563,7 @@ TEST_F(Contact2D, BadInputIsOneSentenceAndLeavesNoFile)
       fs::create_directories(folder + "/out");
    }
    for (const char *options : {"--json /nowhere/r.json", "--csv /nowhere/r",
-                               "--paraview /nowhere/r", "--save-state /nowhere/s"})
+                               "--paraview meshes/README.md/r", "--save-state /nowhere/s"})
    {
       const std::string option = options;
       const std::string program = std::string("'") + CATTANEO_MINIAPP_DIR + "/contact2d' ";

@@ -35,25 +35,33 @@ double degree_of_coupling(const ReducedProblem &problem)
 {
    problem.validate();
    if (!problem.coupled) { return 0; }
-   const Eigen::MatrixXd slips = rigid_slips(problem), openings = rigid_openings(problem);
+   const Eigen::MatrixXd slips = rigid_slips(problem);
+   Eigen::MatrixXd openings = rigid_openings(problem);
    const Eigen::MatrixXd of_slip =
       problem.B() * SemidefiniteSolver(problem.A(), slips).solve(problem.B().transpose());
    // B A⁻¹ Bᵀ x = β² C x, with springs on the openings that C does not resist.
    const Eigen::VectorXd own = problem.C().diagonal().cwiseSqrt();
-   const Eigen::MatrixXd springs = own.asDiagonal() * openings;
    DenseCholesky C;
-   require(
-      C.compute(problem.C() + springs * springs.transpose()),
-      "reduced problem: C is not positive semidefinite, or there are more openings without "
-      "forces than its rigid motions say (",
-      openings.cols(), ")");
+   const auto factored = [&]
+   {
+      const Eigen::MatrixXd springs = own.asDiagonal() * openings;
+      return C.compute(problem.C() + springs * springs.transpose());
+   };
+   if (!factored())
+   {
+      // A stiffness that no bodies have (with B transposed, for instance) need not be
+      // semidefinite, and its rigid motions do not tell what C alone does not resist.
+      openings = null_space(problem.C());
+      require(factored(), "reduced problem: C is not positive semidefinite");
+   }
    Eigen::MatrixXd half = of_slip;
    C.solve_half(half);
    Eigen::MatrixXd gram = half.transpose();
    C.solve_half(gram);
    // A rigid motion that both slips and opens (rotation of a curved contact) correlates
    // exactly.
-   const Eigen::Index both = problem.rigid_motions.cols() - slips.cols() - openings.cols();
+   const Eigen::Index both =
+      std::max<Eigen::Index>(0, problem.rigid_motions.cols() - slips.cols() - openings.cols());
    const Eigen::VectorXd values = symmetric_eigenvalues(0.5 * (gram + gram.transpose()));
    const Eigen::Index last = values.size() - 1 - both;
    return last < 0 ? 0 : std::sqrt(std::max(0.0, values[last]));
