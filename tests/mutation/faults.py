@@ -267,7 +267,9 @@ class Walk:
             if old in ("true", "false"):
                 self.value("default" if default else "constant", span, "false" if old == "true" else "true")
             return
-        if not re.fullmatch(r"[\d.]+(e[-+]?\d+)?[uUlL]*", old, re.I):
+        # A literal that the compiler made itself has the text of whatever stands at its place.
+        text = r"\d+[uUlL]*" if kind == Kind.INTEGER_LITERAL else r"(\d+\.?\d*|\.\d+)(e[-+]?\d+)?[lf]?"
+        if not re.fullmatch(text, old, re.I):
             return
         # Where a number is converted as it is read, the switch must have the type that is wanted.
         cast = ""
