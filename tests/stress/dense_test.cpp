@@ -98,9 +98,13 @@ enum class Method
 IncrementReport solve(const ReducedProblem &problem, Method method, ContactState &state,
                       const VectorXd &loads)
 {
-   FrictionSolver solver(problem);
-   if (method == Method::library) { return solver.solve(state, loads); }
    IncrementReport report;
+   if (method == Method::library)
+   {
+      report = FrictionSolver(problem).solve(state, loads);
+      count_method(report);
+      return report;
+   }
    report.status = FrictionStatus::no_solution;
    report.message = "no equilibrium was found: Lemke's path ends in a ray";
    if (auto found = solve_by_lemke(problem, state, loads))

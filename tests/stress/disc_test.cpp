@@ -72,6 +72,7 @@ void run_discs(const std::string &row, double decades, double least, double most
          const VectorXd v_old = state.v;
          const ContactState before = state;
          const IncrementReport report = solver.solve(state, loads);
+         count_method(report);
          Verdict verdict;
          verdict.what = report.message;
          if (report.status == FrictionStatus::converged ||

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <gtest/gtest.h>
+#include <map>
 #include <vector>
 
 namespace cattaneo_test
@@ -29,6 +30,7 @@ struct Table : testing::Environment
 {
    std::vector<Row> rows;
    std::vector<std::string> remarks;
+   std::map<std::string, long> methods;
 
    Row &row(const std::string &family)
    {
@@ -60,6 +62,12 @@ struct Table : testing::Environment
       print(total);
       std::printf("(violation of the laws by a reported solution, over what the tolerance and "
                   "round-off allow)\n");
+      std::printf("single increments by the method that found their end:");
+      for (const auto &[name, times] : methods)
+      {
+         std::printf(" %s %ld;", name.c_str(), times);
+      }
+      std::printf("\n");
       for (const std::string &text : remarks) { std::printf("%s\n", text.c_str()); }
    }
 
@@ -97,6 +105,11 @@ void record(const std::string &family, const std::string &run, const Verdict &ve
 void remark(const std::string &text)
 {
    table->remarks.push_back(text);
+}
+
+void count_method(const IncrementReport &report)
+{
+   ++table->methods[*report.found_by ? report.found_by : "none"];
 }
 
 long count(const std::string &family, Outcome outcome)

@@ -34,6 +34,9 @@ void record(const std::string &family, const std::string &run, const Verdict &ve
 /// A remark below the table.
 void remark(const std::string &text);
 
+/// Counts the method that found the end of an increment, for a line below the table.
+void count_method(const cattaneo::IncrementReport &report);
+
 /// Runs of a row that had an outcome.
 long count(const std::string &family, Outcome outcome);
 

@@ -608,7 +608,7 @@ std::vector<std::string> joined(std::vector<std::string> list,
    return list;
 }
 
-TEST_F(Contact2D, MistakesInGmshAreToldWithWhatToDoThere)
+TEST_F(Contact2D, MistakesInGmshNameTheirRemedy)
 {
    const std::vector<std::string> whole = joined(their_boundary, their_surface);
    const auto with = [&](const std::vector<std::string> &more) { return joined(whole, more); };

@@ -167,23 +167,17 @@ CornerFit fit_corner(const CornerModes &modes, const EdgeTractions &tractions,
                      const FitSettings &settings)
 {
    settings.validate();
+   tractions.validate();
    CornerFit result;
    result.modes = modes;
    std::vector<CornerMode> fitted{modes.one};
    if (modes.two) { fitted.push_back(*modes.two); }
-   const std::size_t n = tractions.position.size();
-   require(tractions.pressure.size() == n && tractions.shear.size() == n, "there are ", n,
-           " positions, ", tractions.pressure.size(), " pressures and ", tractions.shear.size(),
-           " shear tractions; the numbers must agree.");
    std::vector<Sample> samples;
    double side = 0;
-   for (std::size_t i = 0; i < n; i++)
+   for (std::size_t i = 0; i < tractions.position.size(); i++)
    {
       const double x = tractions.position[i] - tractions.edge;
       const double p = tractions.pressure[i], q = tractions.shear[i];
-      require(std::isfinite(x) && std::isfinite(p) && std::isfinite(q), "node ", i,
-              " has position ", tractions.position[i], ", pressure ", p, " and shear ", q,
-              "; all must be finite.");
       if (x == 0) { continue; } // the traction there is infinite
       if (side == 0) { side = x > 0 ? 1 : -1; }
       require(x * side > 0, "node ", i, " at ", tractions.position[i],

@@ -86,11 +86,11 @@ Search active_set(Increment &at)
    for (int k = 0; k < settings.max_attempts; ++k)
    {
       if (k > 0) { at.go_back(); }
-      if (k == 2 && at.finds_mechanism()) { return Search::hopeless; }
       for (int j = 0; j < sweeps; ++j) { sweep(at); }
       at.u_swept = at.u;
       at.status_swept = at.status;
       if (newton(at)) { return Search::found; }
+      if (k == 1 && at.finds_mechanism()) { return Search::hopeless; }
       sweeps = std::max(4, 2 * sweeps);
    }
    return Search::not_here;

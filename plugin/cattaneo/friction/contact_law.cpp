@@ -286,10 +286,8 @@ LawCheck check_laws(const ReducedProblem &problem, const VectorXd &v_old,
          size = std::max(size, std::abs(state.v[row]));
          note(check.tangential, std::abs(forces[row] - state.q[row]), most);
       }
-      if (!closed(state.status[i]))
-      {
-         node.slip.setZero();
-      } // it bears nothing: no law but that
+      // An open node bears nothing, and no law but that holds for its slip.
+      if (!closed(state.status[i])) { node.slip.setZero(); }
       check.tangential = std::max(check.tangential, slip_violation(node));
       judge(slip_violation(node, c == 2 ? slip_round_off(size) : 0.0), most);
    }

@@ -86,6 +86,22 @@ FittedIntensity fit_in_window(const Samples &samples, const FitSettings &setting
 
 } // namespace
 
+void EdgeTractions::validate() const
+{
+   const std::size_t n = position.size();
+   require(pressure.size() == n && shear.size() == n, "there are ", n, " positions, ",
+           pressure.size(), " pressures and ", shear.size(),
+           " shear tractions; the numbers must agree.");
+   require(std::isfinite(edge), "the position of the edge is ", edge, "; it must be finite.");
+   for (std::size_t i = 0; i < n; i++)
+   {
+      require(std::isfinite(position[i]) && std::isfinite(pressure[i]) &&
+                 std::isfinite(shear[i]),
+              "node ", i, " has position ", position[i], ", pressure ", pressure[i],
+              " and shear ", shear[i], "; all must be finite.");
+   }
+}
+
 void FitSettings::validate() const
 {
    const bool chosen = window.nearest == 0 && window.farthest == 0;
@@ -100,21 +116,13 @@ void FitSettings::validate() const
 EdgeFit fit_edge(const EdgeTractions &tractions, const FitSettings &settings)
 {
    settings.validate();
-   const std::size_t n = tractions.position.size();
-   require(tractions.pressure.size() == n && tractions.shear.size() == n, "there are ", n,
-           " positions, ", tractions.pressure.size(), " pressures and ", tractions.shear.size(),
-           " shear tractions; the numbers must agree.");
-   require(std::isfinite(tractions.edge), "the position of the edge is ", tractions.edge,
-           "; it must be finite.");
+   tractions.validate();
    Samples normal, tangential;
    double side = 0;
-   for (std::size_t i = 0; i < n; i++)
+   for (std::size_t i = 0; i < tractions.position.size(); i++)
    {
       const double x = tractions.position[i] - tractions.edge;
       const double p = tractions.pressure[i], q = tractions.shear[i];
-      require(std::isfinite(x) && std::isfinite(p) && std::isfinite(q), "node ", i,
-              " has position ", tractions.position[i], ", pressure ", p, " and shear ", q,
-              "; all must be finite.");
       if (p <= 0 || x == 0) { continue; }
       if (side == 0) { side = x > 0 ? 1 : -1; }
       require(x * side > 0, "node ", i, " at ", tractions.position[i],

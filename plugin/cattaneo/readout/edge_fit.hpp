@@ -15,6 +15,9 @@ struct EdgeTractions
    std::vector<double> pressure; ///< traction (not nodal force), compression positive
    std::vector<double> shear; ///< fully stuck shear traction on the cracked body, positive in
                               ///< the direction of increasing position
+
+   /// InputError for arrays of unequal length and entries that are not finite.
+   void validate() const;
 };
 
 /// Distances from the edge between which nodes are used.
