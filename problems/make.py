@@ -88,7 +88,8 @@ def random_near_critical(file):
                  "p": column([0.3 * rng.gauss(0, 1) for _ in range(n)])}]
     gap = column([max(0.0, 0.2 * rng.gauss(0, 1)) for _ in range(n)])
     with open(file, "w") as out:
-        json.dump({"format": "cattaneo reduced problem 1", "A": dense(A), "B": dense(B), "C": dense(C),
+        json.dump({"format": "cattaneo reduced problem 2", "coupled": True, "chains": [], "held": [],
+                   "rigid_motions": {"rows": 2 * n, "cols": 0, "values": []}, "A": dense(A), "B": dense(B), "C": dense(C),
                    "H": dense([[1.0, 0.0], [0.0, 1.0]]), "gap": gap, "friction": column([f] * n),
                    "weights": column([1.0] * n), "arc_length": empty(1), "position": empty(2), "dofs": empty(2),
                    "patterns": patterns}, out, separators=(",", ":"))
