@@ -577,6 +577,55 @@ TEST(March, AnErrorOfAdvancingContactIsStatedHoweverItIsCut)
    }
 }
 
+/// A rigid pad that may rock, on three springs of stiffness 1 along and across, with gaps g
+/// beside the middle one, which bears alone up to P = g, wherever the pad leans: it may come to
+/// touch at one side, without force, at any load. From P = g on each node takes a third of the
+/// rest, and Q = f P/2, so that all stick.
+TEST(March, APadThatRocksUntilItTouchesHasHadNoFrictionThere)
+{
+   const double friction = 0.6;
+   MatrixXd motions = MatrixXd::Zero(6, 3); // along, across, rocking
+   motions.col(0).head(3).setOnes();
+   motions.col(1).tail(3).setOnes();
+   motions.col(2).tail(3) = Eigen::Vector3d(-1, 0, 1);
+   motions.colwise().normalize();
+   const MatrixXd K = MatrixXd::Identity(6, 6) - motions * motions.transpose();
+   const VectorXd third = VectorXd::Constant(3, 1.0 / 3), none = VectorXd::Zero(3);
+   for (double gap : {0.03, 0.1, 0.2, 0.37, 0.41, 0.6, 0.77, 0.9})
+   {
+      ReducedProblem problem;
+      problem.set_stiffness(K.topLeftCorner(3, 3), K.bottomLeftCorner(3, 3),
+                            K.bottomRightCorner(3, 3), motions);
+      problem.gap = Eigen::Vector3d(gap, 0, gap);
+      problem.patterns = {{"L", Control::force, 0.5 * friction * third, third}};
+      problem.H = MatrixXd::Zero(1, 1);
+      problem.chains = one_chain(3);
+      set_friction(problem, friction);
+      const double side = (1 - gap) / 3;
+      const Eigen::Vector3d p(side, 1 - 2 * side, side);
+      for (Stepping stepping : {Stepping::advancing, Stepping::exact})
+      {
+         for (int increments : {1, 2, 3, 4, 7, 20, 50, 101})
+         {
+            MarchSettings settings;
+            settings.stepping = stepping;
+            settings.increments = increments;
+            ContactState state = ContactState::virgin(problem);
+            const MarchReport report =
+               march(problem, LoadHistory::through({VectorXd::Zero(1), VectorXd::Ones(1)}),
+                     state, settings);
+            EXPECT_EQ(report.status, FrictionStatus::converged) << report.message;
+            EXPECT_LT(report.advance_error, 1e-5) << gap << ' ' << increments;
+            // Where it rocks there is no path to follow; from P = g on there is.
+            EXPECT_LE(report.fallbacks, gap * increments + 3);
+            EXPECT_LT((state.p - p).cwiseAbs().maxCoeff(), 1e-6) << gap << ' ' << increments;
+            EXPECT_LT((state.q - 0.5 * friction * p).cwiseAbs().maxCoeff(), 1e-6)
+               << gap << ' ' << increments;
+         }
+      }
+   }
+}
+
 TEST(March, ErrorsOfIncrementsInWhichNodesCloseAreStated)
 {
    // Against the exact path, which closes each node where it does.

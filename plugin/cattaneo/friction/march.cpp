@@ -70,12 +70,15 @@ bool solved(const IncrementReport &increment)
           increment.status == FrictionStatus::not_unique;
 }
 
-/// True if a node closes.
-bool closes(const ContactState &before, const ContactState &after)
+/// True if a node closes and bears. One that only comes to touch, as where a body rocks until
+/// it does, has had no friction on its way: the forces are those of an open node.
+bool closes(const ReducedProblem &problem, const ContactState &before,
+            const ContactState &after)
 {
-   for (std::size_t i = 0; i < after.status.size(); ++i)
+   const std::vector<NodeState> settled = settled_states(problem, after);
+   for (std::size_t i = 0; i < settled.size(); ++i)
    {
-      if (closed(after.status[i]) && !closed(before.status[i])) { return true; }
+      if (closed(settled[i]) && !closed(before.status[i])) { return true; }
    }
    return false;
 }
@@ -195,7 +198,7 @@ bool March::advances_too_far(const ContactState &next) const
 /// where it does: what friction forces change by in that increment may be wrong, and stays.
 double March::changed_while_closing(const ContactState &next) const
 {
-   if (solver_.frictionless() || !closes(state_, next)) { return 0; }
+   if (solver_.frictionless() || !closes(problem_, state_, next)) { return 0; }
    double most = 0;
    const Index n = problem_.nodes();
    for (Index i = 0; i < n; ++i)
@@ -424,7 +427,7 @@ double March::first_closing(int piece, double target)
    const auto closes_by = [&](double time)
    {
       ContactState next = state_;
-      return !solved(solver_.solve(next, loads(piece, time))) || closes(state_, next);
+      return !solved(solver_.solve(next, loads(piece, time))) || closes(problem_, state_, next);
    };
    if (solver_.frictionless() || !closes_by(target)) { return target; }
    const double resolution = 1e-7 * (history_.end_time(piece) - history_.start_time(piece));
@@ -454,7 +457,7 @@ double March::first_closing(int piece, double target)
 bool March::follows_closing(const ContactState &next) const
 {
    return settings_.stepping != Stepping::fixed && !solver_.frictionless() &&
-          problem_.components() == 1 && closes(state_, next);
+          problem_.components() == 1 && closes(problem_, state_, next);
 }
 
 /// From event to event.
