@@ -377,6 +377,87 @@ TEST(FromContact, AnEdgeThatSticksAndAContactThatSlides)
    }
 }
 
+/// The two on one line, the second far behind the first; neither feels the other.
+ReducedProblem one_behind_the_other(const ReducedProblem &a, const ReducedProblem &b,
+                                    double offset)
+{
+   const Index n = a.nodes(), m = b.nodes();
+   const auto joined = [&](const VectorXd &first, const VectorXd &second)
+   {
+      VectorXd all(n + m);
+      all << first, second;
+      return all;
+   };
+   const auto blocks = [&](const auto &first, const auto &second)
+   {
+      Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n + m, n + m);
+      all.topLeftCorner(n, n) = first;
+      all.bottomRightCorner(m, m) = second;
+      return all;
+   };
+   ReducedProblem both = a;
+   both.gap = joined(a.gap, b.gap);
+   both.friction = joined(a.friction, b.friction);
+   both.set_stiffness(blocks(a.A(), b.A()), blocks(a.B(), b.B()), blocks(a.C(), b.C()));
+   both.weights = joined(a.weights, b.weights);
+   both.arc_length = joined(a.arc_length, b.arc_length.array() + offset);
+   both.chains = one_chain(n + m);
+   for (std::size_t k = 0; k < both.patterns.size(); k++)
+   {
+      both.patterns[k].q = joined(a.patterns[k].q, b.patterns[k].q);
+      both.patterns[k].p = joined(a.patterns[k].p, b.patterns[k].p);
+   }
+   return both;
+}
+
+TEST(FromContact, TwoContactsOnALineAreReadAsEachAlone)
+{
+   // The second one is rounder and reaches the end of its line.
+   const ReducedProblem first = hertz_pair(81),
+                        second = half_planes(
+                           91, 1.3,
+                           [](double x) { return (x - 0.6) * (x - 0.6) / (1.6 * radius); });
+   const double offset = 10;
+   const ReducedProblem both = one_behind_the_other(first, second, offset);
+   const Eigen::Vector3d normal(load, 0, 0), cyclic(0, 0.15 * load, 0.1 * load); // of either
+   const auto read = [&](const ReducedProblem &problem)
+   {
+      const Solved solved = solve(problem, normal, cyclic);
+      return contact_edges(problem, solved.pressed, solved.peak);
+   };
+   std::vector<ContactEdge> alone = read(first);
+   for (ContactEdge edge : read(second))
+   {
+      edge.position.position += offset;
+      edge.first += first.nodes();
+      edge.last += first.nodes();
+      alone.push_back(edge);
+   }
+   const std::vector<ContactEdge> together = read(both);
+   ASSERT_EQ(alone.size(), 4u);
+   ASSERT_EQ(together.size(), 4u);
+   for (std::size_t e = 0; e < 4; e++)
+   {
+      SCOPED_TRACE(e);
+      const ContactEdge &a = alone[e], &b = together[e];
+      EXPECT_EQ(b.complete, e == 3);
+      EXPECT_EQ(a.complete, e == 3);
+      EXPECT_EQ(b.why_not.empty(), e != 3);
+      EXPECT_EQ(b.side, a.side);
+      EXPECT_EQ(b.first, a.first);
+      EXPECT_EQ(b.last, a.last);
+      const auto same = [](double x, double y) { EXPECT_NEAR(x, y, 1e-7 * std::abs(y)); };
+      same(b.position.position, a.position.position);
+      same(b.position.error, a.position.error);
+      same(b.half_width, a.half_width);
+      same(b.slip_zone, a.slip_zone);
+      same(b.k_n.value, a.k_n.value);
+      same(b.k_t.value, a.k_t.value);
+      same(b.k_n.relative_error, a.k_n.relative_error);
+      same(b.k_t.relative_error, a.k_t.relative_error);
+   }
+}
+
 TEST(FromContact, StuckNodesKeepTheirSlipAndOthersMoveFreely)
 {
    ReducedProblem problem = four_springs();
