@@ -1,9 +1,11 @@
 #include "expect_input_error.hpp"
 
 #include <cattaneo/condense/condense.hpp>
+#include <cattaneo/condense/stiffness_error.hpp>
 #include <cattaneo/reduced/reduction.hpp>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <limits>
 
 namespace
 {
@@ -235,6 +237,46 @@ TEST(CondenseMatrix, ArraysOfAnyProgramAreTakenAsTheyAre)
    EXPECT_EQ(third.counters.factorisations, 0);
    EXPECT_EQ(fourth.counters.factorisations, 1); // not the same arrays
    EXPECT_LT(difference(fourth.S, first.S), 1e-13);
+}
+
+TEST(StiffnessProbes, BoundByHand)
+{
+   // Of a spring of 4, L = 2; of one between two nodes, what moves both counts for nothing.
+   const double factor = 10 * std::sqrt(2 / std::acos(-1.0));
+   const StiffnessProbes spring(MatrixXd::Constant(1, 1, 4), MatrixXd(1, 0));
+   EXPECT_EQ(spring.motions().rows(), 1);
+   EXPECT_NEAR(spring.bound(Eigen::RowVector3d(0.1, -0.6, 0.2)), factor * 0.3, 1e-14);
+   const Eigen::Vector2d both = Eigen::Vector2d::Ones().normalized();
+   const StiffnessProbes between(Eigen::Matrix2d{{1, -1}, {-1, 1}}, both);
+   EXPECT_LT(between.motions().colwise().sum().norm(), 1e-14);
+   EXPECT_LT(between.bound(Eigen::Vector2d(3, 3)), 1e-14);
+   EXPECT_NEAR(between.bound(Eigen::Vector2d(5, 3)), factor, 1e-14); // √2 over √2
+   EXPECT_EQ(spring.bound(MatrixXd::Constant(1, 3, NAN)),
+             std::numeric_limits<double>::infinity());
+}
+
+TEST(StiffnessError, OfAStiffnessThatIsWrongByHand)
+{
+   const Frame frame(4, 3, true);
+   const AssembledBody body = frame.body(true);
+   const std::vector<int> contact = frame.contact();
+   std::vector<int> keep = others(body.K.size(), contact, body.fixed);
+   keep.insert(keep.end(), contact.begin(), contact.end());
+   const auto m = static_cast<int>(contact.size());
+   const SparseFactor factor(body.K.view(), keep, m, 0);
+   const MatrixXd S = factor.schur(), none(m, 0);
+   const auto error = [&](const MatrixXd &claimed)
+   { return stiffness_error(body.K, keep, m, 0, factor, S, claimed, none); };
+   EXPECT_LT(error(S), 1e-12);
+   for (const double wrong : {1e-6, -1e-3})
+   {
+      // The energy of every motion is wrong by that, and the vectors have m entries of size 1.
+      const double size = std::abs(wrong) / (1 + wrong), estimate = error((1 + wrong) * S);
+      EXPECT_GE(estimate, size);
+      EXPECT_LT(estimate, 10 * std::sqrt(2.0 * m) * size);
+   }
+   // It pushes on where the body resists.
+   EXPECT_EQ(error(-S), std::numeric_limits<double>::infinity());
 }
 
 TEST(CondenseMatrix, SaysWhatIsWrong)
