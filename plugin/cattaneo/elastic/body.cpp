@@ -193,6 +193,11 @@ ElasticBody::ElasticBody(mfem::ParFiniteElementSpace &space,
    adopt_space();
 }
 
+std::shared_ptr<const mfem::HypreParMatrix> ElasticBody::distributed_stiffness() const
+{
+   return distributed_;
+}
+
 #endif
 
 void ElasticBody::adopt_space()

@@ -68,11 +68,6 @@ public:
    /// the body.
    ElasticBody(mfem::FiniteElementSpace &space, const mfem::SparseMatrix &stiffness,
                Formulation formulation = Formulation::plane);
-#ifdef MFEM_USE_MPI
-   /// The same on several ranks, nothing eliminated from it either.
-   ElasticBody(mfem::ParFiniteElementSpace &space, const mfem::HypreParMatrix &stiffness,
-               Formulation formulation = Formulation::plane);
-#endif
 
    ElasticBody(ElasticBody &&) = default;
    ElasticBody &operator=(ElasticBody &&) = default;
@@ -126,43 +121,18 @@ public:
    /// of torsion (InputError).
    void set_stress(StressLaw law);
 
-   Formulation formulation() const
-   {
-      return formulation_;
-   }
-   int components() const
-   {
-      return cattaneo::components(formulation_);
-   }
-   mfem::FiniteElementSpace &space() const
-   {
-      return *space_;
-   }
-   const Ranks &ranks() const
-   {
-      return ranks_;
-   }
+   Formulation formulation() const { return formulation_; }
+   int components() const { return cattaneo::components(formulation_); }
+   mfem::FiniteElementSpace &space() const { return *space_; }
+   const Ranks &ranks() const { return ranks_; }
    /// True dofs of all ranks.
    int dofs() const;
    /// Of a body that is not distributed.
-   const mfem::SparseMatrix &stiffness() const
-   {
-      return *stiffness_;
-   }
+   const mfem::SparseMatrix &stiffness() const { return *stiffness_; }
    /// The same matrix, to be kept beyond the life of the body (never changed).
    SharedMatrix shared_stiffness() const;
-#ifdef MFEM_USE_MPI
-   /// Of a distributed body, to be kept beyond its life.
-   std::shared_ptr<const mfem::HypreParMatrix> distributed_stiffness() const
-   {
-      return distributed_;
-   }
-#endif
    /// Load patterns, values on the true dofs of this rank.
-   const std::vector<BodyLoad> &patterns() const
-   {
-      return patterns_;
-   }
+   const std::vector<BodyLoad> &patterns() const { return patterns_; }
    /// Sorted true dofs that are fixed or prescribed by a displacement pattern.
    mfem::Array<int> essential_dofs() const;
    /// Material of an element attribute; InputError for a user's operator and for one that
@@ -170,19 +140,10 @@ public:
    const Material &material(int attribute) const;
    /// At the point that is set in an element's transformation.
    Material material(mfem::ElementTransformation &at) const;
-   bool has_material() const
-   {
-      return varying_ || !materials_.empty();
-   }
+   bool has_material() const { return varying_ || !materials_.empty(); }
    /// Set by set_stress(), or empty.
-   const StressLaw &stress_law() const
-   {
-      return stress_law_;
-   }
-   bool has_stress() const
-   {
-      return has_material() || stress_law_;
-   }
+   const StressLaw &stress_law() const { return stress_law_; }
+   bool has_stress() const { return has_material() || stress_law_; }
    /// Of all patterns that have one, at the point that is set; InputError if one of these is
    /// not among the loads.
    Strain initial_strain(mfem::ElementTransformation &at, const NamedLoads &loads) const;
@@ -193,22 +154,13 @@ public:
    /// The same as a number that all ranks share.
    int global_dof(int scalar_dof, int component) const;
    /// First of the global numbers of this rank's true dofs.
-   int first_global_dof() const
-   {
-      return first_global_dof_;
-   }
+   int first_global_dof() const { return first_global_dof_; }
    /// Coordinates of every scalar node, size 2 × nodes.
-   const mfem::DenseMatrix &node_coordinates() const
-   {
-      return coordinates_;
-   }
+   const mfem::DenseMatrix &node_coordinates() const { return coordinates_; }
    /// True if a scalar node lies on the axis of revolution; always false in the plane.
    bool on_axis(int scalar_dof) const;
 
-   const Counters &counters() const
-   {
-      return counters_;
-   }
+   const Counters &counters() const { return counters_; }
 
 private:
    void make_space(mfem::Mesh &mesh, int order);
@@ -239,9 +191,6 @@ private:
    Ranks ranks_;
    int first_global_dof_ = 0;
    std::shared_ptr<const mfem::SparseMatrix> stiffness_;
-#ifdef MFEM_USE_MPI
-   std::shared_ptr<const mfem::HypreParMatrix> distributed_;
-#endif
    std::vector<Material> materials_;
    std::optional<VaryingMaterial> varying_;
    StressLaw stress_law_;
@@ -258,6 +207,19 @@ private:
    std::vector<int> vdof_to_true_;
    mfem::DenseMatrix coordinates_;
    Counters counters_;
+
+   // Last, because clang-format takes what follows a directive apart.
+#ifdef MFEM_USE_MPI
+public:
+   /// A user's operator on several ranks, nothing eliminated from it either.
+   ElasticBody(mfem::ParFiniteElementSpace &space, const mfem::HypreParMatrix &stiffness,
+               Formulation formulation = Formulation::plane);
+   /// Of a distributed body, to be kept beyond its life.
+   std::shared_ptr<const mfem::HypreParMatrix> distributed_stiffness() const;
+
+private:
+   std::shared_ptr<const mfem::HypreParMatrix> distributed_;
+#endif
 };
 
 } // namespace cattaneo
