@@ -44,9 +44,9 @@ struct Square
    {
       std::vector<bool> contact(body.dofs(), false);
       const ContactLine line = contact_line(body, 1);
-      for (const auto &dofs : line.dofs)
+      for (const auto &node : line.nodes)
       {
-         for (int dof : dofs) { contact[dof] = true; }
+         for (int dof : node.dofs) { contact[dof] = true; }
       }
       for (const bool last : {false, true})
       {

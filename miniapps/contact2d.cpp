@@ -118,7 +118,8 @@ Side make_side(const BodyOptions &options, const std::string &k, int order, bool
 
 Eigen::Vector2d mean_normal(const ContactLine &line)
 {
-   return (line.normal.transpose() * line.weights).normalized();
+   return (line.each(&LineNode::normal).transpose() * line.each(&LineNode::weight))
+      .normalized();
 }
 
 /// Displacements are small: a node presses along its own normal. One that bears although this
@@ -129,7 +130,7 @@ class SidesThatBear
 public:
    explicit SidesThatBear(const ContactLine &line) : line_(line)
    {
-      const Eigen::VectorXd cosine = line.normal * mean_normal(line);
+      const Eigen::VectorXd cosine = line.each(&LineNode::normal) * mean_normal(line);
       for (Eigen::Index i = 0; i < line.size(); ++i)
       {
          if (angle(cosine[i]) > 15) { sides_.push_back({i, angle(cosine[i])}); }
@@ -151,8 +152,8 @@ public:
    {
       if (worst_.index < 0) { return; }
       std::ostringstream text;
-      text << "node " << worst_.index << " at (" << line_.position(worst_.index, 0) << ", "
-           << line_.position(worst_.index, 1) << ") bears although its normal is "
+      text << "node " << worst_.index << " at (" << line_.nodes[worst_.index].position[0]
+           << ", " << line_.nodes[worst_.index].position[1] << ") bears although its normal is "
            << std::lround(worst_.angle)
            << " degrees off that of the rigid line: forces and zones are wrong there, name no "
               "boundary around a corner as contact";
@@ -181,7 +182,7 @@ Reduction on_rigid_line(const CondensedBody &body)
 {
    const ContactLine &line = body.line;
    const Eigen::Vector2d normal = mean_normal(line);
-   const double level = (line.position * normal).minCoeff();
+   const double level = (line.each(&LineNode::position) * normal).minCoeff();
    return reduce(body,
                  [=](double x, double y) { return normal.dot(Eigen::Vector2d(x, y)) - level; });
 }
@@ -207,7 +208,7 @@ struct Wedge
 Wedge wedge_at(const Side &side, Eigen::Index node)
 {
    const miniapp::FilledCorner corner =
-      miniapp::filled_corner(*side.mesh, side.condensed.line.position.row(node).transpose());
+      miniapp::filled_corner(*side.mesh, side.condensed.line.nodes[node].position);
    const std::size_t last = side.materials.size() - 1;
    return {corner.angle, side.materials[std::min<std::size_t>(corner.attribute - 1, last)]};
 }
@@ -320,12 +321,13 @@ std::string what_is_left(double accuracy)
 void warn_of_overlap(const ReducedProblem &problem, const ContactLine &line)
 {
    Eigen::Index deepest = 0;
-   const double overlap = -problem.gap.cwiseQuotient(line.spacing).minCoeff(&deepest);
+   const double overlap =
+      -problem.gap.cwiseQuotient(line.each(&LineNode::spacing)).minCoeff(&deepest);
    if (overlap <= 1) { return; }
    std::ostringstream text;
    text << "the bodies overlap by " << -problem.gap[deepest] << " at ("
-        << line.position(deepest, 0) << ", " << line.position(deepest, 1) << "), which is "
-        << overlap
+        << line.nodes[deepest].position[0] << ", " << line.nodes[deepest].position[1]
+        << "), which is " << overlap
         << " distances of nodes: small displacements do not open that, see that both meshes "
            "are in "
            "their places and in one unit";
@@ -535,8 +537,8 @@ int main(int argc, char *argv[])
          if (save_file[0] && miniapp::writes()) { save(state, save_file); }
 
          // The contact pushes body 1 by q along the tangents and p along the normals.
-         const Eigen::Vector2d force =
-            contact.tangent.transpose() * state.q + contact.normal.transpose() * state.p;
+         const Eigen::Vector2d force = contact.each(&LineNode::tangent).transpose() * state.q +
+                                       contact.each(&LineNode::normal).transpose() * state.p;
          const double peak = tractions(problem, state.p).maxCoeff();
          ordered_json results, zone_list = ordered_json::array(),
                                losses = ordered_json::array();

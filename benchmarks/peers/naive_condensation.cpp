@@ -26,9 +26,9 @@ namespace
 MatrixXd usual_way(const mfem::SparseMatrix &K, const ContactLine &line)
 {
    std::vector<int> place(K.Height(), -1), contact, interior; // place in its list
-   for (const auto &dofs : line.dofs)
+   for (const auto &node : line.nodes)
    {
-      for (const int dof : dofs)
+      for (const int dof : node.dofs)
       {
          place[dof] = static_cast<int>(contact.size());
          contact.push_back(dof);

@@ -13,8 +13,7 @@ void write_paraview(const std::string &folder, Reduction &reduction,
                     const std::vector<const ElasticBody *> &bodies,
                     const std::vector<ContactState> &states)
 {
-   ContactLineFields contact(reduction.problem, reduction.bodies[0].line.chain, folder,
-                             "contact");
+   ContactLineFields contact(reduction.problem, folder, "contact");
    for (const ContactState &state : states)
    {
       if (writes()) { contact.write(state); }

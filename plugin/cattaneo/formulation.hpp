@@ -13,6 +13,13 @@ enum class Formulation
    torsion       ///< x = r, y = z: the twist ψ = u_θ/r, the whole circumference
 };
 
+/// What it is called in messages.
+inline const char *name(Formulation formulation)
+{
+   const char *const names[] = {"plane", "axisymmetric", "of torsion"};
+   return names[static_cast<int>(formulation)];
+}
+
 /// Unknowns a node: (x, y), (r, z), or the twist alone.
 inline int components(Formulation formulation)
 {

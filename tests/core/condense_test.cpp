@@ -66,20 +66,12 @@ struct Frame
    ContactLine line() const
    {
       ContactLine line;
-      const int n = columns;
-      const double side = above ? 1 : -1;
-      line.chain.assign(n, 0);
-      line.chains = {{0, n}};
-      line.position.resize(n, 2);
-      line.tangent = Eigen::RowVector2d(side, 0).replicate(n, 1);
-      line.normal = Eigen::RowVector2d(0, side).replicate(n, 1);
-      line.arc_length = VectorXd::LinSpaced(n, 0, n - 1);
-      line.weights = line.lumped_weights = line.spacing = VectorXd::Ones(n);
-      for (int i = 0; i < n; ++i)
+      line.chains = {{0, columns}};
+      for (int i = 0; i < columns; ++i)
       {
          const int p = point_of_contact(i);
-         line.dofs.push_back({2 * p, 2 * p + 1});
-         line.position.row(i) << x[p], y[p];
+         line.nodes.push_back(
+            {{2 * p, 2 * p + 1}, {x[p], y[p]}, {above ? 1 : -1, 0}, 1, double(i), 1});
       }
       return line;
    }
@@ -187,7 +179,7 @@ TEST(CondenseMatrix, AFreeBodyKeepsItsRigidMotions)
    }
    EXPECT_NEAR(pull.q.sum(), -fx, 1e-13);
    EXPECT_NEAR(pull.p.sum(), -fy, 1e-13);
-   EXPECT_NEAR(pull.p.dot(frame.line().position.col(0)), -moment, 1e-12);
+   EXPECT_NEAR(pull.p.dot(frame.line().each(&LineNode::position).col(0)), -moment, 1e-12);
 }
 
 TEST(CondenseMatrix, TwoBodiesAreSpringsInSeries)
@@ -279,6 +271,59 @@ TEST(StiffnessError, OfAStiffnessThatIsWrongByHand)
    EXPECT_EQ(error(-S), std::numeric_limits<double>::infinity());
 }
 
+TEST(CondenseMatrix, SaysWhatIsWrongOfALine)
+{
+   const Frame frame(4, 3, true);
+   ContactLine line = frame.line();
+   LineElement element;
+   element.nodes = {0, 1, 2, 3};
+   element.points = line.each(&LineNode::position).transpose();
+   line.chains[0].elements = {element};
+   EXPECT_EQ(condense(frame.body(true), line).S, condense(frame.body(true), frame.line()).S);
+   const auto refused = [&](const char *said, const auto &spoil)
+   {
+      ContactLine spoilt = line;
+      spoil(spoilt);
+      expect_input_error([&] { condense(frame.body(true), spoilt); }, said);
+   };
+   refused("there are no nodes", [](auto &l) { l.nodes.clear(); });
+   refused("node 2 is at (nan, 0)", [](auto &l) { l.nodes[2].position[0] = NAN; });
+   refused("tangent at (1, 0) has the length 2", [](auto &l) { l.nodes[1].tangent[0] = 2; });
+   refused("weight of the node at (3, 0) is 0", [](auto &l) { l.nodes[3].weight = 0; });
+   refused("spacing at (3, 0) is -1", [](auto &l) { l.nodes[3].spacing = -1; });
+   refused("arc length of the node at (0, 0) is inf",
+           [](auto &l) { l.nodes[0].arc_length = INFINITY; });
+   refused("the chains have 3 nodes, must have all 4",
+           [](auto &l)
+           {
+              l.chains[0].nodes = 3;
+              l.chains[0].elements.clear();
+           });
+   refused("is node 3 of the line, must be node 3 (the chain ends at node 2)",
+           [](auto &l) { l.chains[0].nodes = 3; });
+   refused("a chain of 4 nodes begins at node 1", [](auto &l) { l.chains[0].first = 1; });
+   refused("a chain of 5 nodes begins at node 0", [](auto &l) { l.chains[0].nodes = 5; });
+   refused("has 3 nodes and 4 points",
+           [](auto &l) { l.chains[0].elements[0].nodes.pop_back(); });
+   refused("node 1 of element 0 of the chain from node 0 is node 2 of the line, must be node 1",
+           [](auto &l) { l.chains[0].elements[0].nodes[1] = 2; });
+   refused("node 3 of element 0", [](auto &l) { l.chains[0].elements[0].points(1, 3) = 1; });
+   refused("end before node 3, must end at node 3",
+           [](auto &l)
+           {
+              l.chains[0].elements[0].nodes.pop_back();
+              l.chains[0].elements[0].points.conservativeResize(2, 3);
+           });
+   refused("is axisymmetric, the body plane",
+           [](auto &l)
+           {
+              l.formulation = Formulation::axisymmetric;
+              for (LineNode &node : l.nodes) { node.position[0] += 1; }
+              l.chains[0].elements.clear();
+           });
+   refused("beyond the axis x = 0", [](auto &l) { l.formulation = Formulation::torsion; });
+}
+
 TEST(CondenseMatrix, SaysWhatIsWrong)
 {
    const Frame frame(4, 3, true);
@@ -289,7 +334,7 @@ TEST(CondenseMatrix, SaysWhatIsWrong)
    expect_input_error([&] { reduce(condense(bad, line)); },
                       "(2, 0) is fixed normal to the line, it must be able to open");
    ContactLine beyond = line;
-   beyond.dofs[1][1] = 24;
+   beyond.nodes[1].dofs[1] = 24;
    expect_input_error([&] { condense(good, beyond); },
                       "contact dof 24 of node 1 of the line, must be from 0 to 23");
    const auto refused = [&](const char *said, const auto &spoil)
@@ -321,11 +366,8 @@ TEST(CondenseMatrix, SaysWhatIsWrong)
            { b.K = SharedMatrix(2, start.data(), column.data(), value.data(), nullptr); });
    // A contact of one point lets the frame turn about it.
    ContactLine one = line;
-   one.dofs.resize(1);
-   for (MatrixXd *m : {&one.position, &one.tangent, &one.normal})
-   {
-      m->conservativeResize(1, Eigen::NoChange);
-   }
+   one.nodes.resize(1);
+   one.chains = {{0, 1}};
    expect_input_error([&] { condense(frame.body(false), one); }, "1 rigid motion(s) free");
    Frame loose = frame;
    loose.K(10, 10) = -1;

@@ -218,13 +218,15 @@ TEST(MeshProperties, ContactLinesHaveTheLengthAndTheNormalsOfTheBoundary)
                   const double length =
                      scene.grid.bottom() + (scene.around_corner ? scene.grid.right() : 0);
                   const Index last = line.size() - 1;
-                  RC_ASSERT(std::abs(line.weights.sum() - length) < geometric * length);
-                  RC_ASSERT(line.weights.minCoeff() > 0);
-                  RC_ASSERT(std::abs(line.arc_length[last] - line.arc_length[0] - length) <
+                  RC_ASSERT(std::abs(line.each(&LineNode::weight).sum() - length) <
                             geometric * length);
+                  RC_ASSERT(line.each(&LineNode::weight).minCoeff() > 0);
+                  RC_ASSERT(std::abs(line.nodes[last].arc_length - line.nodes[0].arc_length -
+                                     length) < geometric * length);
                   for (Index i = 0; i <= last; ++i)
                   {
-                     const Eigen::Vector2d t = line.tangent.row(i), n = line.normal.row(i);
+                     const Eigen::Vector2d t = line.nodes[i].tangent,
+                                           n = line.nodes[i].normal();
                      RC_ASSERT(std::abs(n.norm() - 1) < geometric);
                      // Right-handed: the normal is the tangent turned by 90°.
                      RC_ASSERT((n - Eigen::Vector2d(-t[1], t[0])).norm() < geometric);
@@ -246,10 +248,14 @@ TEST(MeshProperties, NumbersAndOrientationsDoNotMatter)
                [&]
                {
                   const JudgedBody a = scene.body(scene.grid), b = scene.body(other);
-                  RC_ASSERT(difference(b.line.position, a.line.position, 1) < geometric);
-                  RC_ASSERT(difference(b.line.weights, a.line.weights) < geometric);
-                  RC_ASSERT(difference(b.line.arc_length, a.line.arc_length, 1) < geometric);
-                  RC_ASSERT(difference(b.line.normal, a.line.normal) < geometric);
+                  RC_ASSERT(difference(b.line.each(&LineNode::position),
+                                       a.line.each(&LineNode::position), 1) < geometric);
+                  RC_ASSERT(difference(b.line.each(&LineNode::weight),
+                                       a.line.each(&LineNode::weight)) < geometric);
+                  RC_ASSERT(difference(b.line.each(&LineNode::arc_length),
+                                       a.line.each(&LineNode::arc_length), 1) < geometric);
+                  RC_ASSERT(difference(b.line.each(&LineNode::normal),
+                                       a.line.each(&LineNode::normal)) < geometric);
                   expect_same_stiffness(b, a, a.S);
                   expect_same_load(b, a, b.patterns[0].q, a.patterns[0].q);
                   expect_same_load(b, a, b.patterns[0].p, a.patterns[0].p);
@@ -269,7 +275,8 @@ TEST(MeshProperties, ATurnedBodyIsTheSameInItsOwnFrames)
                          [&]
                          {
                             const JudgedBody a = scene.body(scene.grid), b = scene.body(other);
-                            MatrixXd turned = a.line.position, normal = a.line.normal;
+                            MatrixXd turned = a.line.each(&LineNode::position),
+                                     normal = a.line.each(&LineNode::normal);
                             for (MatrixXd *vectors : {&turned, &normal})
                             {
                                for (int k = 0; k < other.quarters; ++k)
@@ -279,9 +286,12 @@ TEST(MeshProperties, ATurnedBodyIsTheSameInItsOwnFrames)
                                   vectors->col(1) = x;
                                }
                             }
-                            RC_ASSERT(difference(b.line.position, turned, 1) < geometric);
-                            RC_ASSERT(difference(b.line.normal, normal) < geometric);
-                            RC_ASSERT(difference(b.line.weights, a.line.weights) < geometric);
+                            RC_ASSERT(difference(b.line.each(&LineNode::position), turned, 1) <
+                                      geometric);
+                            RC_ASSERT(difference(b.line.each(&LineNode::normal), normal) <
+                                      geometric);
+                            RC_ASSERT(difference(b.line.each(&LineNode::weight),
+                                                 a.line.each(&LineNode::weight)) < geometric);
                             expect_same_stiffness(b, a, a.S);
                             expect_same_load(b, a, b.patterns[0].p, a.patterns[0].p);
                          });
@@ -310,9 +320,11 @@ TEST(MeshProperties, AMirroredBodyIsMirrored)
                      mirror(i, n - 1 - i) = -1;
                      mirror(n + i, 2 * n - 1 - i) = 1;
                   }
-                  RC_ASSERT(difference(b.line.position.col(0),
-                                       -a.line.position.col(0).reverse(), 1) < geometric);
-                  RC_ASSERT(difference(b.line.weights, a.line.weights.reverse()) < geometric);
+                  RC_ASSERT(difference(b.line.each(&LineNode::position).col(0),
+                                       -a.line.each(&LineNode::position).col(0).reverse(),
+                                       1) < geometric);
+                  RC_ASSERT(difference(b.line.each(&LineNode::weight),
+                                       a.line.each(&LineNode::weight).reverse()) < geometric);
                   expect_same_stiffness(b, a, mirror * a.S * mirror.transpose());
                   expect_same_load(b, a, b.patterns[0].q, -a.patterns[0].q.reverse());
                });
@@ -321,34 +333,35 @@ TEST(MeshProperties, AMirroredBodyIsMirrored)
 
 TEST(MeshProperties, CondensedStiffnessIsSymmetricAndResistsNoRigidMotion)
 {
-   expect_holds(100,
-                []
-                {
-                   const Scene scene;
-                   check(scene,
-                         [&]
-                         {
-                            const JudgedBody body = scene.body(scene.grid);
-                            const ContactLine &line = body.line;
-                            expect_same_stiffness(body, body, body.S.transpose());
-                            MatrixXd x(line.size(), 2);
-                            for (int motion = 0; motion < 3; ++motion)
-                            {
-                               x.setZero();
-                               if (motion < 2) { x.col(motion).setOnes(); }
-                               else
-                               {
-                                  x.col(0) = -line.position.col(1);
-                                  x.col(1) = line.position.col(0);
-                               }
-                               VectorXd u(2 * line.size());
-                               u << (line.tangent.array() * x.array()).rowwise().sum(),
-                                  (line.normal.array() * x.array()).rowwise().sum();
-                               RC_ASSERT((body.S * u).cwiseAbs().maxCoeff() <
-                                         body.stiffness_error * u.cwiseAbs().sum());
-                            }
-                         });
-                });
+   expect_holds(
+      100,
+      []
+      {
+         const Scene scene;
+         check(scene,
+               [&]
+               {
+                  const JudgedBody body = scene.body(scene.grid);
+                  const ContactLine &line = body.line;
+                  expect_same_stiffness(body, body, body.S.transpose());
+                  MatrixXd x(line.size(), 2);
+                  for (int motion = 0; motion < 3; ++motion)
+                  {
+                     x.setZero();
+                     if (motion < 2) { x.col(motion).setOnes(); }
+                     else
+                     {
+                        x.col(0) = -line.each(&LineNode::position).col(1);
+                        x.col(1) = line.each(&LineNode::position).col(0);
+                     }
+                     VectorXd u(2 * line.size());
+                     u << (line.each(&LineNode::tangent).array() * x.array()).rowwise().sum(),
+                        (line.each(&LineNode::normal).array() * x.array()).rowwise().sum();
+                     RC_ASSERT((body.S * u).cwiseAbs().maxCoeff() <
+                               body.stiffness_error * u.cwiseAbs().sum());
+                  }
+               });
+      });
 }
 
 /// Which body is called the first decides where the line starts; frames of body 2 are turned by

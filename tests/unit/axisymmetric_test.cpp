@@ -253,20 +253,22 @@ TEST(Axisymmetric, ContactLineWeighsAreasAndLeavesTheAxisOut)
          {
             const ContactLine line = contact_line(body, attribute);
             EXPECT_EQ(line.size(), 4 * order);
-            EXPECT_GT(line.position.col(0).minCoeff(), 0);
-            EXPECT_NEAR(line.weights.sum(), 4 * M_PI, 1e-13);
-            EXPECT_NEAR(line.weights.dot(line.position.col(0)), 2 * M_PI * 8 / 3.0,
+            EXPECT_GT(line.each(&LineNode::position).col(0).minCoeff(), 0);
+            EXPECT_NEAR(line.each(&LineNode::weight).sum(), 4 * M_PI, 1e-13);
+            EXPECT_NEAR(line.each(&LineNode::weight).dot(line.each(&LineNode::position).col(0)),
+                        2 * M_PI * 8 / 3.0,
                         order == 1 ? 0.2 : 1e-13); // the axis node's share sits at r = 1/2
             const double sign = attribute == 1 ? 1 : -1;
-            EXPECT_NEAR((line.normal.col(1).array() - sign).abs().maxCoeff(), 0, 1e-14);
+            EXPECT_NEAR((line.each(&LineNode::normal).col(1).array() - sign).abs().maxCoeff(),
+                        0, 1e-14);
             for (Eigen::Index i = 0; i < line.size(); ++i)
             {
-               const double r = line.position(i, 0);
-               EXPECT_NEAR(line.arc_length[i], attribute == 1 ? r : 2 - r, 1e-14);
+               const double r = line.nodes[i].position[0];
+               EXPECT_NEAR(line.nodes[i].arc_length, attribute == 1 ? r : 2 - r, 1e-14);
             }
          }
          ElasticBody torsion(mesh, order, Material{}, Formulation::torsion);
-         EXPECT_EQ(contact_line(torsion, 1).dofs[0][1], -1);
+         EXPECT_EQ(contact_line(torsion, 1).nodes[0].dofs[1], -1);
          expect_input_error([&] { contact_line(body, 4); }, "alone on the axis");
       }
    }
@@ -545,7 +547,7 @@ TEST(Torsion, TorqueOfStressAndOfContactForcesAgree)
    body.fix(3, 0);
    CondensedBody condensed = condense(body, contact_line(body, 1));
    // A contact that does not turn as one: u_θ = r³.
-   const VectorXd r = condensed.line.position.col(0), v = r.array().cube();
+   const VectorXd r = condensed.line.each(&LineNode::position).col(0), v = r.array().cube();
    const double torque = r.dot(condensed.S * v);
    mfem::GridFunction twist(&body.space());
    twist = to_mfem(condensed.recover(v, VectorXd(0)));
@@ -622,7 +624,7 @@ TEST(Axisymmetric, NumberingOfTheMeshDoesNotMatter)
          return condense(body, contact_line(body, 1));
       };
       const CondensedBody a = condensed(mesh), b = condensed(other);
-      EXPECT_EQ(a.line.position, b.line.position);
+      EXPECT_EQ(a.line.each(&LineNode::position), b.line.each(&LineNode::position));
       EXPECT_LT(difference(a.S, b.S), 1e-12);
    }
 }

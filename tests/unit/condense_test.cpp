@@ -218,15 +218,13 @@ TEST(Condensation, RefusesWhatNothingHolds)
 {
    mfem::Mesh mesh = block("quads");
    ElasticBody body(mesh, 1, Material{});
-   expect_input_error([&] { condense(body, ContactLine()); }, "unsupported body");
+   expect_input_error([&] { condense(body, ContactLine()); },
+                      "contact line: there are no nodes");
 
    // One contact node holds two motions; the body can still turn about it.
    ContactLine one = contact_line(body, 1);
-   one.dofs.resize(1);
-   for (MatrixXd *m : {&one.position, &one.tangent, &one.normal})
-   {
-      m->conservativeResize(1, Eigen::NoChange);
-   }
+   one.nodes.resize(1);
+   one.chains = {{0, 1}};
    expect_input_error([&] { condense(body, one); }, "leave 1 rigid motion(s) free");
    body.fix_node(2.0, 1.0, 1);
    EXPECT_EQ(condense(body, one).counters.factorisations, 1);
@@ -290,8 +288,10 @@ TEST(Condensation, SaysWhichNodeAndWhichSettingIsWrong)
       else { EXPECT_NO_THROW(condense(body, line, settings)); }
    }
    ContactLine torn = line;
-   torn.dofs.pop_back();
-   expect_input_error([&] { condense(body, torn); }, "has 5 nodes and 4 pairs of dofs");
+   torn.nodes.pop_back();
+   expect_input_error(
+      [&] { condense(body, torn); },
+      "a chain of 5 nodes begins at node 0, must begin at node 0 and have 1 to 4");
    // Both ends are fixed along y: the first is named.
    body.fix({{2, 4}, 1, -1.0, 0.1}, 1);
    expect_input_error([&] { reduce(condense(body, line)); },
@@ -491,7 +491,8 @@ TEST(Condensation, NumberingOfTheMeshChangesNothing)
    const CondensedBody a = condensed(false), b = condensed(true);
    EXPECT_LT(difference(b.S, a.S), 1e-12);
    EXPECT_LT(difference(b.patterns[0].p, a.patterns[0].p), 1e-12);
-   EXPECT_LT(difference(b.line.position, a.line.position), 1e-15);
+   EXPECT_LT(difference(b.line.each(&LineNode::position), a.line.each(&LineNode::position)),
+             1e-15);
 }
 
 TEST(Condensation, PlaneStressIsPlaneStrainOfAnotherMaterial)

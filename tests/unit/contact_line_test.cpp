@@ -17,19 +17,18 @@ TEST(ContactLine, FramesOfStraightLines)
          const ContactLine bottom = contact_line(body, 1), top = contact_line(body, 3);
          for (Eigen::Index i = 0; i < bottom.size(); ++i)
          {
-            EXPECT_EQ(bottom.tangent.row(i), Eigen::RowVector2d(1, 0));
-            EXPECT_EQ(bottom.normal.row(i), Eigen::RowVector2d(0, 1));
-            EXPECT_NEAR(bottom.arc_length[i], bottom.position(i, 0), 1e-14);
+            EXPECT_EQ(bottom.nodes[i].tangent, Eigen::Vector2d(1, 0));
+            EXPECT_EQ(bottom.nodes[i].normal(), Eigen::Vector2d(0, 1));
+            EXPECT_NEAR(bottom.nodes[i].arc_length, bottom.nodes[i].position[0], 1e-14);
          }
          for (Eigen::Index i = 0; i < top.size(); ++i)
          {
-            EXPECT_EQ(top.tangent.row(i), Eigen::RowVector2d(-1, 0));
-            EXPECT_EQ(top.normal.row(i), Eigen::RowVector2d(0, -1));
-            EXPECT_NEAR(top.arc_length[i], 2 - top.position(i, 0), 1e-14);
+            EXPECT_EQ(top.nodes[i].tangent, Eigen::Vector2d(-1, 0));
+            EXPECT_EQ(top.nodes[i].normal(), Eigen::Vector2d(0, -1));
+            EXPECT_NEAR(top.nodes[i].arc_length, 2 - top.nodes[i].position[0], 1e-14);
          }
-         EXPECT_NEAR(bottom.weights.sum(), 2.0, 1e-14);
-         EXPECT_NEAR(bottom.lumped_weights.sum(), 2.0, 1e-14);
-         EXPECT_GT(bottom.weights.minCoeff(), 0.0);
+         EXPECT_NEAR(bottom.each(&LineNode::weight).sum(), 2.0, 1e-14);
+         EXPECT_GT(bottom.each(&LineNode::weight).minCoeff(), 0.0);
       }
    }
    mfem::Mesh mesh = block("quads"); // four edges of 0.5
@@ -42,10 +41,9 @@ TEST(ContactLine, FramesOfStraightLines)
    {
       // Simpson's weights: 1/6, 4/6, 1/6 of each edge.
       const bool end = i == 0 || i == 8;
-      EXPECT_NEAR(line.weights[i], i % 2 ? 4 * h / 6 : (end ? h / 6 : 2 * h / 6), 1e-15);
-      EXPECT_NEAR(line.lumped_weights[i], end ? h / 4 : h / 2, 1e-15);
-      EXPECT_NEAR(line.spacing[i], h / 2, 1e-15);
-      EXPECT_EQ(line.chain[i], 0);
+      EXPECT_NEAR(line.nodes[i].weight, i % 2 ? 4 * h / 6 : (end ? h / 6 : 2 * h / 6), 1e-15);
+      EXPECT_NEAR(line.nodes[i].spacing, h / 2, 1e-15);
+      EXPECT_EQ(&line.chain_of(i), &line.chains[0]);
    }
 }
 
@@ -116,11 +114,18 @@ TEST(ContactLine, IsOrderedWhateverTheNumberingAndOrientation)
          mfem::Mesh mesh = scrambled(plain, seed);
          ElasticBody body(mesh, order, Material{});
          const ContactLine line = contact_line(body, BoundaryPart({2, 1}));
-         EXPECT_LT(difference(line.position, expected.position), 1e-15);
-         EXPECT_LT(difference(line.tangent, expected.tangent), 1e-15);
-         EXPECT_LT(difference(line.normal, expected.normal), 1e-15);
-         EXPECT_LT(difference(line.arc_length, expected.arc_length), 1e-15);
-         EXPECT_LT(difference(line.weights, expected.weights), 1e-14);
+         EXPECT_LT(
+            difference(line.each(&LineNode::position), expected.each(&LineNode::position)),
+            1e-15);
+         EXPECT_LT(difference(line.each(&LineNode::tangent), expected.each(&LineNode::tangent)),
+                   1e-15);
+         EXPECT_LT(difference(line.each(&LineNode::normal), expected.each(&LineNode::normal)),
+                   1e-15);
+         EXPECT_LT(
+            difference(line.each(&LineNode::arc_length), expected.each(&LineNode::arc_length)),
+            1e-15);
+         EXPECT_LT(difference(line.each(&LineNode::weight), expected.each(&LineNode::weight)),
+                   1e-14);
          body.add_pressure("press", BoundaryPart({1, 2, 3, 4}), 1.0);
          EXPECT_NEAR(body.patterns()[0].values.sum(), 0.0, 1e-13);
       }
@@ -133,9 +138,9 @@ TEST(ContactLine, AveragesTheNormalAtACorner)
    ElasticBody body(mesh, 1, Material{});
    const ContactLine line = contact_line(body, BoundaryPart({1, 2}));
    ASSERT_EQ(line.size(), 7);
-   EXPECT_NEAR(line.normal(4, 0), -std::sqrt(0.5), 1e-15);
-   EXPECT_NEAR(line.normal(4, 1), std::sqrt(0.5), 1e-15);
-   EXPECT_NEAR(line.arc_length[6], 3.0, 1e-14);
+   EXPECT_NEAR(line.nodes[4].normal()[0], -std::sqrt(0.5), 1e-15);
+   EXPECT_NEAR(line.nodes[4].normal()[1], std::sqrt(0.5), 1e-15);
+   EXPECT_NEAR(line.nodes[6].arc_length, 3.0, 1e-14);
 }
 
 TEST(ContactLine, SeparateChainsAndClosedLoops)
@@ -144,23 +149,21 @@ TEST(ContactLine, SeparateChainsAndClosedLoops)
    ElasticBody body(mesh, 2, Material{});
    const ContactLine both = contact_line(body, BoundaryPart({1, 3}));
    ASSERT_EQ(both.size(), 18);
-   EXPECT_EQ(both.chain[8], 0);
-   EXPECT_EQ(both.chain[9], 1);
-   EXPECT_NEAR(both.arc_length[8], 2.0, 1e-14);
-   EXPECT_NEAR(both.arc_length[9], 2.0, 1e-14);
-   EXPECT_NEAR(both.arc_length[17], 4.0, 1e-14);
-   EXPECT_EQ(both.position(9, 0), 2.0);
+   EXPECT_EQ(&both.chain_of(8), &both.chains[0]);
+   EXPECT_EQ(&both.chain_of(9), &both.chains[1]);
+   EXPECT_NEAR(both.nodes[8].arc_length, 2.0, 1e-14);
+   EXPECT_NEAR(both.nodes[9].arc_length, 2.0, 1e-14);
+   EXPECT_NEAR(both.nodes[17].arc_length, 4.0, 1e-14);
+   EXPECT_EQ(both.nodes[9].position[0], 2.0);
 
    const ContactLine loop = contact_line(body, BoundaryPart({1, 2, 3, 4}));
    ASSERT_EQ(loop.size(), 24);
-   EXPECT_EQ(loop.position(0, 0), 0.0);
-   EXPECT_EQ(loop.position(0, 1), 0.0);
-   EXPECT_NEAR(loop.weights.sum(), 6.0, 1e-14);
-   EXPECT_NEAR(loop.lumped_weights.sum(), 6.0, 1e-14);
-   EXPECT_NEAR(loop.lumped_weights[0], 0.25, 1e-15);
-   EXPECT_NEAR(loop.arc_length[23], 5.75, 1e-14);
-   EXPECT_NEAR(loop.normal(0, 0), std::sqrt(0.5), 1e-15);
-   EXPECT_NEAR(loop.normal(0, 1), std::sqrt(0.5), 1e-15);
+   EXPECT_EQ(loop.nodes[0].position[0], 0.0);
+   EXPECT_EQ(loop.nodes[0].position[1], 0.0);
+   EXPECT_NEAR(loop.each(&LineNode::weight).sum(), 6.0, 1e-14);
+   EXPECT_NEAR(loop.nodes[23].arc_length, 5.75, 1e-14);
+   EXPECT_NEAR(loop.nodes[0].normal()[0], std::sqrt(0.5), 1e-15);
+   EXPECT_NEAR(loop.nodes[0].normal()[1], std::sqrt(0.5), 1e-15);
 }
 
 /// The grid's cells without the one in the middle of three by three: attribute 1 around, 2 in
@@ -224,17 +227,16 @@ TEST(ContactLine, LoopsOfUnequalEdgesRunWithTheBodyOnTheLeftWhateverTheNumbering
                                         from = points.row(i) - points.row((i + n - 1) % n);
                const double after = to.norm(), before = from.norm();
                const Eigen::RowVector2d along = (to + from).normalized();
-               EXPECT_LT((line.position.row(at) - points.row(i)).norm(), 1e-15);
-               EXPECT_LT((line.tangent.row(at) - along).norm(), 1e-14);
-               EXPECT_NEAR(line.normal(at, 0), -along[1], 1e-14);
-               EXPECT_NEAR(line.normal(at, 1), along[0], 1e-14);
-               EXPECT_EQ(line.chain[at], c);
-               EXPECT_NEAR(line.arc_length[at], arc, 1e-13);
-               EXPECT_NEAR(line.lumped_weights[at], 0.5 * (before + after), 1e-14);
-               EXPECT_NEAR(line.spacing[at], std::min(before, after), 1e-14);
+               EXPECT_LT((line.nodes[at].position - points.row(i).transpose()).norm(), 1e-15);
+               EXPECT_LT((line.nodes[at].tangent - along.transpose()).norm(), 1e-14);
+               EXPECT_NEAR(line.nodes[at].normal()[0], -along[1], 1e-14);
+               EXPECT_NEAR(line.nodes[at].normal()[1], along[0], 1e-14);
+               EXPECT_EQ(&line.chain_of(at), &line.chains[c]);
+               EXPECT_NEAR(line.nodes[at].arc_length, arc, 1e-13);
+               EXPECT_NEAR(line.nodes[at].spacing, std::min(before, after), 1e-14);
                // Of linear elements half of either edge; Simpson's of quadratic ones.
                const double share = order == 1 ? 0.5 : i % 2 ? 2.0 / 3 : 1.0 / 3;
-               EXPECT_NEAR(line.weights[at], share * (before + after), 1e-14);
+               EXPECT_NEAR(line.nodes[at].weight, share * (before + after), 1e-14);
                arc += after;
             }
          }
@@ -281,20 +283,18 @@ TEST(ContactLine, ChainsThatEndOnTheAxisStandBesideOthers)
       EXPECT_EQ(line.chains[1].ends, outwards);
       for (Eigen::Index i = 0; i < line.size(); ++i)
       {
-         EXPECT_NEAR(line.tangent(i, 0), line.chain[i] ? 1 : -1, 1e-14);
+         EXPECT_NEAR(line.nodes[i].tangent[0], line.chain_of(i).first ? 1 : -1, 1e-14);
       }
       // ∫ 2πr dr of each: the axis node's share stays with its own chain.
       const auto inner = line.chains[0].nodes, outer = line.chains[1].nodes;
-      EXPECT_NEAR(line.weights.head(inner).sum(), M_PI, 1e-13);
-      EXPECT_NEAR(line.weights.tail(outer).sum(), M_PI * (4 - 1.5625), 1e-13);
+      EXPECT_NEAR(line.each(&LineNode::weight).head(inner).sum(), M_PI, 1e-13);
+      EXPECT_NEAR(line.each(&LineNode::weight).tail(outer).sum(), M_PI * (4 - 1.5625), 1e-13);
       if (order == 2) { continue; }
-      EXPECT_EQ(line.chain, (std::vector<int>{0, 0, 0, 1, 1, 1}));
-      expect(line.position.col(0), {1, 0.5, 0.25, 1.25, 1.5, 2});
-      expect(line.arc_length, {0, 0.5, 0.75, 1, 1.25, 1.75});
-      expect(line.lumped_weights, {0.25, 0.375, 0.25, 0.125, 0.375, 0.25});
-      expect(line.spacing, {0.5, 0.25, 0.25, 0.25, 0.25, 0.5});
+      expect(line.each(&LineNode::position).col(0), {1, 0.5, 0.25, 1.25, 1.5, 2});
+      expect(line.each(&LineNode::arc_length), {0, 0.5, 0.75, 1, 1.25, 1.75});
+      expect(line.each(&LineNode::spacing), {0.5, 0.25, 0.25, 0.25, 0.25, 0.5});
       // Hats: ∫ φ r dr over [a, b] is (b-a)(2a+b)/6 for the node at a, (b-a)(a+2b)/6 at b.
-      expect(line.weights / (2 * M_PI),
+      expect(line.each(&LineNode::weight) / (2 * M_PI),
              {0.5 * 2.5 / 6, 0.5 * 2 / 6 + 0.25 * 1.25 / 6,
               0.25 * 1 / 6 + 0.25 * 0.5 / 6 + 0.25 * 0.25 / 6, 0.25 * 4 / 6,
               0.25 * 4.25 / 6 + 0.5 * 5 / 6, 0.5 * 5.5 / 6});
@@ -324,8 +324,8 @@ TEST(ContactLine, ChainsThatStartAtTheSameXFollowEachOtherByY)
       ASSERT_EQ(line.size(), 6); // two edges below and two above
       for (int i = 0; i < 6; ++i)
       {
-         EXPECT_NEAR(line.position(i, 1), i * 0.2, 1e-15) << i;
-         EXPECT_NEAR(line.arc_length[i], (i - i / 3) * 0.2, 1e-15);
+         EXPECT_NEAR(line.nodes[i].position[1], i * 0.2, 1e-15) << i;
+         EXPECT_NEAR(line.nodes[i].arc_length, (i - i / 3) * 0.2, 1e-15);
       }
    }
 }
@@ -353,6 +353,79 @@ mfem::Mesh quarter_ring(int order, int elements)
    return ring_sector(order, elements, M_PI / 2, 0);
 }
 
+/// x(s) of an element by MFEM's own nodal basis of its order.
+Eigen::Vector2d point_on(const LineElement &element, double s)
+{
+   const mfem::H1_SegmentElement basis(static_cast<int>(element.order()));
+   mfem::IntegrationPoint ip;
+   ip.x = s;
+   mfem::Vector shape(basis.GetDof());
+   basis.CalcShape(ip, shape);
+   std::vector<int> along(shape.Size());
+   std::iota(along.begin(), along.end(), 0);
+   std::sort(along.begin(), along.end(),
+             [&](int a, int b) { return basis.GetNodes()[a].x < basis.GetNodes()[b].x; });
+   Eigen::Vector2d x(0, 0);
+   for (int a = 0; a < shape.Size(); ++a) { x += shape(along[a]) * element.points.col(a); }
+   return x;
+}
+
+TEST(ContactLine, ElementsAreTheBoundarysOwnInTheOrderOfTheLine)
+{
+   // An arc about the origin, in a mesh that is bent as the elements are: half way along an
+   // element the mesh's own edge and the line's element are one curve.
+   for (int order : {1, 2, 3, 5})
+   {
+      mfem::Mesh mesh = ring_sector(order, 4, M_PI / 2, 0);
+      ElasticBody body(mesh, order, Material{});
+      for (int attribute : {1, 3})
+      {
+         const ContactLine line = contact_line(body, attribute);
+         const std::vector<LineElement> &elements = line.chains[0].elements;
+         ASSERT_EQ(elements.size(), 4u);
+         for (std::size_t e = 0; e < 4; ++e)
+         {
+            ASSERT_EQ(elements[e].order(), order);
+            for (int a = 0; a <= order; ++a)
+            {
+               EXPECT_EQ(elements[e].nodes[a], static_cast<Eigen::Index>(e) * order + a);
+               EXPECT_EQ(elements[e].points.col(a), line.nodes[elements[e].nodes[a]].position);
+            }
+            // The mesh's edge at its middle, of the element whose ends these are.
+            const Eigen::Vector2d middle = point_on(elements[e], 0.5);
+            double nearest = 1;
+            for (int b = 0; b < mesh.GetNBE(); ++b)
+            {
+               if (mesh.GetBdrAttribute(b) != attribute) { continue; }
+               mfem::Vector x(2);
+               mesh.GetBdrElementTransformation(b)->Transform(
+                  mfem::Geometries.GetCenter(mfem::Geometry::SEGMENT), x);
+               nearest = std::min(nearest, (middle - Eigen::Vector2d(x(0), x(1))).norm());
+            }
+            EXPECT_LT(nearest, 1e-14) << order;
+         }
+      }
+   }
+   // A loop's last element ends at its first node.
+   mfem::Mesh plain = block("quads", 4, 2);
+   ElasticBody body(plain, 2, Material{});
+   const ContactLine loop = contact_line(body, BoundaryPart({1, 2, 3, 4}));
+   ASSERT_EQ(loop.chains[0].elements.size(), 12u);
+   EXPECT_EQ(loop.chains[0].elements[11].nodes, (std::vector<Eigen::Index>{22, 23, 0}));
+   // Two chains count on; a node on the axis is none of the line, but its place is known.
+   ElasticBody disc(plain, 2, Material{}, Formulation::axisymmetric);
+   const ContactLine faces = contact_line(disc, BoundaryPart({1, 3}));
+   EXPECT_EQ(faces.formulation, Formulation::axisymmetric);
+   ASSERT_EQ(faces.chains.size(), 2u);
+   const LineElement &first = faces.chains[0].elements.front(),
+                     &last = faces.chains[1].elements.back();
+   EXPECT_EQ(first.nodes, (std::vector<Eigen::Index>{-1, 0, 1}));
+   EXPECT_EQ(last.nodes, (std::vector<Eigen::Index>{14, 15, -1}));
+   EXPECT_EQ(faces.chains[1].elements.front().nodes, (std::vector<Eigen::Index>{8, 9, 10}));
+   EXPECT_EQ(first.points.col(0), Eigen::Vector2d(0, 0));
+   EXPECT_EQ(last.points.col(2), Eigen::Vector2d(0, 1));
+}
+
 TEST(ContactLine, CurvedFramesAreThoseOfTheCircle)
 {
    mfem::Mesh mesh = quarter_ring(10, 3);
@@ -360,15 +433,15 @@ TEST(ContactLine, CurvedFramesAreThoseOfTheCircle)
    {
       ElasticBody body(mesh, order, Material{});
       const ContactLine inner = contact_line(body, 1), outer = contact_line(body, 3);
-      EXPECT_NEAR(inner.weights.sum(), M_PI / 2, 1e-12);
-      EXPECT_NEAR(outer.weights.sum(), M_PI, 1e-12);
+      EXPECT_NEAR(inner.each(&LineNode::weight).sum(), M_PI / 2, 1e-12);
+      EXPECT_NEAR(outer.each(&LineNode::weight).sum(), M_PI, 1e-12);
       for (Eigen::Index i = 0; i < inner.size(); ++i)
       {
          // The material is outside the inner arc: the normal into it points outward.
-         EXPECT_LT((inner.normal.row(i) - inner.position.row(i)).norm(), 1e-8);
-         EXPECT_LT((outer.normal.row(i) + outer.position.row(i) / 2).norm(), 1e-8);
-         EXPECT_NEAR(inner.arc_length[i],
-                     std::atan2(inner.position(i, 0), inner.position(i, 1)), 1e-10);
+         EXPECT_LT((inner.nodes[i].normal() - inner.nodes[i].position).norm(), 1e-8);
+         EXPECT_LT((outer.nodes[i].normal() + outer.nodes[i].position / 2).norm(), 1e-8);
+         EXPECT_NEAR(inner.nodes[i].arc_length,
+                     std::atan2(inner.nodes[i].position[0], inner.nodes[i].position[1]), 1e-10);
       }
       body.add_pressure("bore", 1, 1.0);
       const VectorXd f = body.patterns()[0].values;
@@ -418,8 +491,10 @@ TEST(ContactLine, APartThatAnIntervalCutsFromAnArc)
       EXPECT_EQ(sides.chains[1].ends, ends(LineEnd::smooth, LineEnd::corner));
       for (Eigen::Index i = 0; i < sides.size(); ++i)
       {
-         const double angle = std::atan2(sides.position(i, 1), sides.position(i, 0));
-         EXPECT_NEAR(sides.arc_length[i], (sides.chain[i] ? 110 : 150) * degree - angle, 1e-8);
+         const double angle =
+            std::atan2(sides.nodes[i].position[1], sides.nodes[i].position[0]);
+         EXPECT_NEAR(sides.nodes[i].arc_length,
+                     (sides.chain_of(i).first ? 110 : 150) * degree - angle, 1e-8);
       }
    }
    // Chords turn at their nodes: those of 3° stand for the curve, and two of 15° that are
@@ -535,7 +610,7 @@ TEST(Pairing, AllowsAnOffsetByTheShorterEdgeOfEitherBody)
       {
          EXPECT_EQ(pairing.partner[i], 4 - i);
          EXPECT_NEAR(pairing.gap[i], 0.25, 1e-15);
-         EXPECT_NEAR(near.arc_length[i], 2 - x[4 - i], 1e-14);
+         EXPECT_NEAR(near.nodes[i].arc_length, 2 - x[4 - i], 1e-14);
       }
       EXPECT_NE(
          refusal(above, far, 0.1).find("of body 1 (5 nodes): (0, 0.25), (0.1, 0.25); of"),
@@ -552,10 +627,10 @@ TEST(Pairing, AllowsAnOffsetByTheShorterEdgeOfEitherBody)
    // A gap of 1e-10 is round-off of edges of 1, not of those of 0.001.
    const ContactLine rough = line({0, 0.001, 1, 2}, 0, false);
    ContactLine lifted = line({0, 0.001, 1, 2}, 0, true);
-   lifted.position.col(1).setConstant(1e-10);
+   for (LineNode &node : lifted.nodes) { node.position[1] = 1e-10; }
    const VectorXd gap = pair_lines(lifted, rough).gap;
    EXPECT_EQ(gap, Eigen::Vector4d(1e-10, 1e-10, 0, 0));
-   lifted.position.col(1).setConstant(-1e-3); // an overlap
+   for (LineNode &node : lifted.nodes) { node.position[1] = -1e-3; } // an overlap
    EXPECT_EQ(pair_lines(lifted, rough).gap, Eigen::Vector4d::Constant(-1e-3));
 }
 
@@ -572,8 +647,8 @@ TEST(Pairing, TakesTheNearestOfSeveralLinesAndOnlyOnce)
       const Pairing pairing = pair_lines(bottoms, tops);
       for (int i = 0; i < 6; ++i)
       {
-         const Eigen::RowVector2d across =
-            bottoms.position.row(i) - tops.position.row(pairing.partner[i]);
+         const Eigen::Vector2d across =
+            bottoms.nodes[i].position - tops.nodes[pairing.partner[i]].position;
          const double expected = across.norm() < 0.15 ? 0.1 : 0.2;
          EXPECT_NEAR(across.norm(), expected, 1e-14);
          EXPECT_NEAR(pairing.gap[i], expected, 1e-14);

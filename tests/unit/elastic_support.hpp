@@ -112,10 +112,10 @@ struct Split
       }
       for (int c = 0; c < 2; ++c)
       {
-         for (const auto &dofs : line.dofs)
+         for (const auto &node : line.nodes)
          {
-            C.push_back(dofs[c]);
-            kind[dofs[c]] = 2;
+            C.push_back(node.dofs[c]);
+            kind[node.dofs[c]] = 2;
          }
       }
       for (int dof = 0; dof < K.rows(); ++dof)
@@ -125,10 +125,10 @@ struct Split
       R = MatrixXd::Zero(2 * n, 2 * n);
       for (Eigen::Index i = 0; i < n; ++i)
       {
-         R(i, i) = line.tangent(i, 0);
-         R(i, n + i) = line.tangent(i, 1);
-         R(n + i, i) = line.normal(i, 0);
-         R(n + i, n + i) = line.normal(i, 1);
+         R(i, i) = line.nodes[i].tangent[0];
+         R(i, n + i) = line.nodes[i].tangent[1];
+         R(n + i, i) = line.nodes[i].normal()[0];
+         R(n + i, n + i) = line.nodes[i].normal()[1];
       }
    }
    MatrixXd block(const std::vector<int> &rows, const std::vector<int> &cols) const

@@ -144,7 +144,7 @@ TEST_F(Output, ACompressedBlockIsRecoveredOnlyWhenItsFieldsAreWritten)
             LoadHistory::through({Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1)}), state);
    ASSERT_EQ(report.status, FrictionStatus::converged);
    BodyFields fields(body, folder, "body");
-   ContactLineFields contact(reduction.problem, line.chain, folder, "contact");
+   ContactLineFields contact(reduction.problem, folder, "contact");
    contact.write(state);
    EXPECT_EQ(reduction.counters.field_recoveries, 0);
    EXPECT_FALSE(fs::exists(folder + "/body"));
@@ -243,8 +243,9 @@ ContactState some_state(const ReducedProblem &problem)
 
 TEST_F(Output, AContactLineIsOnePolylineForEachChain)
 {
-   const ReducedProblem problem = three_nodes();
-   ContactLineFields fields(problem, {0, 0, 1}, folder, "contact");
+   ReducedProblem problem = three_nodes();
+   problem.chains = {{"contact", 0, 2}, {"contact", 2, 1}};
+   ContactLineFields fields(problem, folder, "contact");
    ContactState state = some_state(problem);
    fields.write(state);
    state.time = 5;
@@ -525,7 +526,8 @@ TEST_F(Output, NodesWithTorsionAndWithoutFriction)
    {
       expect_values(numbers(plain[column]), {0, 0, 0, 0}, column);
    }
-   ContactLineFields(smooth, {0, 0, 0, 0}, folder, "smooth").write(pressed);
+   smooth.chains = one_chain(4);
+   ContactLineFields(smooth, folder, "smooth").write(pressed);
    EXPECT_TRUE(fs::exists(folder + "/smooth/smooth_0.vtp"));
 
    for (Eigen::VectorXd ReducedProblem::*list :
@@ -556,12 +558,13 @@ std::vector<double> array_of(const std::string &vtk, const std::string &name)
 
 TEST_F(Output, AContactLineIsReadBackArrayByArray)
 {
-   const ReducedProblem problem = four_springs();
+   ReducedProblem problem = four_springs();
+   problem.chains = {{"contact", 0, 3}, {"contact", 3, 1}};
    ContactState state = ContactState::virgin(problem);
    using Eigen::Vector2d;
    march(problem, LoadHistory::through({Vector2d(0, 0), Vector2d(1, 0), Vector2d(1, 1)}),
          state);
-   ContactLineFields fields(problem, {0, 0, 0, 1}, folder, "line");
+   ContactLineFields fields(problem, folder, "line");
    const ContactState virgin = ContactState::virgin(problem);
    fields.write(virgin);
    state.time = 1.0 / 3;
@@ -599,25 +602,28 @@ TEST_F(Output, AContactLineIsReadBackArrayByArray)
                  "opening");
 
    // What cannot be shown is refused.
-   EXPECT_THROW(ContactLineFields(problem, {0, 0, 0}, folder, "x"), InputError);
    ReducedProblem bad = problem;
+   bad.chains.clear();
+   EXPECT_THROW(ContactLineFields(bad, folder, "x"), InputError);
+   bad = problem;
    bad.arc_length.resize(0);
-   EXPECT_THROW(ContactLineFields(bad, {0, 0, 0, 0}, folder, "x"), InputError);
+   EXPECT_THROW(ContactLineFields(bad, folder, "x"), InputError);
    bad = problem;
    bad.position.resize(0, 0);
-   EXPECT_THROW(ContactLineFields(bad, {0, 0, 0, 0}, folder, "x"), InputError);
+   EXPECT_THROW(ContactLineFields(bad, folder, "x"), InputError);
    bad = problem;
    bad.K = Eigen::MatrixXd::Identity(12, 12);
-   EXPECT_THROW(ContactLineFields(bad, {0, 0, 0, 0}, folder, "x"), InputError);
+   EXPECT_THROW(ContactLineFields(bad, folder, "x"), InputError);
    state.p.resize(3);
    EXPECT_THROW(fields.write(state), InputError);
 }
 
 TEST_F(Output, AFailedWriteIsSaidAndLeavesTheSeriesAsItWas)
 {
-   const ReducedProblem problem = four_springs();
+   ReducedProblem problem = four_springs();
+   problem.chains = one_chain(4);
    ContactState state = ContactState::virgin(problem);
-   ContactLineFields fields(problem, {0, 0, 0, 0}, folder, "line");
+   ContactLineFields fields(problem, folder, "line");
    // A file stands where the folder is to be; then a folder where the file of time 1 is to be.
    std::ofstream(folder + "/line") << "taken";
    expect_input_error([&] { fields.write(state); },

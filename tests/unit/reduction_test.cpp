@@ -158,7 +158,8 @@ TEST_P(Union, AgreesWithTheMergedMesh)
       {
          for (int c = 0; c < 2; ++c)
          {
-            jump[line.dofs[i][c]] = v[i] * line.tangent(i, c) + w[i] * line.normal(i, c);
+            jump[line.nodes[i].dofs[c]] =
+               v[i] * line.nodes[i].tangent[c] + w[i] * line.nodes[i].normal()[c];
          }
       }
       const VectorXd G1 = F1 - K1 * jump;
@@ -180,9 +181,10 @@ TEST_P(Union, AgreesWithTheMergedMesh)
       u << v, w;
       for (Eigen::Index i = 0; i < n; ++i)
       {
-         const Eigen::RowVector2d f(residual[line.dofs[i][0]], residual[line.dofs[i][1]]);
-         direct[i] = f.dot(line.tangent.row(i));
-         direct[n + i] = f.dot(line.normal.row(i));
+         const Eigen::RowVector2d f(residual[line.nodes[i].dofs[0]],
+                                    residual[line.nodes[i].dofs[1]]);
+         direct[i] = f.dot(line.nodes[i].tangent);
+         direct[n + i] = f.dot(line.nodes[i].normal());
       }
       EXPECT_LT(difference(problem.K * u + problem.clamped_forces(multipliers), direct), 1e-11);
 

@@ -70,7 +70,8 @@ Eigen::Array3d punch_errors(const Grid &grid)
    const Index n = body.line.size();
    const MatrixXd A = body.S.topLeftCorner(n, n), B = body.S.bottomLeftCorner(n, n),
                   C = body.S.bottomRightCorner(n, n);
-   const VectorXd w = VectorXd::Constant(n, grid.length), r = body.line.position.col(0);
+   const VectorXd w = VectorXd::Constant(n, grid.length),
+                  r = body.line.each(&LineNode::position).col(0);
    const double nu = grid.poisson, G = grid.young / (2 * (1 + nu)), a = grid.length;
    const double bonded = (C * w).sum();
    const VectorXd coupling = B.transpose() * w;

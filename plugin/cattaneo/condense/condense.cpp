@@ -172,8 +172,7 @@ CondensedBody condense(const AssembledBody &body, const ContactLine &line,
                        SparseFactor::Backend backend, const CondensedBody *alike)
 {
    body.validate();
-   const Formulation formulation = body.places.formulation;
-   ContactDofs contact = contact_dofs(line, formulation, body.K.size());
+   ContactDofs contact = contact_dofs(line, body.places.formulation, body.K.size());
    for (std::size_t a = 0; a < contact.all.size(); ++a)
    {
       if (!std::binary_search(body.fixed.begin(), body.fixed.end(), contact.all[a]))
@@ -185,12 +184,12 @@ CondensedBody condense(const AssembledBody &body, const ContactLine &line,
       {
          if (load.control == Control::displacement && load.values[contact.all[a]] != 0)
          {
-            require_unmoved(line, formulation, load.name, {static_cast<int>(a)});
+            require_unmoved(line, load.name, {static_cast<int>(a)});
          }
       }
    }
    return in_local_frames(
-      line, formulation, body.loads, contact,
+      line, body.loads, contact,
       condense_by_factor(body, contact.free(), backend, alike ? alike->solver.get() : nullptr));
 }
 

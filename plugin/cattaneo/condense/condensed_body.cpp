@@ -63,9 +63,9 @@ void spread(Eigen::MatrixXd &M, const std::vector<int> &positions, Eigen::Index 
 /// Turns the frames of nodes of which one component is held along it, and returns the rows in
 /// the frames that are held. A chain that ends at a node that cannot slide ends at a plane of
 /// symmetry.
-std::vector<int> align(ContactLine &line, Formulation formulation, const std::vector<int> &held)
+std::vector<int> align(ContactLine &line, const std::vector<int> &held)
 {
-   if (formulation == Formulation::torsion) { return held; }
+   if (line.formulation == Formulation::torsion) { return held; }
    const auto n = static_cast<int>(line.size());
    const double degrees = 180 / std::acos(-1.0);
    std::vector<int> rows;
@@ -78,20 +78,19 @@ std::vector<int> align(ContactLine &line, Formulation formulation, const std::ve
          rows.push_back(position);
          continue;
       }
-      const double along = line.tangent(i, c), across = line.normal(i, c);
+      LineNode &node = line.nodes[i];
+      const double along = node.tangent[c], across = node.normal()[c];
       const bool tangential = std::abs(along) >= std::abs(across);
       const double turn = degrees * std::asin(std::min(std::abs(along), std::abs(across)));
       require(turn <= LineChain::smooth_turn, "condense: component ",
-              component_name(formulation, c), " of the contact node at (", line.position(i, 0),
-              ", ", line.position(i, 1), ") is fixed, and the line meets it at ",
+              component_name(line.formulation, c), " of the contact node at (",
+              node.position[0], ", ", node.position[1], ") is fixed, and the line meets it at ",
               tangential ? turn : 90 - turn, " degrees, must be 0 or 90, to ",
               LineChain::smooth_turn);
-      line.tangent.row(i).setZero();
-      // The normal is the tangent turned to the left.
-      line.tangent(i, tangential ? c : 1 - c) = std::copysign(1.0, tangential ? along
-                                                                   : c == 0   ? -across
-                                                                              : across);
-      line.normal.row(i) << -line.tangent(i, 1), line.tangent(i, 0);
+      node.tangent.setZero();
+      node.tangent[tangential ? c : 1 - c] = std::copysign(1.0, tangential ? along
+                                                                : c == 0   ? -across
+                                                                           : across);
       rows.push_back(tangential ? i : n + i);
       for (LineChain &chain : line.chains)
       {
@@ -122,16 +121,17 @@ std::vector<int> ContactDofs::free() const
 
 ContactDofs contact_dofs(const ContactLine &line, Formulation formulation, int dofs)
 {
+   line.validate();
+   require(line.formulation == formulation, "condense: the contact line is ",
+           name(line.formulation), ", the body ", name(formulation),
+           ", must be the same (is it a line of this body?)");
    const auto n = line.size();
-   require(n > 0 && line.dofs.size() == static_cast<std::size_t>(n),
-           "unsupported body: the contact line has ", n, " nodes and ", line.dofs.size(),
-           " pairs of dofs, must have as many and at least one");
    std::vector<int> contact(components(formulation) * n);
    for (Eigen::Index i = 0; i < n; ++i)
    {
       for (int c = 0; c < components(formulation); ++c)
       {
-         const int dof = line.dofs[i][c];
+         const int dof = line.nodes[i].dofs[c];
          require(dof >= 0 && dof < dofs, "condense: contact dof ", dof, " of node ", i,
                  " of the line, must be from 0 to ", dofs - 1, " (is it a line of this body?)");
          contact[c * n + i] = dof;
@@ -140,27 +140,26 @@ ContactDofs contact_dofs(const ContactLine &line, Formulation formulation, int d
    return {contact, {}};
 }
 
-void require_unmoved(const ContactLine &line, Formulation formulation,
-                     const std::string &pattern, const std::vector<int> &moved)
+void require_unmoved(const ContactLine &line, const std::string &pattern,
+                     const std::vector<int> &moved)
 {
    if (moved.empty()) { return; }
    const auto n = line.size();
    const Eigen::Index a = *std::min_element(moved.begin(), moved.end()), i = a % n;
-   require(false, "condense: component ", component_name(formulation, static_cast<int>(a / n)),
-           " of the contact node at (", line.position(i, 0), ", ", line.position(i, 1),
-           ") is displaced by load pattern '", pattern,
-           "', contact nodes must be free or fixed");
+   require(
+      false, "condense: component ", component_name(line.formulation, static_cast<int>(a / n)),
+      " of the contact node at (", line.nodes[i].position[0], ", ", line.nodes[i].position[1],
+      ") is displaced by load pattern '", pattern, "', contact nodes must be free or fixed");
 }
 
-CondensedBody in_local_frames(const ContactLine &line, Formulation formulation,
-                              const std::vector<BodyLoad> &loads, const ContactDofs &contact,
-                              Condensation found)
+CondensedBody in_local_frames(const ContactLine &line, const std::vector<BodyLoad> &loads,
+                              const ContactDofs &contact, Condensation found)
 {
    CondensedBody result;
    result.line = line;
    if (!contact.held.empty())
    {
-      result.held = align(result.line, formulation, contact.held);
+      result.held = align(result.line, contact.held);
       const std::vector<int> free = contact.free_positions();
       const auto rows = static_cast<Eigen::Index>(contact.all.size());
       spread(found.S, free, rows);
@@ -169,7 +168,6 @@ CondensedBody in_local_frames(const ContactLine &line, Formulation formulation,
       spread(found.free.contact, free, rows);
       spread(found.clamped.forces, free, rows);
    }
-   result.formulation = formulation;
    result.counters = found.counters;
    result.solver = std::move(found.solver);
    result.rigid_modes = found.free.count;
@@ -177,12 +175,12 @@ CondensedBody in_local_frames(const ContactLine &line, Formulation formulation,
    const Equilibrium equilibrium(found.free);
    equilibrium.impose_on_stiffness(found.S);
    equilibrium.impose_on_forces(found.clamped.forces);
-   const FrameChange frames = FrameChange::of(result.line, formulation);
+   const FrameChange frames = FrameChange::of(result.line);
    result.S = frames.both(found.S);
    // Displacements change with the frames as forces do, but for those of torsion, r times the
    // twist.
    const Eigen::MatrixXd &motions = equilibrium.motions();
-   result.free_motions = formulation == Formulation::torsion
+   result.free_motions = line.formulation == Formulation::torsion
                             ? thin_qr(frames.a.cwiseInverse().asDiagonal() * motions).Q
                             : frames.rows(motions);
    Eigen::MatrixXd local = frames.rows(found.clamped.forces);
@@ -193,7 +191,6 @@ CondensedBody in_local_frames(const ContactLine &line, Formulation formulation,
       result.free_motions.row(row).setZero();
       local.row(row).setZero();
    }
-   if (loads.empty()) { return result; }
    const auto n = line.size();
    for (std::size_t k = 0; k < loads.size(); ++k)
    {
@@ -214,7 +211,7 @@ Eigen::VectorXd CondensedBody::recover(const Eigen::VectorXd &u,
    require(u.allFinite() && multipliers.allFinite(),
            "recover: a contact displacement or a load multiplier is not finite");
    ++counters.field_recoveries;
-   const Eigen::VectorXd contact = FrameChange::of(line, formulation).transposed().rows(u);
+   const Eigen::VectorXd contact = FrameChange::of(line).transposed().rows(u);
    return solver->recover(contact(free_positions()), multipliers, counters);
 }
 
@@ -225,9 +222,10 @@ std::vector<int> CondensedBody::free_positions() const
    for (int row : held)
    {
       const int i = row % n;
-      const Eigen::MatrixXd &axis = row < n ? line.tangent : line.normal;
+      const LineNode &node = line.nodes[i];
+      const Eigen::Vector2d axis = row < n ? node.tangent : node.normal();
       const bool both = std::binary_search(held.begin(), held.end(), row < n ? row + n : i);
-      const int c = formulation == Formulation::torsion || both ? row / n : axis(i, 0) == 0;
+      const int c = line.formulation == Formulation::torsion || both ? row / n : axis[0] == 0;
       positions.push_back(c * n + i);
    }
    std::sort(positions.begin(), positions.end());
@@ -237,14 +235,15 @@ std::vector<int> CondensedBody::free_positions() const
 double CondensedBody::error_estimate()
 {
    // In global components, as the operator is.
-   const bool twists = formulation == Formulation::torsion;
-   const FrameChange back = twists ? FrameChange{line.position.col(0), {}, {}, {}}
-                                   : FrameChange::of(line, formulation).transposed();
+   const bool twists = line.formulation == Formulation::torsion;
+   const Eigen::VectorXd r = line.each(&LineNode::position).col(0);
+   const FrameChange back =
+      twists ? FrameChange{r, {}, {}, {}} : FrameChange::of(line).transposed();
    Eigen::MatrixXd motions = free_motions;
    if (!twists) { motions = back.rows(free_motions); }
    else if (motions.cols() > 0) // u_θ = r ψ
    {
-      motions = line.position.col(0).cwiseInverse().asDiagonal() * motions;
+      motions = r.cwiseInverse().asDiagonal() * motions;
       motions.col(0).normalize();
    }
    const std::vector<int> free = free_positions();
@@ -254,19 +253,17 @@ double CondensedBody::error_estimate()
 Eigen::MatrixXd CondensedBody::rigid_motions() const
 {
    const auto n = line.size();
-   if (formulation == Formulation::torsion) { return line.position.col(0); }
-   if (formulation == Formulation::axisymmetric)
+   const auto position = line.each(&LineNode::position);
+   if (line.formulation == Formulation::torsion) { return position.col(0); }
+   const bool plane = line.formulation == Formulation::plane;
+   Eigen::MatrixXd Z = Eigen::MatrixXd::Zero(2 * n, plane ? 3 : 1);
+   Z.col(plane ? 1 : 0).tail(n).setOnes();
+   if (plane)
    {
-      Eigen::VectorXd along(2 * n);
-      along << line.tangent.col(1), line.normal.col(1);
-      return along;
+      Z.col(0).head(n).setOnes();
+      Z.col(2) << -position.col(1), position.col(0);
    }
-   Eigen::MatrixXd Z = Eigen::MatrixXd::Zero(2 * n, 3);
-   Z.col(0).head(n).setOnes();
-   Z.col(1).tail(n).setOnes();
-   Z.col(2).head(n) = -line.position.col(1);
-   Z.col(2).tail(n) = line.position.col(0);
-   return FrameChange::to_local(line.tangent, line.normal).rows(Z);
+   return FrameChange::of(line).rows(Z);
 }
 
 } // namespace cattaneo

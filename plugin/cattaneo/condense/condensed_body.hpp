@@ -35,7 +35,6 @@ class CondensedBody
 {
 public:
    ContactLine line;
-   Formulation formulation = Formulation::plane;
    /// 2n × 2n (torsion: n × n), symmetric; zero in the rows and columns that are held.
    Eigen::MatrixXd S;
    /// Rows of S of components that supports hold, increasing. At a node of which one component
@@ -105,20 +104,19 @@ struct ContactDofs
    std::vector<int> free_positions() const;
 };
 
-/// Of a line whose body has so many dofs; InputError if there are none, or if they are not from
-/// 0 to dofs - 1.
+/// Of a line whose body has so many dofs; InputError if the line is not sound
+/// (ContactLine::validate), is of another formulation, or its dofs are not from 0 to dofs - 1.
 ContactDofs contact_dofs(const ContactLine &line, Formulation formulation, int dofs);
 
 /// InputError that names the node and the pattern if a load displaces a contact dof: `moved`
 /// are positions of those.
-void require_unmoved(const ContactLine &line, Formulation formulation,
-                     const std::string &pattern, const std::vector<int> &moved);
+void require_unmoved(const ContactLine &line, const std::string &pattern,
+                     const std::vector<int> &moved);
 
 /// The same in the frames of the contact line, freed of what round-off makes of rigid motions.
 /// Of `loads` names and controls alone are asked for. InputError if one component of a node is
 /// held and the line meets it at neither 0 nor 90 degrees, to LineChain::smooth_turn.
-CondensedBody in_local_frames(const ContactLine &line, Formulation formulation,
-                              const std::vector<BodyLoad> &loads, const ContactDofs &contact,
-                              Condensation found);
+CondensedBody in_local_frames(const ContactLine &line, const std::vector<BodyLoad> &loads,
+                              const ContactDofs &contact, Condensation found);
 
 } // namespace cattaneo

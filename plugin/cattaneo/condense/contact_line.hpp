@@ -2,11 +2,46 @@
 
 #include <Eigen/Dense>
 #include <array>
+#include <cattaneo/formulation.hpp>
 #include <cattaneo/reduced/reduced_problem.hpp>
+#include <functional>
+#include <type_traits>
 #include <vector>
 
 namespace cattaneo
 {
+
+/// A contact node of one body.
+struct LineNode
+{
+   /// Of the body's stiffness, for each component: x and y (twist, -1). Of a body on several
+   /// ranks they are numbers that all ranks share.
+   std::array<int, 2> dofs{-1, -1};
+   Eigen::Vector2d position{0, 0};
+   Eigen::Vector2d tangent{1, 0}; ///< unit vector along the line, the body on its left
+   /// Consistent: ∫φ ds in the plane (they sum to the length), else ∫φ 2πr ds (to the area).
+   double weight = 0;
+   double arc_length = 0; ///< from the line's beginning
+   double spacing = 0;    ///< shortest distance to a neighbour, the local edge length
+
+   /// Into the body: the tangent turned to the left.
+   Eigen::Vector2d normal() const { return {-tangent[1], tangent[0]}; }
+};
+
+/** A boundary element of order k on the line. Displacements on it are polynomials of degree k
+    through its k + 1 nodes, which stand at the Gauss–Lobatto points of order k on 0 <= s <= 1
+    (MFEM's nodal basis of a segment; order 1: the ends, order 2: the middle as well). So is the
+   element itself, x(s). Where the mesh's geometry is of higher order, x(s) interpolates it, and
+   weights and arc lengths are those of the mesh's own curve. */
+struct LineElement
+{
+   /// Numbers of its nodes in the line, in their order along it; -1 of a node on the axis,
+   /// which is no contact node.
+   std::vector<Eigen::Index> nodes;
+   Eigen::Matrix2Xd points; ///< where all of them are, one a column
+
+   Eigen::Index order() const { return points.cols() - 1; }
+};
 
 /// Nodes that follow each other along the boundary.
 struct LineChain
@@ -19,18 +54,20 @@ struct LineChain
        corner_turn; else at a corner. Of a loop: smoothly. Unknown where no outer edge goes on.
     */
    std::array<LineEnd, 2> ends{LineEnd::unknown, LineEnd::unknown};
+   /// In their order along the chain. Matching nodes are paired without them: none are needed.
+   std::vector<LineElement> elements = {};
    static constexpr double smooth_turn = 10, corner_turn = 45; ///< degrees
 };
 
-/** The ordered contact nodes of one body.
+/** The trace of a body on an interface: its ordered contact nodes and the boundary elements
+    between them. Plain data, of an MFEM body from contact_line(), of any other from a script.
 
     Nodes run along the boundary with the body on the left. Each node has a right-handed local
     frame (tangent, normal) with the normal *into* the body (thesis 3.2.1); at a node between
    two boundary elements the normals are averaged with the elements' consistent weights. A
    straight line of a body above y = 0 has tangent (1, 0) and normal (0, 1); of a body below,
-   (-1, 0) and (0, -1). Of a
-   mesh, all of this comes from the elements that the boundary elements are edges of, not from
-   the order or the orientation of the boundary elements.
+   (-1, 0) and (0, -1). Of a mesh, all of this comes from the elements that the boundary
+   elements are edges of, not from the order or the orientation of the boundary elements.
 
     Several separate chains are allowed; they follow each other in the order of their first
    nodes (lowest x, then y), and the arc length continues from one to the next. A closed loop
@@ -40,7 +77,7 @@ struct LineChain
    and a node on the axis is left out: its weight is exactly zero from order 2 on (that of order
    1, πh²/3, is added to its neighbour's), so that it carries no pressure that could be told,
    and its tangential displacements are zero by symmetry. In the reduced problem it moves
-   freely,   which opens it or lets it overlap by O(h³) of the indentation (order 1, whose first
+   freely, which opens it or lets it overlap by O(h³) of the indentation (order 1, whose first
    node then shows 7 % too little pressure on any mesh, is better avoided there). Pressures,
    force over weight, are right from the first node on; tractions that grow with r are not: a
    shear c r reads 1.2 and 0.9 times as large at the first two nodes of quadratic elements, a
@@ -48,19 +85,33 @@ struct LineChain
    torques of nodal forces are exact. */
 struct ContactLine
 {
-   /// Of the body's stiffness, for each component of a node: x and y (twist, -1). Of a body on
-   /// several ranks they are numbers that all ranks share.
-   std::vector<std::array<int, 2>> dofs;
-   std::vector<int> chain;          ///< number of the chain each node belongs to
-   std::vector<LineChain> chains;   ///< in the order of the nodes
-   Eigen::MatrixXd position;        ///< n × 2
-   Eigen::MatrixXd tangent, normal; ///< n × 2, unit vectors
-   Eigen::VectorXd arc_length;      ///< n
-   Eigen::VectorXd weights;        ///< consistent: ∫φ_i ds (sums to the length; or the area)
-   Eigen::VectorXd lumped_weights; ///< tributary length: half the distance to each neighbour
-   Eigen::VectorXd spacing;        ///< shortest distance to a neighbour, the local edge length
+   Formulation formulation = Formulation::plane;
+   std::vector<LineNode> nodes;
+   std::vector<LineChain> chains; ///< in the order of the nodes, each node on one
 
-   Eigen::Index size() const { return position.rows(); }
+   Eigen::Index size() const { return static_cast<Eigen::Index>(nodes.size()); }
+   const LineChain &chain_of(Eigen::Index node) const;
+
+   /// What all nodes have of a kind: each(&LineNode::weight) has n entries, each of
+   /// &LineNode::position, tangent or normal n × 2.
+   template <class Kind>
+   auto each(Kind kind) const
+   {
+      using Value = std::decay_t<std::invoke_result_t<Kind, const LineNode &>>;
+      constexpr bool number = std::is_arithmetic_v<Value>;
+      Eigen::Matrix<double, Eigen::Dynamic, number ? 1 : 2> all(size(), number ? 1 : 2);
+      for (Eigen::Index i = 0; i < size(); ++i)
+      {
+         if constexpr (number) { all[i] = std::invoke(kind, nodes[i]); }
+         else { all.row(i) = std::invoke(kind, nodes[i]).transpose(); }
+      }
+      return all;
+   }
+
+   /// InputError that names the node or the element if there are no nodes, a place is not
+   /// finite (or not beyond the axis), a tangent no unit vector, a weight or a spacing not
+   /// positive, or if chains or elements do not follow the nodes.
+   void validate() const;
 };
 
 } // namespace cattaneo

@@ -2,7 +2,6 @@
 
 #include <Eigen/Dense>
 #include <cattaneo/condense/contact_line.hpp>
-#include <cattaneo/formulation.hpp>
 
 namespace cattaneo
 {
@@ -18,21 +17,16 @@ struct FrameChange
 {
    Eigen::VectorXd a, b, c, d;
 
-   /// From global components to the frames (tangent, normal), n × 2 each.
-   static FrameChange to_local(const Eigen::MatrixXd &tangent, const Eigen::MatrixXd &normal)
+   /// From global components to the frames of a contact line's nodes; of torsion, from torques
+   /// about the axis to circumferential forces.
+   static FrameChange of(const ContactLine &line)
    {
+      if (line.formulation == Formulation::torsion)
+      {
+         return {line.each(&LineNode::position).col(0).cwiseInverse(), {}, {}, {}};
+      }
+      const auto tangent = line.each(&LineNode::tangent), normal = line.each(&LineNode::normal);
       return {tangent.col(0), tangent.col(1), normal.col(0), normal.col(1)};
-   }
-   /// From torques about the axis to circumferential forces at radii r.
-   static FrameChange to_circumference(const Eigen::VectorXd &r)
-   {
-      return {r.cwiseInverse(), {}, {}, {}};
-   }
-   /// Of the nodes of a contact line.
-   static FrameChange of(const ContactLine &line, Formulation formulation)
-   {
-      return formulation == Formulation::torsion ? to_circumference(line.position.col(0))
-                                                 : to_local(line.tangent, line.normal);
    }
    FrameChange transposed() const { return {a, c, b, d}; }
 

@@ -19,15 +19,32 @@ int number(const ElasticBody &body, int scalar_dof)
    return body.ranks().distributed() ? body.global_dof(scalar_dof, 0) : scalar_dof;
 }
 
-/// Nodes (their numbers) of one boundary element, in the direction with the body on the left.
-struct Segment
+/// A node as one boundary element knows it. Of `node`, the weight and the tangent are those of
+/// this element, and the arc length counts from its first node.
+struct SegmentNode
 {
-   std::vector<int> nodes;
-   std::vector<double> distance; ///< arc length from the first node
-   std::vector<double> weights;  ///< ∫φ ds, or ∫φ 2πr ds
-   std::vector<double> shares;   ///< ∫φ ds
-   std::vector<std::array<double, 2>> tangents;
+   int id = 0; ///< the same on all ranks and in all elements
+   LineNode node;
+   double share = 0; ///< ∫φ ds
+   bool on_axis = false;
+
+   /// Calls visit(value&) for every number of it.
+   template <class Visitor>
+   void for_each(Visitor visit)
+   {
+      visit(id);
+      for (int &dof : node.dofs) { visit(dof); }
+      for (double &x : node.position) { visit(x); }
+      for (double &t : node.tangent) { visit(t); }
+      visit(node.weight);
+      visit(node.arc_length);
+      visit(share);
+      visit(on_axis);
+   }
 };
+
+/// The nodes of one boundary element, in the direction with the body on the left.
+using Segment = std::vector<SegmentNode>;
 
 double length(BoundaryEdge &edge, double from, double to)
 {
@@ -70,71 +87,49 @@ Segment segment(const ElasticBody &body, int boundary_element, BoundaryEdge &edg
          weights[a] += share * measure(body.formulation(), edge.point(ip.x)[0]);
       }
    }
+   const mfem::DenseMatrix &x = body.node_coordinates();
    Segment result;
    double distance = 0.0;
    for (std::size_t k = 0; k < order.size(); ++k)
    {
-      const int a = order[k];
+      const int a = order[k], dof = dofs[a];
       if (k > 0) { distance += std::abs(length(edge, nodes[order[k - 1]].x, nodes[a].x)); }
-      result.nodes.push_back(number(body, dofs[a]));
-      result.distance.push_back(distance);
-      result.weights.push_back(weights[a]);
-      result.shares.push_back(shares[a]);
-      result.tangents.push_back(edge.tangent(nodes[a].x));
+      const auto tangent = edge.tangent(nodes[a].x);
+      const int second = body.components() == 2 ? body.global_dof(dof, 1) : -1;
+      result.push_back({number(body, dof),
+                        {{body.global_dof(dof, 0), second},
+                         {x(0, dof), x(1, dof)},
+                         {tangent[0], tangent[1]},
+                         weights[a],
+                         distance},
+                        shares[a],
+                        body.on_axis(dof)});
    }
    return result;
 }
 
-/// What is known of a node, wherever it is: the same on all ranks.
-struct Node
-{
-   double x = 0, y = 0;
-   std::array<int, 2> dofs{-1, -1};
-   bool on_axis = false;
-};
-
-/// Every rank gets the segments and nodes of all.
-void share(const Ranks &ranks, std::vector<Segment> &segments, std::map<int, Node> &nodes)
+/// Every rank gets the segments of all.
+void share(const Ranks &ranks, std::vector<Segment> &segments)
 {
    if (!ranks.several()) { return; }
    std::vector<double> packed;
-   for (const Segment &s : segments)
+   for (Segment &segment : segments)
    {
-      packed.push_back(static_cast<double>(s.nodes.size()));
-      for (std::size_t a = 0; a < s.nodes.size(); ++a)
+      packed.push_back(static_cast<double>(segment.size()));
+      for (SegmentNode &node : segment)
       {
-         const Node &node = nodes.at(s.nodes[a]);
-         for (double value : {double(s.nodes[a]), s.distance[a], s.weights[a], s.shares[a],
-                              s.tangents[a][0], s.tangents[a][1], node.x, node.y,
-                              double(node.dofs[0]), double(node.dofs[1]), double(node.on_axis)})
-         {
-            packed.push_back(value);
-         }
+         node.for_each([&](auto value) { packed.push_back(static_cast<double>(value)); });
       }
    }
    packed = ranks.gather(packed);
    segments.clear();
-   for (std::size_t k = 0; k < packed.size();)
+   for (auto value = packed.begin(); value != packed.end();)
    {
-      const auto next = [&] { return packed[k++]; };
-      const auto next_int = [&] { return static_cast<int>(next()); };
-      Segment s;
-      const int count = next_int();
-      for (int a = 0; a < count; ++a)
+      segments.emplace_back(static_cast<std::size_t>(*value++));
+      for (SegmentNode &node : segments.back())
       {
-         s.nodes.push_back(next_int());
-         s.distance.push_back(next());
-         s.weights.push_back(next());
-         s.shares.push_back(next());
-         s.tangents.emplace_back();
-         for (double &component : s.tangents.back()) { component = next(); }
-         Node &node = nodes[s.nodes.back()];
-         node.x = next();
-         node.y = next();
-         for (int &dof : node.dofs) { dof = next_int(); }
-         node.on_axis = next() != 0;
+         node.for_each([&](auto &x) { x = static_cast<std::decay_t<decltype(x)>>(*value++); });
       }
-      segments.push_back(s);
    }
 }
 
@@ -152,7 +147,7 @@ struct WayOn
 std::vector<WayOn> ways_on(const ElasticBody &body, const std::vector<Segment> &segments)
 {
    std::set<int> ends;
-   for (const Segment &s : segments) { ends.insert({s.nodes.front(), s.nodes.back()}); }
+   for (const Segment &s : segments) { ends.insert({s.front().id, s.back().id}); }
    const mfem::FiniteElementSpace &space = body.space();
    mfem::Mesh &mesh = *space.GetMesh();
    mfem::Array<int> vertices, dofs;
@@ -200,18 +195,28 @@ std::vector<WayOn> ways_on(const ElasticBody &body, const std::vector<Segment> &
    return ways;
 }
 
-/// How the boundary goes on from a node in whose direction (x, y) the line ends; `bend`: angle
-/// between its last two elements.
-LineEnd goes_on(const std::vector<WayOn> &ways, int node, double x, double y, double bend)
+/// How the boundary goes on from a node at which the line ends in the direction `out`; `bend`:
+/// angle between its last two elements.
+LineEnd goes_on(const std::vector<WayOn> &ways, int node, const Eigen::Vector2d &out,
+                double bend)
 {
    double straightest = -1; // an outer edge ends nowhere: there is a way on
    for (const WayOn &way : ways)
    {
-      if (way.node == node) { straightest = std::max(straightest, way.x * x + way.y * y); }
+      if (way.node == node)
+      {
+         straightest = std::max(straightest, way.x * out[0] + way.y * out[1]);
+      }
    }
    const double turn =
       std::clamp(1.5 * bend, LineChain::smooth_turn * degree, LineChain::corner_turn * degree);
    return straightest >= std::cos(turn) ? LineEnd::smooth : LineEnd::corner;
+}
+
+std::string coordinates(const LineNode &node)
+{
+   return "(" + std::to_string(node.position[0]) + ", " + std::to_string(node.position[1]) +
+          ")";
 }
 
 /// Nodes of elements that lie on one another without being joined would bear side by side, and
@@ -219,28 +224,79 @@ LineEnd goes_on(const std::vector<WayOn> &ways, int node, double x, double y, do
 void check_joined(const ContactLine &line, const std::string &where)
 {
    // In the order along a direction that no mesh has, few are near each other.
-   const Eigen::VectorXd along = line.position * Eigen::Vector2d(0.8191, 0.5736);
-   std::vector<Eigen::Index> order(line.size());
-   std::iota(order.begin(), order.end(), 0);
-   std::sort(order.begin(), order.end(),
-             [&](Eigen::Index a, Eigen::Index b) { return along[a] < along[b]; });
+   std::vector<std::pair<double, const LineNode *>> along;
+   double farthest = 0;
    const double near = 1e-6;
-   const double farthest = near * line.spacing.maxCoeff();
-   for (std::size_t k = 0; k < order.size(); ++k)
+   for (const LineNode &node : line.nodes)
    {
-      const Eigen::Index i = order[k];
-      for (std::size_t l = k + 1; l < order.size() && along[order[l]] - along[i] <= farthest;
-           ++l)
+      along.emplace_back(node.position.dot(Eigen::Vector2d(0.8191, 0.5736)), &node);
+      farthest = std::max(farthest, near * node.spacing);
+   }
+   std::sort(along.begin(), along.end());
+   for (auto one = along.begin(); one != along.end(); ++one)
+   {
+      const LineNode &node = *one->second;
+      for (auto other = one + 1; other != along.end() && other->first - one->first <= farthest;
+           ++other)
       {
-         const Eigen::Index j = order[l];
-         require((line.position.row(i) - line.position.row(j)).norm() >
-                    near * std::min(line.spacing[i], line.spacing[j]),
-                 where, ": two nodes lie on one another at (", line.position(i, 0), ", ",
-                 line.position(i, 1),
-                 "), the elements there are not joined: make them one node (in Gmsh: Coherence "
+         require((node.position - other->second->position).norm() >
+                    near * std::min(node.spacing, other->second->spacing),
+                 where, ": two nodes lie on one another at ", coordinates(node),
+                 ", the elements there are not joined: make them one node (in Gmsh: Coherence "
                  "Mesh)");
       }
    }
+}
+
+/// From each segment to the one that starts where it ends. Where chains start does not depend
+/// on the numbering of the mesh: open chains at their start, loops at the lowest (x, y), and
+/// chains in the order of these points.
+std::vector<std::vector<const Segment *>> chained(const std::vector<Segment> &segments,
+                                                  const std::string &where)
+{
+   std::map<int, const Segment *> starting;
+   std::set<int> ending;
+   for (const Segment &s : segments)
+   {
+      for (const SegmentNode *end : {&s.front(), &s.back()})
+      {
+         require(end == &s.front() ? starting.emplace(end->id, &s).second
+                                   : ending.insert(end->id).second,
+                 where, ": more than two boundary elements meet at ", coordinates(end->node),
+                 ", or one is there twice");
+      }
+   }
+   std::set<const Segment *> used;
+   std::vector<std::vector<const Segment *>> chains;
+   const auto follow = [&](const Segment *from)
+   {
+      chains.emplace_back();
+      while (from && used.insert(from).second)
+      {
+         chains.back().push_back(from);
+         const auto next = starting.find(from->back().id);
+         from = next == starting.end() ? nullptr : next->second;
+      }
+   };
+   const auto before = [](const Segment *a, const Segment *b)
+   {
+      const Eigen::Vector2d &i = a->front().node.position, &j = b->front().node.position;
+      return std::make_pair(i[0], i[1]) < std::make_pair(j[0], j[1]);
+   };
+   for (const Segment &s : segments)
+   {
+      if (!ending.count(s.front().id)) { follow(&s); }
+   }
+   for (const Segment &s : segments)
+   {
+      if (used.count(&s)) { continue; }
+      follow(&s);
+      std::vector<const Segment *> &loop = chains.back();
+      std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end(), before), loop.end());
+   }
+   std::sort(chains.begin(), chains.end(),
+             [&](const auto &a, const auto &b) { return before(a.front(), b.front()); });
+   return chains;
 }
 
 } // namespace
@@ -252,12 +308,6 @@ ContactLine contact_line(const ElasticBody &body, const BoundaryPart &part)
    mfem::Mesh &mesh = *space.GetMesh();
    const mfem::DenseMatrix &x = body.node_coordinates();
    std::vector<Segment> segments;
-   std::map<int, Node> nodes;
-   const auto coordinates = [&nodes](int id)
-   {
-      const Node &node = nodes.at(id);
-      return "(" + std::to_string(node.x) + ", " + std::to_string(node.y) + ")";
-   };
    mfem::Array<int> dofs;
    for (int i : boundary_elements(mesh, part, where))
    {
@@ -269,198 +319,113 @@ ContactLine contact_line(const ElasticBody &body, const BoundaryPart &part)
                                          return x(part.axis, node) >= part.lo - slack &&
                                                 x(part.axis, node) <= part.hi + slack;
                                       });
-      if (!inside) { continue; }
-      segments.push_back(segment(body, i, edge));
-      for (int dof : dofs)
-      {
-         const bool two = body.components() == 2;
-         nodes[number(body, dof)] = {
-            x(0, dof),
-            x(1, dof),
-            {body.global_dof(dof, 0), two ? body.global_dof(dof, 1) : -1},
-            body.on_axis(dof)};
-      }
+      if (inside) { segments.push_back(segment(body, i, edge)); }
    }
-   share(body.ranks(), segments, nodes);
+   share(body.ranks(), segments);
    require(!segments.empty(), where, ": there are no boundary elements inside the ",
            describe(part));
 
-   // Chains: from each segment to the one that starts where it ends.
-   std::map<int, int> starting, ending;
-   for (std::size_t k = 0; k < segments.size(); ++k)
-   {
-      const int first = segments[k].nodes.front(), last = segments[k].nodes.back();
-      require(starting.emplace(first, k).second, where,
-              ": more than two boundary elements meet at ", coordinates(first),
-              ", or one is there twice");
-      require(ending.emplace(last, k).second, where,
-              ": more than two boundary elements meet at ", coordinates(last),
-              ", or one is there twice");
-   }
-   // Where chains start does not depend on the numbering of the mesh: open chains at their
-   // start, loops at the lowest (x, y), and chains in the order of these points.
-   const auto before = [&](int a, int b)
-   {
-      const int i = segments[a].nodes.front(), j = segments[b].nodes.front();
-      return std::make_pair(nodes.at(i).x, nodes.at(i).y) <
-             std::make_pair(nodes.at(j).x, nodes.at(j).y);
-   };
-   std::vector<bool> used(segments.size(), false);
-   const auto follow = [&](int start)
-   {
-      std::vector<int> chain;
-      for (int k = start; !used[k];)
-      {
-         used[k] = true;
-         chain.push_back(k);
-         const auto next = starting.find(segments[k].nodes.back());
-         if (next == starting.end()) { break; }
-         k = next->second;
-      }
-      return chain;
-   };
-   std::vector<std::vector<int>> chains;
-   for (std::size_t k = 0; k < segments.size(); ++k)
-   {
-      if (!ending.count(segments[k].nodes.front()))
-      {
-         chains.push_back(follow(static_cast<int>(k)));
-      }
-   }
-   for (std::size_t k = 0; k < segments.size(); ++k)
-   {
-      if (used[k]) { continue; }
-      std::vector<int> loop = follow(static_cast<int>(k));
-      std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end(), before), loop.end());
-      chains.push_back(loop);
-   }
-   std::sort(chains.begin(), chains.end(),
-             [&](const std::vector<int> &a, const std::vector<int> &b)
-             { return before(a.front(), b.front()); });
-
    ContactLine line;
-   std::vector<int> numbers;
-   std::vector<double> arc, weights, lumped, spacing;
-   std::vector<std::array<double, 2>> tangent;
+   line.formulation = body.formulation();
    double start = 0.0;
    const std::vector<WayOn> ways = ways_on(body, segments);
-   for (std::size_t c = 0; c < chains.size(); ++c)
+   for (const std::vector<const Segment *> &chain : chained(segments, where))
    {
-      const Segment &opening = segments[chains[c].front()],
-                    &closing = segments[chains[c].back()];
-      const int ends[] = {opening.nodes.front(), closing.nodes.back()};
-      const auto &in = opening.tangents.front(), &out = closing.tangents.back();
+      const SegmentNode &first = chain.front()->front(), &last = chain.back()->back();
       LineChain described;
-      described.loop = ends[0] == ends[1];
-      const auto bend = [&](std::size_t a, std::size_t b)
+      described.loop = first.id == last.id;
+      const auto bend = [&](std::size_t a)
       {
-         const auto &from = segments[chains[c][a]].tangents.back(),
-                    &to = segments[chains[c][b]].tangents.front();
-         return std::acos(std::clamp(from[0] * to[0] + from[1] * to[1], -1.0, 1.0));
+         return a + 1 < chain.size() // else of one element
+                   ? std::acos(std::clamp(
+                        chain[a]->back().node.tangent.dot(chain[a + 1]->front().node.tangent),
+                        -1.0, 1.0))
+                   : 0.0;
       };
-      const std::size_t last = chains[c].size() - 1;
+      const auto end_at = [&](const SegmentNode &end, const Eigen::Vector2d &out, double turn)
+      {
+         return described.loop ? LineEnd::smooth
+                : end.on_axis  ? LineEnd::axis
+                               : goes_on(ways, end.id, out, turn);
+      };
       described.ends = {
-         goes_on(ways, ends[0], -in[0], -in[1], last > 0 ? bend(0, 1) : 0.0),
-         goes_on(ways, ends[1], out[0], out[1], last > 0 ? bend(last - 1, last) : 0.0)};
-      for (std::size_t k : {0, 1})
+         end_at(first, -first.node.tangent, bend(0)),
+         end_at(last, last.node.tangent, bend(std::max<std::size_t>(chain.size(), 2) - 2))};
+
+      // All nodes of the chain, with the sums of what their elements give them.
+      std::vector<SegmentNode> nodes;
+      for (const Segment *segment : chain)
       {
-         if (described.loop) { described.ends[k] = LineEnd::smooth; }
-         else if (nodes.at(ends[k]).on_axis) { described.ends[k] = LineEnd::axis; }
-      }
-      line.chains.push_back(described);
-      const std::size_t first = numbers.size();
-      double end = start;
-      for (int k : chains[c])
-      {
-         const Segment &s = segments[k];
-         for (std::size_t a = 0; a < s.nodes.size(); ++a)
+         LineElement element;
+         element.points.resize(2, static_cast<Eigen::Index>(segment->size()));
+         for (std::size_t a = 0; a < segment->size(); ++a)
          {
-            const bool repeats = a == 0 && k != chains[c].front();
-            const bool closes = a + 1 == s.nodes.size() && s.nodes[a] == numbers[first] &&
-                                numbers.size() > first + 1;
-            std::size_t node = numbers.size();
-            if (repeats) { --node; }
-            else if (closes) { node = first; }
+            const SegmentNode &part_of = (*segment)[a];
+            std::size_t at = nodes.size();
+            if (a == 0 && segment != chain.front()) { --at; }
+            else if (part_of.id == first.id && !nodes.empty()) { at = 0; }
             else
             {
-               numbers.push_back(s.nodes[a]);
-               line.chain.push_back(static_cast<int>(c));
-               arc.push_back(end + s.distance[a]);
-               weights.push_back(0.0);
-               lumped.push_back(0.0);
-               spacing.push_back(std::numeric_limits<double>::infinity());
-               tangent.push_back({0.0, 0.0});
+               nodes.push_back({part_of.id, part_of.node, 0.0, part_of.on_axis});
+               LineNode &added = nodes.back().node;
+               added.tangent.setZero();
+               added.weight = 0;
+               added.arc_length += start;
+               added.spacing = std::numeric_limits<double>::infinity();
             }
-            weights[node] += s.weights[a];
-            for (int i = 0; i < 2; ++i) { tangent[node][i] += s.shares[a] * s.tangents[a][i]; }
+            LineNode &node = nodes[at].node;
+            node.weight += part_of.node.weight;
+            node.tangent += part_of.share * part_of.node.tangent;
+            nodes[at].share += part_of.share;
             if (a > 0)
             {
-               const double step = s.distance[a] - s.distance[a - 1];
-               const std::size_t previous = closes ? numbers.size() - 1 : node - 1;
-               for (std::size_t i : {previous, node})
-               {
-                  lumped[i] += 0.5 * step;
-                  spacing[i] = std::min(spacing[i], step);
-               }
+               const double step = part_of.node.arc_length - (*segment)[a - 1].node.arc_length;
+               LineNode &previous = nodes[element.nodes.back()].node;
+               previous.spacing = std::min(previous.spacing, step);
+               node.spacing = std::min(node.spacing, step);
             }
+            element.nodes.push_back(static_cast<Eigen::Index>(at));
+            element.points.col(static_cast<Eigen::Index>(a)) = node.position;
          }
-         end += s.distance.back();
+         start += segment->back().node.arc_length;
+         described.elements.push_back(element);
       }
-      start = end;
-   }
 
-   const auto leave_out = [&](std::size_t node)
-   {
-      const auto drop = [node](auto &list)
-      { list.erase(list.begin() + static_cast<std::ptrdiff_t>(node)); };
-      drop(numbers);
-      drop(line.chain);
-      drop(arc);
-      drop(weights);
-      drop(lumped);
-      drop(spacing);
-      drop(tangent);
-   };
-   for (std::size_t node = numbers.size(); node-- > 0;)
-   {
-      if (!nodes.at(numbers[node]).on_axis) { continue; }
-      const auto neighbour = [&](std::size_t other)
-      { return other < line.chain.size() && line.chain[other] == line.chain[node]; };
-      require(neighbour(node + 1) || neighbour(node - 1), where, ": the node at ",
-              coordinates(numbers[node]), " is alone on the axis");
-      weights[neighbour(node + 1) ? node + 1 : node - 1] += weights[node];
-      leave_out(node);
+      // Those on the axis are left out, their weight goes to a neighbour.
+      described.first = line.size();
+      std::size_t next = nodes.size();
+      for (std::size_t i = nodes.size(); i-- > 0;)
+      {
+         if (!nodes[i].on_axis)
+         {
+            next = i;
+            continue;
+         }
+         require(next < nodes.size() || i > 0, where, ": the node at ",
+                 coordinates(nodes[i].node), " is alone on the axis");
+         nodes[next < nodes.size() ? next : i - 1].node.weight += nodes[i].node.weight;
+      }
+      std::vector<Eigen::Index> number; // in the line
+      for (SegmentNode &each : nodes)
+      {
+         number.push_back(each.on_axis ? -1 : line.size());
+         if (each.on_axis) { continue; }
+         LineNode &node = each.node;
+         const double size = std::hypot(node.tangent[0], node.tangent[1]);
+         // Exactly opposite tangents cancel to round-off.
+         require(size > 1e-9 * each.share, where, ": the line turns back on itself at ",
+                 coordinates(node));
+         node.tangent /= size;
+         line.nodes.push_back(node);
+      }
+      described.nodes = line.size() - described.first;
+      for (LineElement &element : described.elements)
+      {
+         for (Eigen::Index &node : element.nodes) { node = number[node]; }
+      }
+      line.chains.push_back(described);
    }
-
-   const auto n = static_cast<Eigen::Index>(numbers.size());
-   for (Eigen::Index i = n; i-- > 0;)
-   {
-      LineChain &chain = line.chains[line.chain[i]];
-      chain.first = i;
-      ++chain.nodes;
-   }
-   line.position.resize(n, 2);
-   line.tangent.resize(n, 2);
-   line.normal.resize(n, 2);
-   line.arc_length = Eigen::Map<Eigen::VectorXd>(arc.data(), n);
-   line.weights = Eigen::Map<Eigen::VectorXd>(weights.data(), n);
-   line.lumped_weights = Eigen::Map<Eigen::VectorXd>(lumped.data(), n);
-   line.spacing = Eigen::Map<Eigen::VectorXd>(spacing.data(), n);
-   for (Eigen::Index i = 0; i < n; ++i)
-   {
-      const int id = numbers[i];
-      const Node &node = nodes.at(id);
-      require(line.weights[i] > 0, where, ": the weight of the node at ", coordinates(id),
-              " is ", line.weights[i], ", must be positive");
-      const double size = std::hypot(tangent[i][0], tangent[i][1]);
-      // Exactly opposite tangents cancel to round-off.
-      require(size > 1e-9 * line.lumped_weights[i], where,
-              ": the line turns back on itself at ", coordinates(id));
-      line.position.row(i) << node.x, node.y;
-      line.tangent.row(i) << tangent[i][0] / size, tangent[i][1] / size;
-      line.normal.row(i) << -line.tangent(i, 1), line.tangent(i, 0);
-      line.dofs.push_back(node.dofs);
-   }
+   line.validate();
    check_joined(line, where);
    return line;
 }

@@ -105,7 +105,7 @@ ContactDofs contact_dofs(const ElasticBody &body, const ContactLine &line)
    for (const BodyLoad &load : body.patterns())
    {
       if (load.control == Control::force) { continue; }
-      require_unmoved(line, body.formulation(), load.name,
+      require_unmoved(line, load.name,
                       known_by_owner([&](int dof) { return load.values[dof] != 0; }));
    }
    return contact;
@@ -194,7 +194,7 @@ FreeMotions free_motions_by_places(const ElasticBody &body, const ContactLine &l
    }
    for (int c = 0; c < body.components(); ++c)
    {
-      for (Eigen::Index i = 0; i < n; ++i) { add(line.position(i, 0), line.position(i, 1), c); }
+      for (const LineNode &node : line.nodes) { add(node.position[0], node.position[1], c); }
    }
    for (int c = 0; c < body.components(); ++c)
    {
@@ -313,7 +313,7 @@ CondensedBody condense(const ElasticBody &body, const ContactLine &line,
       found = gathered(body, contact, settings.backend, other);
    }
    found.counters += body.counters();
-   return in_local_frames(line, body.formulation(), body.patterns(), dofs, std::move(found));
+   return in_local_frames(line, body.patterns(), dofs, std::move(found));
 }
 
 } // namespace cattaneo

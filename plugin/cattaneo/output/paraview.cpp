@@ -148,17 +148,16 @@ const mfem::GridFunction &BodyFields::field(const std::string &name) const
 }
 
 ContactLineFields::ContactLineFields(const ReducedProblem &problem,
-                                     const std::vector<int> &chain,
                                      const std::string &directory, const std::string &name)
-   : problem_(problem), chain_(chain), directory_(directory), name_(name)
+   : problem_(problem), directory_(directory), name_(name)
 {
    const Eigen::Index n = problem.nodes();
    require(problem.components() <= 1, "ParaView output: plane problems only, this one has ",
            problem.components(), " tangential components");
    require(problem.arc_length.size() == n && problem.position.rows() == n,
            "ParaView output: the reduced problem has no arc length or positions");
-   require(static_cast<Eigen::Index>(chain.size()) == n, "ParaView output: ", chain.size(),
-           " numbers of chains for ", n, " nodes");
+   require(!problem.chains.empty(), "ParaView output: the reduced problem has no chains, which "
+                                    "say what nodes follow each other (one_chain() for all)");
 }
 
 void ContactLineFields::write(const ContactState &state)
@@ -179,14 +178,9 @@ void ContactLineFields::write(const ContactState &state)
       for (double value : values) { vtp << value << '\n'; }
       vtp << "</DataArray>\n";
    };
-   std::vector<Eigen::Index> ends; // of the chains: one past the last node
-   for (Eigen::Index i = 1; i <= n; ++i)
-   {
-      if (i == n || chain_[i] != chain_[i - 1]) { ends.push_back(i); }
-   }
    vtp << "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\">\n<PolyData>\n"
        << "<Piece NumberOfPoints=\"" << n << "\" NumberOfVerts=\"0\" NumberOfLines=\""
-       << ends.size() << "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<Points>\n"
+       << problem_.chains.size() << "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<Points>\n"
        << "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">\n";
    for (Eigen::Index i = 0; i < n; ++i)
    {
@@ -196,7 +190,10 @@ void ContactLineFields::write(const ContactState &state)
        << "<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">\n";
    for (Eigen::Index i = 0; i < n; ++i) { vtp << i << '\n'; }
    vtp << "</DataArray>\n<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">\n";
-   for (Eigen::Index end : ends) { vtp << end << '\n'; }
+   for (const ContactChain &chain : problem_.chains)
+   {
+      vtp << chain.first + chain.nodes << '\n';
+   }
    vtp << "</DataArray>\n</Lines>\n<PointData>\n";
    array("arc_length", problem_.arc_length);
    array("gap", problem_.gap);

@@ -53,9 +53,8 @@ private:
 class ContactLineFields
 {
 public:
-   /// `chain`: number of the chain of each node, as ContactLine has it.
-   ContactLineFields(const ReducedProblem &problem, const std::vector<int> &chain,
-                     const std::string &directory, const std::string &name);
+   ContactLineFields(const ReducedProblem &problem, const std::string &directory,
+                     const std::string &name);
 
    /// Writes one more time of the series, that of the state. InputError if the state does not
    /// fit or the folder cannot be written.
@@ -63,7 +62,6 @@ public:
 
 private:
    const ReducedProblem &problem_;
-   std::vector<int> chain_;
    std::string directory_, name_;
    std::vector<double> times_;
 };

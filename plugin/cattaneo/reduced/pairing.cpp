@@ -20,8 +20,8 @@ std::string listed(const ContactLine &line, const std::vector<bool> &matched)
    for (Eigen::Index i = 0; i < line.size(); ++i)
    {
       if (matched[i] || ++count > shown) { continue; }
-      text << (count > 1 ? ", " : "") << "(" << line.position(i, 0) << ", "
-           << line.position(i, 1) << ")";
+      const Eigen::Vector2d &x = line.nodes[i].position;
+      text << (count > 1 ? ", " : "") << "(" << x[0] << ", " << x[1] << ")";
    }
    if (count > shown) { text << " … and " << count - shown << " more"; }
    return count ? text.str() : "none";
@@ -48,15 +48,14 @@ Matches match(const ContactLine &line1, const ContactLine &line2, double toleran
       Eigen::Index partner = -1;
       for (Eigen::Index j = 0; j < n2; ++j)
       {
-         const double dx = line1.position(i, 0) - line2.position(j, 0);
-         const double dy = line1.position(i, 1) - line2.position(j, 1);
-         const double distance = dx * dx + dy * dy;
+         const LineNode &one = line1.nodes[i], &other = line2.nodes[j];
+         const Eigen::Vector2d apart = one.position - other.position;
+         const double distance = apart.squaredNorm();
          if (distance >= nearest) { continue; }
-         const double tx = line1.tangent(i, 0) - line2.tangent(j, 0);
-         const double ty = line1.tangent(i, 1) - line2.tangent(j, 1);
-         const double square = tx * tx + ty * ty; // 4 for exactly opposite lines
-         const double offset = dx * tx + dy * ty; // times the length of (tx, ty)
-         const double spacing = std::min(line1.spacing[i], line2.spacing[j]);
+         const Eigen::Vector2d along = one.tangent - other.tangent;
+         const double square = along.squaredNorm(); // 4 for exactly opposite lines
+         const double offset = apart.dot(along);    // times the length of `along`
+         const double spacing = std::min(one.spacing, other.spacing);
          const double allowed = tolerance * spacing;
          found.facing = found.facing || square >= 2;
          if (square < 2 || offset * offset > allowed * allowed * square) { continue; }
@@ -79,8 +78,9 @@ Matches match(const ContactLine &line1, const ContactLine &line2, double toleran
 /// The box around a line.
 std::string extent(const ContactLine &line)
 {
-   const Eigen::RowVector2d low = line.position.colwise().minCoeff(),
-                            high = line.position.colwise().maxCoeff();
+   const auto position = line.each(&LineNode::position);
+   const Eigen::RowVector2d low = position.colwise().minCoeff(),
+                            high = position.colwise().maxCoeff();
    std::ostringstream text;
    text << "from (" << low[0] << ", " << low[1] << ") to (" << high[0] << ", " << high[1]
         << ")";
@@ -91,11 +91,12 @@ std::string extent(const ContactLine &line)
 std::string advice(const ContactLine &line1, const ContactLine &line2)
 {
    double nearest = std::numeric_limits<double>::infinity();
-   for (Eigen::Index i = 0; i < line1.size(); ++i)
+   for (const LineNode &one : line1.nodes)
    {
-      nearest = std::min(
-         nearest,
-         (line2.position.rowwise() - line1.position.row(i)).rowwise().norm().minCoeff());
+      for (const LineNode &other : line2.nodes)
+      {
+         nearest = std::min(nearest, (one.position - other.position).norm());
+      }
    }
    const Matches loose = match(line1, line2, 0.4999);
    std::ostringstream text;
@@ -139,9 +140,10 @@ Pairing pair_lines(const ContactLine &line1, const ContactLine &line2, double to
    Pairing pairing{found.partner, Eigen::VectorXd::Zero(line1.size())};
    for (Eigen::Index i = 0; i < line1.size(); ++i)
    {
-      const double gap = (line1.position.row(i) - line2.position.row(found.partner[i]))
-                            .dot(line1.normal.row(i));
-      pairing.gap[i] = std::abs(gap) > 1e-9 * line1.spacing[i] ? gap : 0.0;
+      const LineNode &node = line1.nodes[i];
+      const double gap =
+         (node.position - line2.nodes[found.partner[i]].position).dot(node.normal());
+      pairing.gap[i] = std::abs(gap) > 1e-9 * node.spacing ? gap : 0.0;
    }
    return pairing;
 }

@@ -115,14 +115,14 @@ void fill(ReducedProblem &problem, const Block &block, const ContactLine &line)
    }
    problem.H = block.H;
    problem.friction = Eigen::VectorXd::Zero(n);
-   problem.weights = line.weights;
-   problem.arc_length = line.arc_length;
-   problem.position = line.position;
+   problem.weights = line.each(&LineNode::weight);
+   problem.arc_length = line.each(&LineNode::arc_length);
+   problem.position = line.each(&LineNode::position);
    problem.rigid_motions = block.motions;
    for (int row : block.held)
    {
-      require(row < n, "reduce: the contact node at (", line.position(row % n, 0), ", ",
-              line.position(row % n, 1),
+      require(row < n, "reduce: the contact node at (", problem.position(row % n, 0), ", ",
+              problem.position(row % n, 1),
               ") is fixed normal to the line, it must be able to open: the contact line must "
               "end before it");
       problem.K(row, row) = problem.K(n + row, n + row); // any stiffness would do
@@ -143,7 +143,7 @@ void fill(ReducedProblem &problem, const Block &block, const ContactLine &line)
 /// How the boundary goes on at a node of a line: within the line it does so smoothly.
 LineEnd goes_on_at(const ContactLine &line, Eigen::Index node)
 {
-   const LineChain &chain = line.chains[line.chain[node]];
+   const LineChain &chain = line.chain_of(node);
    if (chain.loop) { return LineEnd::smooth; }
    // The lines of two bodies run against each other: body 1's first node is body 2's last. A
    // chain of one node has two ends there: the one that does not go on decides.
@@ -182,11 +182,11 @@ bool mirrored(const Eigen::MatrixXd &S1, const Eigen::MatrixXd &S2, Eigen::Index
 {
    if (S1.rows() != 2 * n) { return false; }
    const Eigen::ArrayXd own = S1.diagonal().cwiseSqrt();
+   Eigen::ArrayXd sign = Eigen::ArrayXd::Ones(2 * n);
+   sign.tail(n) = -1;
    for (Eigen::Index j = 0; j < 2 * n; ++j)
    {
-      const Eigen::Index other = j < n ? n : 0; // block of the coupling in this column
-      Eigen::ArrayXd off = (S1.col(j) - S2.col(j)).array();
-      off.segment(other, n) = (S1.col(j) + S2.col(j)).segment(other, n).array();
+      const Eigen::ArrayXd off = S1.col(j).array() - sign[j] * sign * S2.col(j).array();
       if (!(off.abs() <= 1e-10 * own[j] * own).all()) { return false; }
    }
    return true;
@@ -233,7 +233,7 @@ std::vector<int> held_by_second(const CondensedBody &first, const CondensedBody 
       const auto other = static_cast<int>(row < n ? row + n : i);
       if (frames.b.size() == 0 || holds(other)) { continue; }
       require(std::abs(frames.b[i]) <= 1e-12, "reduce: body 2 is fixed at the contact node (",
-              first.line.position(i, 0), ", ", first.line.position(i, 1),
+              first.line.nodes[i].position[0], ", ", first.line.nodes[i].position[1],
               ") in a direction that is not one of body 1's frame there (off by ",
               std::abs(frames.b[i]), "), it must be body 1, or body 1 be fixed there too");
       frames.a[i] = frames.d[i] = 1;
@@ -258,8 +258,7 @@ Block united(const CondensedBody &first, const CondensedBody &second,
              const std::vector<int> &partner, const Reduction::PatternIndex &index,
              const std::vector<LoadPattern> &patterns)
 {
-   const ContactLine &line1 = first.line, &line2 = second.line;
-   const Eigen::Index n = line1.size(), size = first.S.rows();
+   const Eigen::Index n = first.line.size(), size = first.S.rows();
    const auto count = static_cast<Eigen::Index>(patterns.size());
    // Body 2 in body 1's order, and in frames exactly opposite to body 1's.
    auto shared = std::make_shared<Reduction::Union>();
@@ -270,14 +269,14 @@ Block united(const CondensedBody &first, const CondensedBody &second,
    else { frames = {frames.a, frames.a, frames.a, frames.a}; }
    for (Eigen::Index i = 0; i < n && size == 2 * n; ++i)
    {
-      const int j = partner[i];
-      frames.a[i] = -line1.tangent.row(i).dot(line2.tangent.row(j));
-      frames.b[i] = -line1.tangent.row(i).dot(line2.normal.row(j));
-      frames.c[i] = -line1.normal.row(i).dot(line2.tangent.row(j));
-      frames.d[i] = -line1.normal.row(i).dot(line2.normal.row(j));
+      const LineNode &node = first.line.nodes[i], &other = second.line.nodes[partner[i]];
+      frames.a[i] = -node.tangent.dot(other.tangent);
+      frames.b[i] = -node.tangent.dot(other.normal());
+      frames.c[i] = -node.normal().dot(other.tangent);
+      frames.d[i] = -node.normal().dot(other.normal());
       require(frames.d[i] > 0,
               "reduce: the bodies do not face each other at the contact node (",
-              line1.position(i, 0), ", ", line1.position(i, 1), ")");
+              node.position[0], ", ", node.position[1], ")");
    }
    const std::vector<int> order = shared->order(size), &held1 = first.held;
    const std::vector<int> &held2 = shared->held2 = held_by_second(first, second, order, frames);
@@ -388,7 +387,7 @@ Block united(const CondensedBody &first, const CondensedBody &second,
 Reduction reduce(CondensedBody body, const ScalarField &gap)
 {
    Reduction result;
-   require(body.formulation != Formulation::torsion,
+   require(body.line.formulation != Formulation::torsion,
            "reduce: the body is one of torsion, which is to be added to a reduction");
    result.counters = body.counters;
    result.bodies.push_back(std::move(body));
@@ -402,11 +401,12 @@ Reduction reduce(CondensedBody body, const ScalarField &gap)
    problem.dofs.resize(n, 2);
    for (Eigen::Index i = 0; i < n; ++i)
    {
-      const double x = only.line.position(i, 0), y = only.line.position(i, 1);
+      const double x = problem.position(i, 0), y = problem.position(i, 1);
+      const auto &dofs = only.line.nodes[i].dofs;
       problem.gap[i] = gap(x, y);
       require(std::isfinite(problem.gap[i]), "reduce: the gap at (", x, ", ", y, ") is ",
               problem.gap[i], ", must be finite");
-      problem.dofs.row(i) << only.line.dofs[i][0], only.line.dofs[i][1];
+      problem.dofs.row(i) << dofs[0], dofs[1];
    }
    return result;
 }
@@ -414,7 +414,8 @@ Reduction reduce(CondensedBody body, const ScalarField &gap)
 Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairing)
 {
    const Eigen::Index n = body1.line.size();
-   require(body1.formulation == body2.formulation && body1.formulation != Formulation::torsion,
+   require(body1.line.formulation == body2.line.formulation &&
+              body1.line.formulation != Formulation::torsion,
            "reduce: the bodies must be both plane or both axisymmetric");
    require(body2.line.size() == n && static_cast<Eigen::Index>(pairing.partner.size()) == n &&
               pairing.gap.size() == n,
@@ -451,7 +452,8 @@ Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairin
    problem.dofs.resize(n, 4);
    for (Eigen::Index i = 0; i < n; ++i)
    {
-      const auto &dofs1 = first.line.dofs[i], &dofs2 = second.line.dofs[pairing.partner[i]];
+      const auto &dofs1 = first.line.nodes[i].dofs,
+                 &dofs2 = second.line.nodes[pairing.partner[i]].dofs;
       problem.dofs.row(i) << dofs1[0], dofs1[1], dofs2[0], dofs2[1];
    }
    return result;
@@ -483,10 +485,11 @@ void Reduction::add_torsion(std::vector<CondensedBody> twisting)
            " bodies to a reduction of ", bodies.size(), ", must be as many");
    for (std::size_t b = 0; b < bodies.size(); ++b)
    {
-      require(bodies[b].formulation == Formulation::axisymmetric &&
-                 twisting[b].formulation == Formulation::torsion,
+      require(bodies[b].line.formulation == Formulation::axisymmetric &&
+                 twisting[b].line.formulation == Formulation::torsion,
               "add torsion: body ", b, " must be axisymmetric, and what is added its torsion");
-      const Eigen::MatrixXd &own = bodies[b].line.position, &other = twisting[b].line.position;
+      const auto own = bodies[b].line.each(&LineNode::position),
+                 other = twisting[b].line.each(&LineNode::position);
       require(own.rows() == other.rows() &&
                  (own - other).cwiseAbs().maxCoeff() <= 1e-12 * own.cwiseAbs().maxCoeff(),
               "add torsion: the contact nodes of body ", b,
@@ -547,12 +550,11 @@ void Reduction::add_obstacle_motion(const std::string &name, const ScalarField &
    {
       require(pattern.name != name, where, ": a load pattern of that name is there already");
    }
-   const ContactLine &line = bodies[0].line;
    const Eigen::Index n = problem.nodes(), m = problem.slips();
    Eigen::VectorXd u(2 * n), theta(n);
    for (Eigen::Index i = 0; i < n; ++i)
    {
-      const double x = line.position(i, 0), y = line.position(i, 1);
+      const double x = problem.position(i, 0), y = problem.position(i, 1);
       u[i] = ux(x, y);
       u[n + i] = uy(x, y);
       theta[i] = u_theta(x, y);
@@ -562,15 +564,15 @@ void Reduction::add_obstacle_motion(const std::string &name, const ScalarField &
       require(!torsion.empty() || theta[i] == 0, where, ": at (", x, ", ", y, ") it is ",
               theta[i], " along the circumference, must be 0 in a reduction without torsion");
    }
-   u = FrameChange::to_local(line.tangent, line.normal).rows(u).col(0);
+   u = FrameChange::of(bodies[0].line).rows(u).col(0);
    Eigen::VectorXd d(m + n);
    d << u.head(n), theta.head(m - n), u.tail(n);
    for (Eigen::Index row : problem.held)
    {
       const Eigen::Index i = row % n;
       require(std::abs(d[row]) <= 1e-12 * d.cwiseAbs().maxCoeff(), where, ": it moves by ",
-              d[row], " along the component that is fixed at the node (", line.position(i, 0),
-              ", ", line.position(i, 1), "), must not");
+              d[row], " along the component that is fixed at the node (",
+              problem.position(i, 0), ", ", problem.position(i, 1), "), must not");
       d[row] = 0;
    }
    // The body moves by u + λ d: f = K (u + λ d) + …, and the reaction is dᵀ f.

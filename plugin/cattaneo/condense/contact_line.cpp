@@ -1,0 +1,86 @@
+#include <algorithm>
+#include <cattaneo/condense/contact_line.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cmath>
+
+namespace cattaneo
+{
+
+namespace
+{
+
+/// Elements that follow each other from the first node of a chain to the last one, or back to
+/// the first, with every node of the chain once but for those that two elements share.
+void check_elements(const ContactLine &line, const LineChain &chain)
+{
+   const Eigen::Index end = chain.first + chain.nodes;
+   Eigen::Index next = chain.first;
+   for (std::size_t e = 0; e < chain.elements.size(); ++e)
+   {
+      const LineElement &element = chain.elements[e];
+      const auto count = static_cast<Eigen::Index>(element.nodes.size());
+      require(count >= 2 && element.points.cols() == count, "contact line: element ", e,
+              " of the chain from node ", chain.first, " has ", count, " nodes and ",
+              element.points.cols(), " points, must have as many and at least two");
+      for (Eigen::Index a = 0; a < count; ++a)
+      {
+         const Eigen::Index node = element.nodes[a];
+         if (node < 0) { continue; } // on the axis
+         const bool shared = a == 0 && e > 0, closes = chain.loop && next == end;
+         const Eigen::Index expected = shared ? next - 1 : closes ? chain.first : next;
+         require(node == expected && node < end &&
+                    element.points.col(a) == line.nodes[node].position,
+                 "contact line: node ", a, " of element ", e, " of the chain from node ",
+                 chain.first, " is node ", node, " of the line, must be node ", expected,
+                 " (the chain ends at node ", end - 1, ")", ", at its place");
+         if (!shared && !closes) { ++next; }
+      }
+   }
+   require(chain.elements.empty() || next == end,
+           "contact line: the elements of the chain from node ", chain.first,
+           " end before node ", next, ", must end at node ", end - 1);
+}
+
+} // namespace
+
+const LineChain &ContactLine::chain_of(Eigen::Index node) const
+{
+   return *std::find_if(chains.begin(), chains.end(),
+                        [node](const LineChain &chain)
+                        { return node < chain.first + chain.nodes; });
+}
+
+void ContactLine::validate() const
+{
+   require(!nodes.empty(), "contact line: there are no nodes, must be at least one");
+   for (Eigen::Index i = 0; i < size(); ++i)
+   {
+      const LineNode &node = nodes[i];
+      const double x = node.position[0], y = node.position[1];
+      require(node.position.allFinite() && (formulation == Formulation::plane || x > 0),
+              "contact line: node ", i, " is at (", x, ", ", y,
+              "), must be finite, and beyond the axis x = 0 if there is one");
+      require(std::abs(node.tangent.norm() - 1) <= 1e-9, "contact line: the tangent at (", x,
+              ", ", y, ") has the length ", node.tangent.norm(), ", must be 1");
+      require(node.weight > 0 && std::isfinite(node.weight),
+              "contact line: the weight of the node at (", x, ", ", y, ") is ", node.weight,
+              ", must be positive");
+      require(node.spacing > 0, "contact line: the spacing at (", x, ", ", y, ") is ",
+              node.spacing, ", must be positive");
+      require(std::isfinite(node.arc_length), "contact line: the arc length of the node at (",
+              x, ", ", y, ") is ", node.arc_length, ", must be finite");
+   }
+   Eigen::Index next = 0;
+   for (const LineChain &chain : chains)
+   {
+      require(chain.first == next && chain.nodes > 0 && chain.nodes <= size() - next,
+              "contact line: a chain of ", chain.nodes, " nodes begins at node ", chain.first,
+              ", must begin at node ", next, " and have 1 to ", size() - next);
+      check_elements(*this, chain);
+      next += chain.nodes;
+   }
+   require(next == size(), "contact line: the chains have ", next, " nodes, must have all ",
+           size());
+}
+
+} // namespace cattaneo
