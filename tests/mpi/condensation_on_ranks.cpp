@@ -170,6 +170,75 @@ void expect_error(const std::string &part, const std::function<void()> &act)
    expect(message.find(part) != std::string::npos, "error '" + part + "'", message);
 }
 
+/// MFEM's own elasticity form on several ranks, handed over as a matrix, against the operator
+/// that the library assembles of the same material on one.
+void compare_own_operator(int direct_dofs)
+{
+   const double tolerance = direct_dofs ? 1e-12 : 1e-10;
+   const double young = 2, poisson = 0.3, mu = young / (2 * (1 + poisson)),
+                lambda = 2 * mu * poisson / (1 - 2 * poisson);
+   mfem::Mesh whole = mesh();
+   mfem::ParMesh shared(MPI_COMM_WORLD, whole);
+   mfem::H1_FECollection collection(2, 2);
+   mfem::ConstantCoefficient first(lambda), second(mu);
+   CondenseSettings settings;
+   settings.direct_dofs = direct_dofs;
+   for (const auto ordering : {mfem::Ordering::byNODES, mfem::Ordering::byVDIM})
+   {
+      const std::string name =
+         std::string("own operator ") +
+         (ordering == mfem::Ordering::byNODES ? "by nodes" : "by components") +
+         (direct_dofs ? ", gathered" : ", by conjugate gradients");
+      mfem::ParFiniteElementSpace space(&shared, &collection, 2, ordering);
+      mfem::ParBilinearForm form(&space);
+      form.AddDomainIntegrator(new mfem::ElasticityIntegrator(first, second));
+      form.Assemble();
+      form.Finalize();
+      std::unique_ptr<mfem::HypreParMatrix> K(form.ParallelAssemble());
+      ElasticBody own(space, *K), alone(whole, 2, Material{young, poisson});
+      expect(!own.has_material(), name, "an operator of one's own has a material");
+      for (ElasticBody *body : {&own, &alone})
+      {
+         body->fix(top, 0);
+         body->fix(top, 1);
+         body->add_pressure("P", right,
+                            [](double x, double y) { return 1 + 0.2 * x - 0.1 * y; });
+      }
+      K.reset(); // it was copied
+      CondensedBody found = condense(own, contact_line(own, bottom), settings);
+      const CondensedBody expected = condense(alone, contact_line(alone, bottom));
+      expect(own.dofs() == alone.dofs(), name, "dofs differ");
+      expect_close(found.S, expected.S, tolerance, name, "S");
+      expect_close(found.H, expected.H, tolerance, name, "H");
+      expect_close(found.patterns[0].q, expected.patterns[0].q, tolerance, name, "q");
+      expect_close(found.patterns[0].p, expected.patterns[0].p, tolerance, name, "p");
+      expect(found.error_estimate() < 1e-6, name, "the stated error of S is large");
+   }
+}
+
+/// What cannot be an operator of one's own, on all ranks alike.
+void errors_of_own_operators()
+{
+   mfem::Mesh whole = mesh();
+   mfem::ParMesh shared(MPI_COMM_WORLD, whole);
+   mfem::H1_FECollection linear(1, 2), quadratic(2, 2);
+   mfem::ParFiniteElementSpace space(&shared, &quadratic, 2), coarse(&shared, &linear, 2),
+      scalar(&shared, &quadratic);
+   mfem::ParBilinearForm form(&space);
+   form.AddDomainIntegrator(new mfem::VectorDiffusionIntegrator);
+   form.Assemble();
+   form.Finalize();
+   const std::unique_ptr<mfem::HypreParMatrix> K(form.ParallelAssemble());
+   expect_error("the stiffness on this rank is", [&] { ElasticBody(coarse, *K); });
+   expect_error("the space has 1 components, must have 2", [&] { ElasticBody(scalar, *K); });
+   mfem::Vector scale(K->Height());
+   scale = 1.0;
+   if (mfem::Mpi::WorldRank() == 0) { scale(0) = 2.0; } // wrong on one rank, said by all
+   mfem::HypreParMatrix skew(*K);
+   skew.ScaleRows(scale);
+   expect_error("symmetric", [&] { ElasticBody(space, skew); });
+}
+
 /// On all ranks alike.
 void errors()
 {
@@ -220,6 +289,8 @@ int main()
    {
       for (int direct_dofs : {0, 1000000}) { compare(scene, direct_dofs); }
    }
+   for (int direct_dofs : {0, 1000000}) { compare_own_operator(direct_dofs); }
+   errors_of_own_operators();
    errors();
    int all = 0;
    MPI_Allreduce(&failures, &all, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
