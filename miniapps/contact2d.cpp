@@ -86,6 +86,7 @@ Side make_side(const BodyOptions &options, const std::string &k, int order, bool
               " is empty, must name boundary attributes");
       Side side;
       mfem::Mesh mesh = miniapp::read_mesh(options.mesh);
+      miniapp::warn_of_lower_order(mesh, order, options.mesh);
       const int attributes = mesh.attributes.Size() ? mesh.attributes.Max() : 1;
       side.mesh = miniapp::distribute(std::move(mesh), order);
       side.materials = materials(options, k, plane_stress);

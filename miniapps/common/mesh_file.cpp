@@ -438,4 +438,43 @@ mfem::Mesh read_mesh(const std::string &file)
    return mesh;
 }
 
+void warn_of_lower_order(mfem::Mesh &mesh, int order, const std::string &file)
+{
+   const int bent = mesh.GetNodes() ? mesh.GetNodalFESpace()->GetMaxElementOrder() : 1;
+   if (order >= bent) { return; }
+   // How far the mesh is from the curves through the nodes of its elements. Straight sides may
+   // be said by many nodes.
+   const mfem::H1_FECollection collection(order, 2);
+   double missed = 0;
+   mfem::DenseMatrix at_nodes, exact;
+   mfem::Vector low, high, x(2);
+   for (int e = 0; e < mesh.GetNE(); ++e)
+   {
+      const mfem::FiniteElement &element =
+         *collection.FiniteElementForGeometry(mesh.GetElementGeometry(e));
+      const mfem::IntegrationRule &points =
+         mfem::IntRules.Get(mesh.GetElementGeometry(e), 2 * bent);
+      mfem::ElementTransformation &plane = *mesh.GetElementTransformation(e);
+      plane.Transform(element.GetNodes(), at_nodes);
+      plane.Transform(points, exact);
+      mfem::Vector shape(element.GetDof());
+      for (int k = 0; k < points.GetNPoints(); ++k)
+      {
+         element.CalcShape(points.IntPoint(k), shape);
+         at_nodes.Mult(shape, x);
+         missed = std::max(missed, std::hypot(x(0) - exact(0, k), x(1) - exact(1, k)));
+      }
+   }
+   mesh.GetBoundingBox(low, high);
+   high -= low;
+   missed /= high.Max();
+   if (missed <= 1e-10) { return; }
+   std::ostringstream text;
+   text << "the mesh of '" << file << "' is curved, elements of order " << order
+        << " miss it by " << missed
+        << " of its size: turning the body takes forces that it should not; use option -order "
+        << bent;
+   warn(text.str());
+}
+
 } // namespace miniapp

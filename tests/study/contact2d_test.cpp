@@ -935,6 +935,34 @@ TEST_F(Contact2D, WarnsOfASideThatBears)
    EXPECT_EQ(contact2d(options + "1").results["warnings"].size(), 0u);
 }
 
+TEST_F(Contact2D, WarnsOfElementsThatMissTheCurvesOfTheirMesh)
+{
+   for (const bool curved : {false, true})
+   {
+      mfem::Mesh mesh = pad(4, 0);
+      mesh.SetCurvature(2); // straight sides may be said by many nodes
+      if (curved)
+      {
+         mesh.Transform(
+            [](const mfem::Vector &from, mfem::Vector &to)
+            {
+               to = from;
+               to(1) *= 1 + 0.05 * from(0) * from(0);
+            });
+      }
+      const std::string options = "--mesh1 '" + write("curved.mesh", mesh) +
+                                  "' --load1 'P pressure 3 1' --contact1 1 --order ";
+      const auto lower = contact2d(options + "1"), same = contact2d(options + "2");
+      ASSERT_EQ(lower.code, 0) << lower.output;
+      EXPECT_EQ(same.results["warnings"].size(), 0u) << same.output;
+      ASSERT_EQ(lower.results["warnings"].size(), curved ? 1u : 0u) << lower.output;
+      if (!curved) { continue; }
+      const std::string warning = lower.results["warnings"][0];
+      EXPECT_NE(warning.find("curved.mesh' is curved, elements of order 1"), std::string::npos);
+      EXPECT_NE(warning.find("use option -order 2"), std::string::npos) << warning;
+   }
+}
+
 TEST_F(Contact2D, WarnsOfALineThatIsNamedTooShort)
 {
    // A block on a block of the same width, pressed as a whole: of the joint only the middle is
