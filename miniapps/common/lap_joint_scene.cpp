@@ -31,7 +31,7 @@ void LapJointOptions::validate() const
    {
       require(w > 0 && 0.5 * w <= protrusion, "option --width or --sweep-width: ", w,
               " must be positive and within the protrusion ", protrusion, " to both sides");
-      require(std::count(widths.begin(), widths.end(), w) == 1, "the width ", exact_text(w),
+      require(std::count(widths.begin(), widths.end(), w) == 1, "the width ", w,
               " is given twice: each is a load pattern of its own");
    }
    for (double x : bolts)

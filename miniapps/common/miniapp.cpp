@@ -365,20 +365,9 @@ nlohmann::ordered_json to_json(const cattaneo::Counters &counters)
    return j;
 }
 
-std::string exact_text(double value)
-{
-   char text[32];
-   for (int digits = 6; digits <= 17; ++digits)
-   {
-      std::snprintf(text, sizeof text, "%.*g", digits, value);
-      if (std::strtod(text, nullptr) == value) { break; }
-   }
-   return text;
-}
-
 std::string exact_text(const std::string &words, double value)
 {
-   return words + exact_text(value);
+   return words + cattaneo::exact_text(value);
 }
 
 std::string error_text(double error)

@@ -79,10 +79,7 @@ void add_outcome(const cattaneo::ReducedProblem &problem, const cattaneo::MarchR
 
 nlohmann::ordered_json to_json(const cattaneo::Counters &counters);
 
-/// The shortest decimal that reads back as the same number: what stands in a name, so that no
-/// two numbers share one.
-std::string exact_text(double value);
-/// The same after some words: "f = 0.5".
+/// A name with a number so exact that no two numbers share one: "f = 0.5".
 std::string exact_text(const std::string &words, double value);
 
 /// An error as it is printed beside its value: two digits, the last one rounded up, since it is

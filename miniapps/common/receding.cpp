@@ -52,7 +52,7 @@ void RecedingOptions::validate() const
       require(n > 0 && n < length, "option --overhang or --map: ", n,
               " must be between 0 and the strip's length ", length, " (in t)");
       require(std::count(overhangs.begin(), overhangs.end(), n) == 1, "the overhang ",
-              exact_text(n), " is given twice: each is a load pattern of its own");
+              n, " is given twice: each is a load pattern of its own");
    }
 }
 

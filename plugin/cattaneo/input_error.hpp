@@ -15,15 +15,35 @@ public:
    using std::invalid_argument::invalid_argument;
 };
 
+/// The shortest decimal that reads back as the same number.
+std::string exact_text(double value);
+
+/// A part of a message: numbers so that none is taken for another.
+template <class Part>
+const Part &as_text(const Part &part)
+{
+   return part;
+}
+inline std::string as_text(double value)
+{
+   return exact_text(value);
+}
+
 /// Throws InputError with the concatenation of @a parts unless @a condition holds.
 template <class... Parts>
 void require(bool condition, const Parts &...parts)
 {
    if (condition) { return; }
    std::ostringstream message;
-   message.precision(17);
-   (message << ... << parts);
+   (message << ... << as_text(parts));
    throw InputError(message.str());
 }
+
+// The usual limits of a number; @a what: where it stands and its name. All refuse infinity and
+// NaN.
+void require_positive(const char *what, double value);
+void require_at_least(const char *what, double value, double least);
+/// Neither bound is allowed.
+void require_between(const char *what, double value, double low, double high);
 
 } // namespace cattaneo

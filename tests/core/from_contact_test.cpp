@@ -809,7 +809,7 @@ TEST(Corner, FitRefusesBadInput)
    expect_refused(bad, four, "61 pressures");
    bad = good;
    bad.edge = 1.905; // between nodes 9 and 10
-   expect_refused(bad, four, "is on the other side of the corner at 1.905");
+   expect_refused(bad, four, "is on the other side of the edge at 1.905");
    for (std::vector<double> EdgeTractions::*list :
         {&EdgeTractions::position, &EdgeTractions::pressure, &EdgeTractions::shear})
    {

@@ -131,8 +131,7 @@ void judge_omissions(const FrettingProblem &problem, FrettingReport &report)
 
 void FrettingSettings::validate() const
 {
-   require(std::isfinite(mode_two_ratio) && mode_two_ratio > 0,
-           "the mode II threshold ratio is ", mode_two_ratio, "; it must be positive.");
+   require_positive("the mode II threshold ratio", mode_two_ratio);
 }
 
 std::string to_string(Trust trust)
@@ -145,11 +144,9 @@ FrettingReport assess(const FrettingProblem &problem, const FrettingSettings &se
    settings.validate();
    problem.crack.validate();
    problem.material.validate();
-   for (const double size : {problem.half_width, problem.rounded_width})
-   {
-      require(std::isfinite(size) && size >= 0, "the size ", size,
-              " of the contact must be positive, or 0 if unknown.");
-   }
+   // 0 if unknown.
+   require_at_least("the half width of the contact", problem.half_width, 0);
+   require_at_least("the rounded part of the half width", problem.rounded_width, 0);
    const FatigueMaterial &material = problem.material;
    const Edge &edge = problem.crack.edge;
    const double modulus =

@@ -10,11 +10,6 @@ namespace
 
 const double pi = std::acos(-1.0);
 
-void require_positive(const char *what, double value)
-{
-   require(std::isfinite(value) && value > 0, what, " is ", value, "; it must be positive.");
-}
-
 /** a² arccos(b/a) - b√(a²-b²) at a = b + s. */
 double load_integral(double b, double s)
 {
@@ -65,8 +60,7 @@ FlatRoundedContact flat_rounded_contact(double load, double radius, double flat,
    require_positive("the normal force", load);
    require_positive("the edge radius", radius);
    require_positive("the contact modulus E*", modulus);
-   require(std::isfinite(flat) && flat >= 0, "the half width of the flat is ", flat,
-           "; it must not be negative.");
+   require_at_least("the half width of the flat", flat, 0);
    const double target = 2 * radius * load / modulus;
    // The integral grows ever faster with s, so Newton from above cannot overshoot.
    double s = std::sqrt(target);
@@ -114,13 +108,6 @@ double RoundedEdge::pressure(double x) const
    const double r = std::sqrt(x / rounded_width);
    const double log = r == 1 ? 0.0 : (r * r - 1) * std::log(std::abs((1 - r) / (1 + r)));
    return 3 * k_p / (4 * std::sqrt(rounded_width)) * (2 * r + log);
-}
-
-double symmetric_k_n(double half_width, double load_rate)
-{
-   require_positive("the half width", half_width);
-   require_positive("the growth dP/da of the load with the half width", load_rate);
-   return std::sqrt(2 / half_width) / pi * load_rate;
 }
 
 double edge_gradient(double radius, double modulus)

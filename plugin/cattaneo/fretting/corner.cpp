@@ -38,11 +38,6 @@ RayStress ray_stress(bool symmetric, double lambda, double half, double angle)
            -(A * up * std::cos(up * angle) + B * down * std::cos(down * angle)) / norm};
 }
 
-struct Sample
-{
-   double distance, pressure, shear; ///< both over r^{λ_I-1}
-};
-
 /// Strength and relative error of each mode.
 struct Solution
 {
@@ -50,7 +45,8 @@ struct Solution
    double largest() const { return *std::max_element(error.begin(), error.end()); }
 };
 
-Solution fit(const std::vector<Sample> &samples, std::size_t first, std::size_t last,
+/// Pressure and shear of the samples are over r^{λ_I-1}.
+Solution fit(const std::vector<EdgeSample> &samples, std::size_t first, std::size_t last,
              const std::vector<CornerMode> &modes)
 {
    const Eigen::Index n = last - first, m = modes.size();
@@ -59,7 +55,7 @@ Solution fit(const std::vector<Sample> &samples, std::size_t first, std::size_t 
    Eigen::VectorXd values(2 * n);
    for (Eigen::Index i = 0; i < n; i++)
    {
-      const Sample &sample = samples[first + i];
+      const EdgeSample &sample = samples[first + i];
       const double r = sample.distance / scale;
       for (Eigen::Index k = 0; k < m; k++)
       {
@@ -166,42 +162,19 @@ CornerModes corner_modes(const RigidCorner &corner)
 CornerFit fit_corner(const CornerModes &modes, const EdgeTractions &tractions,
                      const FitSettings &settings)
 {
-   settings.validate();
-   tractions.validate();
    CornerFit result;
    result.modes = modes;
    std::vector<CornerMode> fitted{modes.one};
    if (modes.two) { fitted.push_back(*modes.two); }
-   std::vector<Sample> samples;
-   double side = 0;
-   for (std::size_t i = 0; i < tractions.position.size(); i++)
+   auto [samples, first, last] = usable_samples(tractions, settings, false);
+   for (EdgeSample &sample : samples)
    {
-      const double x = tractions.position[i] - tractions.edge;
-      const double p = tractions.pressure[i], q = tractions.shear[i];
-      if (x == 0) { continue; } // the traction there is infinite
-      if (side == 0) { side = x > 0 ? 1 : -1; }
-      require(x * side > 0, "node ", i, " at ", tractions.position[i],
-              " is on the other side of the corner at ", tractions.edge, ".");
-      const double weight = std::pow(std::abs(x), 1 - modes.one.eigenvalue);
-      samples.push_back({std::abs(x), p * weight, side * q * weight});
+      const double weight = std::pow(sample.distance, 1 - modes.one.eigenvalue);
+      sample.pressure *= weight;
+      sample.shear *= weight;
    }
-   std::sort(samples.begin(), samples.end(),
-             [](const Sample &a, const Sample &b) { return a.distance < b.distance; });
-   std::size_t first = settings.skip, last = samples.size();
    const bool chosen = settings.window.farthest == 0;
-   if (!chosen)
-   {
-      first = last = 0;
-      for (const Sample &sample : samples)
-      {
-         first += sample.distance < settings.window.nearest;
-         last += sample.distance <= settings.window.farthest;
-      }
-   }
-   constexpr std::size_t least_nodes = 4;
-   require(last >= first + least_nodes, "there are ", last > first ? last - first : 0,
-           " nodes in the window of the fit near the corner; it needs ", least_nodes, ".");
-   std::size_t to = chosen ? first + least_nodes : last;
+   std::size_t to = chosen ? first + FitSettings::least_nodes : last;
    Solution best = fit(samples, first, to, fitted);
    for (std::size_t next = to + 1; chosen && next <= last; next++)
    {

@@ -146,8 +146,7 @@ double crack_factor(double ratio)
 
 double crack_factor_slope(double ratio)
 {
-   require(std::isfinite(ratio) && ratio > 0, "the crack depth over the slip zone is ", ratio,
-           "; it must be positive.");
+   require_positive("the crack depth over the slip zone", ratio);
    return crack_integral(ratio, 1) / ratio;
 }
 
@@ -160,8 +159,7 @@ double crack_closing_factor()
 double crack_intensity(const Edge &edge, double depth)
 {
    const double d = slip_zone(edge);
-   require(std::isfinite(depth) && depth >= 0, "the crack depth is ", depth,
-           "; it must not be negative.");
+   require_at_least("the crack depth", depth, 0);
    const double shear = edge.k_t != 0 ? 2 * edge.k_t * crack_factor(depth / d) : 0.0;
    return shear - crack_closing_factor() * edge.k_n * depth;
 }
@@ -169,10 +167,8 @@ double crack_intensity(const Edge &edge, double depth)
 double crack_intensity_range(const Edge &edge, double k_t_range, double depth)
 {
    edge.validate();
-   require(std::isfinite(k_t_range) && k_t_range >= 0, "the range of K_T is ", k_t_range,
-           "; it must not be negative.");
-   require(std::isfinite(depth) && depth >= 0, "the crack depth is ", depth,
-           "; it must not be negative.");
+   require_at_least("the range of K_T", k_t_range, 0);
+   require_at_least("the crack depth", depth, 0);
    if (k_t_range == 0) { return 0.0; }
    return 2 * k_t_range * crack_factor(depth * edge.friction * edge.k_n / k_t_range);
 }

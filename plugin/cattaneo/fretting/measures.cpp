@@ -9,24 +9,12 @@ namespace
 
 const double pi = std::acos(-1.0);
 
-void require_range(double k_t_range)
-{
-   require(std::isfinite(k_t_range) && k_t_range >= 0, "the range of K_T is ", k_t_range,
-           "; it must not be negative.");
-}
-
-void require_modulus(double modulus)
-{
-   require(std::isfinite(modulus) && modulus > 0, "the contact modulus E* is ", modulus,
-           "; it must be positive.");
-}
-
 } // namespace
 
 double reversed_slip_zone(const Edge &edge, double k_t_range)
 {
    edge.validate();
-   require_range(k_t_range);
+   require_at_least("the range of K_T", k_t_range, 0);
    return k_t_range / (edge.friction * edge.k_n);
 }
 
@@ -37,13 +25,13 @@ double edge_stress_range(const Edge &edge, double k_t_range)
 
 double mode_two_range(double k_t_range)
 {
-   require_range(k_t_range);
+   require_at_least("the range of K_T", k_t_range, 0);
    return std::sqrt(2 * pi) * k_t_range;
 }
 
 double slip_energy_density(const Edge &edge, double k_t_range, double modulus, double t)
 {
-   require_modulus(modulus);
+   require_positive("the contact modulus E*", modulus);
    const double d = reversed_slip_zone(edge, k_t_range);
    if (t <= 0 || t >= d) { return 0.0; }
    return 16 * k_t_range * k_t_range / (3 * modulus) * std::sqrt(t / d) *
@@ -52,14 +40,14 @@ double slip_energy_density(const Edge &edge, double k_t_range, double modulus, d
 
 double slip_energy_max(double k_t_range, double modulus)
 {
-   require_range(k_t_range);
-   require_modulus(modulus);
+   require_at_least("the range of K_T", k_t_range, 0);
+   require_positive("the contact modulus E*", modulus);
    return std::sqrt(3.0) * k_t_range * k_t_range / modulus;
 }
 
 double slip_energy_total(const Edge &edge, double k_t_range, double modulus)
 {
-   require_modulus(modulus);
+   require_positive("the contact modulus E*", modulus);
    return pi / 3 * k_t_range * k_t_range * reversed_slip_zone(edge, k_t_range) / modulus;
 }
 
@@ -67,7 +55,7 @@ double hertz_slip_energy(double friction, double load, double load_ratio, double
 {
    require(friction > 0 && load > 0, "friction ", friction, " and normal force ", load,
            " must be positive.");
-   require_modulus(modulus);
+   require_positive("the contact modulus E*", modulus);
    const double x = load_ratio;
    require(x >= 0 && x <= 1, "Q/(fP) is ", x, "; it must be between 0 and 1.");
    double sum = 0.5;

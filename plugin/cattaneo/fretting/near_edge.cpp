@@ -19,8 +19,7 @@ Traction root(double t, double y)
 
 void Edge::validate() const
 {
-   require(std::isfinite(k_n) && k_n > 0, "the pressure intensity K_N is ", k_n,
-           "; it must be positive.");
+   require_positive("the pressure intensity K_N", k_n);
    require(std::isfinite(k_t), "the shear intensity K_T is ", k_t, "; it must be finite.");
    require(
       std::isfinite(friction) && friction > 0, "the friction coefficient is ", friction,

@@ -11,11 +11,6 @@ namespace cattaneo::fretting
 namespace
 {
 
-void require_positive(const char *what, double value)
-{
-   require(std::isfinite(value) && value > 0, what, " is ", value, "; it must be positive.");
-}
-
 void require_ratio(double ratio)
 {
    require(ratio >= -1 && ratio < 1, "the load ratio R is ", ratio,

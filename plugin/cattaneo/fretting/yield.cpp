@@ -8,12 +8,6 @@ namespace cattaneo::fretting
 namespace
 {
 
-void require_friction(double f)
-{
-   require(std::isfinite(f) && f > 0, "the friction coefficient is ", f,
-           "; it must be positive.");
-}
-
 double square(double x)
 {
    return x * x;
@@ -23,7 +17,7 @@ double square(double x)
 
 double surface_von_mises(double f, double constraint, double t)
 {
-   require_friction(f);
+   require_positive("the friction coefficient", f);
    const double m = square(1 - 2 * constraint);
    if (t < 0)
    {
@@ -40,14 +34,14 @@ double surface_von_mises(double f, double constraint, double t)
 
 double first_yield_load(double f, double constraint)
 {
-   require_friction(f);
+   require_positive("the friction coefficient", f);
    const double m = square(1 - 2 * constraint);
    return std::sqrt(3 / (3 * f * f + m * std::max(1.0, f * f)));
 }
 
 double full_yield_load(double f)
 {
-   require_friction(f);
+   require_positive("the friction coefficient", f);
    return 1 / f;
 }
 

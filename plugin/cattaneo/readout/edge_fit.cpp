@@ -4,29 +4,25 @@
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/readout/edge_fit.hpp>
 #include <cmath>
-#include <utility>
 
 namespace cattaneo
 {
 namespace
 {
 
-/// Distance from the edge and the quantity whose limit there is sought, sorted by distance.
-using Samples = std::vector<std::pair<double, double>>;
-
-constexpr int least_nodes = FitSettings::least_nodes;
-
-FittedIntensity fit(const Samples &samples, std::size_t first, std::size_t last)
+/// Of values whose limit at the edge is sought, at the nodes of the samples first … last - 1.
+FittedIntensity fit(const std::vector<EdgeSample> &samples, const std::vector<double> &value,
+                    std::size_t first, std::size_t last)
 {
    const Eigen::Index n = last - first;
-   const double scale = samples[last - 1].first;
+   const double scale = samples[last - 1].distance;
    Eigen::MatrixXd terms(n, 3);
    Eigen::VectorXd values(n);
    for (Eigen::Index i = 0; i < n; i++)
    {
-      const double t = samples[first + i].first / scale;
+      const double t = samples[first + i].distance / scale;
       terms.row(i) << 1, t, t * t;
-      values[i] = samples[first + i].second;
+      values[i] = value[first + i];
    }
    const Eigen::MatrixXd linear = terms.leftCols(2);
    const Eigen::VectorXd solution = least_squares(linear, values);
@@ -38,35 +34,19 @@ FittedIntensity fit(const Samples &samples, std::size_t first, std::size_t last)
    result.value = solution[0];
    const double error = std::max(standard, std::abs(one_more - solution[0]));
    result.relative_error = error > 0 ? error / std::abs(solution[0]) : 0.0;
-   result.window = {samples[first].first, scale};
+   result.window = {samples[first].distance, scale};
    result.nodes = int(n);
    return result;
 }
 
-FittedIntensity fit_in_window(const Samples &samples, const FitSettings &settings)
+FittedIntensity fit_in_window(const UsableSamples &usable, const std::vector<double> &value,
+                              bool chosen)
 {
-   if (settings.window.farthest > 0)
-   {
-      const auto beyond = [](double t, const auto &sample) { return t < sample.first; };
-      const auto before = [](const auto &sample, double t) { return sample.first < t; };
-      const std::size_t first =
-         std::lower_bound(samples.begin(), samples.end(), settings.window.nearest, before) -
-         samples.begin();
-      const std::size_t last =
-         std::upper_bound(samples.begin(), samples.end(), settings.window.farthest, beyond) -
-         samples.begin();
-      require(last >= first + least_nodes, "between ", settings.window.nearest, " and ",
-              settings.window.farthest, " from the contact edge there are ", last - first,
-              " nodes in contact; the fit needs ", least_nodes, ".");
-      return fit(samples, first, last);
-   }
-   const std::size_t first = settings.skip;
-   require(samples.size() >= first + least_nodes, "there are ", samples.size(),
-           " nodes in contact near the edge; the fit needs ", first + least_nodes, ".");
+   if (!chosen) { return fit(usable.samples, value, usable.first, usable.last); }
    std::vector<FittedIntensity> fits;
-   for (std::size_t last = first + least_nodes; last <= samples.size(); last++)
+   for (std::size_t last = usable.first + FitSettings::least_nodes; last <= usable.last; last++)
    {
-      fits.push_back(fit(samples, first, last));
+      fits.push_back(fit(usable.samples, value, usable.first, last));
    }
    const auto error = [](const FittedIntensity &x)
    { return x.relative_error * std::abs(x.value); };
@@ -113,27 +93,54 @@ void FitSettings::validate() const
    require(skip >= 0, "the number of skipped nodes is ", skip, "; it must not be negative.");
 }
 
-EdgeFit fit_edge(const EdgeTractions &tractions, const FitSettings &settings)
+UsableSamples usable_samples(const EdgeTractions &tractions, const FitSettings &settings,
+                             bool pressed)
 {
    settings.validate();
    tractions.validate();
-   Samples normal, tangential;
+   UsableSamples usable;
    double side = 0;
    for (std::size_t i = 0; i < tractions.position.size(); i++)
    {
-      const double x = tractions.position[i] - tractions.edge;
-      const double p = tractions.pressure[i], q = tractions.shear[i];
-      if (p <= 0 || x == 0) { continue; }
+      const double x = tractions.position[i] - tractions.edge, p = tractions.pressure[i];
+      if (x == 0 || (pressed && p <= 0)) { continue; }
       if (side == 0) { side = x > 0 ? 1 : -1; }
       require(x * side > 0, "node ", i, " at ", tractions.position[i],
-              " is in contact on the other side of the edge at ", tractions.edge, ".");
-      const double root = std::sqrt(std::abs(x));
-      normal.push_back({std::abs(x), p / root});
-      tangential.push_back({std::abs(x), side * q * root});
+              " is on the other side of the edge at ", tractions.edge, ".");
+      usable.samples.push_back({std::abs(x), p, side * tractions.shear[i]});
    }
-   std::sort(normal.begin(), normal.end());
-   std::sort(tangential.begin(), tangential.end());
-   return {fit_in_window(normal, settings), fit_in_window(tangential, settings)};
+   std::sort(usable.samples.begin(), usable.samples.end(),
+             [](const auto &a, const auto &b) { return a.distance < b.distance; });
+   usable.first = settings.skip;
+   usable.last = usable.samples.size();
+   if (settings.window.farthest > 0)
+   {
+      usable.first = usable.last = 0;
+      for (const EdgeSample &sample : usable.samples)
+      {
+         usable.first += sample.distance < settings.window.nearest;
+         usable.last += sample.distance <= settings.window.farthest;
+      }
+   }
+   const std::size_t left = usable.last > usable.first ? usable.last - usable.first : 0;
+   require(left >= FitSettings::least_nodes, "there are ", left,
+           " nodes in the window of the fit near the edge at ", tractions.edge, "; it needs ",
+           FitSettings::least_nodes, ".");
+   return usable;
+}
+
+EdgeFit fit_edge(const EdgeTractions &tractions, const FitSettings &settings)
+{
+   const UsableSamples usable = usable_samples(tractions, settings, true);
+   std::vector<double> normal, tangential;
+   for (const EdgeSample &sample : usable.samples)
+   {
+      const double root = std::sqrt(sample.distance);
+      normal.push_back(sample.pressure / root);
+      tangential.push_back(sample.shear * root);
+   }
+   const bool chosen = settings.window.farthest == 0;
+   return {fit_in_window(usable, normal, chosen), fit_in_window(usable, tangential, chosen)};
 }
 
 } // namespace cattaneo

@@ -40,6 +40,29 @@ struct FitSettings
    void validate() const;
 };
 
+/// One node near an edge or a corner.
+struct EdgeSample
+{
+   double distance = 0.0;
+   double pressure = 0.0;
+   double shear = 0.0; ///< on the cracked body, positive into the contact
+};
+
+/// Samples first … last - 1 may be used.
+struct UsableSamples
+{
+   std::vector<EdgeSample> samples; ///< by distance
+   std::size_t first = 0, last = 0;
+};
+
+/** What a fit may use of tractions: the nodes of the window, or all but the skipped ones if it
+    is to be chosen. The node at the edge itself says nothing.
+    @param pressed nodes without pressure do not count
+    InputError for bad arguments, nodes on both sides of the edge, and fewer nodes than
+    FitSettings::least_nodes. */
+UsableSamples usable_samples(const EdgeTractions &tractions, const FitSettings &settings,
+                             bool pressed);
+
 /// One intensity and its relative error: the larger of the standard error of the fit and the
 /// change when one more term of the expansion is fitted; where the window is chosen, not less
 /// than the difference to windows of at most three times that error.
