@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cattaneo/friction/settled_states.hpp>
-#include <cmath>
 
 namespace cattaneo
 {
@@ -29,14 +28,6 @@ double least_force(const ReducedProblem &problem, const ContactState &state)
 }
 
 } // namespace
-
-VectorXd tangential_lengths(const VectorXd &x, Index n)
-{
-   if (x.size() == n) { return x.cwiseAbs(); }
-   VectorXd length = VectorXd::Zero(n);
-   for (Index i = 0; i < n && x.size() > 0; ++i) { length[i] = std::hypot(x[i], x[n + i]); }
-   return length;
-}
 
 VectorXd least_slip(const ReducedProblem &problem, const ContactState &state)
 {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cattaneo/friction/contact_state.hpp>
+#include <cattaneo/reduced/tangential_lengths.hpp>
 #include <vector>
 
 namespace cattaneo
@@ -48,10 +49,6 @@ private:
    Eigen::VectorXd low_, high_;
    std::vector<bool> closed_;
 };
-
-/// Lengths of the tangential vectors of n nodes, from v or q; zero without tangential
-/// components.
-Eigen::VectorXd tangential_lengths(const Eigen::VectorXd &x, Eigen::Index n);
 
 /// What each node's slip must exceed to be told from round-off, size n: what the least force
 /// that counts (see settled_states) does to it alone.

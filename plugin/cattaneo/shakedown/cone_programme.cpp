@@ -1,5 +1,5 @@
 #include <cattaneo/algebra/dense_lu.hpp>
-#include <cattaneo/input_error.hpp>
+#include <cattaneo/reduced/tangential_lengths.hpp>
 #include <cattaneo/shakedown/cone_programme.hpp>
 #include <cmath>
 #include <limits>
@@ -13,14 +13,14 @@
 namespace cattaneo
 {
 
-double length(const Eigen::Ref<const Eigen::VectorXd> &q, Eigen::Index i, Eigen::Index n)
-{
-   return q.size() == n ? std::abs(q[i]) : std::hypot(q[i], q[n + i]);
-}
-
 SlippedForces slipped_forces(const ReducedProblem &problem, const StuckForces &loads,
-                             double theta, const Eigen::VectorXd &slip)
+                             double theta, const Eigen::VectorXd &slip, Rounding rounding)
 {
+   const Eigen::Index n = problem.nodes();
+   const Eigen::MatrixXd q = loads.q(theta).colwise() + Eigen::VectorXd(problem.A() * slip);
+   SlippedForces forces{tangential_lengths(q, n),
+                        loads.p(theta).colwise() + Eigen::VectorXd(problem.B() * slip)};
+   if (rounding == Rounding::ignored) { return forces; }
    // A sum of k terms is wrong by at most k units of round-off of the sum of their sizes; here
    // they are the slips, the loads' two parts and their product with θ.
    const double share =
@@ -33,30 +33,17 @@ SlippedForces slipped_forces(const ReducedProblem &problem, const StuckForces &l
       const Eigen::VectorXd of_slip = stiffness.cwiseAbs() * slip.cwiseAbs();
       return Eigen::MatrixXd(share * (of_loads.colwise() + of_slip));
    };
-   return {loads.q(theta).colwise() + Eigen::VectorXd(problem.A() * slip),
-           loads.p(theta).colwise() + Eigen::VectorXd(problem.B() * slip),
-           error(loads.q0, loads.q1, problem.A()), error(loads.p0, loads.p1, problem.B())};
+   forces.shear += tangential_lengths(error(loads.q0, loads.q1, problem.A()), n);
+   forces.p -= error(loads.p0, loads.p1, problem.B());
+   return forces;
 }
 
 double worst_violation(const ConeProgramme &programme, const ReducedProblem &problem,
                        double theta, const Eigen::VectorXd &slip, Rounding rounding)
 {
-   const Eigen::Index n = programme.nodes();
-   SlippedForces forces = slipped_forces(problem, programme.loads, theta, slip);
-   if (rounding == Rounding::against) { forces.p -= forces.p_error; }
-   else { forces.q_error.setZero(); }
-   double worst = -std::numeric_limits<double>::infinity();
-   for (Eigen::Index j = 0; j < forces.q.cols(); ++j)
-   {
-      for (Eigen::Index i = 0; i < n; ++i)
-      {
-         const double shear =
-            length(forces.q.col(j), i, n) + length(forces.q_error.col(j), i, n);
-         const double excess = shear - programme.friction[i] * forces.p(i, j);
-         worst = std::max(worst, excess / programme.force_scale[i]);
-      }
-   }
-   return worst;
+   const auto [shear, p] = slipped_forces(problem, programme.loads, theta, slip, rounding);
+   const Eigen::MatrixXd excess = shear - programme.friction.asDiagonal() * p;
+   return (excess.array().colwise() / programme.force_scale.array()).maxCoeff();
 }
 
 namespace
@@ -181,14 +168,9 @@ double weak_duality_bound(const ConeProgramme &programme, const ReducedProblem &
    constexpr int max_rounds = 30;
    for (int round = 0;; ++round)
    {
-      for (Eigen::Index j = 0; j < vertices; ++j)
-      {
-         for (Eigen::Index i = 0; i < n; ++i)
-         {
-            const double least = programme.friction[i] * length(slip.col(j), i, n);
-            opening(i, j) = std::max(opening(i, j), least * (1 + 1e-15));
-         }
-      }
+      const Eigen::MatrixXd least =
+         programme.friction.asDiagonal() * tangential_lengths(slip, n);
+      opening = opening.cwiseMax(least * (1 + 1e-15));
       const Eigen::VectorXd slips = slip.rowwise().sum(), openings = opening.rowwise().sum();
       imbalance = problem.A() * slips + problem.B().transpose() * openings;
       const Eigen::VectorXd gross = problem.A().cwiseAbs() * slip.cwiseAbs().rowwise().sum() +

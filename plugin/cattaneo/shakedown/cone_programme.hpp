@@ -86,26 +86,22 @@ struct ConeSolution
 ConeSolution solve(const ConeProgramme &programme, const ConeSettings &settings,
                    const ConeStart &start);
 
-/// Length of the tangential force of node @a i; components, if two, are @a n apart.
-double length(const Eigen::Ref<const Eigen::VectorXd> &q, Eigen::Index i, Eigen::Index n);
-
-/// Forces of the stuck contact with a slip at each vertex, and by how much round-off can have
-/// changed each at most.
-struct SlippedForces
-{
-   Eigen::MatrixXd q, p;             ///< c·n and n rows, a column for each vertex
-   Eigen::MatrixXd q_error, p_error; ///< of the same sizes, not negative
-};
-
-SlippedForces slipped_forces(const ReducedProblem &problem, const StuckForces &loads,
-                             double theta, const Eigen::VectorXd &slip);
-
 /// How round-off counts that the forces may have suffered.
 enum class Rounding
 {
    ignored,
-   against ///< at its largest and to the worse side: what is at most 0 proves admissibility
+   against ///< at its largest and to the worse side: what is admissible all the same is proven
 };
+
+/// Forces of the stuck contact with a slip, n × vertices.
+struct SlippedForces
+{
+   Eigen::MatrixXd shear; ///< lengths of the tangential forces
+   Eigen::MatrixXd p;     ///< normal forces
+};
+
+SlippedForces slipped_forces(const ReducedProblem &problem, const StuckForces &loads,
+                             double theta, const Eigen::VectorXd &slip, Rounding rounding);
 
 /// Largest (|q| - f p) / force scale over all nodes and vertices: at most 0 inside every cone.
 /// Plain arithmetic from the slip and the matrices of the reduced problem.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/reduced/tangential_lengths.hpp>
 #include <cattaneo/shakedown/estimates.hpp>
 #include <cmath>
 #include <limits>
@@ -24,13 +25,6 @@ void for_each_pair(Eigen::Index vertices, Visitor visit)
    }
 }
 
-double jump(const Eigen::MatrixXd &q, Eigen::Index i, Eigen::Index n, Eigen::Index a,
-            Eigen::Index b)
-{
-   const double first = q(i, a) - q(i, b);
-   return q.rows() == n ? std::abs(first) : std::hypot(first, q(n + i, a) - q(n + i, b));
-}
-
 /// (4.9) with the pressures @a p; infinite where a sum of pressures is not positive.
 PointwiseEstimate pointwise(const Eigen::MatrixXd &q, const Eigen::MatrixXd &p,
                             const NodeList &nodes)
@@ -40,10 +34,12 @@ PointwiseEstimate pointwise(const Eigen::MatrixXd &q, const Eigen::MatrixXd &p,
    for_each_pair(q.cols(),
                  [&](Eigen::Index a, Eigen::Index b)
                  {
+                    const Eigen::VectorXd jump =
+                       tangential_lengths(q.col(a) - q.col(b), p.rows());
                     for (const Eigen::Index i : nodes)
                     {
                        const double sum = p(i, a) + p(i, b);
-                       const double f = sum > 0 ? jump(q, i, p.rows(), a, b) / sum : infinity;
+                       const double f = sum > 0 ? jump[i] / sum : infinity;
                        if (f > estimate.value) { estimate = {f, i, a, b}; }
                     }
                  });
@@ -103,13 +99,14 @@ PointwiseEstimate method1_load(const ReducedProblem &problem, const LoadCycle &c
    for_each_pair(forces.vertices(),
                  [&](Eigen::Index a, Eigen::Index b)
                  {
+                    // The constant loads are the same at a and b: their shear drops out.
+                    const Eigen::VectorXd jump =
+                       tangential_lengths(forces.q1.col(a) - forces.q1.col(b), n);
                     for (const Eigen::Index i : looked_at)
                     {
-                       // The constant loads are the same at a and b: their shear drops out.
                        const double f = problem.friction[i];
                        const double room = f * 2 * forces.p0(i, a);
-                       const double use =
-                          jump(forces.q1, i, n, a, b) - f * (forces.p1(i, a) + forces.p1(i, b));
+                       const double use = jump[i] - f * (forces.p1(i, a) + forces.p1(i, b));
                        const double at = room < 0 ? 0 : use > 0 ? room / use : infinity;
                        if (at < estimate.value) { estimate = {at, i, a, b}; }
                     }

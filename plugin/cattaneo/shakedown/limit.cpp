@@ -211,13 +211,9 @@ void LimitSettings::validate() const
 {
    require(tolerance >= 1e-9 && tolerance < 1, "shakedown: tolerance is ", tolerance,
            ", must be at least 1e-9 and below 1");
-   require(max_iterations > 0, "shakedown: max_iterations is ", max_iterations,
-           ", must be positive");
-   require(largest_factor > 0 && std::isfinite(largest_factor), "shakedown: largest_factor is ",
-           largest_factor, ", must be positive and finite");
-   require(largest_friction > 0 && std::isfinite(largest_friction),
-           "shakedown: largest_friction is ", largest_friction,
-           ", must be positive and finite");
+   require_at_least("shakedown: max_iterations", max_iterations, 1);
+   require_positive("shakedown: largest_factor", largest_factor);
+   require_positive("shakedown: largest_friction", largest_friction);
 }
 
 LimitReport load_limit(const LimitProblem &problem, const LimitSettings &settings)
@@ -472,25 +468,17 @@ LimitReport friction_limit(const LimitProblem &problem, double load_factor,
    /// best.
    const auto take = [&](const Eigen::VectorXd &v)
    {
-      const SlippedForces forces = slipped_forces(reduced, loads, load_factor, v);
-      double worst = 0;
-      for (Eigen::Index j = 0; j < loads.vertices(); ++j)
-      {
-         for (Eigen::Index i = 0; i < n; ++i)
-         {
-            const double pressure = forces.p(i, j) - forces.p_error(i, j);
-            if (pressure <= 0) { return; }
-            const double shear =
-               length(forces.q.col(j), i, n) + length(forces.q_error.col(j), i, n);
-            worst = std::max(worst, shear / pressure);
-         }
-      }
+      const auto [shear, least] =
+         slipped_forces(reduced, loads, load_factor, v, Rounding::against);
+      if (least.minCoeff() <= 0) { return; }
+      const double worst = shear.cwiseQuotient(least).maxCoeff();
       if (worst < report.upper)
       {
          report.upper = report.limit = worst;
          report.slip = v;
          // Clearance per normal force makes Dinkelbach's iteration superlinear.
-         weight = forces.p.cwiseMax(1e-3 * force_scale.replicate(1, loads.vertices()));
+         weight = slipped_forces(reduced, loads, load_factor, v, Rounding::ignored)
+                     .p.cwiseMax(1e-3 * force_scale.replicate(1, loads.vertices()));
       }
    };
 

@@ -1,4 +1,5 @@
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/reduced/tangential_lengths.hpp>
 #include <cattaneo/shakedown/monolith.hpp>
 #include <cmath>
 #include <limits>
@@ -54,14 +55,10 @@ Eigen::VectorXd traction_ratio(const ReducedProblem &problem,
 {
    const Eigen::Index n = problem.nodes(), m = problem.slips();
    const Eigen::VectorXd forces = problem.clamped_forces(multipliers);
-   Eigen::VectorXd ratio(n);
-   for (Eigen::Index i = 0; i < n; ++i)
-   {
-      const double p = forces[m + i];
-      const double q = m == n ? forces[i] : std::hypot(forces[i], forces[n + i]);
-      ratio[i] = p > 0 ? q / p : infinity;
-   }
-   return ratio;
+   const Eigen::VectorXd p = forces.tail(n);
+   const Eigen::VectorXd q =
+      m == n ? Eigen::VectorXd(forces.head(n)) : tangential_lengths(forces.head(m), n);
+   return (p.array() > 0).select(q.cwiseQuotient(p), infinity);
 }
 
 std::vector<Adhesion> adhesion_map(const ReducedProblem &problem, const LoadCycle &cycle,
@@ -76,16 +73,9 @@ std::vector<Adhesion> adhesion_map(const ReducedProblem &problem, const LoadCycl
    {
       const Eigen::VectorXd ratio =
          traction_ratio(problem, cycle.constant + load_factor * cycle.varying.col(vertex));
-      Adhesion adhesion{load_factor, -1, 0};
-      for (const Eigen::Index i : looked_at)
-      {
-         if (std::abs(ratio[i]) > adhesion.friction)
-         {
-            adhesion.friction = std::abs(ratio[i]);
-            adhesion.node = i;
-         }
-      }
-      map.push_back(adhesion);
+      Eigen::Index worst = 0;
+      const double friction = ratio(looked_at).cwiseAbs().maxCoeff(&worst);
+      map.push_back({load_factor, friction, looked_at[worst]});
    }
    return map;
 }

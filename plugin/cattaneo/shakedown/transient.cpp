@@ -41,16 +41,15 @@ const char *name(Verdict verdict)
 
 void TransientSettings::validate() const
 {
-   require(cycles >= 1, "transient: cycles is ", cycles, ", must be at least 1");
-   require(shaken_down > 0 && shaken_down < 1, "transient: shaken_down is ", shaken_down,
-           ", must be above 0 and below 1");
+   require_at_least("transient: cycles", cycles, 1);
+   require_between("transient: shaken_down", shaken_down, 0, 1);
    march.validate();
 }
 
 void CounterExampleSettings::validate() const
 {
-   require(starts >= 0, "counter-example: starts is ", starts, ", must not be negative");
-   require(halvings >= 1, "counter-example: halvings is ", halvings, ", must be at least 1");
+   require_at_least("counter-example: starts", starts, 0);
+   require_at_least("counter-example: halvings", halvings, 1);
    transient.validate();
 }
 
@@ -174,8 +173,7 @@ TransientReport transient(FrictionSolver &solver, const LimitProblem &problem,
 TransientBracket transient_bracket(const LimitProblem &problem, const LimitReport &limit,
                                    double margin, const TransientSettings &settings)
 {
-   require(margin > 0 && margin < 1, "transient bracket: margin is ", margin,
-           ", must be above 0 and below 1");
+   require_between("transient bracket: margin", margin, 0, 1);
    require(limit.slip.size() == problem.reduced.slips(),
            "transient bracket: the limit has no optimal slip: ", limit.message);
    FrictionSolver solver(problem.reduced, settings.march.friction);
