@@ -36,7 +36,7 @@ Run run(FrictionSolver &solver, const LoadHistory &history, Stepping stepping, i
    settings.stepping = stepping;
    settings.increments = increments;
    settings.stop_at_steady_state = false;
-   run.slip.setZero(solver.problem().nodes(), history.segments());
+   run.slip.setZero(solver.problem().nodes(), history.pieces());
    ContactState state = ContactState::virgin(solver.problem());
    run.report = march(solver, history, state, settings,
                       [&](const ContactState &now, const IncrementRecord &)

@@ -281,13 +281,11 @@ void add_options(miniapp::CaseOptions &args, BodyOptions &body, const std::strin
 /// A saved state must stand where the history stands at its time.
 void check_start(const ContactState &state, const LoadHistory &history)
 {
-   for (int piece = 0; piece < history.segments(); ++piece)
+   for (int k = 0; k < history.pieces(); ++k)
    {
-      const double from = history.start_time(piece), to = history.end_time(piece);
-      if (state.time < from || state.time > to) { continue; }
-      const VectorXd loads =
-         history.start(piece) +
-         (state.time - from) / (to - from) * (history.end(piece) - history.start(piece));
+      const LoadPiece piece = history.piece(k);
+      if (state.time < piece.start || state.time > piece.end) { continue; }
+      const VectorXd loads = piece.at((state.time - piece.start) / piece.duration());
       const double scale = history.multipliers.cwiseAbs().maxCoeff();
       require((loads - state.multipliers).cwiseAbs().maxCoeff() <= 1e-9 * scale,
               "option load-state: the saved state has the load multipliers (",
@@ -297,7 +295,7 @@ void check_start(const ContactState &state, const LoadHistory &history)
    }
    require(false, "option load-state: the saved state's time ", state.time,
            " is outside of the history, which ends at ",
-           history.end_time(history.segments() - 1));
+           history.piece(history.pieces() - 1).end);
 }
 
 /// Above this estimated error of the stiffness a warning is given.
@@ -481,7 +479,7 @@ int main(int argc, char *argv[])
          {
             for (double time : times)
             {
-               const double end = history.end_time(history.segments() - 1);
+               const double end = history.piece(history.pieces() - 1).end;
                require(time > state.time && time <= end, "option ", option, ": time ", time,
                        " is outside of the march from ", state.time, " to ", end);
             }

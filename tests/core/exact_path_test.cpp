@@ -193,7 +193,7 @@ TEST(ExactPath, SteppingConvergesToItInFirstOrder)
       // Slip at the points of the history.
       auto slip = [&](const MarchSettings &settings)
       {
-         Eigen::MatrixXd v(n, history.segments());
+         Eigen::MatrixXd v(n, history.pieces());
          ContactState state = ContactState::virgin(problem);
          const MarchReport report =
             march(problem, history, state, settings,

@@ -453,18 +453,20 @@ TEST(FrictionDisc, CriticalFrictionIsThatOfTheWeakestDirection)
    set_friction(problem, 1.07);
    EXPECT_NEAR(critical_friction(problem).node, least[1], 1e-8);
    EXPECT_EQ(critical_friction(problem).weakest_node, 1);
-   EXPECT_NEAR(FrictionSolver(problem).critical_friction(), least[1], 1e-8);
-   EXPECT_EQ(FrictionSolver(problem).critical_node(), 1);
    // Only a closed node counts, and it is the one that is named.
    const NodeState slip = NodeState::slip, stick = NodeState::stick,
                    open = NodeState::separation;
-   EXPECT_EQ(FrictionSolver(problem).uniqueness({slip, stick}).status,
-             FrictionStatus::converged);
+   const auto judged = [&](std::vector<NodeState> states)
+   {
+      ContactState at_rest = ContactState::virgin(problem);
+      at_rest.status = std::move(states);
+      return FrictionSolver(problem).judge(at_rest, at_rest);
+   };
+   EXPECT_EQ(judged({slip, stick}).status, FrictionStatus::converged);
    set_friction(problem, 1.08);
-   const FrictionSolver between(problem);
-   EXPECT_EQ(between.uniqueness({slip, open}).status, FrictionStatus::converged);
-   EXPECT_EQ(between.uniqueness({open, stick}).status, FrictionStatus::not_unique);
-   const std::string message = between.uniqueness({stick, slip}).message;
+   EXPECT_EQ(judged({slip, open}).status, FrictionStatus::converged);
+   EXPECT_EQ(judged({open, stick}).status, FrictionStatus::not_unique);
+   const std::string message = judged({stick, slip}).message;
    EXPECT_NE(message.find("friction 1.08 at node 1 is above its critical value 1.079"),
              std::string::npos)
       << message;
@@ -667,7 +669,7 @@ TEST(FrictionDisc, SpinsBeyondTheGreatestTorqueOfACoupledContact)
 {
    const ReducedProblem problem = free_disc(12, 0.4, 0.15);
    FrictionSolver solver(problem);
-   ASSERT_FALSE(solver.uncoupled());
+   ASSERT_TRUE(problem.coupled);
    MarchSettings settings;
    settings.increments = 60;
    ContactState state = ContactState::virgin(problem);

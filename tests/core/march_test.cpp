@@ -6,6 +6,7 @@
 #include "small_problems.hpp"
 
 #include <array>
+#include <cattaneo/friction/energy.hpp>
 #include <cattaneo/friction/march.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cstdio>
@@ -834,31 +835,34 @@ TEST(LoadHistory, PiecesOfRepeatedCyclesGoOnInTime)
    history.cycle_start = 1;
    history.cycles = 3;
    history.validate(1);
-   ASSERT_EQ(history.segments(), 7);
+   ASSERT_EQ(history.pieces(), 7);
    const double starts[] = {1, 2, 4, 5, 7, 8, 10, 11};
    const double loads[] = {0, 3, 7, 3, 7, 3, 7, 3};
    for (int k = 0; k < 7; ++k)
    {
-      EXPECT_EQ(history.start_time(k), starts[k]) << k;
-      EXPECT_EQ(history.end_time(k), starts[k + 1]) << k;
-      EXPECT_EQ(history.start(k)[0], loads[k]) << k;
-      EXPECT_EQ(history.end(k)[0], loads[k + 1]) << k;
-      EXPECT_EQ(history.cycle(k), (k + 1) / 2) << k;
-      EXPECT_EQ(history.ends_cycle(k), k > 0 && k % 2 == 0) << k;
-      EXPECT_EQ(history.point(k), k == 0 ? 0 : k % 2 ? 1 : 2) << k;
+      const LoadPiece piece = history.piece(k);
+      EXPECT_EQ(piece.start, starts[k]) << k;
+      EXPECT_EQ(piece.end, starts[k + 1]) << k;
+      EXPECT_EQ(piece.duration(), starts[k + 1] - starts[k]) << k;
+      EXPECT_EQ(piece.from[0], loads[k]) << k;
+      EXPECT_EQ(piece.to[0], loads[k + 1]) << k;
+      EXPECT_EQ(piece.at(0.25)[0], 0.75 * loads[k] + 0.25 * loads[k + 1]) << k;
+      EXPECT_EQ(piece.cycle, (k + 1) / 2) << k;
+      EXPECT_EQ(piece.ends_cycle, k > 0 && k % 2 == 0) << k;
+      EXPECT_EQ(piece.point, k == 0 ? 0 : k % 2 ? 1 : 2) << k;
    }
    // All of it is the cycle; none of it is.
    history.multipliers = Eigen::RowVector4d(3, 0, 7, 3);
    history.cycle_start = 0;
-   EXPECT_EQ(history.segments(), 9);
-   EXPECT_EQ(history.cycle(0), 1);
-   EXPECT_EQ(history.end_time(8), 13);
-   EXPECT_TRUE(history.ends_cycle(2));
+   EXPECT_EQ(history.pieces(), 9);
+   EXPECT_EQ(history.piece(0).cycle, 1);
+   EXPECT_EQ(history.piece(8).end, 13);
+   EXPECT_TRUE(history.piece(2).ends_cycle);
    history.cycle_start = -1;
-   EXPECT_EQ(history.segments(), 3);
-   EXPECT_EQ(history.end_time(2), 5);
-   EXPECT_EQ(history.cycle(2), 0);
-   EXPECT_FALSE(history.ends_cycle(2));
+   EXPECT_EQ(history.pieces(), 3);
+   EXPECT_EQ(history.piece(2).end, 5);
+   EXPECT_EQ(history.piece(2).cycle, 0);
+   EXPECT_FALSE(history.piece(2).ends_cycle);
 }
 
 TEST(March, RemembersTheLargestForceWhereverItIsLess)

@@ -181,16 +181,12 @@ Verdict march_and_verify(const ReducedProblem &problem, const LoadHistory &histo
    const bool lifts_off = report.message.find("lifts off") != std::string::npos;
    if (verdict.outcome != Outcome::gross_sliding && !lifts_off) { return verdict; }
    // Just beyond the load at which it came: on the piece that was being marched.
-   int piece = 0;
-   while (piece + 1 < history.segments() && history.end_time(piece) <= report.event_time)
-   {
-      ++piece;
-   }
-   const double length = history.end_time(piece) - history.start_time(piece);
+   int k = 0;
+   while (k + 1 < history.pieces() && history.piece(k).end <= report.event_time) { ++k; }
+   const LoadPiece piece = history.piece(k);
    const double beyond =
-      std::min(1.0, (report.event_time - history.start_time(piece)) / length + 1e-5);
-   const Eigen::VectorXd loads =
-      history.start(piece) + beyond * (history.end(piece) - history.start(piece));
+      std::min(1.0, (report.event_time - piece.start) / piece.duration() + 1e-5);
+   const Eigen::VectorXd loads = piece.at(beyond);
    const Eigen::VectorXd forces = problem.clamped_forces(loads);
    const Mechanism mechanism = find_mechanism(problem, forces);
    if (!mechanism.exists || !proves_mechanism(problem, mechanism.motion, forces))

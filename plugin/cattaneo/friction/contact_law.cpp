@@ -1,3 +1,4 @@
+#include <cattaneo/algebra/root.hpp>
 #include <cattaneo/friction/contact_law.hpp>
 #include <cmath>
 #include <limits>
@@ -56,35 +57,6 @@ struct SlipEquation
       return k * t * std::hypot(at[0], at[1]) - node.bound.line(p);
    }
 };
-
-/// Sign change in low…high, where g(low) <= 0 < g(high) (Illinois variant of false position).
-double root(const SlipEquation &g, double low, double high)
-{
-   double g_low = g(low), g_high = g(high);
-   const double scale = std::max(std::abs(g_low), std::abs(g_high));
-   for (int k = 0, last = 0; k < 100 && high - low > eps * high; ++k)
-   {
-      const double t =
-         k < 50 ? (low * g_high - high * g_low) / (g_high - g_low) : 0.5 * (low + high);
-      const double value = g(t);
-      if (value > 0)
-      {
-         high = t;
-         g_high = value;
-         if (last == 1) { g_low *= 0.5; }
-         last = 1;
-      }
-      else
-      {
-         low = t;
-         g_low = value;
-         if (last == -1) { g_high *= 0.5; }
-         last = -1;
-      }
-      if (std::abs(value) <= eps * scale) { return t; }
-   }
-   return low;
-}
 
 } // namespace
 
@@ -206,7 +178,7 @@ NodeMove solve_node(const LoneNode &node)
    {
       if (node.p0 >= 0 && magnitude(node.q0) <= node.bound.line(node.p0)) { return move; }
       const SlipEquation equation{node};
-      const double t = root(equation, 0, 1);
+      const double t = find_root(equation, 0, 1);
       move.state = NodeState::slip;
       move.slip = -(1 - t) * equation.y(t);
       move.found = presses();

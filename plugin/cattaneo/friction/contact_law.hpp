@@ -36,8 +36,12 @@ public:
    /// Nothing in tension.
    double at(double p, double sense = 0) const { return line(std::max(p, 0.0), sense); }
    /// Without the end at p = 0: the straight piece of it goes on into tension.
-   double line(double p, double sense = 0) const { return slope(p, sense) * p; }
-   /// Of that line.
+   double line(double p, double sense = 0) const
+   {
+      return intercept(p, sense) + slope(p, sense) * p;
+   }
+   /// Of that line: none in Coulomb's law.
+   double intercept(double /*p*/ = 0, double /*sense*/ = 0) const { return 0; }
    double slope(double /*p*/ = 0, double /*sense*/ = 0) const { return coefficient_; }
    /// Of the bound itself, of which nothing is left in tension.
    double derivative(double p, double sense = 0) const

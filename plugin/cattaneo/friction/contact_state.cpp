@@ -26,6 +26,20 @@ const char *name(NodeState state)
    return "";
 }
 
+Eigen::VectorXd ContactState::displacements() const
+{
+   Eigen::VectorXd u(v.size() + w.size());
+   u << v, w;
+   return u;
+}
+
+Eigen::VectorXd ContactState::forces() const
+{
+   Eigen::VectorXd F(q.size() + p.size());
+   F << q, p;
+   return F;
+}
+
 ContactState ContactState::virgin(const ReducedProblem &problem)
 {
    return with_slip(problem, Eigen::VectorXd::Zero(problem.slips()));

@@ -59,6 +59,11 @@ struct ContactState
    /// Slip at the end of the last two cycles (the latest last), to recognise a steady state.
    std::vector<Eigen::VectorXd> cycle_slip;
 
+   /// {v; w}.
+   Eigen::VectorXd displacements() const;
+   /// {q; p}.
+   Eigen::VectorXd forces() const;
+
    /// Before any load: no slip, and all nodes without a gap in stick.
    static ContactState virgin(const ReducedProblem &problem);
 

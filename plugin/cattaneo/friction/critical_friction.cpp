@@ -1,7 +1,7 @@
 #include <cattaneo/algebra/dense_algebra.hpp>
 #include <cattaneo/algebra/nonnegative_fit.hpp>
-#include <cattaneo/friction/contact_law.hpp>
 #include <cattaneo/friction/critical_friction.hpp>
+#include <cattaneo/friction/mechanism.hpp>
 #include <cmath>
 #include <limits>
 
@@ -17,19 +17,17 @@ namespace
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Do forces inside the cones of friction f balance each other? Z: rigid motions, as rows of
-/// which each contact force does its work. In the direction of each edge alike, so that zero is
-/// in the convex hull of the edges or is not.
-bool locks(const ReducedProblem &problem, const MatrixXd &Z, double f)
+/// Do forces inside the cones of friction f balance each other? In the direction of each edge
+/// alike, so that zero is in the convex hull of the edges or is not.
+bool locks(const ReducedProblem &problem, double f)
 {
-   const Index n = problem.nodes(), c = problem.components();
-   MatrixXd G(Z.cols() + 1, 2 * c * n);
+   const MatrixXd &Z = problem.rigid_motions;
+   const MatrixXd edges =
+      cone_edges(Z, std::vector<FrictionBound>(problem.nodes(), FrictionBound(f)));
+   MatrixXd G(Z.cols() + 1, edges.cols());
    Index used = 0;
-   for (Index k = 0; k < 2 * c * n; ++k)
+   for (const auto edge : edges.colwise())
    {
-      const Index i = k % n, t = k % (c * n);
-      const double side = k < c * n ? f : -f;
-      VectorXd edge = Z.row(c * n + i) + side * Z.row(t);
       // A force that no rigid motion feels is balanced by itself: by supports.
       if (edge.norm() > 1e-12 * (1 + f)) { G.col(used++) << edge / edge.norm(), 1; }
    }
@@ -41,13 +39,12 @@ bool locks(const ReducedProblem &problem, const MatrixXd &Z, double f)
 /// Cones grow with friction: bisection.
 double locking_friction(const ReducedProblem &problem)
 {
-   const MatrixXd &Z = problem.rigid_motions;
    double low = 1e-6, high = 1e6;
-   if (Z.cols() == 0 || !locks(problem, Z, high)) { return infinity; }
+   if (problem.rigid_motions.cols() == 0 || !locks(problem, high)) { return infinity; }
    while (high > (1 + 1e-12) * low)
    {
       const double middle = std::sqrt(low * high);
-      (locks(problem, Z, middle) ? high : low) = middle;
+      (locks(problem, middle) ? high : low) = middle;
    }
    return high;
 }
@@ -99,7 +96,7 @@ CriticalFriction critical_friction(const ReducedProblem &problem)
 bool can_lock(const ReducedProblem &problem)
 {
    return problem.rigid_motions.cols() > 0 && problem.components() > 0 &&
-          locks(problem, problem.rigid_motions, problem.friction.maxCoeff());
+          locks(problem, problem.friction.maxCoeff());
 }
 
 } // namespace cattaneo

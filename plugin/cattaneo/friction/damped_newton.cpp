@@ -99,8 +99,7 @@ Search damped_newton(Increment &at)
    if (s.frictionless) { return Search::not_here; }
    // A body that drifts away hardly has an equilibrium elsewhere: it is not looked for as long.
    const double operations = moves_away(at) ? 2e8 : 3e9;
-   VectorXd u_old(at.u.size());
-   u_old << at.start.v, at.start.w;
+   const VectorXd u_old = at.start.displacements();
    const VectorXd far = at.reference * s.K.diagonal().cwiseInverse();
    const Index starts = std::clamp<Index>(4000000 / (s.n * s.n * s.n), 2, 1000);
    const double N = static_cast<double>(s.K.rows()), step = N * N * (N + 40) + 5e4;

@@ -9,6 +9,17 @@ namespace cattaneo
 using Eigen::Index;
 using Eigen::VectorXd;
 
+void list_changes(const ContactState &from, const std::vector<NodeState> &to,
+                  std::vector<StateChange> &changes)
+{
+   for (std::size_t i = 0; i < to.size(); ++i)
+   {
+      if (to[i] == from.status[i]) { continue; }
+      changes.push_back(
+         {from.time, from.multipliers, static_cast<Index>(i), from.status[i], to[i]});
+   }
+}
+
 ExactPath::ExactPath(const ReducedProblem &problem)
    : problem_(problem), K_(problem.K), equations_(K_, friction_bounds(problem.friction))
 {
@@ -135,8 +146,7 @@ double ExactPath::way_to_event() const
 bool ExactPath::starts_from(const ContactState &state) const
 {
    const Index n = problem_.nodes();
-   VectorXd u(2 * n);
-   u << state.v, state.w;
+   const VectorXd u = state.displacements();
    const VectorXd f = problem_.clamped_forces(state.multipliers);
    // Ten times the leave that an increment of the solver has.
    const double allowed = 1e-11 * std::max(state.peak_force, f.cwiseAbs().maxCoeff());
@@ -162,10 +172,8 @@ bool ExactPath::advance(ContactState &state, double time, const VectorXd &multip
    const VectorXd f_end = problem_.clamped_forces(multipliers);
    const double peak =
       std::max({state.peak_force, f.cwiseAbs().maxCoeff(), f_end.cwiseAbs().maxCoeff()});
-   u_.resize(2 * n);
-   F_.resize(2 * n);
-   u_ << state.v, state.w;
-   F_ << state.q, state.p;
+   u_ = state.displacements();
+   F_ = state.forces();
    const VectorXd round_off = equations_.round_off(f, u_);
    noise_ = round_off.head(n).cwiseMax(round_off.tail(n)).cwiseMax(1e-13 * peak);
    rates_.b = f_end - f;
@@ -176,11 +184,7 @@ bool ExactPath::advance(ContactState &state, double time, const VectorXd &multip
    if (!found) { return false; }
    const std::vector<NodeState> &states = equations_.states();
    const std::size_t listed = changes.size();
-   for (Index i = 0; i < n; ++i)
-   {
-      if (states[i] == state.status[i]) { continue; }
-      changes.push_back({state.time, state.multipliers, i, state.status[i], states[i]});
-   }
+   list_changes(state, states, changes);
 
    const double way = way_to_event();
    // Where the present states hardly hold the bodies, round-off hides what is not balanced.

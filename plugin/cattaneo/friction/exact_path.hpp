@@ -17,6 +17,10 @@ struct StateChange
    NodeState from = NodeState::stick, to = NodeState::stick;
 };
 
+/// Adds the nodes of a state that change to other states there.
+void list_changes(const ContactState &from, const std::vector<NodeState> &to,
+                  std::vector<StateChange> &changes);
+
 /** The exact path of frictional contact: where loads change linearly, displacements and forces
     do too, until a node reaches a boundary of its state (a gap closes, a pressure vanishes,
     friction is exhausted). There, and where the loads turn, the nodes on a boundary choose new

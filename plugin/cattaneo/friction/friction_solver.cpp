@@ -29,15 +29,11 @@ const char *name(FrictionStatus status)
 
 void FrictionSettings::validate() const
 {
-   require(tolerance > 0 && tolerance < 1, "friction settings: tolerance is ", tolerance,
-           ", must be between 0 and 1");
-   require(sweeps >= 0, "friction settings: sweeps is ", sweeps, ", must not be negative");
-   require(max_attempts >= 1, "friction settings: max_attempts is ", max_attempts,
-           ", must be at least 1");
-   require(max_newton >= 1, "friction settings: max_newton is ", max_newton,
-           ", must be at least 1");
-   require(max_sweeps >= 1, "friction settings: max_sweeps is ", max_sweeps,
-           ", must be at least 1");
+   require_between("friction settings: tolerance", tolerance, 0, 1);
+   require_at_least("friction settings: sweeps", sweeps, 0);
+   require_at_least("friction settings: max_attempts", max_attempts, 1);
+   require_at_least("friction settings: max_newton", max_newton, 1);
+   require_at_least("friction settings: max_sweeps", max_sweeps, 1);
 }
 
 namespace
@@ -213,25 +209,9 @@ bool FrictionSolver::frictionless() const
 {
    return system_->frictionless;
 }
-bool FrictionSolver::uncoupled() const
-{
-   return system_->uncoupled;
-}
 IncrementReport FrictionSolver::judge(const ContactState &before, const ContactState &after)
 {
    return system_->judge(before, after);
-}
-double FrictionSolver::critical_friction() const
-{
-   return system_->critical_friction;
-}
-Index FrictionSolver::critical_node() const
-{
-   return system_->critical_node;
-}
-IncrementReport FrictionSolver::uniqueness(const std::vector<NodeState> &states) const
-{
-   return system_->uniqueness(states);
 }
 const Counters &FrictionSolver::counters() const
 {

@@ -75,18 +75,10 @@ public:
    const ReducedProblem &problem() const;
    bool frictionless() const;
    /// Is `after` the end of an increment from `before`? By the equations and the laws as they
-   /// are given, however it was found: converged or not_unique with its residuals, or stalled
-   /// with what it breaks.
+   /// are given, however it was found: converged, or not_unique if a closed node has friction
+   /// above its critical value (see CriticalFriction), with its residuals; or stalled with what
+   /// it breaks.
    IncrementReport judge(const ContactState &before, const ContactState &after);
-   /// True if B is exactly zero: the normal problem does not know of friction.
-   bool uncoupled() const;
-   /// Least critical friction A_ii/|B_ii| of any node, above which the rate problem of that
-   /// node has no unique answer (with two components: need not have one), and the node.
-   double critical_friction() const;
-   Eigen::Index critical_node() const;
-   /// converged; or not_unique, with the node in the message, if a node that is closed in these
-   /// states has friction above its critical value.
-   IncrementReport uniqueness(const std::vector<NodeState> &states) const;
    const Counters &counters() const;
 
 private:

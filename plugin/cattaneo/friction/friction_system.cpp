@@ -34,12 +34,7 @@ FrictionSystem::FrictionSystem(const ReducedProblem &given, const FrictionSettin
       {
          const LoneNode node = lone_node(problem, i);
          if (disc()) { ktt[i] = std::sqrt(node.A.determinant()); }
-         critical[i] = cattaneo::critical_friction(node);
-         if (critical[i] < critical_friction)
-         {
-            critical_friction = critical[i];
-            critical_node = i;
-         }
+         critical[i] = critical_friction(node);
       }
       arithmetic = std::make_unique<RoundOff>(K);
       return;
@@ -80,8 +75,7 @@ bool FrictionSystem::obeys_laws(const VectorXd &v_old, const ContactState &next,
 {
    // With the tangential displacements also where they were eliminated: what slips without
    // friction may go far, and bears on the pressure.
-   VectorXd all(next.v.size() + n);
-   all << next.v, next.w;
+   const VectorXd all = next.displacements();
    const VectorXd clamped = problem.clamped_forces(next.multipliers);
    const VectorXd forces = clamped + (tangential ? problem.K : K) * all;
    const VectorXd rows =

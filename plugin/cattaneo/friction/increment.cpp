@@ -19,8 +19,7 @@ Increment::Increment(FrictionSystem &s, const ContactState &state, const VectorX
    if (!s.frictionless)
    {
       f = clamped;
-      u.resize(f.size());
-      u << state.v, state.w;
+      u = state.displacements();
    }
    else
    {
@@ -38,9 +37,7 @@ Increment::Increment(FrictionSystem &s, const ContactState &state, const VectorX
    if (!s.frictionless && state.peak_force > 0)
    {
       // The state of an increment before: where sweeps begin; what is accepted is formed anew.
-      F.resize(f.size());
-      F << state.q, state.p;
-      F -= s.problem.clamped_forces(state.multipliers);
+      F = state.forces() - s.problem.clamped_forces(state.multipliers);
    }
    else { F = s.K * u; }
    // So does initial slip; slip that displacements elsewhere follow does not.

@@ -55,8 +55,6 @@ struct FrictionSystem
    MatrixXd normal;                      // frictionless: the normal stiffness, slip eliminated
    const MatrixXd &K;                    // the problem's, or `normal` if frictionless
    std::unique_ptr<RoundOff> arithmetic; // of sums K u + f
-   double critical_friction = std::numeric_limits<double>::infinity();
-   Index critical_node = 0;
 
    // Frictionless: tangential displacements follow by A⁻¹; motions along the contact that
    // nothing resists, and how much of each is in some displacements, by the length of the
@@ -85,6 +83,7 @@ struct FrictionSystem
    // See FrictionSolver.
    IncrementReport solve(ContactState &state, const VectorXd &multipliers);
    IncrementReport judge(const ContactState &before, const ContactState &after) const;
+   /// converged, or not_unique with a closed node of these states that is above_critical().
    IncrementReport uniqueness(const std::vector<NodeState> &states) const;
 };
 

@@ -37,59 +37,34 @@ LoadHistory LoadHistory::through(const ReducedProblem &problem,
    return through(ordered);
 }
 
-int LoadHistory::opening() const
+int LoadHistory::pieces() const
 {
-   return cycle_start < 0 ? static_cast<int>(times.size()) - 1 : cycle_start;
+   const auto all = static_cast<int>(times.size()) - 1;
+   return cycle_start < 0 ? all : cycle_start + (all - cycle_start) * cycles;
 }
 
-int LoadHistory::period() const
+LoadPiece LoadHistory::piece(int k) const
 {
-   return static_cast<int>(times.size()) - 1 - opening();
-}
-
-int LoadHistory::segments() const
-{
-   return opening() + (cycle_start < 0 ? 0 : period() * cycles);
-}
-
-int LoadHistory::point(int segment) const
-{
-   return segment < opening() ? segment : opening() + (segment - opening()) % period();
-}
-
-int LoadHistory::cycle(int segment) const
-{
-   return segment < opening() ? 0 : 1 + (segment - opening()) / period();
-}
-
-bool LoadHistory::ends_cycle(int segment) const
-{
-   return segment >= opening() && (segment - opening()) % period() == period() - 1;
-}
-
-double LoadHistory::start_time(int segment) const
-{
-   const int repeats = std::max(0, cycle(segment) - 1);
-   const double duration = cycle_start < 0 ? 0.0 : times[times.size() - 1] - times[cycle_start];
-   return times[point(segment)] + repeats * duration;
-}
-
-double LoadHistory::end_time(int segment) const
-{
+   const int last = static_cast<int>(times.size()) - 1,
+             opening = cycle_start < 0 ? last : cycle_start, period = last - opening;
+   const double duration = times[last] - times[opening];
+   LoadPiece piece;
+   piece.point = k;
+   if (k >= opening)
+   {
+      piece.point = opening + (k - opening) % period;
+      piece.cycle = 1 + (k - opening) / period;
+      piece.ends_cycle = piece.point == last - 1;
+   }
+   const double passed = std::max(0, piece.cycle - 1) * duration;
+   piece.start = times[piece.point] + passed;
    // The next piece's start where there is one, so that both are the same number.
-   if (segment + 1 < segments()) { return start_time(segment + 1); }
-   const int repeats = std::max(0, cycle(segment) - 1);
-   const double duration = cycle_start < 0 ? 0.0 : times[times.size() - 1] - times[cycle_start];
-   return times[point(segment) + 1] + repeats * duration;
-}
-
-Eigen::VectorXd LoadHistory::start(int segment) const
-{
-   return multipliers.col(point(segment));
-}
-Eigen::VectorXd LoadHistory::end(int segment) const
-{
-   return multipliers.col(point(segment) + 1);
+   piece.end = piece.ends_cycle && piece.cycle < cycles
+                  ? times[opening] + piece.cycle * duration
+                  : times[piece.point + 1] + passed;
+   piece.from = multipliers.col(piece.point);
+   piece.to = multipliers.col(piece.point + 1);
+   return piece;
 }
 
 void LoadHistory::validate(int patterns) const
@@ -110,10 +85,12 @@ void LoadHistory::validate(int patterns) const
    require(cycle_start < times.size() - 1, "load history: the cycle starts at point ",
            cycle_start, ", must be one of 0 to ", times.size() - 2);
    require(cycles >= 1, "load history: ", cycles, " cycles, at least 1 is needed");
-   const Eigen::VectorXd first = multipliers.col(cycle_start);
-   const Eigen::VectorXd last = multipliers.col(multipliers.cols() - 1);
-   require(first == last, "load history: the loads at the end of the cycle (", last.transpose(),
-           ") differ from those at its start (", first.transpose(), ")");
+   for (Eigen::Index k = 0; k < multipliers.rows(); ++k)
+   {
+      const double first = multipliers(k, cycle_start), last = multipliers(k, times.size() - 1);
+      require(first == last, "load history: the multiplier of load ", k, " at the end of the ",
+              "cycle, ", last, ", differs from that at its start, ", first);
+   }
 }
 
 } // namespace cattaneo

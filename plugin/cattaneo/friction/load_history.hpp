@@ -12,6 +12,20 @@ namespace cattaneo
 /// of ReducedProblem::multipliers().
 NamedLoads named(const ReducedProblem &problem, const Eigen::VectorXd &multipliers);
 
+/// One linear piece of a load history.
+struct LoadPiece
+{
+   int point = 0; ///< of the history, where it starts: the same in every repeated cycle
+   int cycle = 0; ///< that it belongs to: 0 for the opening part, then 1, 2, …
+   bool ends_cycle = false;
+   double start = 0, end = 0; ///< times, which go on through repeated cycles
+   Eigen::VectorXd from, to;  ///< multipliers there
+
+   double duration() const { return end - start; }
+   /// The multipliers at a share of its duration.
+   Eigen::VectorXd at(double share) const { return from + share * (to - from); }
+};
+
 /** A piecewise-linear history of load multipliers: an opening part, then a cycle that repeats.
 
     The points 0 … cycle_start are marched once, the points cycle_start … last `cycles` times;
@@ -31,26 +45,11 @@ struct LoadHistory
                               const std::vector<NamedLoads> &points);
 
    /// Number of linear pieces, repeated cycles counted.
-   int segments() const;
-   /// Start and end time of a piece (time goes on through repeated cycles).
-   double start_time(int segment) const;
-   double end_time(int segment) const;
-   /// Multipliers at the start and the end of a piece.
-   Eigen::VectorXd start(int segment) const;
-   Eigen::VectorXd end(int segment) const;
-   /// Index of the point where a piece starts (the same in every repeated cycle).
-   int point(int segment) const;
-   /// Cycle that a piece belongs to: 0 for the opening part, then 1, 2, ….
-   int cycle(int segment) const;
-   /// True if a cycle ends with this piece.
-   bool ends_cycle(int segment) const;
+   int pieces() const;
+   LoadPiece piece(int k) const;
 
    /// InputError if sizes, order of times or the closing of the cycle are wrong.
    void validate(int patterns) const;
-
-private:
-   int opening() const; ///< pieces before the cycle
-   int period() const;  ///< pieces of one cycle
 };
 
 } // namespace cattaneo

@@ -127,8 +127,8 @@ using MarchObserver = std::function<void(const ContactState &, const IncrementRe
 
 /** Marches the state along a load history. The state's own time says where it stands, so that a
     march can be cut and resumed: the result is the same to the last bit (Stepping::exact: to
-    round-off). Stops early, with the
-    status in the report, when there is no equilibrium; the state is then the last one found. */
+    round-off). Stops early, with the status in the report, when there is no equilibrium; the
+    state is then the last one found. */
 MarchReport march(const ReducedProblem &problem, const LoadHistory &history,
                   ContactState &state, const MarchSettings &settings = {},
                   const MarchObserver &observer = {});
@@ -137,16 +137,5 @@ MarchReport march(const ReducedProblem &problem, const LoadHistory &history,
 /// solver's own.
 MarchReport march(FrictionSolver &solver, const LoadHistory &history, ContactState &state,
                   const MarchSettings &settings = {}, const MarchObserver &observer = {});
-
-/** Frictional loss of each node (size n) over an increment: ½ f (p₀ + p₁)|Δv|, exact for a
-    linear path along which the node is in contact and slips one way. Where slip has turned
-   round since the last increment the node sticks first: p₀ is then the pressure at which
-   friction is exhausted again, if the forces of the node that does not slip yet change
-   linearly. Never negative. */
-Eigen::VectorXd frictional_loss(const ReducedProblem &problem, const ContactState &before,
-                                const ContactState &after);
-
-/// Elastic energy stored by the contact displacements and loads of a state (both bodies).
-double elastic_energy(const ReducedProblem &problem, const ContactState &state);
 
 } // namespace cattaneo

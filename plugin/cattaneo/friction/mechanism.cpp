@@ -1,5 +1,4 @@
 #include <cattaneo/algebra/nonnegative_fit.hpp>
-#include <cattaneo/friction/contact_law.hpp>
 #include <cattaneo/friction/mechanism.hpp>
 #include <cmath>
 #include <vector>
@@ -25,6 +24,22 @@ bool proves(const NonnegativeFit &fit, const MatrixXd &G)
 
 } // namespace
 
+MatrixXd cone_edges(const MatrixXd &Z, const std::vector<FrictionBound> &bound)
+{
+   const auto n = static_cast<Index>(bound.size());
+   const Index m = Z.rows() - n, lines = std::max(m, n);
+   MatrixXd edges(Z.cols(), 2 * lines);
+   for (Index row = 0; row < lines; ++row)
+   {
+      const Index i = row % n;
+      const VectorXd normal = Z.row(m + i);
+      const VectorXd tangential = m ? VectorXd(Z.row(row)) : VectorXd::Zero(Z.cols());
+      edges.col(2 * row) = normal + bound[i].slope(0, -1) * tangential;
+      edges.col(2 * row + 1) = normal - bound[i].slope(0, 1) * tangential;
+   }
+   return edges;
+}
+
 Mechanism find_mechanism(const ReducedProblem &problem, const VectorXd &clamped_forces,
                          double negligible)
 {
@@ -35,21 +50,10 @@ Mechanism find_mechanism(const ReducedProblem &problem, const VectorXd &clamped_
    const double lever = 1e-13 * motions.cwiseAbs().maxCoeff();
    const MatrixXd Z = (motions.array().abs() < lever).select(0.0, motions);
    const Index n = problem.nodes(), m = problem.slips();
-   // Equilibrium along the rigid motions: Zᵀ{q; p} = Zᵀ f^w. Columns of G: the edges (± f, 1)
-   // of every node's friction cone, for each tangential component.
+   // Equilibrium along the rigid motions: Zᵀ{q; p} = Zᵀ f^w.
    const Index c = std::max<Index>(problem.components(), 1);
    const std::vector<FrictionBound> bound = friction_bounds(problem.friction);
-   MatrixXd G(Z.cols(), 2 * c * n);
-   for (Index k = 0; k < c; ++k)
-   {
-      for (Index i = 0; i < n; ++i)
-      {
-         const VectorXd normal = Z.row(m + i);
-         const VectorXd tangential = m ? VectorXd(Z.row(k * n + i)) : VectorXd::Zero(Z.cols());
-         G.col(2 * (k * n + i)) = normal + bound[i].slope(0, -1) * tangential;
-         G.col(2 * (k * n + i) + 1) = normal - bound[i].slope(0, 1) * tangential;
-      }
-   }
+   MatrixXd G = cone_edges(Z, bound);
    const VectorXd g = Z.transpose() * clamped_forces;
    NonnegativeFit fit = fit_nonnegative(G, g);
    VectorXd &r = fit.residual;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cattaneo/reduced/reduced_problem.hpp>
+#include <cattaneo/friction/contact_law.hpp>
 
 namespace cattaneo
 {
@@ -13,6 +13,11 @@ struct Mechanism
    bool slides = false;    ///< moves along the contact somewhere (else it only lifts off)
    bool spins = false;     ///< slides in the circumferential direction somewhere
 };
+
+/// Edges of the friction cones as the motions Z = {v; w} (a column each) feel them: two columns
+/// for each tangential component of each node, the pressure 1 with the forces of the bound.
+/// Without tangential rows in Z the pressure alone, twice.
+Eigen::MatrixXd cone_edges(const Eigen::MatrixXd &Z, const std::vector<FrictionBound> &bound);
 
 /** Can contact forces inside the friction cones (p >= 0, |q| <= f p) balance the given clamped
     forces {q; p} along the rigid motions? By Farkas' lemma either they can, or there is a

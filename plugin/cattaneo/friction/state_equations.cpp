@@ -22,9 +22,15 @@ StateEquations::StateEquations(const Eigen::Ref<const MatrixXd> &K,
                                std::vector<FrictionBound> bound)
    : K_(K), bound_(std::move(bound)), n_(static_cast<Index>(bound_.size())),
      tangential_(K.rows() > n_), diagonal_(K.diagonal()), arithmetic_(K),
-     states_(n_, NodeState::stick), held_(n_, false), slot_of_(K.rows(), -1),
-     border_of_(K.rows(), -1)
+     states_(n_, NodeState::stick), held_(n_, false), constant_(VectorXd::Zero(K.rows())),
+     slot_of_(K.rows(), -1), border_of_(K.rows(), -1)
 {
+}
+
+NodeState StateEquations::smooth_contact(Index node, const VectorXd &x) const
+{
+   if (!tangential_) { return NodeState::stick; }
+   return x[node] >= 0 ? NodeState::forward_slip : NodeState::backward_slip;
 }
 
 template <class Visitor>
@@ -212,6 +218,11 @@ bool StateEquations::is_factored() const
 
 bool StateEquations::adopt()
 {
+   for (Index i = 0; tangential_ && i < n_; ++i)
+   {
+      const double way = sense(states_[i]);
+      constant_[i] = way * bound_[i].intercept(0, way);
+   }
    if (!anew_) { return border() || factor(); }
    anew_ = false;
    forget_borders();

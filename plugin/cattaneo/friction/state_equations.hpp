@@ -16,7 +16,7 @@ namespace cattaneo
     F = {q; p} = b + K x, K = [A Bᵀ; B C]:
 
         stick:       x_t = 0, x_n = 0
-        slip:        x_n = 0, q ± f p = 0
+        slip:        x_n = 0, q ± bound = 0
         separation:  q = 0,   p = 0
         separation of a node that is held: x_t = 0, p = 0
 
@@ -32,10 +32,18 @@ public:
    /// Keeps a reference to K, of size (c+1)·n, c = 0 or 1, with bounds for n nodes.
    StateEquations(const Eigen::Ref<const Eigen::MatrixXd> &K, std::vector<FrictionBound> bound);
 
+   Eigen::Index nodes() const { return n_; }
+   bool tangential() const { return tangential_; } ///< has tangential unknowns
    const Eigen::Ref<const Eigen::MatrixXd> &stiffness() const { return K_; }
    const Eigen::VectorXd &diagonal() const { return diagonal_; }      ///< of K
    const std::vector<FrictionBound> &bound() const { return bound_; } ///< of each node
    const std::vector<NodeState> &states() const { return states_; }
+   /// Row of K of a node's normal entry; that of the tangential one is the node's number.
+   Eigen::Index normal_row(Eigen::Index node) const { return tangential_ ? n_ + node : node; }
+   /// In contact a node without friction, or without a tangential unknown, does not stick …
+   bool smooth(Eigen::Index node) const { return !tangential_ || bound_[node].none(); }
+   /// … and this is its state after the displacements x: the sense is of no consequence.
+   NodeState smooth_contact(Eigen::Index node, const Eigen::VectorXd &x) const;
    /// Changes the states of all nodes or of one. False if the equations would be singular: then
    /// nothing has changed.
    bool set(const std::vector<NodeState> &states);
@@ -77,13 +85,12 @@ private:
       double made_for; // factor of the equation in Q_, NaN: none yet
    };
 
-   Eigen::Index normal_row(Eigen::Index node) const { return tangential_ ? n_ + node : node; }
    template <class Visitor>
    void for_each_equation(Eigen::Index node, Visitor visit) const;
    bool is_factored() const;
    double force(const Equation &e, const Eigen::VectorXd &F) const
    {
-      return F[e.row] + e.factor * F[e.other];
+      return F[e.row] + e.factor * F[e.other] + constant_[e.row];
    }
    bool factor();
    void forget_borders();
@@ -100,6 +107,7 @@ private:
    const RoundOff arithmetic_;
    std::vector<NodeState> states_;
    std::vector<bool> held_;
+   Eigen::VectorXd constant_; // of each row's equation, what of the bound does not go with p
 
    DenseLU lu_;                        // of M₀
    std::vector<Equation> slots_;       // of M₀: the unknown of a slot is x[row]

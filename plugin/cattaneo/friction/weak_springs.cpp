@@ -33,8 +33,7 @@ bool drifts(Increment &at)
    // Weak against the softest node and felt by the stiffest, or they prove nothing.
    // Above critical friction a body that slides may as well lock itself.
    const bool tell = soft > 1e-6 * own.maxCoeff() && s.above_critical() < 0;
-   VectorXd anchor(along + n);
-   anchor << at.start.v, at.start.w;
+   VectorXd anchor = at.start.displacements();
    VectorXd loads(count + 1);
    loads << at.multipliers, 1;
    ContactState begin = at.start;
@@ -67,8 +66,7 @@ bool drifts(Increment &at)
          continue;
       }
       mechanism = {};
-      VectorXd u_next(along + n);
-      u_next << next.v, next.w;
+      const VectorXd u_next = next.displacements();
       const VectorXd bears = spring * Z * (Z.transpose() * (u_next - anchor));
       anchor = u_next;
       const double size = bears.cwiseAbs().maxCoeff();
@@ -151,13 +149,8 @@ bool moves_away(Increment &at)
 Search weak_springs(Increment &at)
 {
    if (moves_away(at) || !at.rested) { return Search::not_here; }
-   VectorXd u = at.rested->w;
-   if (!at.system.frictionless)
-   {
-      u.resize(at.u.size());
-      u << at.rested->v, at.rested->w;
-   }
-   at.take(u, at.rested->status);
+   at.take(at.system.frictionless ? at.rested->w : at.rested->displacements(),
+           at.rested->status);
    if (newton(at)) { return Search::found; }
    return at.at_rest ? Search::hopeless : Search::not_here; // see FrictionSystem::solve()
 }

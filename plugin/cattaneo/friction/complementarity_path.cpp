@@ -2,7 +2,6 @@
 #include <cmath>
 #include <limits>
 #include <random>
-#include <set>
 
 namespace cattaneo
 {
@@ -13,115 +12,20 @@ using Eigen::VectorXd;
 namespace
 {
 
-class Rows
+/// Without friction there is no stick: the states of such nodes in contact, after the
+/// displacements x. False if the equations are singular.
+bool let_slip(StateEquations &equations, const VectorXd &x)
 {
-public:
-   explicit Rows(const StateEquations &equations)
-      : bound_(equations.bound()), n_(static_cast<Index>(bound_.size())),
-        tangential_(equations.diagonal().size() > n_)
+   std::vector<NodeState> states = equations.states();
+   for (Index i = 0; i < equations.nodes(); ++i)
    {
+      if (closed(states[i]) && equations.smooth(i))
+      {
+         states[i] = equations.smooth_contact(i, x);
+      }
    }
-
-   Index nodes() const { return n_; }
-   bool tangential() const { return tangential_; }
-   const FrictionBound &bound(Index i) const { return bound_[i]; }
-   /// Row of a node's normal displacement and force; the tangential one is the node's number.
-   Index normal(Index i) const { return tangential_ ? n_ + i : i; }
-   bool smooth(Index i) const { return !tangential_ || bound_[i].none(); }
-   /// The state of a node in contact without friction: the sense is of no consequence.
-   NodeState smooth_contact(Index i, const VectorXd &x) const
-   {
-      if (!tangential_) { return NodeState::stick; }
-      return x[i] >= 0 ? NodeState::forward_slip : NodeState::backward_slip;
-   }
-
-private:
-   const std::vector<FrictionBound> &bound_;
-   const Index n_;
-   const bool tangential_;
-};
-
-/// The state that a Newton step gives node i, in state s: what the present solution asks for.
-NodeState wanted(const Rows &rows, Choice choice, Index i, NodeState s, const VectorXd &x,
-                 const VectorXd &F, const VectorXd &stiffness, const VectorXd &round_off)
-{
-   const Index m = rows.normal(i);
-   const double tiny = std::max(round_off[i], round_off[m]);
-   switch (choice)
-   {
-   case Choice::open:
-      return NodeState::separation;
-   case Choice::held:
-      return NodeState::stick;
-   case Choice::sliding:
-      return rows.smooth_contact(i, x);
-   case Choice::forward:
-   case Choice::backward:
-   {
-      const NodeState slip =
-         choice == Choice::forward ? NodeState::forward_slip : NodeState::backward_slip;
-      const double way = sense(slip), left = s == slip ? stiffness[i] * way * x[i]
-                                                       : rows.bound(i).reserve(F[i], F[m], way);
-      return (s == slip) == (left >= -tiny) ? slip : NodeState::stick;
-   }
-   case Choice::any:
-      break;
-   }
-   ContactNode node;
-   node.gap = x[m];
-   node.p = F[m];
-   node.kn = stiffness[m];
-   if (rows.smooth(i))
-   {
-      const NodeState next = wanted_state(node, s, tiny, tiny);
-      return closed(next) ? rows.smooth_contact(i, x) : next;
-   }
-   node.slip = x.segment<1>(i);
-   node.q = F.segment<1>(i);
-   node.kt = stiffness[i];
-   node.bound = rows.bound(i);
-   return wanted_state(node, s, tiny, tiny);
+   return equations.set(states);
 }
-
-} // namespace
-
-ComplementarityReport solve_by_newton(StateEquations &equations,
-                                      const ComplementarityProblem &problem, int max_steps,
-                                      ComplementarityReport start)
-{
-   ComplementarityReport report = std::move(start);
-   bool known = report.x.size() == problem.b.size();
-   const Rows rows(equations);
-   const VectorXd &stiffness = equations.diagonal();
-   std::set<std::vector<NodeState>> visited;
-   while (report.newton_steps < max_steps)
-   {
-      if (!visited.insert(equations.states()).second) { break; } // it cycles
-      if (!known)
-      {
-         ++report.newton_steps;
-         if (!equations.solve(problem.b, report.x, report.F)) { break; }
-      }
-      known = false;
-      const VectorXd tiny = equations.round_off(problem.b, report.x);
-      std::vector<NodeState> next = equations.states();
-      for (Index i = 0; i < rows.nodes(); ++i)
-      {
-         next[i] =
-            wanted(rows, problem.choice[i], i, next[i], report.x, report.F, stiffness, tiny);
-      }
-      if (next == equations.states())
-      {
-         report.solved = true;
-         break;
-      }
-      if (!equations.set(next)) { break; }
-   }
-   return report;
-}
-
-namespace
-{
 
 /// The path of solutions from a start of our choice to the problem's b, see solve_by_path().
 class Path
@@ -153,7 +57,6 @@ private:
 
    StateEquations &equations_;
    const ComplementarityProblem &problem_;
-   const Rows rows_;
    const Index n_;
    const bool tangential_;
    /// Sense of slip: of nodes in contact that of their state; nodes in separation have one too
@@ -166,9 +69,9 @@ private:
 
 Path::Path(StateEquations &equations, const ComplementarityProblem &problem, const VectorXd &x,
            const VectorXd &F, double slack, unsigned seed)
-   : equations_(equations), problem_(problem), rows_(equations), n_(rows_.nodes()),
-     tangential_(rows_.tangential()), sense_(VectorXd::Zero(n_)), h_(VectorXd::Zero(n_)), x_(x),
-     F_(F)
+   : equations_(equations), problem_(problem), n_(equations.nodes()),
+     tangential_(equations.tangential()), sense_(VectorXd::Zero(n_)), h_(VectorXd::Zero(n_)),
+     x_(x), F_(F)
 {
    std::mt19937_64 random(seed);
    const VectorXd &stiffness = equations.diagonal();
@@ -180,7 +83,7 @@ Path::Path(StateEquations &equations, const ComplementarityProblem &problem, con
    for (Index i = 0; i < n_; ++i)
    {
       const NodeState state = equations.states()[i];
-      const Index m = rows_.normal(i);
+      const Index m = equations_.normal_row(i);
       const Choice choice = problem.choice[i];
       if (closed(state)) { x_[m] = 0; }
       else { F_[m] = 0; }
@@ -191,13 +94,13 @@ Path::Path(StateEquations &equations, const ComplementarityProblem &problem, con
       }
       if (!tangential_) { continue; }
       sense_[i] = sense(state);
-      const bool friction_acts = choice == Choice::any && !rows_.smooth(i);
+      const bool friction_acts = choice == Choice::any && !equations_.smooth(i);
       if (friction_acts)
       {
          h_[i] = some();
          if (!closed(state)) { sense_[i] = x_[i] >= 0 ? 1 : -1; }
       }
-      const double bound = rows_.bound(i).line(F_[m], sense_[i]) + h_[i];
+      const double bound = equations_.bound()[i].line(F_[m], sense_[i]) + h_[i];
       if (state == NodeState::stick)
       {
          x_[i] = 0;
@@ -222,7 +125,7 @@ void Path::for_each_inequality(Index i, Visitor visit) const
    const bool any = choice == Choice::any;
    if (!any && choice != Choice::forward && choice != Choice::backward) { return; }
    if (any) { visit(closed(equations_.states()[i]) ? pressure : gap); }
-   if (rows_.smooth(i)) { return; }
+   if (equations_.smooth(i)) { return; }
    if (sense_[i] != 0)
    {
       visit(way);
@@ -234,7 +137,7 @@ void Path::for_each_inequality(Index i, Visitor visit) const
 
 double Path::value(Index i, Kind kind, const VectorXd &x, const VectorXd &F, double theta) const
 {
-   const Index m = rows_.normal(i);
+   const Index m = equations_.normal_row(i);
    switch (kind)
    {
    case gap:
@@ -242,9 +145,9 @@ double Path::value(Index i, Kind kind, const VectorXd &x, const VectorXd &F, dou
    case pressure:
       return F[m];
    case forward:
-      return rows_.bound(i).reserve(F[i], F[m], 1) + theta * h_[i];
+      return equations_.bound()[i].reserve(F[i], F[m], 1) + theta * h_[i];
    case backward:
-      return rows_.bound(i).reserve(F[i], F[m], -1) + theta * h_[i];
+      return equations_.bound()[i].reserve(F[i], F[m], -1) + theta * h_[i];
    case way:
       return equations_.diagonal()[i] * sense_[i] * x[i];
    }
@@ -261,9 +164,9 @@ bool Path::exchange(Index i, Kind kind)
    if (kind == way) { sense_[i] = 0; }
    if (!stays_closed)
    {
-      return equations_.set(i, NodeState::separation, !rows_.smooth(i) && sense_[i] == 0);
+      return equations_.set(i, NodeState::separation, !equations_.smooth(i) && sense_[i] == 0);
    }
-   if (rows_.smooth(i)) { return equations_.set(i, rows_.smooth_contact(i, x_)); }
+   if (equations_.smooth(i)) { return equations_.set(i, equations_.smooth_contact(i, x_)); }
    return equations_.set(i, sense_[i] > 0   ? NodeState::forward_slip
                             : sense_[i] < 0 ? NodeState::backward_slip
                                             : NodeState::stick);
@@ -284,7 +187,7 @@ bool Path::meets_all(const VectorXd &x, const VectorXd &F)
    bool met = true;
    for (Index i = 0; i < n_; ++i)
    {
-      const double tiny = std::max(round_off[i], round_off[rows_.normal(i)]);
+      const double tiny = std::max(round_off[i], round_off[equations_.normal_row(i)]);
       for_each_inequality(i, [&](Kind k) { met = met && value(i, k, x, F, 0) >= -tiny; });
    }
    return met;
@@ -322,40 +225,18 @@ bool Path::follow(ComplementarityReport &report)
       if (node < 0) { break; } // arrived
       ++report.pivots;
       // The path goes on into the inside of the partner's inequality, or turns back to do so.
-      Kind partner = way;
-      switch (kind)
-      {
-      case gap:
-         partner = pressure;
-         break;
-      case pressure:
-         partner = gap;
-         break;
-      case forward:
-      case backward:
-         partner = way;
-         break;
-      case way:
-         partner = sense_[node] > 0 ? forward : backward;
-         break;
-      }
+      const Kind partner = kind == gap          ? pressure
+                           : kind == pressure   ? gap
+                           : kind != way        ? way
+                           : sense_[node] > 0.0 ? forward
+                                                : backward;
       if (!exchange(node, kind) || !find_direction()) { return false; }
       direction = value(node, partner, dx_, dF_, 1) > 0 ? 1 : -1;
    }
    // The equations of the final states leave no drift; nothing holds nodes in separation now.
-   std::vector<NodeState> states = equations_.states();
-   if (!equations_.set(states) || !equations_.solve(problem_.b, report.x, report.F))
-   {
-      return false;
-   }
-   for (Index i = 0; i < n_; ++i)
-   {
-      if (closed(states[i]) && rows_.smooth(i))
-      {
-         states[i] = rows_.smooth_contact(i, report.x);
-      }
-   }
-   return equations_.set(states) && meets_all(report.x, report.F);
+   const std::vector<NodeState> states = equations_.states();
+   return equations_.set(states) && equations_.solve(problem_.b, report.x, report.F) &&
+          let_slip(equations_, report.x) && meets_all(report.x, report.F);
 }
 
 } // namespace
@@ -365,15 +246,8 @@ ComplementarityReport solve_by_path(StateEquations &equations,
                                     const VectorXd &F, double slack, unsigned seed)
 {
    ComplementarityReport report;
-   // Without friction there is no stick.
-   const Rows rows(equations);
-   std::vector<NodeState> states = equations.states();
-   for (Index i = 0; i < rows.nodes(); ++i)
-   {
-      if (closed(states[i]) && rows.smooth(i)) { states[i] = rows.smooth_contact(i, x); }
-   }
-   if (!equations.set(states)) { return report; }
-   report.solved = Path(equations, problem, x, F, slack, seed).follow(report);
+   report.solved =
+      let_slip(equations, x) && Path(equations, problem, x, F, slack, seed).follow(report);
    return report;
 }
 

@@ -1,0 +1,151 @@
+#include <algorithm>
+#include <cattaneo/friction/advance.hpp>
+#include <cattaneo/friction/energy.hpp>
+#include <cattaneo/friction/march_record.hpp>
+#include <cattaneo/friction/settled_states.hpp>
+
+namespace cattaneo
+{
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace
+{
+
+double largest(const VectorXd &x)
+{
+   return x.size() ? x.cwiseAbs().maxCoeff() : 0.0;
+}
+
+/// Where each node last stuck, opened or turned round, see ContactState::slip_origin.
+void find_slip_origin(const ContactState &before, ContactState &next)
+{
+   const auto n = static_cast<Index>(next.status.size());
+   for (Index i = 0; i < n; ++i)
+   {
+      const NodeState then = before.status[i], now = next.status[i];
+      double along = 0; // old shear along the new: negative if slip has turned round
+      for (Index k = i; now == NodeState::slip && k < next.q.size(); k += n)
+      {
+         along += before.q[k] * next.q[k];
+      }
+      const bool turned = slips(then) && (then != now || along < 0);
+      for (Index k = i; k < next.v.size(); k += n)
+      {
+         if (!slips(now)) { next.slip_origin[k] = next.v[k]; }
+         else if (turned) { next.slip_origin[k] = before.v[k]; }
+      }
+   }
+}
+
+} // namespace
+
+MarchRecord::MarchRecord(const ReducedProblem &problem, ContactState &state,
+                         const MarchSettings &settings, const MarchObserver &observer)
+   : problem_(problem), state_(state), settings_(settings), observer_(observer),
+     energy_at_start_(elastic_energy(problem, state))
+{
+}
+
+void MarchRecord::accept(ContactState &&next, int cycle, const IncrementReport &increment,
+                         bool exact)
+{
+   find_slip_origin(state_, next);
+   IncrementRecord record;
+   record.time = next.time;
+   record.cycle = cycle;
+   record.residual_normal = increment.residual_normal;
+   record.residual_tangential = increment.residual_tangential;
+   record.round_off = increment.round_off;
+   const std::vector<NodeState> settled = settled_states(problem_, next);
+   const auto count = [&](NodeState state)
+   { return static_cast<int>(std::count(settled.begin(), settled.end(), state)); };
+   record.stick = count(NodeState::stick);
+   record.separation = count(NodeState::separation);
+   record.forward_slip = count(NodeState::forward_slip);
+   record.backward_slip = count(NodeState::backward_slip);
+   record.slip = count(NodeState::slip);
+   const VectorXd lost = frictional_loss(problem_, state_, next);
+   record.dissipation = lost.sum();
+   record.external_work = external_work(problem_, state_, next);
+   const double normal_work = -0.5 * (state_.p + next.p).dot(next.w - state_.w);
+   if (cycle > 0)
+   {
+      if (cycle_.node_dissipation.size() == 0)
+      {
+         cycle_.node_dissipation = VectorXd::Zero(lost.size());
+      }
+      cycle_.node_dissipation += lost;
+      cycle_.dissipation += record.dissipation;
+      cycle_.external_work += record.external_work;
+      cycle_.normal_work += normal_work;
+   }
+   if (!exact) { changed_ = std::max(changed_, changed_while_closing(problem_, state_, next)); }
+   external_work_ += record.external_work;
+   dissipation_ += record.dissipation;
+   normal_work_ += normal_work;
+   next.dissipation += record.dissipation;
+   state_ = std::move(next);
+   report.increments.push_back(record);
+   for (const CutOffContact &found : cut_off_contact(problem_, state_))
+   {
+      const bool known =
+         std::any_of(report.cut_off.begin(), report.cut_off.end(),
+                     [&](const CutOffContact &other)
+                     { return other.node == found.node && other.at_first == found.at_first; });
+      if (!known) { report.cut_off.push_back(found); }
+   }
+   report.largest_residual =
+      std::max({report.largest_residual, record.residual_normal, record.residual_tangential});
+   ++report.counters.increments;
+   if (increment.status == FrictionStatus::not_unique && !report.not_unique)
+   {
+      report.not_unique = {state_.time, state_.multipliers, increment.message};
+      stop(increment); // the status, which an end of the march may still replace
+   }
+   if (observer_) { observer_(state_, record); }
+}
+
+void MarchRecord::end_cycle()
+{
+   auto &past = state_.cycle_slip;
+   for (std::size_t period = 1; period <= past.size() && !report.steady_cycle; ++period)
+   {
+      const VectorXd &before = past[past.size() - period];
+      const double scale = std::max(largest(state_.v), largest(before));
+      if (largest(state_.v - before) <= settings_.steady_tolerance * scale)
+      {
+         report.steady_cycle = report.increments.back().cycle - static_cast<int>(period) + 1;
+         report.steady_period = static_cast<int>(period);
+      }
+   }
+   cycle_.slip_change = past.empty() ? 0.0 : largest(state_.v - past.back());
+   report.cycles.push_back(cycle_);
+   cycle_ = {};
+   past.push_back(state_.v);
+   if (past.size() > 2) { past.erase(past.begin()); }
+}
+
+void MarchRecord::stop(const IncrementReport &failure)
+{
+   report.status = failure.status;
+   report.message = failure.message;
+   report.event_time = state_.time;
+   report.event_multipliers = state_.multipliers;
+}
+
+void MarchRecord::close()
+{
+   report.time = state_.time;
+   if (changed_ > 0) { report.advance_error = 4 * changed_ / state_.peak_force; }
+   const double stored = elastic_energy(problem_, state_) - energy_at_start_;
+   // Work that is negative is no more than what was stored.
+   const double most = std::max({external_work_, std::abs(stored), dissipation_});
+   if (most > 0)
+   {
+      report.energy_imbalance = (external_work_ - stored - dissipation_ - normal_work_) / most;
+   }
+}
+
+} // namespace cattaneo
