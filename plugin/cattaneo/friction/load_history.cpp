@@ -88,8 +88,9 @@ void LoadHistory::validate(int patterns) const
    for (Eigen::Index k = 0; k < multipliers.rows(); ++k)
    {
       const double first = multipliers(k, cycle_start), last = multipliers(k, times.size() - 1);
-      require(first == last, "load history: the multiplier of load ", k, " at the end of the ",
-              "cycle, ", last, ", differs from that at its start, ", first);
+      require(first == last, "load history: the multiplier of load ", k,
+              " at the end of the cycle (", last, ") differs from that at its start (", first,
+              ")");
    }
 }
 
