@@ -6,6 +6,7 @@ extern "C"
    void dpotrf_(const char *triangle, const int *n, double *A, const int *stride, int *info);
    void dpotrs_(const char *triangle, const int *n, const int *columns, const double *A,
                 const int *stride, double *x, const int *x_stride, int *info);
+   void dpotri_(const char *triangle, const int *n, double *A, const int *stride, int *info);
    void dtrsm_(const char *side, const char *triangle, const char *transposed,
                const char *diagonal, const int *rows, const int *columns, const double *factor,
                const double *A, const int *stride, double *x, const int *x_stride);
@@ -55,6 +56,16 @@ void DenseCholesky::solve_other_half(MatrixXd &x) const
    dtrsm_("L", "L", "T", "N", &n, &columns, &one, factor_.data(), &n, x.data(), &n);
 }
 
+MatrixXd DenseCholesky::inverse() const
+{
+   MatrixXd result = factor_;
+   const int n = static_cast<int>(factor_.rows());
+   int info = 0;
+   if (n > 0) { dpotri_("L", &n, result.data(), &n, &info); }
+   result.triangularView<Eigen::StrictlyUpper>() = result.transpose();
+   return result;
+}
+
 #else
 
 bool DenseCholesky::compute(MatrixXd matrix)
@@ -78,6 +89,13 @@ void DenseCholesky::solve_half(MatrixXd &x) const
 void DenseCholesky::solve_other_half(MatrixXd &x) const
 {
    factor_.transpose().triangularView<Eigen::Upper>().solveInPlace(x);
+}
+
+MatrixXd DenseCholesky::inverse() const
+{
+   MatrixXd half = MatrixXd::Identity(factor_.rows(), factor_.cols());
+   solve_half(half);
+   return -minus_square(MatrixXd::Zero(half.rows(), half.cols()), half);
 }
 
 #endif

@@ -19,6 +19,8 @@ public:
    void solve_half(Eigen::MatrixXd &x) const;
    /// x <- L⁻ᵀ x
    void solve_other_half(Eigen::MatrixXd &x) const;
+   /// M⁻¹, symmetric to the last bit.
+   Eigen::MatrixXd inverse() const;
 
 private:
    Eigen::MatrixXd factor_;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cattaneo/elastic/material.hpp>
+#include <cattaneo/material.hpp>
 
 namespace cattaneo
 {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cattaneo/elastic/field.hpp>
-#include <cattaneo/elastic/material.hpp>
+#include <cattaneo/material.hpp>
 
 namespace cattaneo
 {

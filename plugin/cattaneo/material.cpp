@@ -1,4 +1,4 @@
-#include <cattaneo/elastic/material.hpp>
+#include <cattaneo/material.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
 

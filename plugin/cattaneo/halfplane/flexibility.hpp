@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cattaneo/halfplane/surface_trace.hpp>
+#include <cattaneo/material.hpp>
+
+namespace cattaneo
+{
+
+/** What a half-plane (or half-space) answers to tractions Σ t_j φ_j on its surface, in local
+    right-handed frames with the normal into the body: F t are the displacements' integrals with
+   the functions, ∫ φ_i u. All tangential unknowns first, then all normal ones; of torsion the
+   twist alone. Symmetric to the last bit. */
+using Flexibility = Eigen::MatrixXd;
+
+/** Plane strain or stress, x along the tangent (Johnson, Contact Mechanics, 2.3; E' =
+    Material::plane_modulus()):
+
+       u_x = 2/(πE') ∫ (ln D/|x-s| + 1) t_x ds - β ∫ sgn(x-s) t_y ds,   β = (1-2ν)(1+ν)/2E
+       u_y = 2/(πE') ∫ (ln D/|x-s| - 1) t_y ds + β ∫ sgn(x-s) t_x ds
+
+    relative to the point at the depth D below each force. If x = 0 is a plane of symmetry,
+   beside which the trace lies, the forces of its mirror image act as well. InputError if D is
+   less than twice the length of the trace, with its image. */
+Flexibility plane_flexibility(const SurfaceTrace &trace, const Material &material, double depth,
+                              bool symmetric);
+
+/** Axisymmetry, x = r; with J the Bessel functions and p = t_z, q = t_r of rings
+   (Johnson, 3.8),
+
+       u_r = (1-ν)/G ∫∫ J₁(kr) J₁(ks) dk q s ds + side (1-2ν)/2G ∫_{s<r} p s/r ds
+       u_z = (1-ν)/G ∫∫ J₀(kr) J₀(ks) dk p s ds + side (1-2ν)/2G ∫_{s>r} q ds
+
+    relative to infinity, in frames whose tangent runs outwards (side -1) or inwards (side 1),
+   all integrated over the circumference. */
+Flexibility axisymmetric_flexibility(const SurfaceTrace &trace, const Material &material,
+                                     double side);
+
+/// Torsion, unknowns ψ = u_θ/r: u_θ = 1/G ∫∫ J₁(kr) J₁(ks) dk t_θ s ds, t_θ = r Σ t_j φ_j, and
+/// the work of a force has the lever r.
+Flexibility torsion_flexibility(const SurfaceTrace &trace, const Material &material);
+
+} // namespace cattaneo

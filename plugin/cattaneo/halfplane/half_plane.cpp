@@ -1,0 +1,341 @@
+#include <algorithm>
+#include <cattaneo/algebra/dense_cholesky.hpp>
+#include <cattaneo/halfplane/flexibility.hpp>
+#include <cattaneo/halfplane/half_plane.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace cattaneo
+{
+
+namespace
+{
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Along the surface, so that the body is on the left.
+Eigen::Vector2d tangent(const HalfPlane &body)
+{
+   return {body.normal[1], -body.normal[0]};
+}
+
+/// Coordinates along the surface: from the axis outwards, or along the tangent.
+struct Surface
+{
+   const HalfPlane &body;
+   bool plane;
+   double nothing; ///< less is round-off
+
+   Surface(const HalfPlane &of, const ContactLine &line)
+      : body(of), plane(line.formulation == Formulation::plane), nothing(0)
+   {
+      for (const LineNode &node : line.nodes)
+      {
+         nothing = std::max(nothing, 1e-14 * std::abs(along(node.position)));
+      }
+   }
+   double along(const Eigen::Vector2d &position) const
+   {
+      if (!plane) { return position[0]; }
+      const double x = (position - body.point).dot(tangent(body));
+      return std::abs(x) > nothing ? x : 0.0; // on the plane of symmetry, if there is one
+   }
+   Eigen::Vector2d place(double x) const
+   {
+      if (!plane) { return {x, body.point[1]}; }
+      return body.point + x * tangent(body);
+   }
+};
+
+/// The trace, in which nodes keep their numbers and one on the axis is the last.
+SurfaceTrace trace_of(const ContactLine &line, const Surface &surface)
+{
+   std::vector<SurfaceElement> elements;
+   Index unknowns = line.size();
+   for (const LineChain &chain : line.chains)
+   {
+      for (const LineElement &element : chain.elements)
+      {
+         SurfaceElement made{element.nodes, VectorXd(element.points.cols())};
+         for (Index a = 0; a < made.x.size(); ++a)
+         {
+            made.x[a] = surface.along(element.points.col(a));
+            if (made.unknowns[a] >= 0) { continue; }
+            made.unknowns[a] = line.size();
+            made.x[a] = 0;
+            unknowns = line.size() + 1;
+         }
+         if (made.x[0] > made.x[made.order()])
+         {
+            std::reverse(made.unknowns.begin(), made.unknowns.end());
+            made.x.reverseInPlace();
+         }
+         elements.push_back(std::move(made));
+      }
+   }
+   return {unknowns, std::move(elements)};
+}
+
+/// The half-plane's own line, of the other body's turned round.
+ContactLine surface_line(const ContactLine &other, const Surface &surface)
+{
+   ContactLine line;
+   const Index n = other.size();
+   line.formulation = other.formulation;
+   for (Index i = 0; i < n; ++i)
+   {
+      LineNode node;
+      node.dofs = {static_cast<int>(i),
+                   components(line.formulation) == 2 ? static_cast<int>(n + i) : -1};
+      node.position = surface.place(surface.along(other.nodes[n - 1 - i].position));
+      node.tangent = tangent(surface.body);
+      node.spacing = std::numeric_limits<double>::infinity();
+      line.nodes.push_back(node);
+   }
+   double length = 0;
+   for (auto of = other.chains.rbegin(); of != other.chains.rend(); ++of)
+   {
+      require(!of->elements.empty(), "half-plane: the contact line has no elements between its "
+                                     "nodes, needs those on which the body is interpolated");
+      require(!of->loop, "half-plane: the contact line is a closed loop, must be open");
+      LineChain chain;
+      chain.first = n - of->first - of->nodes;
+      chain.nodes = of->nodes;
+      for (auto from = of->elements.rbegin(); from != of->elements.rend(); ++from)
+      {
+         LineElement element{from->nodes, from->points.rowwise().reverse()};
+         std::reverse(element.nodes.begin(), element.nodes.end());
+         for (Index a = 0; a < element.points.cols(); ++a)
+         {
+            Index &node = element.nodes[a];
+            if (node >= 0) { node = n - 1 - node; }
+            const double x = node < 0 ? 0 : surface.along(element.points.col(a));
+            element.points.col(a) = surface.place(x);
+            if (a > 0)
+            {
+               const double step = (element.points.col(a) - element.points.col(a - 1)).norm();
+               length += step;
+               for (const Index side : {element.nodes[a - 1], node})
+               {
+                  if (side >= 0)
+                  {
+                     line.nodes[side].spacing = std::min(line.nodes[side].spacing, step);
+                  }
+               }
+            }
+            if (node >= 0) { line.nodes[node].arc_length = length; }
+         }
+         chain.elements.push_back(std::move(element));
+      }
+      const auto end = [&](const LineElement &element, Index a)
+      {
+         const bool on_plane =
+            surface.body.symmetric && surface.along(element.points.col(a)) == 0;
+         return element.nodes[a] < 0 || on_plane ? LineEnd::axis : LineEnd::smooth;
+      };
+      chain.ends = {end(chain.elements.front(), 0),
+                    end(chain.elements.back(), chain.elements.back().order())};
+      line.chains.push_back(std::move(chain));
+   }
+   return line;
+}
+
+/// Into the line, of what the trace knows; that of a node on the axis goes to its neighbour.
+void set_weights(ContactLine &line, const SurfaceTrace &trace)
+{
+   VectorXd weights = trace.integral([&](double x) { return measure(line.formulation, x); });
+   if (trace.unknowns() > line.size())
+   {
+      const std::vector<Index> &innermost = trace.elements().front().unknowns;
+      weights[innermost[1]] += weights[innermost[0]];
+   }
+   for (Index i = 0; i < line.size(); ++i) { line.nodes[i].weight = weights[i]; }
+}
+
+/// The mass matrix of each component, of the unknowns that are kept.
+Eigen::SparseMatrix<double> blocks(const Eigen::SparseMatrix<double> &mass,
+                                   const std::vector<int> &kept)
+{
+   std::vector<Index> position(2 * mass.rows(), -1);
+   for (std::size_t a = 0; a < kept.size(); ++a) { position[kept[a]] = static_cast<Index>(a); }
+   std::vector<Eigen::Triplet<double>> entries;
+   for (const int unknown : kept)
+   {
+      const Index first = unknown / mass.rows() * mass.rows();
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(mass, unknown % mass.rows()); entry;
+           ++entry)
+      {
+         const Index row = position[first + entry.row()];
+         if (row >= 0) { entries.emplace_back(row, position[unknown], entry.value()); }
+      }
+   }
+   const auto size = static_cast<Index>(kept.size());
+   Eigen::SparseMatrix<double> M(size, size);
+   M.setFromTriplets(entries.begin(), entries.end());
+   return M;
+}
+
+/// It has no dofs but those of its contact nodes.
+class SurfaceSolver : public BodySolver
+{
+public:
+   std::vector<int> free;
+   Index dofs = 0;
+   double relative_error = 0;
+
+   VectorXd recover(const VectorXd &contact, const VectorXd &, Counters &) const override
+   {
+      VectorXd field = VectorXd::Zero(dofs);
+      field(free) = contact;
+      return field;
+   }
+   double error(const MatrixXd &, const MatrixXd &, Counters &) const override
+   {
+      return relative_error;
+   }
+};
+
+/** Least eigenvalue of F scaled to a diagonal of ones, by inverse iteration (from above, by a
+    few per cent). Entries of F wrong by ε √(F_ii F_jj) at random change energies, and so S, by
+    about 2 ε √n over it. */
+double least_eigenvalue(const DenseCholesky &factor, const VectorXd &diagonal)
+{
+   const Index n = diagonal.size();
+   VectorXd x(n);
+   for (Index i = 0; i < n; ++i) { x[i] = std::sin(1.0 + static_cast<double>(i * i)); }
+   double largest = 0;
+   for (int k = 0; k < 8; ++k)
+   {
+      x.normalize();
+      VectorXd y = diagonal.cwiseSqrt().cwiseProduct(x);
+      factor.solve(y);
+      x = diagonal.cwiseSqrt().cwiseProduct(y);
+      largest = x.norm();
+   }
+   return 1 / largest;
+}
+
+} // namespace
+
+void HalfPlane::validate(Formulation formulation) const
+{
+   material.validate();
+   const bool plane = formulation == Formulation::plane;
+   require(
+      plane || material.state == PlaneState::strain,
+      "half-plane: its material is one of plane stress, must be of plane strain about an axis");
+   require(point.allFinite(), "half-plane: the point of its surface is (", point[0], ", ",
+           point[1], "), must be finite");
+   require(std::abs(normal.norm() - 1) <= 1e-9 &&
+              (plane ? !symmetric || normal[0] == 0 || normal[1] == 0 : normal[0] == 0),
+           "half-plane: the normal of its surface is (", normal[0], ", ", normal[1],
+           "), must be of length 1", plane ? "" : " and along the axis",
+           plane && symmetric ? ", and horizontal or vertical beside a plane of symmetry" : "");
+   require(plane || !symmetric, "half-plane: a plane of symmetry is said of a half-space about "
+                                "an axis, is for the plane alone");
+}
+
+CondensedBody condense(const HalfPlane &body, const ContactLine &other)
+{
+   body.validate(other.formulation);
+   other.validate();
+   const Surface surface(body, other);
+   CondensedBody result;
+   result.line = surface_line(other, surface);
+   const ContactLine &line = result.line;
+   const SurfaceTrace trace = trace_of(line, surface);
+   set_weights(result.line, trace);
+   line.validate();
+
+   const Formulation formulation = line.formulation;
+   const bool torsion = formulation == Formulation::torsion;
+   const Flexibility F =
+      formulation == Formulation::plane
+         ? plane_flexibility(trace, body.material, body.depth, body.symmetric)
+      : torsion ? torsion_flexibility(trace, body.material)
+                : axisymmetric_flexibility(trace, body.material, -tangent(body)[0]);
+   const Eigen::SparseMatrix<double> mass = trace.mass(
+      [&](double x)
+      { return measure(formulation, x) * lever(formulation, x) * lever(formulation, x); });
+
+   // Of all unknowns (with those on the axis, last of each component) the free ones.
+   const Index n = line.size(), unknowns = trace.unknowns(), axis = unknowns - n;
+   std::vector<int> kept, free; // unknowns, and rows of S
+   for (int c = 0; c < components(formulation); ++c)
+   {
+      for (Index i = 0; i < unknowns; ++i)
+      {
+         const bool on_axis = i == n, normal = c == 1 || torsion;
+         const bool on_plane =
+            !on_axis && body.symmetric && surface.along(line.nodes[i].position) == 0;
+         const auto row = static_cast<int>(c * n + i);
+         if (on_plane && !normal) { result.held.push_back(row); }
+         if ((on_axis || on_plane) && !normal) { continue; }
+         kept.push_back(static_cast<int>(c * unknowns + i));
+         if (!on_axis) { free.push_back(row); }
+      }
+   }
+   const auto size = static_cast<Index>(kept.size()), rows = components(formulation) * n;
+   const MatrixXd flexible = F(kept, kept);
+   DenseCholesky factor;
+   require(factor.compute(flexible),
+           "half-plane: its flexibility is not positive definite, the depth ", body.depth,
+           " that displacements are relative to must be larger, or Poisson's ratio ",
+           body.material.poisson, " further from its limits");
+   const Eigen::SparseMatrix<double> M = blocks(mass, kept);
+   MatrixXd S = M * (factor.inverse() * M);
+   S.triangularView<Eigen::StrictlyUpper>() = S.transpose();
+   if (axis) // it moves as no force asks it to
+   {
+      const VectorXd column = S.col(size - 1) / std::sqrt(S(size - 1, size - 1));
+      S -= column * column.transpose();
+   }
+   result.S = MatrixXd::Zero(rows, rows);
+   const auto own = static_cast<Index>(free.size());
+   result.S(free, free) = S.topLeftCorner(own, own);
+   if (torsion)
+   {
+      const VectorXd inverse = line.each(&LineNode::position).col(0).cwiseInverse();
+      result.S = (inverse.asDiagonal() * result.S * inverse.asDiagonal()).eval();
+      result.S.triangularView<Eigen::StrictlyUpper>() = result.S.transpose();
+   }
+   result.free_motions.resize(rows, 0);
+   auto solver = std::make_shared<SurfaceSolver>();
+   solver->dofs = rows;
+   // In components: a tangential one that is held lies along the surface.
+   const bool upright = tangent(body)[0] == 0;
+   for (Index i = 0; i < rows; ++i)
+   {
+      const auto row = static_cast<int>(upright ? (i + n) % rows : i);
+      if (!std::binary_search(result.held.begin(), result.held.end(), row))
+      {
+         solver->free.push_back(static_cast<int>(i));
+      }
+   }
+   solver->relative_error = 10 * std::numeric_limits<double>::epsilon() *
+                            std::sqrt(double(size)) /
+                            least_eigenvalue(factor, flexible.diagonal());
+   result.solver = std::move(solver);
+   return result;
+}
+
+Reduction reduce(CondensedBody body, const HalfPlane &half_plane)
+{
+   CondensedBody other = condense(half_plane, body.line);
+   const Index n = body.line.size();
+   Pairing pairing{std::vector<int>(n), VectorXd(n)};
+   for (Index i = 0; i < n; ++i)
+   {
+      const LineNode &node = body.line.nodes[i];
+      pairing.partner[i] = static_cast<int>(n - 1 - i);
+      const double gap = (half_plane.point - node.position).dot(half_plane.normal);
+      pairing.gap[i] = std::abs(gap) > 1e-9 * node.spacing ? gap : 0.0;
+   }
+   return reduce(std::move(body), std::move(other), pairing);
+}
+
+} // namespace cattaneo

@@ -1,0 +1,337 @@
+#include <cattaneo/algebra/quadrature.hpp>
+#include <cattaneo/halfplane/kernel_integrals.hpp>
+#include <cmath>
+
+namespace cattaneo
+{
+
+namespace
+{
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Distance over length from which on Gauss's rule is used.
+constexpr double apart = 0.5;
+/// Points and weights of an element: the functions times weights, for x; without, for s.
+struct Samples
+{
+   VectorXd x;
+   MatrixXd phi;
+};
+
+/// A part of an element.
+struct Panel
+{
+   const SurfaceElement *element;
+   double begin, end;   ///< parameters
+   double from, to;     ///< places
+   bool uneven = false; ///< the slope of x(t) varies much
+
+   Panel(const SurfaceElement &of, const SurfaceTrace &trace, double first = 0, double last = 1)
+      : element(&of), begin(first), end(last)
+   {
+      const Index order = of.order();
+      const VectorXd t = VectorXd::LinSpaced(2 * order + 1, begin, end);
+      const SurfacePoints at = trace.points(of, t);
+      from = begin == 0 ? of.x[0] : of.x[0] + at.x[0];
+      to = end == 1 ? of.x[order] : of.x[0] + at.x[2 * order];
+      uneven = at.dx.maxCoeff() > 1.5 * at.dx.minCoeff();
+   }
+   double size() const { return to - from; }
+   std::vector<Panel> halves(const SurfaceTrace &trace) const
+   {
+      const double middle = 0.5 * (begin + end);
+      return {{*element, trace, begin, middle}, {*element, trace, middle, end}};
+   }
+   bool same(const Panel &other) const
+   {
+      return element == other.element && begin == other.begin && end == other.end;
+   }
+};
+
+/// For products of the functions of two panels with what has no singularity closer to the
+/// interval than half its length.
+const QuadratureRule &regular_rule(const Panel &p, const Panel &q)
+{
+   return gauss_rule(static_cast<int>(p.element->order() + q.element->order()) + 17);
+}
+
+/// The integrals of all pairs of elements.
+class Integrals
+{
+public:
+   Integrals(const SurfaceTrace &first, const SurfaceTrace &second, const SurfaceKernel &kernel)
+      : first_(first), second_(second),
+        kernel_(kernel), whole_{std::vector<std::map<int, Samples>>(first.elements().size()),
+                                std::vector<std::map<int, Samples>>(second.elements().size())}
+   {
+   }
+
+   MatrixXd all()
+   {
+      const bool same = &first_ == &second_;
+      MatrixXd result = MatrixXd::Zero(first_.unknowns(), second_.unknowns());
+      const std::vector<Panel> rows = panels(first_), columns = panels(second_);
+      for (const Panel &p : rows)
+      {
+         for (const Panel &q : columns)
+         {
+            const SurfaceElement &e = *p.element, &f = *q.element;
+            block_ = MatrixXd::Zero(e.x.size(), f.x.size());
+            add(p, q);
+            result(e.unknowns, f.unknowns) += block_;
+            if (!same) { continue; }
+            if (&e == &f) { break; }
+            result(f.unknowns, e.unknowns) += block_.transpose();
+         }
+      }
+      return result;
+   }
+
+private:
+   const SurfaceTrace &first_, &second_;
+   const SurfaceKernel &kernel_;
+   std::vector<std::map<int, Samples>> whole_[2]; ///< of whole elements, by the points
+   MatrixXd block_;
+
+   static std::vector<Panel> panels(const SurfaceTrace &trace)
+   {
+      std::vector<Panel> all;
+      for (const SurfaceElement &element : trace.elements())
+      {
+         all.emplace_back(element, trace);
+      }
+      return all;
+   }
+   void add(const Panel &p, const Panel &q)
+   {
+      const bool same = p.same(q), touches = p.to == q.from || q.to == p.from;
+      const double distance = std::max(p.from - q.to, q.from - p.to);
+      const double longer = std::max(p.size(), q.size());
+      const bool even = !p.uneven && !q.uneven;
+      if (same && even && kernel_.about_axis && p.from == 0) { add_at_axis(p); }
+      else if (same && even && !(kernel_.about_axis && 2 * p.from < p.size())) { add_same(p); }
+      else if (touches && even && longer <= 2 * std::min(p.size(), q.size()))
+      {
+         add_neighbours(p, q);
+      }
+      else if (even && distance >= apart * longer) { add_apart(p, q, distance); }
+      else
+      {
+         // The longer one in halves, or an uneven one, or both if they are the same.
+         const bool of_p = same || (p.uneven == q.uneven ? p.size() >= q.size() : p.uneven);
+         const std::vector<Panel> ps = of_p ? p.halves(first_) : std::vector{p},
+                                  qs = same || !of_p ? q.halves(second_) : std::vector{q};
+         for (const Panel &half : ps)
+         {
+            for (const Panel &other : qs) { add(half, other); }
+         }
+      }
+   }
+
+   /// At fractions of a panel.
+   static Samples samples(const Panel &p, const SurfaceTrace &trace, const VectorXd &fractions,
+                          const VectorXd &weights)
+   {
+      const double length = p.end - p.begin;
+      const VectorXd t = p.begin + length * fractions.array();
+      SurfacePoints at = trace.points(*p.element, t);
+      at.phi *= (length * at.dx.cwiseProduct(weights)).asDiagonal();
+      return {std::move(at.x), std::move(at.phi)};
+   }
+   /// By Gauss's rule, in `part` unless the panel is a whole element, whose samples are kept.
+   const Samples &by_gauss(const Panel &p, int which, int points, Samples &part)
+   {
+      const SurfaceTrace &trace = which == 0 ? first_ : second_;
+      const bool whole = p.begin == 0 && p.end == 1;
+      Samples &made = whole ? whole_[which][p.element - trace.elements().data()][points] : part;
+      if (made.x.size() == 0)
+      {
+         const QuadratureRule &rule = gauss_rule(points);
+         made = samples(p, trace, rule.points, rule.weights);
+      }
+      return made;
+   }
+
+   /// Points of Gauss's rule for a singularity at a distance from a panel: its error falls as
+   /// ρ^(-2 points), with ρ the sum of the half axes of the ellipse through the singularity.
+   static int points_for(const Panel &p, double distance)
+   {
+      const double reach = 1 + 2 * distance / p.size();
+      const double rho = reach + std::sqrt(reach * reach - 1);
+      return static_cast<int>(p.element->order()) + 2 + static_cast<int>(8.5 / std::log10(rho));
+   }
+   void add_apart(const Panel &p, const Panel &q, double distance)
+   {
+      const int np = points_for(p, distance), nq = points_for(q, distance);
+      Samples of_p, of_q;
+      const Samples &x = by_gauss(p, 0, np, of_p), &s = by_gauss(q, 1, nq, of_q);
+      const double xp = p.element->x[0], sq = q.element->x[0];
+      MatrixXd G(np, nq);
+      for (Index l = 0; l < nq; ++l)
+      {
+         for (Index k = 0; k < np; ++k)
+         {
+            G(k, l) =
+               kernel_.value(std::abs(xp - sq + (x.x[k] - s.x[l])), xp + x.x[k], sq + s.x[l]);
+         }
+      }
+      block_.noalias() += x.phi * G * s.phi.transpose();
+   }
+
+   /// A pair of points as fractions of two panels. The distance of x from the place where it
+   /// would meet s is a fraction of the first panel; so is that of s of the second.
+   struct Pair
+   {
+      double x, s, weight, x_by, s_by;
+   };
+   struct Pairs
+   {
+      VectorXd x, s, weights, x_by, s_by;
+   };
+   /// The points of two rules, each with each.
+   template <class Place>
+   static Pairs pairs(const QuadratureRule &a, const QuadratureRule &b, Place place)
+   {
+      const Index n = a.points.size(), m = b.points.size();
+      VectorXd none(n * m);
+      Pairs all{none, none, none, none, none};
+      for (Index k = 0; k < n * m; ++k)
+      {
+         const Index i = k / m, j = k % m;
+         const Pair one = place(a.points[i], b.points[j]);
+         all.x[k] = one.x;
+         all.s[k] = one.s;
+         all.weights[k] = one.weight * a.weights[i] * b.weights[j];
+         all.x_by[k] = one.x_by;
+         all.s_by[k] = one.s_by;
+      }
+      return all;
+   }
+   /// Lengths between points of a panel whose fractions differ by so much, to round-off however
+   /// little it is: the mean slope, which is of degree order - 1, times the difference.
+   static VectorXd lengths(const Panel &p, const SurfaceTrace &trace, const VectorXd &from,
+                           const VectorXd &to, const VectorXd &by)
+   {
+      const double length = p.end - p.begin;
+      const QuadratureRule &rule = gauss_rule(static_cast<int>(p.element->order() / 2 + 1));
+      VectorXd slope = VectorXd::Zero(from.size());
+      for (Index k = 0; k < rule.points.size(); ++k)
+      {
+         const VectorXd between = from + rule.points[k] * (to - from);
+         const VectorXd t = p.begin + length * between.array();
+         slope += rule.weights[k] * trace.points(*p.element, t).dx;
+      }
+      return length * slope.cwiseProduct(by);
+   }
+   MatrixXd integral(const Panel &p, const Panel &q, const Pairs &pairs,
+                     const VectorXd &distance) const
+   {
+      const Samples x = samples(p, first_, pairs.x, pairs.weights),
+                    s = samples(q, second_, pairs.s, VectorXd::Ones(pairs.s.size()));
+      VectorXd G(distance.size());
+      for (Index k = 0; k < G.size(); ++k)
+      {
+         G[k] = kernel_.value(distance[k], p.element->x[0] + x.x[k], q.element->x[0] + s.x[k]);
+      }
+      return x.phi * G.asDiagonal() * s.phi.transpose();
+   }
+   /// Of the half of a square of which s < x, and of the other, which mirrors it.
+   void add_halves(const Panel &p, const Pairs &half)
+   {
+      const MatrixXd one = integral(p, p, half, lengths(p, first_, half.s, half.x, half.x_by));
+      block_ += one + one.transpose();
+   }
+   void add_same(const Panel &p)
+   {
+      const auto place = [](double apart_by, double at)
+      {
+         const double s = at * (1 - apart_by);
+         return Pair{s + apart_by, s, 1 - apart_by, apart_by, 0};
+      };
+      add_halves(p, pairs(logarithmic_rule(), regular_rule(p, p), place));
+   }
+   /// In the ratio of s to x.
+   void add_at_axis(const Panel &p)
+   {
+      const auto place = [](double less, double at) {
+         return Pair{at, at * (1 - less), at, at * less, 0};
+      };
+      add_halves(p, pairs(logarithmic_rule(), regular_rule(p, p), place));
+   }
+   void add_neighbours(const Panel &p, const Panel &q)
+   {
+      const double p_end = p.to == q.from ? 1 : 0, q_end = 1 - p_end;
+      for (const bool x_farther : {true, false})
+      {
+         const auto place = [&](double farther, double ratio)
+         {
+            const double nearer = farther * ratio;
+            const double x_by = x_farther ? farther : nearer,
+                         s_by = x_farther ? nearer : farther;
+            return Pair{std::abs(p_end - x_by), std::abs(q_end - s_by), farther, x_by, s_by};
+         };
+         const Pairs all = pairs(logarithmic_rule(), regular_rule(p, q), place);
+         const VectorXd ends = VectorXd::Ones(all.x.size());
+         block_ += integral(p, q, all,
+                            lengths(p, first_, p_end * ends, all.x, all.x_by) +
+                               lengths(q, second_, q_end * ends, all.s, all.s_by));
+      }
+   }
+};
+
+/// Of r + s and |r - s|, with the sum Σ 2ⁿ⁻¹ c_n², n = 1, 2, …, of the differences on the way.
+struct ArithmeticGeometricMean
+{
+   double mean, differences = 0;
+
+   ArithmeticGeometricMean(double distance, double r, double s)
+   {
+      double a = r + s, b = distance, c = std::min(r, s);
+      double factor = 1;
+      do {
+         // a and b become their means, and c = (a - b)/2 of those before c²/4a of the next.
+         differences += factor * c * c;
+         const double next = 0.5 * (a + b);
+         b = std::sqrt(a * b);
+         a = next;
+         c *= 0.5 * c / (a + b);
+         factor *= 2;
+      } while (c > 1e-9 * a);
+      mean = 0.5 * (a + b);
+   }
+};
+
+} // namespace
+
+MatrixXd kernel_integrals(const SurfaceTrace &first, const SurfaceTrace &second,
+                          const SurfaceKernel &kernel)
+{
+   return Integrals(first, second, kernel).all();
+}
+
+SurfaceKernel logarithm()
+{
+   return {[](double distance, double, double) { return std::log(distance); }, false};
+}
+
+SurfaceKernel ring_even()
+{
+   return {[](double distance, double r, double s)
+           { return r * s / ArithmeticGeometricMean(distance, r, s).mean; },
+           true};
+}
+
+SurfaceKernel ring_odd()
+{
+   return {[](double distance, double r, double s)
+           {
+              const ArithmeticGeometricMean agm(distance, r, s);
+              return 0.5 * agm.differences / agm.mean;
+           },
+           true};
+}
+
+} // namespace cattaneo

@@ -1,0 +1,202 @@
+#include <algorithm>
+#include <cattaneo/algebra/quadrature.hpp>
+#include <cattaneo/halfplane/surface_trace.hpp>
+#include <cattaneo/input_error.hpp>
+#include <limits>
+
+namespace cattaneo
+{
+
+namespace
+{
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr Index highest_order = 8;
+
+/// Lagrange's polynomials through the Gauss–Lobatto points of an order.
+struct Basis
+{
+   VectorXd nodes;
+   VectorXd scale;  ///< 1 / Π (node_i - node_j)
+   MatrixXd slopes; ///< of polynomial j at node i
+
+   explicit Basis(int order)
+      : nodes(lobatto_points(order)), scale(order + 1), slopes(order + 1, order + 1)
+   {
+      for (Index i = 0; i <= order; ++i)
+      {
+         double product = 1;
+         for (Index j = 0; j <= order; ++j)
+         {
+            if (j != i) { product *= nodes[i] - nodes[j]; }
+         }
+         scale[i] = 1 / product;
+      }
+      for (Index i = 0; i <= order; ++i)
+      {
+         slopes(i, i) = 0;
+         for (Index j = 0; j <= order; ++j)
+         {
+            if (j == i) { continue; }
+            slopes(i, j) = scale[j] / (scale[i] * (nodes[i] - nodes[j]));
+            slopes(i, i) += 1 / (nodes[i] - nodes[j]);
+         }
+      }
+   }
+   void evaluate(double t, Eigen::Ref<VectorXd> values) const
+   {
+      for (Index i = 0; i < nodes.size(); ++i)
+      {
+         double product = scale[i];
+         for (Index j = 0; j < nodes.size(); ++j)
+         {
+            if (j != i) { product *= t - nodes[j]; }
+         }
+         values[i] = product;
+      }
+   }
+};
+
+const Basis &basis(Index order)
+{
+   static const std::vector<Basis> all = []
+   {
+      std::vector<Basis> made;
+      for (int k = 1; k <= highest_order; ++k) { made.emplace_back(k); }
+      return made;
+   }();
+   return all[order - 1];
+}
+
+/// A rule that integrates the products of two functions, the element's slope and a polynomial
+/// of degree 4.
+const QuadratureRule &product_rule(const SurfaceElement &element)
+{
+   return gauss_rule(static_cast<int>(2 * element.order() + 3));
+}
+
+/// w at the points, times the slope and the weights of the rule.
+VectorXd weighted(const SurfaceElement &element, const SurfacePoints &at,
+                  const SurfaceTrace::Weight &w, const VectorXd &rule)
+{
+   VectorXd values = at.dx.cwiseProduct(rule);
+   for (Index k = 0; k < values.size(); ++k) { values[k] *= w(element.x[0] + at.x[k]); }
+   return values;
+}
+
+} // namespace
+
+SurfaceTrace::SurfaceTrace(Index unknowns, std::vector<SurfaceElement> elements)
+   : unknowns_(unknowns), elements_(std::move(elements))
+{
+   std::sort(elements_.begin(), elements_.end(),
+             [](const SurfaceElement &a, const SurfaceElement &b) { return a.x[0] < b.x[0]; });
+   double end = -std::numeric_limits<double>::infinity();
+   for (const SurfaceElement &element : elements_)
+   {
+      const Index order = element.order();
+      require(order >= 1 && order <= highest_order,
+              "half-plane: the order of a contact element is ", order, ", must be from 1 to ",
+              highest_order);
+      // Between the nodes too, where the slope could turn: on 4 points for each of them.
+      const SurfacePoints at = points(element, VectorXd::LinSpaced(4 * order + 1, 0, 1));
+      require(at.dx.minCoeff() > 0, "half-plane: the contact element from ", element.x[0],
+              " to ", element.x[order],
+              " along the surface turns back on itself, its nodes must follow each other along "
+              "the surface");
+      require(element.x[0] >= end, "half-plane: a contact element begins at ", element.x[0],
+              " along the surface, before another ends at ", end,
+              ", elements must lie side by side");
+      end = element.x[order];
+   }
+}
+
+SurfaceTrace SurfaceTrace::mirrored() const
+{
+   std::vector<SurfaceElement> turned = elements_;
+   for (SurfaceElement &element : turned)
+   {
+      element.x = -element.x.reverse().eval();
+      std::reverse(element.unknowns.begin(), element.unknowns.end());
+   }
+   return {unknowns_, std::move(turned)};
+}
+
+SurfacePoints SurfaceTrace::points(const SurfaceElement &element, const VectorXd &t) const
+{
+   const Basis &functions = basis(element.order());
+   SurfacePoints at;
+   at.phi.resize(element.x.size(), t.size());
+   for (Index k = 0; k < t.size(); ++k) { functions.evaluate(t[k], at.phi.col(k)); }
+   // Differences to the first node: small elements far from the origin lose no digits.
+   const VectorXd from_first = element.x.array() - element.x[0];
+   at.x = at.phi.transpose() * from_first;
+   at.dx = at.phi.transpose() * (functions.slopes * from_first);
+   return at;
+}
+
+VectorXd SurfaceTrace::integral(const Weight &w) const
+{
+   VectorXd result = VectorXd::Zero(unknowns_);
+   for (const SurfaceElement &element : elements_)
+   {
+      const QuadratureRule &rule = product_rule(element);
+      const SurfacePoints at = points(element, rule.points);
+      result(element.unknowns) += at.phi * weighted(element, at, w, rule.weights);
+   }
+   return result;
+}
+
+Eigen::SparseMatrix<double> SurfaceTrace::mass(const Weight &w) const
+{
+   std::vector<Eigen::Triplet<double>> entries;
+   for (const SurfaceElement &element : elements_)
+   {
+      const QuadratureRule &rule = product_rule(element);
+      const SurfacePoints at = points(element, rule.points);
+      const MatrixXd own =
+         at.phi * weighted(element, at, w, rule.weights).asDiagonal() * at.phi.transpose();
+      for (Index a = 0; a < own.rows(); ++a)
+      {
+         for (Index b = 0; b < own.cols(); ++b)
+         {
+            entries.emplace_back(element.unknowns[a], element.unknowns[b], own(a, b));
+         }
+      }
+   }
+   Eigen::SparseMatrix<double> result(unknowns_, unknowns_);
+   result.setFromTriplets(entries.begin(), entries.end());
+   return result;
+}
+
+MatrixXd SurfaceTrace::ordered_integral(const Weight &f, const Weight &g) const
+{
+   MatrixXd result = MatrixXd::Zero(unknowns_, unknowns_);
+   VectorXd before = VectorXd::Zero(unknowns_); // ∫ g φ_j of the elements so far
+   for (const SurfaceElement &element : elements_)
+   {
+      const QuadratureRule &rule = product_rule(element);
+      const SurfacePoints outer = points(element, rule.points);
+      const VectorXd fw = weighted(element, outer, f, rule.weights);
+      const VectorXd whole = outer.phi * fw;
+      for (std::size_t a = 0; a < element.unknowns.size(); ++a)
+      {
+         result.row(element.unknowns[a]) += whole[static_cast<Index>(a)] * before.transpose();
+      }
+      for (Index k = 0; k < fw.size(); ++k)
+      {
+         const double t = rule.points[k];
+         const SurfacePoints inner = points(element, t * rule.points);
+         const VectorXd up_to = inner.phi * weighted(element, inner, g, t * rule.weights);
+         result(element.unknowns, element.unknowns) +=
+            fw[k] * outer.phi.col(k) * up_to.transpose();
+      }
+      before(element.unknowns) += outer.phi * weighted(element, outer, g, rule.weights);
+   }
+   return result;
+}
+
+} // namespace cattaneo

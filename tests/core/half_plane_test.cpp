@@ -1,0 +1,554 @@
+#include "expect_input_error.hpp"
+#include "straight_line.hpp"
+
+#include <cattaneo/algebra/dense_algebra.hpp>
+#include <cattaneo/condense/condense.hpp>
+#include <cattaneo/friction/friction_solver.hpp>
+#include <cattaneo/halfplane/half_plane.hpp>
+#include <cattaneo/readout/zones.hpp>
+#include <cmath>
+#include <gtest/gtest.h>
+
+// Half-planes and half-spaces without a mesh, against closed solutions.
+
+namespace
+{
+
+using namespace cattaneo;
+using cattaneo_test::halving;
+using cattaneo_test::halving_both_ways;
+using cattaneo_test::straight_line;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+const double depth = 20;
+
+HalfPlane half_plane(double young, double poisson, PlaneState state = PlaneState::strain)
+{
+   HalfPlane body;
+   body.material = {young, poisson, state};
+   body.depth = depth;
+   return body;
+}
+
+VectorXd solved(const MatrixXd &S, const VectorXd &f)
+{
+   return S.llt().solve(f);
+}
+
+/// Forces of a normal motion w if no shear acts on the contact.
+VectorXd without_shear(const MatrixXd &S, const VectorXd &w)
+{
+   const Index n = w.size();
+   const MatrixXd A = S.topLeftCorner(n, n), B = S.bottomLeftCorner(n, n);
+   return S.bottomRightCorner(n, n) * w - B * solved(A, B.transpose() * w);
+}
+
+/// Elements of unequal lengths, and of a line of which the first node is on the axis.
+const std::vector<double> uneven{0, 0.3, 0.35, 1.1, 2};
+
+TEST(HalfPlane, UniformPressureOnAStrip)
+{
+   const double E = 3, nu = 0.2, length = 2;
+   for (const bool strain : {true, false})
+   {
+      const Material material{E, nu, strain ? PlaneState::strain : PlaneState::stress};
+      for (int order : {1, 2, 5, 8})
+      {
+         const CondensedBody body =
+            condense(half_plane(E, nu, material.state), straight_line(uneven, order));
+         const Index n = body.line.size();
+         const VectorXd weights = body.line.each(&LineNode::weight);
+         EXPECT_NEAR(weights.sum(), length, 1e-14);
+         VectorXd f = VectorXd::Zero(2 * n);
+         f.tail(n) = weights;
+         const VectorXd u = solved(body.S, f);
+         // Along the surface it is drawn to the middle: -(1-2ν)(1+ν)/2E p ((x - a) - (b - x))
+         // in plane strain, -(1-ν)/2E in plane stress. The half-plane lies below: its frames
+         // run against x.
+         const double beta = (strain ? (1 - 2 * nu) * (1 + nu) : 1 - nu) / (2 * E);
+         for (Index i = 0; i < n; ++i)
+         {
+            const double x = body.line.nodes[i].position[0];
+            EXPECT_NEAR(u[i], beta * (2 * x - length), 1e-12) << order;
+         }
+         // ∫∫ ln|x-s| over the square of a length l: l² (ln l - 3/2).
+         const double modulus = strain ? E / (1 - nu * nu) : E, scale = 2 / (M_PI * modulus);
+         const double square = length * length;
+         const double work = scale * square * (std::log(depth / length) - 1 + 1.5);
+         EXPECT_NEAR(f.dot(u), work, 1e-12 * work) << order;
+         // A uniform shear along the surface: of opposite signs in front and behind.
+         VectorXd shear = VectorXd::Zero(2 * n);
+         shear.head(n) = weights;
+         const VectorXd moved = solved(body.S, shear);
+         const double along = scale * square * (std::log(depth / length) + 1 + 1.5);
+         EXPECT_NEAR(shear.dot(moved), along, 1e-12 * along);
+         for (Index i = 0; i < n; ++i)
+         {
+            const double x = body.line.nodes[i].position[0];
+            EXPECT_NEAR(moved[n + i], -beta * (2 * x - length), 1e-12) << order;
+         }
+      }
+   }
+}
+
+TEST(HalfPlane, RigidPunchesOnTheHalfPlane)
+{
+   const double E = 2, nu = 0.25, a = 1.5, modulus = E / (1 - nu * nu);
+   const CondensedBody body =
+      condense(half_plane(E, nu), straight_line(halving_both_ways(a, 24), 4));
+   const Index n = body.line.size();
+   VectorXd x(n);
+   for (Index i = 0; i < n; ++i) { x[i] = -body.line.nodes[i].position[0]; } // its own frames
+   const MatrixXd motions = body.rigid_motions();
+   const auto S = [&](int i, int j) { return motions.col(i).dot(body.S * motions.col(j)); };
+   // Elements of a 24th power of a half at the edges: what they miss of the energy.
+   const double tolerance = 1e-6;
+
+   // Frictionless (Johnson, 2.8): p = P/π√(a²-x²), and ∫ p ln|x-s| ds = P ln(a/2).
+   const VectorXd pressed = without_shear(body.S, VectorXd::Ones(n));
+   const double sinking = 2 / (M_PI * modulus) * (std::log(2 * depth / a) - 1);
+   EXPECT_NEAR(pressed.sum() * sinking, 1, tolerance);
+   EXPECT_NEAR(pressed.dot(x.cwiseAbs2()) / (pressed.sum() * a * a / 2), 1, tolerance);
+   // Turned: M = π/4 E' a² φ.
+   const VectorXd turned = without_shear(body.S, x);
+   EXPECT_NEAR(turned.dot(x) / (M_PI / 4 * modulus * a * a), 1, tolerance);
+
+   // Bonded, turned by a moment alone (Muskhelishvili's problem with Φ⁺ + κ Φ⁻ constant, κ =
+   // 3-4ν): M = 2π G a² (1+4ε²)/(1+κ) φ, ε = ln κ/2π. Tractions oscillate at the edges.
+   const double G = E / (2 * (1 + nu)), kappa = 3 - 4 * nu, e = std::log(kappa) / (2 * M_PI);
+   const double moment = S(2, 2) - S(2, 0) * S(2, 0) / S(0, 0);
+   EXPECT_NEAR(moment / (2 * M_PI * G * a * a * (1 + 4 * e * e) / (1 + kappa)), 1, tolerance);
+   EXPECT_NEAR(S(0, 1) / S(0, 0), 0, 1e-12);
+   EXPECT_NEAR(S(2, 1) / S(0, 0), 0, 1e-12);
+}
+
+TEST(HalfSpace, UniformPressureOnADisc)
+{
+   const double E = 3, nu = 0.2, a = 2;
+   for (int order : {2, 3, 8})
+   {
+      const CondensedBody body =
+         condense(half_plane(E, nu), straight_line(uneven, order, Formulation::axisymmetric));
+      const Index n = body.line.size();
+      const VectorXd weights = body.line.each(&LineNode::weight);
+      EXPECT_NEAR(weights.sum(), M_PI * a * a, 1e-12);
+      VectorXd f = VectorXd::Zero(2 * n);
+      f.tail(n) = weights;
+      const VectorXd u = solved(body.S, f);
+      // The axis' share is zero from order 2 on. (Johnson, 3.30a: u_r = -(1-2ν)(1+ν) p r/2E;
+      // below, frames run inwards. 3.29c: the mean of u_z is 16 (1-ν²) p a/3πE.)
+      for (Index i = 0; i < n; ++i)
+      {
+         const double r = body.line.nodes[i].position[0];
+         EXPECT_NEAR(u[i], (1 - 2 * nu) * (1 + nu) * r / (2 * E), 1e-12) << order;
+      }
+      const double mean = 16 * (1 - nu * nu) * a / (3 * M_PI * E);
+      EXPECT_NEAR(f.dot(u) / (M_PI * a * a), mean, 1e-12) << order;
+   }
+}
+
+TEST(HalfSpace, RigidPunchesOnTheHalfSpace)
+{
+   const double E = 2, nu = 0.25, a = 1.5, modulus = E / (1 - nu * nu), G = E / (2 * (1 + nu));
+   const std::vector<double> grid = halving(0, a, 24);
+   const double tolerance = 1e-6; // as in the plane
+   const CondensedBody body =
+      condense(half_plane(E, nu), straight_line(grid, 4, Formulation::axisymmetric));
+   const Index n = body.line.size();
+   const VectorXd w = VectorXd::Ones(n);
+   EXPECT_NEAR(without_shear(body.S, w).sum() / (2 * modulus * a), 1, tolerance);
+   // Bonded: Mossakovskii.
+   const double bonded = (body.S.bottomRightCorner(n, n) * w).sum();
+   EXPECT_NEAR(bonded / (4 * G * a * std::log(3 - 4 * nu) / (1 - 2 * nu)), 1, tolerance);
+   // Twisted: Reissner and Sagoci.
+   const CondensedBody twisted =
+      condense(half_plane(E, nu), straight_line(grid, 4, Formulation::torsion));
+   const VectorXd r = twisted.line.each(&LineNode::position).col(0);
+   EXPECT_NEAR(r.dot(twisted.S * r) / (16.0 / 3 * G * a * a * a), 1, tolerance);
+}
+
+/// Of half a line beside a plane of symmetry: what the whole line does in motions that are
+/// symmetric.
+TEST(HalfPlane, APlaneOfSymmetryIsHalfOfTheWhole)
+{
+   const int order = 3;
+   const std::vector<double> half{-3, -1.2, -1, -0.1, 0};
+   std::vector<double> whole = half;
+   for (std::size_t k = half.size() - 1; k-- > 0;) { whole.push_back(-half[k]); }
+   HalfPlane body = half_plane(2, 0.1);
+   body.point = {7, 0.5};
+   const auto shifted = [&](const std::vector<double> &grid, double turn)
+   {
+      ContactLine line = straight_line(grid, order);
+      if (turn < 0) // the other side of the plane
+      {
+         std::vector<double> other;
+         for (auto x = grid.rbegin(); x != grid.rend(); ++x) { other.push_back(-*x); }
+         line = straight_line(other, order);
+      }
+      for (LineNode &node : line.nodes) { node.position += body.point; }
+      for (LineElement &element : line.chains[0].elements)
+      {
+         element.points.colwise() += body.point;
+      }
+      return line;
+   };
+   const CondensedBody all = condense(body, shifted(whole, 1));
+   body.symmetric = true;
+   for (const double side : {1.0, -1.0})
+   {
+      const CondensedBody part = condense(body, shifted(half, side));
+      const Index n = part.line.size(), N = all.line.size();
+      ASSERT_EQ(N, 2 * n - 1);
+      const Index middle = side > 0 ? 0 : n - 1; // the line below runs against x
+      EXPECT_EQ(part.held, std::vector<int>{static_cast<int>(middle)});
+      EXPECT_EQ(part.line.chains[0].ends[side > 0 ? 0 : 1], LineEnd::axis);
+      EXPECT_EQ(part.S.row(middle).norm(), 0);
+      // Node i of the part at its place in the whole, and mirrored.
+      MatrixXd T = MatrixXd::Zero(2 * N, 2 * n);
+      for (Index i = 0; i < n; ++i)
+      {
+         const Index at = side > 0 ? n - 1 + i : i, mirror = N - 1 - at;
+         T(N + at, n + i) = T(N + mirror, n + i) = 1;
+         if (i == middle) { continue; }
+         T(at, i) = 1;
+         T(mirror, i) = -1;
+      }
+      const MatrixXd both = T.transpose() * all.S * T;
+      EXPECT_LT((both - 2 * part.S).cwiseAbs().maxCoeff(),
+                1e-11 * part.S.cwiseAbs().maxCoeff());
+   }
+}
+
+TEST(HalfPlane, TurnedWithItsLine)
+{
+   const HalfPlane level = half_plane(2, 0.1);
+   const ContactLine line = straight_line(uneven, 2);
+   HalfPlane tilted = level;
+   const Eigen::Rotation2Dd turn(2.1);
+   tilted.normal = turn * level.normal;
+   tilted.point = {3, -4};
+   ContactLine other = line;
+   for (LineNode &node : other.nodes)
+   {
+      node.position = tilted.point + turn * node.position;
+      node.tangent = turn * node.tangent;
+   }
+   for (LineElement &element : other.chains[0].elements)
+   {
+      for (Index a = 0; a < element.points.cols(); ++a)
+      {
+         element.points.col(a) = tilted.point + turn * Eigen::Vector2d(element.points.col(a));
+      }
+   }
+   const CondensedBody one = condense(level, line), two = condense(tilted, other);
+   EXPECT_LT((one.S - two.S).cwiseAbs().maxCoeff(), 1e-12 * one.S.cwiseAbs().maxCoeff());
+   EXPECT_LT((two.line.nodes[0].normal() - tilted.normal).norm(), 1e-15);
+}
+
+TEST(HalfPlane, StiffnessScalesWithTheUnits)
+{
+   std::vector<double> small = uneven;
+   for (double &x : small) { x *= 1e-9; }
+   HalfPlane one = half_plane(1, 0.3), other = half_plane(2.1e11, 0.3);
+   other.depth *= 1e-9;
+   using F = Formulation;
+   for (const F formulation : {F::plane, F::axisymmetric, F::torsion})
+   {
+      const MatrixXd S = condense(one, straight_line(uneven, 3, formulation)).S;
+      const double unit = formulation == F::plane ? 2.1e11 : 2.1e11 * 1e-9;
+      const MatrixXd scaled = condense(other, straight_line(small, 3, formulation)).S / unit;
+      EXPECT_LT((S - scaled).cwiseAbs().maxCoeff(), 1e-12 * S.cwiseAbs().maxCoeff());
+   }
+}
+
+/// As deep as asked for and no deeper, with the strongest coupling and the steepest grading.
+TEST(HalfPlane, StiffnessIsPositiveDefinite)
+{
+   const std::vector<double> steep = halving_both_ways(1, 40);
+   for (const double poisson : {-0.5, 0.0, 0.49})
+   {
+      for (const auto &grid : {uneven, steep})
+      {
+         HalfPlane body = half_plane(1, poisson);
+         body.depth = 2 * (grid.back() - grid.front());
+         const CondensedBody one = condense(body, straight_line(grid, 3));
+         EXPECT_EQ((one.S - one.S.transpose()).cwiseAbs().maxCoeff(), 0);
+         // On the scale of each node.
+         const VectorXd own = one.S.diagonal().cwiseSqrt().cwiseInverse();
+         const MatrixXd scaled = own.asDiagonal() * one.S * own.asDiagonal();
+         EXPECT_GT(symmetric_eigenvalues(scaled).minCoeff(), 1e-4) << poisson;
+      }
+   }
+}
+
+TEST(HalfPlane, ErrorOfTheStiffnessIsRoundOff)
+{
+   for (const bool plane : {true, false})
+   {
+      CondensedBody body =
+         condense(half_plane(1, 0.3),
+                  straight_line(halving(0, 1, 20), 2,
+                                plane ? Formulation::plane : Formulation::axisymmetric));
+      EXPECT_GT(body.error_estimate(), 1e-16);
+      EXPECT_LT(body.error_estimate(), 1e-11);
+   }
+}
+
+/// A pin-jointed frame of one row of cells over the nodes of a line, held by nothing.
+CondensedBody frame(const std::vector<double> &x, double push)
+{
+   const auto n = static_cast<int>(x.size());
+   MatrixXd K = MatrixXd::Zero(4 * n, 4 * n);
+   AssembledBody body;
+   body.places = {VectorXd(4 * n), VectorXd(4 * n), {}, Formulation::plane};
+   for (int dof = 0; dof < 4 * n; ++dof)
+   {
+      const int point = dof / 2;
+      body.places.x[dof] = x[point % n];
+      body.places.y[dof] = point / n;
+      body.places.component.push_back(dof % 2);
+   }
+   for (int p = 0; p < 2 * n; ++p)
+   {
+      for (int q = p + 1; q < 2 * n; ++q)
+      {
+         if (std::abs(p % n - q % n) > 1) { continue; }
+         const Eigen::Vector2d along(body.places.x[2 * q] - body.places.x[2 * p],
+                                     body.places.y[2 * q] - body.places.y[2 * p]);
+         const Eigen::Vector4d stretch =
+            (Eigen::Vector4d() << -along, along).finished() / along.norm();
+         const std::vector<int> dofs{2 * p, 2 * p + 1, 2 * q, 2 * q + 1};
+         K(dofs, dofs) += (1 + 0.1 * p) * stretch * stretch.transpose();
+      }
+   }
+   body.K = SharedMatrix(Eigen::SparseMatrix<double, Eigen::RowMajor>(K.sparseView()));
+   VectorXd load = VectorXd::Zero(4 * n);
+   for (int i = n; i < 2 * n; ++i)
+   {
+      load.segment<2>(2 * i) << 0.3 * push, -push * (1 + 0.2 * i);
+   }
+   body.loads = {{"P", Control::force, load}};
+   return condense(body, straight_line(x, 1));
+}
+
+/// A free body that is pressed by forces knows nothing of where the half-plane's displacements
+/// vanish.
+TEST(HalfPlane, ForcedContactDoesNotKnowTheDepth)
+{
+   HalfPlane body = half_plane(2, 0.1);
+   const CondensedBody free = frame({-1, -0.4, 0, 0.7, 1.5}, 1);
+   const Reduction shallow = reduce(free, body);
+   body.depth = 1e5;
+   const Reduction deep = reduce(free, body);
+   const ReducedProblem &one = shallow.problem, &other = deep.problem;
+   one.validate();
+   const double unit = one.K.cwiseAbs().maxCoeff();
+   EXPECT_LT((one.K - other.K).cwiseAbs().maxCoeff(), 1e-12 * unit);
+   EXPECT_LT((one.patterns[0].q - other.patterns[0].q).norm(), 1e-12);
+   EXPECT_LT((one.patterns[0].p - other.patterns[0].p).norm(), 1e-12);
+   EXPECT_EQ(one.rigid_motions.cols(), 3);
+   EXPECT_NEAR(one.patterns[0].p.sum(), 5 + 0.2 * (5 + 6 + 7 + 8 + 9), 1e-12);
+   EXPECT_EQ(one.gap.norm(), 0);
+   // The load itself goes down with the half-plane: 2/πE' ln(D₂/D₁) of its resultant.
+   const double P = one.patterns[0].p.sum(), Q = one.patterns[0].q.sum();
+   const double modulus = 2 / (1 - 0.01);
+   EXPECT_NEAR(other.H(0, 0) - one.H(0, 0),
+               2 / (M_PI * modulus) * std::log(1e5 / depth) * (P * P + Q * Q), 1e-10);
+}
+
+/// A drawn curve over the half-plane: the gap is its height, and the pairing is by the places
+/// along the surface.
+TEST(HalfPlane, CurvedLineOverIt)
+{
+   CondensedBody drawn = frame({-1, -0.4, 0, 0.7, 1.5}, 1);
+   const MatrixXd flat = reduce(drawn, half_plane(2, 0.1)).problem.K;
+   const auto lift = [](double x) { return 0.01 * x * x; };
+   for (LineNode &node : drawn.line.nodes) { node.position[1] = lift(node.position[0]); }
+   for (LineElement &element : drawn.line.chains[0].elements)
+   {
+      for (Index a = 0; a < 2; ++a) { element.points(1, a) = lift(element.points(0, a)); }
+   }
+   const ReducedProblem problem = reduce(drawn, half_plane(2, 0.1)).problem;
+   for (Index i = 0; i < problem.nodes(); ++i)
+   {
+      EXPECT_NEAR(problem.gap[i], lift(problem.position(i, 0)), 1e-15);
+   }
+   EXPECT_LT((problem.K - flat).cwiseAbs().maxCoeff(), 1e-12 * flat.cwiseAbs().maxCoeff());
+}
+
+/// Relative displacements d of two bodies, prescribed: what closes and shears a contact of
+/// half-planes, which carry no other loads.
+LoadPattern approach(const ReducedProblem &problem, const std::string &name, const VectorXd &d)
+{
+   const VectorXd f = problem.K * d;
+   return {name, Control::displacement, f.head(problem.slips()), f.tail(problem.nodes())};
+}
+
+std::vector<double> even(double from, double to, int elements)
+{
+   std::vector<double> grid;
+   for (int e = 0; e <= elements; ++e) { grid.push_back(from + (to - from) * e / elements); }
+   return grid;
+}
+
+/// Two half-planes (or half-spaces) that face each other; the upper one is body 1.
+struct Pair
+{
+   Reduction reduction;
+
+   Pair(const ContactLine &line, double poisson)
+      : reduction(reduce(above(line, poisson), half_plane(1 - poisson * poisson, poisson)))
+   {
+   }
+   /// It lies above the line, whose nodes run as those of the body do: of the line turned
+   /// round.
+   static CondensedBody above(const ContactLine &line, double poisson)
+   {
+      HalfPlane upper = half_plane(1 - poisson * poisson, poisson);
+      const ContactLine below = condense(upper, line).line;
+      upper.normal = {0, 1};
+      return condense(upper, below);
+   }
+};
+
+TEST(HalfPlane, HertzAndCattaneoOfTwoHalfPlanes)
+{
+   const double nu = 0.3, R = 3, a = 1, f = 0.4;
+   const int elements = 80; // of -1.5 < x < 1.5
+   Pair pair(straight_line(even(-1.5, 1.5, elements), 2), nu);
+   ReducedProblem &problem = pair.reduction.problem;
+   const Index n = problem.nodes();
+   EXPECT_FALSE(problem.coupled); // equal bodies
+   problem.gap = problem.position.col(0).cwiseAbs2() / (2 * R);
+   // E' = 1 of each: P = π a²/8R; ∫ p ln|s| ds = P (ln(a/2) - 1/2) in the middle.
+   const double P = M_PI * a * a / (8 * R), p0 = 2 * P / (M_PI * a);
+   const double sinking = 4 / M_PI * P * (std::log(2 * depth / a) - 0.5);
+   const VectorXd ones = VectorXd::Ones(n), zeros = VectorXd::Zero(n);
+   problem.patterns = {approach(problem, "press", (VectorXd(2 * n) << zeros, ones).finished()),
+                       approach(problem, "shift", (VectorXd(2 * n) << ones, zeros).finished())};
+   problem.H = MatrixXd::Zero(2, 2);
+   set_friction(problem, f);
+   FrictionSolver solver(problem);
+   ContactState state = ContactState::virgin(problem);
+   ASSERT_EQ(solver.solve(state, Eigen::Vector2d(sinking, 0)).status,
+             FrictionStatus::converged);
+   EXPECT_NEAR(state.p.sum() / P, 1, 3e-4);
+   const VectorXd p = tractions(problem, state.p);
+   for (Index i = 0; i < n; ++i)
+   {
+      const double x = problem.position(i, 0);
+      if (std::abs(x) < 0.9) { EXPECT_NEAR(p[i] / p0, std::sqrt(1 - x * x), 3e-3) << x; }
+   }
+   // Cattaneo: sheared, the stick zone is c = a √(1 - Q/fP), and bodies that shift without slip
+   // far away shift by u(Q) = f (δ(P) - δ(P*)), where Q = f (P - P*).
+   const double c = 0.6, inner = M_PI * c * c / (8 * R);
+   const double shift =
+      4 / M_PI * f *
+      (P * (std::log(2 * depth / a) + 1.5) - inner * (std::log(2 * depth / c) + 1.5));
+   ASSERT_EQ(solver.solve(state, Eigen::Vector2d(sinking, shift)).status,
+             FrictionStatus::converged);
+   EXPECT_NEAR(state.q.sum() / (f * (P - inner)), 1, 3e-3);
+   const Zone stick = stick_zone(problem, state);
+   EXPECT_NEAR(problem.position(stick.first, 0), -c, 1.5 / elements);
+   EXPECT_NEAR(problem.position(stick.last, 0), c, 1.5 / elements);
+}
+
+TEST(HalfSpace, HertzAndLubkinOfTwoHalfSpaces)
+{
+   const double nu = 0.3, R = 5, a = 0.7, f = 0.3, E = 1 - nu * nu, G = E / (2 * (1 + nu));
+   const int elements = 48;
+   const std::vector<double> grid = even(0, 1, elements);
+   Pair pair(straight_line(grid, 2, Formulation::axisymmetric), nu);
+   const ContactLine twisting = straight_line(grid, 2, Formulation::torsion);
+   pair.reduction.add_torsion(Pair::above(twisting, nu), condense(half_plane(E, nu), twisting));
+   ReducedProblem &problem = pair.reduction.problem;
+   const Index n = problem.nodes();
+   const VectorXd r = problem.position.col(0);
+   problem.gap = r.cwiseAbs2() / (2 * R);
+   const double modulus = 0.5, P = 4.0 / 3 * modulus * a * a * a / R,
+                p0 = 2 * modulus * a / (M_PI * R);
+   const VectorXd zeros = VectorXd::Zero(n), ones = VectorXd::Ones(n);
+   problem.patterns = {
+      approach(problem, "press", (VectorXd(3 * n) << zeros, zeros, ones).finished()),
+      approach(problem, "twist", (VectorXd(3 * n) << zeros, r, zeros).finished())};
+   problem.H = MatrixXd::Zero(2, 2);
+   set_friction(problem, f);
+   FrictionSolver solver(problem);
+   ContactState state = ContactState::virgin(problem);
+   ASSERT_EQ(solver.solve(state, Eigen::Vector2d(a * a / R, 0)).status,
+             FrictionStatus::converged);
+   EXPECT_NEAR(state.p.sum() / P, 1, 3e-4);
+   const VectorXd p = tractions(problem, state.p);
+   for (Index i = 0; i < n; ++i)
+   {
+      const double x = r[i] / a;
+      if (x < 0.85) { EXPECT_NEAR(p[i] / p0, std::sqrt(1 - x * x), 2e-3) << x; }
+   }
+   // Lubkin: with m = 1 - c²/a², Φ = 3fP (K(m) - E(m))/2πGa², T = 4fP/πa² ∫_c^a s² E(1-s²/a²)
+   // ds.
+   const double c = 0.4, m = 1 - c * c / (a * a), k = std::sqrt(m);
+   const double turn =
+      3 * f * P * (std::comp_ellint_1(k) - std::comp_ellint_2(k)) / (2 * M_PI * G * a * a);
+   const QuadratureRule &rule = gauss_rule(40);
+   double torque = 0;
+   for (Index i = 0; i < rule.points.size(); ++i)
+   {
+      const double s = c + (a - c) * rule.points[i];
+      torque +=
+         (a - c) * rule.weights[i] * s * s * std::comp_ellint_2(std::sqrt(1 - s * s / (a * a)));
+   }
+   torque *= 4 * f * P / (M_PI * a * a);
+   ASSERT_EQ(solver.solve(state, Eigen::Vector2d(a * a / R, turn)).status,
+             FrictionStatus::converged);
+   EXPECT_NEAR(std::abs(state.q.segment(n, n).dot(r)) / torque, 1, 1e-3);
+}
+
+TEST(HalfPlane, BadInputIsNamed)
+{
+   const ContactLine line = straight_line(uneven, 2);
+   const auto refused = [&](HalfPlane body, const ContactLine &on, const std::string &says)
+   { expect_input_error([&] { condense(body, on); }, says); };
+   const HalfPlane good = half_plane(1, 0.3);
+   HalfPlane bad = good;
+   bad.depth = 0;
+   refused(bad, line,
+           "depth 0, must be stated and at least twice the length of the contact, 4");
+   bad = good;
+   bad.normal = {0, -2};
+   refused(bad, line, "normal of its surface is (0, -2), must be of length 1");
+   bad = good;
+   bad.material.poisson = 0.5;
+   refused(bad, line, "Poisson's ratio is 0.5");
+   bad = good;
+   bad.symmetric = true;
+   bad.point = {1, 0};
+   refused(bad, line, "crosses the plane of symmetry");
+   bad.normal = {std::sqrt(0.5), std::sqrt(0.5)};
+   refused(bad, line, "horizontal or vertical");
+   const ContactLine round = straight_line(uneven, 2, Formulation::axisymmetric);
+   refused(bad, round, "along the axis");
+   bad.normal = {0, -1};
+   refused(bad, round, "for the plane alone");
+   bad = good;
+   bad.material.state = PlaneState::stress;
+   refused(bad, round, "must be of plane strain");
+   refused(good, straight_line(uneven, 9),
+           "order of a contact element is 9, must be from 1 to 8");
+   ContactLine points_alone = line;
+   points_alone.chains[0].elements.clear();
+   refused(good, points_alone, "has no elements between its nodes");
+   ContactLine backwards = line;
+   for (LineNode &node : backwards.nodes) { node.position[0] *= -1; }
+   for (LineElement &element : backwards.chains[0].elements) { element.points.row(0) *= -1; }
+   backwards.nodes[1].position[0] = backwards.chains[0].elements[0].points(0, 1) = 0.1;
+   refused(good, backwards, "turns back on itself");
+   ContactLine overlapping = line;
+   overlapping.nodes.back().position[0] = overlapping.chains[0].elements[3].points(0, 2) = 1;
+   overlapping.nodes[7].position[0] = overlapping.chains[0].elements[3].points(0, 1) = 1.05;
+   refused(good, overlapping, "elements must lie side by side");
+}
+
+} // namespace
