@@ -110,11 +110,6 @@ void print(const Extent &extent)
    std::printf("\n");
 }
 
-double same(double r)
-{
-   return r;
-}
-
 /// Angle of slip or of friction from the radial direction at a radius, degrees: linear between
 /// the nodes.
 double slip_angle(const VectorXd &r, const VectorXd &vector, double radius)
@@ -426,7 +421,7 @@ int Study::unload(FrictionSolver &solver, ContactState state, const std::vector<
       profiles.add(label, radii(), tractions(*problem, at.p));
       profiles.add("q/f: " + label, radii(), tractions(*problem, at.q.head(n)) / f, "dashed");
    };
-   diagram.add(1.0, extent(*problem, state).zones, same);
+   diagram.add(1.0, extent(*problem, state).zones);
    add_profile(1, state);
    std::vector<NamedLoads> points{loads(1)};
    for (double level : miniapp::unloading_levels(steps, wanted.back(), wanted))
@@ -440,7 +435,7 @@ int Study::unload(FrictionSolver &solver, ContactState state, const std::vector<
    auto observe = [&](const ContactState &now, const IncrementRecord &)
    {
       const Extent found = extent(*problem, now);
-      diagram.add(load(now), found.zones, same);
+      diagram.add(load(now), found.zones);
       auto is_at = [&](double level) { return std::abs(load(now) - level) < 1e-9; };
       const auto target = std::find_if(wanted.begin(), wanted.end(), is_at);
       if (target == wanted.end()) { return; }
@@ -609,7 +604,7 @@ int Study::twist(FrictionSolver &solver, const ContactState &loaded, Stop stop,
    {
       const double share = torque(now) / limit;
       if (share <= last) { return; } // a step that was cut
-      diagram.add(share, extent(*problem, now).zones, same);
+      diagram.add(share, extent(*problem, now).zones);
       last = share;
    };
 
@@ -712,13 +707,13 @@ int Study::cycle(FrictionSolver &solver, const ContactState &loaded, double ampl
    std::vector<double> torques{torque(state)};
    miniapp::Panel diagram = miniapp::Panel::zones("cycle_zones", "Zones under cyclic torsion",
                                                   "cycles of the torque", "r/t");
-   diagram.add(0, ends[0].zones, same);
+   diagram.add(0, ends[0].zones);
    const MarchReport report =
       march(solver, history, state, settings,
             [&](const ContactState &at, const IncrementRecord &record)
             {
                const Extent found = extent(*problem, at);
-               diagram.add(0.5 * record.time, found.zones, same);
+               diagram.add(0.5 * record.time, found.zones);
                if (std::abs(named(*problem, at.multipliers).at("twist")) < (1 - 1e-9) * now.at)
                {
                   return;

@@ -19,8 +19,8 @@ answer = subprocess.run(
 
 lines, branches, unreached = (collections.defaultdict(list) for _ in range(3))
 for file in json.loads(answer.stdout)["files"]:
-    parts = file["file"].split("/")  # plugin/cattaneo/ROOM/name
-    room = parts[2] if len(parts) > 3 else "(top)"
+    parts = file["file"].split("cattaneo/")[1].split("/")  # ROOM/name
+    room = parts[0] if len(parts) > 1 else "(top)"
     for line in file["lines"]:
         if line.get("gcovr/noncode") or line.get("gcovr/excluded"):
             continue

@@ -1,7 +1,9 @@
 #include "random_problem.hpp"
 #include "small_problems.hpp"
 
+#include <cattaneo/friction/exact_path.hpp>
 #include <cattaneo/friction/march.hpp>
+#include <cattaneo/friction/state_equations.hpp>
 #include <cmath>
 #include <cstdio>
 #include <gtest/gtest.h>

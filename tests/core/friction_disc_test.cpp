@@ -4,6 +4,7 @@
 
 #include <cattaneo/friction/contact_law.hpp>
 #include <cattaneo/friction/critical_friction.hpp>
+#include <cattaneo/friction/exact_path.hpp>
 #include <cattaneo/friction/march.hpp>
 #include <cattaneo/friction/mechanism.hpp>
 #include <cattaneo/input_error.hpp>

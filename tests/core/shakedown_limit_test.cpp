@@ -1,4 +1,5 @@
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/shakedown/cone_programme.hpp>
 #include <gtest/gtest.h>
 #include <shakedown_problems.hpp>
 

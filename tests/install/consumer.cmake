@@ -1,5 +1,6 @@
 # Installs Cattaneo, extracts the embedding examples from README.md and docs/embedding.md, builds
-# them as a project of their own with find_package(Cattaneo) and runs them.
+# them as a project of their own with find_package(Cattaneo) and runs them. With EACH_HEADER every
+# installed header is compiled alone, too.
 set(prefix ${BINARY}/install-test/prefix)
 set(project ${BINARY}/install-test/project)
 file(REMOVE_RECURSE ${BINARY}/install-test)
@@ -29,11 +30,26 @@ endfunction()
 extract(README.md embed)
 extract(docs/embedding.md doors)
 file(COPY ${SOURCE}/tests/install/CMakeLists.txt DESTINATION ${project})
+if(EACH_HEADER)
+   file(GLOB_RECURSE headers RELATIVE ${SOURCE}/plugin ${SOURCE}/plugin/cattaneo/*.hpp)
+   foreach(header IN LISTS headers)
+      string(MAKE_C_IDENTIFIER ${header} name)
+      file(WRITE ${project}/alone/${name}.cpp "#include <${header}>\n")
+   endforeach()
+endif()
 
 step(${CMAKE_COMMAND} --install ${BINARY} --prefix ${prefix})
 step(${CMAKE_COMMAND} -S ${project} -B ${project}/build -G Ninja -DCMAKE_BUILD_TYPE=Release
    -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_PREFIX_PATH=${prefix} -DMFEM_DIR=${MFEM_DIR})
 step(${CMAKE_COMMAND} --build ${project}/build)
+# Whoever is given a header is told of it: the examples reach all that are installed by one of them.
+step(${CMAKE_COMMAND} -E chdir ${project}/build ninja -t deps)
+file(GLOB_RECURSE headers RELATIVE ${prefix}/include ${prefix}/include/cattaneo/*.hpp)
+foreach(header IN LISTS headers)
+   if(NOT output MATCHES "/${header}\n")
+      message(FATAL_ERROR "${header} is installed, and <cattaneo/cattaneo.hpp> does not include it")
+   endif()
+endforeach()
 foreach(program IN ITEMS embed doors)
    step(${CMAKE_COMMAND} -E chdir ${project}/build ./${program})
    message("${program}: ${output}")

@@ -36,7 +36,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 CORE = "-core" in sys.argv
 HOME = os.path.join(ROOT, "build", "mutation-core" if CORE else "mutation")
 SOURCE, BUILD = os.path.join(HOME, "source"), os.path.join(HOME, "build")
-LIBRARY = "plugin/cattaneo"
+LIBRARY = "plugin"
 KINDS = ["core"] if CORE else ["core", "unit", "verification", "study", "stress"]
 MEMORY = 6 << 30
 # A sample is small: of ten faults of which nine in ten are noticed, fewer than six would be by chance once in 600.
@@ -89,7 +89,7 @@ def sha(data):
 
 
 def room_of(file):
-    parts = file[len(LIBRARY) + 1:].split("/")
+    parts = file.split("cattaneo/")[1].split("/")
     return parts[0] if len(parts) > 1 else "root"
 
 
@@ -118,8 +118,8 @@ def copy_sources(edits):
         write_changed(os.path.join(SOURCE, file), data)
         kept.add(os.path.join(SOURCE, file))
     for name, text in (("fault_switch.hpp", SWITCH), ("fault_switch.cpp", SWITCH_SOURCE)):
-        write_changed(os.path.join(SOURCE, LIBRARY, name), text.encode())
-        kept.add(os.path.join(SOURCE, LIBRARY, name))
+        write_changed(os.path.join(SOURCE, LIBRARY, "cattaneo", name), text.encode())
+        kept.add(os.path.join(SOURCE, LIBRARY, "cattaneo", name))
     for folder, _, names in os.walk(SOURCE):
         for name in names:
             path = os.path.join(folder, name)
@@ -191,7 +191,7 @@ def draw_pool(options, arguments):
     files = [f for f in tracked() if f.startswith(LIBRARY + "/") and f.endswith((".cpp", ".hpp"))]
     if CORE:  # what it is built of, and the headers of these
         built = {e["file"] for e in json.load(open(os.path.join(BUILD, "compile_commands.json")))}
-        files = [f for f in files if os.path.join(SOURCE, f[:-4] + ".cpp") in built]
+        files = [f for f in files if os.path.join(SOURCE, f[:-4].replace("/private/", "/") + ".cpp") in built]
     found = remembered_points(files, arguments, options.jobs)
     rooms = {}
     for point in (p for points in found for p in points):

@@ -98,10 +98,11 @@ enum class Method
 IncrementReport solve(const ReducedProblem &problem, Method method, ContactState &state,
                       const VectorXd &loads)
 {
+   FrictionSolver solver(problem);
    IncrementReport report;
    if (method == Method::library)
    {
-      report = FrictionSolver(problem).solve(state, loads);
+      report = solver.solve(state, loads);
       count_method(report);
       return report;
    }

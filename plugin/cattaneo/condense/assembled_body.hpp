@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cattaneo/condense/rigid_motion.hpp>
-#include <cattaneo/reduced/reduced_problem.hpp>
+#include <cattaneo/load_pattern.hpp>
 #include <string>
 #include <vector>
 

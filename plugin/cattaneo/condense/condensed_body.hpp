@@ -3,6 +3,7 @@
 #include <cattaneo/condense/contact_line.hpp>
 #include <cattaneo/condense/free_motions.hpp>
 #include <cattaneo/counters.hpp>
+#include <cattaneo/load_pattern.hpp>
 #include <memory>
 
 namespace cattaneo

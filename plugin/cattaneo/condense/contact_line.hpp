@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <array>
 #include <cattaneo/formulation.hpp>
-#include <cattaneo/reduced/reduced_problem.hpp>
+#include <cattaneo/line_end.hpp>
 #include <functional>
 #include <type_traits>
 #include <vector>

@@ -4,10 +4,10 @@
 #include <cattaneo/condense/assembled_body.hpp>
 #include <cattaneo/counters.hpp>
 #include <cattaneo/elastic/boundary_part.hpp>
-#include <cattaneo/elastic/ranks.hpp>
 #include <cattaneo/elastic/stress.hpp>
 #include <cattaneo/elastic/varying_material.hpp>
 #include <cattaneo/formulation.hpp>
+#include <cattaneo/mesh/ranks.hpp>
 #include <cattaneo/scalar_field.hpp>
 #include <functional>
 #include <memory>

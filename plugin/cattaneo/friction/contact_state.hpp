@@ -80,4 +80,13 @@ void save(const ContactState &state, const std::string &file);
 /// Reads what save() wrote. InputError if the file is missing or is not a contact state.
 ContactState load_contact_state(const std::string &file);
 
+/// A node changes its state on the exact path.
+struct StateChange
+{
+   double time = 0;
+   Eigen::VectorXd multipliers; ///< of the load patterns
+   Eigen::Index node = 0;
+   NodeState from = NodeState::stick, to = NodeState::stick;
+};
+
 } // namespace cattaneo

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cattaneo/friction/advance.hpp>
+#include <cattaneo/friction/exact_path.hpp>
 #include <cattaneo/friction/march_record.hpp>
 #include <cattaneo/input_error.hpp>
 #include <chrono>

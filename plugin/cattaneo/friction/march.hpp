@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cattaneo/friction/cut_off.hpp>
-#include <cattaneo/friction/exact_path.hpp>
 #include <cattaneo/friction/friction_solver.hpp>
 #include <cattaneo/friction/load_history.hpp>
 #include <functional>

@@ -1,9 +1,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
-#include <cattaneo/elastic/ranks.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/mesh/element_check.hpp>
+#include <cattaneo/mesh/ranks.hpp>
 #include <cmath>
 #include <limits>
 #include <memory>

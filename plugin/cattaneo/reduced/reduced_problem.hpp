@@ -2,42 +2,13 @@
 
 #include <Eigen/Dense>
 #include <array>
-#include <map>
+#include <cattaneo/line_end.hpp>
+#include <cattaneo/load_pattern.hpp>
 #include <string>
 #include <vector>
 
 namespace cattaneo
 {
-
-/// What a load pattern's multiplier scales: applied forces (thesis 3.2.3) or prescribed
-/// displacements (thesis 3.2.4).
-enum class Control
-{
-   force,
-   displacement
-};
-
-/// The contact nodal forces f^w that one load pattern would cause, per unit multiplier, if no
-/// contact node moved (thesis 3.4, 3.17, 3.19).
-struct LoadPattern
-{
-   std::string name;
-   Control control = Control::force;
-   Eigen::VectorXd q; ///< tangential, size c·n as ReducedProblem::A
-   Eigen::VectorXd p; ///< normal, compression positive, size n
-};
-
-/// Load multipliers by the names of their patterns: {{"P", 1}, {"Q", 0.2}}.
-using NamedLoads = std::map<std::string, double>;
-
-/// How the boundary of a body goes on beyond an end of a contact line.
-enum class LineEnd : signed char
-{
-   unknown,
-   smooth, ///< the tangent goes on: contact may want to go on too
-   corner, ///< it turns there
-   axis    ///< the end lies on the axis of symmetry
-};
 
 /** Contact nodes that follow each other along a line, where "the next node" means something:
     nodes `first` … `first + nodes - 1` of the problem, in the order of their arc length. */

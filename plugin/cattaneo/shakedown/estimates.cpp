@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/tangential_lengths.hpp>
+#include <cattaneo/shakedown/cone_programme.hpp>
 #include <cattaneo/shakedown/estimates.hpp>
 #include <cmath>
 #include <limits>

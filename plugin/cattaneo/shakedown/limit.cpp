@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/shakedown/cone_programme.hpp>
 #include <cattaneo/shakedown/limit.hpp>
 #include <chrono>
 #include <cmath>

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cattaneo/counters.hpp>
-#include <cattaneo/shakedown/cone_programme.hpp>
+#include <cattaneo/shakedown/collapse_mechanism.hpp>
+#include <cattaneo/shakedown/load_cycle.hpp>
+#include <cattaneo/shakedown/residual_forces.hpp>
 
 namespace cattaneo
 {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <cattaneo/shakedown/collapse_mechanism.hpp>
 #include <cattaneo/shakedown/load_cycle.hpp>
 #include <cattaneo/shakedown/residual_forces.hpp>
 #include <string>
@@ -36,14 +37,6 @@ struct ConeProgramme
 
    Eigen::Index nodes() const { return friction.size(); }
    Eigen::Index components() const { return loads.q0.rows() / friction.size(); }
-};
-
-/** Motions dual to the limit: at load vertex j node i slips by `slip` and opens by `opening`,
-   with opening ≥ f |slip| (the flow rule associated with the friction cone). */
-struct CollapseMechanism
-{
-   Eigen::MatrixXd slip;    ///< c·n × vertices
-   Eigen::MatrixXd opening; ///< n × vertices
 };
 
 struct ConeSettings

@@ -2,20 +2,12 @@
 
 #include <cattaneo/counters.hpp>
 #include <cattaneo/friction/complementarity.hpp>
+#include <cattaneo/friction/contact_state.hpp>
 #include <cattaneo/reduced/reduced_problem.hpp>
 #include <string>
 
 namespace cattaneo
 {
-
-/// A node changes its state on the exact path.
-struct StateChange
-{
-   double time = 0;
-   Eigen::VectorXd multipliers; ///< of the load patterns
-   Eigen::Index node = 0;
-   NodeState from = NodeState::stick, to = NodeState::stick;
-};
 
 /// Adds the nodes of a state that change to other states there.
 void list_changes(const ContactState &from, const std::vector<NodeState> &to,

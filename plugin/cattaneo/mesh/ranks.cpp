@@ -1,6 +1,6 @@
 #include <algorithm>
-#include <cattaneo/elastic/ranks.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/mesh/ranks.hpp>
 #include <numeric>
 #include <optional>
 

@@ -1,0 +1,9 @@
+#pragma once
+
+// All of Cattaneo for programs that use MFEM.
+#include <cattaneo/contact/condense_body.hpp>
+#include <cattaneo/core.hpp>
+#include <cattaneo/elastic/axisymmetric.hpp>
+#include <cattaneo/elastic/views.hpp>
+#include <cattaneo/mesh/graded_mesh.hpp>
+#include <cattaneo/output/paraview.hpp>

@@ -1,0 +1,15 @@
+#pragma once
+
+namespace cattaneo
+{
+
+/// How the boundary of a body goes on beyond an end of a contact line.
+enum class LineEnd : signed char
+{
+   unknown,
+   smooth, ///< the tangent goes on: contact may want to go on too
+   corner, ///< it turns there
+   axis    ///< the end lies on the axis of symmetry
+};
+
+} // namespace cattaneo
