@@ -110,7 +110,7 @@ IncrementReport solve(const ReducedProblem &problem, Method method, ContactState
    report.message = "no equilibrium was found: Lemke's path ends in a ray";
    if (auto found = solve_by_lemke(problem, state, loads))
    {
-      report = FrictionSolver(problem).judge(state, *found);
+      report = solver.judge(state, *found);
       if (report.status != FrictionStatus::stalled) { state = std::move(*found); }
    }
    return report;
