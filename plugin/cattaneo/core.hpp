@@ -10,6 +10,7 @@
 #include <cattaneo/fretting/measures.hpp>
 #include <cattaneo/fretting/yield.hpp>
 #include <cattaneo/friction/critical_friction.hpp>
+#include <cattaneo/halfplane/half_plane.hpp>
 #include <cattaneo/output/history.hpp>
 #include <cattaneo/reduced/reduced_file.hpp>
 #include <cattaneo/reduced/reduction.hpp>
