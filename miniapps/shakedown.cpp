@@ -365,14 +365,7 @@ private:
       const double length = arc[n - 1] - arc[0];
       // In the tables x runs from -a to a.
       x = arc.array() - (saved ? 0.0 : arc[0] + 0.5 * length);
-      inner.clear();
-      for (Eigen::Index i = 0; i < n; ++i)
-      {
-         if (std::min(arc[i] - arc[0], arc[n - 1] - arc[i]) >= options.corner * length)
-         {
-            inner.push_back(i);
-         }
-      }
+      inner = nodes_away_from_ends(problem, options.corner);
       limit = limit_problem(problem, cycle);
    }
 

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <set>
 
 namespace miniapp
 {
@@ -68,9 +69,22 @@ void CaseOptions::read(const std::string &file)
    std::ifstream in(file);
    require(in.good() && !std::filesystem::is_directory(file), where, " cannot be read");
    nlohmann::json j;
+   std::set<std::string> names;
+   // Of a key that is there twice the parser itself keeps the last without a word.
+   const auto once =
+      [&](int depth, nlohmann::json::parse_event_t event, const nlohmann::json &name)
+   {
+      if (event == nlohmann::json::parse_event_t::key && depth == 1)
+      {
+         const auto key = name.get<std::string>();
+         require(names.insert(key).second, where, ": key '", key,
+                 "' is there twice, must be there once");
+      }
+      return true;
+   };
    try
    {
-      j = nlohmann::json::parse(in);
+      j = nlohmann::json::parse(in, once);
    }
    catch (const nlohmann::json::exception &error)
    {

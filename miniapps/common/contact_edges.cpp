@@ -64,7 +64,7 @@ void predict(const EdgeStudy &study, const ContactEdge *before, const ContactEdg
       solved.notes.push_back("no energy is predicted: the bodies are not of one material");
       return;
    }
-   if (!opposite || opposite->complete)
+   if (!opposite || !opposite->why_not.empty())
    {
       solved.notes.push_back("this edge has no like at the other end of the cycle: no energy "
                              "is predicted");
@@ -78,7 +78,7 @@ void predict(const EdgeStudy &study, const ContactEdge *before, const ContactEdg
 void fit_at_corner(const EdgeStudy &study, SolvedEdge &solved)
 {
    solved.notes.push_back(solved.edge.why_not);
-   if (!study.corner) { return; }
+   if (!study.corner || !solved.edge.complete) { return; }
    try
    {
       const CornerModes modes = study.corner(solved.edge.side);
@@ -113,7 +113,7 @@ EdgeReport read_edges(const EdgeStudy &study)
       {
          SolvedEdge solved;
          solved.edge = edges[e];
-         if (solved.edge.complete) { fit_at_corner(study, solved); }
+         if (!solved.edge.why_not.empty()) { fit_at_corner(study, solved); }
          else
          {
             // Edges correspond while no stretch of contact is born or dies.
@@ -123,7 +123,10 @@ EdgeReport read_edges(const EdgeStudy &study)
          }
          report.edges.push_back(solved);
       }
-      if (edges.empty()) { report.why_not = "nothing is in contact"; }
+      if (edges.empty())
+      {
+         report.why_not = "nothing is in contact, or all between planes of symmetry";
+      }
    }
    catch (const InputError &error)
    {
@@ -148,7 +151,7 @@ void print(const EdgeReport &report, const std::function<double(double)> &coordi
                      fitted.value, error_text(100 * fitted.relative_error).c_str(),
                      fitted.window.nearest, fitted.window.farthest, fitted.nodes);
       };
-      if (!edge.complete)
+      if (edge.why_not.empty())
       {
          line("K_N", edge.k_n);
          line("K_T", edge.k_t);
@@ -189,7 +192,7 @@ Json to_json(const SolvedEdge &solved)
              {"position_error", edge.position.error},
              {"side", edge.side},
              {"complete", edge.complete}};
-   if (!edge.complete)
+   if (edge.why_not.empty())
    {
       j["k_n"] = to_json(edge.k_n);
       j["k_t"] = to_json(edge.k_t);

@@ -4,6 +4,7 @@
 #include <cattaneo/contact/condense_body.hpp>
 #include <cattaneo/core.hpp>
 #include <cattaneo/elastic/axisymmetric.hpp>
+#include <cattaneo/elastic/point_stress.hpp>
 #include <cattaneo/elastic/views.hpp>
 #include <cattaneo/mesh/graded_mesh.hpp>
 #include <cattaneo/output/paraview.hpp>

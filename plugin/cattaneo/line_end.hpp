@@ -7,9 +7,9 @@ namespace cattaneo
 enum class LineEnd : signed char
 {
    unknown,
-   smooth, ///< the tangent goes on: contact may want to go on too
-   corner, ///< it turns there
-   axis    ///< the end lies on the axis of symmetry
+   smooth,  ///< the tangent goes on: contact may want to go on too
+   corner,  ///< it turns there
+   symmetry ///< the end lies on a plane or the axis of symmetry
 };
 
 } // namespace cattaneo

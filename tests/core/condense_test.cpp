@@ -352,6 +352,32 @@ TEST(CondenseMatrix, SaysWhatIsWrong)
            [](auto &b) { b.loads[0].values.conservativeResize(5); });
    refused("load 'pull' has 24 values", [](auto &b) { b.loads[0].values[7] = NAN; });
    refused("load 'lift' displaces dof 9", [](auto &b) { b.loads[1].values[9] = 1e-9; });
+   // Eliminated: of the rows and columns of what is fixed their diagonal is left, perhaps among
+   // zeros that are stored.
+   for (const bool stored : {false, true})
+   {
+      refused("load 'lift' moves nothing, the rows of the displaced dofs hold nothing but a "
+              "diagonal: was the matrix eliminated?",
+              [&](auto &b)
+              {
+                 Eigen::SparseMatrix<double, Eigen::RowMajor> K = frame.K.sparseView();
+                 std::vector<bool> fixed(frame.K.rows(), false);
+                 for (int dof : b.fixed) { fixed[dof] = true; }
+                 for (int row = 0; row < K.rows(); ++row)
+                 {
+                    for (decltype(K)::InnerIterator entry(K, row); entry; ++entry)
+                    {
+                       const bool off = entry.row() != entry.col();
+                       if (off && (fixed[entry.row()] || fixed[entry.col()]))
+                       {
+                          entry.valueRef() = 0;
+                       }
+                    }
+                 }
+                 if (!stored) { K.prune(0.0); }
+                 b.K = SharedMatrix(K);
+              });
+   }
    // One triangle, as many programs write it.
    refused("not symmetric",
            [&](auto &b)

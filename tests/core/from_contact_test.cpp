@@ -8,6 +8,7 @@
 #include <cattaneo/fretting/measures.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
+#include <expect_input_error.hpp>
 #include <functional>
 #include <gtest/gtest.h>
 #include <string>
@@ -209,6 +210,109 @@ TEST(FromContact, CompleteContactIsRefusedWithAReason)
       EXPECT_THROW(compare_energy(problem, edge, solved.cycles.cycles.back(), 1, modulus),
                    InputError);
    }
+}
+
+/// The first or the last half of a problem of an odd number of nodes that is its own mirror
+/// image, up to the node on the plane of symmetry, which does not slide: v is odd about it and
+/// w even, and half of the middle's force belongs to each half.
+ReducedProblem half_of(const ReducedProblem &whole, bool first_half)
+{
+   const Index n = whole.nodes(), half = (n + 1) / 2, from = first_half ? 0 : half - 1;
+   Eigen::MatrixXd odd = Eigen::MatrixXd::Zero(n, half), even = odd;
+   for (Index i = 0; i < half; i++)
+   {
+      const Index node = from + i, image = n - 1 - node;
+      odd(image, i) = -1;
+      odd(node, i) = even(node, i) = even(image, i) = 1;
+   }
+   ReducedProblem problem;
+   problem.set_stiffness(0.5 * odd.transpose() * whole.A() * odd,
+                         Eigen::MatrixXd::Zero(half, half),
+                         0.5 * even.transpose() * whole.C() * even);
+   for (const LoadPattern &load : whole.patterns)
+   {
+      problem.patterns.push_back({load.name, load.control, 0.5 * odd.transpose() * load.q,
+                                  0.5 * even.transpose() * load.p});
+   }
+   problem.H = 0.5 * whole.H;
+   problem.gap = whole.gap.segment(from, half);
+   problem.weights = 0.5 * even.transpose() * whole.weights;
+   problem.arc_length = whole.arc_length.segment(from, half);
+   problem.chains = one_chain(half);
+   problem.chains[0].ends[first_half ? 1 : 0] = LineEnd::symmetry;
+   set_friction(problem, 0.5);
+   hold(problem, {first_half ? half - 1 : 0});
+   return problem;
+}
+
+TEST(FromContact, HalfAModelHasTheEdgeOfTheWholeOneAndNoneAtItsPlane)
+{
+   const ReducedProblem whole = hertz_pair(121);
+   const Eigen::Vector3d normal(load, 0, 0), stretched(0, 0, 2e-3);
+   const Solved all = solve(whole, normal, stretched);
+   const std::vector<ContactEdge> both = contact_edges(whole, all.pressed, all.peak);
+   ASSERT_EQ(both.size(), 2u);
+   ASSERT_GT(both[0].slip_zone, 0);
+   for (const bool first_half : {true, false})
+   {
+      SCOPED_TRACE(first_half);
+      const ReducedProblem problem = half_of(whole, first_half);
+      const Solved solved = solve(problem, normal, stretched);
+      const std::vector<ContactEdge> edges =
+         contact_edges(problem, solved.pressed, solved.peak);
+      ASSERT_EQ(edges.size(), 1u);
+      const ContactEdge &edge = edges[0], &same = both[first_half ? 0 : 1];
+      EXPECT_EQ(edge.side, same.side);
+      EXPECT_FALSE(edge.complete);
+      EXPECT_EQ(edge.why_not, "");
+      const auto expect_same = [](double a, double b)
+      { EXPECT_NEAR(a, b, 1e-7 * std::abs(b)); };
+      expect_same(edge.position.position, same.position.position);
+      expect_same(edge.half_width, same.half_width);
+      expect_same(edge.slip_zone, same.slip_zone);
+      expect_same(edge.k_n.value, same.k_n.value);
+      // The whole model reads how K_T changes with the place of either edge and adds the two;
+      // here they move together: equal up to what it states of its error.
+      EXPECT_LT(same.k_t.relative_error, 0.02);
+      EXPECT_NEAR(edge.k_t.value, same.k_t.value,
+                  same.k_t.relative_error * std::abs(same.k_t.value));
+   }
+}
+
+TEST(FromContact, APlaneOfSymmetryIsOneOfAllBodies)
+{
+   ContactChain chain = one_chain(3)[0];
+   chain.ends[0] = LineEnd::symmetry;
+   EXPECT_TRUE(chain.mirrored_at(0)); // the other one is a rigid line
+   EXPECT_FALSE(chain.mirrored_at(1));
+   // One body is held where the other one may move.
+   chain.bodies[1] = 1;
+   EXPECT_FALSE(chain.mirrored_at(0));
+   chain.other_ends[0] = LineEnd::symmetry;
+   EXPECT_TRUE(chain.mirrored_at(0));
+   chain.loop = true;
+   EXPECT_FALSE(chain.mirrored_at(0));
+}
+
+TEST(FromContact, ALineThatIsCutOffOrClosedHasNoCorners)
+{
+   ReducedProblem problem = half_planes(41, 1, [](double) { return 0.0; });
+   const Solved solved = solve(problem, {load, 0, 0}, {0, 0.1 * load, 0});
+   ContactChain &chain = problem.chains[0];
+   chain.ends = chain.other_ends = {LineEnd::smooth, LineEnd::smooth};
+   for (const ContactEdge &edge : contact_edges(problem, solved.pressed, solved.peak))
+   {
+      EXPECT_FALSE(edge.complete);
+      EXPECT_NE(edge.why_not.find("cut off"), std::string::npos) << edge.why_not;
+      EXPECT_THROW(near_edge(edge), InputError);
+   }
+   chain.other_ends = {LineEnd::corner, LineEnd::smooth};
+   const std::vector<ContactEdge> edges = contact_edges(problem, solved.pressed, solved.peak);
+   EXPECT_TRUE(edges[0].complete);
+   EXPECT_FALSE(edges[1].complete);
+   chain.loop = true;
+   expect_input_error([&] { contact_edges(problem, solved.pressed, solved.peak); },
+                      "closed and in contact at node 0");
 }
 
 TEST(FromContact, RefusesWhatItCannotJudge)

@@ -204,7 +204,7 @@ TEST(HalfPlane, APlaneOfSymmetryIsHalfOfTheWhole)
       ASSERT_EQ(N, 2 * n - 1);
       const Index middle = side > 0 ? 0 : n - 1; // the line below runs against x
       EXPECT_EQ(part.held, std::vector<int>{static_cast<int>(middle)});
-      EXPECT_EQ(part.line.chains[0].ends[side > 0 ? 0 : 1], LineEnd::axis);
+      EXPECT_EQ(part.line.chains[0].ends[side > 0 ? 0 : 1], LineEnd::symmetry);
       EXPECT_EQ(part.S.row(middle).norm(), 0);
       // Node i of the part at its place in the whole, and mirrored.
       MatrixXd T = MatrixXd::Zero(2 * N, 2 * n);

@@ -127,13 +127,13 @@ void expect_facts(const ReducedProblem &problem)
    EXPECT_EQ(left.nodes, 1);
    EXPECT_TRUE(left.loop);
    EXPECT_EQ(left.ends, ends(LineEnd::smooth, LineEnd::corner));
-   EXPECT_EQ(left.other_ends, ends(LineEnd::axis, LineEnd::unknown));
+   EXPECT_EQ(left.other_ends, ends(LineEnd::symmetry, LineEnd::unknown));
    EXPECT_EQ(right.interface, "right");
    EXPECT_EQ(right.first, 1);
    EXPECT_EQ(right.nodes, 1);
    EXPECT_FALSE(right.loop);
    EXPECT_EQ(right.ends, ends(LineEnd::unknown, LineEnd::smooth));
-   EXPECT_EQ(right.other_ends, ends(LineEnd::corner, LineEnd::axis));
+   EXPECT_EQ(right.other_ends, ends(LineEnd::corner, LineEnd::symmetry));
 }
 
 TEST(ReducedFile, EveryFieldIsReadAndWrittenAgain)

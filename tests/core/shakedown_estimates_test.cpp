@@ -79,6 +79,25 @@ ReducedProblem nodes_apart(const Eigen::MatrixXd &forces)
    return problem;
 }
 
+TEST(Monolith, APlaneOfSymmetryAndAClosedLineAreNoEndsToKeepAwayFrom)
+{
+   ReducedProblem whole = three_nodes(), half = three_nodes();
+   EXPECT_THROW(nodes_away_from_ends(whole, 0.1), InputError); // no arc length
+   whole.arc_length = Eigen::Vector3d(0, 1, 2);
+   EXPECT_EQ(nodes_away_from_ends(whole, 0.3), NodeList{1});
+   EXPECT_EQ(nodes_away_from_ends(whole, 0), (NodeList{0, 1, 2}));
+   // The halves of a line from -2 to 2, of which a quarter is 1.
+   half.arc_length = whole.arc_length;
+   half.chains = one_chain(3);
+   half.chains[0].ends[0] = LineEnd::symmetry;
+   EXPECT_EQ(nodes_away_from_ends(half, 0.25), (NodeList{0, 1}));
+   EXPECT_EQ(nodes_away_from_ends(half, 0.26), NodeList{0});
+   half.chains[0].ends = {LineEnd::corner, LineEnd::symmetry};
+   EXPECT_EQ(nodes_away_from_ends(half, 0.25), (NodeList{1, 2}));
+   half.chains[0].loop = true;
+   EXPECT_EQ(nodes_away_from_ends(half, 0.4), (NodeList{0, 1, 2}));
+}
+
 TEST(Monolith, FirstEventsOfEveryKindByHand)
 {
    // q, p, dq, dp: |q + λ dq| = (p + λ dp)/2, whichever way each of them goes.

@@ -464,6 +464,8 @@ TEST_F(Contact2D, BadInputIsOneSentenceAndLeavesNoFile)
        {"no boundary elements", "7 <= x"}},
       {"--mesh1 meshes/rounded_punch.msh --contact1 '3[x<8]'",
        {"contact1", "3[x<8]", "3[-1<x<1]"}},
+      {case_file("twice.json", R"({"friction": 0.1, "mesh1": "a.msh", "friction": 0.3})"),
+       {"twice.json", "key 'friction'", "twice"}},
       {pair + "--pairing 1e-6",
        {"pairing", "without a partner", "body 1 (81 nodes)", "body 2"}},
       {pressed + "--friction -0.25", {"friction", "-0.25", "not negative"}},

@@ -283,6 +283,9 @@ TEST(Body, SaysWhatIsWrong)
          "Young's modulus is inf");
    }
    expect_input_error([&] { ElasticBody(mesh, 1, std::vector<Material>()); }, "no material");
+   expect_input_error(
+      [&] { ElasticBody(mesh, 1, std::vector<Material>(mesh.attributes.Max() + 1)); },
+      "materials, the largest element attribute is");
    mesh.SetAttribute(2, 3);
    mesh.SetAttributes();
    expect_input_error(

@@ -268,7 +268,7 @@ TEST(ContactLine, ChainsThatEndOnTheAxisStandBesideOthers)
          EXPECT_NEAR(found[i], expected[i], 1e-14) << i;
       }
    };
-   const std::array<LineEnd, 2> inwards{LineEnd::smooth, LineEnd::axis},
+   const std::array<LineEnd, 2> inwards{LineEnd::smooth, LineEnd::symmetry},
       outwards{LineEnd::smooth, LineEnd::corner};
    for (int order : {1, 2})
    {
@@ -902,7 +902,7 @@ TEST(ContactLine, LoopsAndTheAxisHaveNoEnds)
    // About an axis at r = 0, whose node is no contact node.
    ElasticBody disc(mesh, 2, Material{}, Formulation::axisymmetric);
    const ContactLine bottom = contact_line(disc, 1);
-   EXPECT_EQ(bottom.chains[0].ends[0], LineEnd::axis);
+   EXPECT_EQ(bottom.chains[0].ends[0], LineEnd::symmetry);
    EXPECT_EQ(bottom.chains[0].ends[1], LineEnd::corner);
    EXPECT_EQ(bottom.chains[0].first, 0);
    EXPECT_EQ(bottom.chains[0].nodes, bottom.size());
@@ -1007,8 +1007,8 @@ TEST(ContactLine, OtherEndsWithinALineOfTheOtherBodyAndOfLoops)
                        b = condense(wide, contact_line(wide, {{3}, 0, 0.0, 1.0}));
    ASSERT_EQ(a.line.size(), 1);
    const Reduction up = reduce(a, b, pair_lines(a.line, b.line));
-   EXPECT_EQ(up.problem.chains[0].ends, ends(LineEnd::axis, LineEnd::corner));
-   EXPECT_EQ(up.problem.chains[0].other_ends, ends(LineEnd::axis, LineEnd::axis));
+   EXPECT_EQ(up.problem.chains[0].ends, ends(LineEnd::symmetry, LineEnd::corner));
+   EXPECT_EQ(up.problem.chains[0].other_ends, ends(LineEnd::symmetry, LineEnd::symmetry));
    mfem::Mesh turned = rectangle_mesh({0, 1, 2}, {0, 1}),
               below_it = rectangle_mesh({0, 1}, {-1, 0});
    ElasticBody wide_above(turned, 1, Material{}, Formulation::axisymmetric),
@@ -1018,8 +1018,8 @@ TEST(ContactLine, OtherEndsWithinALineOfTheOtherBodyAndOfLoops)
    const CondensedBody c = condense(narrow_below, contact_line(narrow_below, 3)),
                        d = condense(wide_above, contact_line(wide_above, {{1}, 0, 0.0, 1.0}));
    const Reduction down = reduce(c, d, pair_lines(c.line, d.line));
-   EXPECT_EQ(down.problem.chains[0].ends, ends(LineEnd::corner, LineEnd::axis));
-   EXPECT_EQ(down.problem.chains[0].other_ends, ends(LineEnd::axis, LineEnd::axis));
+   EXPECT_EQ(down.problem.chains[0].ends, ends(LineEnd::corner, LineEnd::symmetry));
+   EXPECT_EQ(down.problem.chains[0].other_ends, ends(LineEnd::symmetry, LineEnd::symmetry));
 }
 
 } // namespace

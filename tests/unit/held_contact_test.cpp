@@ -82,7 +82,7 @@ void expect_half_of(Solved &whole, Solved &half, const std::vector<const Elastic
       EXPECT_EQ(half.state.v[i], 0);
       EXPECT_EQ(half.state.q[i], 0);
       const ContactChain &chain = part.chains[0];
-      EXPECT_EQ(chain.ends[i == 0 ? 0 : 1], LineEnd::axis);
+      EXPECT_EQ(chain.ends[i == 0 ? 0 : 1], LineEnd::symmetry);
    }
    EXPECT_NEAR(half.state.dissipation, whole.state.dissipation / 2, 1e-9 * force * move);
    EXPECT_TRUE(all.held.empty());
@@ -163,7 +163,7 @@ TEST(HeldContact, HalfModelOfTwoBodiesIsHalfOfTheWhole)
       const Pairing pairing = pair_lines(first.line, second.line, 0.1);
       solved.push_back(pressed(reduce(std::move(first), std::move(second), pairing)));
    }
-   EXPECT_EQ(solved[1].reduction.problem.chains[0].other_ends[0], LineEnd::axis);
+   EXPECT_EQ(solved[1].reduction.problem.chains[0].other_ends[0], LineEnd::symmetry);
    expect_half_of(solved[0], solved[1], {&body1[0], &body2[0]}, {&body1[1], &body2[1]});
 }
 

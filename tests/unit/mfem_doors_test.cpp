@@ -171,6 +171,24 @@ TEST(MfemDoors, TrueDofsAndMarkersHoldWhatAttributesHold)
             body.fix(mfem::Array<int>({0, 0, 0, 0, 1}), 0);
          },
          "attribute 5");
+      expect_input_error(
+         [&] {
+            body.fix(mfem::Array<int>({0, 1}), 0);
+         },
+         "fix: the boundary marker has 2 entries, must have 4");
+      expect_input_error(
+         [&] {
+            body.add_pressure("P", mfem::Array<int>({0, 0, 1, 0, 0}), 1.0);
+         },
+         "pressure 'P': the boundary marker has 5 entries, must have 4");
+      expect_input_error([&] { contact_line(body, mfem::Array<int>({1})); },
+                         "the boundary marker has 1 entries, must have 4");
+      expect_input_error(
+         [&] {
+            body.fix(mfem::Array<int>({0, 0, 0, 1}));
+         },
+         "fix: true dof 0 is there 3 times");
+      EXPECT_EQ(list(body.essential_dofs()), list(held)) << kind;
    }
 }
 

@@ -62,7 +62,7 @@ TEST(CutOff, AsksForCompressionAndForBothBodies)
    state.status[2] = NodeState::separation;
    state.p << 1e-17, 2, 0;
    // Either body may end; what is not known says nothing; a loop has no ends.
-   for (const LineEnd end : {LineEnd::corner, LineEnd::axis, LineEnd::unknown})
+   for (const LineEnd end : {LineEnd::corner, LineEnd::symmetry, LineEnd::unknown})
    {
       ReducedProblem other = problem;
       other.chains[0].ends[1] = end;

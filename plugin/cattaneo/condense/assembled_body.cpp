@@ -6,6 +6,20 @@
 namespace cattaneo
 {
 
+namespace
+{
+
+bool couples(const SparseView &stiffness, int row)
+{
+   for (SparseView::InnerIterator entry(stiffness, row); entry; ++entry)
+   {
+      if (entry.col() != row && entry.value() != 0) { return true; }
+   }
+   return false;
+}
+
+} // namespace
+
 void AssembledBody::validate() const
 {
    const int size = K.size(), components = cattaneo::components(places.formulation);
@@ -57,11 +71,18 @@ void AssembledBody::validate() const
       require(load.values.size() == size && load.values.allFinite(), "assembled body: load '",
               load.name, "' has ", load.values.size(), " values, must be ", size,
               ", all finite");
+      bool moves = false, felt = false;
       for (int dof = 0; load.control == Control::displacement && dof < size; ++dof)
       {
          require(held[dof] || load.values[dof] == 0, "assembled body: load '", load.name,
                  "' displaces dof ", dof, ", which is not fixed, it must be");
+         if (load.values[dof] == 0) { continue; }
+         moves = true;
+         felt = felt || couples(stiffness, dof);
       }
+      require(!moves || felt, "assembled body: load '", load.name,
+              "' moves nothing, the rows of the displaced dofs hold nothing but a diagonal: "
+              "was the matrix eliminated? Pass it as assembled (SpMat() after Finalize)");
    }
 }
 

@@ -28,8 +28,8 @@ struct AssembledBody
    bool grounded = false;
 
    /// InputError that names what does not fit: sizes, columns, the order of the fixed dofs,
-   /// loads that are not finite or displace what is not fixed, a stiffness that is not
-   /// symmetric (one triangle of it).
+   /// loads that are not finite or displace what is not fixed or what nothing hangs on (a
+   /// matrix that was eliminated), a stiffness that is not symmetric (one triangle of it).
    void validate() const;
 };
 

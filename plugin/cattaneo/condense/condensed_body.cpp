@@ -95,8 +95,8 @@ std::vector<int> align(ContactLine &line, const std::vector<int> &held)
       for (LineChain &chain : line.chains)
       {
          if (!tangential || chain.loop) { continue; }
-         if (i == chain.first) { chain.ends[0] = LineEnd::axis; }
-         if (i == chain.first + chain.nodes - 1) { chain.ends[1] = LineEnd::axis; }
+         if (i == chain.first) { chain.ends[0] = LineEnd::symmetry; }
+         if (i == chain.first + chain.nodes - 1) { chain.ends[1] = LineEnd::symmetry; }
       }
    }
    std::sort(rows.begin(), rows.end());

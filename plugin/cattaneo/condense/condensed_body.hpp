@@ -55,7 +55,7 @@ public:
    /// with the kept factor. Displacements of held components are not asked for.
    Eigen::VectorXd recover(const Eigen::VectorXd &u, const Eigen::VectorXd &multipliers);
 
-   /** Relative error of S, an estimate from above by energies, see stiffness_error(); of a body
+   /** Relative error of S, an estimate from above by the energies of its solves; of a body
        condensed by conjugate gradients from S u against the action of the operator, in double
        precision. Materials or elements of great contrast within one body cost digits: 1e-3
       means that stiffnesses, and with them displacements under given forces, are right to 0.1

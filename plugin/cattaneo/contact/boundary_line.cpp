@@ -345,7 +345,7 @@ ContactLine contact_line(const ElasticBody &body, const BoundaryPart &part)
       const auto end_at = [&](const SegmentNode &end, const Eigen::Vector2d &out, double turn)
       {
          return described.loop ? LineEnd::smooth
-                : end.on_axis  ? LineEnd::axis
+                : end.on_axis  ? LineEnd::symmetry
                                : goes_on(ways, end.id, out, turn);
       };
       described.ends = {

@@ -89,6 +89,10 @@ ElasticBody::ElasticBody(mfem::Mesh &mesh, int order, const std::vector<Material
               "elastic body: element attribute ", attribute, " has no material, there are ",
               materials_.size(), " (for the attributes from 1)");
    }
+   const int attributes = mesh.attributes.Size() ? mesh.attributes.Max() : 1;
+   require(static_cast<int>(materials_.size()) <= attributes, "elastic body: there are ",
+           materials_.size(), " materials, the largest element attribute is ", attributes,
+           ", there must be one for each from 1 to it");
    make_space(mesh, order);
    assemble();
 }
@@ -396,9 +400,17 @@ void ElasticBody::fix_node(double x, double y, int component)
 void ElasticBody::fix(const mfem::Array<int> &true_dofs)
 {
    const int size = space_->GetTrueVSize();
+   std::vector<int> times(size, 0);
    for (int dof : true_dofs)
    {
       require(dof >= 0 && dof < size, "fix: true dof ", dof, ", must be from 0 to ", size - 1);
+      ++times[dof];
+   }
+   for (int dof : true_dofs)
+   {
+      require(times[dof] == 1, "fix: true dof ", dof, " is there ", times[dof],
+              " times, must be there once (a boundary marker goes into fix(marker, "
+              "component))");
    }
    for (int dof : true_dofs) { essential_[dof] = true; }
 }

@@ -52,7 +52,7 @@ public:
    ElasticBody(mfem::Mesh &mesh, int order, const Material &material,
                Formulation formulation = Formulation::plane);
 
-   /// One material for each element attribute (index attribute - 1).
+   /// One material for each element attribute (index attribute - 1), no more and no less.
    ElasticBody(mfem::Mesh &mesh, int order, const std::vector<Material> &materials,
                Formulation formulation = Formulation::plane);
 
@@ -65,7 +65,8 @@ public:
 
    /// The user's own symmetric operator on the true dofs of an H1 space of 2 components, in
    /// torsion 1 (orthotropic, user integrators, …). Copies the matrix; the space must outlive
-   /// the body.
+   /// the body. Nothing is eliminated from the matrix: a displacement of dofs whose rows are
+   /// nothing but a diagonal is refused by condense().
    ElasticBody(mfem::FiniteElementSpace &space, const mfem::SparseMatrix &stiffness,
                Formulation formulation = Formulation::plane);
 
@@ -78,7 +79,8 @@ public:
    void fix_node(double x, double y, int component);
    /// No displacement at these true dofs of the space (of this rank), as
    /// mfem::FiniteElementSpace::GetEssentialTrueDofs lists them. InputError for a number that
-   /// is none.
+   /// is none or is there twice, as in a boundary marker (that goes into fix(marker,
+   /// component)).
    void fix(const mfem::Array<int> &true_dofs);
 
    /// Forces on the true dofs of the space (of this rank), in axisymmetry on the whole

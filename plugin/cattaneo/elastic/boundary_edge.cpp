@@ -143,6 +143,10 @@ std::vector<int> boundary_elements(const mfem::Mesh &mesh, const BoundaryPart &p
       require(mesh.bdr_attributes.Find(a) >= 0, where, ": the mesh has no boundary attribute ",
               a, "; it has: ", known.empty() ? "none" : known);
    }
+   const int largest = mesh.bdr_attributes.Max();
+   require(part.marked == 0 || part.marked == largest, where, ": the boundary marker has ",
+           part.marked, " entries, must have ", largest,
+           " (one for each boundary attribute up to the largest)");
    std::vector<int> elements;
    for (int i = 0; i < mesh.GetNBE(); ++i)
    {

@@ -18,12 +18,13 @@ struct BoundaryPart
    int axis = 0; ///< coordinate of the interval: 0 = x, 1 = y
    double lo = -std::numeric_limits<double>::infinity();
    double hi = std::numeric_limits<double>::infinity();
+   int marked = 0; ///< number of entries of the marker that it was made of, 0: of none
 
    BoundaryPart(int attribute) : attributes{attribute} {}
    BoundaryPart(std::vector<int> some) : attributes(std::move(some)) {}
    /// MFEM's marker: for each boundary attribute, from 1, whether it belongs to the part (1) or
-   /// not (0).
-   BoundaryPart(const mfem::Array<int> &marker)
+   /// not (0). Where it is used, InputError if it has not one for each of the mesh.
+   BoundaryPart(const mfem::Array<int> &marker) : marked(marker.Size())
    {
       for (int k = 0; k < marker.Size(); ++k)
       {

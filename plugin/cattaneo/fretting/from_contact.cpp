@@ -10,7 +10,7 @@ using Eigen::Index;
 
 Edge near_edge(const ContactEdge &edge)
 {
-   require(!edge.complete, edge.why_not);
+   require(edge.why_not.empty(), edge.why_not);
    return {edge.k_n.value, edge.k_t.value, edge.friction};
 }
 

@@ -39,7 +39,7 @@ struct IncrementReport
    FrictionStatus status = FrictionStatus::stalled;
    std::string message; ///< empty if converged
    /// Largest violation of the equations as given and of the laws by the state that is
-   /// returned (see check_laws), over the largest force so far.
+   /// returned, over the largest force so far.
    double residual_normal = 0, residual_tangential = 0;
    double round_off = 0;      ///< estimate of what arithmetic can reach, relative
    const char *found_by = ""; ///< the method that found the solution, if one was found
@@ -50,8 +50,7 @@ struct IncrementReport
    and 3.6).
 
     With two tangential components a node the friction force is a vector in the disc
-    |q| <= f p, opposed to the slip increment. The law of a node is in contact_law.hpp, the
-    methods are listed in friction_solver.cpp in the order in which they are tried.
+    |q| <= f p, opposed to the slip increment.
 
     Where there are several answers the one found need not be the nearest to the state at the
     start: if a body jumps there, that is not reported.

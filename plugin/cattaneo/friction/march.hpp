@@ -22,7 +22,7 @@ enum class Stepping
    /// each newly closed node must have had a closed neighbour on its chain, or, on a chain that
    /// bore nothing yet, close there first, alone or beside another.
    advancing,
-   /// No increments: from one change of state to the next, exactly (see ExactPath). Pieces that
+   /// No increments: from one change of state to the next, exactly. Pieces that
    /// one increment solves exactly take that one. Where there is no path to follow, an
    /// increment is taken instead, to the next of the equal ones or to where a node closes
    /// first: counted, with the reason, in the report. A state that is no equilibrium (an
@@ -55,7 +55,7 @@ struct IncrementRecord
    int stick = 0, separation = 0, forward_slip = 0,
        backward_slip = 0; ///< numbers of settled_states()
    int slip = 0; ///< with two tangential components: nodes that slip in whatever direction
-   double dissipation = 0;   ///< see frictional_loss(), summed over nodes; never negative
+   double dissipation = 0;   ///< lost by friction, summed over nodes; never negative
    double external_work = 0; ///< work of the loads, trapezoidal (exact for linear increments)
    double residual_normal = 0, residual_tangential = 0, round_off = 0; ///< see IncrementReport
 };

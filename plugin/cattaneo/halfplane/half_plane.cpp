@@ -135,7 +135,7 @@ ContactLine surface_line(const ContactLine &other, const Surface &surface)
       {
          const bool on_plane =
             surface.body.symmetric && surface.along(element.points.col(a)) == 0;
-         return element.nodes[a] < 0 || on_plane ? LineEnd::axis : LineEnd::smooth;
+         return element.nodes[a] < 0 || on_plane ? LineEnd::symmetry : LineEnd::smooth;
       };
       chain.ends = {end(chain.elements.front(), 0),
                     end(chain.elements.back(), chain.elements.back().order())};

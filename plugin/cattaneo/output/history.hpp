@@ -11,7 +11,8 @@ namespace cattaneo
 
        time, cycle, load multipliers (column "load NAME" each), numbers of nodes in stick,
        separation, forward and backward slip (with torsion: slip), dissipation and external work
-   of the increment, relative residuals normal and tangential.
+   of the increment, relative residuals normal and tangential, and round_off (what arithmetic
+   can reach of them).
 
     add() is made to be a MarchObserver. Numbers are written so that they are read back to the
    last bit. */

@@ -24,8 +24,10 @@ public:
    BodyFields(const ElasticBody &body, const std::string &directory, const std::string &name);
 
    /// Writes one more time of the series. `displacement`: all true dofs, as
-   /// Reduction::displacement gives them; `loads`: as stress_at() asks for them. InputError if
-   /// the size is wrong, an initial strain has no multiplier or the folder cannot be written.
+   /// Reduction::displacement gives them; `loads`: as stress_at() asks for them; those of
+   /// other bodies may be among them, names that nothing asks for are not looked at. InputError
+   /// if the size is wrong, an initial strain has no multiplier or the folder cannot be
+   /// written.
    void write(const mfem::Vector &displacement, double time, const NamedLoads &loads = {});
    void write(const Eigen::VectorXd &displacement, double time, const NamedLoads &loads = {});
 

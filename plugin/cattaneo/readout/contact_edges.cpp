@@ -79,6 +79,67 @@ void check_one_chain(const ReducedProblem &problem)
    }
 }
 
+/// The stretches of contact of a closed line end where it begins only if it is open there.
+void check_seam(const ReducedProblem &problem, const ContactState &loaded)
+{
+   if (problem.chains.empty() || !problem.chains[0].loop) { return; }
+   const std::vector<bool> shut = closed_nodes(problem, loaded);
+   for (const Index i : {Index(0), problem.nodes() - 1})
+   {
+      require(!shut[i], "the contact line is closed and in contact at node ", i,
+              ", next to where it begins; edges are read from a closed line only if it is open "
+              "at its first and last node (number them from there).");
+   }
+}
+
+bool mirrored(const ReducedProblem &problem, Index node)
+{
+   return !problem.chains.empty() &&
+          ((node == 0 && problem.chains.front().mirrored_at(0)) ||
+           (node == problem.nodes() - 1 && problem.chains.back().mirrored_at(1)));
+}
+
+/// Of a stretch of contact together with its mirror image, if it has one.
+double middle_of(const ReducedProblem &problem, const Zone &stretch)
+{
+   for (const Index end : {stretch.first, stretch.last})
+   {
+      if (!mirrored(problem, end)) { continue; }
+      const std::vector<Index> &held = problem.held;
+      const bool on_plane = std::count(held.begin(), held.end(), end) > 0;
+      // A node on the axis of revolution is left out of the line: this one is beside it.
+      const double beside =
+         on_plane || problem.position.rows() == 0 ? 0.0 : std::abs(problem.position(end, 0));
+      return problem.arc_length[end] + (end == stretch.first ? -beside : beside);
+   }
+   return 0.5 * (stretch.from.position + stretch.to.position);
+}
+
+/// What is said of an edge at an end of the line.
+void refuse_at_end(const ReducedProblem &problem, ContactEdge &edge)
+{
+   const std::size_t end = edge.side > 0 ? 0 : 1;
+   const bool cut_off = !problem.chains.empty() &&
+                        problem.chains[0].ends[end] == LineEnd::smooth &&
+                        problem.chains[0].other_ends[end] == LineEnd::smooth;
+   edge.complete = !cut_off;
+   std::ostringstream text;
+   text << "the contact reaches the end of the contact line at arc length "
+        << edge.position.position;
+   if (cut_off)
+   {
+      text << ", where both bodies go on smoothly: it is cut off there and has neither K_N nor "
+              "K_T; name more of the boundaries as contact.";
+   }
+   else
+   {
+      text << ": the edge is complete (a corner) or cut off there, its pressure does not "
+              "fall to zero as K_N √t and neither K_N nor K_T exists; fit the corner's "
+              "own intensities, or lengthen the line if it was cut off.";
+   }
+   edge.why_not = text.str();
+}
+
 /// Where a quantity that is smooth across an edge vanishes, with an estimate of the error.
 struct Zero
 {
@@ -157,7 +218,7 @@ std::vector<Zero> singular_positions(const ReducedProblem &problem, const Contac
    misfit.w.setZero();
    for (const Zone &stretch : contact)
    {
-      const double middle = 0.5 * (stretch.from.position + stretch.to.position);
+      const double middle = middle_of(problem, stretch);
       for (Index i = std::max<Index>(stretch.first - 1, 0);
            i <= std::min(stretch.last + 1, n - 1); i++)
       {
@@ -170,7 +231,7 @@ std::vector<Zero> singular_positions(const ReducedProblem &problem, const Contac
    std::vector<Zero> positions;
    for (const ContactEdge &edge : edges)
    {
-      if (edge.complete)
+      if (!edge.why_not.empty())
       {
          positions.push_back({});
          continue;
@@ -205,7 +266,7 @@ void read_slip_zone(const ReducedProblem &problem, const std::vector<Zone> &all,
       // Slip between the last two nodes does not show.
       const Index end = edge.side > 0 ? stretch.first : stretch.last;
       edge.slip_zone_error =
-         edge.complete
+         !edge.why_not.empty()
             ? 0
             : std::abs(problem.arc_length[end - edge.side] - problem.arc_length[end]);
       return;
@@ -275,6 +336,7 @@ std::vector<ContactEdge> contact_edges(const ReducedProblem &problem,
 {
    check(problem, pressed, loaded);
    check_one_chain(problem);
+   check_seam(problem, loaded);
    settings.validate();
    const Index n = problem.nodes();
    const std::vector<Zone> all = zones(problem, loaded);
@@ -285,28 +347,30 @@ std::vector<ContactEdge> contact_edges(const ReducedProblem &problem,
    std::vector<ContactEdge> edges;
    for (const Zone &stretch : contact)
    {
-      const Index size = stretch.last - stretch.first + 1;
+      // The node on a plane of symmetry is the middle of the whole contact.
+      const bool from_mirror = mirrored(problem, stretch.first),
+                 to_mirror = mirrored(problem, stretch.last);
+      const Index mirrors = from_mirror + to_mirror;
+      if (mirrors == 2) { continue; }
+      const Index half = stretch.last - stretch.first + 1, size = mirrors ? 2 * half - 1 : half;
       require(size >= least, "a stretch of contact has ", size,
               " nodes; the fit of its edges needs at least ", least, ": refine the contact.");
-      const Index middle = (stretch.first + stretch.last) / 2;
+      const Index middle = from_mirror ? stretch.first
+                           : to_mirror ? stretch.last
+                                       : (stretch.first + stretch.last) / 2;
+      std::vector<ContactEdge> found;
       for (const int side : {1, -1})
       {
+         if (side > 0 ? from_mirror : to_mirror) { continue; }
          ContactEdge edge;
          edge.side = side;
          edge.position = side > 0 ? stretch.from : stretch.to;
          edge.first = side > 0 ? stretch.first : middle + 1;
          edge.last = side > 0 ? middle : stretch.last;
          edge.friction = problem.friction[side > 0 ? edge.first : edge.last];
-         edge.complete = side > 0 ? stretch.first == 0 : stretch.last == n - 1;
-         if (edge.complete)
+         if (side > 0 ? stretch.first == 0 : stretch.last == n - 1)
          {
-            std::ostringstream text;
-            text << "the contact reaches the end of the contact line at arc length "
-                 << edge.position.position
-                 << ": the edge is complete (a corner) or cut off there, its pressure does not "
-                    "fall to zero as K_N √t and neither K_N nor K_T exists; fit the corner's "
-                    "own intensities, or lengthen the line if it was cut off.";
-            edge.why_not = text.str();
+            refuse_at_end(problem, edge);
          }
          else
          {
@@ -320,13 +384,17 @@ std::vector<ContactEdge> contact_edges(const ReducedProblem &problem,
             const double error = std::max(zero.error, 0.5 * h);
             if (error < edge.position.error) { edge.position = {zero.position, error}; }
          }
+         found.push_back(edge);
+      }
+      const double first_edge = found.front().position.position,
+                   half_width = mirrors ? std::abs(first_edge - middle_of(problem, stretch))
+                                        : 0.5 * (found.back().position.position - first_edge);
+      for (ContactEdge &edge : found)
+      {
+         edge.half_width = half_width;
+         read_slip_zone(problem, all, stretch, edge);
          edges.push_back(edge);
       }
-      ContactEdge &left = edges[edges.size() - 2], &right = edges.back();
-      left.half_width = right.half_width =
-         0.5 * (right.position.position - left.position.position);
-      read_slip_zone(problem, all, stretch, left);
-      read_slip_zone(problem, all, stretch, right);
    }
 
    // Stuck solutions: the nodes in contact, then one more at each edge in turn.
@@ -337,7 +405,7 @@ std::vector<ContactEdge> contact_edges(const ReducedProblem &problem,
    std::vector<std::vector<bool>> extended(edges.size(), base);
    for (std::size_t e = 0; e < edges.size(); e++)
    {
-      if (edges[e].complete) { continue; }
+      if (!edges[e].why_not.empty()) { continue; }
       const int side = edges[e].side;
       const Index end = side > 0 ? edges[e].first : edges[e].last;
       extended[e][end - side] = true;
@@ -372,7 +440,7 @@ std::vector<ContactEdge> contact_edges(const ReducedProblem &problem,
    };
    for (std::size_t e = 0; e < edges.size(); e++)
    {
-      if (edges[e].complete) { continue; }
+      if (!edges[e].why_not.empty()) { continue; }
       const ZoneBorder &at = edges[e].position;
       FittedIntensity &k_n = edges[e].k_n;
       k_n = fit_edge(fit(loaded, e, at.position), settings).k_n;
@@ -392,7 +460,7 @@ std::vector<ContactEdge> contact_edges(const ReducedProblem &problem,
    std::vector<double> read_out(edges.size(), 0.0);
    for (std::size_t e = 0; e < edges.size(); e++)
    {
-      if (edges[e].complete) { continue; }
+      if (!edges[e].why_not.empty()) { continue; }
       const ContactState stuck = fully_stuck(problem, pressed, loaded, extended[e]);
       const Zero &from = base_positions[e], &to = extended_positions[e];
       const double step = to.position - from.position;
@@ -401,7 +469,7 @@ std::vector<ContactEdge> contact_edges(const ReducedProblem &problem,
                            std::abs(fraction) * to.error;
       for (std::size_t other = 0; other < edges.size(); other++)
       {
-         if (edges[other].complete) { continue; }
+         if (!edges[other].why_not.empty()) { continue; }
          const double k_t =
             fit_shear(stuck, other, other == e ? to.position : base_positions[other].position)
                .value;
@@ -412,7 +480,7 @@ std::vector<ContactEdge> contact_edges(const ReducedProblem &problem,
    }
    for (std::size_t e = 0; e < edges.size(); e++)
    {
-      if (edges[e].complete) { continue; }
+      if (!edges[e].why_not.empty()) { continue; }
       const double error = found[e].relative_error * std::abs(edges[e].k_t.value) + read_out[e];
       edges[e].k_t = found[e];
       edges[e].k_t.relative_error = error > 0 ? error / std::abs(found[e].value) : 0.0;

@@ -26,12 +26,13 @@ struct ContactEdge
    double half_width = 0.0; ///< of the stretch of contact
    Eigen::Index first = 0;  ///< nodes of this edge's half of the contact,
    Eigen::Index last = -1;  ///< in increasing order
-   bool complete = false;   ///< the contact reaches the end of the contact line
-   std::string why_not;     ///< complete: why the incomplete-contact criteria are refused
-   FittedIntensity k_n;     ///< zero if complete
-   FittedIntensity k_t;     ///< zero if complete; signed as fretting::Edge::k_t
-   double friction = 0.0;   ///< at the outermost node in contact
-   double slip_zone = 0.0;  ///< computed: from the edge to where stick begins, 0 if it sticks
+   /// The contact reaches the end of the contact line, where a body may end with a corner.
+   bool complete = false;
+   std::string why_not;    ///< why there are no intensities: complete, or cut off; else empty
+   FittedIntensity k_n;    ///< zero if there are none
+   FittedIntensity k_t;    ///< zero if there are none; signed as fretting::Edge::k_t
+   double friction = 0.0;  ///< at the outermost node in contact
+   double slip_zone = 0.0; ///< computed: from the edge to where stick begins, 0 if it sticks
    double slip_zone_error = 0.0; ///< of the two positions it is the difference of
    bool slides = false; ///< no stick in this stretch of contact: slip_zone is its whole width
 };
@@ -47,7 +48,10 @@ ContactState fully_stuck(const ReducedProblem &problem, const ContactState &pres
                          const ContactState &loaded);
 
 /** K_N, K_T and the slip zone at each end of each stretch of contact, in the order of the
-    nodes. An edge is incomplete unless the contact reaches an end of the contact line.
+    nodes. An edge is incomplete unless the contact reaches an end of the contact line. Where
+    both bodies go on smoothly beyond that end, the line is cut off, and the edge is neither. An
+    end on a plane of symmetry is no edge: the contact goes on as its mirror image, and the
+    other edge has the half of the contact that is there.
 
     K_N is fitted to the pressure of @a loaded. K_T is fitted to the shear of fully_stuck().
     Its singularity does not lie at the edge of contact but within a spacing of the last tied
@@ -59,7 +63,8 @@ ContactState fully_stuck(const ReducedProblem &problem, const ContactState &pres
     @param pressed state after the normal load alone, before the cyclic loads
     @param loaded state at peak load: frictional, or fully stuck
     InputError for a problem that is not plane or has no friction, for a contact line of several
-    pieces, and for a contact with too few nodes for the fit. */
+    pieces, for a closed line that is in contact where it begins, and for a contact with too few
+    nodes for the fit. */
 std::vector<ContactEdge> contact_edges(const ReducedProblem &problem,
                                        const ContactState &pressed, const ContactState &loaded,
                                        CrackedBody cracked = CrackedBody::second,

@@ -15,6 +15,7 @@ namespace
 const char *const format_name = "cattaneo reduced problem 2";
 const char *const format_1 = "cattaneo reduced problem 1"; // without the facts
 
+// "axis" is any symmetry: files keep the word that they began with.
 const std::vector<std::string> end_names = {"unknown", "smooth", "corner", "axis"};
 
 nlohmann::json to_json(const std::array<LineEnd, 2> &ends)

@@ -8,6 +8,13 @@
 namespace cattaneo
 {
 
+bool ContactChain::mirrored_at(std::size_t end) const
+{
+   // A rigid obstacle is a line that goes on.
+   return !loop && ends[end] == LineEnd::symmetry &&
+          (bodies[1] < 0 || other_ends[end] == LineEnd::symmetry);
+}
+
 void ReducedProblem::set_stiffness(const Eigen::MatrixXd &A, const Eigen::MatrixXd &B,
                                    const Eigen::MatrixXd &C, const Eigen::MatrixXd &motions)
 {

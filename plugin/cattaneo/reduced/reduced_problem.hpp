@@ -24,6 +24,10 @@ struct ContactChain
    /// Numbers of the bodies that carry the nodes and that face them, as in the columns of
    /// `dofs`; -1: a rigid obstacle.
    std::array<int, 2> bodies{0, -1};
+
+   /// True if end 0 (the first node) or 1 (the last) lies on a plane or axis of symmetry of all
+   /// that touches there: the contact goes on beyond it as its own mirror image.
+   bool mirrored_at(std::size_t end) const;
 };
 
 /** The narrow waist: a frictional contact problem reduced to its n contact nodes.

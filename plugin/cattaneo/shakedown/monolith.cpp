@@ -50,6 +50,30 @@ NodeList chosen_nodes(const ReducedProblem &problem, const NodeList &nodes)
    return nodes;
 }
 
+NodeList nodes_away_from_ends(const ReducedProblem &problem, double share)
+{
+   const Eigen::VectorXd &arc = problem.arc_length;
+   const Eigen::Index n = problem.nodes();
+   require(arc.size() == n && n > 0, "the nodes away from the ends of the line: there are ",
+           arc.size(), " arc lengths of ", n, " nodes, there must be one for each");
+   const auto &chains = problem.chains;
+   const bool loop = chains.size() == 1 && chains[0].loop,
+              from_mirror = !chains.empty() && chains.front().mirrored_at(0),
+              to_mirror = !chains.empty() && chains.back().mirrored_at(1);
+   const double length = arc[n - 1] - arc[0],
+                least = share * (from_mirror || to_mirror ? 2 : 1) * length;
+   NodeList away;
+   for (Eigen::Index i = 0; i < n; ++i)
+   {
+      if ((loop || from_mirror || arc[i] - arc[0] >= least) &&
+          (loop || to_mirror || arc[n - 1] - arc[i] >= least))
+      {
+         away.push_back(i);
+      }
+   }
+   return away;
+}
+
 Eigen::VectorXd traction_ratio(const ReducedProblem &problem,
                                const Eigen::VectorXd &multipliers)
 {

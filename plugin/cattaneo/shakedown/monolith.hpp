@@ -16,6 +16,10 @@ using NodeList = std::vector<Eigen::Index>;
 /// @a nodes, or all of them if it is empty. InputError if one does not exist.
 NodeList chosen_nodes(const ReducedProblem &problem, const NodeList &nodes);
 
+/// Nodes further than a share of the line's length from both its ends. An end on a plane of
+/// symmetry is none, its mirror image belongs to the length; nor has a closed line ends.
+NodeList nodes_away_from_ends(const ReducedProblem &problem, double share);
+
 /// q / p of each node (4.2) under the loads @a multipliers, size n; with two components |q| /
 /// p. Infinite where p ≤ 0.
 Eigen::VectorXd traction_ratio(const ReducedProblem &problem,
