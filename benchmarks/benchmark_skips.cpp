@@ -46,6 +46,7 @@ miniapp::Punch punch(bool half_plane = false, double plane_stiffness = 1)
 {
    miniapp::PunchOptions options;
    options.half_plane = half_plane;
+   options.domain = 1e4;
    options.plane_stiffness = plane_stiffness;
    return miniapp::make_punch(options);
 }

@@ -10,6 +10,7 @@
 //  Sample runs:  plane_receding
 //                plane_receding -friction 0.7 -unload "0.9 0.5 0.2 0.1" -steps 50
 //                plane_receding -friction 0.7 -unload "0.9 0.5 0.2 0.1" -march exact
+//                plane_receding -domain half-plane
 //                plane_receding -domain th0 -friction 0.3 -order 1 -spacing 0.04 -corner 0.001
 //                plane_receding -overhang 0.8 -friction 1.4
 //                plane_receding -map "0.4 0.8 1.2 1.6 2 3" -spacing 0.05 -corner 0.01
@@ -421,7 +422,8 @@ int domain_study(miniapp::RecedingOptions options, double overhang, double frict
                                              {20, 1e4, 1e4},
                                              {50, 1e3, 1e3},
                                              {100, 1e4, 1e4},
-                                             {400, 1e5, 1e5}})
+                                             {400, 1e5, 1e5},
+                                             {100, 0, 0}}) // a half-plane without a mesh
    {
       options.length = length;
       options.depth = depth;
@@ -460,8 +462,10 @@ int main(int argc, char *argv[])
          args.AddOption(&overhang, "-overhang", "--overhang",
                         "n: the strip's end to the edge of the load, in t.");
          args.AddOption(&friction, "-friction", "--friction", "Coefficient of friction.");
-         args.AddOption(&domain, "-domain", "--domain",
-                        "hp (close to a half-plane) or th0 (a finite block).");
+         args.AddOption(
+            &domain, "-domain", "--domain",
+            "hp (a block close to a half-plane), half-plane (itself, without a mesh) or th0 "
+            "(a finite block).");
          args.AddOption(&length, "-length", "--length",
                         "Length of the strip in t (0: the domain's).");
          args.AddOption(&depth, "-depth", "--depth",
@@ -491,12 +495,14 @@ int main(int argc, char *argv[])
          output.add_options(args);
          args.parse();
 
-         miniapp::check_choice("--domain", domain, {"hp", "th0"});
-         if (std::string(domain) == "hp") { options.half_plane_domain(); }
-         else { options.thesis_domain(); }
+         miniapp::check_choice("--domain", domain, {"hp", "half-plane", "th0"});
+         const bool hp = std::string(domain) == "hp", th0 = std::string(domain) == "th0";
+         if (th0) { options.thesis_domain(); }
+         else { options.half_plane_domain(); }
+         if (!hp && !th0) { options.depth = options.side = 0; }
          const bool own = length != 0 || depth != 0 || side != 0;
-         study.half_plane = std::string(domain) == "hp" && !own;
-         study.thesis_block = std::string(domain) == "th0" && !own;
+         study.half_plane = hp && !own;
+         study.thesis_block = th0 && !own;
          if (length != 0) { options.length = length; }
          if (depth != 0) { options.depth = depth; }
          if (side != 0) { options.side = side; }

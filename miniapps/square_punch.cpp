@@ -6,6 +6,7 @@
 //
 //  Sample runs:  square_punch
 //                square_punch -obstacle half-plane --shear "0.25 0.75"
+//                square_punch -obstacle half-plane -domain 1e4 --shear "0.25 0.75"
 //                square_punch -order 1 -nodes 201 -grading 0.02
 //                square_punch -obstacle half-plane -nodes 65 -cycles 3 -amplitude 0.6
 //                square_punch -obstacle half-plane -nodes 65 -cycles 3 -march exact
@@ -108,7 +109,7 @@ int main(int argc, char *argv[])
          counters += made;
          counters += report.counters;
 
-         const bool standard = options.poisson == 0.3 && options.domain >= 1e3 &&
+         const bool standard = options.poisson == 0.3 && options.unbounded() &&
                                friction == (options.half_plane ? 0.4 : 0.2);
          const Reference &reference =
             options.half_plane ? half_plane_reference : rigid_reference;

@@ -372,6 +372,7 @@ Answer shakedown(const Resolution &r)
    const double f = 0.85;
    miniapp::PunchOptions options;
    options.half_plane = true;
+   options.domain = 1e4;
    if (r.family != Family::standard)
    {
       options.order = r.order;

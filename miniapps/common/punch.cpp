@@ -4,6 +4,7 @@
 #include "common/locking.hpp"
 #include "common/miniapp.hpp"
 
+#include <cattaneo/halfplane/half_plane.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/mesh/graded_mesh.hpp>
 
@@ -22,7 +23,8 @@ void PunchOptions::validate() const
    check_growth(growth);
    require(plane_stiffness > 0, "stiffness of the half-plane over the block's is ",
            plane_stiffness, ", must be positive");
-   require(domain > 2, "option --domain is ", domain, ", must be above 2 (in a)");
+   require(domain == 0 || domain > 2, "option --domain is ", domain,
+           ", must be above 2 (in a), or 0 for a half-plane without a mesh");
 }
 
 void add_options(Options &args, PunchOptions &options)
@@ -34,7 +36,8 @@ void add_options(Options &args, PunchOptions &options)
       &options.grading, "-grading", "--grading",
       "Size of the contact elements at the corners over the middle ones (1: uniform).");
    args.AddOption(&options.domain, "-domain", "--domain",
-                  "Half-width and depth of the half-plane's block, in a.");
+                  "Half-width and depth in a of a meshed block in place of the half-plane (0: "
+                  "the half-plane itself).");
 }
 
 Punch make_punch(const PunchOptions &options)
@@ -76,6 +79,14 @@ Punch make_punch(const PunchOptions &options)
    if (!options.half_plane)
    {
       punch.reduction = reduce(std::move(condensed));
+      return punch;
+   }
+   if (options.domain == 0)
+   {
+      HalfPlane plane;
+      plane.material = plane_material;
+      plane.depth = 1e4;
+      punch.reduction = reduce(std::move(condensed), plane);
       return punch;
    }
 

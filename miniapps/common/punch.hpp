@@ -13,7 +13,8 @@ namespace miniapp
 {
 
 /** The square punch of thesis 3.7: |x| < a, 0 < y < 2a, on a rigid plane or on an elastically
-    similar half-plane (a block of half-width and depth `domain`, held at its bottom).
+    similar half-plane: the half-plane itself, which has no mesh (its displacements are relative
+    to the depth 1e4 a), or a block of half-width and depth `domain`, held at its bottom.
 
     Units a = P0 = E' = 1, E' = E/(1-ν²) of each body. Load patterns: "P", a uniform pressure of
     resultant 1 on the top face; "Q", a uniform shear of resultant 1 in +x on the top face with
@@ -27,7 +28,7 @@ struct PunchOptions
    double grading =
       0.01; ///< size of the contact elements at the corners over those in the middle
    double plane_stiffness = 1; ///< E' of the half-plane over that of the block
-   double domain = 1e4;        ///< half-width and depth of the half-plane's block, in a
+   double domain = 0; ///< half-width and depth of the half-plane's block, in a; 0: no block
    /// Of the elements away from the contact, the largest of which are 0.8 (growth - 1) a;
    /// 0: the usual (element_growth()), but 1.1 and 0.04 a where the order is 1.
    double growth = 0;
@@ -36,6 +37,8 @@ struct PunchOptions
    /// Refines the mesh of a body (0 or 1) before it is made; both alike along the contact.
    std::function<void(mfem::Mesh &, int)> refine = {};
 
+   /// True if what the half-plane stands on is too far away to be felt.
+   bool unbounded() const { return domain == 0 || domain >= 1e3; }
    /// InputError naming the option, its value and what is allowed.
    void validate() const;
 };

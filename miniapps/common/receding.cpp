@@ -5,6 +5,7 @@
 #include "common/miniapp.hpp"
 
 #include <algorithm>
+#include <cattaneo/halfplane/half_plane.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/mesh/graded_mesh.hpp>
 #include <cattaneo/readout/zones.hpp>
@@ -43,16 +44,16 @@ void RecedingOptions::validate() const
    require(corner > 0 && corner <= spacing, "option --corner is ", corner,
            ", must be above 0 and at most the spacing ", spacing);
    require(growth > 1 && growth <= 2, "growth is ", growth, ", must be above 1 and at most 2");
-   require(length > 0 && depth > 1 && side > 1, "options --length, --depth and --side are ",
-           length, ", ", depth, " and ", side,
+   require(length > 0 && (!meshed() || (depth > 1 && side > 1)),
+           "options --length, --depth and --side are ", length, ", ", depth, " and ", side,
            ", must be positive, above 1 and above 1 (in t)");
    require(!overhangs.empty(), "there is no overhang");
    for (double n : overhangs)
    {
       require(n > 0 && n < length, "option --overhang or --map: ", n,
               " must be between 0 and the strip's length ", length, " (in t)");
-      require(std::count(overhangs.begin(), overhangs.end(), n) == 1, "the overhang ",
-              n, " is given twice: each is a load pattern of its own");
+      require(std::count(overhangs.begin(), overhangs.end(), n) == 1, "the overhang ", n,
+              " is given twice: each is a load pattern of its own");
    }
 }
 
@@ -104,6 +105,18 @@ Receding make_receding(const RecedingOptions &options)
    const double clear = 0.4 * h_corner / options.order;
    strip.fix(BoundaryPart({right}, 1, clear, 1), 0);
 
+   CondensedBody upper = condense(strip, contact_line(strip, bottom), condensation());
+   scene.dofs = strip.dofs();
+   if (!options.meshed())
+   {
+      HalfPlane below;
+      below.material = material;
+      below.point = {L, 0};
+      below.symmetric = true;
+      below.depth = 1e3 * L;
+      scene.reduction = reduce(std::move(upper), below);
+      return scene;
+   }
    std::vector<double> outside = graded(0, -options.side, contact[1] - contact[0], growth);
    std::reverse(outside.begin(), outside.end());
    std::vector<double> depth = graded(0, -options.depth, h_corner, growth);
@@ -115,11 +128,10 @@ Receding make_receding(const RecedingOptions &options)
    block.fix(bottom, 1);
    block.fix(BoundaryPart({right}, 1, -options.depth, -clear), 0);
 
-   const ContactLine above = contact_line(strip, bottom);
    const ContactLine below = contact_line(block, BoundaryPart({top}, 0, 0, L));
-   scene.reduction = reduce(condense(strip, above, condensation()),
-                            condense(block, below, condensation()), pair_lines(above, below));
-   for (const auto &body : scene.bodies) { scene.dofs += body->dofs(); }
+   const Pairing pairing = pair_lines(upper.line, below);
+   scene.reduction = reduce(std::move(upper), condense(block, below, condensation()), pairing);
+   scene.dofs += block.dofs();
    return scene;
 }
 

@@ -11,15 +11,16 @@ namespace miniapp
 {
 
 /** The plane receding contact of thesis chapter 5: an elastic strip 0 < x < length, 0 < y < t
-   on the similar block -side < x < length, -depth < y < 0. A pressure p0 acts on the strip's
-   top for x > n t. u_x = 0 at x = length (of both), u_y = 0 at the bottom of the block.
+   on a similar half-plane: the half-plane itself, which has no mesh, or the block -side < x <
+   length, -depth < y < 0, u_y = 0 at its bottom. A pressure p0 acts on the strip's top for x >
+   n t. u_x = 0 at x = length (of both).
 
     Units t = p0 = E' = 1, E' = E/(1-ν²). Every overhang n is a load pattern of its own, see
     overhang_load(): the end of the load need not be a mesh line, so that one condensed pair
    serves all n. */
 struct RecedingOptions
 {
-   double length = 100, depth = 1e4, side = 1e4; ///< in t
+   double length = 100, depth = 1e4, side = 1e4; ///< in t; depth = side = 0: no block
    std::vector<double> overhangs = {4.0};        ///< n, in t
    int order = 2;
    double spacing =
@@ -34,7 +35,9 @@ struct RecedingOptions
    /// Refines the mesh of a body (0 or 1) before it is made; both alike along the contact.
    std::function<void(mfem::Mesh &, int)> refine = {};
 
-   /// The limit of a half-plane, or the finite block that comes close to what the thesis used.
+   bool meshed() const { return depth != 0 || side != 0; }
+   /// A block close to a half-plane, or the finite one that comes close to what the thesis
+   /// used.
    void half_plane_domain();
    void thesis_domain();
    /// InputError naming the option, its value and what is allowed.
@@ -47,7 +50,7 @@ struct Receding
    std::vector<std::unique_ptr<mfem::Mesh>> meshes;
    std::vector<std::unique_ptr<cattaneo::ElasticBody>> bodies;
    cattaneo::Reduction reduction;
-   int dofs = 0; ///< of both bodies
+   int dofs = 0; ///< of all bodies that have a mesh
 };
 
 Receding make_receding(const RecedingOptions &options);

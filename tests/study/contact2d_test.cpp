@@ -325,6 +325,7 @@ TEST_F(Contact2D, EqualsTheSquarePunch)
       miniapp::PunchOptions options;
       options.nodes = 41;
       options.half_plane = half_plane;
+      options.domain = 1e4;
       const miniapp::Punch punch = miniapp::make_punch(options);
       std::string own = "--mesh1 '" + write("block.mesh", *punch.meshes[0]) +
                         "' --contact1 '1[-1<x<1]' --young1 0.91 --friction 0.3 --load1 "
@@ -337,10 +338,11 @@ TEST_F(Contact2D, EqualsTheSquarePunch)
                 "' --contact2 1 --young2 0.91 --support2 3:xy";
       }
       const auto mine = contact2d(own);
-      const auto other = run_miniapp(
-         "square_punch", std::string("--nodes 41 --friction 0.3 --shear '' --cycles 3 "
-                                     "--amplitude 0.8 --obstacle ") +
-                            (half_plane ? "half-plane" : "rigid"));
+      const auto other =
+         run_miniapp("square_punch",
+                     std::string("--nodes 41 --friction 0.3 --shear '' --cycles 3 --domain 1e4 "
+                                 "--amplitude 0.8 --obstacle ") +
+                        (half_plane ? "half-plane" : "rigid"));
       ASSERT_EQ(mine.code, 0) << mine.output;
       ASSERT_EQ(other.code, 0) << other.output;
       EXPECT_EQ(mine.results["dofs"], other.results["dofs"]);

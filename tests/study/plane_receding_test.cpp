@@ -66,6 +66,24 @@ TEST(PlaneReceding, FiniteBlockOfTheThesis)
    EXPECT_NEAR(number(run.results["stick_slip"]), -0.351, spread + read_out);
 }
 
+/// The half-plane without a mesh is what blocks tend to as they grow. (The references marked HP
+/// are those of a block of 10⁴ t, whose remote tension, a hundredth of p0, still moves e by
+/// 0.007 to 0.016.)
+TEST(PlaneReceding, BlocksTendToTheHalfPlane)
+{
+   for (const char *friction : {"0.3", "1"})
+   {
+      const std::string f = std::string("-friction ") + friction;
+      const auto limit = run_miniapp("plane_receding", f + " -domain half-plane");
+      const auto block = run_miniapp("plane_receding", f + " -depth 1e6 -side 1e6");
+      // A tenth of the spacing.
+      for (const char *border : {"separation", "stick_slip"})
+      {
+         EXPECT_NEAR(number(limit.results[border]), number(block.results[border]), 0.002);
+      }
+   }
+}
+
 TEST(PlaneReceding, MapOverOverhangAndFrictionFromOneCondensation)
 {
    const auto run = run_miniapp(
@@ -85,9 +103,9 @@ TEST(PlaneReceding, MapOverOverhangAndFrictionFromOneCondensation)
                        {"e/t, n = 1.2, f = 0.3", -1.859, spread, coarse},
                        {"length separated, n = 1.2, f = 0.5", 0, 0, 0}});
    const auto &counters = run.results["counters"];
-   // One pair for the map, and one for each of the five domains.
-   EXPECT_EQ(counters["factorisations"], 2 + 2 * 5);
-   EXPECT_EQ(counters["unions"], 1 + 5);
+   // One pair for the map, one for each of the five domains, and a strip without a block.
+   EXPECT_EQ(counters["factorisations"], 2 + 2 * 5 + 1);
+   EXPECT_EQ(counters["unions"], 1 + 5 + 1);
    // Independent of n from n = 2 on, but for f = 1, where separation nears the strip's end.
    for (const auto &a : run.results["map"])
    {
