@@ -1,10 +1,14 @@
-# find_package(Cattaneo) for users: targets Cattaneo::cattaneo and, without MFEM, Cattaneo::core.
+# find_package(Cattaneo) for users: targets Cattaneo::core and, where MFEM is found, Cattaneo::cattaneo.
 include(CMakePackageConfigHelpers)
-install(TARGETS ${libraries} EXPORT CattaneoTargets
-   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(DIRECTORY plugin/cattaneo DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
 set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Cattaneo)
-install(EXPORT CattaneoTargets NAMESPACE Cattaneo:: DESTINATION ${config_dir})
+set(export_cattaneo_core CattaneoCoreTargets)
+set(export_cattaneo CattaneoTargets)
+foreach(library IN LISTS libraries)
+   install(TARGETS ${library} EXPORT ${export_${library}}
+      ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+   install(EXPORT ${export_${library}} NAMESPACE Cattaneo:: DESTINATION ${config_dir})
+endforeach()
+install(DIRECTORY plugin/cattaneo DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
 configure_package_config_file(cmake/CattaneoConfig.cmake.in
    "${CMAKE_CURRENT_BINARY_DIR}/CattaneoConfig.cmake" INSTALL_DESTINATION ${config_dir})
 write_basic_package_version_file("${CMAKE_CURRENT_BINARY_DIR}/CattaneoConfigVersion.cmake"

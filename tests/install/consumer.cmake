@@ -1,5 +1,6 @@
 # Installs Cattaneo, extracts the embedding examples from README.md and docs/embedding.md, builds
-# them as a project of their own with find_package(Cattaneo) and runs them. With EACH_HEADER every
+# them as projects of their own with find_package(Cattaneo), that of the core alone where there is
+# no MFEM, and runs them. With EACH_HEADER every
 # installed header is compiled alone, too.
 set(prefix ${BINARY}/install-test/prefix)
 set(project ${BINARY}/install-test/project)
@@ -14,9 +15,11 @@ function(step)
    set(output "${out}" PARENT_SCOPE)
 endfunction()
 
-# The C++ example of a page as a program of the project.
-function(extract page program)
+# The first C++ example of a page from a heading on as a program.
+function(extract page heading program)
    file(READ ${SOURCE}/${page} text)
+   string(FIND "${text}" "${heading}\n" begin)
+   string(SUBSTRING "${text}" ${begin} -1 text)
    string(FIND "${text}" "```cpp\n" begin)
    if(begin EQUAL -1)
       message(FATAL_ERROR "${page} has no C++ example")
@@ -25,11 +28,12 @@ function(extract page program)
    string(SUBSTRING "${text}" ${begin} -1 text)
    string(FIND "${text}" "```" end)
    string(SUBSTRING "${text}" 0 ${end} example)
-   file(WRITE ${project}/${program}.cpp "${example}")
+   file(WRITE ${program}.cpp "${example}")
 endfunction()
-extract(README.md embed)
-extract(docs/embedding.md doors)
-file(COPY ${SOURCE}/tests/install/CMakeLists.txt DESTINATION ${project})
+extract(README.md "# Cattaneo" ${project}/embed)
+extract(docs/embedding.md "# Contact in an MFEM program" ${project}/doors)
+extract(docs/embedding.md "## Core alone" ${project}/core/bars)
+file(COPY ${SOURCE}/tests/install/CMakeLists.txt ${SOURCE}/tests/install/core DESTINATION ${project})
 if(EACH_HEADER)
    file(GLOB_RECURSE headers RELATIVE ${SOURCE}/plugin ${SOURCE}/plugin/cattaneo/*.hpp)
    foreach(header IN LISTS headers)
@@ -39,8 +43,16 @@ if(EACH_HEADER)
 endif()
 
 step(${CMAKE_COMMAND} --install ${BINARY} --prefix ${prefix})
-step(${CMAKE_COMMAND} -S ${project} -B ${project}/build -G Ninja -DCMAKE_BUILD_TYPE=Release
-   -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_PREFIX_PATH=${prefix} -DMFEM_DIR=${MFEM_DIR})
+set(settings -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_PREFIX_PATH=${prefix})
+set(without -DCMAKE_DISABLE_FIND_PACKAGE_MFEM=ON)
+step(${CMAKE_COMMAND} -S ${project}/core -B ${project}/build/core ${settings} ${without})
+step(${CMAKE_COMMAND} --build ${project}/build/core)
+execute_process(COMMAND ${CMAKE_COMMAND} -S ${project} -B ${project}/refused ${settings} ${without}
+   RESULT_VARIABLE code OUTPUT_QUIET ERROR_VARIABLE output)
+if(NOT code OR NOT output MATCHES "COMPONENTS[ \n]+core")
+   message(FATAL_ERROR "without MFEM the whole of Cattaneo must be refused, and what needs none named:\n${output}")
+endif()
+step(${CMAKE_COMMAND} -S ${project} -B ${project}/build ${settings} -DMFEM_DIR=${MFEM_DIR})
 step(${CMAKE_COMMAND} --build ${project}/build)
 # Whoever is given a header is told of it: the examples reach all that are installed by one of them.
 step(${CMAKE_COMMAND} -E chdir ${project}/build ninja -t deps)
@@ -50,7 +62,7 @@ foreach(header IN LISTS headers)
       message(FATAL_ERROR "${header} is installed, and <cattaneo/cattaneo.hpp> does not include it")
    endif()
 endforeach()
-foreach(program IN ITEMS embed doors)
+foreach(program IN ITEMS embed doors core/bars)
    step(${CMAKE_COMMAND} -E chdir ${project}/build ./${program})
    message("${program}: ${output}")
    if(NOT output MATCHES "converged")

@@ -192,6 +192,26 @@ TEST(MfemDoors, TrueDofsAndMarkersHoldWhatAttributesHold)
    }
 }
 
+TEST(MfemDoors, AMatrixThatWasEliminatedIsRefused)
+{
+   mfem::Mesh mesh = block("quads");
+   const ElasticBody body(mesh, 2, Material{});
+   const mfem::Array<int> top({0, 0, 1, 0});
+   mfem::Array<int> dofs;
+   body.space().GetEssentialTrueDofs(top, dofs);
+   mfem::SparseMatrix eliminated = body.stiffness();
+   for (int dof : dofs) { eliminated.EliminateRowCol(dof); }
+   ElasticBody own(body.space(), eliminated), sound(body.space(), body.stiffness());
+   for (ElasticBody *one : {&own, &sound})
+   {
+      one->fix(top, 0);
+      one->add_displacement("press", top, 1, [](double, double) { return -1; });
+   }
+   EXPECT_NO_THROW(condense(sound, contact_line(sound, 1)));
+   expect_input_error([&] { condense(own, contact_line(own, 1)); },
+                      "was the matrix eliminated?");
+}
+
 TEST(MfemDoors, ConstantsAsFieldsAreTheMaterial)
 {
    const Material material{3.0, 0.3};

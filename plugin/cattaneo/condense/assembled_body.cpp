@@ -80,9 +80,7 @@ void AssembledBody::validate() const
          moves = true;
          felt = felt || couples(stiffness, dof);
       }
-      require(!moves || felt, "assembled body: load '", load.name,
-              "' moves nothing, the rows of the displaced dofs hold nothing but a diagonal: "
-              "was the matrix eliminated? Pass it as assembled (SpMat() after Finalize)");
+      require(!moves || felt, "assembled body: load '", load.name, "' ", feels_nothing);
    }
 }
 

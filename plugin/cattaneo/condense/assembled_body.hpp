@@ -31,6 +31,10 @@ struct AssembledBody
    /// loads that are not finite or displace what is not fixed or what nothing hangs on (a
    /// matrix that was eliminated), a stiffness that is not symmetric (one triangle of it).
    void validate() const;
+   /// What is said of a load whose displacements nothing hangs on.
+   static constexpr const char *feels_nothing =
+      "moves nothing, the rows of the displaced dofs hold nothing but a diagonal: was the "
+      "matrix eliminated? Pass it as assembled (SpMat() after Finalize)";
 };
 
 } // namespace cattaneo

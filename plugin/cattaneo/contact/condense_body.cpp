@@ -78,6 +78,41 @@ Condensation gathered(const ElasticBody &body, const std::vector<int> &contact,
    return found;
 }
 
+bool couples(const mfem::SparseMatrix &K, int row, int diagonal)
+{
+   for (int k = 0; k < K.RowSize(row); ++k)
+   {
+      if (K.GetRowColumns(row)[k] != diagonal && K.GetRowEntries(row)[k] != 0) { return true; }
+   }
+   return false;
+}
+
+/// InputError, on all ranks, for a load of displacements that nothing in the body feels.
+void require_felt(const ElasticBody &body, const BodyLoad &load)
+{
+   const Ranks &ranks = body.ranks();
+   mfem::SparseMatrix own, others;
+#ifdef MFEM_USE_MPI
+   if (ranks.distributed())
+   {
+      HYPRE_BigInt *columns = nullptr;
+      body.distributed_stiffness()->GetDiag(own);
+      body.distributed_stiffness()->GetOffd(others, columns);
+   }
+#endif
+   bool moves = false, felt = false;
+   for (int dof = 0; dof < load.values.size(); ++dof)
+   {
+      if (load.values[dof] == 0) { continue; }
+      moves = true;
+      felt = felt || (ranks.distributed() ? couples(own, dof, dof) || couples(others, dof, -1)
+                                          : couples(body.stiffness(), dof, dof));
+   }
+   const bool anywhere = ranks.any(felt);
+   require(!ranks.any(moves) || anywhere, "condense: load '", load.name, "' ",
+           AssembledBody::feels_nothing);
+}
+
 /// contact_dofs() of an MFEM body, global numbers, and which are held. InputError, on all
 /// ranks, if one is displaced by a load pattern.
 ContactDofs contact_dofs(const ElasticBody &body, const ContactLine &line)
@@ -105,6 +140,7 @@ ContactDofs contact_dofs(const ElasticBody &body, const ContactLine &line)
    for (const BodyLoad &load : body.patterns())
    {
       if (load.control == Control::force) { continue; }
+      require_felt(body, load);
       require_unmoved(line, load.name,
                       known_by_owner([&](int dof) { return load.values[dof] != 0; }));
    }
