@@ -394,16 +394,16 @@ std::string verdict_text(const FrettingReport &report)
    const double depth = 1e3 * report.threshold.arrest_depth;
    switch (report.threshold.verdict)
    {
-   case Verdict::propagates:
+   case CrackVerdict::propagates:
       return "PROPAGATES: a crack that starts at the contact edge is still driven above the "
              "threshold when it has the critical length. Expect fretting failure.";
-   case Verdict::arrests_beyond_a0:
+   case CrackVerdict::arrests_beyond_a0:
       return "ARRESTS BEYOND a0: a crack grows past the critical length, but its stress "
              "intensity "
              "falls and it stops at about " +
              number(depth, "µm") +
              ". Expect a crack; whether it is harmless needs the whole stress field.";
-   case Verdict::arrests:
+   case CrackVerdict::arrests:
       break;
    }
    if (depth == 0)

@@ -162,7 +162,8 @@ void write_csv(const std::string &file, const std::vector<std::string> &header,
 /// What a march came to.
 const char *outcome(const TransientReport &run)
 {
-   return run.verdict == Verdict::no_equilibrium ? name(run.status) : name(run.verdict);
+   return run.verdict == TransientVerdict::no_equilibrium ? name(run.status)
+                                                          : name(run.verdict);
 }
 
 /// False where the march ended early, for want of an equilibrium.

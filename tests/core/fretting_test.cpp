@@ -223,7 +223,7 @@ TEST(FatigueMaterial, EveryFieldIsReadInItsUnit)
 TEST(Assessment, SmallLoadIsTrustedAndArrests)
 {
    const FrettingReport report = assess(hertz_problem(0.02));
-   EXPECT_EQ(report.threshold.verdict, Verdict::arrests);
+   EXPECT_EQ(report.threshold.verdict, CrackVerdict::arrests);
    EXPECT_EQ(to_string(report.threshold.verdict), "arrests");
    EXPECT_NEAR(report.slip_zone, 0.01, 1e-12); // a Q/(2fP)
    EXPECT_TRUE(mentions(report, "slip zone is small against the contact"));
@@ -252,7 +252,7 @@ TEST(Assessment, NegativeAndZeroShearAreAllowed)
    EXPECT_EQ(none.slip_zone, 0);
    EXPECT_EQ(none.energy_max, 0);
    EXPECT_LT(none.k_i_max, 0);
-   EXPECT_EQ(none.threshold.verdict, Verdict::arrests);
+   EXPECT_EQ(none.threshold.verdict, CrackVerdict::arrests);
    EXPECT_EQ(none.threshold.arrest_depth, 0);
 }
 
@@ -472,14 +472,14 @@ TEST(Threshold, UniformTensionGrowsACrackFromTheFatigueLimitOn)
       const double critical = limit / 1.12152 / range;
       const ThresholdReport below = verdict(0.999 * critical, ratio, criterion),
                             above = verdict(1.001 * critical, ratio, criterion);
-      EXPECT_EQ(below.verdict, Verdict::arrests);
+      EXPECT_EQ(below.verdict, CrackVerdict::arrests);
       EXPECT_EQ(below.arrest_depth, 0);
       EXPECT_NEAR(below.drive, 0.999 * threshold, 1e-5 * threshold);
-      EXPECT_EQ(above.verdict, Verdict::propagates);
+      EXPECT_EQ(above.verdict, CrackVerdict::propagates);
       EXPECT_TRUE(std::isinf(above.arrest_depth));
    }
-   EXPECT_EQ(to_string(Verdict::propagates), "propagates");
-   EXPECT_EQ(to_string(Verdict::arrests_beyond_a0), "arrests beyond a0");
+   EXPECT_EQ(to_string(CrackVerdict::propagates), "propagates");
+   EXPECT_EQ(to_string(CrackVerdict::arrests_beyond_a0), "arrests beyond a0");
    EXPECT_THROW(verdict(nan, -1, Criterion::open), InputError);
    EXPECT_THROW(verdict(1, 1, Criterion::open), InputError);
 }

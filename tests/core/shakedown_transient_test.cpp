@@ -31,7 +31,7 @@ TEST(Transient, OptimalSlipDissipatesNothing)
       ASSERT_FALSE(optimal.dissipation.empty());
       for (const double loss : optimal.dissipation) { EXPECT_EQ(loss, 0); }
       EXPECT_TRUE((optimal.slip.array() == report.slip.array()).all());
-      EXPECT_EQ(optimal.verdict, Verdict::shaken_down);
+      EXPECT_EQ(optimal.verdict, TransientVerdict::shaken_down);
       EXPECT_TRUE(optimal.opened.empty());
       // It is not that nothing ever slips.
       const TransientReport zero =
@@ -49,14 +49,14 @@ TEST(Transient, UncoupledContactShakesDownFromAnyStartBelowTheLimitAndFromNoneAb
    const TransientBracket bracket = transient_bracket(limit, report, 0.02);
    for (const TransientReport &below : bracket.below)
    {
-      EXPECT_EQ(below.verdict, Verdict::shaken_down)
+      EXPECT_EQ(below.verdict, TransientVerdict::shaken_down)
          << below.load_factor << ' ' << below.message;
       EXPECT_LT(below.load_factor, report.limit);
    }
    for (const TransientReport &above : bracket.above)
    {
       EXPECT_EQ(above.status, FrictionStatus::converged) << above.message;
-      EXPECT_EQ(above.verdict, Verdict::cyclic_slip) << above.load_factor;
+      EXPECT_EQ(above.verdict, TransientVerdict::cyclic_slip) << above.load_factor;
       EXPECT_GT(above.dissipation.back(), 0);
    }
    FrictionSolver solver(problem);
@@ -65,7 +65,7 @@ TEST(Transient, UncoupledContactShakesDownFromAnyStartBelowTheLimitAndFromNoneAb
    {
       const Eigen::VectorXd start = 0.3 * random_matrix(random, 33, 1);
       EXPECT_EQ(transient(solver, limit, 0.98 * report.limit, start).verdict,
-                Verdict::shaken_down)
+                TransientVerdict::shaken_down)
          << k;
    }
    EXPECT_FALSE(find_counter_example(limit, report, 0).found);
@@ -82,7 +82,7 @@ TEST(Transient, DecayOfOneSpringPairIsImmediate)
    settings.cycles = 10;
    const TransientReport run =
       transient(solver, limit, 0.9 * report.limit, Eigen::VectorXd::Zero(3), settings);
-   EXPECT_EQ(run.verdict, Verdict::shaken_down);
+   EXPECT_EQ(run.verdict, TransientVerdict::shaken_down);
    EXPECT_LT(run.dissipation.size(), 10u);
 }
 
@@ -143,12 +143,12 @@ TEST(Transient, SaysWhichNodesOpenAndSlipForEver)
    const TransientReport run = transient(solver, limit, 0.6, Eigen::Vector2d::Zero());
    ASSERT_EQ(run.status, FrictionStatus::converged) << run.message;
    EXPECT_EQ(run.opened, NodeList{0});
-   EXPECT_EQ(run.verdict, Verdict::slips_and_opens) << name(run.verdict);
+   EXPECT_EQ(run.verdict, TransientVerdict::slips_and_opens) << name(run.verdict);
    // The increments in which slip sets in and the node opens add a little.
    EXPECT_NEAR(run.opened_loss, 0.363, 0.02 * 0.363);
    // Below, nothing opens, and all is still from the start.
    const TransientReport below = transient(solver, limit, 0.1, Eigen::Vector2d::Zero());
-   EXPECT_EQ(below.verdict, Verdict::shaken_down);
+   EXPECT_EQ(below.verdict, TransientVerdict::shaken_down);
    EXPECT_TRUE(below.opened.empty());
    EXPECT_EQ(below.opened_loss, 0);
 }
@@ -174,7 +174,8 @@ TEST(Transient, AStateOfPeriodTwoIsJudgedByTheCycleThatLosesMore)
       EXPECT_NEAR(run.dissipation[1], cattaneo_test::loss_of_period_two(-x), 1e-12);
       // Half of 1.5 squared is the elastic energy of the node that is sheared most.
       EXPECT_NEAR(run.energy, 1.125 + stored, 1e-14 * stored + 1e-14);
-      EXPECT_EQ(run.verdict, stored < 2e9 ? Verdict::cyclic_slip : Verdict::shaken_down)
+      EXPECT_EQ(run.verdict,
+                stored < 2e9 ? TransientVerdict::cyclic_slip : TransientVerdict::shaken_down)
          << name(run.verdict);
    }
 }
@@ -223,7 +224,7 @@ TEST(Transient, ANodeThatOpensAtFirstOnlyIsNotSaidToOpen)
       settings.march.stepping = stepping;
       const TransientReport report =
          transient(solver, limit, 0.9, Eigen::Vector2d(0, -0.8), settings);
-      EXPECT_EQ(report.verdict, Verdict::cyclic_slip);
+      EXPECT_EQ(report.verdict, TransientVerdict::cyclic_slip);
       EXPECT_TRUE(report.opened.empty());
       EXPECT_EQ(report.opened_loss, 0);
       EXPECT_NEAR(report.dissipation.back(), 0.026, 1e-14);
@@ -247,7 +248,7 @@ TEST(Transient, ABodyThatWalksDoesNotShakeDown)
                 Eigen::Vector2d(-1, 0), settings);
    EXPECT_NEAR(report.dissipation.front(), 1.3, 1e-14);
    EXPECT_NEAR(report.dissipation.back(), 0.4, 1e-13);
-   EXPECT_EQ(report.verdict, Verdict::still_slipping);
+   EXPECT_EQ(report.verdict, TransientVerdict::still_slipping);
    EXPECT_NEAR(report.decay, 1, 1e-12);
 }
 
@@ -274,13 +275,13 @@ TEST(Transient, DecayAndVerdictOfARatchetByHand)
    // It is the energy, 0.8067, that losses are compared with: they are below 1e-6 of it from
    // the eleventh cycle on, 0.225/4^10 = 2.1e-7.
    const TransientReport early = run(3), before = run(10), after = run(12), steady = run(200);
-   EXPECT_EQ(early.verdict, Verdict::still_slipping);
+   EXPECT_EQ(early.verdict, TransientVerdict::still_slipping);
    EXPECT_EQ(early.dissipation.size(), 3u);
    EXPECT_EQ(early.steady_cycle, 0);
-   EXPECT_EQ(before.verdict, Verdict::still_slipping);
-   EXPECT_EQ(after.verdict, Verdict::shaken_down);
+   EXPECT_EQ(before.verdict, TransientVerdict::still_slipping);
+   EXPECT_EQ(after.verdict, TransientVerdict::shaken_down);
    EXPECT_EQ(after.steady_cycle, 0);
-   EXPECT_EQ(steady.verdict, Verdict::shaken_down);
+   EXPECT_EQ(steady.verdict, TransientVerdict::shaken_down);
    EXPECT_GT(steady.steady_cycle, 12);
    EXPECT_LT(steady.dissipation.size(), 25u);
    for (const TransientReport &report : {early, before, after, steady})
@@ -295,16 +296,16 @@ TEST(Transient, DecayAndVerdictOfARatchetByHand)
    settings.cycles = 5; // the last two lose 1/64 and 1/256 of the first
    settings.shaken_down = 0.225 * 0.016 / 0.8067;
    EXPECT_EQ(transient(solver, limit, 1, Eigen::Vector2d::Zero(), settings).verdict,
-             Verdict::shaken_down);
+             TransientVerdict::shaken_down);
    settings.shaken_down = 0.225 * 0.0038 / 0.8067;
    EXPECT_EQ(transient(solver, limit, 1, Eigen::Vector2d::Zero(), settings).verdict,
-             Verdict::still_slipping);
+             TransientVerdict::still_slipping);
    // From a slip of 1 the first cycle slips by 0.9 + 0.45, more than the energy: the last
    // two lose 1/64 and 1/256 of that.
    settings.shaken_down = 0.016;
    const TransientReport far = transient(solver, limit, 1, Eigen::Vector2d(1, 1), settings);
    EXPECT_NEAR(far.dissipation[0], 1.35, 1e-14);
-   EXPECT_EQ(far.verdict, Verdict::shaken_down);
+   EXPECT_EQ(far.verdict, TransientVerdict::shaken_down);
 }
 
 TEST(Transient, BeginsAtTheConstantLoadsWhereTheyLieOnTheCycle)
@@ -331,7 +332,7 @@ TEST(Transient, BeginsAtTheConstantLoadsWhereTheyLieOnTheCycle)
    ASSERT_EQ(reversed.dissipation.size(), 2u);
    EXPECT_NEAR(reversed.dissipation[0], 0.4 * 1, 1e-14);
    EXPECT_NEAR(reversed.dissipation[1], 0.4 * 1.2, 1e-14);
-   EXPECT_EQ(reversed.verdict, Verdict::cyclic_slip);
+   EXPECT_EQ(reversed.verdict, TransientVerdict::cyclic_slip);
    EXPECT_EQ(reversed.steady_cycle, 2);
    EXPECT_EQ(reversed.steady_period, 1);
    EXPECT_NEAR(reversed.energy, 0.25, 1e-15);
@@ -344,11 +345,11 @@ TEST(Transient, BeginsAtTheConstantLoadsWhereTheyLieOnTheCycle)
    const TransientReport pulsed = run(2, 0.5);
    ASSERT_EQ(pulsed.dissipation.size(), 1u);
    EXPECT_NEAR(pulsed.dissipation[0], 0.4 * 0.2, 1e-14);
-   EXPECT_EQ(pulsed.verdict, Verdict::cyclic_slip);
+   EXPECT_EQ(pulsed.verdict, TransientVerdict::cyclic_slip);
    EXPECT_NEAR(pulsed.slip[0], -0.8, 1e-14);
    // λ = 1.5: it comes to -0.55 and stays.
    const TransientReport rests = run(1.5, 0.5);
-   EXPECT_EQ(rests.verdict, Verdict::shaken_down);
+   EXPECT_EQ(rests.verdict, TransientVerdict::shaken_down);
    EXPECT_NEAR(rests.dissipation[0], 0, 1e-14);
    EXPECT_NEAR(rests.slip[0], -0.55, 1e-14);
 }
@@ -364,20 +365,21 @@ TEST(Transient, SaysWhenThereIsNoEquilibriumAndRefusesBadSettings)
    const Eigen::Vector2d stuck(0, 0);
    const TransientReport slides = transient(solver, limit, 3, stuck);
    EXPECT_EQ(slides.status, FrictionStatus::gross_sliding);
-   EXPECT_EQ(slides.verdict, Verdict::no_equilibrium);
+   EXPECT_EQ(slides.verdict, TransientVerdict::no_equilibrium);
    EXPECT_NE(slides.message.find("slides"), std::string::npos) << slides.message;
    EXPECT_EQ(slides.load_factor, 3);
    // Not even the constant loads.
    LimitProblem pulled = limit;
    pulled.cycle.constant[0] = -1;
    const TransientReport lifts = transient(solver, pulled, 1, stuck);
-   EXPECT_EQ(lifts.verdict, Verdict::no_equilibrium);
+   EXPECT_EQ(lifts.verdict, TransientVerdict::no_equilibrium);
    EXPECT_NE(lifts.status, FrictionStatus::converged);
    EXPECT_NE(lifts.message, "");
    EXPECT_EQ(lifts.slip, Eigen::VectorXd(stuck));
    const std::vector<std::string> names = {
-      name(Verdict::shaken_down), name(Verdict::slips_and_opens), name(Verdict::cyclic_slip),
-      name(Verdict::still_slipping), name(Verdict::no_equilibrium)};
+      name(TransientVerdict::shaken_down), name(TransientVerdict::slips_and_opens),
+      name(TransientVerdict::cyclic_slip), name(TransientVerdict::still_slipping),
+      name(TransientVerdict::no_equilibrium)};
    EXPECT_EQ(names,
              (std::vector<std::string>{"shaken down", "shaken down but at nodes that open",
                                        "cyclic slip", "still slipping", "no equilibrium"}));
@@ -435,9 +437,10 @@ TEST(CounterExample, IsFoundBetweenTheTwoLimitsOnly)
    // From that start it does slip for ever, and at the quiet load it does not.
    FrictionSolver solver(problem);
    const TransientReport cycles = transient(solver, limit, found.load_factor, found.start);
-   EXPECT_EQ(cycles.verdict, Verdict::cyclic_slip);
+   EXPECT_EQ(cycles.verdict, TransientVerdict::cyclic_slip);
    EXPECT_NEAR(cycles.dissipation.back(), found.dissipation, 1e-14);
-   EXPECT_EQ(transient(solver, limit, found.quiet, found.start).verdict, Verdict::shaken_down);
+   EXPECT_EQ(transient(solver, limit, found.quiet, found.start).verdict,
+             TransientVerdict::shaken_down);
    // Where none is found after one march of each start at 0.98 of the limit, that is quiet.
    LimitReport below = upper;
    below.limit = 0.9 * lower.value;

@@ -245,7 +245,7 @@ TEST(Threshold, VerdictsFollowTheCurve)
       CrackedEdge crack;
       crack.edge = {x * threshold / critical, 0.5 * 0.98 * y * threshold, f};
       ThresholdReport report = assess_threshold(crack, threshold, critical);
-      EXPECT_EQ(report.verdict, Verdict::arrests);
+      EXPECT_EQ(report.verdict, CrackVerdict::arrests);
       EXPECT_LE(report.arrest_depth, critical);
       EXPECT_LT(report.drive, threshold);
       crack.edge.k_t *= 1.02 / 0.98;
@@ -253,12 +253,12 @@ TEST(Threshold, VerdictsFollowTheCurve)
       EXPECT_GT(report.drive, threshold);
       if (x < minimum)
       {
-         EXPECT_EQ(report.verdict, Verdict::propagates);
+         EXPECT_EQ(report.verdict, CrackVerdict::propagates);
          EXPECT_TRUE(std::isinf(report.arrest_depth));
       }
       else
       {
-         EXPECT_EQ(report.verdict, Verdict::arrests_beyond_a0);
+         EXPECT_EQ(report.verdict, CrackVerdict::arrests_beyond_a0);
          EXPECT_GT(report.arrest_depth, critical);
          expect_relative(crack_intensity(crack.edge, report.arrest_depth), threshold, 1e-8);
       }
@@ -271,7 +271,7 @@ TEST(Threshold, StoppedCrackIsWhereTheShortCrackThresholdIsMet)
    crack.edge = {2000, 30, 0.6};
    const double threshold = 66.4, critical = 0.0913;
    const ThresholdReport report = assess_threshold(crack, threshold, critical);
-   ASSERT_EQ(report.verdict, Verdict::arrests);
+   ASSERT_EQ(report.verdict, CrackVerdict::arrests);
    ASSERT_GT(report.arrest_depth, 0);
    expect_relative(crack_intensity(crack.edge, report.arrest_depth),
                    threshold * std::sqrt(report.arrest_depth / critical), 1e-8);

@@ -71,15 +71,15 @@ CrackCycle crack_cycle(const CrackedEdge &crack, double depth)
    return {std::max(peak, valley), std::min(peak, valley)};
 }
 
-std::string to_string(Verdict verdict)
+std::string to_string(CrackVerdict verdict)
 {
    switch (verdict)
    {
-   case Verdict::propagates:
+   case CrackVerdict::propagates:
       return "propagates";
-   case Verdict::arrests_beyond_a0:
+   case CrackVerdict::arrests_beyond_a0:
       return "arrests beyond a0";
-   case Verdict::arrests:
+   case CrackVerdict::arrests:
       break;
    }
    return "arrests";
@@ -114,13 +114,13 @@ ThresholdReport assess_threshold(const CrackedEdge &crack, double threshold, dou
       next = crack_cycle(crack, depth * ratio).drive(criterion);
       if (next < threshold)
       {
-         report.verdict = Verdict::arrests_beyond_a0;
+         report.verdict = CrackVerdict::arrests_beyond_a0;
          report.arrest_depth = find_root(excess, depth, depth * ratio);
          return report;
       }
       if (next >= here) { break; }
    }
-   report.verdict = Verdict::propagates;
+   report.verdict = CrackVerdict::propagates;
    report.arrest_depth = std::numeric_limits<double>::infinity();
    return report;
 }

@@ -42,17 +42,17 @@ struct CrackedEdge
        valley: the peak less 2ΔK_T κ(c/d_r) and less the range of the bulk term. */
 CrackCycle crack_cycle(const CrackedEdge &crack, double depth);
 
-enum class Verdict
+enum class CrackVerdict
 {
    arrests,          ///< K_I falls below the short-crack threshold before a0
    propagates,       ///< above ΔK_th at a0 and rising
    arrests_beyond_a0 ///< above ΔK_th at a0 but falling: stops at arrest_depth
 };
-std::string to_string(Verdict verdict);
+std::string to_string(CrackVerdict verdict);
 
 struct ThresholdReport
 {
-   Verdict verdict = Verdict::arrests;
+   CrackVerdict verdict = CrackVerdict::arrests;
    double drive = 0.0;        ///< at a0, to be compared with ΔK_th
    double arrest_depth = 0.0; ///< where the drive falls below ΔK_th; infinite if it propagates,
                               ///< at most a0 if it arrests before

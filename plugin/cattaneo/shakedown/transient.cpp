@@ -21,19 +21,19 @@ bool starts_at_constant(const LoadCycle &cycle)
 
 } // namespace
 
-const char *name(Verdict verdict)
+const char *name(TransientVerdict verdict)
 {
    switch (verdict)
    {
-   case Verdict::shaken_down:
+   case TransientVerdict::shaken_down:
       return "shaken down";
-   case Verdict::slips_and_opens:
+   case TransientVerdict::slips_and_opens:
       return "shaken down but at nodes that open";
-   case Verdict::cyclic_slip:
+   case TransientVerdict::cyclic_slip:
       return "cyclic slip";
-   case Verdict::still_slipping:
+   case TransientVerdict::still_slipping:
       return "still slipping";
-   case Verdict::no_equilibrium:
+   case TransientVerdict::no_equilibrium:
       return "no equilibrium";
    }
    return "";
@@ -146,17 +146,18 @@ TransientReport transient(FrictionSolver &solver, const LimitProblem &problem,
    {
       if (steady ? last > none : last > little || !decays)
       {
-         report.verdict = steady ? Verdict::cyclic_slip : Verdict::still_slipping;
+         report.verdict =
+            steady ? TransientVerdict::cyclic_slip : TransientVerdict::still_slipping;
       }
       else
       {
-         report.verdict =
-            report.opened_loss > none ? Verdict::slips_and_opens : Verdict::shaken_down;
+         report.verdict = report.opened_loss > none ? TransientVerdict::slips_and_opens
+                                                    : TransientVerdict::shaken_down;
       }
    }
    std::size_t end = 0;
-   const bool ends =
-      report.verdict == Verdict::shaken_down || report.verdict == Verdict::slips_and_opens;
+   const bool ends = report.verdict == TransientVerdict::shaken_down ||
+                     report.verdict == TransientVerdict::slips_and_opens;
    while (end < cycles && (!ends || loss[end] > little)) { ++end; }
    if (end >= 2)
    {
@@ -242,7 +243,7 @@ CounterExample find_counter_example(const LimitProblem &problem, const LimitRepo
          found.counters += report.counters;
          // Only a steady cycle with slip at closed nodes counts; a slow decay, nodes that open
          // or a lost equilibrium do not.
-         if (report.verdict == Verdict::cyclic_slip)
+         if (report.verdict == TransientVerdict::cyclic_slip)
          {
             cycles = found.found = true;
             found.load_factor = trial;

@@ -27,7 +27,7 @@ struct TransientSettings
 /// What the slip came to. A steady cycle that loses more than 1e-9 is cyclic slip, however
 /// little that is; a loss that decays has ended when it is below
 /// TransientSettings::shaken_down.
-enum class Verdict
+enum class TransientVerdict
 {
    shaken_down,     ///< the slip has ended
    slips_and_opens, ///< ended but at nodes that open in every cycle and slip as they do
@@ -36,7 +36,7 @@ enum class Verdict
    no_equilibrium   ///< the march ended early: status and message say why
 };
 
-const char *name(Verdict verdict);
+const char *name(TransientVerdict verdict);
 
 /** The theorems behind limits are of a contact whose nodes all stay closed. Where nodes open in
    the march, `opened`, its verdict is of another problem, and need not agree with a bound: at
@@ -47,7 +47,7 @@ struct TransientReport
    FrictionStatus status = FrictionStatus::converged;
    std::string message;
    double load_factor = 0;
-   Verdict verdict = Verdict::no_equilibrium;
+   TransientVerdict verdict = TransientVerdict::no_equilibrium;
    std::vector<double> dissipation; ///< of each cycle, until steady
    /// Elastic energy that the slip of a stuck contact could release, the scale of dissipation:
    /// the largest ½ qᵀ A⁻¹ q over the vertices.
