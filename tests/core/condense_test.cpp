@@ -324,6 +324,115 @@ TEST(CondenseMatrix, SaysWhatIsWrongOfALine)
    refused("beyond the axis x = 0", [](auto &l) { l.formulation = Formulation::torsion; });
 }
 
+TEST(CondenseMatrix, ALineIsWhereItsDofsAre)
+{
+   const Frame frame(4, 3, true);
+   const AssembledBody body = frame.body(true);
+   const auto refused = [&](const char *said, const auto &spoil)
+   {
+      ContactLine line = frame.line();
+      spoil(line);
+      expect_input_error([&] { condense(body, line); }, said);
+   };
+   refused("dof 3 of component x of node 1 of the line, at (1, 0), is component y of the node "
+           "(1, 0) of the body",
+           [](auto &l) { std::swap(l.nodes[1].dofs[0], l.nodes[1].dofs[1]); });
+   refused("dof 4 of component x of node 1 of the line, at (1, 0), is component x of the node "
+           "(2, 0) of the body",
+           [](auto &l) { std::swap(l.nodes[1].dofs, l.nodes[2].dofs); });
+   // The line is 3 long.
+   refused("node 3 of the line, at (3.000001, 0)",
+           [](auto &l) { l.nodes[3].position[0] = 3.000001; });
+   ContactLine rounded = frame.line();
+   rounded.nodes[3].position[0] += 1e-10;
+   EXPECT_EQ(condense(body, rounded).S, condense(body, frame.line()).S);
+   // The twist about an axis has one dof a node.
+   AssembledBody shaft;
+   shaft.K = SharedMatrix(Eigen::SparseMatrix<double, Eigen::RowMajor>(
+      Eigen::MatrixXd{{2, -1, 0}, {-1, 2, -1}, {0, -1, 1}}.sparseView()));
+   shaft.places = {
+      Eigen::Vector3d(1, 1, 2), Eigen::Vector3d(0, 1, 1), {0, 0, 0}, Formulation::torsion};
+   shaft.grounded = true;
+   ContactLine ring;
+   ring.formulation = Formulation::torsion;
+   ring.chains = {{0, 1}};
+   ring.nodes = {{{0, -1}, {1, 0}, {1, 0}, 1, 0, 1}};
+   EXPECT_NEAR(condense(shaft, ring).S(0, 0), 1, 1e-14); // 2 - 1, behind which nothing holds
+   ring.nodes[0].dofs[0] = 1;
+   expect_input_error([&] { condense(shaft, ring); },
+                      "dof 1 of component twist of node 0 of the line, at (1, 0), is component "
+                      "twist of the node (1, 1)");
+}
+
+TEST(CondenseMatrix, SpringsThatConnectNoComponents)
+{
+   // Between five points, each as stiff along x as along y, which do not feel each other: the
+   // contact points 0 and 1 hang on 2 and 3, those on each other and on 4, which is held.
+   AssembledBody body;
+   MatrixXd K = MatrixXd::Zero(10, 10);
+   const Eigen::Matrix2d spring{{1, -1}, {-1, 1}};
+   for (const auto &[i, j] :
+        std::vector<std::pair<int, int>>{{0, 2}, {1, 3}, {2, 3}, {2, 4}, {3, 4}})
+   {
+      for (int c : {0, 1})
+      {
+         const std::vector<int> dofs{2 * i + c, 2 * j + c};
+         K(dofs, dofs) += spring;
+      }
+   }
+   body.K = SharedMatrix(Eigen::SparseMatrix<double, Eigen::RowMajor>(K.sparseView()));
+   body.places = {VectorXd(10), VectorXd(10), {}, Formulation::plane};
+   body.places.x << 0, 0, 1, 1, 0.2, 0.2, 0.9, 0.9, 0.5, 0.5;
+   body.places.y << 0, 0, 0, 0, 1, 1, 1, 1, 2, 2;
+   for (int dof = 0; dof < 10; ++dof) { body.places.component.push_back(dof % 2); }
+   body.fixed = {8, 9};
+   ContactLine line;
+   line.chains = {{0, 2}};
+   line.nodes = {{{0, 1}, {0, 0}, {1, 0}, 1, 0, 1}, {{2, 3}, {1, 0}, {1, 0}, 1, 1, 1}};
+   // Eliminated by hand: K_II = [3 -1; -1 3] of points 2 and 3, its inverse [3 1; 1 3]/8.
+   const Eigen::Matrix2d own{{0.625, -0.125}, {-0.125, 0.625}};
+   for (const bool grounded : {true, false})
+   {
+      body.grounded = grounded;
+      const CondensedBody condensed = condense(body, line);
+      EXPECT_LT((condensed.S.topLeftCorner(2, 2) - own).norm(), 1e-15);
+      EXPECT_LT((condensed.S.bottomRightCorner(2, 2) - own).norm(), 1e-15);
+      EXPECT_TRUE(condensed.S.bottomLeftCorner(2, 2).isZero(0));
+      EXPECT_EQ(condensed.free_motions.cols(), 0);
+   }
+   // Held by nothing, they resist turning, which no part knows as a rigid motion.
+   body.fixed.clear();
+   body.grounded = true;
+   EXPECT_EQ(condense(body, line).free_motions.cols(), 2);
+}
+
+TEST(CondenseMatrix, LinesThatArePairedAreSound)
+{
+   const Frame upper(3, 2, true), lower(3, 2, false);
+   const ContactLine good = upper.line();
+   for (const bool second : {false, true})
+   {
+      ContactLine bad = second ? lower.line() : good;
+      bad.nodes[1].spacing = 0;
+      expect_input_error([&]
+                         { second ? pair_lines(good, bad) : pair_lines(bad, lower.line()); },
+                         "spacing at (1, 0) is 0");
+      expect_input_error([&] { second ? pair_lines(good, {}) : pair_lines({}, good); },
+                         "there are no nodes");
+   }
+}
+
+TEST(CondenseMatrix, ObstacleMotionsHaveNamesOfTheirOwn)
+{
+   const Frame frame(3, 2, true);
+   Reduction reduction = reduce(condense(frame.body(true), frame.line()));
+   const auto add = [&](const char *name) { reduction.add_obstacle_motion(name, 0.0, 1.0); };
+   expect_input_error([&] { add(""); }, "obstacle motion: it has no name");
+   expect_input_error([&] { add("pull"); }, "a load pattern of that name is there already");
+   add("rise");
+   expect_input_error([&] { add("rise"); }, "a load pattern of that name is there already");
+}
+
 TEST(CondenseMatrix, SaysWhatIsWrong)
 {
    const Frame frame(4, 3, true);
@@ -390,6 +499,22 @@ TEST(CondenseMatrix, SaysWhatIsWrong)
    const std::vector<double> value{1, 1};
    refused("row 1 of the stiffness has an entry in column 2", [&](auto &b)
            { b.K = SharedMatrix(2, start.data(), column.data(), value.data(), nullptr); });
+   // Which would add up in one place and replace each other in another.
+   refused("two loads are named 'pull', must have names of their own: add them up if they are "
+           "one load",
+           [](auto &b) { b.loads[1].name = "pull"; });
+   refused("load 1 of 2 has no name", [](auto &b) { b.loads[1].name = ""; });
+   refused("the stiffness has no rows", [](auto &b) { b.K = {}; });
+   expect_input_error([&] { condense(AssembledBody{}, line); }, "the stiffness has no rows");
+   EXPECT_EQ(SharedMatrix().view().nonZeros(), 0);
+   // Entries that their program would add up, of rows that are not sorted.
+   const std::vector<int> split{0, 3, 4}, twice{1, 0, 1, 0}, back{0, 2, 1};
+   const std::vector<double> halves{0.5, 1, 0.5, 1};
+   refused("row 0 of the stiffness has column 1 twice, must have it once: add the entries up",
+           [&](auto &b)
+           { b.K = SharedMatrix(2, split.data(), twice.data(), halves.data(), nullptr); });
+   refused("row 1 of the stiffness begins at entry 2 and ends at 1", [&](auto &b)
+           { b.K = SharedMatrix(2, back.data(), twice.data(), halves.data(), nullptr); });
    // A contact of one point lets the frame turn about it.
    ContactLine one = line;
    one.nodes.resize(1);

@@ -22,7 +22,10 @@ public:
    explicit SharedMatrix(Eigen::SparseMatrix<double, Eigen::RowMajor> matrix);
 
    int size() const { return size_; }
-   SparseView view() const { return {size_, size_, start_[size_], start_, column_, value_}; }
+   SparseView view() const
+   {
+      return {size_, size_, start_ ? start_[size_] : 0, start_, column_, value_};
+   }
    double diagonal(int row) const;
    /// True if the other has the same pattern and entries equal to 1e-12 of the largest.
    bool equals(const SharedMatrix &other) const;

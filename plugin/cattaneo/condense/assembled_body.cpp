@@ -2,6 +2,7 @@
 #include <cattaneo/condense/assembled_body.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
+#include <set>
 
 namespace cattaneo
 {
@@ -24,14 +25,24 @@ void AssembledBody::validate() const
 {
    const int size = K.size(), components = cattaneo::components(places.formulation);
    const SparseView stiffness = K.view();
+   require(size > 0, "assembled body: the stiffness has no rows, must have one at least");
    double largest = 0;
+   std::vector<int> last_row(size, -1); // that had an entry in the column
    for (int row = 0; row < size; ++row)
    {
+      const int begin = stiffness.outerIndexPtr()[row],
+                end = stiffness.outerIndexPtr()[row + 1];
+      require(begin <= end, "assembled body: row ", row, " of the stiffness begins at entry ",
+              begin, " and ends at ", end, ", must end behind where it begins");
       for (SparseView::InnerIterator entry(stiffness, row); entry; ++entry)
       {
          require(entry.col() >= 0 && entry.col() < size, "assembled body: row ", row,
                  " of the stiffness has an entry in column ", entry.col(),
                  ", must be from 0 to ", size - 1);
+         require(last_row[entry.col()] != row, "assembled body: row ", row,
+                 " of the stiffness has column ", entry.col(),
+                 " twice, must have it once: add the entries up");
+         last_row[entry.col()] = row;
          require(std::isfinite(entry.value()), "assembled body: entry (", row, ", ",
                  entry.col(), ") of the stiffness is ", entry.value(), ", must be finite");
          largest = std::max(largest, std::abs(entry.value()));
@@ -66,8 +77,13 @@ void AssembledBody::validate() const
               " follows ", fixed[k - 1], ", they must be sorted and each there once");
       held[fixed[k]] = true;
    }
+   std::set<std::string> names;
    for (const BodyLoad &load : loads)
    {
+      require(!load.name.empty(), "assembled body: load ", names.size(), " of ", loads.size(),
+              " has no name, must have one");
+      require(names.insert(load.name).second, "assembled body: two loads are named '",
+              load.name, "', must have names of their own: add them up if they are one load");
       require(load.values.size() == size && load.values.allFinite(), "assembled body: load '",
               load.name, "' has ", load.values.size(), " values, must be ", size,
               ", all finite");

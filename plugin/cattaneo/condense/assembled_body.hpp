@@ -11,7 +11,7 @@ namespace cattaneo
 /// A load pattern on all dofs of a body.
 struct BodyLoad
 {
-   std::string name;
+   std::string name; ///< one that no other load of the body has
    Control control = Control::force;
    Eigen::VectorXd values; ///< force control: forces; displacement: prescribed values
 };
@@ -19,17 +19,21 @@ struct BodyLoad
 /// A body as any program assembles it: what a condensation by a factor starts from.
 struct AssembledBody
 {
-   SharedMatrix K;         ///< symmetric, of all dofs, supported ones among them
+   /// Symmetric, of all dofs, supported ones among them; each entry once.
+   SharedMatrix K;
    std::vector<int> fixed; ///< sorted: fixed, or prescribed by a load of displacements
    DofPlaces places;
    std::vector<BodyLoad> loads;
-   /// True if K may resist rigid motions (elastic foundations): those that it resists are then
-   /// not free.
+   /// True if K may resist rigid motions (elastic foundations, springs that do not connect x
+   /// with y): K is then asked which it resists, and those are free no more. False: all that
+   /// the supports leave are free, and a body is refused if contact nodes and supports together
+   /// leave one.
    bool grounded = false;
 
-   /// InputError that names what does not fit: sizes, columns, the order of the fixed dofs,
-   /// loads that are not finite or displace what is not fixed or what nothing hangs on (a
-   /// matrix that was eliminated), a stiffness that is not symmetric (one triangle of it).
+   /// InputError that names what does not fit: sizes, columns, an entry that is there twice,
+   /// the order of the fixed dofs, loads that are not finite, have no name of their own or
+   /// displace what is not fixed or what nothing hangs on (a matrix that was eliminated), a
+   /// stiffness that is not symmetric (one triangle of it).
    void validate() const;
    /// What is said of a load whose displacements nothing hangs on.
    static constexpr const char *feels_nothing =

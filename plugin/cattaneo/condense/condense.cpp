@@ -144,6 +144,30 @@ ClampedLoads clamp(const std::vector<BodyLoad> &loads, FactorSolver &solver, Cou
            at_fixed.transpose() * solver.prescribed};
 }
 
+/// A line made by hand has the dofs of the nodes that it names, to 1e-9 of its size and to
+/// round-off of its coordinates.
+void require_in_place(const ContactLine &line, const DofPlaces &places)
+{
+   const auto all = line.each(&LineNode::position);
+   const double box = (all.colwise().maxCoeff() - all.colwise().minCoeff()).maxCoeff();
+   for (Eigen::Index i = 0; i < line.size(); ++i)
+   {
+      const LineNode &node = line.nodes[i];
+      const double allowed =
+         1e-9 * std::max(box, node.spacing) + 1e-15 * node.position.lpNorm<Eigen::Infinity>();
+      for (int c = 0; c < components(line.formulation); ++c)
+      {
+         const int dof = node.dofs[c];
+         const Eigen::Vector2d place(places.x[dof], places.y[dof]);
+         require(places.component[dof] == c && (place - node.position).norm() <= allowed,
+                 "condense: dof ", dof, " of component ", component_name(line.formulation, c),
+                 " of node ", i, " of the line, at (", node.position[0], ", ", node.position[1],
+                 "), is component ", component_name(line.formulation, places.component[dof]),
+                 " of the node (", place[0], ", ", place[1], ") of the body, must be the same");
+      }
+   }
+}
+
 } // namespace
 
 Condensation condense_by_factor(const AssembledBody &body, const std::vector<int> &contact,
@@ -173,6 +197,7 @@ CondensedBody condense(const AssembledBody &body, const ContactLine &line,
 {
    body.validate();
    ContactDofs contact = contact_dofs(line, body.places.formulation, body.K.size());
+   require_in_place(line, body.places);
    for (std::size_t a = 0; a < contact.all.size(); ++a)
    {
       if (!std::binary_search(body.fixed.begin(), body.fixed.end(), contact.all[a]))

@@ -100,7 +100,19 @@ Eigen::MatrixXd free_rigid_motions(const DofPlaces &places, const std::vector<in
       const double largest = free.col(m).cwiseAbs().maxCoeff();
       if (largest > 0) { free.col(m) /= largest; }
    }
-   return free;
+   // Of a set without any y, or of one node, motions are the same or none at all.
+   if (free.cols() == 0) { return free; }
+   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factor(free);
+   factor.setThreshold(1e-12);
+   const Eigen::Index independent = factor.rank();
+   if (independent == free.cols()) { return free; }
+   Eigen::MatrixXd kept =
+      factor.householderQ() * Eigen::MatrixXd::Identity(free.rows(), independent);
+   for (Eigen::Index m = 0; m < independent; ++m)
+   {
+      kept.col(m) /= kept.col(m).cwiseAbs().maxCoeff();
+   }
+   return kept;
 }
 
 Eigen::MatrixXd unresisted(const SparseView &K, const std::vector<int> &dofs,

@@ -127,6 +127,8 @@ Pairing pair_lines(const ContactLine &line1, const ContactLine &line2, double to
 {
    require(tolerance > 0 && tolerance < 0.5, "pairing: tolerance is ", tolerance,
            ", must be above 0 and below 0.5 (edge lengths)");
+   line1.validate();
+   line2.validate();
    const Matches found = match(line1, line2, tolerance);
    if (!found.complete)
    {

@@ -77,8 +77,8 @@ Eigen::MatrixXd clamped_forces(const CondensedBody &body, const std::vector<int>
    for (std::size_t k = 0; k < index.size(); ++k)
    {
       const LoadPattern &pattern = body.patterns[k];
-      f.col(index[k]).head(pattern.q.size()) = pattern.q;
-      f.col(index[k]).tail(pattern.p.size()) = pattern.p;
+      f.col(index[k]).head(pattern.q.size()) += pattern.q;
+      f.col(index[k]).tail(pattern.p.size()) += pattern.p;
    }
    return f;
 }
@@ -543,6 +543,7 @@ void Reduction::add_torsion(std::vector<CondensedBody> twisting)
 void Reduction::add_obstacle_motion(const std::string &name, const ScalarField &ux,
                                     const ScalarField &uy, const ScalarField &u_theta)
 {
+   require(!name.empty(), "obstacle motion: it has no name, must have one");
    const std::string where = "obstacle motion '" + name + "'";
    require(bodies.size() == 1, where, ": the reduction is of ", bodies.size(),
            " bodies, must be of one on a rigid obstacle");

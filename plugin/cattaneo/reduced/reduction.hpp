@@ -36,8 +36,8 @@ public:
        about (0, c). Displacements of the reduced problem are relative to it; the gap stays as
        it is, and the conjugate of the pattern is the obstacle's reaction.
 
-       InputError if the name is taken, if there are two bodies, if a displacement is not
-       finite, or if it moves along a component that is held (a plane of symmetry). */
+       InputError if the name is empty or taken, if there are two bodies, if a displacement is
+      not finite, or if it moves along a component that is held (a plane of symmetry). */
    void add_obstacle_motion(const std::string &name, const ScalarField &ux,
                             const ScalarField &uy, const ScalarField &u_theta = 0.0);
 
