@@ -1,3 +1,4 @@
+#include "expect_input_error.hpp"
 #include "lemke.hpp"
 #include "random_problem.hpp"
 
@@ -455,6 +456,34 @@ ReducedProblem free_block(double f)
    problem.gap = Vector2d(0, 0);
    set_friction(problem, f);
    return problem;
+}
+
+TEST(FrictionSolver, RefusesStatesAndLoadsThatAreNotOfItsProblem)
+{
+   const ReducedProblem problem = free_nodes();
+   FrictionSolver solver(problem);
+   const VectorXd load = VectorXd::Ones(1);
+   const ContactState good = ContactState::virgin(problem),
+                      other = ContactState::virgin(one_node(1, 0, 1, 0, 1, 1, 0));
+   ContactState state = other;
+   expect_input_error([&] { solver.solve(state, load); },
+                      "contact state: it has 1 nodes and 1 load multipliers");
+   expect_input_error([&] { solver.judge(good, other); }, "contact state: it has 1 nodes");
+   expect_input_error([&] { solver.judge(other, good); }, "contact state: it has 1 nodes");
+   state = good;
+   expect_input_error([&] { solver.solve(state, VectorXd::Ones(2)); },
+                      "2 load multipliers for 1 load patterns");
+   expect_input_error([&] { solver.solve(state, VectorXd::Constant(1, NAN)); },
+                      "friction solver: the multiplier of load pattern 'load' is nan");
+   EXPECT_EQ(solver.solve(state, load).status, FrictionStatus::converged);
+   EXPECT_EQ(solver.judge(good, state).status, FrictionStatus::converged);
+}
+
+TEST(FrictionSolver, RefusesAProblemWithoutFrictionCoefficients)
+{
+   ReducedProblem problem = free_nodes();
+   problem.friction.resize(0);
+   expect_input_error([&] { FrictionSolver{problem}; }, "friction has 0 entries, must be 2");
 }
 
 TEST(FrictionSolver, ReportsSlidingAndLiftingApart)

@@ -1011,14 +1011,57 @@ TEST(ContactState, IsRefusedWhereItDoesNotFit)
       ContactState bad = good;
       bad.*field = VectorXd::Zero(3);
       EXPECT_THROW(bad.validate(problem), InputError);
-      if (field == &ContactState::slip_origin) { continue; }
       bad = good;
       (bad.*field)[0] = NAN;
       EXPECT_THROW(bad.validate(problem), InputError);
    }
+   for (double ContactState::*field : {&ContactState::time, &ContactState::step,
+                                       &ContactState::peak_force, &ContactState::dissipation})
+   {
+      ContactState bad = good;
+      bad.*field = NAN;
+      EXPECT_THROW(bad.validate(problem), InputError);
+   }
    ContactState bad = good;
+   bad.cycle_slip = {VectorXd::Zero(2)};
+   EXPECT_THROW(bad.validate(problem), InputError);
+   bad = good;
    bad.status.clear();
    EXPECT_THROW(bad.validate(problem), InputError);
+}
+
+TEST(ContactState, WhatIsHeldDoesNotSlip)
+{
+   std::mt19937 random(7);
+   ReducedProblem problem = cattaneo_test::random_problem(3, 0.3, 0.5, random);
+   hold(problem, {1});
+   const Eigen::Vector3d slip(0.1, 0.2, 0.3);
+   expect_input_error([&] { ContactState::with_slip(problem, slip); },
+                      "contact state: row 1 of the slip is 0.2, must be 0: it is held");
+   ContactState state = ContactState::with_slip(problem, {Eigen::Vector3d(0.1, 0, 0.3)});
+   EXPECT_NO_THROW(state.validate(problem));
+   state.v[1] = 1e-3;
+   expect_input_error([&] { state.validate(problem); }, "row 1 of the slip is 0.001");
+   state.v[1] = 1e-17; // what round-off makes of zero
+   EXPECT_NO_THROW(state.validate(problem));
+}
+
+TEST(ContactState, OnlyWhatIsANumberIsSaved)
+{
+   const ContactState good = ContactState::virgin(one_block(0.4));
+   const std::string file = testing::TempDir() + "cattaneo_state_kept.json";
+   save(good, file);
+   const auto refused = [&](const std::function<void(ContactState &)> &spoil)
+   {
+      ContactState bad = good;
+      spoil(bad);
+      expect_input_error([&] { save(bad, file); }, "a value is not finite");
+      EXPECT_EQ(load_contact_state(file).v, good.v); // the good one is still there
+   };
+   refused([](ContactState &s) { s.v[0] = NAN; });
+   refused([](ContactState &s) { s.slip_origin[0] = INFINITY; });
+   refused([](ContactState &s) { s.dissipation = NAN; });
+   refused([](ContactState &s) { s.cycle_slip = {VectorXd::Constant(1, NAN)}; });
 }
 
 TEST(ContactState, RefusesFilesThatAreNone)

@@ -245,6 +245,21 @@ TEST(ReducedFile, SaysWhichFactIsWrong)
    refused("\"rows\": 2, \"cols\": 2, \"values\": [1, 4, -4, 9]",
            "\"rows\": 1, \"cols\": 1, \"values\": [1]",
            "must be square of the number of load patterns 2");
+   const auto one_less = [&](const std::string &key, int columns, const std::string &values,
+                             const std::string &fewer)
+   {
+      const auto entry = [&](int rows, const std::string &list)
+      {
+         return "\"" + key + "\": {\"rows\": " + std::to_string(rows) +
+                ", \"cols\": " + std::to_string(columns) + ", \"values\": [" + list + "]}";
+      };
+      refused(entry(2, values), entry(1, fewer), key);
+   };
+   one_less("weights", 1, "11, 12", "11");
+   one_less("arc_length", 1, "21, 22", "21");
+   one_less("position", 2, "31, 32, 33, 34", "31, 33");
+   one_less("dofs", 4, "41, 42, 43, 44, 45, 46, -1, 48", "41, 43, 45, -1");
+   refused("\"name\": \"d\"", "\"name\": \"P\"", "two load patterns are named 'P'");
    refused("[51, 0]", "[51, 0, 0]", "3 entries for");
    refused("{\"rows\": 2, \"cols\": 1, \"values\": [53, 54]}",
            "{\"rows\": 1, \"cols\": 1, \"values\": [53]}",
@@ -294,9 +309,18 @@ TEST(ReducedFile, RefusesWhatIsNoProblem)
    {
       ReducedProblem bad = good;
       spoil(bad);
-      save(bad, file);
-      expect_input_error([&] { load_reduced_problem(file); }, word);
+      save(good, file);
+      expect_input_error([&] { save(bad, file); }, word);
+      EXPECT_EQ(load_reduced_problem(file).gap, good.gap); // the good one is still there
    };
+   refused("gap", [](ReducedProblem &p) { p.gap[1] = NAN; });
+   refused("pattern 'caf\xe9'", [](ReducedProblem &p) { p.patterns[1].name = "caf\xe9"; });
+   refused("interface 'caf\xe9'",
+           [](ReducedProblem &p)
+           {
+              p.chains = one_chain(5);
+              p.chains[0].interface = "caf\xe9";
+           });
    refused("weights", [](ReducedProblem &p) { p.weights = Eigen::VectorXd::Ones(4); });
    refused("arc_length", [](ReducedProblem &p) { p.arc_length = Eigen::VectorXd::Ones(6); });
    refused("position", [](ReducedProblem &p) { p.position = Eigen::MatrixXd::Ones(5, 3); });
@@ -308,6 +332,21 @@ TEST(ReducedFile, RefusesWhatIsNoProblem)
               p.set_stiffness(Eigen::MatrixXd::Identity(15, 15), Eigen::MatrixXd::Zero(5, 15),
                               p.C());
            });
+   // Of a file: one node that slides in three directions.
+   const auto square = [](const char *name, int rows, int columns, const char *values)
+   {
+      return "\"" + std::string(name) + "\": {\"rows\": " + std::to_string(rows) +
+             ", \"cols\": " + std::to_string(columns) + ", \"values\": [" + values + "]}";
+   };
+   std::string three = square("A", 3, 3, "1, 0, 0, 0, 1, 0, 0, 0, 1") + "," +
+                       square("B", 1, 3, "0, 0, 0") + "," + square("C", 1, 1, "1") + "," +
+                       square("H", 0, 0, "");
+   for (const char *name : {"gap", "friction", "weights", "arc_length"})
+   {
+      three += "," + square(name, 1, 1, "0");
+   }
+   three += "," + square("position", 0, 0, "") + "," + square("dofs", 0, 0, "");
+   expect_input_error([&] { read(text(1, three)); }, "3 tangential components");
    // Sizes whose product overflows to the number of entries.
    std::ofstream(file) << R"({"format": "cattaneo reduced problem 1",
       "A": {"rows": 4294967296, "cols": 4294967296, "values": []}})";

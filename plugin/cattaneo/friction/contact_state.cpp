@@ -1,6 +1,7 @@
 #include <cattaneo/friction/contact_state.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/whole_file.hpp>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -40,6 +41,34 @@ Eigen::VectorXd ContactState::forces() const
    return F;
 }
 
+namespace
+{
+
+void require_held(const ReducedProblem &problem, const Eigen::VectorXd &v, double allowed)
+{
+   for (Eigen::Index row : problem.held)
+   {
+      require(std::abs(v[row]) <= allowed, "contact state: row ", row, " of the slip is ",
+              v[row], ", must be 0: it is held");
+   }
+}
+
+/// What is not a number would be written as null.
+void require_finite(const ContactState &state)
+{
+   bool finite = std::isfinite(state.time) && std::isfinite(state.step) &&
+                 std::isfinite(state.peak_force) && std::isfinite(state.dissipation);
+   for (const Eigen::VectorXd *all :
+        {&state.v, &state.w, &state.q, &state.p, &state.slip_origin, &state.multipliers})
+   {
+      finite = finite && all->allFinite();
+   }
+   for (const Eigen::VectorXd &slip : state.cycle_slip) { finite = finite && slip.allFinite(); }
+   require(finite, "contact state: a value is not finite");
+}
+
+} // namespace
+
 ContactState ContactState::virgin(const ReducedProblem &problem)
 {
    return with_slip(problem, Eigen::VectorXd::Zero(problem.slips()));
@@ -50,6 +79,7 @@ ContactState ContactState::with_slip(const ReducedProblem &problem, const Eigen:
    const Eigen::Index n = problem.nodes();
    require(v.size() == problem.slips(), "contact state: initial slip has ", v.size(),
            " entries, must be ", problem.slips());
+   require_held(problem, v, 0);
    ContactState state;
    state.v = v;
    state.slip_origin = v;
@@ -75,9 +105,13 @@ void ContactState::validate(const ReducedProblem &problem) const
            "contact state: it has ", status.size(), " nodes and ", multipliers.size(),
            " load multipliers, the reduced problem has ", n, " nodes and ", patterns,
            " load patterns");
-   require(v.allFinite() && w.allFinite() && q.allFinite() && p.allFinite() &&
-              multipliers.allFinite(),
-           "contact state: a value is not finite");
+   for (const Eigen::VectorXd &slip : cycle_slip)
+   {
+      require(slip.size() == m, "contact state: the slip at the end of a cycle has ",
+              slip.size(), " entries, must be ", m);
+   }
+   require_finite(*this);
+   require_held(problem, v, m > 0 ? 1e-9 * v.cwiseAbs().maxCoeff() : 0);
 }
 
 namespace
@@ -100,6 +134,7 @@ Eigen::VectorXd vector(const nlohmann::json &j)
 
 void save(const ContactState &state, const std::string &file)
 {
+   require_finite(state);
    std::vector<int> status;
    for (NodeState s : state.status) { status.push_back(static_cast<int>(s)); }
    std::vector<std::vector<double>> cycle_slip;

@@ -67,15 +67,17 @@ struct ContactState
    /// Before any load: no slip, and all nodes without a gap in stick.
    static ContactState virgin(const ReducedProblem &problem);
 
-   /// Virgin but for a given slip (an initial dislocation), v of size c·n.
+   /// Virgin but for a given slip (an initial dislocation), v of size c·n. InputError if it has
+   /// another size, or moves a row that the problem holds.
    static ContactState with_slip(const ReducedProblem &problem, const Eigen::VectorXd &v);
 
-   /// InputError if sizes do not fit the problem or a value is not finite.
+   /// InputError if sizes do not fit the problem, a value is not finite, or v moves a row that
+   /// the problem holds by more than 1e-9 of the largest slip (round-off).
    void validate(const ReducedProblem &problem) const;
 };
 
-/// Writes a state as JSON; every double is restored to the last bit. InputError if the file
-/// cannot be written.
+/// Writes a state as JSON; every double is restored to the last bit. InputError if a value is
+/// not finite or the file cannot be written.
 void save(const ContactState &state, const std::string &file);
 /// Reads what save() wrote. InputError if the file is missing or is not a contact state.
 ContactState load_contact_state(const std::string &file);

@@ -1,6 +1,7 @@
 #include <cattaneo/friction/critical_friction.hpp>
 #include <cattaneo/friction/methods.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cmath>
 #include <sstream>
 
 namespace cattaneo
@@ -199,6 +200,17 @@ FrictionSolver::FrictionSolver(FrictionSolver &&) noexcept = default;
 
 IncrementReport FrictionSolver::solve(ContactState &state, const VectorXd &multipliers)
 {
+   const ReducedProblem &of = problem();
+   state.validate(of);
+   require(multipliers.size() == static_cast<Index>(of.patterns.size()),
+           "friction solver: ", multipliers.size(), " load multipliers for ",
+           of.patterns.size(), " load patterns");
+   for (Index k = 0; k < multipliers.size(); ++k)
+   {
+      require(std::isfinite(multipliers[k]),
+              "friction solver: the multiplier of load pattern '", of.patterns[k].name, "' is ",
+              multipliers[k], ", must be finite");
+   }
    return system_->solve(state, multipliers);
 }
 const ReducedProblem &FrictionSolver::problem() const
@@ -211,6 +223,8 @@ bool FrictionSolver::frictionless() const
 }
 IncrementReport FrictionSolver::judge(const ContactState &before, const ContactState &after)
 {
+   before.validate(problem());
+   after.validate(problem());
    return system_->judge(before, after);
 }
 const Counters &FrictionSolver::counters() const

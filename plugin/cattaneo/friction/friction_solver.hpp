@@ -68,7 +68,8 @@ public:
    FrictionSolver(FrictionSolver &&) noexcept;
 
    /// Advances `state` to the loads `multipliers`. Unless a solution was found (converged,
-   /// not_unique) the state is left as it was.
+   /// not_unique) the state is left as it was. InputError if the state is none of the problem
+   /// (ContactState::validate), or if a multiplier is missing or not finite.
    IncrementReport solve(ContactState &state, const Eigen::VectorXd &multipliers);
 
    const ReducedProblem &problem() const;
@@ -76,7 +77,7 @@ public:
    /// Is `after` the end of an increment from `before`? By the equations and the laws as they
    /// are given, however it was found: converged, or not_unique if a closed node has friction
    /// above its critical value (see CriticalFriction), with its residuals; or stalled with what
-   /// it breaks.
+   /// it breaks. InputError as solve().
    IncrementReport judge(const ContactState &before, const ContactState &after);
    const Counters &counters() const;
 

@@ -10,15 +10,25 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+namespace
+{
+
+const ReducedProblem &valid(const ReducedProblem &problem)
+{
+   problem.validate();
+   return problem;
+}
+
+} // namespace
+
 FrictionSystem::FrictionSystem(const ReducedProblem &given, const FrictionSettings &chosen,
                                bool tangential_unknowns)
-   : problem(given), settings(chosen), n(given.nodes()),
-     frictionless(given.components() == 0 ||
-                  (given.friction.maxCoeff() == 0 && !tangential_unknowns)),
+   : problem(valid(given)), settings(chosen), n(problem.nodes()),
+     frictionless(problem.components() == 0 ||
+                  (problem.friction.maxCoeff() == 0 && !tangential_unknowns)),
      K(frictionless ? normal : problem.K)
 {
    settings.validate();
-   problem.validate();
    require(problem.components() <= 2, "friction solver: the reduced problem has ",
            problem.components(), " tangential components a node, at most 2 are supported");
    c = frictionless ? 0 : problem.components();

@@ -38,6 +38,21 @@ std::array<LineEnd, 2> ends_from_json(const nlohmann::json &j)
    return ends;
 }
 
+/// JSON is UTF-8, and throws its own exception of what is not.
+const std::string &writable(const char *what, const std::string &name)
+{
+   try
+   {
+      nlohmann::json(name).dump();
+   }
+   catch (const nlohmann::json::type_error &)
+   {
+      require(false, "reduced problem: the name of ", what, " '", name,
+              "' is not UTF-8, must be for a file");
+   }
+   return name;
+}
+
 /// Rows, columns and the entries column by column.
 template <class Matrix>
 nlohmann::json to_json(const Matrix &M)
@@ -82,6 +97,7 @@ std::vector<ContactChain> found_chains(const Eigen::VectorXd &arc_length, Eigen:
 
 void save(const ReducedProblem &problem, const std::string &file)
 {
+   problem.validate();
    nlohmann::json j = {{"format", format_name},
                        {"coupled", problem.coupled},
                        {"A", to_json(Eigen::MatrixXd(problem.A()))},
@@ -96,7 +112,7 @@ void save(const ReducedProblem &problem, const std::string &file)
                        {"dofs", to_json(problem.dofs)}};
    for (const LoadPattern &pattern : problem.patterns)
    {
-      j["patterns"].push_back({{"name", pattern.name},
+      j["patterns"].push_back({{"name", writable("pattern", pattern.name)},
                                {"displacement", pattern.control == Control::displacement},
                                {"q", to_json(pattern.q)},
                                {"p", to_json(pattern.p)}});
@@ -105,7 +121,7 @@ void save(const ReducedProblem &problem, const std::string &file)
    j["chains"] = nlohmann::json::array();
    for (const ContactChain &chain : problem.chains)
    {
-      j["chains"].push_back({{"interface", chain.interface},
+      j["chains"].push_back({{"interface", writable("interface", chain.interface)},
                              {"first", chain.first},
                              {"nodes", chain.nodes},
                              {"loop", chain.loop},
