@@ -1,3 +1,4 @@
+#include "expect_input_error.hpp"
 #include "small_problems.hpp"
 
 #include <algorithm>
@@ -629,8 +630,45 @@ TEST(FromContact, EnergyOfAnEdgeIsThatOfItsNodesAndOfThoseThatRubBeyond)
    edge.first = edge.last = n - 1;
    edge.side = -1;
    EXPECT_DOUBLE_EQ(compare_energy(problem, edge, cycle, 0.2, 8).computed_total, 60);
+   const auto refused = [&](const char *said)
+   { expect_input_error([&] { compare_energy(problem, edge, cycle, 0.2, 8); }, said); };
+   edge.last = n;
+   refused("the edge is of nodes 9 to 10, must be of 0 to 9");
+   edge.first = -1;
+   edge.last = 0;
+   refused("the edge is of nodes -1 to 0, must be of 0 to 9");
+   edge.first = 0;
+   const Eigen::VectorXd weights = problem.weights;
+   problem.weights.resize(0);
+   refused("the problem has 0 weights for its 10 nodes");
+   problem.weights = weights;
    cycle.node_dissipation.conservativeResize(n - 1);
-   EXPECT_THROW(compare_energy(problem, edge, cycle, 0.2, 8), InputError);
+   refused("the dissipation of 9 nodes, the problem has 10");
+}
+
+TEST(FromContact, TractionsOfAnEdgeNeedItsPlaces)
+{
+   ReducedProblem problem;
+   problem.set_stiffness(Eigen::Matrix2d::Identity(), Eigen::Matrix2d::Zero(),
+                         Eigen::Matrix2d::Identity());
+   problem.weights = Eigen::Vector2d(1, 2);
+   ContactState state = ContactState::virgin(problem);
+   state.p << 3, 8;
+   ContactEdge edge;
+   edge.side = 1;
+   edge.first = 0;
+   edge.last = 1;
+   edge.position.position = -1;
+   const auto refused = [&](const char *said)
+   { expect_input_error([&] { edge_tractions(problem, state, edge); }, said); };
+   refused("the problem has 0 arc lengths for its 2 nodes");
+   problem.arc_length = Eigen::Vector2d(0, 1);
+   EXPECT_EQ(edge_tractions(problem, state, edge).pressure, (std::vector<double>{3, 4}));
+   edge.last = 2;
+   refused("the edge is of nodes 0 to 2, must be of 0 to 1");
+   edge.last = 1;
+   state.q.resize(0);
+   refused("0 nodal forces");
 }
 
 // --- corners

@@ -1,10 +1,13 @@
 #include "expect_input_error.hpp"
 
 #include <algorithm>
+#include <cattaneo/algebra/dense_cholesky.hpp>
+#include <cattaneo/algebra/root.hpp>
 #include <cattaneo/counters.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/whole_file.hpp>
 #include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <filesystem>
@@ -70,6 +73,30 @@ TEST(InputError, SaysANumberToTheLastBit)
    // 0.1 + 0.2 is the neighbour of 0.3 above it: only seventeen digits tell them apart.
    expect_input_error([] { require(false, "found ", 0.1 + 0.2); }, "found 0.30000000000000004");
    EXPECT_NO_THROW(require(true, "found ", 1));
+}
+
+TEST(Root, IsFoundWhereSignsDifferElseAtTheNearerEnd)
+{
+   EXPECT_DOUBLE_EQ(find_root([](double x) { return x * x - 2; }, 1, 2), std::sqrt(2.0));
+   // Both signs lost to round-off: the root is at one end.
+   EXPECT_EQ(find_root([](double x) { return x - 1 - 1e-15; }, 0, 1), 1);
+   EXPECT_EQ(find_root([](double x) { return x + 1e-15; }, 0, 1), 0);
+   EXPECT_EQ(find_root([](double x) { return 3 - x; }, 2, -5), 2);
+   EXPECT_TRUE(std::isnan(find_root([](double) { return NAN; }, 0, 1)));
+}
+
+TEST(DenseCholesky, RefusesWhatIsNotFinite)
+{
+   for (const double wrong : {double(NAN), double(INFINITY)})
+   {
+      for (const int row : {0, 2})
+      {
+         Eigen::MatrixXd matrix = Eigen::Matrix3d::Identity();
+         matrix(2, row) = wrong;
+         EXPECT_FALSE(DenseCholesky().compute(matrix)) << row;
+      }
+   }
+   EXPECT_TRUE(DenseCholesky().compute(Eigen::Matrix3d::Identity()));
 }
 
 TEST(WholeFile, IsWrittenWholeOrNotAtAll)

@@ -72,7 +72,7 @@ bool DenseCholesky::compute(MatrixXd matrix)
 {
    factor_ = std::move(matrix);
    const Eigen::LLT<Eigen::Ref<MatrixXd>> llt(factor_); // in place
-   return llt.info() == Eigen::Success;
+   return llt.info() == Eigen::Success && factor_.diagonal().allFinite();
 }
 
 void DenseCholesky::solve(Eigen::VectorXd &x) const

@@ -23,7 +23,8 @@ struct EnergyComparison
 
 /** @param k_t_range ΔK_T of the cycle, (1-R) |K_T|
     @param modulus E*
-    InputError as near_edge(), and if the cycle has not the problem's number of nodes. */
+    InputError as near_edge(), as ContactEdge::validate(), and if the cycle
+    has not the problem's number of nodes. */
 EnergyComparison compare_energy(const ReducedProblem &problem, const ContactEdge &edge,
                                 const CycleRecord &cycle, double k_t_range, double modulus);
 

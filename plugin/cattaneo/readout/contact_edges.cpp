@@ -311,9 +311,21 @@ ContactState fully_stuck(const ReducedProblem &problem, const ContactState &pres
    return fully_stuck(problem, pressed, loaded, closed_nodes(problem, loaded));
 }
 
+void ContactEdge::validate(const ReducedProblem &problem) const
+{
+   const Index n = problem.nodes();
+   require(first >= 0 && last < n && first <= last, "the edge is of nodes ", first, " to ",
+           last, ", must be of 0 to ", n - 1, " (is it one of this problem?)");
+   require(problem.weights.size() == n, "the problem has ", problem.weights.size(),
+           " weights for its ", n, " nodes");
+}
+
 EdgeTractions edge_tractions(const ReducedProblem &problem, const ContactState &state,
                              const ContactEdge &edge, CrackedBody cracked)
 {
+   edge.validate(problem);
+   require(problem.arc_length.size() == problem.nodes(), "the problem has ",
+           problem.arc_length.size(), " arc lengths for its ", problem.nodes(), " nodes");
    // q is the force on body 1 along increasing arc length.
    const double sign = cracked == CrackedBody::first ? 1 : -1;
    const VectorXd p = tractions(problem, state.p), q = tractions(problem, state.q);

@@ -35,6 +35,9 @@ struct ContactEdge
    double slip_zone = 0.0; ///< computed: from the edge to where stick begins, 0 if it sticks
    double slip_zone_error = 0.0; ///< of the two positions it is the difference of
    bool slides = false; ///< no stick in this stretch of contact: slip_zone is its whole width
+
+   /// InputError if its nodes are not some of the problem's, or if that has no weights.
+   void validate(const ReducedProblem &problem) const;
 };
 
 /** Shear tractions if nothing had slipped since @a pressed: the nodes of @a tied keep the slip
@@ -71,6 +74,7 @@ std::vector<ContactEdge> contact_edges(const ReducedProblem &problem,
                                        const FitSettings &settings = {});
 
 /// Tractions of a state in the half of the contact next to an edge; shear on the cracked body.
+/// InputError as ContactEdge::validate(), and if the problem has no arc lengths.
 EdgeTractions edge_tractions(const ReducedProblem &problem, const ContactState &state,
                              const ContactEdge &edge,
                              CrackedBody cracked = CrackedBody::second);
