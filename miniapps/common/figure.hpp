@@ -37,8 +37,9 @@ public:
    void add(const std::string &series, const std::vector<double> &x,
             const std::vector<double> &y, const std::string &style = "line");
    /// The zones of one state at a time; `coordinate` maps arc length to what is shown.
-   void add(double time, const std::vector<cattaneo::Zone> &zones,
-            const std::function<double(double)> &coordinate = [](double s) { return s; });
+   void add(
+      double time, const std::vector<cattaneo::Zone> &zones,
+      const std::function<double(double)> &coordinate = [](double s) { return s; });
 
    /// Rings of a plan; positions are radii.
    void add(const std::vector<cattaneo::Zone> &rings);

@@ -1,5 +1,5 @@
-#include <cattaneo/material.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/material.hpp>
 #include <cmath>
 
 namespace cattaneo
