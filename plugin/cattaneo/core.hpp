@@ -7,6 +7,7 @@
 #include <cattaneo/fretting/corner.hpp>
 #include <cattaneo/fretting/edge_crack.hpp>
 #include <cattaneo/fretting/from_contact.hpp>
+#include <cattaneo/fretting/hertz_field.hpp>
 #include <cattaneo/fretting/measures.hpp>
 #include <cattaneo/fretting/yield.hpp>
 #include <cattaneo/friction/critical_friction.hpp>

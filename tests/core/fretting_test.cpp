@@ -3,6 +3,7 @@
 #include <cattaneo/fretting/assessment.hpp>
 #include <cattaneo/fretting/calibration.hpp>
 #include <cattaneo/fretting/edge_crack.hpp>
+#include <cattaneo/fretting/hertz_field.hpp>
 #include <cattaneo/fretting/measures.hpp>
 #include <cattaneo/fretting/yield.hpp>
 #include <cattaneo/input_error.hpp>
@@ -76,10 +77,13 @@ TEST(Fretting, RefusesBadInput)
    EXPECT_THROW(flat_rounded_contact(1, 1, -1, 1), InputError);
    EXPECT_THROW(flat_rounded_contact(1, 0, 1, 1), InputError);
    EXPECT_THROW(rounded_edge(0, 1, 1), InputError);
+   EXPECT_THROW(symmetric_k_n(1, -1), InputError);
    EXPECT_THROW(edge_gradient(0, 1), InputError);
    EXPECT_THROW(shear_intensities(1, infinity, 0), InputError);
    EXPECT_THROW(first_yield_load(0, 0.3), InputError);
    EXPECT_THROW(full_yield_load(0), InputError);
+   EXPECT_THROW(hertz_transition_friction(0.3, 0), InputError);
+   EXPECT_THROW(hertz_transition_friction(0.3, 1.1), InputError);
    EXPECT_THROW(power_law_factor(-1), InputError);
    EXPECT_THROW(crack_factor(-1), InputError);
    EXPECT_THROW(crack_factor(nan), InputError);

@@ -2,17 +2,16 @@
 #include <cattaneo/fretting/calibration.hpp>
 #include <cattaneo/fretting/edge_crack.hpp>
 #include <cattaneo/fretting/fatigue_material.hpp>
+#include <cattaneo/fretting/hertz_field.hpp>
 #include <cattaneo/fretting/threshold.hpp>
 #include <cmath>
 #include <gtest/gtest.h>
-#include <hertz_field.hpp>
 #include <limits>
 
 namespace
 {
 
 using namespace cattaneo::fretting;
-using cattaneo_test::hertz_stress;
 
 const double pi = std::acos(-1.0);
 

@@ -1,10 +1,10 @@
 #include <array>
 #include <cattaneo/fretting/calibration.hpp>
+#include <cattaneo/fretting/hertz_field.hpp>
 #include <cattaneo/fretting/near_edge.hpp>
 #include <cattaneo/fretting/yield.hpp>
 #include <cmath>
 #include <gtest/gtest.h>
-#include <hertz_field.hpp>
 #include <quadrature.hpp>
 
 namespace
@@ -13,20 +13,12 @@ namespace
 using namespace cattaneo::fretting;
 using cattaneo::test::integrate;
 using cattaneo::test::integrate_to_infinity;
-using cattaneo_test::hertz_stress;
-using cattaneo_test::hertz_transition_friction;
 
 const double pi = std::acos(-1.0);
 
 void expect_relative(double value, double expected, double tolerance = 1e-8)
 {
    EXPECT_NEAR(value, expected, tolerance * std::abs(expected));
-}
-
-/// Any symmetric contact of half width a: K_N = (√(2/a)/π) dP/da.
-double symmetric_k_n(double half_width, double load_rate)
-{
-   return std::sqrt(2 / half_width) / pi * load_rate;
 }
 
 /// Edge of unit slip zone and unit K_N: stresses are then in K_N √d.

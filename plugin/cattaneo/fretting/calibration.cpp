@@ -110,6 +110,13 @@ double RoundedEdge::pressure(double x) const
    return 3 * k_p / (4 * std::sqrt(rounded_width)) * (2 * r + log);
 }
 
+double symmetric_k_n(double half_width, double load_rate)
+{
+   require_positive("the half width", half_width);
+   require_positive("the growth dP/da of the load with the half width", load_rate);
+   return std::sqrt(2 / half_width) / pi * load_rate;
+}
+
 double edge_gradient(double radius, double modulus)
 {
    require_positive("the radius", radius);

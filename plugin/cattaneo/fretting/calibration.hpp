@@ -55,6 +55,9 @@ struct RoundedEdge
 /// all are positive.
 RoundedEdge rounded_edge(double k_p, double radius, double modulus);
 
+/// Any symmetric contact of half width a: K_N = (√(2/a)/π) dP/da.
+double symmetric_k_n(double half_width, double load_rate);
+
 /** Static tension gradient of a contact edge whose surface has the relative radius R there:
    below the edge the pressure of the whole contact adds (E* /R) y to the near-edge field; for
    Hertz that is 2 p0 y/a. The pad's slope (x-b)/R is the analytic part of the pressure's

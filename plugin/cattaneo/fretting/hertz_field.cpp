@@ -1,23 +1,18 @@
-#pragma once
-
 #include <algorithm>
 #include <cattaneo/algebra/root.hpp>
-#include <cattaneo/fretting/half_plane.hpp>
+#include <cattaneo/fretting/hertz_field.hpp>
+#include <cattaneo/input_error.hpp>
 #include <cmath>
 
-namespace cattaneo_test
+namespace cattaneo::fretting
 {
-
-using cattaneo::find_root;
-using cattaneo::fretting::half_plane_stress;
-using cattaneo::fretting::InPlaneStress;
-using cattaneo::fretting::Traction;
-using cattaneo::fretting::von_mises;
+namespace
+{
 
 using Complex = std::complex<double>;
 
 /// Complex extension of √(c² - x²) on |x| < c that vanishes at infinity.
-inline Traction semi_ellipse(double c, Complex z)
+Traction semi_ellipse(double c, Complex z)
 {
    const Complex i(0, 1), root = std::sqrt(z - c) * std::sqrt(z + c);
    return {-i * (root - z), -i * (z / root - 1.0)};
@@ -48,11 +43,9 @@ double climb(const Function &value, double x, double y, double step)
    return best;
 }
 
-/** Stress under a whole Hertz contact in partial slip (Cattaneo–Mindlin), in units of p0 and a:
-    pressure √(1-x²), shear f√(1-x²) less f c √(1-(x/c)²) in the stick zone |x| < c = √(1-Q/fP),
-    pulling the body in +x, so that x = -1 is the trailing edge. y >= 0 is the depth.
-    @param load_ratio Q/(fP), from 0 (no shear) to 1 (sliding) */
-inline InPlaneStress hertz_stress(double friction, double load_ratio, double x, double y)
+} // namespace
+
+InPlaneStress hertz_stress(double friction, double load_ratio, double x, double y)
 {
    const Complex z(x, y + 0.0);
    const Traction pressure = semi_ellipse(1, z);
@@ -69,11 +62,10 @@ inline InPlaneStress hertz_stress(double friction, double load_ratio, double x, 
    return half_plane_stress(pressure, shear, y);
 }
 
-/** The friction coefficient above which the largest von Mises stress of a Hertz contact lies on
-    the surface and no longer below it (thesis 2.4): 0.262825847 for ν = 0.3 in plane strain and
-    full sliding, more in partial slip; 0 if it is always on the surface (plane stress). */
-inline double hertz_transition_friction(double constraint, double load_ratio)
+double hertz_transition_friction(double constraint, double load_ratio)
 {
+   require(load_ratio > 0 && load_ratio <= 1, "Q/(fP) is ", load_ratio,
+           "; it must be above 0 and at most 1.");
    // Surface maximum less the maximum below, which are two separate peaks.
    const auto excess = [&](double f)
    {
@@ -110,9 +102,12 @@ inline double hertz_transition_friction(double constraint, double load_ratio)
    {
       low = high;
       high *= 2;
-      if (high > 100) { return std::nan(""); } // none does
+      require(high < 100,
+              "no friction coefficient brings the largest stress to the surface at "
+              "Q/(fP) = ",
+              load_ratio, ".");
    }
    return find_root(excess, low, high);
 }
 
-} // namespace cattaneo_test
+} // namespace cattaneo::fretting
