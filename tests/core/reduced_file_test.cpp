@@ -7,6 +7,8 @@
 #include <fstream>
 #include <functional>
 #include <gtest/gtest.h>
+#include <iterator>
+#include <nlohmann/json.hpp>
 #include <shakedown_problems.hpp>
 #include <string>
 
@@ -284,6 +286,36 @@ TEST(ReducedFile, ProblemsWithoutFrictionOrWithTorsion)
    save(disc, file);
    EXPECT_EQ(load_reduced_problem(file).components(), 2);
    EXPECT_EQ(load_reduced_problem(file).B(), disc.B());
+}
+
+std::string content(const std::string &file)
+{
+   std::ifstream in(file);
+   return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(ReducedFile, RefusesAProblemThatKeepsARigidMotionToItself)
+{
+   // Three nodes on springs between neighbours: all may slide, and all may open, together.
+   const Eigen::Matrix3d springs{{1, -1, 0}, {-1, 2, -1}, {0, -1, 1}};
+   const std::string file = ::testing::TempDir() + "reduced_file_motions.json";
+   ReducedProblem problem;
+   problem.set_stiffness(3 * springs, Eigen::Matrix3d::Zero(), 5 * springs);
+   problem.H.resize(0, 0);
+   save(problem, file);
+   EXPECT_EQ(load_reduced_problem(file).rigid_motions.cols(), 2);
+   const std::string whole = content(file);
+   problem.rigid_motions = problem.rigid_motions.leftCols(1).eval();
+   const std::string says = "it states 1 rigid motions, and the stiffness does not resist 2";
+   expect_input_error([&] { save(problem, file); }, says);
+   EXPECT_EQ(content(file), whole);
+   // As another program may have written it.
+   nlohmann::json j = nlohmann::json::parse(whole);
+   auto &motions = j["rigid_motions"];
+   motions["cols"] = 1;
+   motions["values"].erase(motions["values"].begin() + 6, motions["values"].end());
+   std::ofstream(file) << j;
+   expect_input_error([&] { load_reduced_problem(file); }, says);
 }
 
 TEST(ReducedFile, RefusesWhatItDidNotWrite)

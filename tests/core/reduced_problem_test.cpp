@@ -57,6 +57,30 @@ TEST(ReducedProblem, RefusesBadInput)
    EXPECT_THROW(set_friction(problem, std::numeric_limits<double>::quiet_NaN()), InputError);
 }
 
+TEST(ReducedProblem, ANodeThatOpensAloneIsRefusedWhateverRoundOffLeftOfItsStiffness)
+{
+   // Two nodes of a free body on a straight line: one may open alone, the body turns about the
+   // other. Only their distance is resisted.
+   for (const double left : {-3e-30, 0.0, 3e-30})
+   {
+      ReducedProblem problem = two_nodes();
+      Eigen::MatrixXd motions(4, 3);
+      motions << std::sqrt(0.5), 0, 0, std::sqrt(0.5), 0, 0, 0, 1, 0, 0, 0, 1;
+      problem.set_stiffness(Eigen::Matrix2d{{4, -4}, {-4, 4}}, Eigen::Matrix2d::Zero(),
+                            left * Eigen::Matrix2d::Identity(), motions);
+      expect_input_error([&] { problem.validate(); }, "opening at node 0 alone");
+   }
+   // One above the other's place by a hundredth: to open alone is to slide, too.
+   ReducedProblem problem = two_nodes();
+   Eigen::MatrixXd motions(4, 3);
+   Eigen::Vector4d resisted(1, -1, 0.01, -0.01);
+   resisted.normalize();
+   problem.K = 8 * resisted * resisted.transpose();
+   cattaneo::complete(problem);
+   ASSERT_EQ(problem.rigid_motions.cols(), 3);
+   EXPECT_NO_THROW(problem.validate());
+}
+
 TEST(ReducedProblem, SaysWhichSizeIsWrong)
 {
    const auto refused =

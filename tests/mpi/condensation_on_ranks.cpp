@@ -216,6 +216,54 @@ void compare_own_operator(int direct_dofs)
    }
 }
 
+/// MFEM's elasticity on an elastic foundation, along both axes or x alone: without supports
+/// that motion is free which the operator does not resist, on any number of ranks. Against the
+/// factor of the same form on one.
+void compare_founded_operator(int direct_dofs)
+{
+   mfem::Mesh whole = mesh();
+   mfem::ParMesh shared(MPI_COMM_WORLD, whole);
+   mfem::H1_FECollection collection(2, 2);
+   mfem::ConstantCoefficient first(1.5), second(0.8);
+   mfem::DenseMatrix stiff(2);
+   CondenseSettings settings;
+   settings.direct_dofs = direct_dofs;
+   for (const auto &[across, free] : {std::pair(0.7, 0), std::pair(0.0, 1)})
+   {
+      const std::string name = "operator on a foundation that leaves " + std::to_string(free) +
+                               " motions free" +
+                               (direct_dofs ? ", gathered" : ", by conjugate gradients");
+      stiff = 0.0;
+      stiff(0, 0) = 0.5;
+      stiff(1, 1) = across;
+      mfem::MatrixConstantCoefficient foundation(stiff);
+      const auto add = [&](mfem::BilinearForm &form)
+      {
+         form.AddDomainIntegrator(new mfem::ElasticityIntegrator(first, second));
+         form.AddDomainIntegrator(new mfem::VectorMassIntegrator(foundation));
+         form.Assemble();
+         form.Finalize();
+      };
+      mfem::ParFiniteElementSpace parts(&shared, &collection, 2);
+      mfem::FiniteElementSpace space(&whole, &collection, 2);
+      mfem::ParBilinearForm part(&parts);
+      mfem::BilinearForm form(&space);
+      add(part);
+      add(form);
+      const std::unique_ptr<mfem::HypreParMatrix> K(part.ParallelAssemble());
+      ElasticBody own(parts, *K), alone(space, form.SpMat());
+      for (ElasticBody *body : {&own, &alone}) { body->add_pressure("P", right, 1.0); }
+      CondensedBody found = condense(own, contact_line(own, bottom), settings);
+      const CondensedBody expected = condense(alone, contact_line(alone, bottom));
+      expect(expected.rigid_modes == free, name, "rigid modes on one rank",
+             expected.rigid_modes);
+      expect(found.rigid_modes == free, name, "rigid modes", found.rigid_modes);
+      expect_close(found.S, expected.S, direct_dofs ? 1e-12 : 1e-10, name, "S");
+      expect_close(found.patterns[0].q, expected.patterns[0].q, 1e-10, name, "q");
+      expect(found.error_estimate() < 1e-6, name, "the stated error of S is large");
+   }
+}
+
 /// What cannot be an operator of one's own, on all ranks alike.
 void errors_of_own_operators()
 {
@@ -289,7 +337,11 @@ int main()
    {
       for (int direct_dofs : {0, 1000000}) { compare(scene, direct_dofs); }
    }
-   for (int direct_dofs : {0, 1000000}) { compare_own_operator(direct_dofs); }
+   for (int direct_dofs : {0, 1000000})
+   {
+      compare_own_operator(direct_dofs);
+      compare_founded_operator(direct_dofs);
+   }
    errors_of_own_operators();
    errors();
    int all = 0;

@@ -243,6 +243,8 @@ TEST(Body, SaysWhatIsWrong)
 {
    mfem::Mesh mesh = block("quads");
    expect_input_error([&] { ElasticBody(mesh, 0, Material{}); }, "order is 0");
+   expect_input_error([&] { ElasticBody(mesh, 1, Material{}).add_pressure("", 1, 1.0); },
+                      "a load pattern has no name");
    expect_input_error(
       [&] {
          ElasticBody(mesh, 1, Material{1.0, 0.5});

@@ -712,6 +712,28 @@ TEST(ContactLine, NodesThatLieOnOneAnotherAreRefused)
    EXPECT_NO_THROW(contact_line(ElasticBody(slit, 2, Material{}), 1));
 }
 
+TEST(ContactLine, AnEdgeNextToNothingBesideOthersIsRefused)
+{
+   for (const double thin : {1e-9, 1e-7})
+   {
+      mfem::Mesh mesh = rectangle_mesh({0, 0.5, 0.5 + thin, 1, 1.5}, {0, 0.5, 1});
+      for (int order : {1, 2})
+      {
+         ElasticBody body(mesh, order, Material{});
+         body.fix(3, 0);
+         body.fix(3, 1);
+         expect_input_error([&] { condense(body, contact_line(body, 1)); },
+                            "contact line: the node at (0.5, 0)");
+      }
+   }
+   // A grading reaches any length step by step.
+   std::vector<double> x{0, 1};
+   while (x[1] > 1e-9) { x.insert(x.begin() + 1, 0.1 * x[1]); }
+   mfem::Mesh graded = rectangle_mesh(x, {0, 1});
+   ElasticBody body(graded, 1, Material{});
+   EXPECT_NO_THROW(contact_line(body, 1).validate());
+}
+
 TEST(Pairing, SaysWhichNodesHaveNoPartner)
 {
    std::vector<double> x = uniform(0, 1, 4);

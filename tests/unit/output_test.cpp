@@ -258,6 +258,18 @@ TEST_F(Output, AContactLineIsOnePolylineForEachChain)
    EXPECT_NE(vtp.find("Name=\"state\" format=\"ascii\">\n0\n2\n1\n"), std::string::npos) << vtp;
 }
 
+TEST_F(Output, AClosedLineIsDrawnClosed)
+{
+   ReducedProblem problem = three_nodes();
+   problem.chains = {{"contact", 0, 3, true}};
+   ContactLineFields(problem, folder, "hole").write(some_state(problem));
+   const std::string vtp = content(folder + "/hole/hole_0.vtp");
+   EXPECT_NE(vtp.find("Name=\"connectivity\" format=\"ascii\">\n0\n1\n2\n0\n<"),
+             std::string::npos)
+      << vtp;
+   EXPECT_NE(vtp.find("Name=\"offsets\" format=\"ascii\">\n4\n<"), std::string::npos);
+}
+
 TEST_F(Output, TablesAreReadBackToTheLastBit)
 {
    const ReducedProblem problem = three_nodes();

@@ -7,6 +7,15 @@
 namespace cattaneo
 {
 
+bool couples(const SparseView &K, int row, int own)
+{
+   for (SparseView::InnerIterator entry(K, row); entry; ++entry)
+   {
+      if (entry.col() != own && entry.value() != 0) { return true; }
+   }
+   return false;
+}
+
 SharedMatrix::SharedMatrix(int size, const int *start, const int *column, const double *value,
                            std::shared_ptr<const void> owner)
    : size_(size), start_(start), column_(column), value_(value), owner_(std::move(owner))

@@ -10,6 +10,9 @@ namespace cattaneo
 /// A sparse matrix by rows whose arrays belong to somebody else.
 using SparseView = Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>>;
 
+/// Has the row an entry other than zero beside the one in column `own`?
+bool couples(const SparseView &K, int row, int own);
+
 /// A square sparse matrix by rows, of any program, that is kept alive but not copied.
 class SharedMatrix
 {

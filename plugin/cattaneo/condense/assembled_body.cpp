@@ -7,20 +7,6 @@
 namespace cattaneo
 {
 
-namespace
-{
-
-bool couples(const SparseView &stiffness, int row)
-{
-   for (SparseView::InnerIterator entry(stiffness, row); entry; ++entry)
-   {
-      if (entry.col() != row && entry.value() != 0) { return true; }
-   }
-   return false;
-}
-
-} // namespace
-
 void AssembledBody::validate() const
 {
    const int size = K.size(), components = cattaneo::components(places.formulation);
@@ -94,7 +80,7 @@ void AssembledBody::validate() const
                  "' displaces dof ", dof, ", which is not fixed, it must be");
          if (load.values[dof] == 0) { continue; }
          moves = true;
-         felt = felt || couples(stiffness, dof);
+         felt = felt || couples(stiffness, dof, dof);
       }
       require(!moves || felt, "assembled body: load '", load.name, "' ", feels_nothing);
    }

@@ -41,6 +41,25 @@ void check_elements(const ContactLine &line, const LineChain &chain)
            " end before node ", next, ", must end at node ", end - 1);
 }
 
+/// A node much nearer to one neighbour than to the other one has a weight next to nothing, over
+/// which its force is mostly round-off.
+void check_spacing(const ContactLine &line, const LineChain &chain)
+{
+   const Eigen::Index count = chain.loop ? chain.nodes : chain.nodes - 2;
+   const auto place = [&](Eigen::Index k)
+   { return line.nodes[chain.first + k % chain.nodes].position; };
+   for (Eigen::Index k = 0; k < count && chain.nodes > 2; ++k)
+   {
+      const Eigen::Vector2d at = place(k + 1);
+      const double before = (at - place(k)).norm(), after = (place(k + 2) - at).norm();
+      require(std::min(before, after) >= ContactLine::least_ratio * std::max(before, after),
+              "contact line: the node at (", at[0], ", ", at[1], ") is ", before,
+              " behind its neighbour and ", after,
+              " before the next, the ratio must be at least ", ContactLine::least_ratio,
+              ": merge the nodes that were to be one");
+   }
+}
+
 } // namespace
 
 const LineChain &ContactLine::chain_of(Eigen::Index node) const
@@ -77,6 +96,7 @@ void ContactLine::validate() const
               "contact line: a chain of ", chain.nodes, " nodes begins at node ", chain.first,
               ", must begin at node ", next, " and have 1 to ", size() - next);
       check_elements(*this, chain);
+      check_spacing(*this, chain);
       next += chain.nodes;
    }
    require(next == size(), "contact line: the chains have ", next, " nodes, must have all ",

@@ -108,9 +108,14 @@ struct ContactLine
       return all;
    }
 
+   /// Of the distances of a node to its neighbours: of less, hardly a digit of its traction is
+   /// right.
+   static constexpr double least_ratio = 1e-6;
+
    /// InputError that names the node or the element if there are no nodes, a place is not
    /// finite (or not beyond the axis), a tangent no unit vector, a weight or a spacing not
-   /// positive, or if chains or elements do not follow the nodes.
+   /// positive, distances between neighbours jump by more than least_ratio, or if chains or
+   /// elements do not follow the nodes.
    void validate() const;
 };
 

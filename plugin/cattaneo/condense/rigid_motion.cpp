@@ -137,19 +137,15 @@ Eigen::MatrixXd unresisted(const SparseView &K, const std::vector<int> &dofs,
    }
    // Energy of each combination, against the energy of all entries taken positive.
    const Eigen::MatrixXd energy = motions.transpose() * forces;
-   const SymmetricModes modes = symmetric_modes(0.5 * (energy + energy.transpose()));
    const double allowed = 1e-12 * stiffness * static_cast<double>(dofs.size());
-   std::vector<Eigen::Index> kept;
-   for (Eigen::Index m = 0; m < motions.cols(); ++m)
-   {
-      if (modes.values[m] <= allowed) { kept.push_back(m); }
-   }
-   Eigen::MatrixXd result(motions.rows(), kept.size());
-   for (std::size_t k = 0; k < kept.size(); ++k)
-   {
-      result.col(k) = motions * modes.vectors.col(kept[k]);
-   }
-   return result;
+   return motions * combinations_below(energy, allowed);
+}
+
+Eigen::MatrixXd combinations_below(const Eigen::MatrixXd &energy, double allowed)
+{
+   if (energy.cols() == 0) { return energy; }
+   const SymmetricModes modes = symmetric_modes(0.5 * (energy + energy.transpose()));
+   return modes.vectors.leftCols((modes.values.array() <= allowed).count());
 }
 
 } // namespace cattaneo

@@ -29,4 +29,8 @@ Eigen::MatrixXd free_rigid_motions(const DofPlaces &places, const std::vector<in
 Eigen::MatrixXd unresisted(const SparseView &K, const std::vector<int> &dofs,
                            const Eigen::MatrixXd &motions);
 
+/// Combinations of motions, orthonormal columns, that meet no more energy than `allowed`; of
+/// each two motions the energy is given, Rᵀ K R.
+Eigen::MatrixXd combinations_below(const Eigen::MatrixXd &energy, double allowed);
+
 } // namespace cattaneo

@@ -6,9 +6,6 @@
 namespace cattaneo
 {
 
-namespace
-{
-
 DofPlaces places_of(const ElasticBody &body)
 {
    const mfem::DenseMatrix &x = body.node_coordinates();
@@ -28,6 +25,9 @@ DofPlaces places_of(const ElasticBody &body)
    }
    return places;
 }
+
+namespace
+{
 
 #ifdef MFEM_USE_MPI
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cattaneo/elastic/assembly.hpp>
 #include <cattaneo/elastic/axisymmetric.hpp>
+#include <cattaneo/input_error.hpp>
 #include <limits>
 
 namespace cattaneo
@@ -297,8 +298,10 @@ std::unique_ptr<mfem::SparseMatrix> assembled(const mfem::FiniteElementSpace &sp
    const int nodes = space.GetNDofs(), components = cattaneo::components(formulation);
    const int size = components * nodes;
    const std::size_t entries = graph.column.size() * components * components;
-   MFEM_VERIFY(entries <= static_cast<std::size_t>(std::numeric_limits<int>::max()),
-               "elastic body: the stiffness has too many entries");
+   const int most = std::numeric_limits<int>::max();
+   require(entries <= static_cast<std::size_t>(most), "elastic body: the stiffness of ", nodes,
+           " nodes has ", entries, " entries, must have at most ", most,
+           ": take fewer elements, or share the mesh between several ranks");
    // Owned by the matrix.
    int *I = new int[size + 1], *J = new int[entries];
    double *data = new double[entries];

@@ -417,6 +417,7 @@ void ElasticBody::fix(const mfem::Array<int> &true_dofs)
 
 BodyLoad &ElasticBody::load(const std::string &name_, Control control)
 {
+   require(!name_.empty(), "elastic body: a load pattern has no name, must have one");
    for (BodyLoad &pattern : patterns_)
    {
       if (pattern.name != name_) { continue; }

@@ -176,7 +176,11 @@ NodeMove solve_node(const LoneNode &node)
    const auto presses = [&] { return node.p0 + dot(node.b, move.slip) >= 0; };
    if (node.q0.size() == 2)
    {
-      if (node.p0 >= 0 && magnitude(node.q0) <= node.bound.line(node.p0)) { return move; }
+      if (magnitude(node.q0) <= node.bound.line(node.p0))
+      {
+         move.found = node.p0 >= 0;
+         return move;
+      }
       const SlipEquation equation{node};
       const double t = find_root(equation, 0, 1);
       move.state = NodeState::slip;

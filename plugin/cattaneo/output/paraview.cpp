@@ -188,12 +188,17 @@ void ContactLineFields::write(const ContactState &state)
    }
    vtp << "</DataArray>\n</Points>\n<Lines>\n"
        << "<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">\n";
-   for (Eigen::Index i = 0; i < n; ++i) { vtp << i << '\n'; }
-   vtp << "</DataArray>\n<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">\n";
+   Eigen::Index listed = 0;
+   std::ostringstream offsets;
    for (const ContactChain &chain : problem_.chains)
    {
-      vtp << chain.first + chain.nodes << '\n';
+      for (Eigen::Index i = 0; i < chain.nodes; ++i) { vtp << chain.first + i << '\n'; }
+      if (chain.loop) { vtp << chain.first << '\n'; } // closed on the screen, too
+      listed += chain.nodes + (chain.loop ? 1 : 0);
+      offsets << listed << '\n';
    }
+   vtp << "</DataArray>\n<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">\n"
+       << offsets.str();
    vtp << "</DataArray>\n</Lines>\n<PointData>\n";
    array("arc_length", problem_.arc_length);
    array("gap", problem_.gap);

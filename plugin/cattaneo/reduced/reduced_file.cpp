@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cattaneo/algebra/semidefinite.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/reduced_file.hpp>
 #include <cattaneo/whole_file.hpp>
@@ -93,11 +94,20 @@ std::vector<ContactChain> found_chains(const Eigen::VectorXd &arc_length, Eigen:
    return chains;
 }
 
+void require_all_motions(const ReducedProblem &problem)
+{
+   const Eigen::Index stated = problem.rigid_motions.cols(), all = null_space(problem.K).cols();
+   require(all <= stated, "reduced problem: it states ", stated,
+           " rigid motions, and the stiffness does not resist ", all,
+           ", all of them must be stated (complete() seeks them)");
+}
+
 } // namespace
 
 void save(const ReducedProblem &problem, const std::string &file)
 {
    problem.validate();
+   require_all_motions(problem);
    nlohmann::json j = {{"format", format_name},
                        {"coupled", problem.coupled},
                        {"A", to_json(Eigen::MatrixXd(problem.A()))},
@@ -192,6 +202,7 @@ ReducedProblem load_reduced_problem(const std::string &file)
                        "' is not a reduced problem: " + error.what());
    }
    problem.validate();
+   require_all_motions(problem);
    return problem;
 }
 

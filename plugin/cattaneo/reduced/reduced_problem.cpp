@@ -93,6 +93,23 @@ void check_vector(const char *name, const Eigen::VectorXd &x, Eigen::Index size)
    require(x.allFinite(), "reduced problem: ", name, " has an entry that is not finite");
 }
 
+/// A rigid motion of one row alone leaves no stiffness there but round-off, of either sign.
+void check_determinate(const ReducedProblem &problem)
+{
+   const Eigen::Index n = problem.nodes(), m = problem.slips();
+   const Eigen::MatrixXd &Z = problem.rigid_motions;
+   for (Eigen::Index row = 0; Z.rows() == m + n && row < m + n; ++row)
+   {
+      require(
+         !(Z.row(row).squaredNorm() > 1 - 1e-10),
+         "reduced problem: ", row < m ? "sliding" : "opening", " at node ",
+         row < m ? row % n : row - m,
+         " alone is a rigid motion that nothing resists: its force follows from the loads "
+         "by equilibrium, whatever touches; the bodies must touch on more nodes (three, if "
+         "one is free), or be supported");
+   }
+}
+
 /// What the upper half knew: chains, rigid motions, held components.
 void check_facts(const ReducedProblem &problem)
 {
@@ -155,6 +172,7 @@ void ReducedProblem::validate() const
    require(m <= 2 * n, "reduced problem: ", m / n,
            " tangential components a node, must be 0, 1 or 2");
    require(K.allFinite(), "reduced problem: the stiffness has an entry that is not finite");
+   check_determinate(*this);
    check_symmetric("A", A());
    check_symmetric("C", C());
    require(K.topRightCorner(m, n) == B().transpose(),

@@ -318,15 +318,13 @@ Block united(const CondensedBody &first, const CondensedBody &second,
    }
    require(shared->sum.compute(std::move(sum)),
            "reduce: the sum of the two condensed stiffnesses is not positive definite: the "
-           "bodies can "
-           "move together without resistance");
+           "bodies can move together without resistance");
 
    // With S1 + S2 = L Lᵀ and Y = L⁻¹ S1: S = S1 - YᵀY, and the same for the loads; or with the
    // bodies exchanged. From the softer one less is taken away, so that few digits are lost; but
    // a free one's rigid motions stay without forces only if one begins with it.
-   const bool by_first = first.rigid_modes != second.rigid_modes
-                            ? first.rigid_modes > second.rigid_modes
-                            : S1.trace() <= S2.trace();
+   const Eigen::Index free1 = first.free_motions.cols(), free2 = second.free_motions.cols();
+   const bool by_first = free1 != free2 ? free1 > free2 : S1.trace() <= S2.trace();
    shared->pull = pull(S2, S1, held2, held1);
    Eigen::MatrixXd Y = by_first ? pull(S1, S2, held1, held2) : shared->pull,
                    D = shared->difference;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cattaneo/input_error.hpp>
 #include <cmath>
 
 namespace cattaneo
@@ -7,8 +9,9 @@ namespace cattaneo
 
 /** Root of a continuous function between @a a and @a b, where its signs differ (the Illinois
     variant of false position: never leaves the bracket, converges superlinearly). Where they do
-    not, round-off has moved a root beyond an end: it is the one at which the function is nearer
-    to zero. NaN if the function is so at an end. */
+    not, round-off may have moved a root beyond an end: that end, if the function is there below
+    1e-6 of what it is at the other, or if they are as close together. InputError otherwise; NaN
+    if the function is so at an end. */
 template <class Function>
 double find_root(const Function &function, double a, double b)
 {
@@ -16,6 +19,11 @@ double find_root(const Function &function, double a, double b)
    if (std::isnan(fa) || std::isnan(fb)) { return std::nan(""); }
    if (fa != 0 && fb != 0 && (fa > 0) == (fb > 0))
    {
+      const double small = std::min(std::abs(fa), std::abs(fb)),
+                   large = std::max(std::abs(fa), std::abs(fb));
+      require(small <= 1e-6 * large || std::abs(b - a) <= 1e-6 * std::abs(b),
+              "find_root: between ", a, " and ", b, " the function goes from ", fa, " to ", fb,
+              ", its sign must change");
       return std::abs(fa) <= std::abs(fb) ? a : b;
    }
    for (int iteration = 0; iteration < 200 && fa != 0 && fb != 0; iteration++)

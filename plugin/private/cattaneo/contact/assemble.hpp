@@ -6,6 +6,9 @@
 namespace cattaneo
 {
 
+/// Of the true dofs of this rank.
+DofPlaces places_of(const ElasticBody &body);
+
 /// All of an MFEM body on the first of its ranks, in the order of its global dofs; nothing of
 /// use on the others.
 AssembledBody assembled(const ElasticBody &body);

@@ -1,0 +1,211 @@
+#include <algorithm>
+#include <cattaneo/condense/stiffness_error.hpp>
+#include <cattaneo/contact/assemble.hpp>
+#include <cattaneo/contact/condense_by_iterations.hpp>
+#include <cattaneo/contact/distributed_solver.hpp>
+#include <cattaneo/elastic/views.hpp>
+#include <cattaneo/input_error.hpp>
+#include <numeric>
+
+#ifdef MFEM_USE_MPI
+
+namespace cattaneo
+{
+
+namespace
+{
+
+class IterativeSolver : public BodySolver
+{
+public:
+   std::shared_ptr<const DistributedSolver> solver; ///< shared by equal bodies
+   Eigen::MatrixXd S;                               ///< schur() of it
+   std::vector<BodyLoad> loads;
+
+   Eigen::VectorXd recover(const Eigen::VectorXd &contact, const Eigen::VectorXd &multipliers,
+                           Counters &counters) const override
+   {
+      Eigen::VectorXd forces = Eigen::VectorXd::Zero(solver->size()), prescribed = forces;
+      for (std::size_t k = 0; k < loads.size(); ++k)
+      {
+         (loads[k].control == Control::force ? forces : prescribed) +=
+            multipliers[static_cast<Eigen::Index>(k)] * loads[k].values;
+      }
+      return solver->recover(contact, forces, prescribed, counters);
+   }
+   double error(const Eigen::MatrixXd &stiffness, const Eigen::MatrixXd &motions,
+                Counters &counters) const override
+   {
+      const StiffnessProbes probe(stiffness, motions);
+      const Eigen::MatrixXd &u = probe.motions();
+      const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(solver->size());
+      Eigen::MatrixXd differences = stiffness * u;
+      for (Eigen::Index k = 0; k < u.cols(); ++k)
+      {
+         differences.col(k) -=
+            solver->forces(solver->recover(u.col(k), nothing, nothing, counters));
+      }
+      return probe.bound(differences);
+   }
+};
+
+/// The largest sum of a row's entries, taken positive, on all ranks.
+double largest_row(const mfem::HypreParMatrix &K, const Ranks &ranks)
+{
+   mfem::SparseMatrix own, others;
+   HYPRE_BigInt *columns = nullptr;
+   K.GetDiag(own);
+   K.GetOffd(others, columns);
+   double largest = 0;
+   for (int row = 0; row < own.Height(); ++row)
+   {
+      double sum = 0;
+      for (const mfem::SparseMatrix *part : {&own, &others})
+      {
+         for (int k = 0; k < part->RowSize(row); ++k)
+         {
+            sum += std::abs(part->GetRowEntries(row)[k]);
+         }
+      }
+      largest = std::max(largest, sum);
+   }
+   return ranks.max(largest);
+}
+
+/// Free motions of a body on several ranks, taken for connected: what its supports and the
+/// places of its contact nodes leave, less what K resists. The errors of find_free_motions().
+FreeMotions free_motions_on_ranks(const ElasticBody &body, const ContactLine &line)
+{
+   const Ranks &ranks = body.ranks();
+   const DofPlaces own = places_of(body);
+   const mfem::Array<int> essential = body.essential_dofs();
+   const auto size = static_cast<int>(own.component.size());
+   std::vector<double> supports;
+   double box[4] = {-1e300, -1e300, -1e300, -1e300}; // -lo, hi
+   for (int dof = 0; dof < size; ++dof)
+   {
+      const double at[2] = {own.x[dof], own.y[dof]};
+      for (int c = 0; c < 2; ++c)
+      {
+         box[c] = std::max(box[c], -at[c]);
+         box[2 + c] = std::max(box[2 + c], at[c]);
+      }
+   }
+   for (double &side : box) { side = ranks.max(side); }
+   for (int dof : essential)
+   {
+      supports.insert(supports.end(),
+                      {own.x[dof], own.y[dof], static_cast<double>(own.component[dof])});
+   }
+   supports = ranks.gather(supports);
+
+   // The same on all ranks: supports, contact nodes, and corners of the bounding box, where
+   // every motion is largest; then the dofs of this rank.
+   std::vector<double> x, y;
+   DofPlaces places;
+   places.formulation = body.formulation();
+   const auto add = [&](double px, double py, int component)
+   {
+      x.push_back(px);
+      y.push_back(py);
+      places.component.push_back(component);
+   };
+   for (std::size_t a = 0; a < supports.size(); a += 3)
+   {
+      add(supports[a], supports[a + 1], static_cast<int>(supports[a + 2]));
+   }
+   const auto held = static_cast<int>(x.size());
+   for (int c = 0; c < body.components(); ++c)
+   {
+      for (const LineNode &node : line.nodes) { add(node.position[0], node.position[1], c); }
+   }
+   const int contact = static_cast<int>(x.size()) - held;
+   for (int c = 0; c < body.components(); ++c)
+   {
+      add(-box[0], -box[1], c);
+      add(box[2], box[3], c);
+   }
+   for (int dof = 0; dof < size; ++dof) { add(own.x[dof], own.y[dof], own.component[dof]); }
+   places.x = Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
+   places.y = Eigen::Map<const Eigen::VectorXd>(y.data(), static_cast<Eigen::Index>(y.size()));
+   std::vector<int> all(x.size());
+   std::iota(all.begin(), all.end(), 0);
+   // What the first so many places leave; on the dofs of this rank zero where they are fixed.
+   const auto left_by = [&](int count)
+   {
+      std::vector<bool> holding(all.size(), false);
+      std::fill(holding.begin(), holding.begin() + count, true);
+      Eigen::MatrixXd motions = free_rigid_motions(places, all, holding);
+      for (int dof : essential) { motions.bottomRows(size).row(dof).setZero(); }
+      return motions;
+   };
+   const mfem::HypreParMatrix &K = *body.distributed_stiffness();
+   const double round_off = 1e-12 * largest_row(K, ranks) * body.dofs();
+   const auto unresisted_of = [&](const Eigen::MatrixXd &motions) -> Eigen::MatrixXd
+   {
+      Eigen::MatrixXd forces(size, motions.cols());
+      mfem::Vector force(size);
+      for (Eigen::Index m = 0; m < motions.cols(); ++m)
+      {
+         K.Mult(to_mfem(motions.col(m).tail(size)), force);
+         forces.col(m) = view(force);
+      }
+      Eigen::MatrixXd energy = motions.bottomRows(size).transpose() * forces;
+      ranks.sum(energy);
+      return motions * combinations_below(energy, round_off);
+   };
+   // An operator of one's own may stand on elastic foundations.
+   const bool grounded = !body.has_material();
+   const Eigen::MatrixXd still = left_by(held + contact);
+   require((grounded ? unresisted_of(still) : still).cols() == 0,
+           "unsupported body: supports (", held, " dofs) and contact nodes (", line.size(),
+           ") together leave rigid motions free, must leave none");
+   const Eigen::MatrixXd possible = left_by(held), rigid = unresisted_of(possible);
+   const auto &patterns = body.patterns();
+   FreeMotions free;
+   free.count = static_cast<int>(grounded ? rigid.cols() : possible.cols());
+   free.contact = rigid.middleRows(held, contact);
+   free.resultant = Eigen::MatrixXd::Zero(rigid.cols(), patterns.size());
+   for (std::size_t p = 0; p < patterns.size(); ++p)
+   {
+      if (patterns[p].control != Control::force) { continue; }
+      free.resultant.col(static_cast<Eigen::Index>(p)) =
+         rigid.bottomRows(size).transpose() * patterns[p].values;
+   }
+   ranks.sum(free.resultant);
+   return free;
+}
+
+} // namespace
+
+Condensation condense_by_iterations(const ElasticBody &body, const ContactLine &line,
+                                    const ContactDofs &dofs, int max_iterations,
+                                    const BodySolver *alike)
+{
+   Condensation found;
+   const std::vector<int> contact = dofs.free();
+   found.free = free_motions_on_ranks(body, line);
+   found.free.contact = found.free.contact(dofs.free_positions(), Eigen::all).eval();
+   auto solver = std::make_shared<IterativeSolver>();
+   solver->loads = body.patterns();
+   solver->solver = std::make_shared<const DistributedSolver>(body, contact, max_iterations);
+   const auto *other = dynamic_cast<const IterativeSolver *>(alike);
+   if (other && solver->solver->equals(*other->solver))
+   {
+      solver->solver = other->solver;
+      solver->S = other->S;
+   }
+   else
+   {
+      solver->S = solver->solver->schur(found.counters);
+      ++found.counters.factorisations;
+   }
+   found.clamped = solver->solver->loads(solver->loads, found.counters);
+   found.S = solver->S;
+   found.solver = std::move(solver);
+   return found;
+}
+
+} // namespace cattaneo
+
+#endif
