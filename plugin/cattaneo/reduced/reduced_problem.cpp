@@ -80,10 +80,29 @@ void check_symmetric(const char *name, const Eigen::Ref<const Eigen::MatrixXd> &
    const double skew = (M - M.transpose()).cwiseAbs().maxCoeff();
    require(skew <= allowed, "reduced problem: ", name, " is not symmetric: largest |", name,
            " - ", name, "ᵀ| is ", skew, ", at most ", allowed, " is allowed");
-   Eigen::Index i = 0;
-   const double smallest = M.diagonal().minCoeff(&i);
-   require(smallest > 0, "reduced problem: diagonal of ", name, " is ", smallest, " at row ", i,
-           ", must be positive");
+}
+
+/// Where one row alone is a rigid motion, stiffness is round-off, of either sign.
+void check_diagonal(const ReducedProblem &problem)
+{
+   const Eigen::Index m = problem.slips(), rows = problem.K.rows();
+   const Eigen::MatrixXd &Z = problem.rigid_motions;
+   const double nothing = 1e-10 * problem.K.cwiseAbs().maxCoeff();
+   for (Eigen::Index row = 0; row < rows; ++row)
+   {
+      const bool slip = row < m;
+      const Eigen::Index place = slip ? row : row - m;
+      const double own = problem.K(row, row);
+      require(
+         !(Z.rows() == rows && Z.row(row).squaredNorm() > 1 - 1e-10 && own <= nothing),
+         "reduced problem: ", slip ? "sliding" : "opening", " at node ",
+         place % problem.nodes(),
+         " alone is a rigid motion that nothing resists: its force follows from the loads "
+         "by equilibrium, whatever touches; the bodies must touch on more nodes (three, if "
+         "one is free), or be supported");
+      require(own > 0, "reduced problem: diagonal of ", slip ? "A" : "C", " is ", own,
+              " at row ", place, ", must be positive");
+   }
 }
 
 void check_vector(const char *name, const Eigen::VectorXd &x, Eigen::Index size)
@@ -91,23 +110,6 @@ void check_vector(const char *name, const Eigen::VectorXd &x, Eigen::Index size)
    require(x.size() == size, "reduced problem: ", name, " has ", x.size(), " entries, must be ",
            size);
    require(x.allFinite(), "reduced problem: ", name, " has an entry that is not finite");
-}
-
-/// A rigid motion of one row alone leaves no stiffness there but round-off, of either sign.
-void check_determinate(const ReducedProblem &problem)
-{
-   const Eigen::Index n = problem.nodes(), m = problem.slips();
-   const Eigen::MatrixXd &Z = problem.rigid_motions;
-   for (Eigen::Index row = 0; Z.rows() == m + n && row < m + n; ++row)
-   {
-      require(
-         !(Z.row(row).squaredNorm() > 1 - 1e-10),
-         "reduced problem: ", row < m ? "sliding" : "opening", " at node ",
-         row < m ? row % n : row - m,
-         " alone is a rigid motion that nothing resists: its force follows from the loads "
-         "by equilibrium, whatever touches; the bodies must touch on more nodes (three, if "
-         "one is free), or be supported");
-   }
 }
 
 /// What the upper half knew: chains, rigid motions, held components.
@@ -172,9 +174,9 @@ void ReducedProblem::validate() const
    require(m <= 2 * n, "reduced problem: ", m / n,
            " tangential components a node, must be 0, 1 or 2");
    require(K.allFinite(), "reduced problem: the stiffness has an entry that is not finite");
-   check_determinate(*this);
    check_symmetric("A", A());
    check_symmetric("C", C());
+   check_diagonal(*this);
    require(K.topRightCorner(m, n) == B().transpose(),
            "reduced problem: the stiffness is not symmetric: it has B, but not its transpose "
            "(complete() writes it)");
