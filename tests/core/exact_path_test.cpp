@@ -140,6 +140,23 @@ TEST(ExactPath, OneBlockCycleInClosedForm)
    EXPECT_EQ(report.changes[0].time, 1.4);
 }
 
+/// q = 2 v + 1, f p = 0.4: loaded in proportion it slips from the first on.
+TEST(ExactPath, APieceThatTakesOneIncrementListsItsChangesAtItsStart)
+{
+   const ReducedProblem problem = one_block(0.4);
+   ContactState state = ContactState::virgin(problem);
+   const MarchReport report = march(
+      problem, LoadHistory::through({Vector2d(0, 0), Vector2d(1, 1)}), state, exact_settings());
+   EXPECT_EQ(report.counters.increments, 1);
+   EXPECT_NEAR(state.v[0], -0.3, 1e-15);
+   ASSERT_EQ(report.changes.size(), 1u);
+   EXPECT_EQ(report.changes[0].time, 0);
+   EXPECT_EQ(report.changes[0].multipliers, Vector2d(0, 0));
+   EXPECT_EQ(report.changes[0].node, 0);
+   EXPECT_EQ(report.changes[0].from, NodeState::stick);
+   EXPECT_EQ(report.changes[0].to, NodeState::backward_slip);
+}
+
 TEST(ExactPath, LawsHoldOnEveryStretchOfRandomProblems)
 {
    std::mt19937 random(32);

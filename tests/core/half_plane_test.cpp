@@ -222,6 +222,44 @@ TEST(HalfPlane, APlaneOfSymmetryIsHalfOfTheWhole)
    }
 }
 
+TEST(HalfPlane, RecoversTheComponentsOfItsSurface)
+{
+   Eigen::Matrix2d quarter;
+   quarter << 0, -1, 1, 0;
+   for (const Eigen::Matrix2d &turn : {Eigen::Matrix2d(Eigen::Matrix2d::Identity()), quarter})
+   {
+      HalfPlane body = half_plane(2, 0.1);
+      body.normal = turn * body.normal;
+      body.symmetric = true;
+      ContactLine other = straight_line({-3, -1, 0}, 2);
+      for (LineNode &node : other.nodes)
+      {
+         node.position = turn * node.position;
+         node.tangent = turn * node.tangent;
+      }
+      for (LineElement &element : other.chains[0].elements)
+      {
+         element.points = (turn * element.points).eval();
+      }
+      CondensedBody part = condense(body, other);
+      const Index n = part.line.size();
+      ASSERT_EQ(part.held, std::vector<int>{0});
+      VectorXd u(2 * n);
+      for (Index i = 0; i < 2 * n; ++i) { u[i] = 1 + 0.25 * static_cast<double>(i); }
+      const VectorXd field = part.recover(u, VectorXd());
+      ASSERT_EQ(field.size(), 2 * n);
+      for (Index i = 0; i < n; ++i)
+      {
+         // On the plane of symmetry nothing moves along the surface, whatever is said.
+         const LineNode &node = part.line.nodes[i];
+         const Eigen::Vector2d expected =
+            (i == 0 ? 0.0 : u[i]) * node.tangent + u[n + i] * node.normal();
+         EXPECT_NEAR(field[i], expected[0], 1e-15) << i;
+         EXPECT_NEAR(field[n + i], expected[1], 1e-15) << i;
+      }
+   }
+}
+
 TEST(HalfPlane, TurnedWithItsLine)
 {
    const HalfPlane level = half_plane(2, 0.1);

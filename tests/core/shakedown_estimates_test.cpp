@@ -239,6 +239,9 @@ TEST(Method2, SaysWhyItHasNoAnswer)
    const LoadCycle pulled = held_and_cycled(problem, "P", -1, "Q", 0);
    const Method2Estimate tension = method2_friction(limit_problem(problem, pulled), 1);
    EXPECT_FALSE(tension.exists);
+   EXPECT_EQ(tension.low, 0);
+   EXPECT_EQ(tension.natural, 0);
+   EXPECT_EQ(tension.high, 0);
    EXPECT_NE(tension.message.find("in tension"), std::string::npos) << tension.message;
    // A steady shear needs no friction by method 1, but of a free body has a resultant.
    problem.A().array() -= 1.0 / 3;
@@ -246,6 +249,9 @@ TEST(Method2, SaysWhyItHasNoAnswer)
    const LoadCycle steady = held_and_cycled(problem, "P", 1, "Q", 1);
    const Method2Estimate resultant = method2_friction(limit_problem(problem, steady), 0.3);
    EXPECT_FALSE(resultant.exists);
+   EXPECT_EQ(resultant.low, 0);
+   EXPECT_EQ(resultant.natural, 0);
+   EXPECT_EQ(resultant.high, 0);
    EXPECT_NE(resultant.message.find("zero resultant"), std::string::npos) << resultant.message;
    EXPECT_THROW(
       method2_friction(limit_problem(random_contact(1, 3, 2, false), random_cycle(1, 3, 2)), 1),
@@ -295,6 +301,22 @@ TEST(Method2, RangeByHand)
    EXPECT_NEAR(estimate.high, 1.5 / (2 - 0.6125), 1e-12);
    EXPECT_NEAR(estimate.low, 1.5 / (2 + 1.075), 1e-6);
    EXPECT_NEAR(estimate.natural, 1.5 / (2 + 0.5 * (1.075 - 0.6125)), 1e-12);
+}
+
+TEST(Method2, LooksAtTheChosenNodesAlone)
+{
+   // As above, but what the residual shear changes, the pressure of node 1, is not looked at:
+   // 1.5/4.25 and 1.5/3.75 are left.
+   Eigen::Matrix3d M = Eigen::Matrix3d::Zero();
+   M(1, 0) = 0.5;
+   const LimitProblem limit =
+      limit_problem(three_nodes(M), held_and_cycled(three_nodes(M), "P", 1, "Q", -0.5));
+   const Method2Estimate estimate = method2_friction(limit, 1, {0, 2});
+   ASSERT_TRUE(estimate.exists) << estimate.message;
+   for (const double f : {estimate.low, estimate.natural, estimate.high})
+   {
+      EXPECT_NEAR(f, 0.4, 1e-9);
+   }
 }
 
 TEST(Method2, KeepsTheResultantZero)

@@ -378,6 +378,16 @@ TEST(Limit, ComesAfterTheConstantLoads)
    EXPECT_EQ(report.limit, 0);
 }
 
+TEST(Limit, OutcomesHaveNames)
+{
+   EXPECT_STREQ(name(LimitStatus::certified), "certified");
+   EXPECT_STREQ(name(LimitStatus::bracketed), "bracketed");
+   EXPECT_STREQ(name(LimitStatus::unlimited), "unlimited");
+   EXPECT_STREQ(name(LimitStatus::no_solution), "no solution");
+   EXPECT_STREQ(name(LimitStatus::failed), "failed");
+   EXPECT_STREQ(name(LimitStatus::unavailable), "unavailable");
+}
+
 TEST(Limit, RefusesBadInput)
 {
    ReducedProblem problem = random_contact(3, 4, 1, false);

@@ -1,6 +1,7 @@
 #include "run_miniapp.hpp"
 
 #include <cmath>
+#include <cstdlib>
 
 namespace
 {
@@ -26,6 +27,8 @@ struct SteadyBorder
 /// 0.6501 with 41.
 TEST(ReadOut, SteadyStickOfTheLapJointDependsOnMechanicsAlone)
 {
+   const char *stress = std::getenv("CATTANEO_STRESS");
+   const bool in_full = stress && std::string(stress) == "full";
    for (const SteadyBorder &reference : {SteadyBorder{"-friction 0.2 -load 0.04", 0.5809, 5e-5},
                                          {"-friction 0.5 -load -0.04", 0.6685, 5e-5},
                                          {"-friction 0.8 -load 0.01", 0.685, 5e-4},
@@ -35,9 +38,11 @@ TEST(ReadOut, SteadyStickOfTheLapJointDependsOnMechanicsAlone)
       for (const double spacing : {0.02, 0.01, 0.005})
       {
          double first = std::nan("");
-         for (const char *march : {"-march fixed -increments 20", "-increments 40",
-                                   "-increments 41", "-increments 80", "-march exact"})
+         for (const char *march : {"-march fixed -increments 20", "-march exact",
+                                   "-increments 40", "-increments 41", "-increments 80"})
          {
+            // The finest mesh takes most of the time: all of it in ./test --all.
+            if (!in_full && spacing < 0.01 && march[1] == 'i') { continue; }
             const std::string options = std::string(reference.load) + " -spacing " +
                                         std::to_string(spacing) + " " + march;
             SCOPED_TRACE(options);

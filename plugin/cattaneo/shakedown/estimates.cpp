@@ -167,7 +167,6 @@ Method2Estimate method2_friction(const LimitProblem &problem, double load_factor
    { return pointwise(q, p.colwise() + Eigen::VectorXd(M * r), looked_at).value; };
    estimate.natural = with_residual(estimate.natural_residual);
 
-   estimate.high = 0;
    Eigen::VectorXd lowest(n);
    for (Eigen::Index i = 0; i < n; ++i) { lowest[i] = cheapest(M.row(i), t, low, high); }
    estimate.high = pointwise(q, p.colwise() + lowest, looked_at).value;

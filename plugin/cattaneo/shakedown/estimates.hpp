@@ -37,7 +37,8 @@ PointwiseEstimate method1_load(const ReducedProblem &problem, const LoadCycle &c
  */
 struct Method2Estimate
 {
-   bool exists = false; ///< some permissible residual shear has no resultant
+   /// Some permissible residual shear has no resultant. If none has, the estimates are zero.
+   bool exists = false;
    std::string message;
    double low = 0;     ///< the choice that needs the least friction
    double high = 0;    ///< the choice that needs the most
