@@ -3,7 +3,7 @@
 
 #include <cattaneo/algebra/dense_algebra.hpp>
 #include <cattaneo/condense/condense.hpp>
-#include <cattaneo/friction/friction_solver.hpp>
+#include <cattaneo/friction/march.hpp>
 #include <cattaneo/halfplane/half_plane.hpp>
 #include <cattaneo/readout/zones.hpp>
 #include <cmath>
@@ -492,6 +492,65 @@ TEST(HalfPlane, HertzAndCattaneoOfTwoHalfPlanes)
    const Zone stick = stick_zone(problem, state);
    EXPECT_NEAR(problem.position(stick.first, 0), -c, 1.5 / elements);
    EXPECT_NEAR(problem.position(stick.last, 0), c, 1.5 / elements);
+}
+
+// Cattaneo and Mindlin: under a constant force P the shift is u(Q) = f (δ(P) - δ(P - Q/f)),
+// where δ(P) = 4/π P (ln(2 depth/a) + 3/2) with a² ~ P. What is linear in P encloses no area:
+// with g(P) = -2/π P ln P and its integral G, the loop of Masing's rule loses
+// 4 Q u - 8 ∫ u dQ = 4 f² (P - P*)(g(P) - g(P*)) - 8 f² (g(P)(P - P*) - G(P) + G(P*)).
+TEST(HalfPlane, LoopOfCattaneoAndMindlin)
+{
+   const double nu = 0.3, R = 3, a = 1, f = 0.4, c = 0.6;
+   const double P = M_PI * a * a / (8 * R), inner = M_PI * c * c / (8 * R);
+   const double sinking = 4 / M_PI * P * (std::log(2 * depth / a) - 0.5);
+   const auto by_depth = [](double force, double half_width)
+   { return 4 / M_PI * force * (std::log(2 * depth / half_width) + 1.5); };
+   const double shift = f * (by_depth(P, a) - by_depth(inner, c)), Q = f * (P - inner);
+   const auto g = [](double p) { return -2 / M_PI * p * std::log(p); };
+   const auto G = [](double p) { return -2 / M_PI * p * p * (0.5 * std::log(p) - 0.25); };
+   const double loss = 4 * f * f * (P - inner) * (g(P) - g(inner)) -
+                       8 * f * f * (g(P) * (P - inner) - G(P) + G(inner));
+   double error[2];
+   int level = 0;
+   for (const int elements : {30, 60})
+   {
+      Pair pair(straight_line(even(-1.5, 1.5, elements), 2), nu);
+      ReducedProblem &problem = pair.reduction.problem;
+      const Index n = problem.nodes();
+      problem.gap = problem.position.col(0).cwiseAbs2() / (2 * R);
+      const VectorXd ones = VectorXd::Ones(n), zeros = VectorXd::Zero(n);
+      const VectorXd down = (VectorXd(2 * n) << zeros, ones).finished(),
+                     along = (VectorXd(2 * n) << ones, zeros).finished();
+      problem.patterns = {approach(problem, "press", down), approach(problem, "shift", along)};
+      // Reactions of whole bodies that move: the resultants of p and of q.
+      MatrixXd motions(2 * n, 2);
+      motions << down, along;
+      problem.H = motions.transpose() * problem.K * motions;
+      set_friction(problem, f);
+      LoadHistory history =
+         LoadHistory::through(problem, {{},
+                                        {{"press", sinking}},
+                                        {{"press", sinking}, {"shift", shift}},
+                                        {{"press", sinking}, {"shift", -shift}},
+                                        {{"press", sinking}, {"shift", shift}}});
+      history.cycle_start = 2;
+      history.cycles = 2;
+      MarchSettings settings;
+      settings.stepping = Stepping::exact;
+      ContactState state = ContactState::virgin(problem);
+      const MarchReport report = march(problem, history, state, settings);
+      ASSERT_EQ(report.status, FrictionStatus::converged) << report.message;
+      const IncrementRecord &last = report.increments.back();
+      EXPECT_NEAR(last.conjugates[0], state.p.sum(), 1e-12);
+      EXPECT_NEAR(last.conjugates[1], state.q.sum(), 1e-12);
+      const Loop &loop = report.cycles.back().loops[1];
+      EXPECT_NEAR(loop.work(), report.cycles.back().dissipation, 1e-12);
+      EXPECT_NEAR(loop.stiffness() / (Q / shift), 1, 4e-3);
+      EXPECT_NEAR(loop.loss_factor() / (loss / (M_PI * Q * shift)), 1, 0.03);
+      error[level++] = std::abs(loop.work() / loss - 1);
+   }
+   EXPECT_LT(error[0], 0.03);
+   EXPECT_LT(error[1], 0.5 * error[0]);
 }
 
 TEST(HalfSpace, HertzAndLubkinOfTwoHalfSpaces)

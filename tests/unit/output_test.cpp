@@ -160,6 +160,50 @@ TEST_F(Output, ACompressedBlockIsRecoveredOnlyWhenItsFieldsAreWritten)
    }
 }
 
+TEST_F(Output, AReductionIsWrittenAsTheMarchGoes)
+{
+   mfem::Mesh mesh = two_materials_mesh();
+   ElasticBody body(mesh, 2, Material{1, 0.3, PlaneState::strain});
+   body.fix_node(0, 2, 0);
+   body.add_pressure("P", 3, 0.25);
+   const ContactLine line = contact_line(body, 1);
+   Reduction reduction = reduce(condense(body, line));
+   set_friction(reduction.problem, 0.2);
+   std::vector<ContactState> states;
+   {
+      ReductionFields fields(reduction, {&body}, folder + "/together");
+      EXPECT_EQ(reduction.counters.field_recoveries, 0);
+      ContactState state = ContactState::virgin(reduction.problem);
+      march(reduction.problem, LoadHistory::through(reduction.problem, {{}, {{"P", 1}}, {}}),
+            state, {},
+            [&](const ContactState &now, const IncrementRecord &)
+            {
+               fields.write(now);
+               states.push_back(now);
+               EXPECT_EQ(reduction.counters.field_recoveries, states.size());
+            });
+   }
+   ASSERT_GT(states.size(), 2u);
+   BodyFields alone(body, folder + "/alone", "body1");
+   ContactLineFields contact(reduction.problem, folder + "/alone", "contact");
+   for (const ContactState &state : states)
+   {
+      contact.write(state);
+      alone.write(reduction.displacement(0, state.v, state.w, state.multipliers), state.time);
+   }
+   std::size_t compared = 0;
+   for (const auto &entry : fs::recursive_directory_iterator(folder + "/alone"))
+   {
+      if (!entry.is_regular_file()) { continue; }
+      const fs::path twin =
+         fs::path(folder + "/together") / fs::relative(entry.path(), folder + "/alone");
+      EXPECT_EQ(content(twin), content(entry.path())) << twin;
+      ++compared;
+   }
+   EXPECT_GE(compared, 2 * states.size() + 2);
+   EXPECT_THROW(ReductionFields(reduction, {}, folder), InputError);
+}
+
 TEST_F(Output, SeveralTimesMakeOneSeries)
 {
    mfem::Mesh mesh = two_materials_mesh();
@@ -279,6 +323,8 @@ TEST_F(Output, TablesAreReadBackToTheLastBit)
    record.cycle = 4;
    record.stick = 1;
    record.dissipation = 0.1;
+   record.multipliers = state.multipliers;
+   record.conjugates = Eigen::VectorXd::Constant(1, 2.0 / 7);
    HistoryTable table;
    table.add(state, record);
    table.write(folder + "/history.csv", problem);
@@ -296,6 +342,7 @@ TEST_F(Output, TablesAreReadBackToTheLastBit)
    EXPECT_EQ(cycle, 4);
    EXPECT_EQ(load, state.multipliers[0]);
    EXPECT_NE(history.find("time,cycle,load P,stick,"), std::string::npos);
+   EXPECT_EQ(std::stod(history.substr(history.rfind(',') + 1)), 2.0 / 7);
 
    write_nodes(folder + "/nodes.csv", problem, {state, state});
    const std::string nodes = content(folder + "/nodes.csv");
@@ -445,7 +492,8 @@ TEST_F(Output, EachColumnOfTheHistoryIsItsOwn)
    record.round_off = 1e-12;
    ReducedProblem problem = four_springs();
    ContactState state = ContactState::virgin(problem);
-   state.multipliers << 0.1, -0.7;
+   record.multipliers = Eigen::Vector2d(0.1, -0.7);
+   record.conjugates = Eigen::Vector2d(3.5, -4.5);
    const auto read = [&]
    {
       HistoryTable table;
@@ -477,7 +525,9 @@ TEST_F(Output, EachColumnOfTheHistoryIsItsOwn)
                                            {"external_work", -9.1},
                                            {"residual_normal", 1e-10},
                                            {"residual_tangential", 1e-11},
-                                           {"round_off", 1e-12}};
+                                           {"round_off", 1e-12},
+                                           {"displacement P", 3.5},
+                                           {"displacement Q right", -4.5}};
    std::map<std::string, double> expected = common;
    expected["forward_slip"] = 5;
    expected["backward_slip"] = 6;

@@ -71,30 +71,11 @@ double elastic_energy(const ReducedProblem &problem, const ContactState &state)
       }
       for (std::size_t l = 0; l < problem.patterns.size(); ++l)
       {
-         if (problem.patterns[l].control != control) { continue; }
+         if (problem.patterns[l].control != control || !problem.knows_loads()) { continue; }
          energy += 0.5 * state.multipliers[k] * problem.H(k, l) * state.multipliers[l];
       }
    }
    return energy;
-}
-
-double external_work(const ReducedProblem &problem, const ContactState &before,
-                     const ContactState &after)
-{
-   const VectorXd from = problem.H * before.multipliers, to = problem.H * after.multipliers;
-   double sum = 0;
-   for (std::size_t k = 0; k < problem.patterns.size(); ++k)
-   {
-      const LoadPattern &pattern = problem.patterns[k];
-      const double then = before.multipliers[k], now = after.multipliers[k],
-                   work_then = work(pattern, before), work_now = work(pattern, after);
-      // A force works along the displacement that it meets, a prescribed displacement against
-      // its reaction.
-      sum += pattern.control == Control::force
-                ? 0.5 * (then + now) * ((to[k] - work_now) - (from[k] - work_then))
-                : 0.5 * ((from[k] + work_then) + (to[k] + work_now)) * (now - then);
-   }
-   return sum;
 }
 
 } // namespace cattaneo

@@ -22,6 +22,8 @@ const char *name(FrictionStatus status)
       return "not unique";
    case FrictionStatus::no_solution:
       return "no solution";
+   case FrictionStatus::stopped:
+      return "stopped";
    case FrictionStatus::stalled:
       return "stalled";
    }

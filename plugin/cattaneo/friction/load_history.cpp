@@ -54,6 +54,7 @@ LoadPiece LoadHistory::piece(int k) const
    {
       piece.point = opening + (k - opening) % period;
       piece.cycle = 1 + (k - opening) / period;
+      piece.begins_cycle = piece.point == opening;
       piece.ends_cycle = piece.point == last - 1;
    }
    const double passed = std::max(0, piece.cycle - 1) * duration;

@@ -17,7 +17,7 @@ struct LoadPiece
 {
    int point = 0; ///< of the history, where it starts: the same in every repeated cycle
    int cycle = 0; ///< that it belongs to: 0 for the opening part, then 1, 2, …
-   bool ends_cycle = false;
+   bool begins_cycle = false, ends_cycle = false;
    double start = 0, end = 0; ///< times, which go on through repeated cycles
    Eigen::VectorXd from, to;  ///< multipliers there
 

@@ -3,8 +3,9 @@
 #include <cattaneo/friction/exact_path.hpp>
 #include <cattaneo/friction/march_record.hpp>
 #include <cattaneo/input_error.hpp>
-#include <chrono>
+#include <cattaneo/progress_report.hpp>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 namespace cattaneo
@@ -22,6 +23,7 @@ void MarchSettings::validate() const
    }
    require_at_least("march settings: max_halvings", max_halvings, 0);
    require_at_least("march settings: steady_tolerance", steady_tolerance, 0);
+   monitor.validate();
 }
 
 namespace
@@ -51,7 +53,9 @@ public:
    March(FrictionSolver &solver, const LoadHistory &history, ContactState &state,
          const MarchSettings &settings, const MarchObserver &observer)
       : solver_(solver), problem_(solver.problem()), history_(history), state_(state),
-        settings_(settings), record_(problem_, state, settings, observer)
+        settings_(settings), record_(problem_, state, settings, observer),
+        progress_(settings.monitor), began_(state.time),
+        end_(history.piece(history.pieces() - 1).end)
    {
    }
 
@@ -65,6 +69,12 @@ private:
 
    Trial attempt(double time);
    void accept(Trial &&trial, bool exact);
+   bool is_stopped();
+   /// Of the way from the start of the march to the end of the history.
+   double share() const
+   {
+      return end_ > began_ ? std::min(1.0, (state_.time - began_) / (end_ - began_)) : 1.0;
+   }
    void bisect_event(double failed, IncrementReport failure);
    double first_closing(double target);
    /// Friction acts on a node from where it closes, not from the beginning of the increment.
@@ -85,10 +95,13 @@ private:
    ContactState &state_;
    const MarchSettings &settings_;
    MarchRecord record_;
-   LoadPiece piece_;                 // the present one
-   int increments_ = 1;              // of it
-   std::unique_ptr<ExactPath> path_; // made when first needed
-   bool following_ = false;          // march_exactly() is at work
+   ProgressReport progress_;
+   const double began_, end_;                                   // times of the load history
+   LoadPiece piece_;                                            // the present one
+   int increments_ = 1;                                         // of it
+   std::unique_ptr<ExactPath> path_;                            // made when first needed
+   double path_end_ = -std::numeric_limits<double>::infinity(); // where it is left, or was
+   bool following_ = false;                                     // march_exactly() is at work
 };
 
 /// End of an equal step of the piece.
@@ -126,7 +139,21 @@ Trial March::attempt(double time)
 
 void March::accept(Trial &&trial, bool exact)
 {
-   record_.accept(std::move(trial.state), piece_.cycle, trial.increment, exact);
+   const bool resumes =
+      settings_.stepping == Stepping::exact ? !path_ : trial.state.time >= path_end_;
+   record_.accept(std::move(trial.state), piece_, trial.increment, exact, resumes);
+   progress_.note(share(), record_.report.counters.increments, state_.time);
+}
+
+/// Asked between increments, wherever the march can be taken up again.
+bool March::is_stopped()
+{
+   if (!settings_.monitor.stopped()) { return false; }
+   IncrementReport asked;
+   asked.status = FrictionStatus::stopped;
+   asked.message = "the march was asked to stop";
+   record_.stop(asked);
+   return true;
 }
 
 /// True where one increment gives the exact end of the piece, however long it is.
@@ -281,6 +308,7 @@ bool March::settles()
 /// From event to event.
 bool March::march_exactly(double until)
 {
+   path_end_ = until;
    bool settled = settles();
    // Events without progress: nodes that change their states at the same load, one after the
    // other. More than there are nodes and states go round in a circle.
@@ -292,6 +320,7 @@ bool March::march_exactly(double until)
    const VectorXd loads_then = loads(until);
    while (state_.time < until)
    {
+      if (settings_.stepping == Stepping::exact && is_stopped()) { return false; }
       std::string reason = !settled ? "the state at the start is no equilibrium"
                                     : "states change back and forth at one load";
       if (settled && halted < patience)
@@ -362,7 +391,7 @@ bool March::march_piece()
    }
    while (state_.time < piece_.end)
    {
-      if (!increment_to(exact ? piece_.end : next_grid_time(piece_.end), exact))
+      if (is_stopped() || !increment_to(exact ? piece_.end : next_grid_time(piece_.end), exact))
       {
          return false;
       }
@@ -372,14 +401,9 @@ bool March::march_piece()
 
 MarchReport March::run()
 {
-   const auto began = std::chrono::steady_clock::now();
    const Counters before = solver_.counters();
    MarchReport &report = record_.report;
-   if (history_.cycle_start == 0 && state_.cycle_slip.empty() &&
-       state_.time <= history_.times[0])
-   {
-      state_.cycle_slip.push_back(state_.v);
-   }
+   bool finished = true;
    for (int k = 0; k < history_.pieces(); ++k)
    {
       piece_ = history_.piece(k);
@@ -388,21 +412,27 @@ MarchReport March::run()
       increments_ = point < settings_.increments_of_piece.size()
                        ? settings_.increments_of_piece[point]
                        : settings_.increments;
-      if (!march_piece()) { break; }
-      // The first cycle is compared with the state at its start.
-      if (k + 1 == history_.cycle_start) { state_.cycle_slip = {state_.v}; }
-      if (piece_.ends_cycle)
+      finished = !is_stopped();
+      if (!finished) { break; }
+      if (piece_.begins_cycle && state_.time <= piece_.start)
       {
-         record_.end_cycle();
-         if (report.steady_cycle && settings_.stop_at_steady_state) { break; }
+         // The first cycle is compared with the state at its start.
+         if (piece_.cycle == 1 && (k > 0 || state_.cycle_slip.empty()))
+         {
+            state_.cycle_slip = {state_.v};
+         }
+         record_.begin_cycle(piece_.cycle, true);
       }
+      finished = march_piece();
+      if (!finished) { break; }
+      if (report.steady_cycle && settings_.stop_at_steady_state) { break; }
    }
    record_.close();
    report.counters += solver_.counters();
    report.counters -= before;
    if (path_) { report.counters += path_->counters(); }
-   report.seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+   report.seconds = progress_.seconds();
+   progress_.end(finished ? 1.0 : share(), report.counters.increments, report.time);
    return report;
 }
 

@@ -3,6 +3,8 @@
 #include <cattaneo/friction/cut_off.hpp>
 #include <cattaneo/friction/friction_solver.hpp>
 #include <cattaneo/friction/load_history.hpp>
+#include <cattaneo/friction/loop.hpp>
+#include <cattaneo/monitor.hpp>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -42,6 +44,10 @@ struct MarchSettings
    /// Steady: slip at the end of a cycle differs from that one or two cycles before by less
    /// than this times the largest slip of the history.
    double steady_tolerance = 1e-10;
+   /// Keep every IncrementRecord in the report; else only the observer sees them, and the
+   /// report of a march of millions of increments stays small.
+   bool keep_increments = true;
+   Monitor monitor; ///< hears of progress, and may stop the march
 
    /// InputError naming the setting, its value and what is allowed.
    void validate() const;
@@ -51,18 +57,29 @@ struct MarchSettings
 struct IncrementRecord
 {
    double time = 0;
-   int cycle = 0; ///< 0: opening part
+   int cycle = 0;               ///< 0: opening part
+   Eigen::VectorXd multipliers; ///< of the load patterns, at its end
+   Eigen::VectorXd conjugates;  ///< of these: displacement or reaction, see conjugates()
    int stick = 0, separation = 0, forward_slip = 0,
        backward_slip = 0; ///< numbers of settled_states()
    int slip = 0; ///< with two tangential components: nodes that slip in whatever direction
-   double dissipation = 0;   ///< lost by friction, summed over nodes; never negative
-   double external_work = 0; ///< work of the loads, trapezoidal (exact for linear increments)
+   double dissipation = 0; ///< lost by friction, summed over nodes; never negative
+   /// Work of the loads, trapezoidal (exact for linear increments); of the contact's part of
+   /// the conjugates alone where H is not known.
+   double external_work = 0;
    double residual_normal = 0, residual_tangential = 0, round_off = 0; ///< see IncrementReport
+   /// A march taken up from the state here goes on to the last bit. False amid an exact path:
+   /// to round-off.
+   bool resumes = true;
 };
 
 /// One marched cycle.
 struct CycleRecord
 {
+   int cycle = 0; ///< its number, from 1
+   /// False if the march was taken up within the cycle: then all here is of the rest of it.
+   bool whole = false;
+   std::vector<Loop> loops; ///< of each load pattern; their work() adds up to external_work
    double dissipation = 0;
    double external_work = 0;
    double normal_work = 0;           ///< -½(p_old + p_new)·Δw: vanishes as increments shrink
@@ -87,11 +104,11 @@ struct MarchReport
    /// Where the outcome is not `converged`: time and load multipliers at which it came about,
    /// the last equilibrium found, by bisection. The state is the last one whose forces are
    /// known to 1e-9. `not_unique` does not end a march: these are then the ones of
-   /// `not_unique`.
+   /// `not_unique`. `stopped`: time and multipliers of the state.
    double event_time = 0;
    Eigen::VectorXd event_multipliers;
    std::optional<NotUnique> not_unique; ///< also where the march ended later for another reason
-   std::vector<IncrementRecord> increments;
+   std::vector<IncrementRecord> increments; ///< see MarchSettings::keep_increments
    std::vector<CycleRecord> cycles;
    /// Stepping::exact: every change of state, in the order of the path. A piece that took one
    /// increment lists its changes at its start.
@@ -126,8 +143,12 @@ using MarchObserver = std::function<void(const ContactState &, const IncrementRe
 
 /** Marches the state along a load history. The state's own time says where it stands, so that a
     march can be cut and resumed: the result is the same to the last bit (Stepping::exact: to
-    round-off). Stops early, with the status in the report, when there is no equilibrium; the
-    state is then the last one found. */
+    round-off). Stops early, with the status in the report, when there is no equilibrium or when
+    the monitor says so; the state is then the last one found. The monitor is asked where the
+    result of going on from there is the same to the last bit, on an exact path after every
+    event: the state of a march that was stopped, taken up again, comes to what the march would
+    have come to. What an observer throws ends the march, the state being what it was called
+    with. */
 MarchReport march(const ReducedProblem &problem, const LoadHistory &history,
                   ContactState &state, const MarchSettings &settings = {},
                   const MarchObserver &observer = {});

@@ -44,17 +44,45 @@ void find_slip_origin(const ContactState &before, ContactState &next)
 MarchRecord::MarchRecord(const ReducedProblem &problem, ContactState &state,
                          const MarchSettings &settings, const MarchObserver &observer)
    : problem_(problem), state_(state), settings_(settings), observer_(observer),
-     energy_at_start_(elastic_energy(problem, state))
+     conjugates_(conjugates(problem, state)), energy_at_start_(elastic_energy(problem, state))
 {
 }
 
-void MarchRecord::accept(ContactState &&next, int cycle, const IncrementReport &increment,
-                         bool exact)
+void MarchRecord::begin_cycle(int number, bool whole)
+{
+   cycle_.emplace();
+   cycle_->cycle = number;
+   cycle_->whole = whole;
+   cycle_->node_dissipation = VectorXd::Zero(problem_.components() > 0 ? problem_.nodes() : 0);
+   for (std::size_t k = 0; k < problem_.patterns.size(); ++k)
+   {
+      cycle_->loops.emplace_back(problem_.patterns[k].control, state_.multipliers[k],
+                                 conjugates_[k], problem_.knows_loads());
+   }
+}
+
+double MarchRecord::external_work(const IncrementRecord &record) const
+{
+   double sum = 0;
+   for (std::size_t k = 0; k < problem_.patterns.size(); ++k)
+   {
+      Loop way(problem_.patterns[k].control, state_.multipliers[k], conjugates_[k]);
+      way.add(record.multipliers[k], record.conjugates[k]);
+      sum += way.work();
+   }
+   return sum;
+}
+
+void MarchRecord::accept(ContactState &&next, const LoadPiece &piece,
+                         const IncrementReport &increment, bool exact, bool resumes)
 {
    find_slip_origin(state_, next);
    IncrementRecord record;
    record.time = next.time;
-   record.cycle = cycle;
+   record.cycle = piece.cycle;
+   record.resumes = resumes;
+   record.multipliers = next.multipliers;
+   record.conjugates = conjugates(problem_, next);
    record.residual_normal = increment.residual_normal;
    record.residual_tangential = increment.residual_tangential;
    record.round_off = increment.round_off;
@@ -68,18 +96,19 @@ void MarchRecord::accept(ContactState &&next, int cycle, const IncrementReport &
    record.slip = count(NodeState::slip);
    const VectorXd lost = frictional_loss(problem_, state_, next);
    record.dissipation = lost.sum();
-   record.external_work = external_work(problem_, state_, next);
+   record.external_work = external_work(record);
    const double normal_work = -0.5 * (state_.p + next.p).dot(next.w - state_.w);
-   if (cycle > 0)
+   if (piece.cycle > 0)
    {
-      if (cycle_.node_dissipation.size() == 0)
+      if (!cycle_) { begin_cycle(piece.cycle, false); }
+      cycle_->node_dissipation += lost;
+      cycle_->dissipation += record.dissipation;
+      cycle_->external_work += record.external_work;
+      cycle_->normal_work += normal_work;
+      for (std::size_t k = 0; k < cycle_->loops.size(); ++k)
       {
-         cycle_.node_dissipation = VectorXd::Zero(lost.size());
+         cycle_->loops[k].add(record.multipliers[k], record.conjugates[k]);
       }
-      cycle_.node_dissipation += lost;
-      cycle_.dissipation += record.dissipation;
-      cycle_.external_work += record.external_work;
-      cycle_.normal_work += normal_work;
    }
    if (!exact) { changed_ = std::max(changed_, changed_while_closing(problem_, state_, next)); }
    external_work_ += record.external_work;
@@ -87,7 +116,8 @@ void MarchRecord::accept(ContactState &&next, int cycle, const IncrementReport &
    normal_work_ += normal_work;
    next.dissipation += record.dissipation;
    state_ = std::move(next);
-   report.increments.push_back(record);
+   conjugates_ = record.conjugates;
+   if (settings_.keep_increments) { report.increments.push_back(record); }
    for (const CutOffContact &found : cut_off_contact(problem_, state_))
    {
       const bool known =
@@ -104,6 +134,8 @@ void MarchRecord::accept(ContactState &&next, int cycle, const IncrementReport &
       report.not_unique = {state_.time, state_.multipliers, increment.message};
       stop(increment); // the status, which an end of the march may still replace
    }
+   // What is observed is whole: a march that is taken up from it knows of this cycle.
+   if (piece.ends_cycle && state_.time >= piece.end) { end_cycle(); }
    if (observer_) { observer_(state_, record); }
 }
 
@@ -116,13 +148,13 @@ void MarchRecord::end_cycle()
       const double scale = std::max(largest(state_.v), largest(before));
       if (largest(state_.v - before) <= settings_.steady_tolerance * scale)
       {
-         report.steady_cycle = report.increments.back().cycle - static_cast<int>(period) + 1;
+         report.steady_cycle = cycle_->cycle - static_cast<int>(period) + 1;
          report.steady_period = static_cast<int>(period);
       }
    }
-   cycle_.slip_change = past.empty() ? 0.0 : largest(state_.v - past.back());
-   report.cycles.push_back(cycle_);
-   cycle_ = {};
+   cycle_->slip_change = past.empty() ? 0.0 : largest(state_.v - past.back());
+   report.cycles.push_back(std::move(*cycle_));
+   cycle_.reset();
    past.push_back(state_.v);
    if (past.size() > 2) { past.erase(past.begin()); }
 }

@@ -13,7 +13,8 @@ enum class FrictionStatus
    not_unique,    ///< solved, but friction is above its critical value at the named node
    no_solution,   ///< no equilibrium was found, with friction above critical or the body lifted
                   ///< off
-   stalled        ///< no method reached the tolerance: residuals in the report
+   stalled,       ///< no method reached the tolerance: residuals in the report
+   stopped        ///< a march was asked to stop (Monitor::stop)
 };
 
 const char *name(FrictionStatus status);

@@ -33,6 +33,15 @@ T reduced(MPI_Comm comm, int size, T here, MPI_Datatype type, MPI_Op op)
 
 } // namespace
 
+bool Ranks::first_of_all()
+{
+#ifdef MFEM_USE_MPI
+   return !mfem::Mpi::IsInitialized() || mfem::Mpi::Root();
+#else
+   return true;
+#endif
+}
+
 bool Ranks::any(bool here) const
 {
    return reduced(comm_, size_, here ? 1 : 0, MPI_INT, MPI_MAX) != 0;

@@ -22,6 +22,8 @@ public:
    /// True if the mesh is a conforming mfem::ParMesh, be it on one rank.
    bool distributed() const { return distributed_; }
    bool first() const { return rank_ == 0; }
+   /// True on the first of all ranks of the program, whatever mesh they share.
+   static bool first_of_all();
 
    /// True if it is on any rank.
    bool any(bool here) const;

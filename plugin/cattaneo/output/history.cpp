@@ -7,79 +7,174 @@
 namespace cattaneo
 {
 
-void HistoryTable::add(const ContactState &state, const IncrementRecord &record)
+namespace
 {
-   rows_.push_back({record, state.multipliers});
+
+bool has_disc(const ReducedProblem &problem)
+{
+   return problem.components() == 2;
 }
 
-void HistoryTable::write(const std::string &file, const ReducedProblem &problem) const
+std::string history_header(const ReducedProblem &problem)
 {
-   std::ostringstream out;
-   out.precision(17);
-   out << "time,cycle";
+   std::string loads, conjugates;
    for (const LoadPattern &pattern : problem.patterns)
    {
       require(pattern.name.find_first_of(",\"\n\r") == std::string::npos,
               "history table: load pattern '", pattern.name,
               "' has a comma, a quote or a line break in its name");
-      out << ",load " << pattern.name;
+      loads += ",load " + pattern.name;
+      conjugates += problem.knows_loads() ? "," : ",contact ";
+      conjugates += pattern.control == Control::force ? "displacement " : "reaction ";
+      conjugates += pattern.name;
    }
-   const bool disc = problem.components() == 2;
-   out << (disc ? ",stick,separation,slip" : ",stick,separation,forward_slip,backward_slip")
-       << ",dissipation,external_work,residual_normal,residual_tangential,round_off\n";
-   for (const auto &[record, multipliers] : rows_)
+   return "time,cycle" + loads +
+          (has_disc(problem) ? ",stick,separation,slip"
+                             : ",stick,separation,forward_slip,backward_slip") +
+          ",dissipation,external_work,residual_normal,residual_tangential,round_off" +
+          conjugates;
+}
+
+Eigen::Index count_patterns(const ReducedProblem &problem)
+{
+   return static_cast<Eigen::Index>(problem.patterns.size());
+}
+
+std::string history_row(const IncrementRecord &record, Eigen::Index patterns, bool disc)
+{
+   require(record.multipliers.size() == patterns && record.conjugates.size() == patterns,
+           "history table: a record has ", record.multipliers.size(),
+           " load multipliers, the problem ", patterns, " load patterns");
+   std::ostringstream out;
+   out.precision(17);
+   out << record.time << ',' << record.cycle;
+   for (double multiplier : record.multipliers) { out << ',' << multiplier; }
+   out << ',' << record.stick << ',' << record.separation << ',';
+   if (disc) { out << record.slip; }
+   else { out << record.forward_slip << ',' << record.backward_slip; }
+   out << ',' << record.dissipation << ',' << record.external_work << ','
+       << record.residual_normal << ',' << record.residual_tangential << ','
+       << record.round_off;
+   for (double conjugate : record.conjugates) { out << ',' << conjugate; }
+   out << '\n';
+   return out.str();
+}
+
+} // namespace
+
+HistoryWriter::HistoryWriter(const std::string &file, const ReducedProblem &problem)
+   : patterns_(count_patterns(problem)), disc_(has_disc(problem)),
+     file_(file, history_header(problem))
+{
+}
+
+HistoryWriter::HistoryWriter(const std::string &file, const ReducedProblem &problem,
+                             double time)
+   : patterns_(count_patterns(problem)), disc_(has_disc(problem)),
+     file_(file, history_header(problem), time)
+{
+}
+
+void HistoryWriter::add(const ContactState &, const IncrementRecord &record)
+{
+   file_.add(history_row(record, patterns_, disc_));
+}
+
+void HistoryTable::add(const ContactState &, const IncrementRecord &record)
+{
+   rows_.push_back(record);
+}
+
+void HistoryTable::write(const std::string &file, const ReducedProblem &problem) const
+{
+   std::string text = history_header(problem) + '\n';
+   for (const IncrementRecord &record : rows_)
    {
-      require(multipliers.size() == static_cast<Eigen::Index>(problem.patterns.size()),
-              "history table: a state has ", multipliers.size(),
-              " load multipliers, the problem ", problem.patterns.size(), " load patterns");
-      out << record.time << ',' << record.cycle;
-      for (double multiplier : multipliers) { out << ',' << multiplier; }
-      out << ',' << record.stick << ',' << record.separation << ',';
-      if (disc) { out << record.slip; }
-      else { out << record.forward_slip << ',' << record.backward_slip; }
-      out << ',' << record.dissipation << ',' << record.external_work << ','
-          << record.residual_normal << ',' << record.residual_tangential << ','
-          << record.round_off << '\n';
+      text += history_row(record, count_patterns(problem), has_disc(problem));
    }
-   write_whole(file, out.str());
+   write_whole(file, text);
+}
+
+namespace
+{
+
+std::string node_header(const ReducedProblem &problem)
+{
+   require(problem.arc_length.size() == problem.nodes() &&
+              problem.position.rows() == problem.nodes(),
+           "node table: the reduced problem has no arc length or positions");
+   return std::string("time,node,arc_length,x,y,state,p,") +
+          (has_disc(problem) ? "q_radial,q_circumferential,slip_radial,slip_circumferential"
+                             : "q,slip") +
+          ",opening";
+}
+
+std::string node_rows(const ReducedProblem &problem, const ContactState &state)
+{
+   state.validate(problem);
+   const Eigen::Index n = problem.nodes();
+   const Eigen::VectorXd p = tractions(problem, state.p);
+   // Without tangential components: zeros in one column.
+   const Eigen::Index columns = std::max<Eigen::Index>(problem.components(), 1);
+   Eigen::MatrixXd q = Eigen::MatrixXd::Zero(n, columns), slip = q;
+   for (Eigen::Index k = 0; k < problem.components(); ++k)
+   {
+      q.col(k) = tractions(problem, state.q.segment(k * n, n));
+      slip.col(k) = state.v.segment(k * n, n);
+   }
+   const std::vector<NodeState> settled = settled_states(problem, state);
+   std::ostringstream out;
+   out.precision(17);
+   for (Eigen::Index i = 0; i < n; ++i)
+   {
+      out << state.time << ',' << i << ',' << problem.arc_length[i] << ','
+          << problem.position(i, 0) << ',' << problem.position(i, 1) << ',' << name(settled[i])
+          << ',' << p[i];
+      for (Eigen::Index k = 0; k < columns; ++k) { out << ',' << q(i, k); }
+      for (Eigen::Index k = 0; k < columns; ++k) { out << ',' << slip(i, k); }
+      out << ',' << state.w[i] + problem.gap[i] << '\n';
+   }
+   return out.str();
+}
+
+} // namespace
+
+NodeWriter::NodeWriter(const std::string &file, const ReducedProblem &problem)
+   : problem_(problem), file_(file, node_header(problem))
+{
+}
+
+NodeWriter::NodeWriter(const std::string &file, const ReducedProblem &problem, double time)
+   : problem_(problem), file_(file, node_header(problem), time)
+{
+}
+
+void NodeWriter::add(const ContactState &state)
+{
+   file_.add(node_rows(problem_, state));
 }
 
 void write_nodes(const std::string &file, const ReducedProblem &problem,
                  const std::vector<ContactState> &states)
 {
-   const Eigen::Index n = problem.nodes();
-   require(problem.arc_length.size() == n && problem.position.rows() == n,
-           "node table: the reduced problem has no arc length or positions");
-   std::ostringstream out;
-   out.precision(17);
-   const bool disc = problem.components() == 2;
-   out << "time,node,arc_length,x,y,state,p,"
-       << (disc ? "q_radial,q_circumferential,slip_radial,slip_circumferential" : "q,slip")
-       << ",opening\n";
-   for (const ContactState &state : states)
-   {
-      state.validate(problem);
-      const Eigen::VectorXd p = tractions(problem, state.p);
-      // Without tangential components: zeros in one column.
-      const Eigen::Index columns = std::max<Eigen::Index>(problem.components(), 1);
-      Eigen::MatrixXd q = Eigen::MatrixXd::Zero(n, columns), slip = q;
-      for (Eigen::Index k = 0; k < problem.components(); ++k)
-      {
-         q.col(k) = tractions(problem, state.q.segment(k * n, n));
-         slip.col(k) = state.v.segment(k * n, n);
-      }
-      const std::vector<NodeState> settled = settled_states(problem, state);
-      for (Eigen::Index i = 0; i < n; ++i)
-      {
-         out << state.time << ',' << i << ',' << problem.arc_length[i] << ','
-             << problem.position(i, 0) << ',' << problem.position(i, 1) << ','
-             << name(settled[i]) << ',' << p[i];
-         for (Eigen::Index k = 0; k < columns; ++k) { out << ',' << q(i, k); }
-         for (Eigen::Index k = 0; k < columns; ++k) { out << ',' << slip(i, k); }
-         out << ',' << state.w[i] + problem.gap[i] << '\n';
-      }
-   }
-   write_whole(file, out.str());
+   std::string text = node_header(problem) + '\n';
+   for (const ContactState &state : states) { text += node_rows(problem, state); }
+   write_whole(file, text);
+}
+
+StateSaver::StateSaver(const std::string &file, double seconds) : file_(file), seconds_(seconds)
+{
+   require_at_least("state saver: seconds", seconds, 0);
+   require_writable(file);
+}
+
+void StateSaver::add(const ContactState &state, const IncrementRecord &record)
+{
+   const auto now = std::chrono::steady_clock::now();
+   const double passed = std::chrono::duration<double>(now - last_).count();
+   if (passed < (record.resumes ? 1 : 2) * seconds_) { return; }
+   save(state, file_);
+   last_ = now;
 }
 
 } // namespace cattaneo

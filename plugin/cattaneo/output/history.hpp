@@ -1,47 +1,102 @@
 #pragma once
 
 #include <cattaneo/friction/march.hpp>
+#include <cattaneo/output/streamed_file.hpp>
+#include <chrono>
 #include <string>
 #include <vector>
 
 namespace cattaneo
 {
 
-/** Table of a march with one row an increment, as CSV:
+/** Table of a march with one row an increment, as CSV, written as the march goes:
 
        time, cycle, load multipliers (column "load NAME" each), numbers of nodes in stick,
        separation, forward and backward slip (with torsion: slip), dissipation and external work
-   of the increment, relative residuals normal and tangential, and round_off (what arithmetic
-   can reach of them).
+   of the increment, relative residuals normal and tangential, round_off (what arithmetic can
+   reach of them), and the conjugate of each multiplier, see conjugates(): column "displacement
+   NAME" of a force, "reaction NAME" of a prescribed displacement; "contact displacement NAME"
+   and "contact reaction NAME" if only the contact's part of it is known
+   (ReducedProblem::knows_loads).
 
     add() is made to be a MarchObserver. Numbers are written so that they are read back to the
-   last bit. */
+   last bit. Nothing is held. */
+class HistoryWriter
+{
+public:
+   /// A new file. InputError if it cannot be written or the name of a pattern holds a comma, a
+   /// quote or a line break. Of the problem nothing is kept but what columns there are.
+   HistoryWriter(const std::string &file, const ReducedProblem &problem);
+   /// Goes on with the file of a march that is taken up at `time` (ContactState::time): rows
+   /// beyond it are dropped, so that in the end it is that of a march that never stopped.
+   HistoryWriter(const std::string &file, const ReducedProblem &problem, double time);
+
+   /// InputError if the row cannot be written or has not a multiplier for each pattern.
+   void add(const ContactState &state, const IncrementRecord &record);
+
+private:
+   Eigen::Index patterns_;
+   bool disc_;
+   StreamedFile file_;
+};
+
+/// The same table, held until it is written whole or not at all.
 class HistoryTable
 {
 public:
    void add(const ContactState &state, const IncrementRecord &record);
-   /// Writes the file whole or not at all; InputError if it cannot be written or a name holds a
-   /// comma, a quote or a line break.
+   /// InputError as HistoryWriter, or if a record is not of the problem.
    void write(const std::string &file, const ReducedProblem &problem) const;
 
 private:
-   struct Row
-   {
-      IncrementRecord record;
-      Eigen::VectorXd multipliers;
-   };
-   std::vector<Row> rows_;
+   std::vector<IncrementRecord> rows_;
 };
 
-/** Writes the contact nodes of some states, as CSV, one row a node and state:
+/** Table of the contact nodes of some states, as CSV, one row a node and state, written as they
+    come:
 
        time, node, arc_length, x, y, state (see settled_states()), p, q (tractions: nodal forces
    over consistent weights), slip v, opening w + g; with torsion q and slip have a radial and a
-   circumferential column each.
+   circumferential column each. Needs arc length, positions and weights.
 
-    Needs arc length, positions and weights. InputError if the file cannot be
-   written or a state does not fit; whole or not at all. */
+    The problem must outlive this. */
+class NodeWriter
+{
+public:
+   /// InputError if the file cannot be written or the problem lacks what is needed.
+   NodeWriter(const std::string &file, const ReducedProblem &problem);
+   /// Goes on, as HistoryWriter.
+   NodeWriter(const std::string &file, const ReducedProblem &problem, double time);
+
+   /// InputError if the state does not fit or cannot be written.
+   void add(const ContactState &state);
+
+private:
+   const ReducedProblem &problem_;
+   StreamedFile file_;
+};
+
+/// The same of states at hand; whole or not at all.
 void write_nodes(const std::string &file, const ReducedProblem &problem,
                  const std::vector<ContactState> &states);
+
+/** Saves a state every few seconds while a march goes on, so that little is lost if the program
+    ends: with load_contact_state() the march is taken up again. The file is always whole. */
+class StateSaver
+{
+public:
+   /// InputError if a file of that name cannot be written, or seconds are negative.
+   explicit StateSaver(const std::string &file, double seconds = 5);
+
+   /// Saves if it is time to: a state from which a march goes on to the last bit
+   /// (IncrementRecord::resumes), or any if none came for as long again. Add a state to a
+   /// HistoryWriter before, so that no row is missing.
+   void add(const ContactState &state, const IncrementRecord &record);
+
+private:
+   std::string file_;
+   double seconds_;
+   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
 
 } // namespace cattaneo

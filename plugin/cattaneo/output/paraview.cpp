@@ -1,6 +1,7 @@
 #include <array>
 #include <cattaneo/elastic/point_stress.hpp>
 #include <cattaneo/elastic/views.hpp>
+#include <cattaneo/friction/load_history.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/output/paraview.hpp>
 #include <cattaneo/readout/zones.hpp>
@@ -227,6 +228,34 @@ void ContactLineFields::write(const ContactState &state)
    write_whole(folder + "/" + file(times_.size()), vtp.str());
    write_whole(folder + "/" + name_ + ".pvd", pvd.str());
    times_ = std::move(times);
+}
+
+ReductionFields::ReductionFields(Reduction &reduction,
+                                 const std::vector<const ElasticBody *> &bodies,
+                                 const std::string &directory)
+   : reduction_(reduction), contact_(reduction.problem, directory, "contact"), bodies_(bodies)
+{
+   require(bodies.size() == reduction.bodies.size(), "ParaView output: ", bodies.size(),
+           " bodies for a reduction of ", reduction.bodies.size());
+   for (std::size_t k = 0; k < bodies.size(); ++k)
+   {
+      const std::string name = "body" + std::to_string(k + 1);
+      fields_.push_back(std::make_unique<BodyFields>(*bodies[k], directory, name));
+   }
+}
+
+void ReductionFields::write(const ContactState &state)
+{
+   const bool first = Ranks::first_of_all();
+   if (first) { contact_.write(state); }
+   for (std::size_t k = 0; k < bodies_.size(); ++k)
+   {
+      // A body that every rank has for itself is written by one.
+      if (!first && !bodies_[k]->ranks().several()) { continue; }
+      fields_[k]->write(
+         reduction_.displacement(static_cast<int>(k), state.v, state.w, state.multipliers),
+         state.time, named(reduction_.problem, state.multipliers));
+   }
 }
 
 } // namespace cattaneo

@@ -2,6 +2,7 @@
 
 #include <cattaneo/elastic/body.hpp>
 #include <cattaneo/friction/contact_state.hpp>
+#include <cattaneo/reduced/reduction.hpp>
 #include <map>
 #include <memory>
 #include <string>
@@ -66,6 +67,31 @@ private:
    const ReducedProblem &problem_;
    std::string directory_, name_;
    std::vector<double> times_;
+};
+
+/** All series of a reduction in a folder, contact.pvd and body1.pvd (and body2.pvd), a time
+    after the other: made to be called from a MarchObserver, since it holds no state. Plane
+    problems, and axisymmetric ones without torsion.
+
+    All must outlive this. */
+class ReductionFields
+{
+public:
+   /// `bodies`: those that the reduction was made of, in its order; InputError if their number
+   /// is another.
+   ReductionFields(Reduction &reduction, const std::vector<const ElasticBody *> &bodies,
+                   const std::string &directory);
+
+   /// Recovers the fields of the bodies, one solve each, and writes them. On several ranks all
+   /// must call it; what they share the first one writes. InputError as BodyFields and
+   /// ContactLineFields.
+   void write(const ContactState &state);
+
+private:
+   Reduction &reduction_;
+   ContactLineFields contact_;
+   std::vector<const ElasticBody *> bodies_;
+   std::vector<std::unique_ptr<BodyFields>> fields_;
 };
 
 } // namespace cattaneo

@@ -199,8 +199,9 @@ void ReducedProblem::validate() const
               " at node ", i, " is negative");
    }
    const auto size = static_cast<Eigen::Index>(patterns.size());
-   require(H.rows() == size && H.cols() == size, "reduced problem: H is ", H.rows(), "×",
-           H.cols(), ", must be square of the number of load patterns ", size);
+   require(H.size() == 0 || (H.rows() == size && H.cols() == size), "reduced problem: H is ",
+           H.rows(), "×", H.cols(), ", must be square of the number of load patterns ", size,
+           ", or empty if it is not known");
    require(H.allFinite(), "reduced problem: H has an entry that is not finite");
    // A problem without a mesh has none of these.
    if (weights.size() > 0) { check_vector("weights", weights, n); }
@@ -293,8 +294,11 @@ ReducedProblem absorb_gap(const ReducedProblem &problem)
                        problem.C() * -problem.gap};
    result.patterns.push_back(closing);
    const Eigen::Index k = problem.H.rows();
-   result.H = Eigen::MatrixXd::Zero(k + 1, k + 1);
-   result.H.topLeftCorner(k, k) = problem.H;
+   if (problem.knows_loads())
+   {
+      result.H = Eigen::MatrixXd::Zero(k + 1, k + 1);
+      result.H.topLeftCorner(k, k) = problem.H;
+   }
    result.gap.setZero();
    return result;
 }

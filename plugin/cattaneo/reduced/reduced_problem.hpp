@@ -55,8 +55,8 @@ struct ReducedProblem
 
    /// Response of the loads to the loads with the contact nodes clamped (u = {v; w} = 0), in
    /// the order of the patterns: the conjugate of pattern k (displacement of a force, reaction
-   /// of a prescribed displacement) is g = H λ ∓ F_kᵀ u, minus for force control. It enters the
-   /// external work only.
+   /// of a prescribed displacement) is g = H λ ∓ F_kᵀ u, minus for force control, see
+   /// conjugates(); nothing else depends on it. No rows: not known.
    Eigen::MatrixXd H;
 
    Eigen::VectorXd gap;      ///< initial gap g of each of the n nodes: closed where w + g = 0
@@ -95,6 +95,9 @@ struct ReducedProblem
    /// Normal stiffness, n × n.
    auto C() const { return K.bottomRightCorner(nodes(), nodes()); }
    auto C() { return K.bottomRightCorner(nodes(), nodes()); }
+
+   /// Is H known? Else conjugates are known but for a part that is linear in the loads.
+   bool knows_loads() const { return H.rows() > 0 || patterns.empty(); }
 
    /// Index of the pattern of that name; InputError with the list of names if there is none.
    int pattern(const std::string &name) const;

@@ -64,7 +64,10 @@ ClosedContact closed_contact(const ReducedProblem &problem,
       S += K(kept, freed) * by_kept;
       S = (0.5 * (S + S.transpose())).eval();
       F += K(kept, freed) * by_load;
-      H += sign.asDiagonal() * forces(freed, Eigen::all).transpose() * by_load;
+      if (problem.knows_loads())
+      {
+         H += sign.asDiagonal() * forces(freed, Eigen::all).transpose() * by_load;
+      }
    }
 
    ReducedProblem &reduced = contact.reduced;

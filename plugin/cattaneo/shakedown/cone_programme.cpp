@@ -472,6 +472,14 @@ public:
       return true;
    }
 
+   bool intermediate_callback(Ipopt::AlgorithmMode, Index iteration, Number, Number, Number,
+                              Number, Number, Number, Number, Number, Index,
+                              const Ipopt::IpoptData *,
+                              Ipopt::IpoptCalculatedQuantities *) override
+   {
+      return !settings.goes_on || settings.goes_on(iteration);
+   }
+
    void finalize_solution(Ipopt::SolverReturn, Index, const Number *x, const Number *z_low,
                           const Number *, Index, const Number *, const Number *lambda, Number,
                           const Ipopt::IpoptData *, Ipopt::IpoptCalculatedQuantities *) override
@@ -592,6 +600,10 @@ ConeSolution run_ipopt(const ConeProgramme &programme, const ConeSettings &setti
    case Infeasible_Problem_Detected:
       solution.outcome = ConeOutcome::infeasible;
       solution.message = "Ipopt found no admissible point";
+      break;
+   case User_Requested_Stop:
+      solution.outcome = ConeOutcome::stopped;
+      solution.message = "it was asked to stop";
       break;
    default:
       // A point was returned all the same; what it proves is for the caller to find out.

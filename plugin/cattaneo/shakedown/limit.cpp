@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/progress_report.hpp>
 #include <cattaneo/shakedown/cone_programme.hpp>
 #include <cattaneo/shakedown/limit.hpp>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -17,18 +17,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Share of a node's typical force that rounding can change in a sum over all nodes.
 constexpr double round_off = 1e-12;
-
-class Stopwatch
-{
-public:
-   double seconds() const
-   {
-      return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-   }
-
-private:
-   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
-};
 
 void check(const ReducedProblem &reduced, const ResidualForces &residual,
            const LimitSettings &settings)
@@ -57,14 +45,27 @@ Eigen::VectorXd typical_forces(const Eigen::MatrixXd &q, const Eigen::MatrixXd &
 }
 
 ConeSolution solve_counted(const ConeProgramme &programme, const LimitSettings &settings,
-                           const ConeStart &start, LimitReport &report)
+                           const ConeStart &start, LimitReport &report,
+                           ProgressReport &progress)
 {
    ConeSettings cone;
+   cone.goes_on = [&](int iteration)
+   {
+      progress.note(std::nan(""), report.iterations + iteration);
+      return !settings.monitor.stopped();
+   };
    cone.max_iterations = settings.max_iterations;
    ConeSolution solution = solve(programme, cone, start);
    report.iterations += solution.iterations;
    ++report.counters.limit_solves;
    return solution;
+}
+
+/// What is proven stands, whoever wanted it to stop.
+LimitStatus unless_stopped(LimitStatus status, const Monitor &monitor)
+{
+   const bool open = status == LimitStatus::bracketed || status == LimitStatus::failed;
+   return open && monitor.stopped() ? LimitStatus::stopped : status;
 }
 
 /// A point was returned, whatever the outcome.
@@ -109,7 +110,8 @@ struct Clearance
 
 Clearance largest_clearance(const ReducedProblem &reduced, const ResidualForces &residual,
                             const StuckForces &loads, const Eigen::VectorXd &force_scale,
-                            const LimitSettings &settings, LimitReport &report)
+                            const LimitSettings &settings, LimitReport &report,
+                            ProgressReport &progress)
 {
    const ConeProgramme programme =
       clearance_programme(residual, loads, 0, reduced.friction,
@@ -117,7 +119,7 @@ Clearance largest_clearance(const ReducedProblem &reduced, const ResidualForces 
    ConeStart stuck;
    stuck.r = Eigen::VectorXd::Zero(loads.q0.rows());
    Clearance largest;
-   largest.solution = solve_counted(programme, settings, stuck, report);
+   largest.solution = solve_counted(programme, settings, stuck, report, progress);
    if (!usable(largest.solution)) { return largest; }
    largest.slip = residual.flexibility * largest.solution.r;
    largest.reached = -worst_violation(programme, reduced, 0, largest.slip, Rounding::against);
@@ -200,6 +202,8 @@ const char *name(LimitStatus status)
       return "unlimited";
    case LimitStatus::no_solution:
       return "no solution";
+   case LimitStatus::stopped:
+      return "stopped";
    case LimitStatus::failed:
       return "failed";
    case LimitStatus::unavailable:
@@ -215,6 +219,7 @@ void LimitSettings::validate() const
    require_at_least("shakedown: max_iterations", max_iterations, 1);
    require_positive("shakedown: largest_factor", largest_factor);
    require_positive("shakedown: largest_friction", largest_friction);
+   monitor.validate();
 }
 
 LimitReport load_limit(const LimitProblem &problem, const LimitSettings &settings)
@@ -228,7 +233,7 @@ LimitReport load_limit(const LimitProblem &problem, const LimitSettings &setting
 LimitReport load_limit(const ReducedProblem &reduced, const ResidualForces &residual,
                        const StuckForces &loads, const LimitSettings &settings)
 {
-   const Stopwatch stopwatch;
+   ProgressReport progress(settings.monitor);
    check(reduced, residual, settings);
    const Eigen::Index n = reduced.nodes(), m = reduced.slips();
    for (Eigen::Index i = 0; i < n; ++i)
@@ -241,10 +246,11 @@ LimitReport load_limit(const ReducedProblem &reduced, const ResidualForces &resi
    report.upper = infinity;
    const auto finish = [&](LimitStatus status, const std::string &message)
    {
-      report.status = status;
+      report.status = unless_stopped(status, settings.monitor);
       report.message = message;
       report.limit = report.lower;
-      report.seconds = stopwatch.seconds();
+      report.seconds = progress.seconds();
+      progress.end(1.0, report.iterations);
       return report;
    };
 
@@ -289,8 +295,8 @@ LimitReport load_limit(const ReducedProblem &reduced, const ResidualForces &resi
    {
       const Eigen::VectorXd relief = -(residual.flexibility * loads.q0.col(0));
       take(relief, reduced.A() * relief);
-      Clearance constant =
-         largest_clearance(reduced, residual, loads, programme.force_scale, settings, report);
+      Clearance constant = largest_clearance(reduced, residual, loads, programme.force_scale,
+                                             settings, report, progress);
       if (constant.solution.outcome == ConeOutcome::unavailable)
       {
          return finish(LimitStatus::unavailable, constant.solution.message);
@@ -360,7 +366,7 @@ LimitReport load_limit(const ReducedProblem &reduced, const ResidualForces &resi
    constexpr int max_ceilings = 3;
    for (int k = 0; k < max_ceilings; ++k)
    {
-      ConeSolution solution = solve_counted(programme, settings, start, report);
+      ConeSolution solution = solve_counted(programme, settings, start, report, progress);
       if (solution.outcome == ConeOutcome::unavailable)
       {
          return finish(LimitStatus::unavailable, solution.message);
@@ -382,8 +388,8 @@ LimitReport load_limit(const ReducedProblem &reduced, const ResidualForces &resi
       if (closed()) { return finish(LimitStatus::certified, ""); }
       if (k == 0)
       {
-         Clearance ray =
-            largest_clearance(reduced, residual, alone.loads, varying_scale, settings, report);
+         Clearance ray = largest_clearance(reduced, residual, alone.loads, varying_scale,
+                                           settings, report, progress);
          if (held && ray.reached > 0)
          {
             report.slip = first_slip;
@@ -421,7 +427,7 @@ LimitReport load_limit(const ReducedProblem &reduced, const ResidualForces &resi
             }
          }
       }
-      if (solution.outcome != ConeOutcome::ceiling) { break; }
+      if (solution.outcome != ConeOutcome::ceiling || settings.monitor.stopped()) { break; }
       programme.theta_scale *= programme.ceiling;
       programme.reach *= programme.ceiling;
    }
@@ -437,7 +443,7 @@ LimitReport load_limit(const ReducedProblem &reduced, const ResidualForces &resi
 LimitReport friction_limit(const LimitProblem &problem, double load_factor,
                            const LimitSettings &settings)
 {
-   const Stopwatch stopwatch;
+   ProgressReport progress(settings.monitor);
    check(problem.reduced, problem.residual, settings);
    require(std::isfinite(load_factor), "shakedown: the load factor is not finite");
    const ReducedProblem &reduced = problem.reduced;
@@ -450,9 +456,10 @@ LimitReport friction_limit(const LimitProblem &problem, double load_factor,
    report.upper = report.limit = infinity;
    const auto finish = [&](LimitStatus status, const std::string &message)
    {
-      report.status = status;
+      report.status = unless_stopped(status, settings.monitor);
       report.message = message;
-      report.seconds = stopwatch.seconds();
+      report.seconds = progress.seconds();
+      progress.end(1.0, report.iterations);
       return report;
    };
    if (q.isZero(0) && p.isZero(0))
@@ -505,7 +512,7 @@ LimitReport friction_limit(const LimitProblem &problem, double load_factor,
                              Eigen::VectorXd::Constant(n, f), weight, force_scale);
       // Clearances are compared with f p.
       programme.theta_scale = f;
-      solution = solve_counted(programme, settings, start, report);
+      solution = solve_counted(programme, settings, start, report, progress);
       if (solution.outcome == ConeOutcome::unavailable)
       {
          return finish(LimitStatus::unavailable, solution.message);
@@ -525,7 +532,7 @@ LimitReport friction_limit(const LimitProblem &problem, double load_factor,
          wedge.loads.p0.setZero();
          wedge.reach = 1e3;
          const ConeSolution wedged =
-            solve_counted(wedge, settings, {0, Eigen::VectorXd::Zero(m), {}}, report);
+            solve_counted(wedge, settings, {0, Eigen::VectorXd::Zero(m), {}}, report, progress);
          for (double size = 1; size <= 1e9 && usable(wedged); size *= 10)
          {
             take(size * (problem.residual.flexibility * wedged.r));
@@ -536,6 +543,7 @@ LimitReport friction_limit(const LimitProblem &problem, double load_factor,
          report.lower = f;
          report.mechanism = std::move(mechanism);
       }
+      if (settings.monitor.stopped()) { break; }
       const double highest = std::min(settings.largest_friction, report.upper);
       if (highest - report.lower <= settings.tolerance * highest) { break; }
       const bool better = report.upper < before;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cattaneo/counters.hpp>
+#include <cattaneo/monitor.hpp>
 #include <cattaneo/shakedown/collapse_mechanism.hpp>
 #include <cattaneo/shakedown/load_cycle.hpp>
 #include <cattaneo/shakedown/residual_forces.hpp>
@@ -37,6 +38,7 @@ enum class LimitStatus
    no_solution, ///< no slip keeps the contact stuck and closed under the constant loads or, of
                 ///< a friction limit, with any coefficient searched (proven by the mechanism)
    failed,      ///< the solver ended without a usable point
+   stopped,     ///< it was asked to (Monitor::stop): bounds are proven as far as they are known
    unavailable  ///< built without Ipopt
 };
 
@@ -56,6 +58,9 @@ struct LimitSettings
    double largest_friction = 100;
    /// An earlier report of a sweep over the same contact to start from. Not owned; may be null.
    const LimitReport *start = nullptr;
+   /// Hears of every iteration (how many there will be nobody knows: its share is NaN until it
+   /// ends), and may stop it.
+   Monitor monitor;
 
    void validate() const;
 };

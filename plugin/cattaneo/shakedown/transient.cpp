@@ -33,6 +33,8 @@ const char *name(TransientVerdict verdict)
       return "cyclic slip";
    case TransientVerdict::still_slipping:
       return "still slipping";
+   case TransientVerdict::stopped:
+      return "stopped";
    case TransientVerdict::no_equilibrium:
       return "no equilibrium";
    }
@@ -129,6 +131,10 @@ TransientReport transient(FrictionSolver &solver, const LimitProblem &problem,
       const Eigen::VectorXd sizes = record.node_dissipation.cwiseAbs();
       report.opened_loss = sizes(report.opened).sum();
       loss.push_back(sizes.sum() - report.opened_loss);
+   }
+   if (marched.status == FrictionStatus::stopped)
+   {
+      report.verdict = TransientVerdict::stopped;
    }
    if (loss.empty()) { return report; }
 
@@ -241,6 +247,12 @@ CounterExample find_counter_example(const LimitProblem &problem, const LimitRepo
             transient(solver, problem, trial, start, settings.transient);
          ++found.marches;
          found.counters += report.counters;
+         if (report.verdict == TransientVerdict::stopped)
+         {
+            found.message =
+               "stopped before all starts were tried: nothing is known of the rest";
+            return found;
+         }
          // Only a steady cycle with slip at closed nodes counts; a slow decay, nodes that open
          // or a lost equilibrium do not.
          if (report.verdict == TransientVerdict::cyclic_slip)

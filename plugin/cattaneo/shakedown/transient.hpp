@@ -33,7 +33,8 @@ enum class TransientVerdict
    slips_and_opens, ///< ended but at nodes that open in every cycle and slip as they do
    cyclic_slip,     ///< a steady cycle with slip at nodes that stay closed
    still_slipping,  ///< neither steady nor ended after all cycles
-   no_equilibrium   ///< the march ended early: status and message say why
+   no_equilibrium,  ///< the march ended early: status and message say why
+   stopped          ///< it was asked to (Monitor::stop)
 };
 
 const char *name(TransientVerdict verdict);

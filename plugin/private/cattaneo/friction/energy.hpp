@@ -13,11 +13,8 @@ namespace cattaneo
 Eigen::VectorXd frictional_loss(const ReducedProblem &problem, const ContactState &before,
                                 const ContactState &after);
 
-/// Elastic energy stored by the contact displacements and loads of a state (both bodies).
+/// Elastic energy stored by the contact displacements and loads of a state (both bodies); what the
+/// loads store in the clamped bodies only if it is known (H).
 double elastic_energy(const ReducedProblem &problem, const ContactState &state);
-
-/// Work of the loads from one state to another, trapezoidal (exact along a linear path).
-double external_work(const ReducedProblem &problem, const ContactState &before,
-                     const ContactState &after);
 
 } // namespace cattaneo

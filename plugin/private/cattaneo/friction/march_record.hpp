@@ -15,21 +15,28 @@ public:
 
    MarchReport report;
 
-   /// The end of an increment becomes the state. `exact`: by the exact path, or by one
-   /// increment where that is exact.
-   void accept(ContactState &&next, int cycle, const IncrementReport &increment, bool exact);
-   void end_cycle();
+   /// The state stands where a cycle begins, or, not `whole`, within it.
+   void begin_cycle(int number, bool whole);
+   /// The end of an increment of a piece becomes the state. `exact`: by the exact path, or by
+   /// one increment where that is exact. `resumes`: see IncrementRecord.
+   void accept(ContactState &&next, const LoadPiece &piece, const IncrementReport &increment,
+               bool exact, bool resumes);
    /// The state stands at the last load with an equilibrium.
    void stop(const IncrementReport &failure);
    /// The balance of energy, and how far the march came.
    void close();
 
 private:
+   void end_cycle();
+   /// Of the increment from the state to that of the record.
+   double external_work(const IncrementRecord &record) const;
+
    const ReducedProblem &problem_;
    ContactState &state_;
    const MarchSettings &settings_;
    const MarchObserver &observer_;
-   CycleRecord cycle_;
+   std::optional<CycleRecord> cycle_;
+   Eigen::VectorXd conjugates_; // of the state
    double external_work_ = 0, dissipation_ = 0, normal_work_ = 0;
    const double energy_at_start_;
    double changed_ = 0; // see changed_while_closing()

@@ -4,6 +4,7 @@
 #include <cattaneo/shakedown/collapse_mechanism.hpp>
 #include <cattaneo/shakedown/load_cycle.hpp>
 #include <cattaneo/shakedown/residual_forces.hpp>
+#include <functional>
 #include <string>
 
 namespace cattaneo
@@ -47,6 +48,8 @@ struct ConeSettings
    /// Every cone is left by this much of the node's typical force, so that the point that is
    /// found stays inside after rounding and the small constraint violations of the solver.
    double margin = 1e-10;
+   /// Called in every iteration with its number; false ends it with the point at hand.
+   std::function<bool(int)> goes_on;
 };
 
 /// Where to start from: a residual state and, of an earlier solution, its mechanism.
@@ -63,6 +66,7 @@ enum class ConeOutcome
    ceiling,    ///< θ reaches the ceiling
    infeasible, ///< no residual state is inside all cones, whatever θ
    failed,
+   stopped,    ///< by ConeSettings::goes_on
    unavailable ///< built without Ipopt
 };
 

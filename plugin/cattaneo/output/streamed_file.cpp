@@ -1,0 +1,61 @@
+#include <cattaneo/input_error.hpp>
+#include <cattaneo/output/streamed_file.hpp>
+#include <cattaneo/whole_file.hpp>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+namespace cattaneo
+{
+
+namespace
+{
+
+/// What of an old file stays.
+std::string kept_lines(const std::string &file, const std::string &header, double time)
+{
+   std::ifstream in(file);
+   std::string line, kept = header + '\n';
+   if (!std::getline(in, line)) { return kept; }
+   require(line == header, "file '", file, "' cannot be gone on with: its first line is '",
+           line, "', must be '", header, "'");
+   // The end of a line tells that it is whole.
+   while (std::getline(in, line) && !in.eof())
+   {
+      if (!(std::strtod(line.c_str(), nullptr) <= time)) { break; }
+      kept += line + '\n';
+   }
+   return kept;
+}
+
+} // namespace
+
+StreamedFile::StreamedFile(const std::string &file, const std::string &header) : file_(file)
+{
+   require_writable(file);
+   write_whole(file, header + '\n');
+   open();
+}
+
+StreamedFile::StreamedFile(const std::string &file, const std::string &header, double time)
+   : file_(file)
+{
+   require_writable(file);
+   write_whole(file, kept_lines(file, header, time));
+   open();
+}
+
+void StreamedFile::open()
+{
+   out_.open(file_, std::ios::app);
+   require(out_.good(), "cannot write file '", file_, "': ", std::strerror(errno));
+}
+
+void StreamedFile::add(const std::string &lines)
+{
+   out_ << lines << std::flush;
+   require(out_.good(), "cannot write file '", file_, "': ", std::strerror(errno));
+}
+
+} // namespace cattaneo
