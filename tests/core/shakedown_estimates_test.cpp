@@ -511,6 +511,9 @@ TEST(ClosedContact, LoadsDoTheSameWorkAndFactsAreKept)
    EXPECT_EQ(runs[1].first, 2);
    EXPECT_EQ(runs[1].nodes, 3);
    EXPECT_EQ(runs[1].other_ends, (std::array<LineEnd, 2>{none, corner}));
+   // What is not known of the loads stays so.
+   line.H.resize(0, 0);
+   EXPECT_FALSE(closed_contact(line, {0, 1, 3, 4, 5}).reduced.knows_loads());
    // All closed: the same contact.
    const ClosedContact all = closed_contact(problem, {0, 1, 2, 3, 4, 5});
    EXPECT_EQ(all.reduced.B(), problem.B());

@@ -199,7 +199,7 @@ void ReducedProblem::validate() const
               " at node ", i, " is negative");
    }
    const auto size = static_cast<Eigen::Index>(patterns.size());
-   require(H.size() == 0 || (H.rows() == size && H.cols() == size), "reduced problem: H is ",
+   require(H.rows() == 0 || (H.rows() == size && H.cols() == size), "reduced problem: H is ",
            H.rows(), "×", H.cols(), ", must be square of the number of load patterns ", size,
            ", or empty if it is not known");
    require(H.allFinite(), "reduced problem: H has an entry that is not finite");
