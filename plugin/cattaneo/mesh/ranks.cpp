@@ -35,11 +35,7 @@ T reduced(MPI_Comm comm, int size, T here, MPI_Datatype type, MPI_Op op)
 
 bool Ranks::first_of_all()
 {
-#ifdef MFEM_USE_MPI
    return !mfem::Mpi::IsInitialized() || mfem::Mpi::Root();
-#else
-   return true;
-#endif
 }
 
 bool Ranks::any(bool here) const
@@ -171,6 +167,11 @@ void Ranks::deal(const Eigen::VectorXd &all, int count, double *here) const
 }
 
 #else
+
+bool Ranks::first_of_all()
+{
+   return true;
+}
 
 Ranks::Ranks(const mfem::Mesh &) {}
 bool Ranks::any(bool here) const
