@@ -13,8 +13,8 @@ namespace cattaneo
 Eigen::VectorXd frictional_loss(const ReducedProblem &problem, const ContactState &before,
                                 const ContactState &after);
 
-/// Elastic energy stored by the contact displacements and loads of a state (both bodies); what the
-/// loads store in the clamped bodies only if it is known (H).
+/// Elastic energy stored by the contact displacements and loads of a state (both bodies); what
+/// the loads store in the clamped bodies only if it is known (H).
 double elastic_energy(const ReducedProblem &problem, const ContactState &state);
 
 } // namespace cattaneo
