@@ -75,6 +75,8 @@ Outcome outcome_of(FrictionStatus status)
       return Outcome::gross_sliding;
    case FrictionStatus::no_solution:
       return Outcome::no_solution;
+   case FrictionStatus::stopped: // nobody asked it to
+      return Outcome::wrong;
    case FrictionStatus::stalled:
       break;
    }

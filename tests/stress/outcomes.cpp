@@ -171,6 +171,9 @@ Verdict march_and_verify(const ReducedProblem &problem, const LoadHistory &histo
    case FrictionStatus::stalled:
       verdict.outcome = Outcome::stalled;
       break;
+   case FrictionStatus::stopped: // nobody asked it to
+      verdict.outcome = Outcome::wrong;
+      break;
    }
    const bool ended_early = verdict.outcome != Outcome::verified;
    if (ended_early && report.message.empty())
