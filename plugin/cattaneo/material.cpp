@@ -29,8 +29,7 @@ void Material::validate() const
    require(poisson > -1 && poisson < limit, "material: Poisson's ratio is ", poisson,
            ", must be above -1 and below ", limit,
            strain ? " in plane strain" : " in plane stress");
-   require(std::isfinite(young) && young > 0, "material: Young's modulus is ", young,
-           ", must be positive and finite");
+   require_positive("material: Young's modulus", young);
 }
 
 } // namespace cattaneo

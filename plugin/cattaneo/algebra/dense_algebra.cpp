@@ -1,6 +1,8 @@
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <Eigen/QR>
 #include <cattaneo/algebra/dense_algebra.hpp>
+#include <cmath>
 
 namespace cattaneo
 {
@@ -30,6 +32,24 @@ VectorXd symmetric_eigenvalues(const MatrixXd &matrix)
 VectorXd least_squares(const MatrixXd &A, const VectorXd &b)
 {
    return A.colPivHouseholderQr().solve(b);
+}
+
+ScatteredFit::ScatteredFit(const MatrixXd &A, const VectorXd &b) : x(least_squares(A, b))
+{
+   const double spare = static_cast<double>(A.rows() - A.cols());
+   covariance = (b - A * x).squaredNorm() / spare * (A.transpose() * A).inverse();
+}
+
+double ScatteredFit::error(const VectorXd &at) const
+{
+   return std::sqrt(at.dot(covariance * at));
+}
+
+MatrixXd powers(const VectorXd &x, int degree)
+{
+   MatrixXd columns = MatrixXd::Ones(x.size(), degree + 1);
+   for (int d = 1; d <= degree; ++d) { columns.col(d) = columns.col(d - 1).cwiseProduct(x); }
+   return columns;
 }
 
 } // namespace cattaneo

@@ -1,20 +1,5 @@
 #include <cattaneo/algebra/dense_cholesky.hpp>
-
-#ifdef CATTANEO_USE_LAPACK
-extern "C"
-{
-   void dpotrf_(const char *triangle, const int *n, double *A, const int *stride, int *info);
-   void dpotrs_(const char *triangle, const int *n, const int *columns, const double *A,
-                const int *stride, double *x, const int *x_stride, int *info);
-   void dpotri_(const char *triangle, const int *n, double *A, const int *stride, int *info);
-   void dtrsm_(const char *side, const char *triangle, const char *transposed,
-               const char *diagonal, const int *rows, const int *columns, const double *factor,
-               const double *A, const int *stride, double *x, const int *x_stride);
-   void dsyrk_(const char *triangle, const char *transposed, const int *n, const int *inner,
-               const double *factor, const double *A, const int *stride, const double *keep,
-               double *C, const int *C_stride);
-}
-#endif
+#include <cattaneo/algebra/lapack.hpp>
 
 namespace cattaneo
 {

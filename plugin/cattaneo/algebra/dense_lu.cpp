@@ -1,16 +1,6 @@
 #include <cattaneo/algebra/dense_lu.hpp>
+#include <cattaneo/algebra/lapack.hpp>
 #include <cmath>
-
-#ifdef CATTANEO_USE_LAPACK
-extern "C"
-{
-   void dgetrf_(const int *rows, const int *columns, double *A, const int *stride, int *pivots,
-                int *info);
-   void dgetrs_(const char *transposed, const int *n, const int *columns, const double *A,
-                const int *stride, const int *pivots, double *x, const int *x_stride,
-                int *info);
-}
-#endif
 
 namespace cattaneo
 {

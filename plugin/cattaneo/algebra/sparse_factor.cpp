@@ -3,6 +3,7 @@
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <cattaneo/algebra/lapack.hpp>
 #include <cmath>
 #include <numeric>
 
@@ -11,12 +12,6 @@
 #if __has_include(<dlfcn.h>)
 #include <dlfcn.h>
 #endif
-#endif
-
-#ifdef CATTANEO_USE_LAPACK
-extern "C" void dgemm_(const char *, const char *, const int *, const int *, const int *,
-                       const double *, const double *, const int *, const double *, const int *,
-                       const double *, double *, const int *);
 #endif
 
 namespace cattaneo

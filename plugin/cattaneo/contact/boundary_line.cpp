@@ -299,6 +299,122 @@ std::vector<std::vector<const Segment *>> chained(const std::vector<Segment> &se
    return chains;
 }
 
+/// How the boundary goes on at both ends of a chain.
+std::array<LineEnd, 2> ends_of(const std::vector<const Segment *> &chain, bool loop,
+                               const std::vector<WayOn> &ways)
+{
+   if (loop) { return {LineEnd::smooth, LineEnd::smooth}; }
+   const auto bend = [&](std::size_t a)
+   {
+      return a + 1 < chain.size() // else of one element
+                ? std::acos(std::clamp(
+                     chain[a]->back().node.tangent.dot(chain[a + 1]->front().node.tangent),
+                     -1.0, 1.0))
+                : 0.0;
+   };
+   const auto end_at = [&](const SegmentNode &end, const Eigen::Vector2d &out, double turn)
+   { return end.on_axis ? LineEnd::symmetry : goes_on(ways, end.id, out, turn); };
+   const SegmentNode &first = chain.front()->front(), &last = chain.back()->back();
+   return {end_at(first, -first.node.tangent, bend(0)),
+           end_at(last, last.node.tangent, bend(std::max<std::size_t>(chain.size(), 2) - 2))};
+}
+
+/// All nodes of a chain, with the sums of what their elements give them, and its elements.
+struct JoinedSegments
+{
+   std::vector<SegmentNode> nodes;
+   std::vector<LineElement> elements; ///< of nodes of the chain
+};
+
+/// The arc length begins at `start`, and is where the next chain begins afterwards.
+JoinedSegments joined(const std::vector<const Segment *> &chain, double &start)
+{
+   JoinedSegments result;
+   std::vector<SegmentNode> &nodes = result.nodes;
+   const int first = chain.front()->front().id;
+   for (const Segment *segment : chain)
+   {
+      LineElement element;
+      element.points.resize(2, static_cast<Eigen::Index>(segment->size()));
+      for (std::size_t a = 0; a < segment->size(); ++a)
+      {
+         const SegmentNode &part_of = (*segment)[a];
+         std::size_t at = nodes.size();
+         if (a == 0 && segment != chain.front()) { --at; }
+         else if (part_of.id == first && !nodes.empty()) { at = 0; }
+         else
+         {
+            nodes.push_back({part_of.id, part_of.node, 0.0, part_of.on_axis});
+            LineNode &added = nodes.back().node;
+            added.tangent.setZero();
+            added.weight = 0;
+            added.arc_length += start;
+            added.spacing = std::numeric_limits<double>::infinity();
+         }
+         LineNode &node = nodes[at].node;
+         node.weight += part_of.node.weight;
+         node.tangent += part_of.share * part_of.node.tangent;
+         nodes[at].share += part_of.share;
+         if (a > 0)
+         {
+            const double step = part_of.node.arc_length - (*segment)[a - 1].node.arc_length;
+            LineNode &previous = nodes[element.nodes.back()].node;
+            previous.spacing = std::min(previous.spacing, step);
+            node.spacing = std::min(node.spacing, step);
+         }
+         element.nodes.push_back(static_cast<Eigen::Index>(at));
+         element.points.col(static_cast<Eigen::Index>(a)) = node.position;
+      }
+      start += segment->back().node.arc_length;
+      result.elements.push_back(element);
+   }
+   return result;
+}
+
+/// Nodes on the axis are left out of the line, their weight goes to a neighbour.
+void give_weights_of_axis(std::vector<SegmentNode> &nodes, const std::string &where)
+{
+   std::size_t next = nodes.size();
+   for (std::size_t i = nodes.size(); i-- > 0;)
+   {
+      if (!nodes[i].on_axis)
+      {
+         next = i;
+         continue;
+      }
+      require(next < nodes.size() || i > 0, where, ": the node at ", coordinates(nodes[i].node),
+              " is alone on the axis");
+      nodes[next < nodes.size() ? next : i - 1].node.weight += nodes[i].node.weight;
+   }
+}
+
+/// Appends a chain to the line.
+void append(JoinedSegments joined, LineChain chain, ContactLine &line, const std::string &where)
+{
+   give_weights_of_axis(joined.nodes, where);
+   chain.first = line.size();
+   std::vector<Eigen::Index> number; // in the line
+   for (SegmentNode &each : joined.nodes)
+   {
+      number.push_back(each.on_axis ? -1 : line.size());
+      if (each.on_axis) { continue; }
+      LineNode &node = each.node;
+      const double size = std::hypot(node.tangent[0], node.tangent[1]);
+      // Exactly opposite tangents cancel to round-off.
+      require(size > 1e-9 * each.share, where, ": the line turns back on itself at ",
+              coordinates(node));
+      node.tangent /= size;
+      line.nodes.push_back(node);
+   }
+   chain.nodes = line.size() - chain.first;
+   chain.elements = std::move(joined.elements);
+   for (LineElement &element : chain.elements)
+   {
+      for (Eigen::Index &node : element.nodes) { node = number[node]; }
+   }
+   line.chains.push_back(std::move(chain));
+}
+
 } // namespace
 
 ContactLine contact_line(const ElasticBody &body, const BoundaryPart &part)
@@ -331,99 +447,10 @@ ContactLine contact_line(const ElasticBody &body, const BoundaryPart &part)
    const std::vector<WayOn> ways = ways_on(body, segments);
    for (const std::vector<const Segment *> &chain : chained(segments, where))
    {
-      const SegmentNode &first = chain.front()->front(), &last = chain.back()->back();
       LineChain described;
-      described.loop = first.id == last.id;
-      const auto bend = [&](std::size_t a)
-      {
-         return a + 1 < chain.size() // else of one element
-                   ? std::acos(std::clamp(
-                        chain[a]->back().node.tangent.dot(chain[a + 1]->front().node.tangent),
-                        -1.0, 1.0))
-                   : 0.0;
-      };
-      const auto end_at = [&](const SegmentNode &end, const Eigen::Vector2d &out, double turn)
-      {
-         return described.loop ? LineEnd::smooth
-                : end.on_axis  ? LineEnd::symmetry
-                               : goes_on(ways, end.id, out, turn);
-      };
-      described.ends = {
-         end_at(first, -first.node.tangent, bend(0)),
-         end_at(last, last.node.tangent, bend(std::max<std::size_t>(chain.size(), 2) - 2))};
-
-      // All nodes of the chain, with the sums of what their elements give them.
-      std::vector<SegmentNode> nodes;
-      for (const Segment *segment : chain)
-      {
-         LineElement element;
-         element.points.resize(2, static_cast<Eigen::Index>(segment->size()));
-         for (std::size_t a = 0; a < segment->size(); ++a)
-         {
-            const SegmentNode &part_of = (*segment)[a];
-            std::size_t at = nodes.size();
-            if (a == 0 && segment != chain.front()) { --at; }
-            else if (part_of.id == first.id && !nodes.empty()) { at = 0; }
-            else
-            {
-               nodes.push_back({part_of.id, part_of.node, 0.0, part_of.on_axis});
-               LineNode &added = nodes.back().node;
-               added.tangent.setZero();
-               added.weight = 0;
-               added.arc_length += start;
-               added.spacing = std::numeric_limits<double>::infinity();
-            }
-            LineNode &node = nodes[at].node;
-            node.weight += part_of.node.weight;
-            node.tangent += part_of.share * part_of.node.tangent;
-            nodes[at].share += part_of.share;
-            if (a > 0)
-            {
-               const double step = part_of.node.arc_length - (*segment)[a - 1].node.arc_length;
-               LineNode &previous = nodes[element.nodes.back()].node;
-               previous.spacing = std::min(previous.spacing, step);
-               node.spacing = std::min(node.spacing, step);
-            }
-            element.nodes.push_back(static_cast<Eigen::Index>(at));
-            element.points.col(static_cast<Eigen::Index>(a)) = node.position;
-         }
-         start += segment->back().node.arc_length;
-         described.elements.push_back(element);
-      }
-
-      // Those on the axis are left out, their weight goes to a neighbour.
-      described.first = line.size();
-      std::size_t next = nodes.size();
-      for (std::size_t i = nodes.size(); i-- > 0;)
-      {
-         if (!nodes[i].on_axis)
-         {
-            next = i;
-            continue;
-         }
-         require(next < nodes.size() || i > 0, where, ": the node at ",
-                 coordinates(nodes[i].node), " is alone on the axis");
-         nodes[next < nodes.size() ? next : i - 1].node.weight += nodes[i].node.weight;
-      }
-      std::vector<Eigen::Index> number; // in the line
-      for (SegmentNode &each : nodes)
-      {
-         number.push_back(each.on_axis ? -1 : line.size());
-         if (each.on_axis) { continue; }
-         LineNode &node = each.node;
-         const double size = std::hypot(node.tangent[0], node.tangent[1]);
-         // Exactly opposite tangents cancel to round-off.
-         require(size > 1e-9 * each.share, where, ": the line turns back on itself at ",
-                 coordinates(node));
-         node.tangent /= size;
-         line.nodes.push_back(node);
-      }
-      described.nodes = line.size() - described.first;
-      for (LineElement &element : described.elements)
-      {
-         for (Eigen::Index &node : element.nodes) { node = number[node]; }
-      }
-      line.chains.push_back(described);
+      described.loop = chain.front()->front().id == chain.back()->back().id;
+      described.ends = ends_of(chain, described.loop, ways);
+      append(joined(chain, start), described, line, where);
    }
    line.validate();
    check_joined(line, where);

@@ -142,10 +142,8 @@ ContactDofs contact_dofs(const ElasticBody &body, const ContactLine &line)
 
 void CondenseSettings::validate() const
 {
-   require(direct_dofs >= 0, "condense: direct_dofs is ", direct_dofs,
-           ", must not be negative");
-   require(max_iterations >= 1, "condense: max_iterations is ", max_iterations,
-           ", must be at least 1");
+   require_at_least("condense: direct_dofs", direct_dofs, 0);
+   require_at_least("condense: max_iterations", max_iterations, 1);
 }
 
 CondensedBody condense(const ElasticBody &body, const ContactLine &line,

@@ -67,19 +67,16 @@ Solution fit(const std::vector<EdgeSample> &samples, std::size_t first, std::siz
       values[i] = sample.pressure;
       values[n + i] = sample.shear;
    }
-   const Eigen::MatrixXd modal = terms.leftCols(m);
-   const Eigen::VectorXd plain = least_squares(modal, values);
-   const Eigen::VectorXd more = least_squares(terms, values);
-   const double variance = (values - terms * more).squaredNorm() / (2 * n - m - 2);
-   const Eigen::MatrixXd inverse = (terms.transpose() * terms).inverse();
+   const Eigen::VectorXd plain = least_squares(terms.leftCols(m), values);
+   const ScatteredFit more(terms, values);
    Solution solution;
    for (Eigen::Index k = 0; k < m; k++)
    {
       const double absolute =
-         std::max(std::sqrt(variance * inverse(k, k)), std::abs(more[k] - plain[k]));
-      solution.strength.push_back(more[k] *
+         std::max(std::sqrt(more.covariance(k, k)), std::abs(more.x[k] - plain[k]));
+      solution.strength.push_back(more.x[k] *
                                   std::pow(scale, modes[0].eigenvalue - modes[k].eigenvalue));
-      solution.error.push_back(absolute > 0 ? absolute / std::abs(more[k]) : 0.0);
+      solution.error.push_back(absolute > 0 ? absolute / std::abs(more.x[k]) : 0.0);
    }
    return solution;
 }

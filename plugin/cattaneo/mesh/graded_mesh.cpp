@@ -12,10 +12,8 @@ std::vector<double> graded(double from, double to, double first, double growth, 
 {
    require(std::isfinite(from) && std::isfinite(to) && from != to, "graded: runs from ", from,
            " to ", to, ", the ends must be finite and different");
-   require(std::isfinite(first) && first > 0, "graded: first step is ", first,
-           ", must be positive");
-   require(std::isfinite(growth) && growth >= 1, "graded: growth is ", growth,
-           ", must be at least 1 and finite");
+   require_positive("graded: first step", first);
+   require_at_least("graded: growth", growth, 1);
    require(largest > 0, "graded: largest step is ", largest, ", must be positive");
    const double length = std::abs(to - from);
    const double allowed = 1e7; // far more grid lines than any mesh can use
@@ -56,8 +54,7 @@ std::vector<double> graded(double from, double to, double first, double growth, 
 
 std::vector<double> graded_to_ends(double half, int intervals, double end_ratio)
 {
-   require(std::isfinite(half) && half > 0, "graded to ends: half length is ", half,
-           ", must be positive");
+   require_positive("graded to ends: half length", half);
    require(intervals >= 1, "graded to ends: ", intervals, " intervals, must be at least 1");
    require(end_ratio > 0 && end_ratio <= 1, "graded to ends: end ratio is ", end_ratio,
            ", must be above 0 and at most 1");

@@ -150,33 +150,24 @@ struct Zero
 /** Zero of a parabola through values at distances t (increasing, in spacings), nearest to t =
    0. The number of values is the one of least error: the larger of the standard error and the
     change when a cubic is fitted. */
-Zero nearest_zero(const std::vector<double> &t, const std::vector<double> &values,
-                  const std::vector<double> &weights)
+Zero nearest_zero(const VectorXd &t, const VectorXd &values, const VectorXd &weights)
 {
    Zero best;
-   for (Index count = 6; count <= Index(t.size()); count++)
+   for (Index count = 6; count <= t.size(); count++)
    {
       const double scale = t[count - 1];
-      Eigen::MatrixXd terms(count, 4);
-      VectorXd rhs(count);
-      for (Index k = 0; k < count; k++)
-      {
-         const double x = t[k] / scale, root = std::sqrt(weights[k]);
-         terms.row(k) << root, root * x, root * x * x, root * x * x * x;
-         rhs[k] = root * values[k];
-      }
-      const Eigen::MatrixXd parabola = terms.leftCols(3);
-      const Eigen::Vector3d c = least_squares(parabola, rhs);
+      const VectorXd root = weights.head(count).cwiseSqrt(),
+                     rhs = root.cwiseProduct(values.head(count));
+      const Eigen::MatrixXd terms = root.asDiagonal() * powers(t.head(count) / scale, 3);
+      const ScatteredFit parabola(terms.leftCols(3), rhs);
+      const VectorXd &c = parabola.x;
       const double under = c[1] * c[1] - 4 * c[0] * c[2];
       if (!(under > 0 && c[1] > 0)) { continue; }
       const double zero = -2 * c[0] / (c[1] + std::sqrt(under));
       const double slope = c[1] + 2 * c[2] * zero;
-      // At the zero: variance of the parabola, and the cubic's value.
-      const Eigen::Vector3d at(1, zero, zero * zero);
-      const double variance = (rhs - parabola * c).squaredNorm() / (count - 3);
-      const double standard =
-         std::sqrt(variance * at.dot((parabola.transpose() * parabola).ldlt().solve(at)));
-      const Eigen::Vector4d d = least_squares(terms, rhs);
+      // At the zero: scatter of the parabola, and the cubic's value.
+      const double standard = parabola.error(Eigen::Vector3d(1, zero, zero * zero));
+      const VectorXd d = least_squares(terms, rhs);
       const double other = d[0] + zero * (d[1] + zero * (d[2] + zero * d[3]));
       const double error = std::max(standard, std::abs(other)) / slope * scale;
       if (error < best.error) { best = {zero * scale, error}; }
@@ -192,12 +183,14 @@ Zero zero_near_end(const ReducedProblem &problem, Index end, Index last, int sid
 {
    const VectorXd &s = problem.arc_length;
    const double h = std::abs(s[end + side] - s[end]);
-   std::vector<double> t, values, weights;
-   for (Index i = end + 2 * side; side * (last - i) >= 0; i += side)
+   const Index count = std::max<Index>(side * (last - end) - 1, 0);
+   VectorXd t(count), values(count), weights(count);
+   for (Index k = 0; k < count; k++)
    {
-      t.push_back(std::abs(s[i] - s[end]) / h);
-      values.push_back(value(i));
-      weights.push_back(problem.weights[i]);
+      const Index i = end + side * (k + 2);
+      t[k] = std::abs(s[i] - s[end]) / h;
+      values[k] = value(i);
+      weights[k] = problem.weights[i];
    }
    Zero zero = nearest_zero(t, values, weights);
    // Further than a spacing from where it must be: not found.

@@ -16,24 +16,17 @@ FittedIntensity fit(const std::vector<EdgeSample> &samples, const std::vector<do
 {
    const Eigen::Index n = last - first;
    const double scale = samples[last - 1].distance;
-   Eigen::MatrixXd terms(n, 3);
-   Eigen::VectorXd values(n);
-   for (Eigen::Index i = 0; i < n; i++)
-   {
-      const double t = samples[first + i].distance / scale;
-      terms.row(i) << 1, t, t * t;
-      values[i] = value[first + i];
-   }
-   const Eigen::MatrixXd linear = terms.leftCols(2);
-   const Eigen::VectorXd solution = least_squares(linear, values);
-   const double variance = (values - linear * solution).squaredNorm() / (n - 2);
-   const double standard = std::sqrt(variance * (linear.transpose() * linear).inverse()(0, 0));
-   const double one_more = least_squares(terms, values)[0];
+   Eigen::VectorXd t(n);
+   for (Eigen::Index i = 0; i < n; i++) { t[i] = samples[first + i].distance / scale; }
+   const Eigen::Map<const Eigen::VectorXd> values(value.data() + first, n);
+   const ScatteredFit linear(powers(t, 1), values);
+   const double standard = linear.error(Eigen::Vector2d(1, 0));
+   const double one_more = least_squares(powers(t, 2), values)[0];
 
    FittedIntensity result;
-   result.value = solution[0];
-   const double error = std::max(standard, std::abs(one_more - solution[0]));
-   result.relative_error = error > 0 ? error / std::abs(solution[0]) : 0.0;
+   result.value = linear.x[0];
+   const double error = std::max(standard, std::abs(one_more - linear.x[0]));
+   result.relative_error = error > 0 ? error / std::abs(linear.x[0]) : 0.0;
    result.window = {samples[first].distance, scale};
    result.nodes = int(n);
    return result;
@@ -90,7 +83,7 @@ void FitSettings::validate() const
                  std::isfinite(window.farthest)),
       "the window of the fit is ", window.nearest, " to ", window.farthest,
       "; it must be two increasing distances from the edge, or 0 and 0 to have it chosen.");
-   require(skip >= 0, "the number of skipped nodes is ", skip, "; it must not be negative.");
+   require_at_least("the number of skipped nodes", skip, 0);
 }
 
 UsableSamples usable_samples(const EdgeTractions &tractions, const FitSettings &settings,

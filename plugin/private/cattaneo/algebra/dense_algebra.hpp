@@ -27,4 +27,19 @@ Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd &matrix);
 /// x with the least |A x - b|.
 Eigen::VectorXd least_squares(const Eigen::MatrixXd &A, const Eigen::VectorXd &b);
 
+/// least_squares() of more values than unknowns, with the errors that the scatter of these
+/// values leaves.
+struct ScatteredFit
+{
+   Eigen::VectorXd x;
+   Eigen::MatrixXd covariance;
+
+   ScatteredFit(const Eigen::MatrixXd &A, const Eigen::VectorXd &b);
+   /// Standard error of at·x.
+   double error(const Eigen::VectorXd &at) const;
+};
+
+/// 1, x, x², … up to the degree, as columns.
+Eigen::MatrixXd powers(const Eigen::VectorXd &x, int degree);
+
 } // namespace cattaneo

@@ -1,0 +1,355 @@
+#include <cattaneo/elastic/assembly.hpp>
+#include <cattaneo/elastic/body.hpp>
+#include <cattaneo/elastic/boundary_edge.hpp>
+#include <cattaneo/elastic/views.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cmath>
+
+namespace cattaneo
+{
+
+namespace
+{
+
+const char *name(Control control)
+{
+   return control == Control::force ? "force" : "displacement";
+}
+
+} // namespace
+
+BodyLoad &ElasticBody::load(const std::string &name_, Control control)
+{
+   require(!name_.empty(), "elastic body: a load pattern has no name, must have one");
+   for (BodyLoad &pattern : patterns_)
+   {
+      if (pattern.name != name_) { continue; }
+      require(pattern.control == control, "load pattern '", name_, "': is controlled by ",
+              name(pattern.control), ", cannot be controlled by ", name(control), " as well");
+      return pattern;
+   }
+   patterns_.push_back({name_, control, Eigen::VectorXd::Zero(space_->GetTrueVSize())});
+   prescribed_.emplace_back();
+   if (control == Control::displacement)
+   {
+      prescribed_.back().resize(essential_.size(), false);
+   }
+   return patterns_.back();
+}
+
+void ElasticBody::add_to_pattern(const std::string &name_, const mfem::Vector &local_forces)
+{
+   mfem::Vector forces = local_forces;
+   if (const mfem::Operator *P = space_->GetProlongationMatrix())
+   {
+      forces.SetSize(P->Width());
+      P->MultTranspose(local_forces, forces);
+   }
+   add_forces(name_, forces);
+}
+
+void ElasticBody::add_forces(const std::string &pattern, const mfem::Vector &forces)
+{
+   const int size = space_->GetTrueVSize();
+   require(forces.Size() == size, "forces '", pattern, "': ", forces.Size(),
+           " are given, must be ", size, " (true dofs of the space)");
+   for (int dof = 0; dof < size; ++dof)
+   {
+      require(std::isfinite(forces(dof)), "forces '", pattern, "': that of true dof ", dof,
+              " is ", forces(dof), ", must be finite");
+   }
+   load(pattern, Control::force).values += view(forces);
+}
+
+void ElasticBody::add_forces(const std::string &pattern, const mfem::LinearForm &form)
+{
+   require(form.FESpace() == space_, "forces '", pattern,
+           "': the linear form is on a space of ", form.Size(),
+           " dofs that is not the body's, must be on ElasticBody::space()");
+   add_to_pattern(pattern, form);
+}
+
+template <class Density>
+void ElasticBody::add_boundary_load(const std::string &pattern, const BoundaryPart &part,
+                                    const char *what, Density density)
+{
+   const std::string where = std::string(what) + " '" + pattern + "'";
+   load(pattern, Control::force);
+   mfem::Mesh &mesh = *space_->GetMesh();
+   mfem::Vector forces(space_->GetVSize()), shape;
+   forces = 0.0;
+   mfem::Array<int> dofs;
+   bool anything = false;
+   for (int i : boundary_elements(mesh, part, where))
+   {
+      BoundaryEdge edge(mesh, i);
+      const mfem::FiniteElement &element = *space_->GetBE(i);
+      shape.SetSize(element.GetDof());
+      space_->GetBdrElementDofs(i, dofs);
+      const mfem::IntegrationRule &rule = edge.rule(element.GetOrder());
+      for (const auto &[from, to] : edge.pieces(part))
+      {
+         anything = true;
+         for (int k = 0; k < rule.GetNPoints(); ++k)
+         {
+            mfem::IntegrationPoint ip;
+            ip.Set1w(from + (to - from) * rule.IntPoint(k).x, 0.0);
+            const double r = edge.point(ip.x)[0];
+            const double weight =
+               (to - from) * rule.IntPoint(k).weight * measure(formulation_, r);
+            const std::array<double, 2> force = density(edge, ip.x, where);
+            element.CalcShape(ip, shape);
+            for (int a = 0; a < dofs.Size(); ++a)
+            {
+               for (int c = 0; c < components(); ++c)
+               {
+                  forces(space_->DofToVDof(dofs[a], c)) += weight * shape(a) * force[c];
+               }
+            }
+         }
+      }
+   }
+   require(ranks_.any(anything), where, ": there is nothing on the ", describe(part));
+   add_to_pattern(pattern, forces);
+}
+
+void ElasticBody::add_pressure(const std::string &pattern, const BoundaryPart &part,
+                               const Field &p)
+{
+   check_component("pressure '" + pattern + "'", 1);
+   add_boundary_load(pattern, part, "pressure",
+                     [&p](BoundaryEdge &edge, double s, const std::string &where)
+                     {
+                        const auto d = edge.derivative(s);
+                        // Left of the direction with the body on the left, of length ds.
+                        const double value =
+                           (edge.body_on_left() ? 1.0 : -1.0) * p.at(edge.at(s), where);
+                        return std::array<double, 2>{-d[1] * value, d[0] * value};
+                     });
+}
+
+void ElasticBody::add_traction(const std::string &pattern, const BoundaryPart &part,
+                               const Field &tx, const Field &ty)
+{
+   check_component("traction '" + pattern + "'", 1);
+   add_boundary_load(
+      pattern, part, "traction",
+      [&tx, &ty](BoundaryEdge &edge, double s, const std::string &where)
+      {
+         const auto d = edge.derivative(s);
+         const double ds = std::hypot(d[0], d[1]);
+         mfem::ElementTransformation &place = edge.at(s);
+         return std::array<double, 2>{ds * tx.at(place, where), ds * ty.at(place, where)};
+      });
+}
+
+void ElasticBody::add_traction(const std::string &pattern, const BoundaryPart &part,
+                               const Field &t)
+{
+   require(formulation_ == Formulation::torsion, "traction '", pattern,
+           "': one component is given, must be two unless the body is one of torsion");
+   add_boundary_load(pattern, part, "traction",
+                     [&t](BoundaryEdge &edge, double s, const std::string &where)
+                     {
+                        const auto x = edge.point(s), d = edge.derivative(s);
+                        return std::array<double, 2>{std::hypot(d[0], d[1]) *
+                                                        lever(Formulation::torsion, x[0]) *
+                                                        t.at(edge.at(s), where),
+                                                     0.0};
+                     });
+}
+
+/// What the virtual displacement φ of component c meets at a point: force[c] φ + flux[c] · ∇φ.
+struct ElasticBody::PointLoad
+{
+   double force[2], flux[2][2];
+};
+
+template <class Density>
+void ElasticBody::add_volume_load(const std::string &pattern, bool at_points_of_stiffness,
+                                  Density density)
+{
+   load(pattern, Control::force);
+   mfem::Mesh &mesh = *space_->GetMesh();
+   mfem::Vector forces(space_->GetVSize()), shape, x(2);
+   mfem::DenseMatrix gradient;
+   forces = 0.0;
+   mfem::Array<int> dofs;
+   mfem::IsoparametricTransformation transformation;
+   for (int e = 0; e < mesh.GetNE(); ++e)
+   {
+      const mfem::FiniteElement &element = *space_->GetFE(e);
+      shape.SetSize(element.GetDof());
+      gradient.SetSize(element.GetDof(), 2);
+      space_->GetElementDofs(e, dofs);
+      mesh.GetElementTransformation(e, &transformation);
+      const mfem::IntegrationRule &rule =
+         at_points_of_stiffness
+            ? stiffness_rule(element, transformation, formulation_, varying_.has_value())
+            : mfem::IntRules.Get(element.GetGeomType(),
+                                 2 * element.GetOrder() + transformation.OrderW() + 2);
+      for (int k = 0; k < rule.GetNPoints(); ++k)
+      {
+         const mfem::IntegrationPoint &ip = rule.IntPoint(k);
+         transformation.SetIntPoint(&ip);
+         transformation.Transform(ip, x);
+         element.CalcShape(ip, shape);
+         element.CalcPhysDShape(transformation, gradient);
+         const double weight =
+            ip.weight * transformation.Weight() * measure(formulation_, x(0));
+         const PointLoad here = density(transformation, x(0));
+         for (int a = 0; a < dofs.Size(); ++a)
+         {
+            for (int c = 0; c < 2; ++c)
+            {
+               forces(space_->DofToVDof(dofs[a], c)) +=
+                  weight * (here.force[c] * shape(a) + here.flux[c][0] * gradient(a, 0) +
+                            here.flux[c][1] * gradient(a, 1));
+            }
+         }
+      }
+   }
+   add_to_pattern(pattern, forces);
+}
+
+void ElasticBody::add_body_force(const std::string &pattern, const Field &bx, const Field &by)
+{
+   const std::string where = "body force '" + pattern + "'";
+   check_component(where, 1);
+   add_volume_load(pattern, false,
+                   [&](mfem::ElementTransformation &place, double) -> PointLoad {
+                      return {{bx.at(place, where), by.at(place, where)}, {}};
+                   });
+}
+
+void ElasticBody::add_initial_strain(const std::string &pattern, const Field &strain)
+{
+   const std::string where = "initial strain '" + pattern + "'";
+   add_strain_field(pattern,
+                    [strain, where](mfem::ElementTransformation &place)
+                    {
+                       const double e = strain.at(place, where);
+                       return Strain{e, e, e, 0};
+                    });
+}
+
+void ElasticBody::add_initial_strain(const std::string &pattern,
+                                     mfem::MatrixCoefficient &strain)
+{
+   const std::string where = "initial strain '" + pattern + "'";
+   require(strain.GetHeight() == 3 && strain.GetWidth() == 3, where, ": the matrix is ",
+           strain.GetHeight(), "×", strain.GetWidth(), ", must be 3×3");
+   add_strain_field(
+      pattern,
+      [&strain, where](mfem::ElementTransformation &place)
+      {
+         mfem::DenseMatrix e(3);
+         strain.Eval(e, place, place.GetIntPoint());
+         const bool sound = e(0, 1) == e(1, 0) && e(0, 2) == 0 && e(2, 0) == 0 &&
+                            e(1, 2) == 0 && e(2, 1) == 0 && std::isfinite(e.FNorm());
+         mfem::Vector x(2);
+         if (!sound) { place.Transform(place.GetIntPoint(), x); }
+         require(sound, where, ": the matrix at (", x(0), ", ", x(1),
+                 ") must be finite, symmetric and without shear out of the plane");
+         return Strain{e(0, 0), e(1, 1), e(2, 2), 2 * e(0, 1)};
+      });
+}
+
+void ElasticBody::add_strain_field(const std::string &pattern, StrainField strain)
+{
+   require(
+      has_material() && components() == 2, "initial strain '", pattern, "': the body ",
+      has_material() ? "twists" : "has an operator of one's own",
+      ", it must be plane or axisymmetric and have a material (add_forces takes the forces "
+      "of a strain, set_stress its stresses)");
+   add_volume_load(pattern, true,
+                   [&](mfem::ElementTransformation &place, double r) -> PointLoad
+                   {
+                      const Stress s = stress(material(place), strain(place));
+                      const double hoop =
+                         formulation_ == Formulation::axisymmetric ? s.zz / r : 0.0;
+                      return {{hoop, 0}, {{s.xx, s.xy}, {s.xy, s.yy}}};
+                   });
+   initial_strains_.push_back({pattern, std::move(strain)});
+}
+
+Strain ElasticBody::initial_strain(mfem::ElementTransformation &at,
+                                   const NamedLoads &loads) const
+{
+   Strain sum;
+   for (const InitialStrain &one : initial_strains_)
+   {
+      const auto load = loads.find(one.pattern);
+      require(load != loads.end(), "stress: the multiplier of the initial strain '",
+              one.pattern, "' is not given, it must be ({{\"", one.pattern, "\", 1}})");
+      const Strain e = one.at(at);
+      sum.xx += load->second * e.xx;
+      sum.yy += load->second * e.yy;
+      sum.zz += load->second * e.zz;
+      sum.xy += load->second * e.xy;
+   }
+   return sum;
+}
+
+void ElasticBody::set_stress(StressLaw law)
+{
+   require(components() == 2,
+           "set stress: the body is one of torsion, must be plane or axisymmetric");
+   stress_law_ = std::move(law);
+}
+
+void ElasticBody::prescribe(const std::string &pattern, int node, int component, double value)
+{
+   const std::string where = "displacement '" + pattern + "'";
+   Eigen::VectorXd &values = load(pattern, Control::displacement).values;
+   std::size_t k = 0;
+   while (patterns_[k].name != pattern) { ++k; }
+   const int dof = true_dof(node, component);
+   if (dof < 0) { return; }
+   const double x = coordinates_(0, node), y = coordinates_(1, node);
+   require(std::isfinite(value), where, ": the value at (", x, ", ", y, ") is ", value,
+           ", must be finite");
+   require(value == 0 || formulation_ != Formulation::axisymmetric || component != 0 ||
+              !on_axis(node),
+           where, ": component r at (", x, ", ", y, ") is to be ", value,
+           ", must be zero on the axis");
+   const double other = values(dof);
+   require(!prescribed_[k][dof] ||
+              std::abs(value - other) <= 1e-9 * (std::abs(value) + std::abs(other)),
+           where, ": component ", component, " at (", x, ", ", y, ") is to be ", value,
+           " but was already prescribed as ", other, " by the same pattern");
+   values(dof) = value;
+   prescribed_[k][dof] = essential_[dof] = true;
+}
+
+void ElasticBody::add_displacement(const std::string &pattern, const BoundaryPart &part,
+                                   int component, const ScalarField &u)
+{
+   const std::string where = "displacement '" + pattern + "'";
+   check_component(where, component);
+   const std::vector<int> nodes = nodes_on(part, where);
+   load(pattern, Control::displacement);
+   for (int node : nodes)
+   {
+      prescribe(pattern, node, component, u(coordinates_(0, node), coordinates_(1, node)));
+   }
+}
+
+void ElasticBody::add_displacement(const std::string &pattern, const BoundaryPart &part,
+                                   const mfem::GridFunction &u)
+{
+   const std::string where = "displacement '" + pattern + "'";
+   require(u.FESpace() == space_, where, ": the grid function is on a space of ", u.Size(),
+           " dofs that is not the body's, must be on ElasticBody::space()");
+   const std::vector<int> nodes = nodes_on(part, where);
+   load(pattern, Control::displacement);
+   for (int node : nodes)
+   {
+      for (int c = 0; c < components(); ++c)
+      {
+         prescribe(pattern, node, c, u(space_->DofToVDof(node, c)));
+      }
+   }
+}
+
+} // namespace cattaneo

@@ -1,0 +1,88 @@
+#include <cattaneo/input_error.hpp>
+#include <cattaneo/reduced/union.hpp>
+
+namespace cattaneo
+{
+
+void Reduction::add_torsion(CondensedBody body)
+{
+   std::vector<CondensedBody> one;
+   one.push_back(std::move(body));
+   add_torsion(std::move(one));
+}
+
+void Reduction::add_torsion(CondensedBody body1, CondensedBody body2)
+{
+   std::vector<CondensedBody> two;
+   two.push_back(std::move(body1));
+   two.push_back(std::move(body2));
+   add_torsion(std::move(two));
+}
+
+void Reduction::add_torsion(std::vector<CondensedBody> twisting)
+{
+   const Eigen::Index n = problem.nodes();
+   require(obstacle_.size() == 0,
+           "add torsion: the obstacle already moves, torsion must be added before");
+   require(torsion.empty() && problem.components() == 1, "add torsion: the reduction has ",
+           problem.components(), " tangential components a node, must have 1");
+   require(twisting.size() == bodies.size(), "add torsion: of ", twisting.size(),
+           " bodies to a reduction of ", bodies.size(), ", must be as many");
+   for (std::size_t b = 0; b < bodies.size(); ++b)
+   {
+      require(bodies[b].line.formulation == Formulation::axisymmetric &&
+                 twisting[b].line.formulation == Formulation::torsion,
+              "add torsion: body ", b, " must be axisymmetric, and what is added its torsion");
+      const auto own = bodies[b].line.each(&LineNode::position),
+                 other = twisting[b].line.each(&LineNode::position);
+      require(own.rows() == other.rows() &&
+                 (own - other).cwiseAbs().maxCoeff() <= 1e-12 * own.cwiseAbs().maxCoeff(),
+              "add torsion: the contact nodes of body ", b,
+              " are not those of its torsion, must be the same");
+      counters += twisting[b].counters;
+   }
+   const Eigen::Index before = problem.H.rows();
+   torsion_pattern_ = join(twisting, problem.patterns);
+   const auto count = static_cast<Eigen::Index>(problem.patterns.size());
+   Block block;
+   if (twisting.size() == 1) { block = alone(twisting[0], torsion_pattern_[0], count); }
+   else
+   {
+      ++counters.unions;
+      block =
+         united(twisting[0], twisting[1], union_->partner, torsion_pattern_, problem.patterns);
+      torsion_union_ = block.way_back;
+   }
+   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(3 * n, 3 * n);
+   K.topLeftCorner(n, n) = problem.A();
+   K.block(n, n, n, n) = block.S;
+   K.bottomLeftCorner(n, n) = problem.B();
+   K.bottomRightCorner(n, n) = problem.C();
+   for (int row : block.held)
+   {
+      K(n + row, n + row) = K(2 * n + row, 2 * n + row);
+      problem.held.push_back(n + row);
+   }
+   problem.K = std::move(K);
+   join_coupling(problem);
+   for (Eigen::Index k = 0; k < count; ++k)
+   {
+      LoadPattern &pattern = problem.patterns[k];
+      pattern.q.conservativeResizeLike(Eigen::VectorXd::Zero(2 * n));
+      pattern.q.tail(n) = block.f.col(k);
+      if (k >= before) { pattern.p = Eigen::VectorXd::Zero(n); }
+   }
+   problem.H.conservativeResizeLike(Eigen::MatrixXd::Zero(count, count));
+   problem.H += block.H;
+   // Rigid motions in the plane of the axis, and about it.
+   const Eigen::MatrixXd meridian = std::move(problem.rigid_motions);
+   Eigen::MatrixXd motions =
+      Eigen::MatrixXd::Zero(3 * n, meridian.cols() + block.motions.cols());
+   motions.topLeftCorner(n, meridian.cols()) = meridian.topRows(n);
+   motions.bottomLeftCorner(n, meridian.cols()) = meridian.bottomRows(n);
+   motions.block(n, meridian.cols(), n, block.motions.cols()) = block.motions;
+   problem.rigid_motions = motions;
+   torsion = std::move(twisting);
+}
+
+} // namespace cattaneo

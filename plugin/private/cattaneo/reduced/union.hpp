@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cattaneo/algebra/dense_cholesky.hpp>
+#include <cattaneo/condense/local_frame.hpp>
+#include <cattaneo/reduced/reduction.hpp>
+
+namespace cattaneo
+{
+
+struct Reduction::Union
+{
+   DenseCholesky sum;    ///< of S1 + S2 (+ springs on common rigid motions) where both are free
+   Eigen::MatrixXd pull; ///< S2 in the order of body 1 and the opposite frames, see pull()
+   Eigen::MatrixXd difference; ///< f1 - f2 of each pattern
+   std::vector<int> held2;     ///< rows that body 2 holds: body 1 alone moves there
+   std::vector<int> partner;
+   FrameChange frames; ///< from body 2's own frames (in the order of body 1)
+
+   /// Where body 2 has the rows of body 1's order.
+   std::vector<int> order(Eigen::Index rows) const;
+   /// Displacements of body `b` in its own order and frames.
+   Eigen::VectorXd own(int b, const Eigen::VectorXd &relative,
+                       const Eigen::VectorXd &multipliers) const;
+};
+
+/// One or two bodies on relative displacements: f = S u + Σ λ_k f_k.
+struct Block
+{
+   Eigen::MatrixXd S, f, H;
+   Eigen::MatrixXd motions;                          ///< that nothing resists, orthonormal
+   std::vector<int> held;                            ///< rows that no body moves
+   std::shared_ptr<const Reduction::Union> way_back; ///< of two bodies
+};
+
+/// Numbers of the bodies' patterns among all, which grow by those that are new.
+Reduction::PatternIndex join(const std::vector<CondensedBody> &bodies,
+                             std::vector<LoadPattern> &all);
+
+/// One body on a rigid obstacle, of `count` patterns.
+Block alone(const CondensedBody &body, const std::vector<int> &index, Eigen::Index count);
+
+/// Two bodies, by the formulas of reduce().
+Block united(const CondensedBody &first, const CondensedBody &second,
+             const std::vector<int> &partner, const Reduction::PatternIndex &index,
+             const std::vector<LoadPattern> &patterns);
+
+} // namespace cattaneo
