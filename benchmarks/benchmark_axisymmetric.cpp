@@ -20,7 +20,7 @@ int main()
       const miniapp::Stopwatch watch;
       miniapp::DiscOptions options;
       options.twist = miniapp::Twist::top;
-      miniapp::Disc scene = miniapp::make_disc(options);
+      miniapp::Scene scene = miniapp::make_disc(options);
       const double condensed = watch.seconds();
       ReducedProblem &problem = scene.reduction.problem;
       set_friction(problem, 0.5);

@@ -86,7 +86,7 @@ int main()
    std::printf("increments: of each piece of the history; errors: over the largest\n\n");
    bool complete = true;
    {
-      miniapp::LapJoint joint = miniapp::make_lap_joint({});
+      miniapp::Scene joint = miniapp::make_lap_joint({});
       set_friction(joint.reduction.problem, 0.2);
       complete &=
          compare("lap joint, T = ± 0.04 P0", joint.reduction.problem, cycles(-0.04, 0.04));
@@ -95,7 +95,7 @@ int main()
    {
       miniapp::PunchOptions options;
       options.half_plane = half_plane;
-      miniapp::Punch punch = miniapp::make_punch(options);
+      miniapp::Scene punch = miniapp::make_punch(options);
       set_friction(punch.reduction.problem, half_plane ? 0.4 : 0.2);
       const double Q = half_plane ? 0.32 : 0.16; // 0.8 f P
       complete &= compare(half_plane ? "punch on a half-plane, Q = ± 0.8 fP"
@@ -104,7 +104,7 @@ int main()
    }
    miniapp::RecedingOptions options;
    options.spacing = 0.05;
-   const miniapp::Receding scene = miniapp::make_receding(options);
+   const miniapp::Scene scene = miniapp::make_receding(options);
    ReducedProblem problem = scene.reduction.problem;
    set_friction(problem, 0.7);
    complete &=

@@ -12,6 +12,7 @@
 
 #include <cattaneo/contact/condense_body.hpp>
 #include <common/miniapp.hpp>
+#include <common/options.hpp>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
@@ -114,24 +115,22 @@ int main(int argc, char *argv[])
    return miniapp::run(
       [&]
       {
-         const char *sizes = "112 224", *method = "both", *json = "";
+         std::string method = "both", json;
+         std::vector<double> sizes = {112, 224};
          bool weak = false;
          int nodes = 5;
          miniapp::Options args(argc, argv);
-         args.AddOption(&sizes, "-elements", "--elements", "Elements a side: a list.");
-         args.AddOption(&nodes, "-nodes", "--nodes", "Contact nodes.");
-         args.AddOption(&method, "-method", "--method", "factor, iterations or both.");
-         args.AddOption(&weak, "-weak", "--weak", "-strong", "--strong",
-                        "Dofs in proportion to the ranks.");
-         args.add(miniapp::Options::Names::output, &json, "-json", "--json",
-                  "File for the results.");
+         args.add(&sizes, "elements", "Elements a side: a list.");
+         args.add(&nodes, "nodes", "Contact nodes.");
+         args.add(&method, "method", "factor, iterations or both.",
+                  {"factor", "iterations", "both"});
+         args.add(&weak, {"weak", "weak", "strong", "strong"},
+                  "Dofs in proportion to the ranks.");
+         args.add(&json, "json", "File for the results.", miniapp::Text::output);
          args.parse();
-         miniapp::check_choice("--method", method, {"factor", "iterations", "both"});
          ordered_json results;
 #ifdef MFEM_USE_MPI
-         Options options = {{}, method, weak, nodes};
-         if (*sizes) { options.sizes = miniapp::numbers("--elements", sizes); }
-         results["condensation"] = condensation(options);
+         results["condensation"] = condensation({sizes, method, weak, nodes});
 #else
          std::printf("This MFEM has no MPI: ./run --mpi benchmark_ranks -np 2\n");
 #endif

@@ -22,7 +22,7 @@ int main()
       const miniapp::Stopwatch watch;
       miniapp::LapJointOptions options;
       options.spacing = 0.00625;
-      miniapp::LapJoint joint = miniapp::make_lap_joint(options);
+      miniapp::Scene joint = miniapp::make_lap_joint(options);
       const double condensed = watch.seconds();
       set_friction(joint.reduction.problem, 0.2);
       LoadHistory history = LoadHistory::through(
@@ -46,7 +46,7 @@ int main()
    options.overhangs = {0.2, 0.4, 0.6, 0.8, 1, 1.2, 1.4, 1.6, 1.8, 2, 2.25, 2.5, 3, 3.5, 4};
    options.spacing = 0.04;
    options.corner = 0.01;
-   miniapp::Receding scene = miniapp::make_receding(options);
+   miniapp::Scene scene = miniapp::make_receding(options);
    const double condensed = watch.seconds();
    ReducedProblem &problem = scene.reduction.problem;
    std::vector<std::vector<NodeState>> guess(options.overhangs.size());

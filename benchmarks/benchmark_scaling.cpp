@@ -8,6 +8,7 @@
 #include "common/figure.hpp"
 #include "common/measure.hpp"
 #include "common/miniapp.hpp"
+#include "common/options.hpp"
 #include "common/punch.hpp"
 
 #include <cattaneo/friction/march.hpp>
@@ -57,11 +58,11 @@ public:
    }
    /// Exponents against the first column, and the panel of the columns from `first` on that
    /// `shown` names.
-   miniapp::Panel finish(const char *name, const std::vector<int> &shown) const
+   miniapp::Sheet finish(const char *name, const std::vector<int> &shown) const
    {
-      miniapp::Panel panel =
-         miniapp::Panel::lines(name, title_, columns_[0], "seconds (CPU time)");
-      panel.logarithmic();
+      miniapp::Panel panel(miniapp::Panel::Kind::lines, name, title_, columns_[0],
+                           "seconds (CPU time)");
+      panel.say("scale: loglog");
       std::printf("%15s", "exponent");
       for (std::size_t k = 1; k < data_.size(); ++k)
       {
@@ -69,7 +70,7 @@ public:
       }
       std::printf("\n");
       for (int k : shown) { panel.add(columns_[k], data_[0], data_[k]); }
-      return panel;
+      return {name, panel.csv()};
    }
 
 private:
@@ -150,7 +151,7 @@ std::vector<double> cycling(int cycles)
 {
    miniapp::PunchOptions options;
    options.nodes = 101;
-   miniapp::Punch punch = miniapp::make_punch(options);
+   miniapp::Scene punch = miniapp::make_punch(options);
    set_friction(punch.reduction.problem, 0.2);
    FrictionSolver solver(punch.reduction.problem);
    const double Q = 0.16;
@@ -181,18 +182,16 @@ int main(int argc, char *argv[])
    return miniapp::run(
       [&]
       {
-         const char *csv = "", *picture = "";
+         std::string csv, picture;
          double largest = 2e6;
          int most = 4001;
          miniapp::Options args(argc, argv);
-         args.AddOption(&largest, "-dofs", "--dofs", "Largest number of dofs.");
-         args.AddOption(&most, "-nodes", "--nodes", "Largest number of contact nodes.");
-         args.add(miniapp::Options::Names::prefix, &csv, "-csv", "--csv",
-                  "Prefix of the panels' files.");
-         args.add(miniapp::Options::Names::picture, &picture, "-plot", "--plot",
-                  "File for the picture.");
+         args.add(&largest, "dofs", "Largest number of dofs.");
+         args.add(&most, "nodes", "Largest number of contact nodes.");
+         args.add(&csv, "csv", "Prefix of the panels' files.", miniapp::Text::prefix);
+         args.add(&picture, "plot", "File for the picture.", miniapp::Text::picture);
          args.parse();
-         std::vector<miniapp::Panel> panels;
+         std::vector<miniapp::Sheet> panels;
          {
             Table table("Condensation of a square to 201 contact nodes or fewer",
                         {"dofs", "contact nodes", "assembly s", "condensation s", "whole s"});

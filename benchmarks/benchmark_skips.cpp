@@ -42,7 +42,7 @@ void row(const char *skipped, const char *counter, const Run &without, const Run
 }
 
 /// Punch on a rigid plane, in thesis units; loads P and Q.
-miniapp::Punch punch(bool half_plane = false, double plane_stiffness = 1)
+miniapp::Scene punch(bool half_plane = false, double plane_stiffness = 1)
 {
    miniapp::PunchOptions options;
    options.half_plane = half_plane;
@@ -121,7 +121,7 @@ int main()
       [] { return punch(true).reduction.counters.factorisations; });
    miniapp::HalfPlanes equal;
    equal.nodes = 201;
-   miniapp::HertzScene pair = miniapp::make_scene(equal);
+   miniapp::Scene pair = miniapp::make_scene(equal);
    ElasticBody &upper = *pair.bodies[0], &lower = *pair.bodies[1];
    const ContactLine above = contact_line(upper, 1), below = contact_line(lower, 1);
    const CondensedBody first = condense(upper, above);
@@ -151,7 +151,7 @@ int main()
    row(
       "no torsion: no operator of it", "assemblies", [&] { return disc(miniapp::Twist::none); },
       [&] { return disc(miniapp::Twist::top); });
-   miniapp::Punch block = punch();
+   miniapp::Scene block = punch();
    set_friction(block.reduction.problem, 0.2);
    const auto with_fields = [&](bool wanted)
    {

@@ -111,13 +111,13 @@ void extraction(benchmark::State &state)
    for (auto _ : state) { benchmark::DoNotOptimize(factor.schur().data()); }
 }
 
-miniapp::Punch punch(const benchmark::State &state)
+miniapp::Scene punch(const benchmark::State &state)
 {
    miniapp::PunchOptions options;
    options.half_plane = true;
    options.nodes = static_cast<int>(state.range(0));
    options.domain = 100;
-   miniapp::Punch punch = miniapp::make_punch(options);
+   miniapp::Scene punch = miniapp::make_punch(options);
    set_friction(punch.reduction.problem, 0.4);
    return punch;
 }
@@ -125,7 +125,7 @@ miniapp::Punch punch(const benchmark::State &state)
 /// The bodies are copied each time, which is a part of what is measured.
 void union_of_two_bodies(benchmark::State &state)
 {
-   const miniapp::Punch scene = punch(state);
+   const miniapp::Scene scene = punch(state);
    const CondensedBody &one = scene.reduction.bodies[0], &two = scene.reduction.bodies[1];
    const Pairing pairing = pair_lines(one.line, two.line);
    for (auto _ : state)
@@ -137,7 +137,7 @@ void union_of_two_bodies(benchmark::State &state)
 /// Partial slip, twenty increments from no shear to 0.8 fP and round again.
 void friction_step(benchmark::State &state)
 {
-   const miniapp::Punch scene = punch(state);
+   const miniapp::Scene scene = punch(state);
    FrictionSolver solver(scene.reduction.problem);
    ContactState pressed = ContactState::virgin(scene.reduction.problem);
    solver.solve(pressed, Vector2d(1, 0));
@@ -170,7 +170,7 @@ void friction_step(benchmark::State &state)
 /// One large step, many active-set steps: their mean.
 void newton_step(benchmark::State &state)
 {
-   const miniapp::Punch scene = punch(state);
+   const miniapp::Scene scene = punch(state);
    FrictionSolver solver(scene.reduction.problem);
    const Counters before = solver.counters();
    for (auto _ : state)
@@ -190,7 +190,7 @@ void newton_step(benchmark::State &state)
 
 void limit_programme(benchmark::State &state)
 {
-   miniapp::Punch scene = punch(state);
+   miniapp::Scene scene = punch(state);
    set_friction(scene.reduction.problem, 0.85);
    const LimitProblem problem = limit_problem(
       scene.reduction.problem, held_and_cycled(scene.reduction.problem, "P", 1, "Q", -1));

@@ -19,11 +19,14 @@
 #include "common/known_problems.hpp"
 #include "common/measure.hpp"
 #include "common/miniapp.hpp"
+#include "common/options.hpp"
+#include "common/text.hpp"
 
 #include <cattaneo/input_error.hpp>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 using namespace cattaneo;
@@ -215,9 +218,41 @@ void print_buys(const std::vector<Run> &runs, const Problem &problem)
    std::printf("\n");
 }
 
+/// Error of the first quantity against time and dofs; those within the uncertainty (the grey
+/// band) are left out.
+void draw(const Problem &problem, const std::vector<Reference> &reference,
+          const std::vector<Run> &runs, std::vector<miniapp::Sheet> &panels)
+{
+   const Quantity &quantity = problem.quantities[0];
+   const double uncertainty = reference[0].uncertainty / scale(reference[0], quantity);
+   for (const bool time : {true, false})
+   {
+      miniapp::Panel panel(miniapp::Panel::Kind::lines,
+                           std::string(problem.name) + (time ? "_seconds" : "_dofs"),
+                           std::string(problem.title) + ": " + quantity.name,
+                           time ? "seconds (CPU)" : "dofs", "error");
+      panel.say("scale: loglog");
+      if (uncertainty > 0) { panel.say(miniapp::text("shade y: 1e-16,%g,", uncertainty)); }
+      double least = 1;
+      for (const Run &run : runs)
+      {
+         if (within(reference[0], quantity, run.error[0])) { continue; }
+         least = std::min(least, run.error[0]);
+         const bool standard = run.family == Family::standard;
+         panel.add(standard ? "default mesh"
+                            : miniapp::text("p = %d, %s", run.order, name(run.family)),
+                   std::vector<double>{time ? run.seconds : run.dofs}, {run.error[0]},
+                   standard ? "star" : "marked");
+      }
+      panel.limit("y", 0.5 * std::min(least, uncertainty > 0 ? uncertainty : least),
+                  std::numeric_limits<double>::quiet_NaN());
+      panels.push_back({panel.name(), panel.csv()});
+   }
+}
+
 /// All meshes of one problem; `orders` of each kind.
 void compare(const Problem &problem, const std::vector<double> &orders, int levels, int samples,
-             std::ostream &table, int &failed)
+             std::ostream &table, std::vector<miniapp::Sheet> &panels, int &failed)
 {
    std::printf("\n%s\n", problem.title);
    const std::vector<Reference> reference = references(problem);
@@ -245,6 +280,7 @@ void compare(const Problem &problem, const std::vector<double> &orders, int leve
       }
    }
    print_buys(all, problem);
+   draw(problem, reference, all, panels);
 }
 
 } // namespace
@@ -254,33 +290,31 @@ int main(int argc, char *argv[])
    return miniapp::run(
       [&]
       {
-         const char *wanted = "", *orders = "1 2 3 4", *csv = "", *picture = "";
+         std::string wanted, csv, picture;
+         std::vector<double> orders = {1, 2, 3, 4};
          int levels = 3, samples = 2;
          miniapp::Options args(argc, argv);
-         args.AddOption(&wanted, "-problems", "--problems",
-                        "Names: hertz lubkin punch strip disc lap_joint shakedown (all).");
-         args.AddOption(&orders, "-orders", "--orders", "Orders of the elements.");
-         args.AddOption(&levels, "-levels", "--levels", "Meshes of each kind and order.");
-         args.AddOption(&samples, "-samples", "--samples",
-                        "Meshes of slightly different spacing for each error.");
-         args.add(miniapp::Options::Names::output, &csv, "-csv", "--csv",
-                  "File for the table.");
-         args.add(miniapp::Options::Names::picture, &picture, "-plot", "--plot",
-                  "File for the picture (needs --csv).");
+         args.add(&wanted, "problems",
+                  "Names: hertz lubkin punch strip disc lap_joint shakedown (all).");
+         args.add(&orders, "orders", "Orders of the elements.");
+         args.add(&levels, "levels", "Meshes of each kind and order.", miniapp::within(1, 8));
+         args.add(&samples, "samples", "Meshes of slightly different spacing for each error.");
+         args.add(&csv, "csv", "File for the table.", miniapp::Text::output);
+         args.add(&picture, "plot", "File for the picture.", miniapp::Text::picture);
          args.parse();
-         require(levels >= 1 && levels <= 8, "option --levels is ", levels, ", must be 1 to 8");
-         require(!*picture || *csv, "option --plot needs --csv");
          std::istringstream words(wanted);
          std::vector<std::string> names;
          for (std::string word; words >> word;)
          {
-            miniapp::check_choice(
-               "--problems", word,
-               {"hertz", "lubkin", "punch", "strip", "disc", "lap_joint", "shakedown"});
+            const std::vector<Problem> all = problems();
+            require(std::any_of(all.begin(), all.end(),
+                                [&](const Problem &problem) { return word == problem.name; }),
+                    "option --problems: there is no problem '", word, "'");
             names.push_back(word);
          }
+         std::vector<miniapp::Sheet> panels;
          std::ofstream table;
-         if (*csv)
+         if (!csv.empty())
          {
             table.open(csv);
             require(table.is_open(), "file '", csv, "' cannot be written");
@@ -296,14 +330,12 @@ int main(int argc, char *argv[])
             {
                continue;
             }
-            compare(problem, miniapp::numbers("--orders", orders), levels, samples, table,
-                    failed);
+            compare(problem, orders, levels, samples, table, panels, failed);
          }
          std::printf("\n%.0f s in all\n", watch.seconds());
          table.close();
-         require(!*csv || !table.fail(), "file '", csv, "' cannot be written");
-         require(!*picture || miniapp::run_plot_script("work_precision.py", {csv, picture}),
-                 "the picture '", picture, "' could not be drawn");
+         require(csv.empty() || !table.fail(), "file '", csv, "' cannot be written");
+         miniapp::output(panels, "", picture);
          if (failed) { std::printf("%d runs failed\n", failed); }
          return failed ? 2 : 0;
       });

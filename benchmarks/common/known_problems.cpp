@@ -79,7 +79,7 @@ Answer hertz(const Resolution &r)
       options.growth = r.element_growth();
       options.grid = miniapp::mirrored(r.grid(span, r.foci(0, span)));
    }
-   miniapp::HertzScene scene = make_scene(options);
+   miniapp::Scene scene = make_scene(options);
    ReducedProblem &problem = scene.reduction.problem;
    set_friction(problem, f);
    const VectorXd x = problem.position.col(0);
@@ -143,7 +143,7 @@ Answer lubkin(const Resolution &r)
    bodies.growth = r.element_growth();
    bodies.far = 3e3;
    const double sphere = bodies.sphere, poisson = bodies.poisson;
-   miniapp::TwistedScene scene = miniapp::make_scene(bodies);
+   miniapp::Scene scene = miniapp::make_scene(bodies);
    ReducedProblem &problem = scene.reduction.problem;
    const Index n = problem.nodes();
    const VectorXd radius = problem.position.col(0);
@@ -246,7 +246,7 @@ Answer punch(const Resolution &r)
       options.growth = base(r, 0.5).element_growth();
       options.refine = splitting(r, r.foci(-1, 1, {-1, 1}));
    }
-   miniapp::Punch scene = miniapp::make_punch(options);
+   miniapp::Scene scene = miniapp::make_punch(options);
    ReducedProblem &problem = scene.reduction.problem;
    set_friction(problem, f);
    FrictionSolver solver(problem);
@@ -293,7 +293,7 @@ Answer strip(const Resolution &r)
       options.growth = base(r, 0.5).element_growth();
       options.refine = splitting(r, r.foci(0, n + 2.5));
    }
-   miniapp::Receding scene = miniapp::make_receding(options);
+   miniapp::Scene scene = miniapp::make_receding(options);
    ReducedProblem &problem = scene.reduction.problem;
    set_friction(problem, f);
    FrictionSolver solver(problem);
@@ -313,7 +313,7 @@ Answer disc(const Resolution &r)
    const double f = 0.5;
    miniapp::DiscOptions options;
    discretise(options, r, options.disc_radius, r.foci(0, options.disc_radius));
-   miniapp::Disc scene = miniapp::make_disc(options);
+   miniapp::Scene scene = miniapp::make_disc(options);
    ReducedProblem &problem = scene.reduction.problem;
    Answer answer;
    const double shift = problem.position(0, 0) - problem.arc_length[0];
@@ -342,7 +342,7 @@ Answer lap_joint(const Resolution &r)
    const double f = 0.2, T = 0.04;
    miniapp::LapJointOptions options;
    discretise(options, r, options.protrusion, r.foci(0, 0.8));
-   miniapp::LapJoint joint = miniapp::make_lap_joint(options);
+   miniapp::Scene joint = miniapp::make_lap_joint(options);
    ReducedProblem &problem = joint.reduction.problem;
    set_friction(problem, f);
    FrictionSolver solver(problem);
@@ -379,7 +379,7 @@ Answer shakedown(const Resolution &r)
       options.growth = r.element_growth();
       options.grid = miniapp::mirrored(r.grid(1, r.foci(0, 1, {1})));
    }
-   miniapp::Punch scene = miniapp::make_punch(options);
+   miniapp::Scene scene = miniapp::make_punch(options);
    ReducedProblem &reduced = scene.reduction.problem;
    set_friction(reduced, f);
    LimitProblem problem = limit_problem(reduced, held_and_cycled(reduced, "P", 1, "Q", -1));

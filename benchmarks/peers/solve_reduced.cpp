@@ -8,7 +8,7 @@
 //  number of equal increments, also where one would do. docs/reduced_problems.md describes both
 //  files.
 
-#include "common/miniapp.hpp"
+#include "common/run.hpp"
 
 #include <cattaneo/friction/march.hpp>
 #include <cattaneo/input_error.hpp>

@@ -1,6 +1,6 @@
 #include "common/contact_edges.hpp"
 
-#include "common/miniapp.hpp"
+#include "common/text.hpp"
 
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
@@ -16,13 +16,6 @@ using Json = nlohmann::ordered_json;
 
 namespace
 {
-
-std::string text(const char *format, double a, double b)
-{
-   char line[200];
-   std::snprintf(line, sizeof line, format, a, b);
-   return line;
-}
 
 void predict(const EdgeStudy &study, const ContactEdge *before, const ContactEdge *opposite,
              SolvedEdge &solved)

@@ -1,8 +1,8 @@
 #include "common/disc_scene.hpp"
 
 #include "common/contact_grid.hpp"
-#include "common/locking.hpp"
 #include "common/miniapp.hpp"
+#include "common/text.hpp"
 
 #include <algorithm>
 #include <cattaneo/friction/friction_solver.hpp>
@@ -43,10 +43,10 @@ std::string radius_load(double radius)
    return exact_text("a = ", radius);
 }
 
-Disc make_disc(const DiscOptions &options)
+Scene make_disc(const DiscOptions &options)
 {
    options.validate();
-   Disc scene;
+   Scene scene;
    const Material material{1.0, options.poisson};
    const int bottom = 1, side = 2, top = 3;
    const double b = options.disc_radius, R = options.domain;
@@ -64,32 +64,20 @@ Disc make_disc(const DiscOptions &options)
    }
    std::vector<double> depth = graded(0, -R, h, growth);
    std::reverse(depth.begin(), depth.end());
-   scene.meshes.push_back(distribute(
-      rectangle_mesh(contact, graded(0, 1, h, growth, 0.4 * (growth - 1))), options.order));
-   scene.meshes.push_back(distribute(
-      rectangle_mesh(joined({contact, graded(b, R, h_end, growth)}), depth), options.order));
-
-   warn_of_locking(options.order, material);
-   const auto add_bodies = [&](auto &bodies, Formulation formulation)
-   {
-      for (const auto &mesh : scene.meshes)
-      {
-         bodies.push_back(
-            std::make_unique<ElasticBody>(*mesh, options.order, material, formulation));
-         scene.dofs += bodies.back()->dofs();
-      }
-      for (int c = 0; c < components(formulation); ++c)
-      {
-         bodies[1]->fix(BoundaryPart({bottom, side}), c);
-      }
-   };
+   mfem::Mesh above = rectangle_mesh(contact, graded(0, 1, h, growth, 0.4 * (growth - 1))),
+              half_space =
+                 rectangle_mesh(joined({contact, graded(b, R, h_end, growth)}), depth);
+   ElasticBody &disc = scene.add(std::move(above), options.order, material,
+                                 Formulation::axisymmetric),
+               &below = scene.add(std::move(half_space), options.order, material,
+                                  Formulation::axisymmetric);
+   const BoundaryPart far({bottom, side});
+   for (int c : {0, 1}) { below.fix(far, c); }
    const auto line_of_disc = [&](const ElasticBody &body)
    { return contact_line(body, bottom); };
    const auto line_below = [&](const ElasticBody &body)
    { return contact_line(body, BoundaryPart({top}, 0, 0, b)); };
 
-   add_bodies(scene.bodies, Formulation::axisymmetric);
-   ElasticBody &disc = *scene.bodies[0], &below = *scene.bodies[1];
    for (double a : options.load_radii)
    {
       disc.add_pressure(radius_load(a), BoundaryPart({top}, 0, 0, a), 1.0);
@@ -99,8 +87,9 @@ Disc make_disc(const DiscOptions &options)
                             condense(below, lower, condensation()), pair_lines(upper, lower));
    if (options.twist != Twist::none)
    {
-      add_bodies(scene.torsion, Formulation::torsion);
+      scene.add_torsion(options.order, material);
       ElasticBody &twisting = *scene.torsion[0], &held = *scene.torsion[1];
+      held.fix(far, 0);
       const double a = options.load_radii.front();
       const BoundaryPart loaded({top}, 0, 0, a);
       switch (options.twist)

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <cattaneo/contact/condense_body.hpp>
+#include "common/scene.hpp"
+
 #include <cattaneo/friction/contact_state.hpp>
-#include <cattaneo/reduced/reduction.hpp>
-#include <memory>
+
 #include <vector>
 
 namespace miniapp
@@ -45,20 +45,10 @@ struct DiscOptions
    void validate() const;
 };
 
-/// The bodies must live as long as their reduction is used for fields.
-struct Disc
-{
-   std::vector<std::unique_ptr<mfem::Mesh>> meshes;
-   std::vector<std::unique_ptr<cattaneo::ElasticBody>> bodies;  ///< disc, half-space
-   std::vector<std::unique_ptr<cattaneo::ElasticBody>> torsion; ///< the same, or none
-   cattaneo::Reduction reduction;
-   int dofs = 0; ///< of all bodies
-};
-
 /// Name of the load pattern of a radius.
 std::string radius_load(double radius);
 
-Disc make_disc(const DiscOptions &options);
+Scene make_disc(const DiscOptions &options);
 
 /** Radius of the load above which no node of a disc separates, for any friction, on one
    condensed pair. The clamped forces are smooth in the load's radius: those of a radius in
@@ -75,7 +65,7 @@ public:
 
 private:
    DiscOptions options_;
-   Disc scene_;
+   Scene scene_;
    cattaneo::Counters counters_;
    std::vector<cattaneo::NodeState> guess_; ///< of the last state: where the next search starts
 };

@@ -1,30 +1,23 @@
 #include "common/figure.hpp"
 
 #include "common/miniapp.hpp"
+#include "common/text.hpp"
 
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/whole_file.hpp>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <iostream>
 
 namespace miniapp
 {
 
 using namespace cattaneo;
+using Eigen::Index;
 using Eigen::VectorXd;
 
 namespace
 {
-
-std::string number(double value)
-{
-   if (!std::isfinite(value)) { return ""; }
-   char text[32];
-   std::snprintf(text, sizeof text, "%.9g", value);
-   return text;
-}
 
 std::string quoted(const std::string &text)
 {
@@ -39,47 +32,68 @@ std::string argument(const std::string &text)
    return result + "'";
 }
 
-std::string comments(const char *kind, const std::string &title, const std::string &x_label,
-                     const std::string &y_label)
+VectorXd vector(const std::vector<double> &values)
 {
-   return std::string("# kind: ") + kind + "\n# title: " + title + "\n# x: " + x_label +
-          "\n# y: " + y_label + "\n";
+   return Eigen::Map<const VectorXd>(values.data(), values.size());
 }
 
 } // namespace
 
-Panel Panel::lines(const std::string &name, const std::string &title,
-                   const std::string &x_label, const std::string &y_label)
+Panel::Panel(Kind kind, const std::string &name, const std::string &title,
+             const std::string &x_label, const std::string &y_label)
+   : name_(name)
 {
-   return {name, comments("lines", title, x_label, y_label), "series,style,x,y\n"};
+   static const char *const kinds[] = {"lines", "zones", "plan", "field"};
+   static const char *const headers[] = {"series,style,x,y\n", "time,state,from,to\n",
+                                         "item,from,to\n", "series,x,y,value\n"};
+   const auto k = static_cast<std::size_t>(kind);
+   for (const auto &[key, word] : {std::pair<std::string, std::string>{"kind", kinds[k]},
+                                   {"title", title},
+                                   {"x", x_label},
+                                   {"y", y_label}})
+   {
+      say(key + ": " + word);
+   }
+   rows_ = headers[k];
 }
 
-Panel Panel::zones(const std::string &name, const std::string &title,
-                   const std::string &x_label, const std::string &y_label)
+void Panel::row(const std::vector<std::string> &words, const std::vector<double> &numbers)
 {
-   return {name, comments("zones", title, x_label, y_label), "time,state,from,to\n"};
-}
-
-Panel Panel::plan(const std::string &name, const std::string &title, const std::string &x_label,
-                  const std::string &y_label)
-{
-   return {name, comments("plan", title, x_label, y_label), "item,from,to\n"};
+   std::string line;
+   for (const std::string &word : words) { line += (line.empty() ? "" : ",") + quoted(word); }
+   for (double x : numbers)
+   {
+      if (!line.empty()) { line += ','; }
+      if (std::isfinite(x)) { line += text("%.9g", x); }
+   }
+   rows_ += line + '\n';
+   ++points_;
 }
 
 void Panel::add(const std::string &series, const VectorXd &x, const VectorXd &y,
                 const std::string &style)
 {
-   for (Eigen::Index i = 0; i < x.size(); ++i)
-   {
-      rows_ += quoted(series) + ',' + style + ',' + number(x[i]) + ',' + number(y[i]) + '\n';
-   }
+   for (Index i = 0; i < x.size(); ++i) { row({series, style}, {x[i], y[i]}); }
 }
 
 void Panel::add(const std::string &series, const std::vector<double> &x,
                 const std::vector<double> &y, const std::string &style)
 {
-   add(series, VectorXd(Eigen::Map<const VectorXd>(x.data(), x.size())),
-       VectorXd(Eigen::Map<const VectorXd>(y.data(), y.size())), style);
+   add(series, vector(x), vector(y), style);
+}
+
+void Panel::add_tractions(const std::string &label, const VectorXd &x,
+                          const ReducedProblem &problem, const ContactState &state, Index first,
+                          Index count)
+{
+   const Index n = problem.nodes();
+   if (count < 0) { count = n - first; }
+   const VectorXd at = x.segment(first, count);
+   add(label, at, tractions(problem, state.p).segment(first, count));
+   const double f = problem.friction[0];
+   if (f == 0) { return; }
+   add("q/f: " + label, at, tractions(problem, state.q.head(n)).segment(first, count) / f,
+       "dashed");
 }
 
 void Panel::add(double time, const std::vector<Zone> &zones,
@@ -87,87 +101,90 @@ void Panel::add(double time, const std::vector<Zone> &zones,
 {
    for (const Zone &zone : zones)
    {
-      rows_ += number(time) + ',' + cattaneo::name(zone.state) + ',' +
-               number(coordinate(zone.from.position)) + ',' +
-               number(coordinate(zone.to.position)) + '\n';
+      rows_ += text("%.9g,%s,%.9g,%.9g\n", time, cattaneo::name(zone.state),
+                    coordinate(zone.from.position), coordinate(zone.to.position));
+      ++points_;
    }
+}
+
+void Panel::mark(double time, double coordinate)
+{
+   rows_ += text("%.9g,thesis,%.9g,%.9g\n", time, coordinate, coordinate);
 }
 
 void Panel::add(const std::vector<Zone> &rings)
 {
    for (const Zone &ring : rings)
    {
-      rows_ += std::string(cattaneo::name(ring.state)) + ',' + number(ring.from.position) +
-               ',' + number(ring.to.position) + '\n';
+      row({cattaneo::name(ring.state)}, {ring.from.position, ring.to.position});
    }
 }
 
 void Panel::arrow(const std::string &kind, double radius, double angle)
 {
-   rows_ += kind + ',' + number(radius) + ',' + number(angle) + '\n';
+   row({kind}, {radius, angle});
 }
 
-void Panel::mark(double time, double coordinate)
+void Panel::add(const std::string &series, double x, double y, double value)
 {
-   rows_ += number(time) + ",thesis," + number(coordinate) + "," + number(coordinate) + "\n";
+   row({series}, {x, y, value});
 }
 
 void Panel::limit(const char *axis, double lo, double hi)
 {
-   comments_ += std::string("# limits ") + axis + ": " + number(lo) + "," + number(hi) + "\n";
+   const auto bound = [](double x) { return std::isfinite(x) ? text("%.9g", x) : ""; };
+   say(std::string("limits ") + axis + ": " + bound(lo) + "," + bound(hi));
 }
 
-void Panel::limit_x(double lo, double hi)
+void run_plot_script(const std::vector<std::string> &arguments, const std::string &picture)
 {
-   limit("x", lo, hi);
-}
-
-void Panel::limit_y(double lo, double hi)
-{
-   limit("y", lo, hi);
-}
-
-std::string Panel::csv() const
-{
-   return comments_ + rows_;
-}
-
-bool run_plot_script(const std::string &script, const std::vector<std::string> &arguments)
-{
-   if (!writes()) { return true; }
+   if (!writes()) { return; }
    std::string command =
       "for python in python3 /usr/bin/python3; do if $python -c 'import matplotlib' "
       "2>/dev/null; "
       "then exec $python " +
-      argument(std::string(CATTANEO_SOURCE_DIR) + "/miniapps/plot/" + script);
+      argument(std::string(CATTANEO_SOURCE_DIR) + "/miniapps/plot/plot.py");
    for (const std::string &text : arguments) { command += " " + argument(text); }
+   command += " " + argument(picture) + "; fi; done; exit 3";
    std::cout << std::flush;
-   return std::system((command + "; fi; done; exit 3").c_str()) == 0;
+   require(std::system(command.c_str()) == 0, "option --plot: '", picture,
+           "' was not drawn; it needs Python 3 with matplotlib (Debian: python3-matplotlib)");
 }
 
-void output(const std::vector<Panel> &panels, const std::string &csv_prefix,
+void output(const std::vector<Sheet> &sheets, const std::string &csv_prefix,
             const std::string &picture)
 {
-   if ((csv_prefix.empty() && picture.empty()) || !writes()) { return; }
-   if (panels.empty()) { warn("options --csv and --plot: this run has no figures"); }
-   if (panels.empty()) { return; }
-   const std::string prefix = csv_prefix.empty() ? picture : csv_prefix;
-   std::vector<std::string> names;
-   for (const Panel &panel : panels)
+   if (!writes()) { return; }
+   require(csv_prefix.empty() || !sheets.empty(), "option --csv: this run has no tables");
+   std::vector<std::string> drawn;
+   for (const Sheet &sheet : sheets)
    {
-      names.push_back(prefix + "_" + panel.name() + ".csv");
-      write_whole(names.back(), panel.csv());
+      const bool draw = !picture.empty() && sheet.drawn;
+      if (csv_prefix.empty() && !draw) { continue; }
+      const std::string name =
+         (csv_prefix.empty() ? picture : csv_prefix) + "_" + sheet.name + ".csv";
+      write_whole(name, sheet.text);
+      if (draw) { drawn.push_back(name); }
    }
    if (picture.empty()) { return; }
-   std::vector<std::string> arguments = names;
-   arguments.push_back(picture);
-   const bool drawn = run_plot_script("plot.py", arguments);
-   if (csv_prefix.empty())
+   require(!drawn.empty(), "option --plot: this run has nothing to draw");
+   const auto tidy = [&]
    {
-      for (const std::string &name : names) { std::remove(name.c_str()); }
+      for (const std::string &name : drawn)
+      {
+         if (csv_prefix.empty()) { std::remove(name.c_str()); }
+      }
+   };
+   try
+   {
+      run_plot_script(drawn, picture);
    }
-   require(drawn, "option --plot: '", picture,
-           "' was not drawn; it needs Python 3 with matplotlib (Debian: python3-matplotlib)");
+   catch (const InputError &)
+   {
+      tidy();
+      throw;
+   }
+   tidy();
 }
 
 } // namespace miniapp

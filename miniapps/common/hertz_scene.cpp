@@ -1,7 +1,6 @@
 #include "common/hertz_scene.hpp"
 
 #include "common/contact_grid.hpp"
-#include "common/locking.hpp"
 #include "common/miniapp.hpp"
 
 #include <cattaneo/input_error.hpp>
@@ -42,11 +41,10 @@ void HalfPlanes::validate() const
            " of the contact must be positive");
 }
 
-HertzScene make_scene(const HalfPlanes &options)
+Scene make_scene(const HalfPlanes &options)
 {
    options.validate();
-   HertzScene scene;
-   warn_of_locking(options.order, options.material);
+   Scene scene;
    const double domain = options.domain * options.half_width;
    const std::vector<double> contact =
       options.grid.empty() ? graded_to_ends(options.span * options.half_width,
@@ -60,16 +58,9 @@ HertzScene make_scene(const HalfPlanes &options)
    std::vector<CondensedBody> condensed;
    for (double turn : {-1.0, 1.0}) // the mesh is the lower body, its half-turn the upper one
    {
-      scene.meshes.push_back(distribute(half_plane_mesh(contact, depth, rings), options.order));
-      mfem::Mesh &mesh = *scene.meshes.back();
-      for (int v = 0; v < mesh.GetNV(); ++v)
-      {
-         mesh.GetVertex(v)[0] *= turn;
-         mesh.GetVertex(v)[1] *= turn;
-      }
-      scene.bodies.push_back(
-         std::make_unique<ElasticBody>(mesh, options.order, options.material));
-      ElasticBody &body = *scene.bodies.back();
+      mfem::Mesh mesh = half_plane_mesh(contact, depth, rings);
+      ElasticBody &body = scene.add(turn > 0 ? std::move(mesh) : half_turn(std::move(mesh)),
+                                    options.order, options.material);
       load(body, far, domain, domain, options.load, -turn);
       const bool specimen = turn > 0;
       if (specimen ? options.bulk : options.bulk_pad)
@@ -78,7 +69,6 @@ HertzScene make_scene(const HalfPlanes &options)
             specimen ? "bulk" : "bulk pad", sides,
             [](double x, double) { return x > 0 ? 1.0 : -1.0; }, 0.0);
       }
-      scene.dofs += body.dofs();
       const ContactLine line = contact_line(body, surface);
       condensed.push_back(condense(body, line, condensation(),
                                    condensed.empty() ? nullptr : &condensed.front()));
@@ -88,32 +78,25 @@ HertzScene make_scene(const HalfPlanes &options)
    return scene;
 }
 
-HertzScene make_scene(const BlockOnHalfPlane &options)
+Scene make_scene(const BlockOnHalfPlane &options)
 {
-   HertzScene scene;
-   warn_of_locking(options.order, options.material);
+   Scene scene;
    const double growth = 1.25;
    const std::vector<double> contact =
       graded_to_ends(1.0, (options.nodes - 1) / options.order, 1.0);
    const double h = contact[1] - contact[0];
    const int bottom = 1, top = 3;
-   scene.meshes.push_back(
-      distribute(rectangle_mesh(contact, graded(0, 2, h, growth, 0.1)), options.order));
-   scene.bodies.push_back(
-      std::make_unique<ElasticBody>(*scene.meshes[0], options.order, options.material));
-   load(*scene.bodies[0], top, 1, 2, options.load, 1);
-   scene.meshes.push_back(distribute(half_plane_mesh(contact, graded(0, 1, h, growth, 0.1),
-                                                     ring_scales(1, options.domain, h, growth)),
-                                     options.order));
-   scene.bodies.push_back(
-      std::make_unique<ElasticBody>(*scene.meshes[1], options.order, options.material));
-   ElasticBody &plane = *scene.bodies[1];
+   ElasticBody &block = scene.add(rectangle_mesh(contact, graded(0, 2, h, growth, 0.1)),
+                                  options.order, options.material);
+   load(block, top, 1, 2, options.load, 1);
+   ElasticBody &plane = scene.add(half_plane_mesh(contact, graded(0, 1, h, growth, 0.1),
+                                                  ring_scales(1, options.domain, h, growth)),
+                                  options.order, options.material);
    const int surface = 1, far = 3;
    for (int component : {0, 1}) { plane.fix(far, component); }
-   for (const auto &body : scene.bodies) { scene.dofs += body->dofs(); }
-   const ContactLine above = contact_line(*scene.bodies[0], bottom);
+   const ContactLine above = contact_line(block, bottom);
    const ContactLine below = contact_line(plane, surface);
-   scene.reduction = reduce(condense(*scene.bodies[0], above, condensation()),
+   scene.reduction = reduce(condense(block, above, condensation()),
                             condense(plane, below, condensation()), pair_lines(above, below));
    return scene;
 }

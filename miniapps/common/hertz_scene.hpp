@@ -1,10 +1,10 @@
 #pragma once
 
-#include <cattaneo/contact/condense_body.hpp>
+#include "common/scene.hpp"
+
 #include <cattaneo/friction/contact_state.hpp>
-#include <cattaneo/reduced/reduction.hpp>
+
 #include <functional>
-#include <memory>
 #include <vector>
 
 namespace miniapp
@@ -47,17 +47,8 @@ struct BlockOnHalfPlane
    double load = 1.0;
 };
 
-/// The bodies must live as long as their reduction is used for fields.
-struct HertzScene
-{
-   std::vector<std::unique_ptr<mfem::Mesh>> meshes;
-   std::vector<std::unique_ptr<cattaneo::ElasticBody>> bodies;
-   cattaneo::Reduction reduction;
-   int dofs = 0; ///< of both bodies
-};
-
-HertzScene make_scene(const HalfPlanes &options);
-HertzScene make_scene(const BlockOnHalfPlane &options);
+Scene make_scene(const HalfPlanes &options);
+Scene make_scene(const BlockOnHalfPlane &options);
 
 /// Peak pressure: top of the parabola p²(x) (exact for Hertz) fitted within half a half-width
 /// of the largest nodal value, with the nodes' weights. Nodal values of quadratic elements

@@ -1,8 +1,8 @@
 #include "common/lap_joint_scene.hpp"
 
 #include "common/contact_grid.hpp"
-#include "common/locking.hpp"
 #include "common/miniapp.hpp"
+#include "common/text.hpp"
 
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
@@ -49,10 +49,10 @@ std::string pinch_load(int bolt, double width)
    return "bolt " + std::to_string(bolt + 1) + exact_text(", w = ", width);
 }
 
-LapJoint make_lap_joint(const LapJointOptions &options)
+Scene make_lap_joint(const LapJointOptions &options)
 {
    options.validate();
-   LapJoint joint;
+   Scene joint;
    const Material material{1 - options.poisson * options.poisson, options.poisson,
                            PlaneState::strain};
    double d = 0;
@@ -95,15 +95,9 @@ LapJoint make_lap_joint(const LapJointOptions &options)
       std::vector<double> y = graded(0, half, h, growth, 0.2 * coarse);
       const std::size_t lower_half = y.size() - 1;
       for (std::size_t k = lower_half; k-- > 0;) { y.push_back(thickness - y[k]); }
-      joint.meshes.push_back(distribute(rectangle_mesh(x, y), options.order));
-      mfem::Mesh &mesh = *joint.meshes.back();
-      for (int v = 0; v < mesh.GetNV(); ++v)
-      {
-         for (int c = 0; c < 2; ++c) { mesh.GetVertex(v)[c] *= turn; }
-      }
-      warn_of_locking(options.order, material);
-      joint.bodies.push_back(std::make_unique<ElasticBody>(mesh, options.order, material));
-      ElasticBody &lap = *joint.bodies.back();
+      mfem::Mesh mesh = rectangle_mesh(x, y);
+      ElasticBody &lap = joint.add(turn > 0 ? std::move(mesh) : half_turn(std::move(mesh)),
+                                   options.order, material);
       for (double w : options.widths)
       {
          for (std::size_t k = 0; k < options.bolts.size(); ++k)
@@ -116,7 +110,6 @@ LapJoint make_lap_joint(const LapJointOptions &options)
       }
       lap.add_pressure("T", loaded, -1 / thickness);
       lap.fix_node(turn * loaded_end, turn * half, 1);
-      joint.dofs += lap.dofs();
       const ContactLine line =
          contact_line(lap, BoundaryPart({interface}, 0, -free_end, free_end));
       condensed.push_back(condense(lap, line, condensation(),

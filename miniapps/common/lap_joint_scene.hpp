@@ -1,8 +1,7 @@
 #pragma once
 
-#include <cattaneo/contact/condense_body.hpp>
-#include <cattaneo/reduced/reduction.hpp>
-#include <memory>
+#include "common/scene.hpp"
+
 #include <string>
 #include <vector>
 
@@ -41,18 +40,9 @@ struct LapJointOptions
    void validate() const;
 };
 
-/// The bodies must live as long as their reduction is used for fields.
-struct LapJoint
-{
-   std::vector<std::unique_ptr<mfem::Mesh>> meshes;
-   std::vector<std::unique_ptr<cattaneo::ElasticBody>> bodies;
-   cattaneo::Reduction reduction;
-   int dofs = 0; ///< of both laps
-};
-
 /// Name of the load pattern of a bolt's (from 0) pinch pressure of the given width.
 std::string pinch_load(int bolt, double width);
 
-LapJoint make_lap_joint(const LapJointOptions &options);
+Scene make_lap_joint(const LapJointOptions &options);
 
 } // namespace miniapp

@@ -8,66 +8,164 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <limits>
+#include <set>
 
 namespace miniapp
 {
 
+using cattaneo::exact_text;
+using cattaneo::InputError;
 using cattaneo::require;
+using nlohmann::json;
 namespace fs = std::filesystem;
 
-void Options::AddOption(int *value, const char *short_name, const char *name, const char *help)
+const Check any{[](double) { return true; }, ""};
+const Check positive{[](double x) { return x > 0; }, "must be positive"};
+const Check not_negative{[](double x) { return x >= 0; }, "must not be negative"};
+
+Check at_least(double least)
 {
-   OptionsParser::AddOption(value, short_name, name, help);
-   for (const char *known : {short_name, name}) { names_.push_back({known, Kind::integer}); }
+   return {[=](double x) { return x >= least; }, "must be at least " + exact_text(least)};
 }
 
-void Options::AddOption(double *value, const char *short_name, const char *name,
-                        const char *help)
+Check above(double low)
 {
-   OptionsParser::AddOption(value, short_name, name, help);
-   for (const char *known : {short_name, name}) { names_.push_back({known, Kind::number}); }
+   return {[=](double x) { return x > low; }, "must be above " + exact_text(low)};
 }
 
-void Options::AddOption(bool *value, const char *on, const char *on_name, const char *off,
-                        const char *off_name, const char *help)
+Check between(double low, double high)
 {
-   OptionsParser::AddOption(value, on, on_name, off, off_name, help);
-   for (const char *known : {on, on_name, off, off_name})
+   return {[=](double x) { return x > low && x < high; },
+           "must be between " + exact_text(low) + " and " + exact_text(high)};
+}
+
+Check above_up_to(double low, double high)
+{
+   return {[=](double x) { return x > low && x <= high; },
+           "must be above " + exact_text(low) + " and at most " + exact_text(high)};
+}
+
+Check at_least_below(double low, double high)
+{
+   return {[=](double x) { return x >= low && x < high; },
+           "must be at least " + exact_text(low) + " and below " + exact_text(high)};
+}
+
+Check within(double low, double high)
+{
+   return {[=](double x) { return x >= low && x <= high; },
+           "must be " + exact_text(low) + " to " + exact_text(high)};
+}
+
+Options::Options(int argc, char *argv[]) : words_(argv, argv + argc), parser_(argc, argv)
+{
+   add(&case_file_, "case", "JSON file with options; those of the command line override it.",
+       Text::input);
+   options_.back().in_cases = false;
+}
+
+Options::Option &Options::keep(Option option)
+{
+   options_.push_back(std::move(option));
+   return options_.back();
+}
+
+void Options::add(int *value, const Names &names, const char *help, const Check &check)
+{
+   const auto settle = [=]
+   { require(check.holds(*value), "option --", names.name, " is ", *value, ", ", check.must); };
+   const Option &o = keep({names, Kind::integer, Text::word, value, settle, true});
+   parser_.AddOption(value, o.names.on[0].c_str(), o.names.on[1].c_str(), help);
+}
+
+void Options::add(double *value, const Names &names, const char *help, const Check &check)
+{
+   const auto settle = [=]
    {
-      names_.push_back({known, Kind::flag});
+      require(std::isnan(*value) || check.holds(*value), "option --", names.name, " is ",
+              *value, ", ", check.must);
+   };
+   const Option &o = keep({names, Kind::number, Text::word, value, settle, true});
+   parser_.AddOption(value, o.names.on[0].c_str(), o.names.on[1].c_str(), help);
+}
+
+void Options::add(bool *value, const Names &names, const char *help)
+{
+   const Option &o = keep({names, Kind::flag, Text::word, value, {}, true});
+   parser_.AddOption(value, o.names.on[0].c_str(), o.names.on[1].c_str(), o.names.on[2].c_str(),
+                     o.names.on[3].c_str(), help);
+}
+
+void Options::add(std::string *value, const Names &names, const char *help, Text kind)
+{
+   const bool written = kind > Text::input;
+   const Option &o = keep({names, Kind::text, kind, value, {}, !written});
+   parser_.AddOption(value, o.names.on[0].c_str(), o.names.on[1].c_str(), help);
+}
+
+void Options::add(std::string *value, const Names &names, const char *help,
+                  const std::vector<std::string> &choices)
+{
+   add(value, names, help);
+   options_.back().settle = [=]
+   {
+      std::string list;
+      for (const std::string &choice : choices) { list += (list.empty() ? "" : ", ") + choice; }
+      require(std::find(choices.begin(), choices.end(), *value) != choices.end(), "option --",
+              names.name, ": '", *value, "' is not one of ", list);
+   };
+}
+
+void Options::add(std::vector<double> *value, const Names &names, const char *help,
+                  const Check &check)
+{
+   std::string &text = lists_.emplace_back();
+   for (double x : *value) { text += (text.empty() ? "" : " ") + exact_text(x); }
+   add(&text, names, help);
+   options_.back().kind = Kind::list;
+   options_.back().settle = [value, names, check, &text]
+   {
+      *value = numbers("--" + names.name, text);
+      for (double x : *value)
+      {
+         require(check.holds(x), "option --", names.name, ": ", x, " ", check.must);
+      }
+   };
+}
+
+void Options::leave_out_of_cases(const std::string &name)
+{
+   for (Option &option : options_)
+   {
+      if (option.names.name == name) { option.in_cases = false; }
    }
 }
 
-void Options::AddOption(const char **value, const char *short_name, const char *name,
-                        const char *help)
+const Options::Option *Options::find(const std::string &word) const
 {
-   OptionsParser::AddOption(value, short_name, name, help);
-   for (const char *known : {short_name, name}) { names_.push_back({known, Kind::text}); }
-}
-
-void Options::AddOption(std::string *value, const char *short_name, const char *name,
-                        const char *help)
-{
-   OptionsParser::AddOption(value, short_name, name, help);
-   for (const char *known : {short_name, name}) { names_.push_back({known, Kind::text}); }
+   for (const Option &option : options_)
+   {
+      const std::size_t count = option.kind == Kind::flag ? 4 : 2;
+      for (std::size_t k = 0; k < count; ++k)
+      {
+         if (option.names.on[k] == word) { return &option; }
+      }
+   }
+   return nullptr;
 }
 
 void Options::check_words() const
 {
-   const auto find = [this](const std::string &word)
-   {
-      return std::find_if(names_.begin(), names_.end(),
-                          [&](const Name &known) { return known.name == word; });
-   };
    for (std::size_t i = 1; i < words_.size(); ++i)
    {
-      const auto option = find(words_[i]);
-      if (option == names_.end() || option->kind == Kind::flag) { continue; }
-      require(i + 1 < words_.size() && find(words_[i + 1]) == names_.end(), "option ",
-              words_[i], " has no value");
+      const Option *option = find(words_[i]);
+      if (!option || option->kind == Kind::flag) { continue; }
+      require(i + 1 < words_.size() && !find(words_[i + 1]), "option ", words_[i],
+              " has no value");
       const std::string &word = words_[++i];
-      if (option->kind == Kind::text) { continue; }
+      if (option->kind == Kind::text || option->kind == Kind::list) { continue; }
       const bool integer = option->kind == Kind::integer;
       char *end = nullptr;
       const double value = std::strtod(word.c_str(), &end);
@@ -88,40 +186,46 @@ void Options::check_files() const
       std::error_code error;
       return fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error);
    };
-   for (const File &file : files_)
+   const auto named = [](const Option &option)
    {
-      const std::string name = file.name();
-      if (name.empty() || file.what == Names::input) { continue; }
+      const auto *text = std::get_if<std::string *>(&option.value);
+      return text && option.kind == Kind::text && option.text >= Text::input ? **text : "";
+   };
+   for (const Option &option : options_)
+   {
+      const std::string file = named(option), what = "option --" + option.names.name;
+      if (file.empty() || option.text == Text::input) { continue; }
       try
       {
-         const bool folder = file.what == Names::folder;
-         require(!folder || !fs::exists(name) || fs::is_directory(name), "'", name,
+         const bool folder = option.text == Text::folder;
+         require(!folder || !fs::exists(file) || fs::is_directory(file), "'", file,
                  "' is a file, must be a folder");
-         if (file.what == Names::prefix) { cattaneo::require_writable(name + "_.csv"); }
-         else if (!folder) { cattaneo::require_writable(name); }
+         if (option.text == Text::prefix) { cattaneo::require_writable(file + "_.csv"); }
+         else if (!folder) { cattaneo::require_writable(file); }
          else
          {
-            fs::path there = name;
+            fs::path there = file;
             while (!there.empty() && !fs::exists(there)) { there = there.parent_path(); }
             cattaneo::require_writable(there / "file");
          }
       }
-      catch (const cattaneo::InputError &error)
+      catch (const InputError &error)
       {
-         throw cattaneo::InputError("option " + file.option + ": " + error.what());
+         throw InputError(what + ": " + error.what());
       }
-      const std::string type = fs::path(name).extension();
-      require(file.what != Names::picture || type == ".png" || type == ".pdf" || type == ".svg",
-              "option ", file.option, ": '", name, "' must end in .png, .pdf or .svg");
-      for (const File &other : files_)
+      const std::string type = fs::path(file).extension();
+      require(option.text != Text::picture || type == ".png" || type == ".pdf" ||
+                 type == ".svg",
+              what, ": '", file, "' must end in .png, .pdf or .svg");
+      for (const Option &other : options_)
       {
-         if (&other == &file || other.name().empty() || file.what == Names::prefix ||
-             other.what == Names::prefix)
+         if (&other == &option || named(other).empty() || option.text == Text::prefix ||
+             other.text == Text::prefix)
          {
             continue;
          }
-         require(!same(name, other.name()), "option ", file.option, " would write over '", name,
-                 "', the file of option ", other.option, ": name another");
+         require(!same(file, named(other)), what, " would write over '", file,
+                 "', the file of option --", other.names.name, ": name another");
       }
    }
 }
@@ -129,8 +233,156 @@ void Options::check_files() const
 void Options::parse()
 {
    check_words();
-   miniapp::parse(*this);
+   // First for the name of the case file only; a bad command line is reported below.
+   parser_.Parse();
+   if (parser_.Good() && !case_file_.empty()) { read(case_file_); }
+   miniapp::parse(parser_);
+   for (const Option &option : options_)
+   {
+      if (option.settle) { option.settle(); }
+      values_[option.names.name] =
+         std::visit([](auto *value) { return nlohmann::ordered_json(*value); }, option.value);
+   }
    check_files();
+}
+
+void Options::read(const std::string &file)
+{
+   const std::string where = "case file '" + file + "'";
+   std::ifstream in(file);
+   require(in.good() && !fs::is_directory(file), where, " cannot be read");
+   json j;
+   std::set<std::string> names;
+   // Of a key that is there twice the parser itself keeps the last without a word.
+   const auto once = [&](int depth, json::parse_event_t event, const json &name)
+   {
+      if (event == json::parse_event_t::key && depth == 1)
+      {
+         const auto key = name.get<std::string>();
+         require(names.insert(key).second, where, ": key '", key,
+                 "' is there twice, must be there once");
+      }
+      return true;
+   };
+   try
+   {
+      j = json::parse(in, once);
+   }
+   catch (const json::exception &error)
+   {
+      throw InputError(where + " is not JSON: " + error.what());
+   }
+   require(j.is_object(), where, " holds a JSON ", j.type_name(), ", must be an object");
+   for (const auto &[name, value] : j.items())
+   {
+      const Option *option = nullptr;
+      std::string known;
+      for (const Option &o : options_)
+      {
+         if (!o.in_cases) { continue; }
+         if (o.names.name == name) { option = &o; }
+         known += (known.empty() ? "" : ", ") + o.names.name;
+      }
+      require(option, where, ": unknown key '", name, "', must be one of ", known);
+      set(*option, value, where + ": key '" + name + "'", file);
+   }
+}
+
+void Options::set(const Option &option, const json &value, const std::string &where,
+                  const std::string &file)
+{
+   const auto expect = [&](bool condition, const char *allowed)
+   {
+      // Nothing nested is shown: it may be too deep to be written.
+      require(condition, where, " is ",
+              value.is_structured() ? value.type_name() : value.dump(), ", must be ", allowed);
+   };
+   const auto all = [&value](auto is)
+   { return value.is_array() && std::all_of(value.begin(), value.end(), is); };
+   const auto is_number = [](const json &v) { return v.is_number(); };
+   const auto is_attribute = [](const json &v)
+   { return v.is_number_integer() && v.get<double>() > 0; };
+   const auto is_string = [](const json &v) { return v.is_string(); };
+   // A value, or an array of them with something between.
+   const auto joined = [&value](const char *between)
+   {
+      std::string list;
+      const json values = value.is_array() ? value : json::array({value});
+      for (const json &v : values)
+      {
+         list +=
+            (list.empty() ? "" : between) + (v.is_string() ? v.get<std::string>() : v.dump());
+      }
+      return list;
+   };
+   if (auto integer = std::get_if<int *>(&option.value))
+   {
+      expect(value.is_number_integer() &&
+                std::abs(value.get<double>()) <= std::numeric_limits<int>::max(),
+             "an integer");
+      **integer = value.get<int>();
+   }
+   else if (auto number = std::get_if<double *>(&option.value))
+   {
+      expect(value.is_number(), "a number");
+      **number = value.get<double>();
+   }
+   else if (auto flag = std::get_if<bool *>(&option.value))
+   {
+      expect(value.is_boolean(), "true or false");
+      **flag = value.get<bool>();
+   }
+   else
+   {
+      std::string &text = *std::get<std::string *>(option.value);
+      if (option.kind == Kind::list)
+      {
+         expect(value.is_number() || all(is_number), "a number or an array of numbers");
+         text = joined(" ");
+      }
+      else if (option.text == Text::attributes)
+      {
+         expect(value.is_string() || is_attribute(value) || all(is_attribute),
+                "boundary attributes: a string such as \"3,4\" or \"3[-1<x<1]\", a positive "
+                "integer, or an array of positive integers");
+         text = joined(",");
+      }
+      else if (option.text == Text::statements)
+      {
+         expect(value.is_string() || all(is_string), "a string or an array of strings");
+         text = joined("; ");
+      }
+      else
+      {
+         const bool path = option.text == Text::input;
+         expect(value.is_string(), path ? "a string (the path of a file)" : "a string");
+         text = value.get<std::string>();
+         if (path) { text = (fs::path(file).parent_path() / text).string(); }
+      }
+   }
+}
+
+std::vector<double> numbers(const std::string &option, const std::string &text)
+{
+   std::vector<double> values;
+   if (text == "none") { return values; }
+   std::string word;
+   for (char c : text + " ")
+   {
+      if (c != ' ' && c != ',')
+      {
+         word += c;
+         continue;
+      }
+      if (word.empty()) { continue; }
+      char *end = nullptr;
+      const double value = std::strtod(word.c_str(), &end);
+      require(*end == 0 && std::isfinite(value), "option ", option, ": '", word,
+              "' is not a number");
+      values.push_back(value);
+      word.clear();
+   }
+   return values;
 }
 
 } // namespace miniapp

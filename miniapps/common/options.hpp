@@ -1,86 +1,135 @@
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <mfem.hpp>
+#include <nlohmann/json.hpp>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace miniapp
 {
 
-/** MFEM's options, with what MFEM leaves open: numbers that are none, or too large, are refused
-   with the name of their option, and so are options without a value. Files to be read and
-   written are known as such, so that a run does not end, after all its work, with nowhere to
-   write to, or writes over what it reads. */
-class Options : public mfem::OptionsParser
+/// What a number must be, and the words that say so: "must be positive".
+struct Check
+{
+   std::function<bool(double)> holds;
+   std::string must;
+};
+extern const Check any, positive, not_negative;
+Check at_least(double least);
+Check above(double low);
+Check between(double low, double high);        ///< neither bound
+Check above_up_to(double low, double high);    ///< without the lower bound
+Check at_least_below(double low, double high); ///< without the upper bound
+Check within(double low, double high);         ///< both bounds
+
+/// What a text option is, here and in a case file.
+enum class Text
+{
+   word,
+   attributes, ///< a string, a number or an array of numbers
+   statements, ///< a string with statements between semicolons, or an array of them
+   input,      ///< a file that is read; a path in a case file is relative to its folder
+   output,     ///< a file that is written
+   prefix,     ///< the beginning of the names of files that are written
+   folder,     ///< a folder for files, made with those above it if there is none
+   picture     ///< a file of matplotlib's: png, pdf or svg
+};
+
+/** Options of a program: MFEM's parser with what it leaves open. Each is declared once, with
+   its check. Numbers that are none, or too large, are refused with the name of their option,
+   and so are options without a value. Files to be read and written are known as such, so that a
+    run does not end, after all its work, with nowhere to write to, or writes over what it
+   reads.
+
+    --case FILE.json gives options as well, by their long names without dashes; the command line
+    overrides it. Files that are written are named on the command line only. */
+class Options
 {
 public:
-   Options(int argc, char *argv[]) : OptionsParser(argc, argv), words_(argv, argv + argc) {}
+   Options(int argc, char *argv[]);
 
-   /// What the value of an option names.
-   enum class Names
+   /// Of an option: -name and --name, or -short and --name; a flag's other side is -no-name and
+   /// --no-name unless it is given.
+   struct Names
    {
-      input,   ///< a file that is read
-      output,  ///< a file that is written
-      prefix,  ///< the beginning of the names of files that are written
-      folder,  ///< a folder for files, made with those above it if there is none
-      picture, ///< a file of matplotlib's: png, pdf or svg
+      Names(const char *name) : Names(name, name) {}
+      Names(const std::string &name) : Names(name, name) {}
+      Names(const std::string &short_name, const std::string &name)
+         : Names(short_name, name, "no-" + short_name, "no-" + name)
+      {
+      }
+      Names(const std::string &short_name, const std::string &name,
+            const std::string &short_off, const std::string &off)
+         : on{"-" + short_name, "--" + name, "-" + short_off, "--" + off}, name(name)
+      {
+      }
+      std::vector<std::string> on;
+      std::string name;
    };
 
-   void AddOption(int *value, const char *short_name, const char *name, const char *help);
-   void AddOption(double *value, const char *short_name, const char *name, const char *help);
-   void AddOption(bool *value, const char *on, const char *on_name, const char *off,
-                  const char *off_name, const char *help);
-   void AddOption(const char **value, const char *short_name, const char *name,
-                  const char *help);
-   void AddOption(std::string *value, const char *short_name, const char *name,
-                  const char *help);
-   /// An option that names files.
-   template <class Text>
-   void add(Names what, Text *value, const char *short_name, const char *name, const char *help)
-   {
-      AddOption(value, short_name, name, help);
-      note(what, value, name);
-   }
-   /// Says of an option what it names.
-   template <class Text>
-   void note(Names what, Text *value, const char *name)
-   {
-      files_.push_back({name, what, [value] { return std::string(*value); }});
-   }
+   void add(int *value, const Names &names, const char *help, const Check &check = any);
+   /// A number; NaN is one that has not been given, which no check asks.
+   void add(double *value, const Names &names, const char *help, const Check &check = any);
+   void add(bool *value, const Names &names, const char *help);
+   void add(std::string *value, const Names &names, const char *help, Text kind = Text::word);
+   /// One of some words.
+   void add(std::string *value, const Names &names, const char *help,
+            const std::vector<std::string> &choices);
+   /// A list of numbers; "none" and "" are the empty one.
+   void add(std::vector<double> *value, const Names &names, const char *help,
+            const Check &check = any);
 
-   /// InputError for a word of the command line that its option cannot take.
-   void check_words() const;
+   /// Names what is no part of a case: where results go, or which of them are shown.
+   void leave_out_of_cases(const std::string &name);
 
-   /// Parses the options, echoes them, prints help for -h. Leaves through run() as
-   /// miniapp::parse() does; InputError for a value or a file that cannot be used.
+   /// Sets all options, echoes them, prints help for -h. Leaves through run() with exit code 0
+   /// after help and 1, with one sentence, after a bad command line; InputError for a value or
+   /// a file that cannot be used.
    void parse();
+
+   /// What was parsed, by long names, lists as text.
+   const nlohmann::ordered_json &values() const { return values_; }
 
 private:
    enum class Kind
    {
       integer,
       number,
+      flag,
       text,
-      flag
+      list
    };
-   struct Name
+   struct Option
    {
-      std::string name;
+      Names names;
       Kind kind;
-   };
-   struct File
-   {
-      std::string option;
-      Names what;
-      std::function<std::string()> name; ///< empty: none
+      Text text;
+      std::variant<int *, double *, bool *, std::string *> value;
+      std::function<void()> settle; ///< after parsing: checks, makes the list
+      bool in_cases;
    };
 
+   Option &keep(Option option);
+   const Option *find(const std::string &word) const;
+   void check_words() const;
    void check_files() const;
+   void read(const std::string &file);
+   void set(const Option &option, const nlohmann::json &value, const std::string &where,
+            const std::string &file);
 
    const std::vector<std::string> words_; ///< of the command line
-   std::vector<Name> names_;              ///< short and long
-   std::vector<File> files_;
+   mfem::OptionsParser parser_;
+   std::deque<Option> options_; ///< MFEM keeps pointers to their names: these stay in place
+   std::deque<std::string> lists_;
+   std::string case_file_;
+   nlohmann::ordered_json values_;
 };
+
+/// Numbers of a list option, separated by spaces or commas, or "none"; InputError naming the
+/// option.
+std::vector<double> numbers(const std::string &option, const std::string &text);
 
 } // namespace miniapp

@@ -1,7 +1,6 @@
 #include "common/punch.hpp"
 
 #include "common/contact_grid.hpp"
-#include "common/locking.hpp"
 #include "common/miniapp.hpp"
 
 #include <cattaneo/halfplane/half_plane.hpp>
@@ -27,23 +26,24 @@ void PunchOptions::validate() const
            ", must be above 2 (in a), or 0 for a half-plane without a mesh");
 }
 
-void add_options(Options &args, PunchOptions &options)
+void add_options(Study &study, PunchOptions &options)
 {
-   args.AddOption(&options.poisson, "-poisson", "--poisson", "Poisson's ratio of both bodies.");
-   args.AddOption(&options.order, "-order", "--order", "Order of the elements.");
-   args.AddOption(&options.nodes, "-nodes", "--nodes", "Contact nodes.");
-   args.AddOption(
-      &options.grading, "-grading", "--grading",
+   study.option(&options.poisson, "poisson", "Poisson's ratio of both bodies.");
+   study.option(&options.order, "order", "Order of the elements.");
+   study.option(&options.nodes, "nodes", "Contact nodes.");
+   study.option(
+      &options.grading, "grading",
       "Size of the contact elements at the corners over the middle ones (1: uniform).");
-   args.AddOption(&options.domain, "-domain", "--domain",
-                  "Half-width and depth in a of a meshed block in place of the half-plane (0: "
-                  "the half-plane itself).");
+   study.option(
+      &options.domain, "domain",
+      "Half-width and depth in a of a meshed block in place of the half-plane (0: the "
+      "half-plane itself).");
 }
 
-Punch make_punch(const PunchOptions &options)
+Scene make_punch(const PunchOptions &options)
 {
    options.validate();
-   Punch punch;
+   Scene scene;
    const Material material{1 - options.poisson * options.poisson, options.poisson,
                            PlaneState::strain};
    Material plane_material = material;
@@ -62,49 +62,40 @@ Punch make_punch(const PunchOptions &options)
    const auto refined = [&](mfem::Mesh mesh, int body)
    {
       if (options.refine) { options.refine(mesh, body); }
-      return distribute(std::move(mesh), options.order);
+      return mesh;
    };
    const std::vector<double> height = graded(0, 2, smallest, growth, coarsest);
-   punch.meshes.push_back(refined(rectangle_mesh(contact, height), 0));
-   warn_of_locking(options.order, material);
-   punch.bodies.push_back(
-      std::make_unique<ElasticBody>(*punch.meshes[0], options.order, material));
-   ElasticBody &block = *punch.bodies[0];
+   ElasticBody &block =
+      scene.add(refined(rectangle_mesh(contact, height), 0), options.order, material);
    const int bottom = 1, top = 3;
    block.add_pressure("P", top, 0.5);
    block.add_traction("Q", top, 0.5, 0.0);
    block.add_pressure("Q", top, [](double x, double) { return -3 * x; });
    CondensedBody condensed = condense(block, contact_line(block, bottom), condensation());
-   punch.dofs = block.dofs();
    if (!options.half_plane)
    {
-      punch.reduction = reduce(std::move(condensed));
-      return punch;
+      scene.reduction = reduce(std::move(condensed));
+      return scene;
    }
    if (options.domain == 0)
    {
       HalfPlane plane;
       plane.material = plane_material;
       plane.depth = 1e4;
-      punch.reduction = reduce(std::move(condensed), plane);
-      return punch;
+      scene.reduction = reduce(std::move(condensed), plane);
+      return scene;
    }
 
-   punch.meshes.push_back(
-      refined(half_plane_mesh(contact, graded(0, 1, smallest, growth, coarsest),
-                              ring_scales(1, options.domain, smallest, growth)),
-              1));
-   punch.bodies.push_back(
-      std::make_unique<ElasticBody>(*punch.meshes[1], options.order, plane_material));
-   ElasticBody &plane = *punch.bodies[1];
+   mfem::Mesh below = half_plane_mesh(contact, graded(0, 1, smallest, growth, coarsest),
+                                      ring_scales(1, options.domain, smallest, growth));
+   ElasticBody &plane = scene.add(refined(std::move(below), 1), options.order, plane_material);
    const int surface = 1, far_bottom = 3;
    for (int component : {0, 1}) { plane.fix(far_bottom, component); }
    const ContactLine facing = contact_line(plane, surface);
    const Pairing pairing = pair_lines(condensed.line, facing);
-   punch.dofs += plane.dofs();
-   punch.reduction =
+   scene.reduction =
       reduce(std::move(condensed), condense(plane, facing, condensation()), pairing);
-   return punch;
+   return scene;
 }
 
 } // namespace miniapp

@@ -1,12 +1,8 @@
 #pragma once
 
-#include "common/options.hpp"
+#include "common/study.hpp"
 
-#include <cattaneo/contact/condense_body.hpp>
-#include <cattaneo/reduced/reduction.hpp>
 #include <functional>
-#include <memory>
-#include <string>
 #include <vector>
 
 namespace miniapp
@@ -43,18 +39,9 @@ struct PunchOptions
    void validate() const;
 };
 
-/// The bodies must live as long as their reduction is used for fields.
-struct Punch
-{
-   std::vector<std::unique_ptr<mfem::Mesh>> meshes;
-   std::vector<std::unique_ptr<cattaneo::ElasticBody>> bodies;
-   cattaneo::Reduction reduction;
-   int dofs = 0; ///< of all bodies
-};
-
 /// The options --poisson, --order, --nodes, --grading and --domain.
-void add_options(Options &args, PunchOptions &options);
+void add_options(Study &study, PunchOptions &options);
 
-Punch make_punch(const PunchOptions &options);
+Scene make_punch(const PunchOptions &options);
 
 } // namespace miniapp

@@ -1,8 +1,9 @@
 #include "common/receding.hpp"
 
 #include "common/contact_grid.hpp"
-#include "common/locking.hpp"
 #include "common/miniapp.hpp"
+#include "common/text.hpp"
+#include "common/williams.hpp"
 
 #include <algorithm>
 #include <cattaneo/halfplane/half_plane.hpp>
@@ -19,9 +20,6 @@ using namespace cattaneo;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-const double williams_eigenvalue[2] = {0.544483736782, 0.908529189846};
-const double williams_ratio[2] = {0.543075578837, -0.218923236249};
 
 void RecedingOptions::half_plane_domain()
 {
@@ -62,10 +60,10 @@ std::string overhang_load(double overhang)
    return exact_text("n = ", overhang);
 }
 
-Receding make_receding(const RecedingOptions &options)
+Scene make_receding(const RecedingOptions &options)
 {
    options.validate();
-   Receding scene;
+   Scene scene;
    const Material material{1 - options.poisson * options.poisson, options.poisson,
                            PlaneState::strain};
    const int bottom = 1, right = 2, top = 3;
@@ -87,15 +85,12 @@ Receding make_receding(const RecedingOptions &options)
    const auto refined = [&](mfem::Mesh mesh, int body)
    {
       if (options.refine) { options.refine(mesh, body); }
-      return distribute(std::move(mesh), options.order);
+      return mesh;
    };
 
-   scene.meshes.push_back(
-      refined(rectangle_mesh(contact, graded(0, 1, h_corner, growth, 0.4 * (growth - 1))), 0));
-   warn_of_locking(options.order, material);
-   scene.bodies.push_back(
-      std::make_unique<ElasticBody>(*scene.meshes[0], options.order, material));
-   ElasticBody &strip = *scene.bodies[0];
+   mfem::Mesh above =
+      rectangle_mesh(contact, graded(0, 1, h_corner, growth, 0.4 * (growth - 1)));
+   ElasticBody &strip = scene.add(refined(std::move(above), 0), options.order, material);
    for (double n : options.overhangs)
    {
       strip.add_pressure(overhang_load(n), BoundaryPart({top}, 0, n, L), 1.0);
@@ -106,7 +101,6 @@ Receding make_receding(const RecedingOptions &options)
    strip.fix(BoundaryPart({right}, 1, clear, 1), 0);
 
    CondensedBody upper = condense(strip, contact_line(strip, bottom), condensation());
-   scene.dofs = strip.dofs();
    if (!options.meshed())
    {
       HalfPlane below;
@@ -121,44 +115,16 @@ Receding make_receding(const RecedingOptions &options)
    std::reverse(outside.begin(), outside.end());
    std::vector<double> depth = graded(0, -options.depth, h_corner, growth);
    std::reverse(depth.begin(), depth.end());
-   scene.meshes.push_back(refined(rectangle_mesh(joined({outside, contact}), depth), 1));
-   scene.bodies.push_back(
-      std::make_unique<ElasticBody>(*scene.meshes[1], options.order, material));
-   ElasticBody &block = *scene.bodies[1];
+   ElasticBody &block = scene.add(refined(rectangle_mesh(joined({outside, contact}), depth), 1),
+                                  options.order, material);
    block.fix(bottom, 1);
    block.fix(BoundaryPart({right}, 1, -options.depth, -clear), 0);
 
    const ContactLine below = contact_line(block, BoundaryPart({top}, 0, 0, L));
    const Pairing pairing = pair_lines(upper.line, below);
    scene.reduction = reduce(std::move(upper), condense(block, below, condensation()), pairing);
-   scene.dofs += block.dofs();
    return scene;
 }
-
-namespace
-{
-
-const double corner_fit_from = 0.005, corner_fit_to = 0.05;
-
-/// Strengths k1, k2 of the two singular terms of a traction t(x): least squares, relative to
-/// the first mode, together with the first bounded term (a pair of complex eigenvalues).
-Eigen::Vector2d fit_corner(const std::vector<double> &x, const std::vector<double> &t)
-{
-   const double real = 1.629257, imaginary = 0.231251;
-   MatrixXd V(x.size(), 4);
-   VectorXd rhs(x.size());
-   for (std::size_t k = 0; k < x.size(); ++k)
-   {
-      const double scale = std::pow(x[k], 1 - williams_eigenvalue[0]);
-      V.row(k) << 1.0, scale * std::pow(x[k], williams_eigenvalue[1] - 1),
-         scale * std::pow(x[k], real - 1) * std::cos(imaginary * std::log(x[k])),
-         scale * std::pow(x[k], real - 1) * std::sin(imaginary * std::log(x[k]));
-      rhs[k] = scale * t[k];
-   }
-   return V.householderQr().solve(rhs).head(2);
-}
-
-} // namespace
 
 BondedTractions bonded_tractions(const ReducedProblem &problem, double overhang)
 {
@@ -167,27 +133,18 @@ BondedTractions bonded_tractions(const ReducedProblem &problem, double overhang)
    result.p = tractions(problem, load.p);
    result.q = tractions(problem, load.q);
    const VectorXd &x = problem.arc_length;
-   std::vector<double> near, p_near, q_near;
    // The last few nodes at the corner never converge; what they spoil must stay small, so that
    // the fit starts well away from them.
    const Index skip = 8;
-   for (Index i = skip; i < x.size(); ++i)
-   {
-      if (x[i] < corner_fit_from || x[i] > corner_fit_to) { continue; }
-      near.push_back(x[i]);
-      p_near.push_back(result.p[i]);
-      q_near.push_back(result.q[i]);
-   }
-   result.corner_ratio = std::numeric_limits<double>::quiet_NaN();
-   if (near.size() >= 8) // else the mesh is too coarse for the fit
-   {
-      const Eigen::Vector2d kp = fit_corner(near, p_near), kq = fit_corner(near, q_near);
-      result.k1_pressure = kp[0];
-      result.k2_pressure = kp[1];
-      result.k1_shear = kq[0];
-      result.k2_shear = kq[1];
-      result.corner_ratio = kq[0] / kp[0];
-   }
+   Index first = skip, last = skip;
+   while (first < x.size() && x[first] < 0.005) { ++first; }
+   while (last < x.size() && x[last] <= 0.05) { ++last; }
+   MatrixXd both(x.size(), 2);
+   both << result.p, result.q;
+   const Index count = std::max<Index>(0, last - first);
+   result.strengths =
+      williams_strengths(x.segment(first, count), both.middleRows(first, count));
+   result.corner_ratio = result.strengths(0, 1) / result.strengths(0, 0);
 
    // At the corner itself the exact ratio stands for the nodes.
    result.adhesion_friction = williams_ratio[0];

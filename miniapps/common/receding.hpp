@@ -1,9 +1,8 @@
 #pragma once
 
-#include <cattaneo/contact/condense_body.hpp>
-#include <cattaneo/reduced/reduction.hpp>
+#include "common/scene.hpp"
+
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -44,26 +43,17 @@ struct RecedingOptions
    void validate() const;
 };
 
-/// The bodies must live as long as their reduction is used for fields.
-struct Receding
-{
-   std::vector<std::unique_ptr<mfem::Mesh>> meshes;
-   std::vector<std::unique_ptr<cattaneo::ElasticBody>> bodies;
-   cattaneo::Reduction reduction;
-   int dofs = 0; ///< of all bodies that have a mesh
-};
-
-Receding make_receding(const RecedingOptions &options);
+Scene make_receding(const RecedingOptions &options);
 
 /** Bonded tractions along the contact, as a monolith has them: what the clamped contact nodes
     carry. */
 struct BondedTractions
 {
-   /// Strengths of the Williams corner, 90° on 180°, p = k1 x^(λ1-1) + k2 x^(λ2-1) + …, fitted
-   /// on 0.005 < x/t < 0.05, and of the shear alike.
-   double k1_pressure = 0, k2_pressure = 0, k1_shear = 0, k2_shear = 0;
-   double corner_ratio =
-      0; ///< k1_shear / k1_pressure: 0.543; NaN where the mesh is too coarse to fit
+   /// Strengths of the two singular terms of the Williams corner (rows), of pressure and shear
+   /// (columns), fitted on 0.005 < x/t < 0.05, and the ratio of the first ones, which is 0.543;
+   /// NaN where the mesh is too coarse to fit.
+   Eigen::Matrix2d strengths;
+   double corner_ratio = 0;
    double lowest_pressure = 0;
    /// Least friction for full adhesion: the largest of the corner's ratio (exact) and of |q|/p
    /// away from the corner; infinite if the bonded strip pulls somewhere.
@@ -71,9 +61,6 @@ struct BondedTractions
    double adhesion_x = 0; ///< where that friction is needed (0: at the corner)
    Eigen::VectorXd p, q;  ///< tractions of the nodes
 };
-
-/// Eigenvalues and ratios q/p on the interface of the Williams corner, modes I and II.
-extern const double williams_eigenvalue[2], williams_ratio[2];
 
 /// Name of the load pattern of an overhang.
 std::string overhang_load(double overhang);

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <cattaneo/contact/condense_body.hpp>
-#include <cattaneo/reduced/reduction.hpp>
+#include "common/scene.hpp"
+
 #include <vector>
 
 namespace miniapp
@@ -20,12 +20,6 @@ struct TwistedBodies
    double poisson = 0.3;
 };
 
-struct TwistedScene
-{
-   cattaneo::Reduction reduction;
-   int dofs = 0; ///< of the four operators
-};
-
-TwistedScene make_scene(const TwistedBodies &options);
+Scene make_scene(const TwistedBodies &options);
 
 } // namespace miniapp

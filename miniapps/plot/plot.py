@@ -5,14 +5,20 @@ usage: plot.py PANEL.csv [PANEL.csv ...] FILE.png     (also .pdf, .svg)
 
 A panel is a CSV file with comment lines that name it and its axes:
 
-    # kind: lines            or zones, or plan
+    # kind: lines            or zones, plan, field, or table
     # title: ...             # x: label    # y: label
     # limits x: lo,hi        an empty side is left to the data; also "limits y"
-    # reversed: x            # scale: loglog
-    series,style,x,y         lines; style: line, dashed, points or thesis
+    # inside: 0.1            limits of y by what lies inside, without that share at either end
+    # reversed: x            # scale: loglog, semilogx or semilogy
+    # shade: lo,hi,word      a stretch of x    # shade y: lo,hi,word
+    series,style,x,y         lines; style: line, marked, dashed, points, hollow, cross, star, band or thesis
     time,state,from,to       zones; one row a zone, times in order
     item,from,to             plan of a body of revolution: rings (state, radii) and arrows (rate or total, radius,
                              angle from the radial direction)
+    series,x,y,value         field: one picture a series
+
+A table is drawn as its comments say: "over: column", "curve: column=word" (several), "by: column=word" (one curve for
+each of its values), "mark: x,y" (values of the thesis).
 
 Colours are Okabe and Ito's, which the colour-blind can tell apart; lines differ in dashes and zones
 in hatching as well, so that a black-and-white print can be read.
@@ -20,7 +26,7 @@ in hatching as well, so that a black-and-white print can be read.
 import csv
 import math
 import sys
-from collections import OrderedDict
+from collections import OrderedDict, defaultdict
 
 import matplotlib
 
@@ -30,6 +36,7 @@ from matplotlib.patches import Annulus, Patch, Polygon
 
 COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000"]
 DASHES = ["-", (0, (6, 2)), (0, (2, 1.5)), (0, (7, 2, 1.5, 2)), (0, (1, 1)), (0, (9, 3)), "-"]
+MARKERS = ["o", "s", "D", "v", "P", "X"]
 STATES = OrderedDict([
     ("stick", ("#F2F2F2", "")),
     ("forward slip", ("#E69F00", "////")),
@@ -40,13 +47,13 @@ STATES = OrderedDict([
 
 
 def read(path):
-    """Comments as a dictionary, rows as dictionaries."""
-    comments, lines = {}, []
+    """Comments as lists by key, rows as dictionaries."""
+    comments, lines = defaultdict(list), []
     with open(path, encoding="utf-8", newline="") as file:
         for line in file:
             if line.startswith("#"):
-                key, _, value = line[1:].partition(":")
-                comments[key.strip()] = value.strip()
+                key, _, text = line[1:].partition(":")
+                comments[key.strip()].append(text.strip())
             else:
                 lines.append(line)
     return comments, list(csv.DictReader(lines))
@@ -56,35 +63,78 @@ def value(text):
     return float(text) if text else float("nan")
 
 
-def draw_lines(axes, rows):
+def series_of(comments, rows):
+    """Points of each (series, style), from a panel of lines or from a table."""
     series = OrderedDict()
-    for row in rows:
-        series.setdefault((row["series"], row["style"]), []).append((value(row["x"]), value(row["y"])))
+    if comments["kind"] == ["lines"]:
+        for row in rows:
+            series.setdefault((row["series"], row["style"]), []).append((value(row["x"]), value(row["y"])))
+        return series
+    over, curves = comments["over"][0], [text.split("=", 1) for text in comments["curve"]]
+    by, word = (comments["by"] or ["="])[0].split("=", 1)
+    for column, name in curves:
+        begun = set()  # the curves of one value are one series, with a gap between them
+        for row in rows:
+            points = series.setdefault((f"{word} = {row[by]}" if by else name, "line"), [])
+            if id(points) not in begun and points:
+                points.append((float("nan"), float("nan")))
+            begun.add(id(points))
+            points.append((value(row[over]), value(row[column])))
+    marks = [tuple(map(float, text.split(","))) for text in comments["mark"]]
+    if marks:
+        series[("thesis", "thesis")] = marks
+    return series
+
+
+def draw_lines(axes, comments, rows):
+    series = series_of(comments, rows)
     # Curves with companions are told apart by colour, and the companions are the dashed ones.
     plain = any(style == "dashed" and ": " in name for name, style in series)
-    names = list(OrderedDict.fromkeys(name for name, style in series if style in ("line", "points")))
+    curves = ("line", "marked", "points", "hollow", "band")
+    names = list(OrderedDict.fromkeys(name for name, style in series if style in curves))
+    labelled, bands = set(), {}
     for (name, style), points in series.items():
         x, y = zip(*points)
         # A comparison takes the colour of the curve it belongs to ("closed form: q" goes with "q").
         owner = next((k for k, other in enumerate(names) if name == other or name.endswith(": " + other)), None)
         colour = COLOURS[owner % len(COLOURS)] if owner is not None else "#555555"
-        if style == "line":
+        label = name if name not in labelled else None
+        labelled.add(name)
+        if name.endswith("(design)"):
+            axes.plot(x, y, color="black", linewidth=2.4, label=label)
+        elif style in ("line", "marked"):
             axes.plot(x, y, color=colour, linestyle="-" if plain else DASHES[owner % len(DASHES)], linewidth=1.6,
-                      label=name)
-        elif style == "points":
-            axes.plot(x, y, "o", color=colour, markersize=3.5, label=name)
+                      marker=MARKERS[owner % 6] if style == "marked" else None, markersize=4, label=label)
+        elif style in ("points", "hollow"):
+            full = style == "points"
+            axes.plot(x, y, MARKERS[owner % 6], color=colour, markersize=3.5 if len(x) > 20 else 7,
+                      markerfacecolor=colour if full else "none", label=label)
         elif style == "dashed":
-            axes.plot(x, y, color=colour, linestyle=(0, (5, 2)), linewidth=1.2, label=name)
+            axes.plot(x, y, color=colour, linestyle=(0, (5, 2)), linewidth=1.2, label=label)
+        elif style == "band":
+            half = len(x) // 2  # below, then above
+            axes.fill_between(x[:half], y[:half], y[half:], color=colour, alpha=0.3, label=label)
+            bands[name] = True
         else:
-            axes.plot(x, y, "D", markerfacecolor="none", markeredgecolor="black", markersize=6,
-                      markeredgewidth=1.2, label=name, zorder=5)
+            mark, size = {"star": ("*", 13), "cross": ("x", 5)}.get(style, ("D", 6))
+            axes.plot(x, y, mark, color="black", markerfacecolor="black" if style == "star" else "none",
+                      markersize=size, label=label, zorder=5)
+    if any(style == "hollow" for name, style in series):
+        axes.plot([], [], "o", color="black", markerfacecolor="none", label="run-out (hollow)")
+    if comments["inside"]:
+        share, inner = float(comments["inside"][0]), []
+        for points in series.values():
+            lo, hi = min(x for x, _ in points), max(x for x, _ in points)
+            inner += [y for x, y in points if lo + share * (hi - lo) < x < hi - share * (hi - lo)]
+        gap = 0.2 * (max(inner) - min(inner))
+        axes.set_ylim(min(inner) - gap, max(inner) + gap)
     axes.grid(True, color="#DDDDDD", linewidth=0.6)
     axes.set_axisbelow(True)
-    if len(series) > 1 or (series and next(iter(series))[0]):
-        axes.legend(fontsize=8, framealpha=0.9, loc="best")
+    if len(labelled) > 1 or labelled - {""}:
+        axes.legend(fontsize=8 if len(labelled) < 9 else 6.5, framealpha=0.9, loc="best")
 
 
-def draw_zones(axes, rows):
+def draw_zones(axes, comments, rows):
     marks = [row for row in rows if row["state"] == "thesis"]
     steps = OrderedDict()
     for row in rows:
@@ -96,36 +146,38 @@ def draw_zones(axes, rows):
         # The states at the end of an increment hold during it; edges move linearly where the same
         # zones were there before, and jump where they were not.
         before = steps[times[k - 1]] if k else None
-        start = times[k - 1] if k else time
+        start = times[k - 1] if k else (time if len(times) > 1 else 0)
         same = before is not None and [z[0] for z in before] == [z[0] for z in steps[time]]
         for j, (state, lo, hi) in enumerate(steps[time]):
             lo0, hi0 = before[j][1:] if same else (lo, hi)
             colour, hatch = STATES[state]
-            axes.add_patch(Polygon([(start, lo0), (time, lo), (time, hi), (start, hi0)], closed=True,
-                                   facecolor=colour, edgecolor="none", hatch=None, linewidth=0))
+            corners = [(start, lo0), (time, lo), (time, hi), (start, hi0)]
+            axes.add_patch(Polygon(corners, closed=True, facecolor=colour, edgecolor="none", linewidth=0))
             if hatch:
-                axes.add_patch(Polygon([(start, lo0), (time, lo), (time, hi), (start, hi0)], closed=True,
-                                       facecolor="none", edgecolor="#00000044", hatch=hatch, linewidth=0))
+                axes.add_patch(Polygon(corners, closed=True, facecolor="none", edgecolor="#00000044", hatch=hatch,
+                                       linewidth=0))
             if j:
                 axes.plot([start, time], [lo0, lo], color="black", linewidth=0.7)
             if state not in seen:
                 seen.append(state)
-    if times:
-        axes.set_xlim(min(times), max(times))
-        axes.set_ylim(min(z[1] for s in steps.values() for z in s), max(z[2] for s in steps.values() for z in s))
-    if marks:
-        axes.plot([value(r["time"]) for r in marks], [value(r["from"]) for r in marks], "D", color="black",
-                  markerfacecolor="white", markersize=5, label="thesis", zorder=5)
+    axes.set_xlim(min(times) if len(times) > 1 else 0, max(times))
+    axes.set_ylim(min(z[1] for s in steps.values() for z in s), max(z[2] for s in steps.values() for z in s))
     handles = [Patch(facecolor=STATES[s][0], edgecolor="#00000066", hatch=STATES[s][1], label=s)
                for s in STATES if s in seen]
     if marks:
+        axes.plot([value(r["time"]) for r in marks], [value(r["from"]) for r in marks], "D", color="black",
+                  markerfacecolor="white", markersize=5, label="thesis", zorder=5)
         handles.append(plt.Line2D([], [], marker="D", color="black", markerfacecolor="white", linestyle="",
                                   markersize=5, label="thesis"))
-    axes.legend(handles=handles, fontsize=8, ncol=len(handles), loc="lower center", bbox_to_anchor=(0.5, 1.0),
-                frameon=False, handlelength=1.6, columnspacing=1.2)
+    legend_above(axes, handles)
 
 
-def draw_plan(axes, rows):
+def legend_above(axes, handles):
+    axes.legend(handles=handles, fontsize=8 if len(handles) < 4 else 7, ncol=len(handles), loc="lower center",
+                bbox_to_anchor=(0.5, 1.0), frameon=False, handlelength=1.6, columnspacing=1.2)
+
+
+def draw_plan(axes, comments, rows):
     rings = [row for row in rows if row["item"] in STATES]
     outer = max(value(row["to"]) for row in rings)
     for row in rings:
@@ -136,13 +188,13 @@ def draw_plan(axes, rows):
                                    linewidth=0.7))
     handles = [Patch(facecolor=STATES[s][0], edgecolor="#00000066", hatch=STATES[s][1], label=s)
                for s in STATES if any(row["item"] == s for row in rings)]
-    for kind, colour, spokes in (("rate", "black", range(0, 12)), ("total", "#0072B2", range(0, 12))):
+    for kind, colour in (("rate", "black"), ("total", "#0072B2")):
         arrows = [(value(row["from"]), value(row["to"])) for row in rows if row["item"] == kind]
         if not arrows:
             continue
         # Four radii of the annulus, on twelve spokes; the two kinds on spokes of their own.
         chosen = [arrows[round((len(arrows) - 1) * share)] for share in (0.1, 0.37, 0.63, 0.9)]
-        for spoke in spokes:
+        for spoke in range(12):
             turn = (spoke + (0.5 if kind == "total" else 0)) * math.pi / 6
             for radius, angle in chosen:
                 axes.annotate("", xytext=(radius * math.cos(turn), radius * math.sin(turn)),
@@ -155,42 +207,74 @@ def draw_plan(axes, rows):
     axes.set_xlim(-1.05 * outer, 1.05 * outer)
     axes.set_ylim(-1.05 * outer, 1.05 * outer)
     axes.set_aspect("equal")
-    axes.legend(handles=handles, fontsize=8, ncol=3, loc="lower center", bbox_to_anchor=(0.5, 1.0), frameon=False,
-                handlelength=1.6, columnspacing=1.2)
+    legend_above(axes, handles)
+
+
+def draw_field(axes, comments, rows):
+    x, y = (sorted({value(row[key]) for row in rows}) for key in ("x", "y"))
+    grid = [[float("nan")] * len(x) for _ in y]
+    for row in rows:
+        grid[y.index(value(row["y"]))][x.index(value(row["x"]))] = value(row["value"])
+    top = sorted(value(row["value"]) for row in rows)[int(0.99 * len(rows))]
+    levels = [top * k / 16 for k in range(1, 17)]
+    shades = axes.contourf(x, y, grid, levels, cmap="viridis", extend="both")
+    axes.clabel(axes.contour(x, y, grid, levels[1::3], colors="white", linewidths=0.7), fmt="%.2g", fontsize=7)
+    axes.figure.colorbar(shades, ax=axes)
+    axes.invert_yaxis()
+
+
+def finish(axes, comments):
+    one = {key: texts[0] for key, texts in comments.items() if texts}
+    axes.set_title(one.get("title", ""), pad={"zones": 20, "plan": 34}.get(one["kind"], 6))
+    axes.set_xlabel(one.get("x", ""))
+    axes.set_ylabel(one.get("y", ""))
+    scale = one.get("scale", "")
+    if scale in ("loglog", "semilogx"):
+        axes.set_xscale("log")
+    if scale in ("loglog", "semilogy"):
+        axes.set_yscale("log")
+    for axis, limit in (("x", axes.set_xlim), ("y", axes.set_ylim)):
+        lo, _, hi = one.get("limits " + axis, ",").partition(",")
+        limit(float(lo) if lo else None, float(hi) if hi else None)
+    for key, span, place in (("shade", axes.axvspan, axes.get_xaxis_transform()),
+                             ("shade y", axes.axhspan, axes.get_yaxis_transform())):
+        for text in comments[key]:
+            lo, hi, word = text.split(",", 2)
+            span(float(lo), float(hi), color="0.85", zorder=0)
+            if word and key == "shade":
+                axes.text(float(lo), 0.03, " " + word, transform=place, fontsize=8)
+    if one.get("reversed") == "x":
+        axes.invert_xaxis()
+
+
+DRAW = {"lines": draw_lines, "table": draw_lines, "zones": draw_zones, "plan": draw_plan, "field": draw_field}
 
 
 def main(arguments):
     if len(arguments) < 2:
         sys.exit(__doc__)
-    *panels, picture = arguments
-    columns = 1 if len(panels) == 1 else 2
-    rows = -(-len(panels) // columns)
+    *files, picture = arguments
+    panels = []
+    for path in files:
+        comments, rows = read(path)
+        if (comments["kind"] or [""])[0] not in DRAW:
+            sys.exit(f"plot.py: {path}: there is no line '# kind: ' with one of {', '.join(DRAW)}")
+        if comments["kind"] != ["field"]:
+            panels.append((comments, rows))
+            continue
+        for name in OrderedDict.fromkeys(row["series"] for row in rows):
+            own = defaultdict(list, comments, title=[f"{comments['title'][0]}, {name}"])
+            panels.append((own, [row for row in rows if row["series"] == name]))
+    columns = 1 if len(panels) == 1 else 2 if len(panels) < 7 else 3
+    height = -(-len(panels) // columns)
     plt.rcParams.update({"font.size": 9, "axes.titlesize": 10, "hatch.linewidth": 0.5, "font.family": "DejaVu Sans"})
-    figure, grid = plt.subplots(rows, columns, figsize=(5.6 if columns == 1 else 9.6, 3.7 * rows), squeeze=False)
+    figure, grid = plt.subplots(height, columns, figsize=(5.6 if columns == 1 else 4.8 * columns, 3.7 * height),
+                                squeeze=False)
     for axes in grid.flat[len(panels):]:
         axes.remove()
-    for axes, path in zip(grid.flat, panels):
-        comments, data = read(path)
-        kind = comments.get("kind", "")
-        if kind == "zones":
-            draw_zones(axes, data)
-        elif kind == "plan":
-            draw_plan(axes, data)
-        elif kind == "lines":
-            draw_lines(axes, data)
-        else:
-            sys.exit(f"plot.py: {path}: there is no line '# kind: lines', '# kind: zones' or '# kind: plan'")
-        axes.set_title(comments.get("title", ""), pad={"zones": 20, "plan": 34}.get(kind, 6))
-        axes.set_xlabel(comments.get("x", ""))
-        axes.set_ylabel(comments.get("y", ""))
-        if comments.get("scale") == "loglog":
-            axes.set_xscale("log")
-            axes.set_yscale("log")
-        for axis, limit in (("x", axes.set_xlim), ("y", axes.set_ylim)):
-            lo, _, hi = comments.get("limits " + axis, ",").partition(",")
-            limit(float(lo) if lo else None, float(hi) if hi else None)
-        if comments.get("reversed") == "x":
-            axes.invert_xaxis()
+    for axes, (comments, rows) in zip(grid.flat, panels):
+        DRAW[comments["kind"][0]](axes, comments, rows)
+        finish(axes, comments)
     figure.tight_layout()
     figure.savefig(picture, dpi=110)
 

@@ -326,7 +326,7 @@ TEST_F(Contact2D, EqualsTheSquarePunch)
       options.nodes = 41;
       options.half_plane = half_plane;
       options.domain = 1e4;
-      const miniapp::Punch punch = miniapp::make_punch(options);
+      const miniapp::Scene punch = miniapp::make_punch(options);
       std::string own = "--mesh1 '" + write("block.mesh", *punch.meshes[0]) +
                         "' --contact1 '1[-1<x<1]' --young1 0.91 --friction 0.3 --load1 "
                         "'P pressure 3 0.5; Q traction 3 0.5 0; Q pressure 3 -3*x' "
@@ -419,7 +419,7 @@ TEST_F(Contact2D, GrossSlidingIsAnOutcomeWithItsLoad)
 {
    miniapp::PunchOptions options;
    options.nodes = 21;
-   const miniapp::Punch punch = miniapp::make_punch(options);
+   const miniapp::Scene punch = miniapp::make_punch(options);
    const auto run =
       contact2d("--mesh1 '" + write("block.mesh", *punch.meshes[0]) +
                 "' --contact1 1 --friction 0.3 --load1 'P pressure 3 0.5; "

@@ -140,8 +140,8 @@ TEST(Fretting, FiniteElementsTakeBulkInThePadAndTestRecords)
    const std::string folder = testing::TempDir() + "cattaneo_fretting_records";
    std::filesystem::create_directories(folder);
    std::ofstream(folder + "/tests.csv") << "P,Q,bulk,cycles\n400,60,20,1e6\n300,40,0,2e5\n";
-   run_miniapp("fretting", "-p fe -plot '" + folder + "' -rec '" + folder + "/tests.csv'");
-   std::ifstream in(folder + "/records.csv");
+   run_miniapp("fretting", "-p fe -csv '" + folder + "/all' -rec '" + folder + "/tests.csv'");
+   std::ifstream in(folder + "/all_records.csv");
    ASSERT_TRUE(in.good());
    std::string line, cell;
    std::getline(in, line);
@@ -260,7 +260,7 @@ TEST(Fretting, SquarePunchIsACornerWithIntensitiesOfItsOwn)
       options.half_plane = true;
       options.nodes = nodes;
       options.domain = 1e3;
-      miniapp::Punch punch = miniapp::make_punch(options);
+      miniapp::Scene punch = miniapp::make_punch(options);
       ReducedProblem &problem = punch.reduction.problem;
       set_friction(problem, 2); // nothing slips
       ContactState state = ContactState::virgin(problem);
@@ -312,7 +312,7 @@ TEST(Fretting, SquarePunchOnARigidPlaneHasItsOwnExponent)
       miniapp::PunchOptions options;
       options.nodes = nodes;
       options.grading = 1e-3;
-      miniapp::Punch punch = miniapp::make_punch(options);
+      miniapp::Scene punch = miniapp::make_punch(options);
       ReducedProblem &problem = punch.reduction.problem;
       set_friction(problem, 2); // nothing slips
       ContactState state = ContactState::virgin(problem);

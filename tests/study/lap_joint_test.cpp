@@ -71,7 +71,7 @@ TEST(LapJoint, ContactIsUncoupledWhereItTouches)
 {
    miniapp::LapJointOptions options;
    options.spacing = 0.025;
-   miniapp::LapJoint joint = miniapp::make_lap_joint(options);
+   miniapp::Scene joint = miniapp::make_lap_joint(options);
    ReducedProblem &problem = joint.reduction.problem;
    set_friction(problem, 0.2);
    FrictionSolver solver(problem);
@@ -99,7 +99,7 @@ TEST(LapJoint, ZonesDoNotDependOnTheLoadLevelOrPoissonsRatio)
 {
    miniapp::LapJointOptions options;
    options.spacing = 0.025;
-   miniapp::LapJoint joint = miniapp::make_lap_joint(options);
+   miniapp::Scene joint = miniapp::make_lap_joint(options);
    set_friction(joint.reduction.problem, 0.2);
    FrictionSolver solver(joint.reduction.problem);
    ContactState low = ContactState::virgin(joint.reduction.problem), high = low;

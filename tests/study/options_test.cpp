@@ -4,6 +4,7 @@
 #include "study/run_miniapp.hpp"
 
 #include <filesystem>
+#include <fstream>
 
 namespace
 {
@@ -82,25 +83,52 @@ TEST_F(Options, FilesAreCheckedBeforeTheWork)
       expect_refused(program, "--save " + none + "'", {"option --save", "no folder"});
       expect_refused(program, "--save '" + folder + "'",
                      {"option --save", "a folder of that name"});
-      if (program != std::string("shakedown"))
-      {
-         expect_refused(program, "--csv " + none + "'", {"option --csv", "no folder"});
-         expect_refused(program, "--plot " + none + ".png'", {"option --plot", "no folder"});
-         expect_refused(program, "--plot '" + folder + "/x.xyz'", {"option --plot", ".png"});
-      }
    }
-   for (const char *program : {"fretting", "shakedown"})
+   for (const std::string program : {"fretting", "contact2d", "shakedown", "lap_joint", "hertz",
+                                     "square_punch", "plane_receding", "axisymmetric_receding"})
    {
-      expect_refused(program, "--plot meshes/README.md/figures",
+      const std::string what = program == "contact2d" ? "--case meshes/dovetail.json " : "";
+      expect_refused(program, what + "--csv " + none + "'", {"option --csv", "no folder"});
+      expect_refused(program, what + "--plot " + none + ".png'",
                      {"option --plot", "no folder"});
+      expect_refused(program, what + "--plot '" + folder + "/x.xyz'",
+                     {"option --plot", ".png"});
    }
-   expect_refused("fretting", "--plot meshes/README.md", {"option --plot", "must be a folder"});
    expect_refused("fretting", "--young 210000", {"option --young", "210000", "GPa, not MPa"});
    expect_refused("fretting", "--threshold -1", {"option --threshold", "-1", "positive"});
    expect_refused("lap_joint", "--paraview meshes/README.md/fields",
                   {"option --paraview", "no folder"});
    const std::string save = " --save '" + testing::TempDir();
    expect_refused("hertz", save + "hertz.json'", {"--json", "--save", "name another"});
+}
+
+/// Every study takes a case file: by the long names of its options, overridden by the command
+/// line; what is written is no part of a case.
+TEST_F(Options, EveryStudyTakesACaseFile)
+{
+   const auto write = [&](const char *text)
+   {
+      const std::string file = testing::TempDir() + "study_case.json";
+      std::ofstream(file) << text;
+      return "--case '" + file + "'";
+   };
+   const auto run =
+      run_miniapp("square_punch", write(R"({"obstacle": "half-plane", "nodes": 33, "shear":
+                                            [0.25, 0.75], "friction": 0.3})") +
+                                     " --friction 0.4");
+   ASSERT_EQ(run.code, 0) << run.output;
+   EXPECT_EQ(run.results["contact_nodes"], 33);
+   EXPECT_EQ(run.results["friction"], 0.4);
+   ASSERT_EQ(run.results["levels"].size(), 2u);
+   EXPECT_EQ(run.results["levels"][1]["shear"], 0.75);
+   for (const char *program : programs)
+   {
+      expect_refused(program, write(R"({"friction": "much"})"), {"key 'friction'", "a number"});
+      expect_refused(program, write(R"({"friction": -1})"), {"option --friction", "-1"});
+      expect_refused(program, write(R"({"json": "x.json"})"), {"unknown key 'json'"});
+   }
+   expect_refused("fretting", write(R"({"pad": "ball"})"), {"option --pad", "'ball'", "hertz"});
+   expect_refused("hertz", write(R"({"body": 3})"), {"key 'body'", "3", "a string"});
 }
 
 TEST_F(Options, ListsAndChoicesSayWhatIsAllowed)

@@ -157,7 +157,7 @@ TEST(CutOff, LinesNamedTooShortAreFoundBetweenTwoBodies)
       options.domain = 1e3;
       options.material = {1 - 0.3 * 0.3, 0.3, PlaneState::strain};
       options.load = std::acos(-1.0) * E_star / (4 * radius);
-      miniapp::HertzScene scene = make_scene(options);
+      miniapp::Scene scene = make_scene(options);
       ReducedProblem &problem = scene.reduction.problem;
       problem.gap = problem.position.col(0).array().square() / (2 * radius);
       set_friction(problem, 0.3);
@@ -181,7 +181,7 @@ TEST(CutOff, CornersOfAPunchEndTheirContact)
       options.half_plane = half_plane;
       options.nodes = 33;
       options.domain = 100;
-      miniapp::Punch punch = miniapp::make_punch(options);
+      miniapp::Scene punch = miniapp::make_punch(options);
       ReducedProblem &problem = punch.reduction.problem;
       set_friction(problem, 0.4);
       ContactState state = ContactState::virgin(problem);

@@ -207,7 +207,7 @@ TEST(AxisymmetricReceding, LargeDiscsReachTheLayer)
       options.disc_radius = radii[k];
       options.load_radii = {0.5, 1, 2};
       options.spacing = 0.04;
-      miniapp::Disc scene = miniapp::make_disc(options);
+      miniapp::Scene scene = miniapp::make_disc(options);
       EXPECT_EQ(scene.reduction.counters.assemblies, 2); // nothing twists
       EXPECT_EQ(scene.reduction.problem.components(), 1);
       FrictionSolver solver(scene.reduction.problem);
@@ -235,7 +235,7 @@ TEST(AxisymmetricReceding, BondedDiscCarriesLovesStresses)
    miniapp::DiscOptions options;
    options.disc_radius = 10;
    options.load_radii = {2.1};
-   const miniapp::Disc scene = miniapp::make_disc(options);
+   const miniapp::Scene scene = miniapp::make_disc(options);
    const ReducedProblem &problem = scene.reduction.problem;
    const VectorXd p = tractions(problem, problem.patterns[0].p),
                   q = tractions(problem, problem.patterns[0].q);
@@ -270,7 +270,7 @@ TEST(AxisymmetricReceding, TorqueOfTheContactIsThatOfTheTwist)
       miniapp::DiscOptions options;
       options.spacing = 0.1;
       options.twist = twist;
-      const miniapp::Disc scene = miniapp::make_disc(options);
+      const miniapp::Scene scene = miniapp::make_disc(options);
       const ReducedProblem &problem = scene.reduction.problem;
       ASSERT_EQ(problem.components(), 2);
       EXPECT_EQ(scene.reduction.counters.assemblies, 4);
@@ -288,7 +288,7 @@ TEST(AxisymmetricReceding, DiscOfStudiesD)
 {
    miniapp::DiscOptions options;
    options.load_radii = {0.5, 2.1, 2.5, 3.75, 4.25, 4.7};
-   miniapp::Disc scene = miniapp::make_disc(options);
+   miniapp::Scene scene = miniapp::make_disc(options);
    ReducedProblem &problem = scene.reduction.problem;
    const Index n = problem.nodes();
 

@@ -265,7 +265,7 @@ TEST(Lubkin, FiniteElements)
    miniapp::TwistedBodies bodies;
    for (int i = 0; i <= 32; ++i) { bodies.contact.push_back(i * h); }
    const double sphere = bodies.sphere, poisson = bodies.poisson;
-   miniapp::TwistedScene scene = miniapp::make_scene(bodies);
+   miniapp::Scene scene = miniapp::make_scene(bodies);
    ReducedProblem &problem = scene.reduction.problem;
    const Index n = problem.nodes();
    const VectorXd radius = problem.position.col(0);

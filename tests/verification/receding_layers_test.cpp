@@ -1,5 +1,6 @@
 #include "common/lap_joint_scene.hpp"
 #include "common/receding.hpp"
+#include "common/williams.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -132,7 +133,7 @@ TEST(RecedingLayers, LapJointWithLongFreeEndsMatchesTheIntegralEquation)
    miniapp::LapJointOptions options;
    options.widths = {0.5, 1, 2}; // w/h = 1, 2, 4 with h = t/2
    options.protrusion = 6;
-   miniapp::LapJoint joint = miniapp::make_lap_joint(options);
+   miniapp::Scene joint = miniapp::make_lap_joint(options);
    ReducedProblem &problem = joint.reduction.problem;
    set_friction(problem, 0.0);
    FrictionSolver solver(problem);
@@ -163,7 +164,7 @@ TEST(RecedingLayers, StripOnAHalfPlaneMatchesTheIntegralEquation)
       options.overhangs = {6};
       options.depth = options.side = domain;
       options.corner = options.spacing;
-      miniapp::Receding scene = miniapp::make_receding(options);
+      miniapp::Scene scene = miniapp::make_receding(options);
       ReducedProblem &problem = scene.reduction.problem;
       set_friction(problem, 0.0);
       FrictionSolver solver(problem);

@@ -1,0 +1,75 @@
+#pragma once
+
+#include "common/lap_joint_scene.hpp"
+#include "common/run.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace miniapp
+{
+
+/// What all parts of the study know of it.
+struct Joint
+{
+   LapJointOptions options;
+   Scene scene;
+   double friction = 0.2, load = 0.04, snug = 0.05;
+   int cycles = 3, frames = 8;
+   cattaneo::MarchSettings settings;
+   std::string paraview; ///< folder for the frames of the first cycle; none if empty
+
+   cattaneo::ReducedProblem &problem() { return scene.problem(); }
+   double P0() const { return options.widths[0]; }
+   double unit() const { return P0() * P0(); } ///< of energies, over E'
+
+   /// Multipliers of the pinch pressures: several bolts are first drawn together to the snug
+   /// pressure, then tightened one after another.
+   std::vector<cattaneo::NamedLoads> tightening(const std::vector<int> &order, double width,
+                                                double pressure = 1) const;
+};
+
+/// What a history of tightening and cycles gave.
+struct Loop
+{
+   cattaneo::MarchReport report;
+   cattaneo::ContactState tightened, first_peak, first_end, last_peak;
+   std::vector<cattaneo::Zone> cycle_zones; ///< of the last whole cycle
+   cattaneo::Zone contact, pulled, stick_first, stick_steady;
+
+   bool converged() const { return report.status == cattaneo::FrictionStatus::converged; }
+   double first() const
+   {
+      return report.cycles.empty() ? none : report.cycles.front().dissipation;
+   }
+   double steady() const
+   {
+      return report.cycles.empty() ? none : report.cycles.back().dissipation;
+   }
+   /// External work against dissipation over the last cycle, relative.
+   double work_error() const
+   {
+      if (report.cycles.empty() || steady() == 0) { return 0.0; }
+      return std::abs(report.cycles.back().external_work - steady()) / steady();
+   }
+};
+
+using Observer = std::function<void(const cattaneo::ContactState &)>;
+
+/// Marches through the tightening points, then cycles the remote load between 0 and `load`.
+Loop pull(Run &run, std::vector<cattaneo::NamedLoads> points, double load, int cycles,
+          const Observer &observe = {});
+
+/// Remote compression at which a free end touches the other lap; NaN if none does before
+/// `limit`.
+double touch_load(cattaneo::FrictionSolver &solver, cattaneo::NamedLoads loads, double limit);
+
+/// The order of tightening: numbers of bolts from 1, orders separated by a slash.
+std::vector<std::vector<int>> orders(const std::string &text, const std::vector<double> &bolts);
+
+/// Of a stretch of contact or stick: none is of width 0, and borders have errors.
+double half_width(const cattaneo::Zone &zone);
+double read_out_error(const cattaneo::Zone &zone);
+
+} // namespace miniapp

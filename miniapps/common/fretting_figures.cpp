@@ -1,0 +1,320 @@
+#include "common/fretting_figures.hpp"
+
+#include <algorithm>
+#include <cattaneo/fretting/edge_crack.hpp>
+#include <cattaneo/fretting/measures.hpp>
+#include <cattaneo/fretting/yield.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+namespace miniapp
+{
+
+using namespace cattaneo;
+using namespace cattaneo::fretting;
+using fretting::Edge; // not the edge of a zone
+
+namespace
+{
+
+const char *const x_of_threshold = "X = ΔK_th K_N/(π σ_fl²)", *const y_of_threshold =
+                                                                 "Y = ΔK_T/ΔK_th";
+
+std::vector<double> with_design(std::vector<double> frictions, double design)
+{
+   if (std::find(frictions.begin(), frictions.end(), design) == frictions.end())
+   {
+      frictions.push_back(design);
+   }
+   return frictions;
+}
+
+using Curve = std::function<std::pair<double, double>(double friction, int i)>;
+
+/// A curve for each friction coefficient, points 0 … n; that of the design is named so.
+Panel &add_curves(Panel &panel, const std::vector<double> &frictions, double design, int n,
+                  const Curve &at)
+{
+   for (const double f : with_design(frictions, design))
+   {
+      std::vector<double> x, y;
+      for (int i = 0; i <= n; i++)
+      {
+         const auto [xi, yi] = at(f, i);
+         x.push_back(xi);
+         y.push_back(yi);
+      }
+      panel.add(exact_text("f = ", f) + (f == design ? " (design)" : ""), x, y);
+   }
+   return panel;
+}
+
+void mark(Panel &panel, const std::string &name, double x, double y)
+{
+   panel.add(name, std::vector<double>{x}, {y}, "star");
+}
+
+} // namespace
+
+void draw_design(Study &study, const Pad &pad, const JudgedEdge &judged,
+                 const FrettingSettings &criteria)
+{
+   const double f = pad.friction;
+   const double constraint = out_of_plane_constraint(pad.material.poisson, pad.plane_stress);
+   const FrettingReport &r = judged.report;
+   const auto lines = [&](const char *name, const char *title, const char *x,
+                          const char *y) -> Panel &
+   { return study.panel(Panel::Kind::lines, name, title, x, y); };
+
+   Panel &field = study.panel(Panel::Kind::field, "field", "von Mises stress σ_vM/(K_N √d)",
+                              "t/d", "depth y/d");
+   for (const double friction : with_design({0.8, 0.6}, f))
+   {
+      const Edge unit{1, 0.5 * friction, friction};
+      for (int j = 0; j <= 60; j++)
+      {
+         for (int i = 0; i <= 120; i++)
+         {
+            const double t = -1 + 0.025 * i, y = 0.025 * j;
+            field.add(exact_text("f = ", friction), t, y,
+                      von_mises(stress(unit, t, y), constraint));
+         }
+      }
+   }
+   Panel &surface = lines("surface", "Stress along the surface", "t/d", "σ_vM/(K_N √d)");
+   surface.say("shade: 0,1,slip zone");
+   surface.limit("y", 0, none);
+   add_curves(surface, {0.2, 0.4, 0.6, 0.8, 1.0}, f, 300,
+              [&](double friction, int i)
+              {
+                 const double t = -1 + 0.01 * i;
+                 return std::pair{t, surface_von_mises(friction, constraint, t)};
+              });
+   Panel &yield =
+      lines("yield", "Yield of the slip zone", "friction coefficient f", "load K_N √d/k");
+   std::vector<double> frictions, first, full;
+   for (int i = 0; i <= 90; i++)
+   {
+      frictions.push_back(0.1 + 0.01 * i);
+      first.push_back(first_yield_load(frictions.back(), constraint));
+      full.push_back(full_yield_load(frictions.back()));
+   }
+   yield.add("elastic limit", frictions, first);
+   yield.add("whole slip zone yields", frictions, full);
+   yield.limit("y", 0, 6);
+   if (r.yield_ratio_full > 0) { mark(yield, "design", f, r.yield_ratio_full / f); }
+   add_curves(lines("trajectory", "Stress intensity of a crack", "crack depth c/d",
+                    "K_I,max/√(K_N K_T d)"),
+              {0.3, 0.5, 0.8}, f, 200,
+              [](double friction, int i)
+              {
+                 const Edge unit{1, 0.5 * friction, friction};
+                 const double c = 0.005 * i;
+                 return std::pair{c, crack_intensity(unit, c) / std::sqrt(unit.k_t)};
+              });
+   Panel &threshold =
+      lines("threshold", "Threshold, edge field alone", x_of_threshold, y_of_threshold);
+   const double last = std::max(1.0, 1.5 * r.abscissa);
+   const auto ordinate = [&](double friction, double x)
+   { return threshold_ordinate(criteria.criterion, friction, x, pad.load_ratio); };
+   add_curves(threshold, {0.3, 0.5, 0.8}, f, 99,
+              [&](double friction, int i)
+              {
+                 const double x = last * std::pow(0.01 * (i + 1), 2);
+                 return std::pair{x, ordinate(friction, x)};
+              });
+   mark(threshold, "design", r.abscissa, r.ordinate);
+   threshold.limit("y", 0, std::max(ordinate(0.3, 0.05 * last), 1.2 * r.ordinate));
+
+   const double width = judged.problem.rounded_width > 0 ? judged.problem.rounded_width
+                                                         : judged.problem.half_width;
+   Panel &diagram =
+      lines("diagram", ("Kitagawa-Takahashi: " + to_string(r.threshold.verdict)).c_str(),
+            "crack depth c/a0", "driving force/ΔK_th");
+   diagram.say("scale: loglog");
+   // Where the crack is no longer small against the contact the field is another one.
+   const double limit = 0.25 * width / r.critical_length;
+   if (width > 0 && limit < 10) { diagram.say(text("shade: %g,10,too deep", limit)); }
+   CrackedEdge alone = judged.problem.crack;
+   alone.bulk_stress = alone.stress_gradient = 0;
+   std::vector<double> c, no_growth, drive, drive_alone;
+   const auto over_threshold = [&](const CrackedEdge &crack, double depth)
+   {
+      const double ratio =
+         crack_cycle(crack, depth).drive(criteria.criterion) / pad.material.threshold;
+      return ratio > 0 && (width == 0 || depth <= 0.25 * width) ? ratio : none;
+   };
+   for (int i = 0; i <= 120; i++)
+   {
+      c.push_back(0.01 * std::pow(10, i / 40.0));
+      no_growth.push_back(std::min(1.0, std::sqrt(c.back())));
+      drive.push_back(over_threshold(judged.problem.crack, c.back() * r.critical_length));
+      drive_alone.push_back(over_threshold(alone, c.back() * r.critical_length));
+   }
+   diagram.add("threshold (no growth below)", c, no_growth, "dashed");
+   diagram.add("crack of the design", c, drive);
+   diagram.add("crack, edge field alone", c, drive_alone);
+   const double at_a0 = r.threshold.drive / pad.material.threshold;
+   if (at_a0 > 0.05) { mark(diagram, "design at a0", 1, at_a0); }
+   diagram.limit("y", 0.05, none);
+}
+
+namespace
+{
+
+std::vector<std::string> split(const std::string &line)
+{
+   std::vector<std::string> cells;
+   std::istringstream stream(line);
+   for (std::string cell; std::getline(stream, cell, ',');)
+   {
+      const auto first = cell.find_first_not_of(" \t\r"), last = cell.find_last_not_of(" \t\r");
+      cells.push_back(first == std::string::npos ? "" : cell.substr(first, last - first + 1));
+   }
+   return cells;
+}
+
+/// One test.
+struct Record
+{
+   Pad pad;
+   std::string series = "tests";
+   double cycles = none, runout = 0;
+
+   void read(const std::vector<std::string> &columns, const std::vector<std::string> &cells,
+             const std::string &where)
+   {
+      require(cells.size() == columns.size(), where, ": there are ", cells.size(),
+              " values for ", columns.size(), " columns.");
+      const std::map<std::string, double *> targets{{"cycles", &cycles},
+                                                    {"runout", &runout},
+                                                    {"P", &pad.normal},
+                                                    {"Q", &pad.shear},
+                                                    {"bulk", &pad.bulk},
+                                                    {"bulk_pad", &pad.bulk_pad},
+                                                    {"load_ratio", &pad.load_ratio},
+                                                    {"radius", &pad.radius},
+                                                    {"flat", &pad.flat},
+                                                    {"friction", &pad.friction}};
+      for (std::size_t i = 0; i < cells.size(); i++)
+      {
+         if (columns[i] == "series")
+         {
+            series = cells[i];
+            continue;
+         }
+         const auto target = targets.find(columns[i]);
+         require(target != targets.end(), where, ": there is no column '", columns[i], "'.");
+         char *end = nullptr;
+         *target->second = std::strtod(cells[i].c_str(), &end);
+         require(!cells[i].empty() && *end == '\0' && std::isfinite(*target->second), where,
+                 ": '", cells[i], "' in column ", columns[i], " is not a number.");
+      }
+      require(cycles > 0, where, ": the number of cycles must be given and positive.");
+      require(runout == 0 || runout == 1, where, ": runout is ", runout,
+              "; it must be 0 or 1.");
+   }
+};
+
+} // namespace
+
+void correlate(Study &study, const std::string &file, const Pad &common,
+               const FrettingSettings &criteria)
+{
+   std::ifstream stream(file);
+   require(stream.good(), "cannot read the test records ", file, ".");
+   study.title("Tests of " + file);
+   Table &table = study.table("records", {{"series", "series"},
+                                          {"cycles", "cycles", "%.3g"},
+                                          {"runout"},
+                                          {"friction"},
+                                          {"edge_stress_range", "Δσ, MPa", "%.4g"},
+                                          {"threshold_x", "X", "%.4g"},
+                                          {"design_y", "Y", "%.4g"},
+                                          {"k_t_range", "ΔK_T", "%.4g"},
+                                          {"energy_max", "energy", "%.4g"},
+                                          {"energy_total"},
+                                          {"trust", "trust"}});
+   const auto lines = [&](const char *name, const char *title, const char *x,
+                          const char *y) -> Panel &
+   {
+      Panel &panel = study.panel(Panel::Kind::lines, name, title, x, y);
+      if (std::string(x) == "life, cycles") { panel.say("scale: semilogx"); }
+      return panel;
+   };
+   Panel &stress = lines("stress", "Edge stress range", "life, cycles", "Δσ_xx, MPa"),
+         &tests =
+            lines("threshold_tests", "Tests and threshold", x_of_threshold, y_of_threshold),
+         &mode_two = lines("mode_two", "Mode II", "life, cycles", "ΔK_T, MPa√mm"),
+         &energy = lines("energy", "Largest frictional energy", "life, cycles",
+                         "energy a cycle, mJ/mm²");
+   double least = std::numeric_limits<double>::infinity(), most = 0, furthest = 0;
+   std::vector<std::string> columns;
+   int number = 0;
+   for (std::string line; std::getline(stream, line);)
+   {
+      number++;
+      if (line.find_first_not_of(" \t\r") == std::string::npos || line[0] == '#') { continue; }
+      const std::vector<std::string> cells = split(line);
+      if (columns.empty())
+      {
+         columns = cells;
+         continue;
+      }
+      const std::string where = file + ", line " + std::to_string(number);
+      Record test{common};
+      test.read(columns, cells, where);
+      try
+      {
+         PadContact contact = calibrate(test.pad);
+         if (test.pad.kind == "fe")
+         {
+            contact = solve(study, test.pad, contact).in_place_of(contact);
+         }
+         const FrettingReport r = judge(test.pad, contact, criteria).report;
+         study.row(table, {test.series, test.cycles, test.runout, test.pad.friction,
+                           r.edge_stress_range, r.abscissa, r.ordinate, r.k_t_range,
+                           r.energy_max, r.energy_total, to_string(r.trust)});
+         const bool trusted = r.trust != Trust::poor;
+         const auto add = [&](Panel &panel, double x, double y)
+         {
+            panel.add(test.series, std::vector<double>{x}, {y},
+                      test.runout == 1 ? "hollow" : "points");
+            if (!trusted) { panel.add("not valid", std::vector<double>{x}, {y}, "cross"); }
+         };
+         add(stress, test.cycles, r.edge_stress_range);
+         add(tests, r.abscissa, r.ordinate);
+         add(mode_two, test.cycles, r.k_t_range);
+         add(energy, test.cycles, r.energy_max);
+         least = std::min(least, test.cycles);
+         most = std::max(most, test.cycles);
+         furthest = std::max(furthest, r.abscissa);
+      }
+      catch (const InputError &error)
+      {
+         throw InputError(where + ": " + error.what());
+      }
+   }
+   require(most > 0, "there are no tests in ", file, ".");
+   const auto level = [&](Panel &panel, const char *name, double y) {
+      panel.add(name, std::vector<double>{least, most}, {y, y}, "dashed");
+   };
+   level(stress, "plain fatigue limit", common.material.fatigue_limit.low);
+   level(mode_two, "mode II threshold",
+         criteria.mode_two_ratio * common.material.threshold / mode_two_range(1));
+   std::vector<double> x, y;
+   for (int i = 1; i <= 100; i++)
+   {
+      x.push_back(1.4 * furthest * std::pow(0.01 * i, 2));
+      y.push_back(
+         threshold_ordinate(criteria.criterion, common.friction, x.back(), common.load_ratio));
+   }
+   tests.add("threshold", x, y, "dashed");
+   tests.limit("y", 0, 2 * y[50]);
+   for (Panel *panel : {&stress, &mode_two, &energy}) { panel->limit("y", 0, none); }
+}
+
+} // namespace miniapp

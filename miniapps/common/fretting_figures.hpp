@@ -1,0 +1,23 @@
+#pragma once
+
+#include "common/pad.hpp"
+
+#include <string>
+
+namespace miniapp
+{
+
+/// The universal curves of the near-edge field (thesis figures 2.2 to 2.7) with the design
+/// among them, and its Kitagawa-Takahashi diagram.
+void draw_design(Study &study, const Pad &pad, const JudgedEdge &judged,
+                 const cattaneo::fretting::FrettingSettings &criteria);
+
+/** Measures of the tests in a file: a header line, then one test a line, '#' for comments.
+   Columns cycles (required), and series, runout (0 or 1), P, Q, bulk, bulk_pad, load_ratio,
+   radius, flat, friction; where a column is missing, the value of `common` holds. A table,
+   drawn against the lives (thesis figures 2.5 and 2.8 to 2.10) beside the measures of the
+   design. */
+void correlate(Study &study, const std::string &file, const Pad &common,
+               const cattaneo::fretting::FrettingSettings &criteria);
+
+} // namespace miniapp

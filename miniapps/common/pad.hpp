@@ -1,0 +1,82 @@
+#pragma once
+
+#include "common/contact_edges.hpp"
+#include "common/study.hpp"
+
+#include <cattaneo/fretting/assessment.hpp>
+#include <cattaneo/fretting/calibration.hpp>
+#include <optional>
+#include <string>
+
+namespace miniapp
+{
+
+/// A pad on a specimen and its loads, as given on the command line or by one test record.
+/// Units: N, mm, MPa; forces per mm of thickness. NaN: not given.
+struct Pad
+{
+   std::string kind = "hertz";
+   double radius = 100, flat = none;
+   double normal = 400, shear = 50;
+   double bulk = none, bulk_pad = 0;
+   double load_ratio = -1;
+   double friction = none;
+   double k_n = none, k_t = none, half_width = none;
+   int nodes = 101, order = 2; ///< of the finite element contact
+   cattaneo::fretting::FatigueMaterial material;
+   bool plane_stress = false;
+
+   double bulk_or_none() const { return std::isnan(bulk) ? 0 : bulk; }
+   double modulus() const; ///< E*
+};
+
+/// Both edges of the contact, where they are known.
+struct PadContact
+{
+   double half_width = 0.0, rounded_width = 0.0, k_n = 0.0;
+   cattaneo::fretting::ShearIntensities k_t; ///< leading: NaN if unknown
+   double stress_gradient = 0.0;
+};
+
+/// From closed forms. InputError for what does not go together, and for loads that slide.
+PadContact calibrate(const Pad &pad);
+
+/// One edge of the finite element contact over one steady cycle.
+struct PadEdge : SolvedEdge
+{
+   double reversed_slip_zone = 0.0; ///< computed, back at peak load
+   bool resolved = false; ///< fewer spacings than two do not carry a slip zone, nor its energy
+};
+
+/// The cylinder on a half-plane, pressed and sheared by finite elements.
+struct SolvedPad
+{
+   double half_width = 0.0, spacing = 0.0; ///< of the contact and of its nodes
+   PadEdge trailing, leading;
+   int steady_cycle = 0, dofs = 0;
+   double seconds = 0.0;
+   cattaneo::Counters counters;
+
+   /// Its intensities in place of the closed forms.
+   PadContact in_place_of(PadContact closed_form) const;
+};
+
+/// InputError if it ends before the peak load.
+SolvedPad solve(Study &study, const Pad &pad, const PadContact &closed_form);
+
+/// What the finite elements give beside the closed forms of Hertz and Mindlin (with bulk
+/// stress: Nowell and Hills, as long as both edges slip in the sense of the shear).
+void compare(Study &study, const Pad &pad, const PadContact &closed_form,
+             const SolvedPad &solved);
+
+/// The edge whose crack is driven harder.
+struct JudgedEdge
+{
+   cattaneo::fretting::FrettingProblem problem;
+   cattaneo::fretting::FrettingReport report;
+   std::string edge;
+};
+JudgedEdge judge(const Pad &pad, const PadContact &contact,
+                 const cattaneo::fretting::FrettingSettings &criteria);
+
+} // namespace miniapp

@@ -1,0 +1,216 @@
+#include "common/references.hpp"
+
+#include "common/miniapp.hpp"
+#include "common/text.hpp"
+
+#include <algorithm>
+#include <cattaneo/input_error.hpp>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+
+namespace miniapp
+{
+
+using cattaneo::InputError;
+using cattaneo::require;
+using nlohmann::ordered_json;
+
+void ReferenceTable::add(const std::string &name, double reference, Allowed allowed,
+                         double computed, double thesis)
+{
+   rows_.push_back({name, reference, allowed, computed, thesis});
+}
+
+namespace
+{
+
+/// Outside of the reference's own ±, and whether the mesh explains it; NaN is outside. A
+/// closed form has no ±.
+std::string verdict(double difference, const Allowed &allowed)
+{
+   if (std::abs(difference) <= allowed.spread) { return ""; }
+   const bool explained = std::abs(difference) <= allowed.spread + allowed.mesh;
+   if (explained && allowed.spread == 0) { return "within the mesh's ±"; }
+   return explained ? "outside, within the mesh's ±" : "outside";
+}
+
+} // namespace
+
+bool ReferenceTable::has(const std::string &name) const
+{
+   return std::any_of(rows_.begin(), rows_.end(),
+                      [&](const Row &row) { return row.name == name; });
+}
+
+void ReferenceTable::print() const
+{
+   if (rows_.empty()) { return; }
+   std::size_t width = 8;
+   for (const Row &row : rows_) { width = std::max(width, characters(row.name)); }
+   std::printf("\n%s | %11s %9s %9s | %8s | %11s | %10s\n", padded("quantity", width).c_str(),
+               "reference", "its ±", "mesh ±", "thesis", "computed", "difference");
+   for (const Row &row : rows_)
+   {
+      const std::string thesis = std::isfinite(row.thesis) ? text("%.4g", row.thesis) : "-",
+                        mesh = row.allowed.mesh > 0 ? text("%.2g", row.allowed.mesh) : "-";
+      const double difference = row.computed - row.reference;
+      std::printf("%s | %11.5g %8.2g %8s | %8s | %11.5g | %+10.2g  %s\n",
+                  padded(row.name, width).c_str(), row.reference, row.allowed.spread,
+                  mesh.c_str(), thesis.c_str(), row.computed, difference,
+                  verdict(difference, row.allowed).c_str());
+   }
+   for (const std::string &note : notes_) { std::printf("%s", wrapped(note, 2).c_str()); }
+   std::fflush(stdout);
+}
+
+ordered_json ReferenceTable::json() const
+{
+   ordered_json list = ordered_json::array();
+   for (const Row &row : rows_)
+   {
+      ordered_json j = {
+         {"quantity", row.name},
+         {"reference", row.reference},
+         {"spread", row.allowed.spread},
+         {"mesh", row.allowed.mesh},
+         {"tolerance", row.allowed.spread + row.allowed.mesh},
+         {"computed", row.computed},
+         {"outside", !(std::abs(row.computed - row.reference) <= row.allowed.spread)}};
+      if (std::isfinite(row.thesis)) { j["thesis"] = row.thesis; }
+      list.push_back(j);
+   }
+   return list;
+}
+
+namespace
+{
+
+/// "<= 0.05", "> 1": of a number.
+bool compares(const ordered_json &found, const std::string &condition)
+{
+   std::istringstream words(condition);
+   std::string sign;
+   double bound = 0;
+   if (!(words >> sign >> bound) || !found.is_number()) { return false; }
+   const double x = found.get<double>();
+   return sign == "<="   ? x <= bound
+          : sign == ">=" ? x >= bound
+          : sign == "<"  ? x < bound
+                         : x > bound;
+}
+
+bool holds(const ordered_json &found, const ordered_json &condition)
+{
+   if (condition.is_array())
+   {
+      return std::any_of(condition.begin(), condition.end(),
+                         [&](const ordered_json &one) { return holds(found, one); });
+   }
+   if (condition.is_string() && condition.get<std::string>().find_first_of("<>") == 0)
+   {
+      return compares(found, condition.get<std::string>());
+   }
+   if (condition == "*") { return !found.empty() && found != ""; }
+   // A level that was reached in steps is so but for round-off.
+   if (found.is_number() && condition.is_number())
+   {
+      return std::abs(found.get<double>() - condition.get<double>()) < 1e-9;
+   }
+   return found == condition;
+}
+
+/// An entry has a key, several of them, or none if it is a note.
+bool is_of(const ordered_json &entry, const std::string &key)
+{
+   return entry.contains("key") && holds(key, entry["key"]);
+}
+
+bool all_hold(const ordered_json &entry, const Meaning &meaning)
+{
+   if (!entry.contains("when")) { return true; }
+   for (const auto &[name, condition] : entry["when"].items())
+   {
+      if (!holds(meaning(name), condition)) { return false; }
+   }
+   return true;
+}
+
+/// A number, "name", "number * name" or "number / name", or a sum of such in an array.
+double mesh_share(const ordered_json &term, const Meaning &meaning)
+{
+   if (term.is_number()) { return term.get<double>(); }
+   if (term.is_array())
+   {
+      double sum = 0;
+      for (const ordered_json &one : term) { sum += mesh_share(one, meaning); }
+      return sum;
+   }
+   std::istringstream words(term.get<std::string>());
+   double factor = 1;
+   std::string sign = "*", name;
+   if (std::isdigit(words.peek())) { words >> factor >> sign; }
+   words >> name;
+   const ordered_json found = meaning(name);
+   require(found.is_number(), "references.json: the mesh share '", term.get<std::string>(),
+           "' names nothing that is a number in this run");
+   return sign == "*" ? factor * found.get<double>() : factor / found.get<double>();
+}
+
+} // namespace
+
+References::References(const std::string &study) : entries_(ordered_json::array())
+{
+   const std::string file = std::string(CATTANEO_SOURCE_DIR) + "/miniapps/data/references.json";
+   std::ifstream in(file);
+   if (!in.good())
+   {
+      warn("nothing is compared with references: file '" + file + "' cannot be read");
+      return;
+   }
+   try
+   {
+      const ordered_json data = ordered_json::parse(in);
+      for (const ordered_json &entry : data.at("references"))
+      {
+         if (entry.at("study") == study) { entries_.push_back(entry); }
+      }
+   }
+   catch (const nlohmann::json::exception &error)
+   {
+      throw InputError("file '" + file + "': " + error.what());
+   }
+}
+
+bool References::has(const std::string &key) const
+{
+   return std::any_of(entries_.begin(), entries_.end(),
+                      [&](const ordered_json &entry) { return is_of(entry, key); });
+}
+
+void References::compare(const std::string &key, double computed, double error,
+                         const Meaning &meaning, ReferenceTable &table) const
+{
+   for (const ordered_json &entry : entries_)
+   {
+      if (!is_of(entry, key) || table.has(entry.at("name")) || !all_hold(entry, meaning))
+      {
+         continue;
+      }
+      const double mesh = mesh_share(entry.value("mesh", ordered_json(0.0)), meaning);
+      table.add(entry.at("name"), entry.at("value"),
+                {entry.at("spread"), mesh + (std::isfinite(error) ? error : 0)}, computed,
+                entry.value("thesis", std::numeric_limits<double>::quiet_NaN()));
+   }
+}
+
+void References::add_notes(const Meaning &meaning, ReferenceTable &table) const
+{
+   for (const ordered_json &entry : entries_)
+   {
+      if (entry.contains("note") && all_hold(entry, meaning)) { table.note(entry["note"]); }
+   }
+}
+
+} // namespace miniapp

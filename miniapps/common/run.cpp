@@ -1,0 +1,262 @@
+#include "common/run.hpp"
+
+#include <algorithm>
+#include <iostream>
+#include <set>
+#include <sstream>
+#include <tuple>
+
+namespace miniapp
+{
+
+using namespace cattaneo;
+using nlohmann::ordered_json;
+
+Run::Run(Study &study, const ReducedProblem &problem, const MarchSettings &settings_)
+   : state(ContactState::virgin(problem)), settings(settings_),
+     solver(problem, settings_.friction), study_(study)
+{
+   study_.counters += solver.counters();
+}
+
+std::vector<NamedLoads> Run::from_here(const std::vector<NamedLoads> &points) const
+{
+   std::vector<NamedLoads> all = {named(solver.problem(), state.multipliers)};
+   for (const NamedLoads &point : points)
+   {
+      all.push_back(all.back());
+      for (const auto &[name, value] : point) { all.back()[name] = value; }
+   }
+   return all;
+}
+
+const MarchReport &Run::to(const NamedLoads &loads, const MarchObserver &observe)
+{
+   return through({loads}, observe);
+}
+
+const MarchReport &Run::through(const std::vector<NamedLoads> &points,
+                                const MarchObserver &observe)
+{
+   return march(LoadHistory::through(solver.problem(), from_here(points)), observe);
+}
+
+const MarchReport &Run::cycle(const std::vector<NamedLoads> &points, int cycles,
+                              const MarchObserver &observe)
+{
+   std::vector<NamedLoads> all = from_here(points);
+   all.push_back(all.front());
+   LoadHistory history = LoadHistory::through(solver.problem(), all);
+   history.cycle_start = 0;
+   history.cycles = cycles;
+   return march(history, observe);
+}
+
+const MarchReport &Run::march(const LoadHistory &history, const MarchObserver &observe)
+{
+   state.time = 0;
+   report = cattaneo::march(solver, history, state, settings, observe);
+   study_.counters += report.counters;
+   if (exit_code(solver.problem(), report) != 0 && leaves)
+   {
+      add_outcome(solver.problem(), report, study_.results);
+      throw Outcome();
+   }
+   return report;
+}
+
+double Run::load(const std::string &pattern) const
+{
+   return state.multipliers[solver.problem().pattern(pattern)];
+}
+
+const char *const stepping_help =
+   "advancing (increments, halved while contact advances by more than a node), fixed "
+   "(increments) or exact (from one change of state to the next).";
+const std::vector<std::string> stepping_choices = {"advancing", "fixed", "exact"};
+
+Stepping stepping(const std::string &name)
+{
+   return name == "exact"   ? Stepping::exact
+          : name == "fixed" ? Stepping::fixed
+                            : Stepping::advancing;
+}
+
+void report_exact_path(Study &study, const Run &run)
+{
+   if (run.settings.stepping != Stepping::exact) { return; }
+   report_exact_path(study, run.solver.problem(), run.report);
+}
+
+void report_exact_path(Study &study, const ReducedProblem &problem, const MarchReport &report)
+{
+   study.say(text("exact path: %zu changes of state", report.changes.size()));
+   ordered_json &changes = study.results["state_changes"] = ordered_json::array();
+   for (const StateChange &change : report.changes)
+   {
+      changes.push_back({{"time", change.time},
+                         {"loads", named(problem, change.multipliers)},
+                         {"node", change.node},
+                         {"from", name(change.from)},
+                         {"to", name(change.to)}});
+   }
+   study.results["fallbacks"] = report.fallbacks;
+   study.results["fallback_reason"] = report.fallback_reason;
+}
+
+void report_cycles(Study &study, const MarchReport &report, double unit, int first)
+{
+   Table &cycles = study.table("cycles", {{"cycle", "cycle"},
+                                          {"dissipation", "dissipation", "%.4e"},
+                                          {"external_work", "external work", "%.4e"},
+                                          {"slip_change", "slip change", "%.2e"}});
+   ordered_json &losses = study.results["dissipation"] = ordered_json::array();
+   for (const CycleRecord &cycle : report.cycles)
+   {
+      study.row(cycles, {first + static_cast<int>(losses.size()), cycle.dissipation / unit,
+                         cycle.external_work / unit, cycle.slip_change});
+      losses.push_back(cycle.dissipation / unit);
+   }
+   report_steady(study, report);
+}
+
+void report_steady(Study &study, const MarchReport &report)
+{
+   if (report.steady_cycle > 0)
+   {
+      study.say(
+         text("steady from cycle %d, period %d", report.steady_cycle, report.steady_period));
+   }
+   study.results["steady_cycle"] = report.steady_cycle;
+   study.results["steady_period"] = report.steady_period;
+   study.results["energy_imbalance"] = report.energy_imbalance;
+}
+
+namespace
+{
+
+/// "time 0.3 (P = 1, 'n = 4' = 0.2)"
+std::string event_text(const ReducedProblem &problem, double time,
+                       const Eigen::VectorXd &multipliers)
+{
+   std::ostringstream text;
+   text << "time " << time;
+   const char *before = " (";
+   for (const auto &[name, value] : named(problem, multipliers))
+   {
+      // Names of studies' loads hold numbers of their own.
+      const char *quote = name.find(' ') == std::string::npos ? "" : "'";
+      text << before << quote << name << quote << " = " << value;
+      before = ", ";
+   }
+   text << ")";
+   return text.str();
+}
+
+} // namespace
+
+int exit_code(const ReducedProblem &problem, const MarchReport &report)
+{
+   warn_of_cut_off(report.cut_off);
+   if (report.fallbacks > 0)
+   {
+      std::cout << "\n"
+                << report.fallbacks
+                << " increments where there is no exact path: " << report.fallback_reason
+                << std::endl;
+   }
+   if (report.advance_error > 1e-6)
+   {
+      std::cout << "\nContact advanced with friction, whose forces depend on how that is cut "
+                   "into increments: by up to "
+                << error_text(report.advance_error) << " of the largest nodal force"
+                << std::endl;
+   }
+   if (report.stalled > 0)
+   {
+      std::cout << "\n"
+                << report.stalled << " increments stalled and were passed by shorter ones"
+                << std::endl;
+   }
+   if (report.status == FrictionStatus::converged) { return 0; }
+   if (const auto &first = report.not_unique)
+   {
+      std::cout << "\nNot unique: from " << event_text(problem, first->time, first->multipliers)
+                << " on, the states are one of several:\n  " << first->message << std::endl;
+   }
+   if (report.status != FrictionStatus::not_unique)
+   {
+      std::cout << "\nEnded with status '" << name(report.status) << "' at "
+                << event_text(problem, report.event_time, report.event_multipliers) << ":\n  "
+                << report.message << std::endl;
+   }
+   return 2;
+}
+
+void add_outcome(const ReducedProblem &problem, const MarchReport &report,
+                 ordered_json &results)
+{
+   results["status"] = name(report.status);
+   if (report.status == FrictionStatus::converged) { return; }
+   results["message"] = report.message;
+   results["event_time"] = report.event_time;
+   results["event_loads"] = named(problem, report.event_multipliers);
+   if (const auto &first = report.not_unique)
+   {
+      results["not_unique"] = {{"time", first->time},
+                               {"loads", named(problem, first->multipliers)},
+                               {"message", first->message}};
+   }
+}
+
+void warn_of_cut_off(const std::vector<CutOffContact> &ends)
+{
+   // Once for each end, however many marches a study consists of.
+   static std::set<std::tuple<Eigen::Index, bool, double, double>> known;
+   for (const CutOffContact &end : ends)
+   {
+      if (known.insert({end.node, end.at_first, end.x, end.y}).second) { warn(end.message()); }
+   }
+}
+
+std::vector<double> unloading_levels(int steps, double lowest, std::vector<double> wanted)
+{
+   double level = 1;
+   while (level > lowest)
+   {
+      level = std::max(lowest, level - std::min(1.0 / steps, 0.2 * level));
+      wanted.push_back(level);
+   }
+   std::sort(wanted.rbegin(), wanted.rend());
+   std::vector<double> levels;
+   for (double p : wanted)
+   {
+      if (p < 1 && (levels.empty() || levels.back() - p > 1e-9)) { levels.push_back(p); }
+   }
+   return levels;
+}
+
+std::vector<double> joined_once(std::vector<double> first, const std::vector<double> &others)
+{
+   for (double x : others)
+   {
+      if (std::find(first.begin(), first.end(), x) == first.end()) { first.push_back(x); }
+   }
+   return first;
+}
+
+ordered_json to_json(const std::vector<Zone> &zones, double shift)
+{
+   ordered_json list = ordered_json::array();
+   for (const Zone &zone : zones)
+   {
+      list.push_back({{"state", name(zone.state)},
+                      {"from", zone.from.position + shift},
+                      {"to", zone.to.position + shift},
+                      {"from_error", zone.from.error},
+                      {"to_error", zone.to.error}});
+   }
+   return list;
+}
+
+} // namespace miniapp

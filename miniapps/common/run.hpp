@@ -1,0 +1,99 @@
+#pragma once
+
+#include "common/study.hpp"
+
+#include <cattaneo/friction/march.hpp>
+#include <string>
+#include <vector>
+
+namespace miniapp
+{
+
+/** A contact under way: its solver, the state that it stands in, and how it got there. What it
+    counts goes to the study; where there is no equilibrium it says so, notes it in the results
+    (`status`, `message`, `event_time`, `event_loads`, `not_unique`) and leaves the study. */
+class Run
+{
+public:
+   /// The problem must outlive it.
+   Run(Study &study, const cattaneo::ReducedProblem &problem,
+       const cattaneo::MarchSettings &settings = {});
+
+   /// From where it stands straight to these loads; a pattern that is not named keeps its
+   /// value.
+   const cattaneo::MarchReport &to(const cattaneo::NamedLoads &loads,
+                                   const cattaneo::MarchObserver &observe = {});
+   /// The same through several points.
+   const cattaneo::MarchReport &through(const std::vector<cattaneo::NamedLoads> &points,
+                                        const cattaneo::MarchObserver &observe = {});
+   /// A cycle through these points and back to where it stands, so many times (fewer once it is
+   /// steady, if the settings say so).
+   const cattaneo::MarchReport &cycle(const std::vector<cattaneo::NamedLoads> &points,
+                                      int cycles, const cattaneo::MarchObserver &observe = {});
+   /// Any history that begins with the loads of the state, whose time it starts anew.
+   const cattaneo::MarchReport &march(const cattaneo::LoadHistory &history,
+                                      const cattaneo::MarchObserver &observe = {});
+
+   /// The multiplier of a pattern.
+   double load(const std::string &pattern) const;
+
+   /// Whether it leaves the study where there is no equilibrium; else the report says so, and
+   /// nothing is noted.
+   bool leaves = true;
+   cattaneo::ContactState state; ///< a copy put back is where the run goes on from
+   cattaneo::MarchSettings settings;
+   cattaneo::MarchReport report; ///< of the last march
+   cattaneo::FrictionSolver solver;
+
+private:
+   std::vector<cattaneo::NamedLoads>
+   from_here(const std::vector<cattaneo::NamedLoads> &points) const;
+   Study &study_;
+};
+
+extern const char *const stepping_help;
+extern const std::vector<std::string> stepping_choices;
+/// How a march steps, by the name that the option gives.
+cattaneo::Stepping stepping(const std::string &name);
+
+/// Of an exact march: its changes of state, printed (their number) and added to the results
+/// (the list), and whether it had to fall back. Nothing for other marches.
+void report_exact_path(Study &study, const Run &run);
+void report_exact_path(Study &study, const cattaneo::ReducedProblem &problem,
+                       const cattaneo::MarchReport &report);
+
+/// A table of the cycles of a march and from where on they are steady; `dissipation`,
+/// `steady_cycle`, `steady_period` and `energy_imbalance` of the results. Energies are printed
+/// in `unit`s, and the first cycle has a number.
+void report_cycles(Study &study, const cattaneo::MarchReport &report, double unit = 1,
+                   int first = 1);
+
+/// From where on the cycles are steady, and how well energies balance: `steady_cycle`,
+/// `steady_period` and `energy_imbalance`.
+void report_steady(Study &study, const cattaneo::MarchReport &report);
+
+/// Exit code of a march's outcome; prints where and why it ended early, was not unique or left
+/// its exact path, and by how much its increments matter where contact advanced with friction.
+int exit_code(const cattaneo::ReducedProblem &problem, const cattaneo::MarchReport &report);
+/// Adds the status of a march and, of one that is not `converged`, what there is to say: where
+/// and why it ended (`message`, `event_time`, `event_loads`), and from where on its states are
+/// one of several (`not_unique`).
+void add_outcome(const cattaneo::ReducedProblem &problem, const cattaneo::MarchReport &report,
+                 nlohmann::ordered_json &results);
+
+/// Warns of contact that reached an end of its line where the bodies go on, once for each end.
+void warn_of_cut_off(const std::vector<cattaneo::CutOffContact> &ends);
+
+/// Levels of a load that is taken back, descending from below 1 to `lowest`: steps of 1/steps
+/// that shrink with the load, and all of `wanted`. None is a round-off away from another: the
+/// states of so small a step would be noise.
+std::vector<double> unloading_levels(int steps, double lowest, std::vector<double> wanted);
+
+/// Of two lists all that is in either, once, in this order.
+std::vector<double> joined_once(std::vector<double> first, const std::vector<double> &others);
+
+/// Zones as they go to JSON, each {"state", "from", "to", "from_error", "to_error"}, with
+/// positions that are shifted. A table prints their states and where they end.
+nlohmann::ordered_json to_json(const std::vector<cattaneo::Zone> &zones, double shift = 0);
+
+} // namespace miniapp

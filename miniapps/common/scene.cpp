@@ -1,0 +1,91 @@
+#include "common/scene.hpp"
+
+#include "common/miniapp.hpp"
+#include "common/text.hpp"
+
+#include <cattaneo/output/paraview.hpp>
+
+namespace miniapp
+{
+
+using namespace cattaneo;
+
+ElasticBody &Scene::add(mfem::Mesh mesh, int order, const Material &material,
+                        Formulation formulation)
+{
+   warn_of_locking(order, material);
+   meshes.push_back(distribute(std::move(mesh), order));
+   bodies.push_back(
+      std::make_unique<ElasticBody>(*meshes.back(), order, material, formulation));
+   dofs += bodies.back()->dofs();
+   return *bodies.back();
+}
+
+ElasticBody &Scene::add(mfem::Mesh mesh, int order, const std::vector<Material> &materials)
+{
+   if (materials.size() == 1) { return add(std::move(mesh), order, materials[0]); }
+   for (const Material &material : materials)
+   {
+      if (warn_of_locking(order, material)) { break; }
+   }
+   meshes.push_back(distribute(std::move(mesh), order));
+   bodies.push_back(std::make_unique<ElasticBody>(*meshes.back(), order, materials));
+   dofs += bodies.back()->dofs();
+   return *bodies.back();
+}
+
+void Scene::add_torsion(int order, const Material &material)
+{
+   for (const auto &mesh : meshes)
+   {
+      torsion.push_back(
+         std::make_unique<ElasticBody>(*mesh, order, material, Formulation::torsion));
+      dofs += torsion.back()->dofs();
+   }
+}
+
+void write_paraview(const std::string &folder, Scene &scene,
+                    const std::vector<ContactState> &states)
+{
+   Reduction &reduction = scene.reduction;
+   ContactLineFields contact(reduction.problem, folder, "contact");
+   for (const ContactState &state : states)
+   {
+      if (writes()) { contact.write(state); }
+   }
+   for (std::size_t k = 0; k < scene.bodies.size(); ++k)
+   {
+      // A body that every rank has for itself is written by one.
+      const ElasticBody &body = *scene.bodies[k];
+      if (!writes() && !body.ranks().several()) { continue; }
+      BodyFields fields(body, folder, "body" + std::to_string(k + 1));
+      for (const ContactState &state : states)
+      {
+         fields.write(
+            reduction.displacement(static_cast<int>(k), state.v, state.w, state.multipliers),
+            state.time);
+      }
+   }
+}
+
+mfem::Mesh half_turn(mfem::Mesh mesh)
+{
+   for (int v = 0; v < mesh.GetNV(); ++v)
+   {
+      for (int c = 0; c < 2; ++c) { mesh.GetVertex(v)[c] *= -1; }
+   }
+   return mesh;
+}
+
+bool warn_of_locking(int order, const Material &material)
+{
+   if (order > 1 || material.poisson < 0.49 || material.state != PlaneState::strain)
+   {
+      return false;
+   }
+   warn(exact_text("linear elements lock at Poisson's ratio ", material.poisson) +
+        ": the body is too stiff; use option -order 2");
+   return true;
+}
+
+} // namespace miniapp

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cattaneo/elastic/body.hpp>
+#include <cattaneo/friction/contact_state.hpp>
+#include <cattaneo/reduced/reduction.hpp>
+#include <memory>
+#include <mfem.hpp>
+#include <string>
+#include <vector>
+
+namespace miniapp
+{
+
+/// The bodies of a study and what they are reduced to. The bodies must live as long as the
+/// reduction is used for fields.
+struct Scene
+{
+   std::vector<std::unique_ptr<mfem::Mesh>> meshes;
+   std::vector<std::unique_ptr<cattaneo::ElasticBody>> bodies;
+   std::vector<std::unique_ptr<cattaneo::ElasticBody>> torsion; ///< on the same meshes, or none
+   cattaneo::Reduction reduction;
+   int dofs = 0; ///< of all bodies
+
+   cattaneo::ReducedProblem &problem() { return reduction.problem; }
+
+   /// A body on a mesh of its own, distributed as all bodies are (distribute()); warns if it
+   /// locks.
+   cattaneo::ElasticBody &add(mfem::Mesh mesh, int order, const cattaneo::Material &material,
+                              cattaneo::Formulation formulation = cattaneo::Formulation::plane);
+   /// The same of one material, or one for each element attribute.
+   cattaneo::ElasticBody &add(mfem::Mesh mesh, int order,
+                              const std::vector<cattaneo::Material> &materials);
+   /// The torsion of all bodies, to be condensed with them.
+   void add_torsion(int order, const cattaneo::Material &material);
+};
+
+/// Series for ParaView in a folder: contact.pvd, and body1.pvd (and body2.pvd) with the fields
+/// of the bodies, which are recovered for these states and no others.
+void write_paraview(const std::string &folder, Scene &scene,
+                    const std::vector<cattaneo::ContactState> &states);
+
+/// The mesh turned by 180° about the origin.
+mfem::Mesh half_turn(mfem::Mesh mesh);
+
+/// A line of text if linear elements will be much too stiff: order 1 and a Poisson's ratio of
+/// 0.49 or more, but for plane stress. True if so.
+bool warn_of_locking(int order, const cattaneo::Material &material);
+
+} // namespace miniapp

@@ -1,0 +1,91 @@
+#pragma once
+
+#include "common/punch.hpp"
+#include "common/run.hpp"
+
+#include <cattaneo/shakedown/closed_contact.hpp>
+#include <cattaneo/shakedown/limit.hpp>
+#include <cattaneo/shakedown/monolith.hpp>
+#include <cattaneo/shakedown/transient.hpp>
+#include <string>
+#include <vector>
+
+namespace miniapp
+{
+
+/// The study of the miniapp shakedown: a contact, what is stuck of it, its limits, and marches
+/// beside them.
+class Shakedown
+{
+public:
+   explicit Shakedown(Study &study) : study(study), results(study.results) {}
+   void run();
+
+private:
+   /// Of the limits.
+   static constexpr const char *assumption =
+      "all nodes of the contact stay closed throughout the cycle";
+
+   void options();
+   void prepare();
+   /// Leaves in the problem the nodes that stay closed in marches at this load.
+   void keep_closed(double load_factor);
+   /// What follows from the problem.
+   void set_up();
+   /// The limit; if it alone is asked for, on the nodes that stay closed at the limit itself.
+   void largest_of_closed();
+   cattaneo::LoadCycle cycle_of(const cattaneo::ReducedProblem &of, double R) const;
+   void note(const cattaneo::LimitReport &report);
+   /// A limit with its bounds, and whether it is one of the bodies. `what` is load or friction.
+   void report(const std::string &what, const cattaneo::LimitReport &of, double load_factor,
+               double f);
+   void monolith();
+   /// Friction for full adhesion against the load (thesis figure 4.3).
+   void draw_adhesion(double opens, const char *by);
+   void smallest_friction();
+   void method2();
+   void largest_load();
+   /// The cycle and the friction of the limit problem.
+   void as_before();
+   cattaneo::TransientReport counted(cattaneo::TransientReport run);
+   cattaneo::TransientSettings of_cycles() const;
+   /// Of the nodes taken to stay open: their gaps at the limit, and marches of the whole
+   /// contact in which they are free to close.
+   void check_open_nodes();
+   /// λ1: what is proven, and what marches from many starts show.
+   void lower();
+   Eigen::VectorXd traction(const Eigen::VectorXd &force) const;
+   /// The limit whose optimal slip is drawn and marched from.
+   const cattaneo::LimitReport &best() const { return find != "load" ? least : most; }
+   /// The optimal slip, its residual tractions, and the permissible residual shear with its
+   /// pressures (thesis figures 4.15 to 4.17).
+   void draw_optimal();
+   void marches();
+   void limit_map();
+   /// The limits of another punch, as a row of a table.
+   void repeat(const char *table_name, const PunchOptions &other);
+
+   Study &study;
+   nlohmann::ordered_json &results;
+   PunchOptions punch;
+   double friction = 0.85, lambda_max = 0.8, lambda_min = -0.4, reversal = none, corner = 0.01;
+   std::string find = "both", reduced, held = "P", cycled = "Q";
+   bool map = false, adhesion = false, march = false, closed = false;
+   int cycles = 200, starts = 0;
+   std::vector<double> mesh_study, mismatch;
+
+   bool saved = false;    ///< the contact comes from a file
+   bool standard = false; ///< the punch whose reference values are known
+   Scene scene;
+   cattaneo::ReducedProblem problem; ///< of the nodes that stay closed, if asked for
+   cattaneo::ReducedProblem whole;   ///< with the others, …
+   cattaneo::ReducedProblem gapped;  ///< … and as it was given, with its gap
+   cattaneo::ClosedContact part;
+   cattaneo::LoadCycle cycle;
+   Eigen::VectorXd x;
+   cattaneo::NodeList inner; ///< nodes away from the ends
+   cattaneo::LimitProblem limit;
+   cattaneo::LimitReport least, most;
+};
+
+} // namespace miniapp

@@ -1,0 +1,190 @@
+#include "common/study.hpp"
+
+#include <cattaneo/reduced/reduced_file.hpp>
+#include <cmath>
+#include <cstdio>
+
+namespace miniapp
+{
+
+using nlohmann::ordered_json;
+
+Study::Study(const std::string &name, int argc, char *argv[])
+   : options_(argc, argv), references_(name)
+{
+}
+
+void Study::parse(const char *json)
+{
+   option(&json_, {json, "json"}, "File for the results.", Text::output);
+   option(&csv_, "csv", "Prefix of CSV files of tables and figures.", Text::prefix);
+   option(&plot_, "plot", "Picture of the results (png, pdf, svg).", Text::picture);
+   option(&save_, "save", "File for the reduced problem (shakedown --reduced reads it).",
+          Text::output);
+   options_.parse();
+}
+
+void Study::reduced(const Scene &scene)
+{
+   condensed(scene);
+   save(scene.reduction.problem);
+}
+
+void Study::condensed(const Scene &scene)
+{
+   counters += scene.reduction.counters;
+   condensed(scene.reduction.problem, scene.dofs);
+}
+
+void Study::condensed(const cattaneo::ReducedProblem &problem, int dofs)
+{
+   nodes_ = problem.nodes();
+   dofs_ = dofs;
+   seconds_ = watch.seconds();
+   say(text("Condensed %d dofs to %ld in %.3g s", dofs,
+            static_cast<long>((problem.components() + 1) * nodes_), seconds_));
+}
+
+void Study::save(const cattaneo::ReducedProblem &problem) const
+{
+   if (!save_.empty() && writes()) { cattaneo::save(problem, save_); }
+}
+
+void Study::write_frames(const std::string &folder, Scene &scene,
+                         const std::vector<cattaneo::ContactState> &states)
+{
+   counters -= scene.reduction.counters; // what the frames cost is added
+   write_paraview(folder, scene, states);
+   counters += scene.reduction.counters;
+   say(text("%zu frames in %s", states.size(), folder.c_str()));
+}
+
+void Study::title(const std::string &text)
+{
+   std::printf("\n%s\n", text.c_str());
+}
+
+void Study::say(const std::string &line)
+{
+   std::printf("%s\n", line.c_str());
+   std::fflush(stdout);
+}
+
+void Study::value(const std::string &key, double x, const std::string &label, double error,
+                  const std::string &unit)
+{
+   results[key] = x;
+   if (!std::isnan(error)) { results[key + "_error"] = error; }
+   if (references_.has(key)) { found_.push_back({key, x, error, {}}); }
+   if (label.empty()) { return; }
+   std::string line = "   " + padded(label, 38) + (std::isfinite(x) ? text("%.6g", x) : "-");
+   if (error > 0) { line += " ± " + error_text(error); }
+   say(line + (unit.empty() ? "" : " " + unit));
+}
+
+Table &Study::table(const std::string &name, const std::vector<Column> &columns)
+{
+   for (Table &table : tables_)
+   {
+      if (table.name() == name) { return table; }
+   }
+   const Table &made = tables_.emplace_back(name, columns);
+   sheets_.push_back([&made] { return Sheet{made.name(), made.csv(), made.drawn()}; });
+   return tables_.back();
+}
+
+void Study::row(Table &table, const std::vector<ordered_json> &values,
+                const std::vector<std::pair<std::string, double>> &errors,
+                const ordered_json &more)
+{
+   const ordered_json &row = table.row(values, more);
+   for (const auto &[column, x] : row.items())
+   {
+      const std::string key = table.name() + "/" + column;
+      if (!x.is_number() || !references_.has(key)) { continue; }
+      double error = none;
+      for (const auto &[of, its] : errors)
+      {
+         if (of == column) { error = its; }
+      }
+      found_.push_back({key, x.get<double>(), error, row});
+   }
+}
+
+Panel &Study::panel(Panel::Kind kind, const std::string &name, const std::string &title,
+                    const std::string &x_label, const std::string &y_label)
+{
+   const Panel &made = panels_.emplace_back(kind, name, title, x_label, y_label);
+   sheets_.push_back([&made] { return Sheet{made.name(), made.csv(), true}; });
+   return panels_.back();
+}
+
+void Study::sheet(const std::string &name, const std::string &csv)
+{
+   sheets_.push_back([=] { return Sheet{name, csv, false}; });
+}
+
+void Study::compare(const std::string &name, double exact, Allowed allowed, double computed)
+{
+   compared_.add(name, exact, allowed, computed);
+}
+
+ordered_json Study::meaning(const std::string &name, const ordered_json &row) const
+{
+   if (row.contains(name)) { return row[name]; }
+   if (results.contains(name) && results[name].is_primitive()) { return results[name]; }
+   return options_.values().contains(name) ? options_.values()[name] : ordered_json();
+}
+
+void Study::finish()
+{
+   for (const Table &table : tables_) { results[table.name()] = table.json(); }
+   for (const Found &found : found_)
+   {
+      references_.compare(
+         found.key, found.computed, found.error,
+         [&](const std::string &name) { return meaning(name, found.row); }, compared_);
+   }
+   references_.add_notes([&](const std::string &name) { return meaning(name, {}); }, compared_);
+   compared_.print();
+   if (!results.contains("status")) { results["status"] = "converged"; }
+   if (nodes_ > 0)
+   {
+      if (!results.contains("contact_nodes")) { results["contact_nodes"] = nodes_; }
+      results["dofs"] = dofs_;
+      results["seconds_condensation"] = seconds_;
+   }
+   results["seconds"] = watch.seconds();
+   results["counters"] = to_json(counters);
+   results["references"] = compared_.json();
+   write_json(results, json_);
+   std::vector<Sheet> sheets;
+   for (const auto &sheet : sheets_)
+   {
+      sheets.push_back(sheet());
+      if (sheets.back().text.empty()) { sheets.pop_back(); }
+   }
+   output(sheets, csv_, plot_);
+}
+
+int Study::run(const std::string &name, int argc, char *argv[],
+               const std::function<void(Study &)> &body)
+{
+   return miniapp::run(
+      [&]
+      {
+         Study study(name, argc, argv);
+         try
+         {
+            body(study);
+         }
+         catch (const Outcome &)
+         {
+            study.code = 2;
+         }
+         study.finish();
+         return study.code;
+      });
+}
+
+} // namespace miniapp

@@ -1,0 +1,132 @@
+#pragma once
+
+#include "common/figure.hpp"
+#include "common/miniapp.hpp"
+#include "common/options.hpp"
+#include "common/references.hpp"
+#include "common/scene.hpp"
+#include "common/table.hpp"
+#include "common/text.hpp"
+
+#include <cattaneo/counters.hpp>
+#include <deque>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+
+namespace miniapp
+{
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+/// Leaves a study where there is nothing to go on from: what it has is written, and its exit
+/// code is 2. The message has been printed.
+struct Outcome
+{
+};
+
+/** Options, results and outputs of a study, each stated once: an option with its check; a value
+    or a row of a table, which is printed, goes to JSON and CSV, may be drawn, and is compared
+    with the references of the study (miniapps/data/references.json).
+
+    All studies have the options --case, --json, --csv, --plot and --save, and end with their
+    references, sizes, times, counters and warnings. Made first: it holds the clock. */
+class Study
+{
+public:
+   Study(const std::string &name, int argc, char *argv[]);
+
+   /// An option with its check, see Options::add().
+   template <class Value, class... Rest>
+   void option(Value *value, const Options::Names &names, const char *help,
+               const Rest &...check)
+   {
+      options_.add(value, names, help, check...);
+   }
+   /// One of some words.
+   void option(std::string *value, const Options::Names &names, const char *help,
+               const std::vector<std::string> &choices)
+   {
+      options_.add(value, names, help, choices);
+   }
+   Options &options() { return options_; }
+   /// Adds those that all studies have, and parses. @param json short name of --json
+   void parse(const char *json = "json");
+   /// True if a picture is wanted.
+   bool draws() const { return !plot_.empty(); }
+   const std::string &csv() const { return csv_; } ///< prefix of its CSV files, if any
+
+   /// To be called when the problem has been reduced: prints its size, writes it to the file of
+   /// --save, if any, and counts what it took.
+   void reduced(const Scene &scene);
+   /// The same in two parts, for a problem that may still prove to be bad input.
+   void condensed(const Scene &scene);
+   void condensed(const cattaneo::ReducedProblem &problem, int dofs);
+   void save(const cattaneo::ReducedProblem &problem) const;
+
+   /// Frames for ParaView, of a scene that has been reduced, see write_paraview().
+   void write_frames(const std::string &folder, Scene &scene,
+                     const std::vector<cattaneo::ContactState> &states);
+
+   /// A heading of what is printed next.
+   void title(const std::string &text);
+   /// A line that is printed and nothing else.
+   void say(const std::string &line);
+   /// A number with its error, if it has one (`key`_error in the results), printed with a label
+   /// and a unit, if it has a label.
+   void value(const std::string &key, double x, const std::string &label = "",
+              double error = none, const std::string &unit = "");
+
+   /// The table of that name, made if it is not there yet.
+   Table &table(const std::string &name, const std::vector<Column> &columns);
+   /// A row of it, with the errors of the columns that have one, for the references: these have
+   /// the key "table/column", and their conditions may name columns.
+   void row(Table &table, const std::vector<nlohmann::ordered_json> &values,
+            const std::vector<std::pair<std::string, double>> &errors = {},
+            const nlohmann::ordered_json &more = {});
+
+   /// A panel of the figure; stays where it is.
+   Panel &panel(Panel::Kind kind, const std::string &name, const std::string &title,
+                const std::string &x_label, const std::string &y_label);
+   /// A CSV file that is not drawn.
+   void sheet(const std::string &name, const std::string &csv);
+
+   /// A closed form beside what was computed, in the table of references.
+   void compare(const std::string &name, double exact, Allowed allowed, double computed);
+
+   nlohmann::ordered_json results;
+   cattaneo::Counters counters;
+   int code = 0; ///< that the study ends with, unless it ends early
+   Stopwatch watch;
+
+   /// Runs a study: its options, then what it does, then its outputs. The exit code.
+   static int run(const std::string &name, int argc, char *argv[],
+                  const std::function<void(Study &)> &body);
+
+private:
+   void finish();
+   /// What a name means: a column of the row, a single result or an option.
+   nlohmann::ordered_json meaning(const std::string &name,
+                                  const nlohmann::ordered_json &row) const;
+
+   Options options_;
+   References references_;
+   ReferenceTable compared_;
+   std::string json_, csv_, plot_, save_;
+   std::deque<Table> tables_;
+   std::deque<Panel> panels_;
+   std::vector<std::function<Sheet()>> sheets_; ///< in the order of the figure
+   struct Found
+   {
+      std::string key;
+      double computed, error;
+      nlohmann::ordered_json row;
+   };
+   std::vector<Found> found_; ///< to be compared at the end
+   Eigen::Index nodes_ = 0;
+   int dofs_ = 0;
+   double seconds_ = 0; ///< up to the reduced problem
+};
+
+} // namespace miniapp

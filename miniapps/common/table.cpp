@@ -1,0 +1,153 @@
+#include "common/table.hpp"
+
+#include "common/text.hpp"
+
+#include <algorithm>
+#include <cattaneo/input_error.hpp>
+#include <cmath>
+#include <cstdio>
+
+namespace miniapp
+{
+
+using nlohmann::ordered_json;
+
+namespace
+{
+
+std::size_t width(const Column &column)
+{
+   return std::max<std::size_t>(10, characters(column.heading)) + 2;
+}
+
+/// As it is printed.
+std::string cell(const ordered_json &value, const Column &column)
+{
+   if (value.is_string()) { return value.get<std::string>(); }
+   if (value.is_array())
+   {
+      std::string zones;
+      for (const ordered_json &zone : value)
+      {
+         zones += zone["state"].get<std::string>() + text(" %.3f  ", zone["to"].get<double>());
+      }
+      return zones;
+   }
+   if (value.is_boolean()) { return value.get<bool>() ? "yes" : "no"; }
+   if (value.is_number_integer()) { return std::to_string(value.get<long>()); }
+   if (!value.is_number() || !std::isfinite(value.get<double>())) { return "-"; }
+   return text(column.format.c_str(), value.get<double>());
+}
+
+/// As it stands in a CSV file; what is no single value does not.
+std::string field(const ordered_json &value)
+{
+   if (value.is_string())
+   {
+      const auto words = value.get<std::string>();
+      return words.find_first_of(",\"") == std::string::npos ? words : '"' + words + '"';
+   }
+   if (value.is_number_float())
+   {
+      return std::isfinite(value.get<double>()) ? text("%.10g", value.get<double>()) : "";
+   }
+   return value.is_primitive() && !value.is_null() ? value.dump() : "";
+}
+
+/// The table whose headings stand above what is printed next.
+const Table *&on_screen()
+{
+   static const Table *table = nullptr;
+   return table;
+}
+
+} // namespace
+
+Table::Table(const std::string &name, const std::vector<Column> &columns)
+   : name_(name), columns_(columns)
+{
+}
+
+void Table::print_headings()
+{
+   if (on_screen() == this) { return; }
+   on_screen() = this;
+   std::string line;
+   for (const Column &column : columns_)
+   {
+      if (!column.heading.empty()) { line += right(column.heading, width(column)); }
+   }
+   if (!line.empty()) { std::printf("\n%s\n", line.c_str()); }
+}
+
+const ordered_json &Table::row(const std::vector<ordered_json> &values,
+                               const ordered_json &more)
+{
+   cattaneo::require(values.size() == columns_.size(), "table ", name_, ": a row has ",
+                     values.size(), " values for ", columns_.size(), " columns");
+   print_headings();
+   ordered_json row;
+   std::string line;
+   for (std::size_t k = 0; k < values.size(); ++k)
+   {
+      const Column &column = columns_[k];
+      if (!column.key.empty()) { row[column.key] = values[k]; }
+      if (!column.heading.empty()) { line += right(cell(values[k], column), width(column)); }
+   }
+   if (!line.empty()) { std::printf("%s\n", line.c_str()); }
+   std::fflush(stdout);
+   if (!more.is_null()) { row.update(more); }
+   rows_.push_back(row);
+   return rows_.back();
+}
+
+Table &Table::draw(const std::string &title, const std::string &x, const std::string &x_label,
+                   const std::vector<Curve> &y, const std::string &y_label, const Curve &by)
+{
+   comments_ = "# kind: table\n# title: " + title + "\n# x: " + x_label + "\n# y: " + y_label +
+               "\n# over: " + x + "\n";
+   for (const Curve &curve : y)
+   {
+      comments_ += "# curve: " + curve.key + "=" + curve.word + "\n";
+   }
+   if (!by.key.empty()) { comments_ += "# by: " + by.key + "=" + by.word + "\n"; }
+   return *this;
+}
+
+Table &Table::mark(double x, double y)
+{
+   comments_ += text("# mark: %g,%g\n", x, y);
+   return *this;
+}
+
+Table &Table::shade(double from, double to, const std::string &word)
+{
+   comments_ += text("# shade: %g,%g,", from, to) + word + "\n";
+   return *this;
+}
+
+std::string Table::csv() const
+{
+   if (rows_.empty()) { return ""; }
+   std::string result = comments_, line;
+   for (const Column &column : columns_)
+   {
+      if (!column.key.empty()) { line += (line.empty() ? "" : ",") + column.key; }
+   }
+   result += line + '\n';
+   for (const ordered_json &row : rows_)
+   {
+      line.clear();
+      for (const Column &column : columns_)
+      {
+         if (!column.key.empty())
+         {
+            line += (&column == &columns_[0] ? "" : ",") + field(row[column.key]);
+         }
+      }
+      result += line + '\n';
+   }
+   return result;
+}
+
+} // namespace miniapp

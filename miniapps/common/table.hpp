@@ -1,0 +1,57 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace miniapp
+{
+
+/// A column of a table: its key in JSON and CSV, what stands above it on the screen, and how a
+/// number is written there. Without a heading it is not printed, without a key nothing else.
+struct Column
+{
+   std::string key, heading = "", format = "%.4f";
+};
+
+/** Rows that are stated once: printed, aligned, as they come; in JSON a list of objects with
+   the columns' keys; a CSV file with one column each; and, if asked for, a panel of the figure.
+ */
+class Table
+{
+public:
+   Table(const std::string &name, const std::vector<Column> &columns);
+
+   /// Values in the order of the columns: numbers (not finite: "-", null in JSON), words, zones
+   /// (to_json()), or whatever else is not printed. `more` goes to JSON alone.
+   const nlohmann::ordered_json &row(const std::vector<nlohmann::ordered_json> &values,
+                                     const nlohmann::ordered_json &more = {});
+   /// Prints the headings, if they do not stand there.
+   void print_headings();
+
+   /** Draws columns over another one: `label`s of the axes, one curve for each of `y` (its key
+       and a word for it) and each value of the column `by` (whose own word is put before the
+       value); without it one curve each. */
+   struct Curve
+   {
+      std::string key, word;
+   };
+   Table &draw(const std::string &title, const std::string &x, const std::string &x_label,
+               const std::vector<Curve> &y, const std::string &y_label, const Curve &by = {});
+   /// Values of the thesis, marked in the figure.
+   Table &mark(double x, double y);
+   /// A stretch of x with a word in it.
+   Table &shade(double from, double to, const std::string &word);
+   bool drawn() const { return !comments_.empty(); }
+
+   const std::string &name() const { return name_; }
+   const nlohmann::ordered_json &json() const { return rows_; }
+   std::string csv() const; ///< nothing without rows
+
+private:
+   std::string name_, comments_;
+   std::vector<Column> columns_;
+   nlohmann::ordered_json rows_ = nlohmann::ordered_json::array();
+};
+
+} // namespace miniapp

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdio>
+#include <string>
+
+namespace miniapp
+{
+
+/// A name with a number so exact that no two numbers share one: "f = 0.5".
+std::string exact_text(const std::string &words, double value);
+
+/// An error as it is printed beside its value: two digits, the last one rounded up, since it is
+/// a bound.
+std::string error_text(double error);
+
+/// As printf() would write it.
+template <class... Values>
+std::string text(const char *format, Values... values)
+{
+   std::string result(std::snprintf(nullptr, 0, format, values...), ' ');
+   std::snprintf(result.data(), result.size() + 1, format, values...);
+   return result;
+}
+
+/// Of UTF-8, not its bytes.
+std::size_t characters(const std::string &text);
+/// With spaces behind it, or before it, up to a width counted in characters: text is UTF-8.
+std::string padded(const std::string &text, std::size_t width);
+std::string right(const std::string &text, std::size_t width);
+
+/// Text broken into lines of a page, each with the same indentation.
+std::string wrapped(const std::string &text, int indent);
+
+} // namespace miniapp

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "common/run.hpp"
+
+#include <string>
+
+namespace miniapp
+{
+
+/// Torque that an axisymmetric contact passes on: Σ r q_θ, opposed to its slip.
+double torque(const cattaneo::ReducedProblem &problem, const cattaneo::ContactState &state);
+
+/// How far a twist has gone.
+struct Turned
+{
+   cattaneo::ContactState state;
+   double at = 0; ///< multiplier of the pattern "twist": rotation or torque
+   double torque = 0, greatest = 0;
+   double stiffness = 0;   ///< torque by multiplier, over the last step
+   bool descended = false; ///< the torque has passed a maximum
+};
+
+/// Turns a pressed disc by its pattern "twist", in steps that aim at equal parts of a torque.
+class Turning
+{
+public:
+   /// @param pressed the loads that are held
+   /// @param limit the torque that makes `steps` steps
+   Turning(Run &run, const cattaneo::NamedLoads &pressed, double limit, int steps)
+      : run_(run), pressed_(pressed), limit_(limit), steps_(steps)
+   {
+   }
+
+   /// What a stop is counted in.
+   enum class Stop
+   {
+      torque,
+      multiplier
+   };
+
+   /// Before the twist: what it would do to the bonded disc is its first stiffness.
+   Turned untwisted(const cattaneo::ContactState &loaded) const;
+   /// On until the torque or the multiplier has a value, or the torque has passed its maximum
+   /// (by itself not an end for the multiplier).
+   void on(Turned &now, Stop stop, double value, const cattaneo::MarchObserver &observe = {});
+   /// Rotation that the twist does its work on.
+   double rotation(const cattaneo::ContactState &state) const;
+   /// The held loads and a twist.
+   cattaneo::NamedLoads loads(double twist) const;
+
+private:
+   void step(Turned &now, double by, const cattaneo::MarchObserver &observe);
+   Run &run_;
+   cattaneo::NamedLoads pressed_;
+   double limit_;
+   int steps_;
+};
+
+} // namespace miniapp
