@@ -59,14 +59,11 @@ Panel::Panel(Kind kind, const std::string &name, const std::string &title,
 
 void Panel::row(const std::vector<std::string> &words, const std::vector<double> &numbers)
 {
-   std::string line;
-   for (const std::string &word : words) { line += (line.empty() ? "" : ",") + quoted(word); }
-   for (double x : numbers)
-   {
-      if (!line.empty()) { line += ','; }
-      if (std::isfinite(x)) { line += text("%.9g", x); }
-   }
-   rows_ += line + '\n';
+   std::vector<std::string> cells;
+   for (const std::string &word : words) { cells.push_back(quoted(word)); }
+   for (double x : numbers) { cells.push_back(std::isfinite(x) ? text("%.9g", x) : ""); }
+   for (std::size_t k = 0; k < cells.size(); ++k) { rows_ += (k ? "," : "") + cells[k]; }
+   rows_ += '\n';
    ++points_;
 }
 

@@ -242,7 +242,7 @@ def finish(axes, comments):
             lo, hi, word = text.split(",", 2)
             span(float(lo), float(hi), color="0.85", zorder=0)
             if word and key == "shade":
-                axes.text(float(lo), 0.03, " " + word, transform=place, fontsize=8)
+                axes.text(float(lo), 0.03, word, transform=place, fontsize=8, rotation=90, ha="left", clip_on=True)
     if one.get("reversed") == "x":
         axes.invert_xaxis()
 
