@@ -22,7 +22,6 @@ using namespace cattaneo;
 using Eigen::Index;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
-using miniapp::focused_grid;
 
 const char *name(Family family)
 {
@@ -77,7 +76,7 @@ Answer hertz(const Resolution &r)
    {
       options.order = r.order;
       options.growth = r.element_growth();
-      options.grid = miniapp::mirrored(r.grid(span, r.foci(0, span)));
+      options.grid = mirrored(r.grid(span, r.foci(0, span)));
    }
    miniapp::Scene scene = make_scene(options);
    ReducedProblem &problem = scene.reduction.problem;
@@ -238,11 +237,11 @@ Answer punch(const Resolution &r)
    {
       options.order = r.order;
       options.growth = r.element_growth();
-      options.grid = miniapp::mirrored(r.grid(1, r.foci(0, 1, {1})));
+      options.grid = mirrored(r.grid(1, r.foci(0, 1, {1})));
    }
    if (r.family == Family::nested)
    {
-      options.grid = miniapp::mirrored(base(r, 0.5).grid(1, base(r, 0.5).foci(0, 1)));
+      options.grid = mirrored(base(r, 0.5).grid(1, base(r, 0.5).foci(0, 1)));
       options.growth = base(r, 0.5).element_growth();
       options.refine = splitting(r, r.foci(-1, 1, {-1, 1}));
    }
@@ -377,7 +376,7 @@ Answer shakedown(const Resolution &r)
    {
       options.order = r.order;
       options.growth = r.element_growth();
-      options.grid = miniapp::mirrored(r.grid(1, r.foci(0, 1, {1})));
+      options.grid = mirrored(r.grid(1, r.foci(0, 1, {1})));
    }
    miniapp::Scene scene = miniapp::make_punch(options);
    ReducedProblem &reduced = scene.reduction.problem;

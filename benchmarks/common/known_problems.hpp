@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common/contact_grid.hpp"
+#include "common/focused_grid.hpp"
 
 #include <functional>
 #include <limits>
@@ -10,8 +10,6 @@
 /// runs.
 namespace known
 {
-
-using miniapp::Focus;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
@@ -50,7 +48,7 @@ struct Resolution
    /// Grid lines of a contact line, or of the half x > 0 of a symmetric one.
    std::vector<double> grid(double to, const std::vector<Focus> &foci) const
    {
-      return miniapp::focused_grid(0, to, order, growth, foci);
+      return focused_grid(0, to, order, growth, foci);
    }
 };
 

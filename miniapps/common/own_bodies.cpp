@@ -1,12 +1,12 @@
 #include "common/own_bodies.hpp"
 
-#include "common/filled_corner.hpp"
-#include "common/mesh_file.hpp"
 #include "common/statements.hpp"
 
 #include <algorithm>
 #include <cattaneo/fretting/calibration.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/mesh/filled_corner.hpp>
+#include <cattaneo/mesh/mesh_file.hpp>
 #include <cmath>
 #include <sstream>
 
@@ -71,7 +71,11 @@ CondensedBody make_body(OwnBodies &own, const BodyOptions &options, const std::s
       require(!options.contact.empty(), "option contact", k,
               " is empty, must name boundary attributes");
       mfem::Mesh mesh = read_mesh(options.mesh);
-      warn_of_lower_order(mesh, order, options.mesh);
+      for (const std::string &warning :
+           {unjoined_vertices(mesh, options.mesh), missed_curves(mesh, order, options.mesh)})
+      {
+         if (!warning.empty()) { warn(warning); }
+      }
       const int attributes = mesh.attributes.Size() ? mesh.attributes.Max() : 1;
       own.materials.push_back(materials(options, k, attributes, plane_stress));
       ElasticBody &body = own.scene.add(std::move(mesh), order, own.materials.back());

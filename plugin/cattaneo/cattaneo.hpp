@@ -6,5 +6,7 @@
 #include <cattaneo/elastic/axisymmetric.hpp>
 #include <cattaneo/elastic/point_stress.hpp>
 #include <cattaneo/elastic/views.hpp>
+#include <cattaneo/mesh/filled_corner.hpp>
 #include <cattaneo/mesh/graded_mesh.hpp>
+#include <cattaneo/mesh/mesh_file.hpp>
 #include <cattaneo/output/paraview.hpp>

@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <mfem.hpp>
 
-namespace miniapp
+namespace cattaneo
 {
 
 /// What a body fills around one of the vertices of its mesh.
@@ -17,4 +17,4 @@ struct FilledCorner
 /// several attributes meet there.
 FilledCorner filled_corner(mfem::Mesh &mesh, const Eigen::Vector2d &point);
 
-} // namespace miniapp
+} // namespace cattaneo

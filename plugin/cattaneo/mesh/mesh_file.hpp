@@ -3,7 +3,7 @@
 #include <mfem.hpp>
 #include <string>
 
-namespace miniapp
+namespace cattaneo
 {
 
 /** The plane mesh in a user's file: MFEM's format ("MFEM mesh v1.…", conforming), or Gmsh's 2.2
@@ -13,9 +13,13 @@ namespace miniapp
     file is therefore checked first, section by section. InputError saying what is wrong. */
 mfem::Mesh read_mesh(const std::string &file);
 
-/// A warning if the mesh is bent more than elements of this order can be: such a body resists
+/// A sentence if vertices lie on one another, where the body is cut and its faces may pass
+/// through each other; else nothing. `name` is what the mesh is called in it.
+std::string unjoined_vertices(const mfem::Mesh &mesh, const std::string &name);
+
+/// A sentence if the mesh is bent more than elements of this order can be: such a body resists
 /// turning. Measured on a ring whose edges span 10 degrees each: by 1e-2 of the forces of a
 /// shear as large as the turn with order 1, by 2e-4 with order 2; of 20 degrees, 2e-2 and 1e-3.
-void warn_of_lower_order(mfem::Mesh &mesh, int order, const std::string &file);
+std::string missed_curves(mfem::Mesh &mesh, int order, const std::string &name);
 
-} // namespace miniapp
+} // namespace cattaneo

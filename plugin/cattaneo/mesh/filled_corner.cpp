@@ -1,12 +1,10 @@
-#include "common/filled_corner.hpp"
+#include <cattaneo/mesh/filled_corner.hpp>
 
 #include <cattaneo/input_error.hpp>
 #include <cmath>
 
-namespace miniapp
+namespace cattaneo
 {
-
-using cattaneo::require;
 
 FilledCorner filled_corner(mfem::Mesh &mesh, const Eigen::Vector2d &point)
 {
@@ -50,4 +48,4 @@ FilledCorner filled_corner(mfem::Mesh &mesh, const Eigen::Vector2d &point)
    return corner;
 }
 
-} // namespace miniapp
+} // namespace cattaneo

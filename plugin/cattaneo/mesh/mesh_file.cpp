@@ -1,6 +1,4 @@
-#include "common/mesh_file.hpp"
-
-#include "common/miniapp.hpp"
+#include <cattaneo/mesh/mesh_file.hpp>
 
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
@@ -15,11 +13,8 @@
 #include <sstream>
 #include <vector>
 
-namespace miniapp
+namespace cattaneo
 {
-
-using cattaneo::InputError;
-using cattaneo::require;
 
 namespace
 {
@@ -345,8 +340,47 @@ public:
    ~SilentErrors() { mfem::err.Enable(); }
 };
 
-/// Vertices that lie on one another are a crack, or were meant to be one.
-void warn_of_unjoined(const mfem::Mesh &mesh, const std::string &file)
+} // namespace
+
+mfem::Mesh read_mesh(const std::string &file)
+{
+   require(std::filesystem::exists(file), "mesh file cannot be read: there is no such file");
+   std::ifstream in(file);
+   require(in.good() && std::filesystem::is_regular_file(file), "mesh file cannot be read");
+   const long size = static_cast<long>(std::filesystem::file_size(file));
+   std::string line;
+   std::getline(in, line);
+   if (line.rfind("$MeshFormat", 0) == 0) { check_gmsh(in, size); }
+   else
+   {
+      require(size > 0, "mesh file is empty");
+      require(line.rfind("$NOD", 0) != 0, "Gmsh file is of format 1, must be 2.2, ASCII",
+              save_as_msh22);
+      const bool geometry = std::filesystem::path(file).extension() == ".geo";
+      require(line.rfind("MFEM mesh v1.", 0) == 0,
+              "mesh file must begin with 'MFEM mesh v1.' or '$MeshFormat' (Gmsh), not with '",
+              line.substr(0, 20), "'",
+              geometry
+                 ? ": this is a geometry, which gmsh -2 NAME.geo -format msh22 makes a mesh "
+                   "of"
+                 : "");
+      check_mfem(in, size);
+   }
+   in.close();
+   const SilentErrors silent;
+   mfem::Mesh mesh;
+   try
+   {
+      mesh = mfem::Mesh(file.c_str(), 1, 1);
+   }
+   catch (const std::exception &error)
+   {
+      throw InputError("mesh file cannot be read: " + reason(error.what()));
+   }
+   return mesh;
+}
+
+std::string unjoined_vertices(const mfem::Mesh &mesh, const std::string &name)
 {
    struct Vertex
    {
@@ -388,60 +422,19 @@ void warn_of_unjoined(const mfem::Mesh &mesh, const std::string &file)
          if (!first) { first = &a; }
       }
    }
-   if (pairs == 0) { return; }
+   if (pairs == 0) { return ""; }
    std::ostringstream text;
-   text << "mesh '" << file << "': " << pairs << " pairs of nodes lie on one another, as at ("
+   text << "mesh '" << name << "': " << pairs << " pairs of nodes lie on one another, as at ("
         << first->x << ", " << first->y
         << "): the body is cut there, and its faces may pass through each other; if it is one "
            "piece, join them (in Gmsh: Coherence Mesh)";
-   warn(text.str());
+   return text.str();
 }
 
-} // namespace
-
-mfem::Mesh read_mesh(const std::string &file)
-{
-   require(std::filesystem::exists(file), "mesh file cannot be read: there is no such file");
-   std::ifstream in(file);
-   require(in.good() && std::filesystem::is_regular_file(file), "mesh file cannot be read");
-   const long size = static_cast<long>(std::filesystem::file_size(file));
-   std::string line;
-   std::getline(in, line);
-   if (line.rfind("$MeshFormat", 0) == 0) { check_gmsh(in, size); }
-   else
-   {
-      require(size > 0, "mesh file is empty");
-      require(line.rfind("$NOD", 0) != 0, "Gmsh file is of format 1, must be 2.2, ASCII",
-              save_as_msh22);
-      const bool geometry = std::filesystem::path(file).extension() == ".geo";
-      require(line.rfind("MFEM mesh v1.", 0) == 0,
-              "mesh file must begin with 'MFEM mesh v1.' or '$MeshFormat' (Gmsh), not with '",
-              line.substr(0, 20), "'",
-              geometry
-                 ? ": this is a geometry, which gmsh -2 NAME.geo -format msh22 makes a mesh "
-                   "of"
-                 : "");
-      check_mfem(in, size);
-   }
-   in.close();
-   const SilentErrors silent;
-   mfem::Mesh mesh;
-   try
-   {
-      mesh = mfem::Mesh(file.c_str(), 1, 1);
-   }
-   catch (const std::exception &error)
-   {
-      throw InputError("mesh file cannot be read: " + reason(error.what()));
-   }
-   warn_of_unjoined(mesh, file);
-   return mesh;
-}
-
-void warn_of_lower_order(mfem::Mesh &mesh, int order, const std::string &file)
+std::string missed_curves(mfem::Mesh &mesh, int order, const std::string &name)
 {
    const int bent = mesh.GetNodes() ? mesh.GetNodalFESpace()->GetMaxElementOrder() : 1;
-   if (order >= bent) { return; }
+   if (order >= bent) { return ""; }
    // How far the mesh is from the curves through the nodes of its elements. Straight sides may
    // be said by many nodes.
    const mfem::H1_FECollection collection(order, 2);
@@ -468,13 +461,13 @@ void warn_of_lower_order(mfem::Mesh &mesh, int order, const std::string &file)
    mesh.GetBoundingBox(low, high);
    high -= low;
    missed /= high.Max();
-   if (missed <= 1e-10) { return; }
+   if (missed <= 1e-10) { return ""; }
    std::ostringstream text;
-   text << "the mesh of '" << file << "' is curved, elements of order " << order
+   text << "the mesh of '" << name << "' is curved, elements of order " << order
         << " miss it by " << missed
         << " of its size: turning the body takes forces that it should not; use option -order "
         << bent;
-   warn(text.str());
+   return text.str();
 }
 
-} // namespace miniapp
+} // namespace cattaneo
