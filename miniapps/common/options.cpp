@@ -275,6 +275,7 @@ void Options::read(const std::string &file)
    require(j.is_object(), where, " holds a JSON ", j.type_name(), ", must be an object");
    for (const auto &[name, value] : j.items())
    {
+      if (name == "$schema") { continue; } // for editors
       const Option *option = nullptr;
       std::string known;
       for (const Option &o : options_)
