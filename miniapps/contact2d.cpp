@@ -303,7 +303,7 @@ void contact2d(miniapp::Study &study)
    const bool unfinished = study.code != 0 && last_cycle > 0;
    const int ended = static_cast<int>(report.cycles.size()),
              first_cycle = last_cycle - ended + (unfinished ? 0 : 1);
-   report_cycles(study, report, 1, first_cycle);
+   report_cycles(study, problem, report, 1, first_cycle);
    study.results["first_cycle"] = ended == 0 ? 0 : first_cycle;
    study.results["total_dissipation"] = state.dissipation;
    study.results["advance_error"] = report.advance_error;

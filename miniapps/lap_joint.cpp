@@ -25,10 +25,11 @@
 using namespace cattaneo;
 using Eigen::Index;
 using Eigen::VectorXd;
+using miniapp::asymmetry;
+using miniapp::BoltedLoop;
 using miniapp::exact_text;
 using miniapp::half_width;
 using miniapp::Joint;
-using miniapp::Loop;
 using miniapp::none;
 using miniapp::Panel;
 using miniapp::read_out_error;
@@ -38,14 +39,7 @@ using miniapp::text;
 namespace
 {
 
-/// Largest deviation from mirror symmetry, over the largest value.
-double asymmetry(const VectorXd &forces)
-{
-   const double largest = forces.cwiseAbs().maxCoeff();
-   return largest > 0 ? (forces - forces.reverse()).cwiseAbs().maxCoeff() / largest : 0.0;
-}
-
-void draw(miniapp::Study &study, Joint &joint, const Loop &loop, Panel &diagram)
+void draw(miniapp::Study &study, Joint &joint, const BoltedLoop &loop, Panel &diagram)
 {
    const ReducedProblem &problem = joint.problem();
    const VectorXd x = problem.position.col(0);
@@ -108,10 +102,10 @@ void single(miniapp::Study &study, Joint &joint)
                            {"load", named(problem, state.multipliers).at("T")},
                            {"zones", miniapp::to_json(all, shift)}});
    };
-   const Loop o = pull(run, joint.tightening({0}, joint.P0()), joint.load * joint.P0(),
-                       joint.cycles, observe);
+   const BoltedLoop o = pull(run, joint.tightening({0}, joint.P0()), joint.load * joint.P0(),
+                             joint.cycles, observe);
    report_exact_path(study, run);
-   report_cycles(study, o.report, joint.unit());
+   report_cycles(study, problem, o.report, joint.unit());
    study.title(exact_text("P only, then T/P0 = ", joint.load));
    const double a = half_width(o.pulled), a_error = read_out_error(o.pulled),
                 c = half_width(o.stick_first), c_error = read_out_error(o.stick_first);
@@ -200,8 +194,8 @@ void sweep(miniapp::Study &study, Joint &joint, const std::vector<double> &loads
          {
             for (double T : loads)
             {
-               const Loop o = pull(run, joint.tightening({0}, width, pressure), T * joint.P0(),
-                                   joint.cycles);
+               const BoltedLoop o = pull(run, joint.tightening({0}, width, pressure),
+                                         T * joint.P0(), joint.cycles);
                const bool ends = !o.converged();
                const double loss = ends ? none : o.steady() / joint.unit();
                const auto half = [&](const Zone &zone)
@@ -250,7 +244,7 @@ void row(miniapp::Study &study, Joint &joint, const std::vector<std::vector<int>
                                 "D' E' t/P0² × 10³");
    for (const std::vector<int> &order : all)
    {
-      const Loop o =
+      const BoltedLoop o =
          pull(run, joint.tightening(order, joint.P0()), joint.load * joint.P0(), joint.cycles);
       std::string label;
       nlohmann::ordered_json numbers = nlohmann::ordered_json::array();

@@ -46,13 +46,6 @@ miniapp::Extent extent(const ReducedProblem &problem, const ContactState &state,
    return miniapp::extent(problem, state, false, -overhang);
 }
 
-double interpolate(const VectorXd &x, const VectorXd &y, double at)
-{
-   Index k = 1;
-   while (k + 1 < x.size() && x[k] < at) { ++k; }
-   return y[k - 1] + (y[k] - y[k - 1]) * (at - x[k - 1]) / (x[k] - x[k - 1]);
-}
-
 /// Nodes before a place of the line.
 Index nodes_before(const VectorXd &x, double at)
 {
@@ -137,27 +130,6 @@ void map(miniapp::Study &study, ReducedProblem &problem, const std::vector<doubl
       miniapp::text("map of %zu states in %.2f s", table.json().size(), watch.seconds()));
 }
 
-/// History of one point of the contact line.
-struct PointHistory
-{
-   double xi = 0;
-   Index node = 0;
-   std::vector<double> level, slip;
-   double slips_from = none, separates_at = none; ///< p/p0 during unloading
-   double step = 0; ///< half of the largest step of p/p0: what is not known of the two
-
-   void note(double now, double slip_now, NodeState status)
-   {
-      // Some time during the step: its middle.
-      const double before = level.back(), change = 0.5 * (now + before);
-      level.push_back(now);
-      slip.push_back(slip_now);
-      step = std::max(step, 0.5 * (before - now));
-      if (slips(status) && !std::isfinite(slips_from)) { slips_from = change; }
-      if (!closed(status) && !std::isfinite(separates_at)) { separates_at = change; }
-   }
-};
-
 /// Unloading from the loaded state (thesis 5.3.2), in steps that shrink with the load; reports
 /// the wanted levels, and the slip of some points.
 struct Unloading
@@ -173,15 +145,8 @@ void unload(miniapp::Study &study, miniapp::Run &run, const Unloading &options)
    const ReducedProblem &problem = run.solver.problem();
    const VectorXd xi = problem.arc_length.array() - options.overhang;
    const std::string load = overhang_load(options.overhang);
-   std::vector<PointHistory> histories;
-   for (double point : options.points)
-   {
-      PointHistory &h = histories.emplace_back();
-      h.xi = point;
-      (xi.array() - point).abs().minCoeff(&h.node);
-      h.level = {0.0, 1.0};
-      h.slip = {0.0, interpolate(xi, run.state.v, point)};
-   }
+   std::vector<miniapp::PointHistory> histories;
+   for (double point : options.points) { histories.emplace_back(point, xi, run.state.v); }
    Panel &profiles = study.panel(Panel::Kind::lines, "tractions",
                                  "Pressure p and shear q over f", "ξ/t", "p/p0, q/(f p0)"),
          &diagram =
@@ -210,10 +175,7 @@ void unload(miniapp::Study &study, miniapp::Run &run, const Unloading &options)
       const miniapp::Extent found = extent(problem, now, options.overhang);
       diagram.add(level, found.zones);
       const std::vector<NodeState> settled = settled_states(problem, now);
-      for (PointHistory &h : histories)
-      {
-         h.note(level, interpolate(xi, now.v, h.xi), settled[h.node]);
-      }
+      for (miniapp::PointHistory &h : histories) { h.note(level, now.v, settled[h.node]); }
       const auto is = [&](double value) { return std::abs(level - value) < 1e-9; };
       if (std::none_of(options.wanted.begin(), options.wanted.end(), is)) { return; }
       std::vector<nlohmann::ordered_json> row = {level, -found.separation, -found.stick};
@@ -240,7 +202,7 @@ void unload(miniapp::Study &study, miniapp::Run &run, const Unloading &options)
                                                   {"slips_from", "sticks to", "%.3f"},
                                                   {"separates_at", "separates at", "%.3f"},
                                                   {"level_error", "±", "%.2g"}});
-   for (const PointHistory &h : histories)
+   for (const miniapp::PointHistory &h : histories)
    {
       study.row(points, {h.xi, h.slip[1], h.slips_from, h.separates_at, h.step}, {},
                 {{"level", h.level}, {"slip", h.slip}});

@@ -110,7 +110,7 @@ void square_punch(miniapp::Study &study)
    run.settings.increments_of_piece = {2 * n, 4 * n, 2 * n};
    run.cycle({{{"Q", Q}}, {{"Q", -Q}}}, cycles);
    report_exact_path(study, run);
-   report_cycles(study, run.report);
+   report_cycles(study, problem, run.report);
    if (run.report.cycles.size() > 1)
    {
       study.value("steady_loss", run.report.cycles.back().dissipation, "steady loss a cycle");

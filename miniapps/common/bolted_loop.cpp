@@ -28,10 +28,10 @@ std::vector<NamedLoads> Joint::tightening(const std::vector<int> &order, double 
    return points;
 }
 
-Loop pull(Run &run, std::vector<NamedLoads> points, double load, int cycles,
-          const Observer &observe)
+BoltedLoop pull(Run &run, std::vector<NamedLoads> points, double load, int cycles,
+                const Observer &observe)
 {
-   Loop loop;
+   BoltedLoop loop;
    const ReducedProblem &problem = run.solver.problem();
    const int tightened = static_cast<int>(points.size()) - 1;
    NamedLoads loaded = points.back();
@@ -147,6 +147,12 @@ double half_width(const Zone &zone)
 double read_out_error(const Zone &zone)
 {
    return std::max(zone.from.error, zone.to.error);
+}
+
+double asymmetry(const Eigen::VectorXd &forces)
+{
+   const double largest = forces.cwiseAbs().maxCoeff();
+   return largest > 0 ? (forces - forces.reverse()).cwiseAbs().maxCoeff() / largest : 0.0;
 }
 
 } // namespace miniapp

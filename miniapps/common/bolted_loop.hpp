@@ -31,7 +31,7 @@ struct Joint
 };
 
 /// What a history of tightening and cycles gave.
-struct Loop
+struct BoltedLoop
 {
    cattaneo::MarchReport report;
    cattaneo::ContactState tightened, first_peak, first_end, last_peak;
@@ -58,8 +58,8 @@ struct Loop
 using Observer = std::function<void(const cattaneo::ContactState &)>;
 
 /// Marches through the tightening points, then cycles the remote load between 0 and `load`.
-Loop pull(Run &run, std::vector<cattaneo::NamedLoads> points, double load, int cycles,
-          const Observer &observe = {});
+BoltedLoop pull(Run &run, std::vector<cattaneo::NamedLoads> points, double load, int cycles,
+                const Observer &observe = {});
 
 /// Remote compression at which a free end touches the other lap; NaN if none does before
 /// `limit`.
@@ -71,5 +71,8 @@ std::vector<std::vector<int>> orders(const std::string &text, const std::vector<
 /// Of a stretch of contact or stick: none is of width 0, and borders have errors.
 double half_width(const cattaneo::Zone &zone);
 double read_out_error(const cattaneo::Zone &zone);
+
+/// Largest deviation from mirror symmetry, over the largest value.
+double asymmetry(const Eigen::VectorXd &forces);
 
 } // namespace miniapp

@@ -166,4 +166,30 @@ BondedTractions bonded_tractions(const ReducedProblem &problem, double overhang)
    return result;
 }
 
+PointHistory::PointHistory(double xi_, const VectorXd &positions, const VectorXd &slip_)
+   : xi(xi_), positions_(positions)
+{
+   (positions.array() - xi).abs().minCoeff(&node);
+   slip.push_back(interpolated(slip_));
+}
+
+double PointHistory::interpolated(const VectorXd &of) const
+{
+   const VectorXd &x = positions_;
+   Index k = 1;
+   while (k + 1 < x.size() && x[k] < xi) { ++k; }
+   return of[k - 1] + (of[k] - of[k - 1]) * (xi - x[k - 1]) / (x[k] - x[k - 1]);
+}
+
+void PointHistory::note(double now, const VectorXd &slip_, NodeState status)
+{
+   // Some time during the step: its middle.
+   const double before = level.back(), change = 0.5 * (now + before);
+   level.push_back(now);
+   slip.push_back(interpolated(slip_));
+   step = std::max(step, 0.5 * (before - now));
+   if (slips(status) && !std::isfinite(slips_from)) { slips_from = change; }
+   if (!closed(status) && !std::isfinite(separates_at)) { separates_at = change; }
+}
+
 } // namespace miniapp

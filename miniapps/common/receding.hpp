@@ -3,6 +3,7 @@
 #include "common/scene.hpp"
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -66,5 +67,25 @@ struct BondedTractions
 std::string overhang_load(double overhang);
 
 BondedTractions bonded_tractions(const cattaneo::ReducedProblem &problem, double overhang);
+
+/// History of one point of the contact line while a load is taken back from full to less.
+struct PointHistory
+{
+   /// @param positions of the nodes
+   /// @param slip of the nodes under full load
+   PointHistory(double xi, const Eigen::VectorXd &positions, const Eigen::VectorXd &slip);
+   void note(double level, const Eigen::VectorXd &slip, cattaneo::NodeState status);
+
+   double xi;
+   Eigen::Index node = 0; ///< the nearest one
+   std::vector<double> level = {0, 1}, slip = {0};
+   double slips_from = std::numeric_limits<double>::quiet_NaN(),
+          separates_at = std::numeric_limits<double>::quiet_NaN();
+   double step = 0; ///< half of the largest step of the level: what is not known of the two
+
+private:
+   double interpolated(const Eigen::VectorXd &of) const;
+   Eigen::VectorXd positions_;
+};
 
 } // namespace miniapp

@@ -104,7 +104,36 @@ void report_exact_path(Study &study, const ReducedProblem &problem, const MarchR
    study.results["fallback_reason"] = report.fallback_reason;
 }
 
-void report_cycles(Study &study, const MarchReport &report, double unit, int first)
+namespace
+{
+
+/// Force over displacement in the cycles, of each load that varied in them.
+void draw_loops(Study &study, const ReducedProblem &problem, const MarchReport &report)
+{
+   Panel &panel = study.panel(Panel::Kind::lines, "loops", "Loads over their displacements",
+                              "displacement", "force");
+   for (int k = 0; k < static_cast<int>(problem.patterns.size()); ++k)
+   {
+      const LoadPattern &pattern = problem.patterns[k];
+      std::vector<double> multipliers, conjugates;
+      for (const IncrementRecord &record : report.increments)
+      {
+         if (record.cycle == 0) { continue; }
+         multipliers.push_back(record.multipliers[k]);
+         conjugates.push_back(record.conjugates[k]);
+      }
+      const auto [least, most] = std::minmax_element(multipliers.begin(), multipliers.end());
+      if (multipliers.empty() || *least == *most) { continue; }
+      const bool force = pattern.control == Control::force;
+      panel.add(pattern.name, force ? conjugates : multipliers,
+                force ? multipliers : conjugates);
+   }
+}
+
+} // namespace
+
+void report_cycles(Study &study, const ReducedProblem &problem, const MarchReport &report,
+                   double unit, int first)
 {
    Table &cycles = study.table("cycles", {{"cycle", "cycle"},
                                           {"dissipation", "dissipation", "%.4e"},
@@ -113,11 +142,23 @@ void report_cycles(Study &study, const MarchReport &report, double unit, int fir
    ordered_json &losses = study.results["dissipation"] = ordered_json::array();
    for (const CycleRecord &cycle : report.cycles)
    {
-      study.row(cycles, {first + static_cast<int>(losses.size()), cycle.dissipation / unit,
-                         cycle.external_work / unit, cycle.slip_change});
+      ordered_json loops = ordered_json::array();
+      for (std::size_t k = 0; k < cycle.loops.size(); ++k)
+      {
+         const Loop &loop = cycle.loops[k];
+         loops.push_back({{"load", problem.patterns[k].name},
+                          {"work", loop.work() / unit},
+                          {"stiffness", loop.stiffness()},
+                          {"loss_factor", loop.loss_factor()}});
+      }
+      study.row(cycles,
+                {first + static_cast<int>(losses.size()), cycle.dissipation / unit,
+                 cycle.external_work / unit, cycle.slip_change},
+                {}, {{"loops", loops}});
       losses.push_back(cycle.dissipation / unit);
    }
    report_steady(study, report);
+   draw_loops(study, problem, report);
 }
 
 void report_steady(Study &study, const MarchReport &report)

@@ -62,11 +62,12 @@ void report_exact_path(Study &study, const Run &run);
 void report_exact_path(Study &study, const cattaneo::ReducedProblem &problem,
                        const cattaneo::MarchReport &report);
 
-/// A table of the cycles of a march and from where on they are steady; `dissipation`,
+/// A table of the cycles of a march with the loops of its loads (cattaneo::Loop), which are
+/// drawn, and from where on they are steady; `dissipation`,
 /// `steady_cycle`, `steady_period` and `energy_imbalance` of the results. Energies are printed
 /// in `unit`s, and the first cycle has a number.
-void report_cycles(Study &study, const cattaneo::MarchReport &report, double unit = 1,
-                   int first = 1);
+void report_cycles(Study &study, const cattaneo::ReducedProblem &problem,
+                   const cattaneo::MarchReport &report, double unit = 1, int first = 1);
 
 /// From where on the cycles are steady, and how well energies balance: `steady_cycle`,
 /// `steady_period` and `energy_imbalance`.

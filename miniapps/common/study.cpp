@@ -1,5 +1,6 @@
 #include "common/study.hpp"
 
+#include <algorithm>
 #include <cattaneo/reduced/reduced_file.hpp>
 #include <cmath>
 #include <cstdio>
@@ -164,7 +165,12 @@ void Study::finish()
       sheets.push_back(sheet());
       if (sheets.back().text.empty()) { sheets.pop_back(); }
    }
-   output(sheets, csv_, plot_);
+   const bool drawn =
+      std::any_of(sheets.begin(), sheets.end(), [](const Sheet &sheet) { return sheet.drawn; });
+   // Whose loads no contact bears may end before there is anything to be drawn.
+   const bool nothing = code != 0 && !plot_.empty() && !drawn;
+   if (nothing) { say("no picture: the study ended before there was anything to draw"); }
+   output(sheets, code != 0 && sheets.empty() ? "" : csv_, nothing ? "" : plot_);
 }
 
 int Study::run(const std::string &name, int argc, char *argv[],
