@@ -1,6 +1,7 @@
 #include "common/run.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <set>
 #include <sstream>
@@ -146,6 +147,7 @@ void report_cycles(Study &study, const ReducedProblem &problem, const MarchRepor
       for (std::size_t k = 0; k < cycle.loops.size(); ++k)
       {
          const Loop &loop = cycle.loops[k];
+         if (std::isnan(loop.stiffness())) { continue; } // the load did not vary
          loops.push_back({{"load", problem.patterns[k].name},
                           {"work", loop.work() / unit},
                           {"stiffness", loop.stiffness()},

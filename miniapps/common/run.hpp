@@ -62,10 +62,10 @@ void report_exact_path(Study &study, const Run &run);
 void report_exact_path(Study &study, const cattaneo::ReducedProblem &problem,
                        const cattaneo::MarchReport &report);
 
-/// A table of the cycles of a march with the loops of its loads (cattaneo::Loop), which are
-/// drawn, and from where on they are steady; `dissipation`,
-/// `steady_cycle`, `steady_period` and `energy_imbalance` of the results. Energies are printed
-/// in `unit`s, and the first cycle has a number.
+/// A table of the cycles of a march with the loops of the loads that vary (cattaneo::Loop),
+/// which are drawn, and from where on they are steady; `dissipation`, `steady_cycle`,
+/// `steady_period` and `energy_imbalance` of the results. Energies are printed in `unit`s, and
+/// the first cycle has a number.
 void report_cycles(Study &study, const cattaneo::ReducedProblem &problem,
                    const cattaneo::MarchReport &report, double unit = 1, int first = 1);
 
