@@ -10,7 +10,8 @@
 //
 //  Also for any contact saved with --save (or save() of a reduced problem): name the pattern
 //  that is held and the one that is cycled; --closed keeps the nodes that stay closed in a
-//  march at the limit, and marches the whole contact on both sides of it.
+//  march at the limit, and marches the whole contact on both sides of it. With --plot the maps
+//  and the marches are made.
 //
 //  Sample runs:  shakedown
 //                shakedown -nodes 101 -find load -friction 1 -reversal -1 -march -cycles 30
