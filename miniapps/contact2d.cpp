@@ -13,6 +13,7 @@
 #include "common/own_bodies.hpp"
 #include "common/run.hpp"
 #include "common/statements.hpp"
+#include "common/watch.hpp"
 
 #include <algorithm>
 #include <cattaneo/friction/critical_friction.hpp>
@@ -277,6 +278,8 @@ void contact2d(miniapp::Study &study)
       }
       if (frame) { recorded.push_back(reached); }
    };
+   miniapp::Watch watch("march");
+   options.settings.monitor = watch.monitor();
    const MarchReport report = march(problem, history, state, options.settings, observe);
    require(std::isfinite(report.energy_imbalance) && std::isfinite(state.dissipation),
            "the energies of the march overflow: the loads or the moduli need other units");

@@ -53,16 +53,6 @@ std::string without_unset(const std::string &text)
    return result;
 }
 
-/// Tests make scenes without starting MPI.
-int world_size()
-{
-#ifdef MFEM_USE_MPI
-   return mfem::Mpi::IsInitialized() ? mfem::Mpi::WorldSize() : 1;
-#else
-   return 1;
-#endif
-}
-
 /// True if the other ranks come here too, within a second: most errors are seen by all alike.
 bool all_fail()
 {
@@ -83,6 +73,16 @@ bool all_fail()
 
 } // namespace
 
+int ranks()
+{
+#ifdef MFEM_USE_MPI
+   // Tests make scenes without starting MPI.
+   return mfem::Mpi::IsInitialized() ? mfem::Mpi::WorldSize() : 1;
+#else
+   return 1;
+#endif
+}
+
 bool writes()
 {
 #ifdef MFEM_USE_MPI
@@ -96,11 +96,11 @@ std::unique_ptr<mfem::Mesh> distribute(mfem::Mesh mesh, [[maybe_unused]] int ord
 {
 #ifdef MFEM_USE_MPI
    const mfem::H1_FECollection elements(order, mesh.Dimension());
-   if (world_size() > 1 && mfem::FiniteElementSpace(&mesh, &elements, 2).GetTrueVSize() >
-                              condense_settings.direct_dofs)
+   if (ranks() > 1 && mfem::FiniteElementSpace(&mesh, &elements, 2).GetTrueVSize() >
+                         condense_settings.direct_dofs)
    {
-      cattaneo::require(mesh.GetNE() >= world_size(), "the mesh has ", mesh.GetNE(),
-                        " elements for ", world_size(),
+      cattaneo::require(mesh.GetNE() >= ranks(), "the mesh has ", mesh.GetNE(),
+                        " elements for ", ranks(),
                         " ranks, there must be at least one for each");
       return std::make_unique<mfem::ParMesh>(MPI_COMM_WORLD, mesh);
    }
@@ -141,7 +141,7 @@ int run(const std::function<int()> &body)
 
 void parse(mfem::OptionsParser &options)
 {
-   if (world_size() > 1)
+   if (ranks() > 1)
    {
       options.AddOption(
          &condense_settings.direct_dofs, "-direct-dofs", "--direct-dofs",

@@ -20,6 +20,9 @@ namespace miniapp
    error that only one rank sees ends the others too. */
 int run(const std::function<int()> &body);
 
+/// How many ranks run this.
+int ranks();
+
 /// True on the rank that writes files.
 bool writes();
 

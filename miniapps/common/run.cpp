@@ -1,5 +1,7 @@
 #include "common/run.hpp"
 
+#include "common/watch.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -56,7 +58,10 @@ const MarchReport &Run::cycle(const std::vector<NamedLoads> &points, int cycles,
 const MarchReport &Run::march(const LoadHistory &history, const MarchObserver &observe)
 {
    state.time = 0;
+   Watch watch("march");
+   settings.monitor = watch.monitor();
    report = cattaneo::march(solver, history, state, settings, observe);
+   settings.monitor = {};
    study_.counters += report.counters;
    if (exit_code(solver.problem(), report) != 0 && leaves)
    {

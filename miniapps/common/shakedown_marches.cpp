@@ -28,13 +28,20 @@ TransientReport Shakedown::counted(TransientReport run)
 {
    warn_of_cut_off(run.cut_off);
    study.counters += run.counters;
+   if (run.verdict == TransientVerdict::stopped)
+   {
+      study.say("Stopped: " + run.message);
+      results["status"] = name(run.status);
+      throw Outcome();
+   }
    return run;
 }
 
-TransientSettings Shakedown::of_cycles() const
+TransientSettings Shakedown::of_cycles(Watch &watch) const
 {
    TransientSettings settings;
    settings.cycles = cycles;
+   settings.march.monitor = watch.monitor();
    return settings;
 }
 
@@ -50,6 +57,7 @@ void Shakedown::check_open_nodes()
                smallest >= 0 ? "the assumption holds" : "the assumption FAILS");
    const LimitProblem all = limit_problem(whole, cycle_of(whole, reversal));
    FrictionSolver solver(whole);
+   Watch watch("march of the whole contact");
    VectorXd start = VectorXd::Zero(whole.slips());
    for (std::size_t i = 0; i < part.closed.size(); ++i)
    {
@@ -65,7 +73,7 @@ void Shakedown::check_open_nodes()
    for (const double side : {-0.01, 0.01})
    {
       const TransientReport run =
-         counted(transient(solver, all, (1 + side) * most.limit, start, of_cycles()));
+         counted(transient(solver, all, (1 + side) * most.limit, start, of_cycles(watch)));
       const double loss = run.dissipation.empty() ? none : run.dissipation.back();
       study.row(table, {run.load_factor, outcome(run), loss / run.energy});
    }
@@ -113,6 +121,7 @@ void Shakedown::marches()
       study.panel(Panel::Kind::lines, "losses", "Loss in the cycle", "cycle", "loss × E'/P²");
    losses.say("scale: semilogy");
    FrictionSolver solver(limit.reduced);
+   Watch watch("march");
    VectorXd optimal = best().slip;
    if (best().ray.size()) { optimal += lambda_max * best().ray; }
    bool opened = false;
@@ -120,7 +129,7 @@ void Shakedown::marches()
         {std::pair{"zero", 0.0}, {"optimal", 1.0}, {"negative optimal", -1.0}})
    {
       const TransientReport run =
-         counted(transient(solver, limit, lambda_max, sign * optimal, of_cycles()));
+         counted(transient(solver, limit, lambda_max, sign * optimal, of_cycles(watch)));
       const auto &loss = run.dissipation;
       study.row(table,
                 {start, loss.empty() ? none : loss.front(), loss.empty() ? none : loss.back(),
@@ -154,7 +163,7 @@ void Shakedown::marches()
                 assumption + ".");
    }
    if (most.status != LimitStatus::certified) { return; }
-   const TransientBracket bracket = transient_bracket(limit, most, 0.005, of_cycles());
+   const TransientBracket bracket = transient_bracket(limit, most, 0.005, of_cycles(watch));
    for (const auto *side : {&bracket.below, &bracket.above})
    {
       std::string line = text(

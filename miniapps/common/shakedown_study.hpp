@@ -2,6 +2,7 @@
 
 #include "common/punch.hpp"
 #include "common/run.hpp"
+#include "common/watch.hpp"
 
 #include <cattaneo/shakedown/closed_contact.hpp>
 #include <cattaneo/shakedown/limit.hpp>
@@ -48,7 +49,7 @@ private:
    /// The cycle and the friction of the limit problem.
    void as_before();
    cattaneo::TransientReport counted(cattaneo::TransientReport run);
-   cattaneo::TransientSettings of_cycles() const;
+   cattaneo::TransientSettings of_cycles(Watch &watch) const;
    /// Of the nodes taken to stay open: their gaps at the limit, and marches of the whole
    /// contact in which they are free to close.
    void check_open_nodes();

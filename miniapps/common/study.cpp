@@ -78,7 +78,8 @@ void Study::value(const std::string &key, double x, const std::string &label, do
    if (!std::isnan(error)) { results[key + "_error"] = error; }
    if (references_.has(key)) { found_.push_back({key, x, error, {}}); }
    if (label.empty()) { return; }
-   std::string line = "   " + padded(label, 38) + (std::isfinite(x) ? text("%.6g", x) : "-");
+   std::string line =
+      "   " + padded(label, 40) + " " + (std::isfinite(x) ? text("%.6g", x) : "-");
    if (error > 0) { line += " ± " + error_text(error); }
    say(line + (unit.empty() ? "" : " " + unit));
 }

@@ -75,7 +75,7 @@ void Table::print_headings()
    std::string line;
    for (const Column &column : columns_)
    {
-      if (!column.heading.empty()) { line += right(column.heading, width(column)); }
+      if (!column.heading.empty()) { line += "  " + right(column.heading, width(column) - 2); }
    }
    if (!line.empty()) { std::printf("\n%s\n", line.c_str()); }
 }
@@ -92,7 +92,10 @@ const ordered_json &Table::row(const std::vector<ordered_json> &values,
    {
       const Column &column = columns_[k];
       if (!column.key.empty()) { row[column.key] = values[k]; }
-      if (!column.heading.empty()) { line += right(cell(values[k], column), width(column)); }
+      if (!column.heading.empty())
+      {
+         line += "  " + right(cell(values[k], column), width(column) - 2);
+      }
    }
    if (!line.empty()) { std::printf("%s\n", line.c_str()); }
    std::fflush(stdout);

@@ -1,0 +1,55 @@
+"""interrupt.py PROGRAMS: Ctrl-C leaves what was computed; progress is shown on a terminal and nowhere else."""
+
+import json
+import os
+import pathlib
+import pty
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+# Minutes, if nobody interrupts them.
+LONG = {"lap_joint": "-all-cycles -cycles 100000 -spacing 0.05",
+        "axisymmetric_receding": "-cycles 10000 -amplitude 0.6 -spacing 0.05"}
+
+
+def interrupted(program, options, folder, terminal):
+    """What is left of a run that is interrupted after some seconds: exit code, stdout, stderr, results."""
+    results = folder / "results.json"
+    results.unlink(missing_ok=True)
+    ours, theirs = pty.openpty() if terminal else os.pipe()
+    with open(folder / "out", "w", encoding="utf-8") as out:
+        run = subprocess.Popen([program, *options.split(), "--json", str(results)], stdout=out, stderr=theirs)
+        os.close(theirs)
+        time.sleep(6)
+        assert run.poll() is None, f"{program} ended by itself: " + (folder / "out").read_text(encoding="utf-8")
+        run.send_signal(signal.SIGINT)
+        code = run.wait(60)
+    shown = b""
+    try:
+        while chunk := os.read(ours, 65536):
+            shown += chunk
+    except OSError:  # a terminal whose other side is closed
+        pass
+    os.close(ours)
+    return (code, (folder / "out").read_text(encoding="utf-8"), shown.decode(),
+            json.loads(results.read_text(encoding="utf-8")))
+
+
+def main():
+    programs = pathlib.Path(sys.argv[1])
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        for program, options in LONG.items():
+            for terminal in (True, False):
+                code, out, shown, results = interrupted(str(programs / program), options, folder, terminal)
+                assert code == 2, (program, code, out)
+                assert results["status"] == "stopped", (program, results["status"])
+                assert "topped" in out, (program, out)
+                assert (" steps, " in shown and "%" in shown) if terminal else shown == "", (program, terminal, shown)
+                assert " steps, " not in out, (program, out)
+
+
+main()
