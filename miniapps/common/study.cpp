@@ -121,11 +121,6 @@ Panel &Study::panel(Panel::Kind kind, const std::string &name, const std::string
    return panels_.back();
 }
 
-void Study::sheet(const std::string &name, const std::string &csv)
-{
-   sheets_.push_back([=] { return Sheet{name, csv, false}; });
-}
-
 void Study::compare(const std::string &name, double exact, Allowed allowed, double computed)
 {
    compared_.add(name, exact, allowed, computed);

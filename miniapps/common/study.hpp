@@ -89,8 +89,6 @@ public:
    /// A panel of the figure; stays where it is.
    Panel &panel(Panel::Kind kind, const std::string &name, const std::string &title,
                 const std::string &x_label, const std::string &y_label);
-   /// A CSV file that is not drawn.
-   void sheet(const std::string &name, const std::string &csv);
 
    /// A closed form beside what was computed, in the table of references.
    void compare(const std::string &name, double exact, Allowed allowed, double computed);

@@ -131,6 +131,33 @@ TEST_F(Options, EveryStudyTakesACaseFile)
    expect_refused("hertz", write(R"({"body": 3})"), {"key 'body'", "3", "a string"});
 }
 
+/// --plot FILE of every study, in every format, is a picture and leaves nothing else behind.
+TEST_F(Options, EveryStudyDrawsAPicture)
+{
+   const std::string reduced = testing::TempDir() + "drawn.json";
+   const std::pair<const char *, std::string> runs[] = {
+      {"square_punch", "-nodes 33 -save '" + reduced + "'"},
+      {"shakedown", "-nodes 17 -cycles 3"},
+      {"shakedown", "-find load -friction 0.8 -cycles 3 -reduced '" + reduced + "'"},
+      {"hertz", "-nodes 33"},
+      {"plane_receding", "-spacing 0.1 -corner 0.02"},
+      {"axisymmetric_receding", "-spacing 0.1"},
+      {"lap_joint", "-spacing 0.05 -increments 5"},
+      {"contact2d", "--case meshes/rounded_punch.json --cycles 1"},
+      {"fretting", "-Q 50"}};
+   std::size_t pictures = 0;
+   for (const auto &[program, options] : runs)
+   {
+      const char *types[] = {".png", ".pdf", ".svg"};
+      const std::string picture = folder + "/" + std::to_string(pictures) + types[pictures % 3];
+      ++pictures;
+      const auto run = run_miniapp(program, options + " --plot '" + picture + "'");
+      EXPECT_EQ(run.code, 0) << program << " " << options << "\n" << run.output;
+      EXPECT_TRUE(fs::exists(picture) && fs::file_size(picture) > 5000) << picture;
+      EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), pictures) << program;
+   }
+}
+
 TEST_F(Options, ListsAndChoicesSayWhatIsAllowed)
 {
    expect_refused("lap_joint", "--bolts '0 0'", {"option --bolts", "two bolts at 0"});
