@@ -97,7 +97,7 @@ Answer hertz(const Resolution &r)
       miniapp::deviation(problem, state.p, p0, [&](double s) { return p0 * ellipse(s, 1); })
          .mean};
    follow(solver, LoadHistory::through({Vector2d(1, 0), Vector2d(1, shear * f)}), state);
-   const Zone stick = widest_zone(problem, state, NodeState::stick);
+   const Zone stick = widest_zone(zones(problem, state), NodeState::stick);
    const double found = 0.5 * (stick.to.position - stick.from.position);
    answer.values.push_back(found);
    answer.values.push_back(
@@ -161,7 +161,8 @@ Answer lubkin(const Resolution &r)
    const double shift = radius[0] - problem.arc_length[0];
    const double edge = contact_zone(problem, state).to.position + shift;
    solve(f * load / (G * a * a) * lubkin_rotation(c));
-   const double stick = widest_zone(problem, state, NodeState::stick).to.position + shift;
+   const double stick =
+      widest_zone(zones(problem, state), NodeState::stick).to.position + shift;
    const double torque = -radius.dot(state.q.tail(n)) / (f * load * a);
    Answer answer;
    answer.values = {torque / lubkin_torque(c), stick / a / c, edge / a};
@@ -251,10 +252,10 @@ Answer punch(const Resolution &r)
    FrictionSolver solver(problem);
    ContactState pressed = ContactState::virgin(problem);
    follow(solver, LoadHistory::through({Vector2d(0, 0), Vector2d(1, 0)}), pressed);
-   const double stick = widest_zone(problem, pressed, NodeState::stick).to.position - 1;
+   const double stick = widest_zone(zones(problem, pressed), NodeState::stick).to.position - 1;
    ContactState state = pressed;
    follow(solver, LoadHistory::through({Vector2d(1, 0), Vector2d(1, 0.5 * f)}), state);
-   const double right = widest_zone(problem, state, NodeState::stick).to.position - 1;
+   const double right = widest_zone(zones(problem, state), NodeState::stick).to.position - 1;
    const double Q = 0.8 * f;
    LoadHistory cycle =
       LoadHistory::through({Vector2d(1, 0), Vector2d(1, Q), Vector2d(1, -Q), Vector2d(1, 0)});
@@ -353,7 +354,7 @@ Answer lap_joint(const Resolution &r)
    const double a0 = half(contact_zone(problem, state));
    follow(solver, LoadHistory::through({Vector2d(1, 0), Vector2d(1, T)}), state);
    const double a = half(contact_zone(problem, state)),
-                c = half(widest_zone(problem, state, NodeState::stick));
+                c = half(widest_zone(zones(problem, state), NodeState::stick));
    LoadHistory cycle = LoadHistory::through({Vector2d(1, 0), Vector2d(1, T), Vector2d(1, 0)});
    cycle.cycle_start = 0;
    cycle.cycles = 2;

@@ -70,7 +70,7 @@ TEST(Zones, EdgesOfHertzAndCattaneoMindlinAreFoundBetweenNodes)
          EXPECT_GT(all[k].to.error, 0);
          EXPECT_LE(all[k].to.error, 0.015 + 1e-12);
       }
-      const Zone stick = widest_zone(s.problem, s.state, NodeState::stick);
+      const Zone stick = widest_zone(zones(s.problem, s.state), NodeState::stick);
       EXPECT_EQ(stick.first, all[2].first);
       const Zone contact = contact_zone(s.problem, s.state);
       EXPECT_NEAR(contact.to.position - contact.from.position, 2, 1e-10);
@@ -84,7 +84,7 @@ TEST(Zones, StickThatGrowsIsReadFromItsReserve)
    {
       Sampled s = cattaneo_mindlin(101, 0.6123, shift);
       s.state.slip_origin.array() -= 1;
-      const Zone stick = widest_zone(s.problem, s.state, NodeState::stick);
+      const Zone stick = widest_zone(zones(s.problem, s.state), NodeState::stick);
       EXPECT_NEAR(stick.to.position, 1.5 + shift + 0.6123, 0.1 * 0.03);
       EXPECT_NEAR(stick.from.position, 1.5 + shift - 0.6123, 0.1 * 0.03);
    }
@@ -98,8 +98,8 @@ TEST(Zones, FewNodesFallBackToTheMiddle)
       EXPECT_LE(zone.from.position, zone.to.position);
       EXPECT_LE(zone.to.error, 0.3751) << "a spacing";
    }
-   EXPECT_GT(widest_zone(s.problem, s.state, NodeState::backward_slip).first,
-             widest_zone(s.problem, s.state, NodeState::backward_slip).last);
+   EXPECT_GT(widest_zone(zones(s.problem, s.state), NodeState::backward_slip).first,
+             widest_zone(zones(s.problem, s.state), NodeState::backward_slip).last);
 }
 
 TEST(Zones, EndsOfACompleteContactAreItsEndNodes)
@@ -652,7 +652,7 @@ TEST(Zones, StickUpToTheEndsIsKnownToASpacing)
    s.problem.arc_length << 0, 0.1, 0.2, 3, 7, 20;
    s.state.status[3] = NodeState::forward_slip;
    s.state.v[3] = 1;
-   EXPECT_EQ(widest_zone(s.problem, s.state, NodeState::stick).first, 4);
+   EXPECT_EQ(widest_zone(zones(s.problem, s.state), NodeState::stick).first, 4);
    // A node that opens between parts the contact.
    s.state.status[3] = NodeState::separation;
    s.state.p[3] = 0;

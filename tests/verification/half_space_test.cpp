@@ -328,7 +328,7 @@ TEST(AxisymmetricReceding, DiscOfStudiesD)
    const auto separation = [&](const ContactState &state)
    { return contact_zone(problem, state).to.position; };
    const auto stick = [&](const ContactState &state)
-   { return widest_zone(problem, state, NodeState::stick).to.position; };
+   { return widest_zone(zones(problem, state), NodeState::stick).to.position; };
    const ContactState smooth = solved(0.0, 2);
    EXPECT_NEAR(separation(smooth), 3.1705, 0.001);
    EXPECT_NEAR(smooth.p.sum(), M_PI * 2.5 * 2.5, 1e-10);

@@ -163,7 +163,7 @@ TEST(Lubkin, StickRadiusAndRotationConverge)
          const double exact = lubkin_rotation(f, c);
          worst_rotation =
             std::max(worst_rotation, std::abs(spheres.rotation(state) / exact - 1));
-         const Zone stick = widest_zone(spheres.problem, state, NodeState::stick);
+         const Zone stick = widest_zone(zones(spheres.problem, state), NodeState::stick);
          worst_stick = std::max(worst_stick, std::abs(stick.to.position - c));
          EXPECT_LT(report.counters.newton_steps, 5 * 21); // in 21 increments
       }
@@ -284,7 +284,7 @@ TEST(Lubkin, FiniteElements)
       ASSERT_EQ(solver.solve(state, Vector2d(approach, rotation)).status,
                 FrictionStatus::converged);
       const double torque = -radius.dot(state.q.tail(n)) / (load * a);
-      const Zone stick = widest_zone(problem, state, NodeState::stick);
+      const Zone stick = widest_zone(zones(problem, state), NodeState::stick);
       const double found = (radius[0] + stick.to.position - problem.arc_length[0]) / a;
       std::printf("c = %.1f: stick radius %+.2e, torque %+.2e\n", c, found - c,
                   torque / lubkin_torque(f, c) - 1);

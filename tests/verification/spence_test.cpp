@@ -62,7 +62,8 @@ double sphere_fraction(int elements)
          const double share = now.time * settings.increments;
          const double a = radius(problem, contact_zone(problem, now));
          if (std::abs(share - std::round(share)) > 1e-9 || a < 0.5) { return; }
-         fractions.push_back(radius(problem, widest_zone(problem, now, NodeState::stick)) / a);
+         fractions.push_back(
+            radius(problem, widest_zone(zones(problem, now), NodeState::stick)) / a);
       });
    EXPECT_EQ(report.status, FrictionStatus::converged) << report.message;
    EXPECT_GT(fractions.size(), 10u);
@@ -83,7 +84,7 @@ TEST(Spence, PunchAndSphereStickWithinTheSameFraction)
    FrictionSolver solver(flat.problem);
    ASSERT_EQ(solver.solve(state, VectorXd::Constant(1, toward)).status,
              FrictionStatus::converged);
-   const Zone stick = widest_zone(flat.problem, state, NodeState::stick);
+   const Zone stick = widest_zone(zones(flat.problem, state), NodeState::stick);
    const double fraction = radius(flat.problem, stick);
    EXPECT_GT(fraction, 0.2);
    EXPECT_LT(fraction, 0.9);

@@ -417,8 +417,6 @@ SparseFactor::SparseFactor(const SparseView &K, const std::vector<int> &keep, in
 }
 
 SparseFactor::~SparseFactor() = default;
-SparseFactor::SparseFactor(SparseFactor &&) noexcept = default;
-SparseFactor &SparseFactor::operator=(SparseFactor &&) noexcept = default;
 
 Eigen::MatrixXd SparseFactor::schur() const
 {

@@ -48,8 +48,6 @@ public:
    SparseFactor(const SparseView &K, const std::vector<int> &keep, int trailing, double shift,
                 Backend backend = Backend::automatic);
    ~SparseFactor();
-   SparseFactor(SparseFactor &&) noexcept;
-   SparseFactor &operator=(SparseFactor &&) noexcept;
 
    /// Schur complement of the trailing rows, in the order of `keep`, without the shift.
    Eigen::MatrixXd schur() const;

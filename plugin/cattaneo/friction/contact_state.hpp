@@ -74,6 +74,8 @@ struct ContactState
    /// InputError if sizes do not fit the problem, a value is not finite, or v moves a row that
    /// the problem holds by more than 1e-9 of the largest slip (round-off).
    void validate(const ReducedProblem &problem) const;
+   /// InputError if a value is not finite.
+   void require_finite() const;
 };
 
 /// Writes a state as JSON; every double is restored to the last bit. InputError if a value is

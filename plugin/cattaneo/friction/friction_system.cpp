@@ -38,7 +38,6 @@ FrictionSystem::FrictionSystem(const ReducedProblem &given, const FrictionSettin
    {
       counters.tangential_unknowns = c * n;
       ktt = problem.A().diagonal().head(n);
-      uncoupled = !problem.coupled;
       critical.resize(n);
       for (Index i = 0; i < n; ++i)
       {

@@ -133,7 +133,7 @@ bool eliminate_open(FrictionSystem &s, const std::vector<NodeState> &status)
    eliminated.kept.clear();
    eliminated.place.assign(n, 0);
    // B = 0: the gaps are found apart from the rest, and slip does not change the pressure.
-   for (Index k = 0; k < (s.uncoupled ? 2 : 3); ++k)
+   for (Index k = 0; k < (s.problem.coupled ? 3 : 2); ++k)
    {
       for (Index i = 0; i < n; ++i)
       {
@@ -160,19 +160,20 @@ bool eliminate_open(FrictionSystem &s, const std::vector<NodeState> &status)
 bool solve_disc(Increment &at, bool from_here)
 {
    FrictionSystem &s = at.system;
-   if (s.uncoupled && !solve_normal(at, from_here)) { return false; }
+   if (!s.problem.coupled && !solve_normal(at, from_here)) { return false; }
    if (!eliminate_open(s, at.status)) { return false; }
    std::vector<Index> slipping;
    for (Index i = 0; i < s.n; ++i)
    {
       for (Index k = 0; k < 2; ++k) { at.u[s.t(i, k)] = at.v_old[s.t(i, k)]; }
-      if (!s.uncoupled) { at.u[s.m(i)] = closed(at.status[i]) ? -s.problem.gap[i] : 0.0; }
+      if (s.problem.coupled) { at.u[s.m(i)] = closed(at.status[i]) ? -s.problem.gap[i] : 0.0; }
       if (slips(at.status[i])) { slipping.push_back(i); }
    }
    const FrictionSystem::EliminatedNodes &eliminated = s.eliminated;
    const std::vector<Index> &open = eliminated.open;
    const auto count = static_cast<Index>(slipping.size()),
-              closed_nodes = static_cast<Index>(eliminated.kept.size()) / (s.uncoupled ? 2 : 3);
+              closed_nodes =
+                 static_cast<Index>(eliminated.kept.size()) / (s.problem.coupled ? 3 : 2);
    DenseLU factor;
    if (count > 0)
    {
@@ -192,7 +193,7 @@ bool solve_disc(Increment &at, bool from_here)
             const double *column = eliminated.K.col(from).data() + row;
             const double radial = column[0], circumferential = column[closed_nodes];
             M(r, col) = to.n[0] * radial + to.n[1] * circumferential;
-            if (!s.uncoupled) { M(r, col) -= slope * column[2 * closed_nodes]; }
+            if (s.problem.coupled) { M(r, col) -= slope * column[2 * closed_nodes]; }
             M(count + r, col) = across[0] * radial + across[1] * circumferential;
          }
          M(count + r, r) += own[0];
@@ -248,10 +249,10 @@ bool solve_for_states(Increment &at, bool from_here)
 {
    const FrictionSystem &s = at.system;
    ++at.system.counters.newton_steps;
-   const auto solve = s.frictionless ? solve_normal
-                      : s.disc()     ? solve_disc
-                      : s.uncoupled  ? solve_uncoupled
-                                     : solve_coupled;
+   const auto solve = s.frictionless      ? solve_normal
+                      : s.disc()          ? solve_disc
+                      : s.problem.coupled ? solve_coupled
+                                          : solve_uncoupled;
    return solve(at, from_here) && at.u.allFinite();
 }
 

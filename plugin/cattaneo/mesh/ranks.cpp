@@ -46,10 +46,6 @@ long Ranks::sum(long here) const
 {
    return reduced(comm_, size_, here, MPI_LONG, MPI_SUM);
 }
-double Ranks::sum(double here) const
-{
-   return reduced(comm_, size_, here, MPI_DOUBLE, MPI_SUM);
-}
 double Ranks::max(double here) const
 {
    return reduced(comm_, size_, here, MPI_DOUBLE, MPI_MAX);
@@ -179,10 +175,6 @@ bool Ranks::any(bool here) const
    return here;
 }
 long Ranks::sum(long here) const
-{
-   return here;
-}
-double Ranks::sum(double here) const
 {
    return here;
 }

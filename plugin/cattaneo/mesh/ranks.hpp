@@ -28,7 +28,6 @@ public:
    /// True if it is on any rank.
    bool any(bool here) const;
    long sum(long here) const;
-   double sum(double here) const;
    /// Sums matrices of equal shape entry by entry, in place; the same bits on every rank.
    void sum(Eigen::MatrixXd &here) const;
    double max(double here) const;

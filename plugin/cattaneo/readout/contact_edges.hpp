@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cattaneo/friction/march.hpp>
+#include <cattaneo/friction/contact_state.hpp>
 #include <cattaneo/readout/edge_fit.hpp>
 #include <cattaneo/readout/zones.hpp>
 #include <string>

@@ -26,18 +26,6 @@ VectorXd tractions(const ReducedProblem &problem, const VectorXd &nodal_forces)
 namespace
 {
 
-/// Least-squares polynomial c0 + c1 x + … of the given degree.
-VectorXd fit(const std::vector<double> &x, const std::vector<double> &y, int degree)
-{
-   const auto count = static_cast<Index>(x.size());
-   Eigen::MatrixXd V(count, degree + 1);
-   for (Index k = 0; k < count; ++k)
-   {
-      for (int d = 0; d <= degree; ++d) { V(k, d) = std::pow(x[k], d); }
-   }
-   return least_squares(V, Eigen::Map<const VectorXd>(y.data(), count));
-}
-
 /// Zero of c0 + c1 x + c2 x² nearest to x = 0; NaN if there is none.
 double zero(const VectorXd &c)
 {
@@ -67,14 +55,14 @@ struct Bracket
    double extrapolate(const VectorXd &value, Index from, Index to, int degree) const
    {
       if (nodes() < to) { return std::numeric_limits<double>::quiet_NaN(); }
-      std::vector<double> x, y;
+      VectorXd x(to - from), y(to - from);
       for (Index k = from; k < to; ++k)
       {
          const Index node = inside + step() * k;
-         x.push_back(std::abs(s[node] - s[inside]) / spacing());
-         y.push_back(value[node]);
+         x[k - from] = std::abs(s[node] - s[inside]) / spacing();
+         y[k - from] = value[node];
       }
-      return zero(fit(x, y, degree));
+      return zero(least_squares(powers(x, degree), y));
    }
 
    /// The edge at `best` if that is between the two nodes or near; `other` tells how sure it
@@ -395,11 +383,6 @@ Zone widest_zone(const std::vector<Zone> &zones, NodeState which)
       if (zone.state == which && wider) { widest = zone; }
    }
    return widest;
-}
-
-Zone widest_zone(const ReducedProblem &problem, const ContactState &state, NodeState which)
-{
-   return widest_zone(zones(problem, state), which);
 }
 
 Zone stick_zone(const ReducedProblem &problem, const std::vector<Zone> &zones)

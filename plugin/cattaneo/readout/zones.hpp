@@ -61,8 +61,6 @@ std::vector<Zone> zones(const ReducedProblem &problem, const ContactState &state
 
 /// The widest of some zones in the given state; first > last if there is none.
 Zone widest_zone(const std::vector<Zone> &zones, NodeState which);
-/// The same of zones(problem, state).
-Zone widest_zone(const ReducedProblem &problem, const ContactState &state, NodeState which);
 
 /** The widest stick zone, with the errors of its ends as borders of stick: one that ends where
     the contact does, without a node of slip between, is known to a spacing only, since slip

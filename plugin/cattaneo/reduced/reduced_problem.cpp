@@ -283,7 +283,7 @@ Eigen::MatrixXd rigid_openings(const ReducedProblem &problem)
 
 void set_friction(ReducedProblem &problem, double coefficient)
 {
-   require(coefficient >= 0, "friction coefficient is ", coefficient, ", must not be negative");
+   require_at_least("friction coefficient", coefficient, 0);
    problem.friction = Eigen::VectorXd::Constant(problem.nodes(), coefficient);
 }
 
