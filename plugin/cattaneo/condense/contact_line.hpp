@@ -108,8 +108,9 @@ struct ContactLine
       return all;
    }
 
-   /// Of the distances of a node to its neighbours: of less, hardly a digit of its traction is
-   /// right.
+   /// Of the distances of a node to its neighbours: there three digits are left of the traction
+   /// at the middle node of a short quadratic element, and two are lost with each further
+   /// decade.
    static constexpr double least_ratio = 1e-6;
 
    /// InputError that names the node or the element if there are no nodes, a place is not
