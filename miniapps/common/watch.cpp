@@ -25,13 +25,15 @@ extern "C" void interrupted(int)
 
 Watch::Watch(const char *what) : what_(what)
 {
-   if (ranks() == 1 && !stop) { std::signal(SIGINT, interrupted); }
+   // From the first march on: an interrupt between two of them stops the next.
+   static bool installed = false;
+   if (ranks() == 1 && !installed) { std::signal(SIGINT, interrupted); }
+   installed = true;
 }
 
 Watch::~Watch()
 {
    if (shown_) { std::fputs("\r\x1b[K", stderr); }
-   if (!stop) { std::signal(SIGINT, SIG_DFL); }
 }
 
 cattaneo::Monitor Watch::monitor()

@@ -23,6 +23,8 @@ def interrupted(program, options, folder, terminal):
     with open(folder / "out", "w", encoding="utf-8") as out:
         run = subprocess.Popen([program, *options.split(), "--json", str(results)], stdout=out, stderr=theirs)
         os.close(theirs)
+        while run.poll() is None and "Condensed" not in (folder / "out").read_text(encoding="utf-8"):
+            time.sleep(0.1)
         time.sleep(6)
         assert run.poll() is None, f"{program} ended by itself: " + (folder / "out").read_text(encoding="utf-8")
         run.send_signal(signal.SIGINT)
