@@ -433,6 +433,75 @@ TEST(CondenseMatrix, ObstacleMotionsHaveNamesOfTheirOwn)
    expect_input_error([&] { add("rise"); }, "a load pattern of that name is there already");
 }
 
+TEST(CondenseMatrix, AnObstacleThatMovesKnowsNoMoreOfTheOtherLoads)
+{
+   const Frame frame(3, 2, true);
+   Reduction reduction = reduce(condense(frame.body(true), frame.line()));
+   reduction.problem.H.resize(0, 0);
+   ASSERT_FALSE(reduction.problem.knows_loads());
+   reduction.add_obstacle_motion("rise", 0.0, 1.0);
+   EXPECT_FALSE(reduction.problem.knows_loads());
+   reduction.problem.validate();
+}
+
+/// A bar of 20,000 springs 1, along as across, whose end stands on a foundation: in a row with
+/// it, 1/S = 20,000 + 1/c. Elimination rounds a pivot of order one in each of its steps.
+TEST(CondenseMatrix, AWeakFoundationHoldsALargeBody)
+{
+   const int springs = 20000;
+   for (const double foundation : {1e-6, 1e-7})
+   {
+      std::vector<Eigen::Triplet<double>> entries;
+      const auto add = [&](int i, int j, double k) { entries.emplace_back(i, j, k); };
+      AssembledBody body;
+      const int dofs = 2 * (springs + 1);
+      body.places = {VectorXd(dofs), VectorXd::Zero(dofs), {}, Formulation::plane};
+      for (int i = 0; i <= springs; ++i)
+      {
+         for (int c : {0, 1})
+         {
+            const int dof = 2 * i + c;
+            body.places.x[dof] = i;
+            body.places.component.push_back(c);
+            if (i == springs)
+            {
+               add(dof, dof, foundation);
+               continue;
+            }
+            add(dof, dof, 1);
+            add(dof + 2, dof + 2, 1);
+            add(dof, dof + 2, -1);
+            add(dof + 2, dof, -1);
+         }
+      }
+      Eigen::SparseMatrix<double, Eigen::RowMajor> K(dofs, dofs);
+      K.setFromTriplets(entries.begin(), entries.end());
+      body.K = SharedMatrix(std::move(K));
+      body.grounded = true;
+      ContactLine line;
+      line.chains = {{0, 1}};
+      line.nodes = {{{0, 1}, {0, 0}, {1, 0}, 1, 0, 1}};
+      const CondensedBody condensed = condense(body, line);
+      EXPECT_EQ(condensed.free_motions.cols(), 0);
+      const double S = 1 / (springs + 1 / foundation);
+      EXPECT_NEAR(condensed.S(0, 0), S, springs * 2.3e-16);
+      EXPECT_NEAR(condensed.S(1, 1), S, springs * 2.3e-16);
+   }
+}
+
+TEST(CondenseMatrix, NeighboursAreAtDifferentPlaces)
+{
+   const Frame frame(3, 2, true);
+   ContactLine line = frame.line();
+   line.nodes[2].position = line.nodes[1].position;
+   expect_input_error([&] { line.validate(); }, "two neighbours are at (1, 0)");
+   ContactLine two = frame.line();
+   two.nodes.resize(2);
+   two.chains = {{0, 2}};
+   two.nodes[1].position = two.nodes[0].position;
+   expect_input_error([&] { two.validate(); }, "two neighbours are at (0, 0)");
+}
+
 TEST(CondenseMatrix, SaysWhatIsWrong)
 {
    const Frame frame(4, 3, true);

@@ -48,6 +48,12 @@ void check_spacing(const ContactLine &line, const LineChain &chain)
    const Eigen::Index count = chain.loop ? chain.nodes : chain.nodes - 2;
    const auto place = [&](Eigen::Index k)
    { return line.nodes[chain.first + k % chain.nodes].position; };
+   for (Eigen::Index k = 0; k + 1 < chain.nodes; ++k)
+   {
+      const Eigen::Vector2d at = place(k);
+      require(place(k + 1) != at, "contact line: two neighbours are at (", at[0], ", ", at[1],
+              "), must be at different places: merge the nodes that were to be one");
+   }
    for (Eigen::Index k = 0; k < count && chain.nodes > 2; ++k)
    {
       const Eigen::Vector2d at = place(k + 1);

@@ -121,31 +121,27 @@ Eigen::MatrixXd unresisted(const SparseView &K, const std::vector<int> &dofs,
    if (motions.cols() == 0) { return motions; }
    std::vector<int> place(K.rows(), -1);
    for (std::size_t k = 0; k < dofs.size(); ++k) { place[dofs[k]] = static_cast<int>(k); }
-   Eigen::MatrixXd forces(dofs.size(), motions.cols());
-   double stiffness = 0.0;
+   Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(dofs.size(), motions.cols());
+   Eigen::MatrixXd sizes = forces;
    for (std::size_t k = 0; k < dofs.size(); ++k)
    {
-      Eigen::RowVectorXd force = Eigen::RowVectorXd::Zero(motions.cols());
-      double row = 0.0;
       for (SparseView::InnerIterator e(K, dofs[k]); e; ++e)
       {
-         force += e.value() * motions.row(place[e.col()]);
-         row += std::abs(e.value());
+         const auto motion = motions.row(place[e.col()]);
+         forces.row(k) += e.value() * motion;
+         sizes.row(k) += std::abs(e.value()) * motion.cwiseAbs();
       }
-      forces.row(k) = force;
-      stiffness = std::max(stiffness, row);
    }
-   // Energy of each combination, against the energy of all entries taken positive.
-   const Eigen::MatrixXd energy = motions.transpose() * forces;
-   const double allowed = 1e-12 * stiffness * static_cast<double>(dofs.size());
-   return motions * combinations_below(energy, allowed);
+   return motions * unresisted_combinations(motions.transpose() * forces,
+                                            motions.cwiseAbs().cwiseProduct(sizes).sum());
 }
 
-Eigen::MatrixXd combinations_below(const Eigen::MatrixXd &energy, double allowed)
+Eigen::MatrixXd unresisted_combinations(const Eigen::MatrixXd &energy, double size)
 {
    if (energy.cols() == 0) { return energy; }
    const SymmetricModes modes = symmetric_modes(0.5 * (energy + energy.transpose()));
-   return modes.vectors.leftCols((modes.values.array() <= allowed).count());
+   // Matrices of other programs have 13 digits.
+   return modes.vectors.leftCols((modes.values.array() <= 1e-13 * size).count());
 }
 
 } // namespace cattaneo

@@ -49,29 +49,6 @@ public:
    }
 };
 
-/// The largest sum of a row's entries, taken positive, on all ranks.
-double largest_row(const mfem::HypreParMatrix &K, const Ranks &ranks)
-{
-   mfem::SparseMatrix own, others;
-   HYPRE_BigInt *columns = nullptr;
-   K.GetDiag(own);
-   K.GetOffd(others, columns);
-   double largest = 0;
-   for (int row = 0; row < own.Height(); ++row)
-   {
-      double sum = 0;
-      for (const mfem::SparseMatrix *part : {&own, &others})
-      {
-         for (int k = 0; k < part->RowSize(row); ++k)
-         {
-            sum += std::abs(part->GetRowEntries(row)[k]);
-         }
-      }
-      largest = std::max(largest, sum);
-   }
-   return ranks.max(largest);
-}
-
 /// Free motions of a body on several ranks, taken for connected: what its supports and the
 /// places of its contact nodes leave, less what K resists. The errors of find_free_motions().
 FreeMotions free_motions_on_ranks(const ElasticBody &body, const ContactLine &line)
@@ -140,19 +117,24 @@ FreeMotions free_motions_on_ranks(const ElasticBody &body, const ContactLine &li
       return motions;
    };
    const mfem::HypreParMatrix &K = *body.distributed_stiffness();
-   const double round_off = 1e-12 * largest_row(K, ranks) * body.dofs();
    const auto unresisted_of = [&](const Eigen::MatrixXd &motions) -> Eigen::MatrixXd
    {
+      const Eigen::MatrixXd own_motions = motions.bottomRows(size);
       Eigen::MatrixXd forces(size, motions.cols());
+      Eigen::MatrixXd sizes(1, 1);
+      sizes(0, 0) = 0;
       mfem::Vector force(size);
       for (Eigen::Index m = 0; m < motions.cols(); ++m)
       {
-         K.Mult(to_mfem(motions.col(m).tail(size)), force);
+         K.Mult(to_mfem(own_motions.col(m)), force);
          forces.col(m) = view(force);
+         K.AbsMult(1, to_mfem(own_motions.col(m).cwiseAbs()), 0, force);
+         sizes(0, 0) += own_motions.col(m).cwiseAbs().dot(view(force));
       }
-      Eigen::MatrixXd energy = motions.bottomRows(size).transpose() * forces;
+      Eigen::MatrixXd energy = own_motions.transpose() * forces;
       ranks.sum(energy);
-      return motions * combinations_below(energy, round_off);
+      ranks.sum(sizes);
+      return motions * unresisted_combinations(energy, sizes(0, 0));
    };
    // An operator of one's own may stand on elastic foundations.
    const bool grounded = !body.has_material();

@@ -41,6 +41,8 @@ void Reduction::add_torsion(std::vector<CondensedBody> twisting)
               " are not those of its torsion, must be the same");
       counters += twisting[b].counters;
    }
+   require(problem.knows_loads(), "add torsion: the response H of the reduction's loads is not "
+                                  "known, must be");
    const Eigen::Index before = problem.H.rows();
    torsion_pattern_ = join(twisting, problem.patterns);
    const auto count = static_cast<Eigen::Index>(problem.patterns.size());

@@ -45,9 +45,14 @@ void Reduction::add_obstacle_motion(const std::string &name, const ScalarField &
    // The body moves by u + λ d: f = K (u + λ d) + …, and the reaction is dᵀ f.
    const Eigen::VectorXd f = problem.K * d;
    const auto k = static_cast<Eigen::Index>(problem.patterns.size());
-   problem.H.conservativeResizeLike(Eigen::MatrixXd::Zero(k + 1, k + 1));
-   problem.H(k, k) = d.dot(f);
-   for (Eigen::Index j = 0; j < k; ++j)
+   // What is not known of the other loads stays so.
+   const bool known = problem.knows_loads();
+   if (known)
+   {
+      problem.H.conservativeResizeLike(Eigen::MatrixXd::Zero(k + 1, k + 1));
+      problem.H(k, k) = d.dot(f);
+   }
+   for (Eigen::Index j = 0; j < k && known; ++j)
    {
       const LoadPattern &other = problem.patterns[j];
       problem.H(k, j) = d.head(m).dot(other.q) + d.tail(n).dot(other.p);

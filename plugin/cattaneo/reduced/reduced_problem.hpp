@@ -74,7 +74,7 @@ struct ReducedProblem
    std::vector<ContactChain> chains;
    /// Rigid motions {v; w} that nothing resists, one orthonormal column each, as they were
    /// imposed on the stiffness: (c+1)·n × k, k = 0 if the bodies are held. Of a problem made by
-   /// hand complete() seeks them; nobody else does.
+   /// hand complete() seeks them, and files must state all of them; a march does not seek.
    Eigen::MatrixXd rigid_motions;
    /// Rows of A (tangential components of nodes) that are held: v = 0 there whatever happens,
    /// and no law of friction. They are coupled to nothing and loaded by nothing, see hold().
