@@ -29,10 +29,10 @@ Eigen::MatrixXd free_rigid_motions(const DofPlaces &places, const std::vector<in
 Eigen::MatrixXd unresisted(const SparseView &K, const std::vector<int> &dofs,
                            const Eigen::MatrixXd &motions);
 
-/// Combinations of motions, orthonormal columns, whose energy is the round-off of a matrix of 13
-/// digits. Of each two motions the energy is given, Rᵀ K R, and the sum over all of them of what
-/// it is with every entry taken positive, |r|ᵀ |K| |r|: a foundation below 1e-13 of that is not
-/// told from none.
+/// Combinations of motions, orthonormal columns, whose energy is the round-off of a matrix of
+/// 13 digits. Of each two motions the energy is given, Rᵀ K R, and the sum over all of them of
+/// what it is with every entry taken positive, |r|ᵀ |K| |r|: a foundation below 1e-13 of that
+/// is not told from none.
 Eigen::MatrixXd unresisted_combinations(const Eigen::MatrixXd &energy, double size);
 
 } // namespace cattaneo
