@@ -15,7 +15,7 @@ namespace
 double least_force(const ReducedProblem &problem, const ContactState &state)
 {
    double largest = 0;
-   const auto stiff = [&](const Eigen::MatrixXd &K, const VectorXd &u)
+   const auto stiff = [&](const auto &K, const VectorXd &u) // a view: nothing is copied
    {
       if (u.size())
       {
