@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cattaneo/algebra/lobatto_basis.hpp>
 #include <cattaneo/algebra/quadrature.hpp>
 #include <cattaneo/halfplane/surface_trace.hpp>
 #include <cattaneo/input_error.hpp>
@@ -14,62 +15,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index highest_order = 8;
-
-/// Lagrange's polynomials through the Gauss–Lobatto points of an order.
-struct Basis
-{
-   VectorXd nodes;
-   VectorXd scale;  ///< 1 / Π (node_i - node_j)
-   MatrixXd slopes; ///< of polynomial j at node i
-
-   explicit Basis(int order)
-      : nodes(lobatto_points(order)), scale(order + 1), slopes(order + 1, order + 1)
-   {
-      for (Index i = 0; i <= order; ++i)
-      {
-         double product = 1;
-         for (Index j = 0; j <= order; ++j)
-         {
-            if (j != i) { product *= nodes[i] - nodes[j]; }
-         }
-         scale[i] = 1 / product;
-      }
-      for (Index i = 0; i <= order; ++i)
-      {
-         slopes(i, i) = 0;
-         for (Index j = 0; j <= order; ++j)
-         {
-            if (j == i) { continue; }
-            slopes(i, j) = scale[j] / (scale[i] * (nodes[i] - nodes[j]));
-            slopes(i, i) += 1 / (nodes[i] - nodes[j]);
-         }
-      }
-   }
-   void evaluate(double t, Eigen::Ref<VectorXd> values) const
-   {
-      for (Index i = 0; i < nodes.size(); ++i)
-      {
-         double product = scale[i];
-         for (Index j = 0; j < nodes.size(); ++j)
-         {
-            if (j != i) { product *= t - nodes[j]; }
-         }
-         values[i] = product;
-      }
-   }
-};
-
-const Basis &basis(Index order)
-{
-   static const std::vector<Basis> all = []
-   {
-      std::vector<Basis> made;
-      for (int k = 1; k <= highest_order; ++k) { made.emplace_back(k); }
-      return made;
-   }();
-   return all[order - 1];
-}
+constexpr Index highest_order = LobattoBasis::highest_order;
 
 /// A rule that integrates the products of two functions, the element's slope and a polynomial
 /// of degree 4.
@@ -127,7 +73,7 @@ SurfaceTrace SurfaceTrace::mirrored() const
 
 SurfacePoints SurfaceTrace::points(const SurfaceElement &element, const VectorXd &t) const
 {
-   const Basis &functions = basis(element.order());
+   const LobattoBasis &functions = lobatto_basis(element.order());
    SurfacePoints at;
    at.phi.resize(element.x.size(), t.size());
    for (Index k = 0; k < t.size(); ++k) { functions.evaluate(t[k], at.phi.col(k)); }

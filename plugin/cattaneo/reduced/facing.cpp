@@ -1,0 +1,178 @@
+#include <algorithm>
+#include <cattaneo/algebra/lobatto_basis.hpp>
+#include <cattaneo/algebra/root.hpp>
+#include <cattaneo/reduced/facing.hpp>
+#include <cmath>
+
+namespace cattaneo
+{
+
+using Eigen::Index;
+using Eigen::Vector2d;
+
+Eigen::VectorXd ElementCurve::functions(double s) const
+{
+   Eigen::VectorXd values(order() + 1);
+   lobatto_basis(order()).evaluate(s, values);
+   return values;
+}
+
+Vector2d ElementCurve::place(double s) const
+{
+   // Differences to the first node: small elements far from the origin lose no digits.
+   const Vector2d from = element->points.col(0);
+   return from + (element->points.colwise() - from) * functions(s);
+}
+
+Vector2d ElementCurve::derivative(double s) const
+{
+   const Vector2d from = element->points.col(0);
+   return (element->points.colwise() - from) *
+          (lobatto_basis(order()).slopes.transpose() * functions(s));
+}
+
+Vector2d ElementCurve::tangent(double s) const
+{
+   return tangents * functions(s);
+}
+
+double ElementCurve::length() const
+{
+   return (element->points.rightCols(order()) - element->points.leftCols(order()))
+      .colwise()
+      .norm()
+      .sum();
+}
+
+std::vector<ElementCurve> curves(const ContactLine &line, const std::string &what)
+{
+   std::vector<ElementCurve> all;
+   for (const LineChain &chain : line.chains)
+   {
+      require(!chain.elements.empty(), what, ": the contact line from (",
+              line.nodes[chain.first].position[0], ", ", line.nodes[chain.first].position[1],
+              ") has no elements, nodes that do not match need them");
+      for (const LineElement &element : chain.elements)
+      {
+         const Index order = element.order();
+         require(order >= 1 && order <= LobattoBasis::highest_order, what,
+                 ": the order of a contact element is ", order, ", must be from 1 to ",
+                 LobattoBasis::highest_order);
+         ElementCurve curve{&element, Eigen::Matrix2Xd(2, order + 1)};
+         const double along = element.points(0, order) - element.points(0, 0);
+         for (Index a = 0; a <= order; ++a)
+         {
+            const Index node = element.nodes[a];
+            // A line crosses the axis at a right angle.
+            curve.tangents.col(a) =
+               node < 0 ? Vector2d(std::copysign(1.0, along), 0) : line.nodes[node].tangent;
+         }
+         all.push_back(std::move(curve));
+      }
+   }
+   return all;
+}
+
+namespace
+{
+
+/// How far the point at s lies beyond what faces it on the other element at t, along the mean
+/// tangent. Grows with s and with t: the lines run against each other.
+double beyond(const ElementCurve &first, double s, const ElementCurve &other, double t)
+{
+   return (first.place(s) - other.place(t)).dot(first.tangent(s) - other.tangent(t));
+}
+
+/// A part that may be, with how far apart the elements are there.
+struct Candidate
+{
+   FacingPart part;
+   double apart;
+};
+
+/// Where a falls below zero within an element: its end, if it does not.
+template <class Function>
+double crossing(const Function &value, double at_begin, double at_end)
+{
+   if (at_begin >= 0) { return 0; }
+   if (at_end <= 0) { return 1; }
+   return find_root(value, 0.0, 1.0);
+}
+
+} // namespace
+
+double FacingLines::opposite(const FacingPart &part, double s) const
+{
+   const ElementCurve &one = first[part.element], &two = other[part.other];
+   const auto value = [&](double t) { return beyond(one, s, two, t); };
+   const double t = crossing(value, value(0), value(1));
+   // Elements that match do so to the last bit, whatever round-off of coordinates says.
+   return std::abs(t - (1 - s)) <= 1e-13 ? 1 - s : t;
+}
+
+FacingLines facing(const ContactLine &first, const ContactLine &other, const std::string &what)
+{
+   FacingLines result{curves(first, what), curves(other, what), {}};
+   // Shorter parts are round-off of what is no part at all.
+   const double sliver = 1e-12;
+   for (std::size_t e = 0; e < result.first.size(); ++e)
+   {
+      const ElementCurve &one = result.first[e];
+      const Vector2d middle = one.tangent(0.5);
+      const Vector2d begin = one.place(0), end = one.place(1);
+      const Vector2d t0 = one.tangents.col(0), t1 = one.tangents.rightCols(1);
+      std::vector<Candidate> candidates;
+      for (std::size_t f = 0; f < result.other.size(); ++f)
+      {
+         const ElementCurve &two = result.other[f];
+         if (middle.dot(two.tangents.col(0) + two.tangents.rightCols(1)) >= 0) { continue; }
+         const Vector2d x0 = two.element->points.col(0), x1 = two.element->points.rightCols(1);
+         const Vector2d u0 = two.tangents.col(0), u1 = two.tangents.rightCols(1);
+         // The other element runs backwards: its end faces the beginning of the part.
+         const double end_at_begin = (begin - x1).dot(t0 - u1),
+                      end_at_end = (end - x1).dot(t1 - u1),
+                      begin_at_begin = (begin - x0).dot(t0 - u0),
+                      begin_at_end = (end - x0).dot(t1 - u0);
+         if (end_at_end <= 0 || begin_at_begin >= 0) { continue; }
+         FacingPart part{e, f};
+         part.from = crossing([&](double s) { return beyond(one, s, two, 1); }, end_at_begin,
+                              end_at_end);
+         part.to = crossing([&](double s) { return beyond(one, s, two, 0); }, begin_at_begin,
+                            begin_at_end);
+         if (!(part.to - part.from > sliver)) { continue; }
+         const double s = 0.5 * (part.from + part.to), t = result.opposite(part, s);
+         if (one.tangent(s).dot(two.tangent(t)) >= 0) { continue; }
+         candidates.push_back({part, (one.place(s) - two.place(t)).norm()});
+      }
+      // The nearest first; of the others what is left.
+      std::sort(candidates.begin(), candidates.end(),
+                [](const Candidate &a, const Candidate &b) { return a.apart < b.apart; });
+      std::vector<FacingPart> taken;
+      for (const Candidate &candidate : candidates)
+      {
+         std::vector<FacingPart> rest{candidate.part};
+         for (const FacingPart &before : taken)
+         {
+            std::vector<FacingPart> left;
+            for (const FacingPart &part : rest)
+            {
+               FacingPart low = part, high = part;
+               low.to = std::min(part.to, before.from);
+               high.from = std::max(part.from, before.to);
+               for (const FacingPart &piece : {low, high})
+               {
+                  if (piece.to - piece.from > sliver) { left.push_back(piece); }
+               }
+            }
+            rest = std::move(left);
+         }
+         taken.insert(taken.end(), rest.begin(), rest.end());
+      }
+      std::sort(taken.begin(), taken.end(),
+                [](const FacingPart &a, const FacingPart &b) { return a.from < b.from; });
+      result.parts.insert(result.parts.end(), taken.begin(), taken.end());
+   }
+   return result;
+}
+
+} // namespace cattaneo

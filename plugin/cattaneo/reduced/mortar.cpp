@@ -1,0 +1,427 @@
+#include <algorithm>
+#include <cattaneo/algebra/quadrature.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cattaneo/reduced/facing.hpp>
+#include <cattaneo/reduced/mortar.hpp>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+namespace cattaneo
+{
+
+namespace
+{
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+
+/// Of the weight of a node on a whole element: what must be faced for it to have a function
+/// there. With less, what the function sees would be extrapolated.
+constexpr double least_share = 0.25;
+/// Of what a dual function sees of all nodes on an element that is faced in part: what must be
+/// of its own.
+constexpr double least_own = 0.1;
+
+/** The functions of an element's contact nodes for a component: its own ones, with that of a
+    node on the axis added to the others by what they make of its displacement. Along the axis
+    displacements are even in r, away from it odd. Functions of the element × contact nodes. */
+struct Trace
+{
+   std::vector<Index> nodes;  ///< of the line
+   VectorXd places;           ///< their parameters
+   std::array<MatrixXd, 2> x; ///< for components x and y
+
+   explicit Trace(const LineElement &element)
+   {
+      const VectorXd points = lobatto_points(static_cast<int>(element.order()));
+      std::vector<Index> kept;
+      Index axis = -1;
+      for (Index a = 0; a <= element.order(); ++a)
+      {
+         const Index node = element.nodes[a];
+         if (node < 0) { axis = a; }
+         else
+         {
+            kept.push_back(a);
+            nodes.push_back(node);
+         }
+      }
+      places = points(kept);
+      const auto count = static_cast<Index>(kept.size());
+      x[0] = MatrixXd::Zero(element.order() + 1, count);
+      for (Index j = 0; j < count; ++j) { x[0](kept[j], j) = 1; }
+      x[1] = x[0];
+      for (Index j = 0; axis >= 0 && j < count; ++j)
+      {
+         double &value = x[1](axis, j) = 1;
+         for (Index l = 0; l < count; ++l)
+         {
+            const double r = element.points(0, kept[l]), own = element.points(0, kept[j]);
+            if (l != j) { value *= r * r / (r * r - own * own); }
+         }
+      }
+   }
+};
+
+/// A point of integration on a slave element, and what it faces.
+struct Point
+{
+   double s, weight;
+   std::size_t other;    ///< element of the master
+   VectorXd own, facing; ///< functions of both elements
+   Vector2d apart;       ///< x_s - x_m
+};
+
+/// Linear from each place to the next and constant beyond the outer ones, never negative, at
+/// all points: functions × points. Their kinks are not integrated exactly, which does not
+/// matter: all that is made of them is integrated at the same points.
+MatrixXd hats(const VectorXd &places, const std::vector<Point> &points)
+{
+   const auto last = static_cast<std::size_t>(places.size() - 1);
+   MatrixXd values = MatrixXd::Zero(places.size(), static_cast<Index>(points.size()));
+   for (std::size_t p = 0; p < points.size(); ++p)
+   {
+      const double s = points[p].s;
+      const auto next = static_cast<std::size_t>(
+         std::upper_bound(places.data(), places.data() + places.size(), s) - places.data());
+      const std::size_t low = next > 0 ? next - 1 : 0, high = std::min(next, last);
+      const double share =
+         low == high ? 0
+                     : (s - places[Index(low)]) / (places[Index(high)] - places[Index(low)]);
+      values(Index(low), Index(p)) += 1 - share;
+      values(Index(high), Index(p)) += share;
+   }
+   return values;
+}
+
+/// Dual functions at the points (times their weights) for some of an element's nodes.
+struct DualFunctions
+{
+   std::vector<int> nodes; ///< places in Trace::nodes
+   MatrixXd weighted;      ///< nodes × points
+   bool positive = false;  ///< each sees enough of its own node
+};
+
+/// The master's elements and the slave's, and what is summed over them.
+class Assembly
+{
+public:
+   Assembly(const ContactLine &slave, const ContactLine &master,
+            const std::vector<int> &without, const std::string &what);
+   Mortar result();
+
+private:
+   void add(std::size_t element);
+   std::vector<Point> points_of(std::size_t element) const;
+   double weight_at(const ElementCurve &curve, double s) const;
+   DualFunctions dual(const Trace &trace, const std::vector<Point> &points, int component,
+                      std::vector<int> nodes) const;
+   std::vector<int> functions_of(const Trace &trace, std::size_t element,
+                                 const std::vector<Point> &points);
+   std::string place(Index node) const;
+   void require_facing() const;
+
+   const ContactLine &slave_, &master_;
+   const std::string &what_;
+   std::vector<bool> without_, faced_, has_row_;
+   FacingLines lines_;
+   std::vector<std::vector<FacingPart>> parts_; ///< of each slave element
+   std::vector<Trace> master_traces_;
+   std::array<std::map<std::pair<Index, Index>, double>, 2> own_, other_;
+   Eigen::MatrixX2d apart_; ///< ∫ψ (x_s - x_m) of each slave node
+   VectorXd weights_, size_;
+   double left_out_ = 0;
+};
+
+Assembly::Assembly(const ContactLine &slave, const ContactLine &master,
+                   const std::vector<int> &without, const std::string &what)
+   : slave_(slave), master_(master), what_(what), without_(slave.size(), false),
+     faced_(slave.size(), false), has_row_(slave.size(), false),
+     lines_(facing(slave, master, what)), parts_(lines_.first.size()),
+     apart_(Eigen::MatrixX2d::Zero(slave.size(), 2)), weights_(VectorXd::Zero(slave.size())),
+     size_(VectorXd::Zero(slave.size()))
+{
+   for (int node : without)
+   {
+      require(node >= 0 && node < slave.size(), what, ": node ", node,
+              " of the slave is to carry no row, must be from 0 to ", slave.size() - 1);
+      without_[node] = true;
+   }
+   for (const FacingPart &part : lines_.parts) { parts_[part.element].push_back(part); }
+   for (const ElementCurve &curve : lines_.other)
+   {
+      master_traces_.emplace_back(*curve.element);
+   }
+   require_facing();
+   for (std::size_t e = 0; e < lines_.first.size(); ++e) { add(e); }
+}
+
+std::string Assembly::place(Index node) const
+{
+   const Vector2d &x = slave_.nodes[node].position;
+   return "(" + as_text(std::to_string(x[0])) + ", " + std::to_string(x[1]) + ")";
+}
+
+void Assembly::require_facing() const
+{
+   if (!lines_.parts.empty()) { return; }
+   std::ostringstream text;
+   for (const ContactLine *line : {&slave_, &master_})
+   {
+      const auto position = line->each(&LineNode::position);
+      const Eigen::RowVector2d low = position.colwise().minCoeff(),
+                               high = position.colwise().maxCoeff();
+      text << (line == &slave_ ? "one reaches" : ", the other") << " from (" << low[0] << ", "
+           << low[1] << ") to (" << high[0] << ", " << high[1] << ")";
+   }
+   require(false, what_, ": the lines face each other nowhere (", text.str(),
+           "), one must lie over the other, with outward normals that are opposite");
+}
+
+double Assembly::weight_at(const ElementCurve &curve, double s) const
+{
+   return curve.derivative(s).norm() * measure(slave_.formulation, curve.place(s)[0]);
+}
+
+std::vector<Point> Assembly::points_of(std::size_t element) const
+{
+   const ElementCurve &curve = lines_.first[element];
+   std::vector<Point> points;
+   for (const FacingPart &part : parts_[element])
+   {
+      const ElementCurve &other = lines_.other[part.other];
+      // Exact for the product of three functions of straight elements, with some to spare for
+      // curved ones.
+      const QuadratureRule &rule = gauss_rule(
+         static_cast<int>(curve.order() + std::max(curve.order(), other.order()) + 3));
+      for (Index k = 0; k < rule.points.size(); ++k)
+      {
+         const double s = part.from + (part.to - part.from) * rule.points[k];
+         const double t = lines_.opposite(part, s);
+         points.push_back({s, rule.weights[k] * (part.to - part.from) * weight_at(curve, s),
+                           part.other, curve.functions(s), other.functions(t),
+                           curve.place(s) - other.place(t)});
+      }
+   }
+   return points;
+}
+
+DualFunctions Assembly::dual(const Trace &trace, const std::vector<Point> &points,
+                             int component, std::vector<int> nodes) const
+{
+   const auto count = static_cast<Index>(points.size());
+   const bool all = nodes.size() == trace.nodes.size();
+   MatrixXd phi(static_cast<Index>(trace.nodes.size()), count);
+   VectorXd weights(count);
+   for (Index p = 0; p < count; ++p)
+   {
+      phi.col(p) = trace.x[component].transpose() * points[p].own;
+      weights[p] = points[p].weight;
+   }
+   // ψ = diag(D) N⁻¹ B for N = ∫B φᵀ: ∫ψ_i φ_j = D_i δ_ij among the nodes with functions.
+   const MatrixXd own = phi(nodes, Eigen::all);
+   const MatrixXd B = (all ? phi : hats(trace.places(nodes), points)) * weights.asDiagonal();
+   const VectorXd D = own * weights;
+   const Eigen::PartialPivLU<MatrixXd> N(MatrixXd(B * own.transpose()));
+   DualFunctions found{std::move(nodes), D.asDiagonal() * N.solve(B)};
+   const VectorXd sums = found.weighted.rowwise().sum();
+   found.positive = sums.minCoeff() > 0 && (D - least_own * sums).minCoeff() > 0 &&
+                    found.weighted.allFinite();
+   return found;
+}
+
+/// Which of an element's nodes have functions on what is faced of it; none: it leaves the line.
+std::vector<int> Assembly::functions_of(const Trace &trace, std::size_t element,
+                                        const std::vector<Point> &points)
+{
+   const std::vector<FacingPart> &parts = parts_[element];
+   const ElementCurve &curve = lines_.first[element];
+   const double near = 1e-9; // in parameters of an element: round-off of roots
+   double covered = 0;
+   for (const FacingPart &part : parts) { covered += part.to - part.from; }
+   const auto whole_weight = [&](int component, Index j)
+   {
+      const QuadratureRule &rule = gauss_rule(static_cast<int>(2 * curve.order() + 3));
+      double sum = 0;
+      for (Index k = 0; k < rule.points.size(); ++k)
+      {
+         const double s = rule.points[k];
+         sum += rule.weights[k] * weight_at(curve, s) *
+                trace.x[component].col(j).dot(curve.functions(s));
+      }
+      return sum;
+   };
+   std::vector<int> free, inside, ends;
+   bool share = true; // do all nodes have their share?
+   for (int j = 0; j < static_cast<int>(trace.nodes.size()); ++j)
+   {
+      const Index node = trace.nodes[j];
+      const double s = trace.places[j];
+      for (int component : {0, 1})
+      {
+         const double whole = whole_weight(component, j);
+         require(whole > 0, what_, ": the weight of the node at ", place(node), " is ", whole,
+                 " on an element of the slave, must be positive: is the element turned over?");
+         double faced = 0;
+         for (const Point &point : points)
+         {
+            faced += point.weight * trace.x[component].col(j).dot(point.own);
+         }
+         share = share && faced >= least_share * whole;
+      }
+      if (without_[node]) { continue; }
+      free.push_back(j);
+      if (std::any_of(parts.begin(), parts.end(),
+                      [&](const FacingPart &part)
+                      { return s >= part.from - near && s <= part.to + near; }))
+      {
+         inside.push_back(j);
+         if (s == 0 || s == 1) { ends.push_back(j); }
+      }
+   }
+   std::vector<std::vector<int>> choices{inside, ends};
+   if (share || covered > 1 - near) { choices.insert(choices.begin(), free); }
+   for (int end : ends) { choices.push_back({end}); }
+   for (const std::vector<int> &nodes : choices)
+   {
+      if (!nodes.empty() && dual(trace, points, 0, nodes).positive &&
+          dual(trace, points, 1, nodes).positive)
+      {
+         return nodes;
+      }
+   }
+   return {};
+}
+
+void Assembly::add(std::size_t element)
+{
+   double covered = 0;
+   for (const FacingPart &part : parts_[element]) { covered += part.to - part.from; }
+   if (covered < 1e-9) { return; } // round-off
+   const Trace trace(*lines_.first[element].element);
+   const double near = 1e-9;
+   for (std::size_t j = 0; j < trace.nodes.size(); ++j)
+   {
+      const double s = trace.places[static_cast<Index>(j)];
+      for (const FacingPart &part : parts_[element])
+      {
+         if (s >= part.from - near && s <= part.to + near) { faced_[trace.nodes[j]] = true; }
+      }
+   }
+   const std::vector<Point> points = points_of(element);
+   const std::vector<int> nodes = functions_of(trace, element, points);
+   if (nodes.empty())
+   {
+      for (const Point &point : points) { left_out_ += point.weight; }
+      return;
+   }
+   for (int component : {0, 1})
+   {
+      const MatrixXd psi = dual(trace, points, component, nodes).weighted;
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+      {
+         const Index row = trace.nodes[nodes[i]];
+         has_row_[row] = true;
+         size_[row] = std::max(size_[row], lines_.first[element].length());
+         for (std::size_t p = 0; p < points.size(); ++p)
+         {
+            const Point &point = points[p];
+            const double value = psi(static_cast<Index>(i), static_cast<Index>(p));
+            if (component == 1) { weights_[row] += value; }
+            apart_(row, component) += value * point.apart[component];
+            const Trace &other = master_traces_[point.other];
+            const VectorXd facing = other.x[component].transpose() * point.facing;
+            for (std::size_t m = 0; m < other.nodes.size(); ++m)
+            {
+               other_[component][{row, other.nodes[m]}] +=
+                  value * facing[static_cast<Index>(m)];
+            }
+            const VectorXd own = trace.x[component].transpose() * point.own;
+            for (std::size_t j = 0; j < trace.nodes.size(); ++j)
+            {
+               // Zero but for round-off among nodes with functions.
+               const bool dual_to = std::count(nodes.begin(), nodes.end(), int(j)) > 0;
+               if (dual_to && j != std::size_t(nodes[i])) { continue; }
+               own_[component][{row, trace.nodes[j]}] += value * own[static_cast<Index>(j)];
+            }
+         }
+      }
+   }
+}
+
+Mortar Assembly::result()
+{
+   Mortar made;
+   std::vector<Index> number(slave_.size(), -1);
+   for (Index i = 0; i < slave_.size(); ++i)
+   {
+      if (has_row_[i])
+      {
+         number[i] = static_cast<Index>(made.nodes.size());
+         made.nodes.push_back(static_cast<int>(i));
+      }
+      else if (!faced_[i]) { made.free_surface.push_back(static_cast<int>(i)); }
+   }
+   const auto n = static_cast<Index>(made.nodes.size());
+   made.weights = weights_(made.nodes);
+   made.size = size_(made.nodes);
+   made.left_out = left_out_;
+   Eigen::MatrixX2d apart = apart_(made.nodes, Eigen::all);
+   Eigen::MatrixX2d normal(n, 2);
+   const auto normals1 = slave_.each(&LineNode::normal),
+              normals2 = master_.each(&LineNode::normal);
+   for (int c : {0, 1})
+   {
+      VectorXd sums = VectorXd::Zero(n);
+      for (const auto &[at, value] : own_[c]) { sums[number[at.first]] += value; }
+      const auto rows = [&](const auto &entries, Index columns)
+      {
+         std::vector<Eigen::Triplet<double>> list;
+         for (const auto &[at, value] : entries)
+         {
+            const Index row = number[at.first];
+            list.emplace_back(row, at.second, value / sums[row]);
+         }
+         Mortar::Matrix matrix(n, columns);
+         matrix.setFromTriplets(list.begin(), list.end());
+         return matrix;
+      };
+      made.own[c] = rows(own_[c], slave_.size());
+      made.other[c] = rows(other_[c], master_.size());
+      apart.col(c).array() /= sums.array();
+      normal.col(c) = made.own[c] * normals1.col(c) - made.other[c] * normals2.col(c);
+   }
+   normal.rowwise().normalize();
+   made.tangent.resize(n, 2);
+   made.tangent << normal.col(1), -normal.col(0);
+   made.gap = normal.cwiseProduct(apart).rowwise().sum();
+   made.arm = made.tangent.cwiseProduct(apart).rowwise().sum();
+   for (Index i = 0; i < n; ++i) // round-off of coordinates
+   {
+      const double least = 1e-9 * slave_.nodes[made.nodes[i]].spacing;
+      if (std::abs(made.gap[i]) <= least) { made.gap[i] = 0; }
+   }
+   return made;
+}
+
+} // namespace
+
+Mortar mortar(const ContactLine &slave, const ContactLine &master,
+              const std::vector<int> &without, const std::string &what)
+{
+   require(slave.formulation == master.formulation && slave.formulation != Formulation::torsion,
+           what, ": the lines are ", name(slave.formulation), " and ", name(master.formulation),
+           ", must be both plane or both axisymmetric");
+   slave.validate();
+   master.validate();
+   Mortar found = Assembly(slave, master, without, what).result();
+   require(!found.nodes.empty(), what,
+           ": no node of the slave lies over the master, the other side must be the slave, or "
+           "have finer elements");
+   return found;
+}
+
+} // namespace cattaneo
