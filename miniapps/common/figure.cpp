@@ -87,10 +87,11 @@ void Panel::add_tractions(const std::string &label, const VectorXd &x,
    if (count < 0) { count = n - first; }
    const VectorXd at = x.segment(first, count);
    add(label, at, tractions(problem, state.p).segment(first, count));
-   const double f = problem.friction[0];
-   if (f == 0) { return; }
-   add("q/f: " + label, at, tractions(problem, state.q.head(n)).segment(first, count) / f,
-       "dashed");
+   // A node without friction leaves a gap: 0/0.
+   const VectorXd f = problem.friction.segment(first, count);
+   if (f.isZero(0)) { return; }
+   const VectorXd q = tractions(problem, state.q.head(n)).segment(first, count);
+   add("q/f: " + label, at, VectorXd(q.cwiseQuotient(f)), "dashed");
 }
 
 void Panel::add(double time, const std::vector<Zone> &zones,

@@ -124,7 +124,11 @@ void draw_loops(Study &study, const ReducedProblem &problem, const MarchReport &
       std::vector<double> multipliers, conjugates;
       for (const IncrementRecord &record : report.increments)
       {
-         if (record.cycle == 0) { continue; }
+         if (record.cycle == 0) // the last of them is where the cycles begin
+         {
+            multipliers.clear();
+            conjugates.clear();
+         }
          multipliers.push_back(record.multipliers[k]);
          conjugates.push_back(record.conjugates[k]);
       }

@@ -3,8 +3,6 @@
 #include "common/miniapp.hpp"
 #include "common/text.hpp"
 
-#include <cattaneo/output/paraview.hpp>
-
 namespace miniapp
 {
 
@@ -44,28 +42,11 @@ void Scene::add_torsion(int order, const Material &material)
    }
 }
 
-void write_paraview(const std::string &folder, Scene &scene,
-                    const std::vector<ContactState> &states)
+ReductionFields Scene::fields(const std::string &folder)
 {
-   Reduction &reduction = scene.reduction;
-   ContactLineFields contact(reduction.problem, folder, "contact");
-   for (const ContactState &state : states)
-   {
-      if (writes()) { contact.write(state); }
-   }
-   for (std::size_t k = 0; k < scene.bodies.size(); ++k)
-   {
-      // A body that every rank has for itself is written by one.
-      const ElasticBody &body = *scene.bodies[k];
-      if (!writes() && !body.ranks().several()) { continue; }
-      BodyFields fields(body, folder, "body" + std::to_string(k + 1));
-      for (const ContactState &state : states)
-      {
-         fields.write(
-            reduction.displacement(static_cast<int>(k), state.v, state.w, state.multipliers),
-            state.time);
-      }
-   }
+   std::vector<const ElasticBody *> all;
+   for (const auto &body : bodies) { all.push_back(body.get()); }
+   return {reduction, all, folder};
 }
 
 mfem::Mesh half_turn(mfem::Mesh mesh)

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cattaneo/elastic/body.hpp>
-#include <cattaneo/friction/contact_state.hpp>
+#include <cattaneo/output/paraview.hpp>
 #include <cattaneo/reduced/reduction.hpp>
 #include <memory>
 #include <mfem.hpp>
@@ -32,12 +32,9 @@ struct Scene
                               const std::vector<cattaneo::Material> &materials);
    /// The torsion of all bodies, to be condensed with them.
    void add_torsion(int order, const cattaneo::Material &material);
+   /// Series of it for ParaView in a folder; the scene must outlive them.
+   cattaneo::ReductionFields fields(const std::string &folder);
 };
-
-/// Series for ParaView in a folder: contact.pvd, and body1.pvd (and body2.pvd) with the fields
-/// of the bodies, which are recovered for these states and no others.
-void write_paraview(const std::string &folder, Scene &scene,
-                    const std::vector<cattaneo::ContactState> &states);
 
 /// The mesh turned by 180° about the origin.
 mfem::Mesh half_turn(mfem::Mesh mesh);

@@ -42,8 +42,19 @@ void Study::condensed(const cattaneo::ReducedProblem &problem, int dofs)
    nodes_ = problem.nodes();
    dofs_ = dofs;
    seconds_ = watch.seconds();
-   say(text("Condensed %d dofs to %ld in %.3g s", dofs,
-            static_cast<long>((problem.components() + 1) * nodes_), seconds_));
+   const auto left = static_cast<long>(problem.K.rows());
+   if (dofs > 0)
+   {
+      return say(text("Condensed %d dofs to %ld in %.3g s", dofs, left, seconds_));
+   }
+   std::string loads;
+   for (const cattaneo::LoadPattern &pattern : problem.patterns)
+   {
+      loads += (loads.empty() ? "" : ", ") + pattern.name;
+   }
+   say(text("Read a problem of %ld contact nodes, %ld dofs, with the loads ",
+            static_cast<long>(nodes_), left) +
+       loads);
 }
 
 void Study::save(const cattaneo::ReducedProblem &problem) const
@@ -55,7 +66,8 @@ void Study::write_frames(const std::string &folder, Scene &scene,
                          const std::vector<cattaneo::ContactState> &states)
 {
    counters -= scene.reduction.counters; // what the frames cost is added
-   write_paraview(folder, scene, states);
+   cattaneo::ReductionFields fields = scene.fields(folder);
+   for (const cattaneo::ContactState &state : states) { fields.write(state); }
    counters += scene.reduction.counters;
    say(text("%zu frames in %s", states.size(), folder.c_str()));
 }

@@ -62,10 +62,10 @@ public:
    void reduced(const Scene &scene);
    /// The same in two parts, for a problem that may still prove to be bad input.
    void condensed(const Scene &scene);
-   void condensed(const cattaneo::ReducedProblem &problem, int dofs);
+   void condensed(const cattaneo::ReducedProblem &problem, int dofs); ///< 0: it was read
    void save(const cattaneo::ReducedProblem &problem) const;
 
-   /// Frames for ParaView, of a scene that has been reduced, see write_paraview().
+   /// Frames for ParaView, of a scene that has been reduced, see Scene::fields().
    void write_frames(const std::string &folder, Scene &scene,
                      const std::vector<cattaneo::ContactState> &states);
 

@@ -144,6 +144,7 @@ TEST_F(Options, EveryStudyDrawsAPicture)
       {"axisymmetric_receding", "-spacing 0.1"},
       {"lap_joint", "-spacing 0.05 -increments 5"},
       {"contact2d", "--case meshes/rounded_punch.json --cycles 1"},
+      {"march", "-case problems/sliders.case.json"},
       {"fretting", "-Q 50"}};
    std::size_t pictures = 0;
    for (const auto &[program, options] : runs)

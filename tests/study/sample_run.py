@@ -43,7 +43,7 @@ def main():
     folder = pathlib.Path(folder)
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    for data in ("meshes", "miniapps"):  # that sample runs name
+    for data in ("meshes", "miniapps", "problems"):  # that sample runs name
         (folder / data).symlink_to(pathlib.Path(source) / data)
     run = subprocess.run([program, *shlex.split(sample)[1:], "--json", "results.json"], cwd=folder,
                          text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)

@@ -1,0 +1,254 @@
+#include "common/own_history.hpp"
+
+#include "common/statements.hpp"
+#include "common/watch.hpp"
+
+#include <algorithm>
+#include <cattaneo/friction/critical_friction.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cmath>
+#include <cstdio>
+
+namespace miniapp
+{
+
+using namespace cattaneo;
+using Eigen::VectorXd;
+
+namespace
+{
+
+/// A saved state must stand where the history stands at its time.
+void check_start(const ContactState &state, const LoadHistory &history)
+{
+   for (int k = 0; k < history.pieces(); ++k)
+   {
+      const LoadPiece piece = history.piece(k);
+      if (state.time < piece.start || state.time > piece.end) { continue; }
+      const VectorXd loads = piece.at((state.time - piece.start) / piece.duration());
+      const double scale = history.multipliers.cwiseAbs().maxCoeff();
+      require((loads - state.multipliers).cwiseAbs().maxCoeff() <= 1e-9 * scale,
+              "option load-state: the saved state has the load multipliers (",
+              state.multipliers.transpose(), "), the history has (", loads.transpose(),
+              ") at its time ", state.time);
+      return;
+   }
+   require(false, "option load-state: the saved state's time ", state.time,
+           " is outside of the history, which ends at ",
+           history.piece(history.pieces() - 1).end);
+}
+
+/// A zone of a node that has no neighbours has no length: it is given one, to be seen.
+std::vector<Zone> widened(const ReducedProblem &problem, std::vector<Zone> zones)
+{
+   const double length = problem.arc_length.maxCoeff() - problem.arc_length.minCoeff(),
+                half = 0.4 * length / std::max<double>(1, problem.nodes() - 1);
+   for (Zone &zone : zones)
+   {
+      if (zone.first != zone.last || zone.from.position != zone.to.position) { continue; }
+      zone.from.position -= half;
+      zone.to.position += half;
+   }
+   return zones;
+}
+
+} // namespace
+
+OwnHistory::OwnHistory(Study &study) : study_(study)
+{
+   study.option(&text_, "history",
+                "Load multipliers at times 0, 1, …, as 'P=0; P=1; Q=0.1'; default: all from "
+                "0 to 1.",
+                Text::statements);
+   study.option(&cycle_start_, "cycle-start",
+                "Point of the history (from 0) where its cycle starts; -1: there is none.");
+   study.option(&cycles_, "cycles",
+                "How often the cycle is marched (fewer once it is steady).");
+   study.option(&settings.increments, "increments",
+                "Load increments between two points of the history.", at_least(1));
+   study.option(&stepping_, "stepping", stepping_help, stepping_choices);
+   study.option(&frames_, "frames",
+                "Times to be written besides the last one, or all (every increment).");
+   study.option(&save_state_, "save-state", "File for the last state.", Text::output);
+   study.option(&load_state_, "load-state", "State to go on from.", Text::input);
+   for (const char *name : {"frames", "load-state"})
+   {
+      study.options().leave_out_of_cases(name);
+   }
+}
+
+void OwnHistory::check_options()
+{
+   require(cycle_start_ >= -1, "option cycle-start is ", cycle_start_,
+           ", must be a point of the history, from 0, or -1 for no cycle");
+   require(cycles_ >= 1, "option cycles: ", cycles_, " cycles, at least 1 is needed");
+   if (cycles_ > 1 && cycle_start_ < 0)
+   {
+      warn("option cycles is " + std::to_string(cycles_) +
+           ", but the history has no cycle: option cycle-start says where it starts");
+   }
+   settings.stepping = stepping(stepping_);
+   if (frames_ != "all") { wanted_ = numbers("--frames", frames_); }
+   std::sort(wanted_.begin(), wanted_.end());
+}
+
+void OwnHistory::begin(const ReducedProblem &problem)
+{
+   history_ = load_history("history", text_, problem);
+   history_.cycle_start = cycle_start_;
+   history_.cycles = cycles_;
+   history_.validate(static_cast<int>(problem.patterns.size()));
+   state = ContactState::virgin(problem);
+   if (!load_state_.empty())
+   {
+      state = load_contact_state(load_state_);
+      state.validate(problem);
+      check_start(state, history_);
+   }
+   check_times("frames", wanted_);
+}
+
+void OwnHistory::check_times(const std::string &option, const std::vector<double> &times) const
+{
+   const double end = history_.piece(history_.pieces() - 1).end;
+   for (double time : times)
+   {
+      require(time > state.time && time <= end, "option ", option, ": time ", time,
+              " is outside of the march from ", state.time, " to ", end);
+   }
+}
+
+void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
+{
+   const bool tables = !study_.csv().empty() && writes();
+   std::optional<HistoryWriter> history;
+   std::optional<NodeWriter> nodes;
+   std::optional<StateSaver> saver;
+   const std::string rows = study_.csv() + "_history.csv", frames = study_.csv() + "_nodes.csv";
+   if (tables && load_state_.empty())
+   {
+      history.emplace(rows, problem);
+      nodes.emplace(frames, problem);
+   }
+   else if (tables) // what the march before has left there stays
+   {
+      history.emplace(rows, problem, state.time);
+      nodes.emplace(frames, problem, state.time);
+   }
+   if (!save_state_.empty() && writes()) { saver.emplace(save_state_); }
+   Panel &diagram =
+      study_.panel(Panel::Kind::zones, "zones_in_time", "Zones in time", "time", "arc length");
+   auto next = wanted_.begin();
+   double last_frame = state.time;
+   const auto note = [&](const ContactState &reached, const IncrementRecord &record)
+   {
+      bool frame = frames_ == "all";
+      for (; next != wanted_.end() && reached.time >= *next; ++next) { frame = true; }
+      if (frame) { last_frame = reached.time; }
+      if (tables || study_.draws())
+      {
+         diagram.add(reached.time, widened(problem, zones(problem, reached)));
+      }
+      if (history) { history->add(reached, record); }
+      if (nodes && frame) { nodes->add(reached); }
+      if (saver) { saver->add(reached, record); }
+      observe(reached, frame);
+   };
+   Watch watch("march");
+   settings.monitor = watch.monitor();
+   try
+   {
+      report = cattaneo::march(problem, history_, state, settings, note);
+      require(std::isfinite(report.energy_imbalance) && std::isfinite(state.dissipation),
+              "the energies of the march overflow: the loads or the moduli need other units");
+   }
+   catch (const InputError &) // leaves no new file
+   {
+      for (const std::string &file : {rows, frames})
+      {
+         if (tables && load_state_.empty()) { std::remove(file.c_str()); }
+      }
+      throw;
+   }
+   study_.counters += report.counters;
+   study_.code = exit_code(problem, report);
+   add_outcome(problem, report, study_.results);
+   if (last_frame != state.time || report.increments.empty())
+   {
+      if (nodes) { nodes->add(state); }
+      observe(state, true);
+   }
+   if (saver) { save(state, save_state_); }
+}
+
+void OwnHistory::report_state(const ReducedProblem &problem, const std::string &more)
+{
+   study_.results["time"] = state.time;
+   study_.results["loads"] = named(problem, state.multipliers);
+   study_.title(
+      text("At time %g%s: ", state.time, report.not_unique ? ", one of several states" : "") +
+      more);
+   study_.value("peak_pressure", tractions(problem, state.p).maxCoeff(), "peak pressure");
+   const std::vector<Zone> zones = cattaneo::zones(problem, state);
+   const bool one_line = zones.back().chain == 0;
+   Table &table = study_.table("zones", {{"state", "state"},
+                                         {"from", "from", "%.5g"},
+                                         {"to", "to (arc length)", "%.5g"},
+                                         {"", "±"},
+                                         {"from_error"},
+                                         {"to_error"},
+                                         {"piece", one_line ? "" : "piece of the line"}});
+   for (const Zone &zone : zones)
+   {
+      study_.row(table, {name(zone.state), zone.from.position, zone.to.position,
+                         error_text(std::max(zone.from.error, zone.to.error)), zone.from.error,
+                         zone.to.error, zone.chain + 1});
+   }
+   const Eigen::Index touching = touching_nodes(problem, state);
+   study_.results["touching_nodes"] = touching;
+   if (touching > 0)
+   {
+      study_.say(text("   %ld nodes touch without force; they carry nothing and count as "
+                      "separated",
+                      static_cast<long>(touching)));
+   }
+   study_
+      .panel(Panel::Kind::lines, "tractions", "Pressure, and shear over f (dashed)",
+             "arc length", "p, q/f")
+      .add_tractions(text("time %g", state.time), problem.arc_length, problem, state);
+}
+
+void OwnHistory::report_march(const ReducedProblem &problem)
+{
+   const int last_cycle = report.increments.empty() ? 0 : report.increments.back().cycle;
+   // A cycle that was not finished has increments, but no record.
+   const bool unfinished = study_.code != 0 && last_cycle > 0;
+   const int ended = static_cast<int>(report.cycles.size()),
+             first_cycle = last_cycle - ended + (unfinished ? 0 : 1);
+   report_cycles(study_, problem, report, 1, first_cycle);
+   study_.results["first_cycle"] = ended == 0 ? 0 : first_cycle;
+   study_.results["total_dissipation"] = state.dissipation;
+   study_.results["advance_error"] = report.advance_error;
+   study_.results["largest_residual"] = report.largest_residual;
+   if (settings.stepping == Stepping::exact) { report_exact_path(study_, problem, report); }
+}
+
+void report_critical_friction(Study &study, const ReducedProblem &problem)
+{
+   const CriticalFriction critical = critical_friction(problem);
+   study.results["critical_friction"] = {{"node", critical.node},
+                                         {"locking", critical.locking},
+                                         {"unique_below", critical.unique_below}};
+   const auto words = [](double value, const char *if_infinite)
+   { return std::isfinite(value) ? text("%g", value) : if_infinite; };
+   const std::string which = std::isfinite(critical.node)
+                                ? text(" (node %ld)", static_cast<long>(critical.weakest_node))
+                                : "";
+   study.say(
+      "Critical friction: of a node alone " + words(critical.node, "none") + which +
+      ", locks itself above " + words(critical.locking, "none") +
+      ", one answer for sure below " +
+      (critical.unique_below > 0 ? words(critical.unique_below, "any") : "(nothing proven)"));
+}
+
+} // namespace miniapp

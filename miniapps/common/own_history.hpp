@@ -1,0 +1,58 @@
+#pragma once
+
+#include "common/run.hpp"
+
+#include <cattaneo/output/history.hpp>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace miniapp
+{
+
+/** A march along a load history of a user's own: its options, from rest or from a saved state,
+    the files that it writes as it goes, and what is said of it and of its last state. */
+class OwnHistory
+{
+public:
+   /// Adds the options. Times of frames that are wanted are named on the command line only.
+   explicit OwnHistory(Study &study);
+   /// After parsing. InputError naming the option.
+   void check_options();
+
+   /// The history of this problem, and the state that it starts from. InputError naming the
+   /// option.
+   void begin(const cattaneo::ReducedProblem &problem);
+   /// InputError if the march does not reach one of these times of an option.
+   void check_times(const std::string &option, const std::vector<double> &times) const;
+
+   /// Called with every state that is reached; `frame`: one of those that are wanted.
+   using Observer = std::function<void(const cattaneo::ContactState &, bool frame)>;
+   /// Marches and writes: with --csv PREFIX_history.csv, and PREFIX_nodes.csv of the frames
+   /// (from a saved state it goes on with those of the march before); with --save-state the
+   /// state, every few seconds. Where there is no equilibrium the exit
+   /// code of the study says so, and it goes on. InputError if energies overflow.
+   void march(const cattaneo::ReducedProblem &problem, const Observer &observe);
+
+   /// Of the last state: its loads, zones and tractions, and `more` about its forces.
+   void report_state(const cattaneo::ReducedProblem &problem, const std::string &more);
+   /// Of the march: cycles, losses, residuals, the changes of an exact path.
+   void report_march(const cattaneo::ReducedProblem &problem);
+
+   cattaneo::MarchSettings settings;
+   cattaneo::ContactState state;
+   cattaneo::MarchReport report;
+
+private:
+   Study &study_;
+   std::string text_, stepping_ = "advancing", frames_, save_state_, load_state_;
+   int cycle_start_ = -1, cycles_ = 1;
+   std::vector<double> wanted_; ///< times of frames, in their order
+   cattaneo::LoadHistory history_;
+};
+
+/// The coefficients of friction at which the contact changes its character.
+void report_critical_friction(Study &study, const cattaneo::ReducedProblem &problem);
+
+} // namespace miniapp

@@ -1,0 +1,101 @@
+//  march: any saved reduced problem through a load history, in cycles, by the method you choose
+//
+//  Reads a reduced problem (docs/reduced_problems.md): what a study wrote with --save, one of
+//  problems/, or matrices of your own, which need no mesh. Units are those of the file.
+//
+//  Sample runs:  march -case problems/sliders.case.json
+//                march -reduced problems/hertz.json -history "P=0; P=1; Q=.24; Q=-.24"
+//                march -reduced problems/hertz.json -history "P=0;P=1;Q=.24" -method
+//                gauss-seidel
+
+#include "common/own_history.hpp"
+
+#include <cattaneo/input_error.hpp>
+#include <cattaneo/reduced/reduced_file.hpp>
+#include <cmath>
+
+using namespace cattaneo;
+using Eigen::VectorXd;
+using miniapp::text;
+
+namespace
+{
+
+/// Matrices of one's own may come without neighbours, places and weights.
+void fill_in(ReducedProblem &problem)
+{
+   const Eigen::Index n = problem.nodes();
+   if (problem.chains.empty()) // each node for itself
+   {
+      for (Eigen::Index i = 0; i < n; ++i)
+      {
+         problem.chains.push_back({"node " + std::to_string(i), i, 1});
+      }
+   }
+   if (problem.arc_length.size() == 0)
+   {
+      problem.arc_length = VectorXd::LinSpaced(n, 0, static_cast<double>(n - 1));
+      miniapp::warn("the file has no arc length: positions are numbers of nodes, from 0");
+   }
+   if (problem.weights.size() == 0)
+   {
+      problem.weights = VectorXd::Ones(n);
+      miniapp::warn("the file has no weights: tractions are nodal forces");
+   }
+   if (problem.position.size() == 0)
+   {
+      problem.position = Eigen::MatrixXd::Zero(n, 2);
+      problem.position.col(0) = problem.arc_length;
+   }
+}
+
+void march_problem(miniapp::Study &study)
+{
+   std::string file, method = "automatic";
+   double friction = miniapp::none;
+   miniapp::OwnHistory history(study);
+   FrictionSettings &solver = history.settings.friction;
+   int max_sweeps = static_cast<int>(solver.max_sweeps);
+   study.option(&file, "reduced", "Reduced problem: what --save of a study wrote, or your own.",
+                miniapp::Text::input);
+   study.option(&friction, "friction",
+                "Coefficient of friction of all nodes, instead of the file's.",
+                miniapp::not_negative);
+   study.option(&method, "method",
+                "automatic, or gauss-seidel (node by node alone, as in the thesis).",
+                {"automatic", "gauss-seidel"});
+   study.option(&solver.tolerance, "tolerance",
+                "Largest violation of an equation or law, over the largest nodal force.",
+                miniapp::positive);
+   study.option(&max_sweeps, "max-sweeps", "Most sweeps of an increment by gauss-seidel.",
+                miniapp::at_least(1));
+   study.parse();
+   history.check_options();
+   require(!file.empty(), "option reduced is empty, must name a reduced problem");
+   solver.max_sweeps = max_sweeps;
+   if (method == "gauss-seidel") { solver.method = FrictionMethod::gauss_seidel; }
+
+   ReducedProblem problem = load_reduced_problem(file);
+   require(!problem.patterns.empty(), "'", file, "' has no load pattern");
+   fill_in(problem);
+   if (!std::isnan(friction)) { set_friction(problem, friction); }
+   history.begin(problem);
+   study.condensed(problem, 0);
+
+   history.march(problem, [](const ContactState &, bool) {});
+   study.save(problem);
+   const double normal = history.state.p.sum(),
+                tangential = history.state.q.head(problem.nodes()).sum();
+   study.results["normal_force"] = normal;
+   study.results["tangential_force"] = tangential;
+   history.report_state(problem, text("sums of nodal forces p %g, q %g", normal, tangential));
+   history.report_march(problem);
+   miniapp::report_critical_friction(study, problem);
+}
+
+} // namespace
+
+int main(int argc, char *argv[])
+{
+   return miniapp::Study::run("march", argc, argv, march_problem);
+}

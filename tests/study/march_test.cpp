@@ -1,0 +1,110 @@
+#include "study/run_miniapp.hpp"
+
+#include <filesystem>
+#include <sstream>
+
+namespace
+{
+
+using cattaneo_test::run_miniapp;
+namespace fs = std::filesystem;
+
+/// An empty folder of its own for each test.
+class March : public testing::Test
+{
+protected:
+   void SetUp() override
+   {
+      fs::remove_all(folder);
+      fs::create_directories(folder);
+   }
+   void TearDown() override { fs::remove_all(folder); }
+
+   std::string contents(const std::string &name) const
+   {
+      std::ostringstream text;
+      text << std::ifstream(folder + name).rdbuf();
+      return text.str();
+   }
+
+   const std::string folder = testing::TempDir() + "march/";
+};
+
+/// Cut in two it leaves the files of one that was not, and the same results to the last bit.
+TEST_F(March, ARunCutInTwoLeavesTheSameFiles)
+{
+   const std::string run = "-reduced problems/hertz.json -csv '" + folder,
+                     loads = "' -history 'P=0; P=1; Q=.2", state = "state.json'";
+   const auto whole =
+      run_miniapp("march", run + "whole" + loads + "; Q=-.2' -frames '1.5 2 2.5'");
+   const auto first = run_miniapp("march", run + "cut" + loads + "' -frames 1.5 -save-state '" +
+                                              folder + state);
+   const auto second = run_miniapp(
+      "march", run + "cut" + loads + "; Q=-.2' -frames 2.5 -load-state '" + folder + state);
+   ASSERT_EQ(whole.code, 0) << whole.output;
+   ASSERT_EQ(first.code, 0) << first.output;
+   ASSERT_EQ(second.code, 0) << second.output;
+   for (const char *table : {"_history.csv", "_nodes.csv"})
+   {
+      EXPECT_GT(contents(std::string("cut") + table).size(), 5000) << table;
+      EXPECT_TRUE(contents(std::string("cut") + table) ==
+                  contents(std::string("whole") + table))
+         << table;
+   }
+   EXPECT_EQ(second.results["zones"], whole.results["zones"]);
+   EXPECT_EQ(second.results["total_dissipation"], whole.results["total_dissipation"]);
+}
+
+/// The thesis' method node by node comes to the forces of the other, which it shares no step
+/// with.
+TEST_F(March, MethodsAgree)
+{
+   const std::string run = "-reduced problems/square_punch.json -history 'P=0; P=1; Q=0.1' "
+                           "-increments 5 -frames all -csv '" +
+                           folder;
+   const auto automatic = run_miniapp("march", run + "a'"),
+              sweeps = run_miniapp("march", run + "g' -method gauss-seidel");
+   ASSERT_EQ(automatic.code, 0) << automatic.output;
+   ASSERT_EQ(sweeps.code, 0) << sweeps.output;
+   EXPECT_EQ(sweeps.results["counters"]["dense_factorisations"], 0);
+   EXPECT_GT(sweeps.results["counters"]["sweeps"], 100);
+   for (const char *key : {"normal_force", "tangential_force", "total_dissipation"})
+   {
+      const double value = automatic.results[key];
+      EXPECT_NEAR(sweeps.results[key].get<double>(), value, 1e-8 * std::abs(value)) << key;
+   }
+   // It says where it was not given enough of them.
+   const auto stopped = run_miniapp("march", run + "s' -method gauss-seidel -max-sweeps 2");
+   EXPECT_EQ(stopped.code, 2) << stopped.output;
+   EXPECT_EQ(stopped.results["status"], "stalled");
+}
+
+TEST_F(March, BadInputIsOneSentence)
+{
+   const std::string hertz = "-reduced problems/hertz.json ";
+   const std::pair<std::string, std::vector<std::string>> bad[] = {
+      {"", {"option reduced", "must name"}},
+      {"-reduced nowhere.json", {"cannot read", "nowhere.json"}},
+      {"-reduced meshes/dovetail.json", {"dovetail.json", "not a reduced problem"}},
+      {hertz + "-friction -1", {"option --friction", "-1", "not be negative"}},
+      {hertz + "-method newton", {"option --method", "'newton'", "gauss-seidel"}},
+      {hertz + "-tolerance 0", {"option --tolerance", "positive"}},
+      {hertz + "-history 'P=0; R=1'", {"history 'R=1'", "no load pattern 'R'", "P, Q"}},
+      {hertz + "-frames 2", {"frames", "time 2", "from 0 to 1"}},
+      {hertz + "-load-state problems/hertz.json", {"problems/hertz.json"}},
+      {hertz + "-save problems/hertz.json", {"--save", "name another"}}};
+   for (const auto &[options, words] : bad)
+   {
+      const auto run = run_miniapp("march", options);
+      EXPECT_EQ(run.code, 1) << options << "\n" << run.output;
+      const std::size_t at = run.output.find("error:");
+      ASSERT_NE(at, std::string::npos) << options << "\n" << run.output;
+      EXPECT_EQ(run.output.find('\n', at), run.output.size() - 1) << run.output;
+      for (const std::string &word : words)
+      {
+         EXPECT_NE(run.output.find(word, at), std::string::npos) << word << ": " << run.output;
+      }
+   }
+}
+
+} // namespace
