@@ -40,6 +40,7 @@ void Shakedown::run()
 {
    options();
    prepare();
+   const Watch watch("limits"); // from here on Ctrl-C leaves what was found
    monolith();
    if (find != "load") { smallest_friction(); }
    if (find != "friction" || march || starts > 0) { largest_of_closed(); }
@@ -156,8 +157,11 @@ void Shakedown::prepare()
 
 void Shakedown::keep_closed(double load_factor)
 {
-   part =
-      closed_contact(whole, stay_closed(gapped, cycle_of(gapped, reversal), load_factor, 3));
+   Watch watch("march");
+   const auto nodes =
+      stay_closed(gapped, cycle_of(gapped, reversal), load_factor, 3, watch.monitor());
+   if (!nodes) { stopped("the nodes that stay closed were not found yet"); }
+   part = closed_contact(whole, *nodes);
    problem = part.reduced;
    study.say(text("%zu of %ld nodes stay closed at λ = %g; the limits assume that they do "
                   "and that the others stay open",
@@ -180,7 +184,7 @@ void Shakedown::set_up()
 
 void Shakedown::largest_of_closed()
 {
-   most = load_limit(limit);
+   most = largest(limit);
    const int repetitions = closed && find == "load" ? 10 : 0;
    for (int k = 0; k < repetitions && most.status == LimitStatus::certified; ++k)
    {
@@ -188,9 +192,8 @@ void Shakedown::largest_of_closed()
       keep_closed(most.limit);
       if (part.closed == before) { break; }
       set_up();
-      most = load_limit(limit);
+      most = largest(limit);
    }
-   note(most);
 }
 
 LoadCycle Shakedown::cycle_of(const ReducedProblem &of, double R) const
@@ -204,13 +207,46 @@ LoadCycle Shakedown::cycle_of(const ReducedProblem &of, double R) const
    return LoadCycle::through(of, constant, {{{cycled, 1}}, {{cycled, R}}});
 }
 
-void Shakedown::note(const LimitReport &report)
+LimitReport Shakedown::largest(const LimitProblem &of, const LimitReport *start)
+{
+   Watch watch("largest load");
+   LimitSettings settings;
+   settings.start = start;
+   settings.monitor = watch.monitor();
+   return counted(load_limit(of, settings));
+}
+
+LimitReport Shakedown::smallest(const LimitProblem &of)
+{
+   Watch watch("smallest friction");
+   LimitSettings settings;
+   settings.monitor = watch.monitor();
+   return counted(friction_limit(of, lambda_max, settings));
+}
+
+LimitReport Shakedown::counted(LimitReport report)
 {
    study.counters += report.counters;
+   if (report.status == LimitStatus::stopped)
+   {
+      results["bound_lower"] = report.lower;
+      results["bound_upper"] = report.upper;
+      stopped(text("a limit that is proven to lie between %g and %g was not found yet",
+                   report.lower, report.upper));
+   }
    if (report.status != LimitStatus::certified && report.status != LimitStatus::unlimited)
    {
       study.code = 2;
    }
+   return report;
+}
+
+void Shakedown::stopped(const std::string &message)
+{
+   study.say("Stopped: " + message);
+   results["status"] = "stopped";
+   results["message"] = message;
+   throw Outcome();
 }
 
 void Shakedown::as_before()

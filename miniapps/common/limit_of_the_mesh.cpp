@@ -12,8 +12,9 @@ namespace miniapp
 using namespace cattaneo;
 using Eigen::Index;
 
-std::vector<Index> stay_closed(const ReducedProblem &problem, const LoadCycle &cycle,
-                               double load_factor, int cycles)
+std::optional<std::vector<Index>> stay_closed(const ReducedProblem &problem,
+                                              const LoadCycle &cycle, double load_factor,
+                                              int cycles, const Monitor &monitor)
 {
    std::vector<bool> closed_so_far(problem.nodes(), true);
    const Eigen::MatrixXd vertices = cycle.multipliers(load_factor);
@@ -36,7 +37,10 @@ std::vector<Index> stay_closed(const ReducedProblem &problem, const LoadCycle &c
          closed_so_far[i] = closed_so_far[i] && closed(states[i]);
       }
    };
-   const MarchReport report = march(problem, history, state, {}, observe);
+   MarchSettings settings;
+   settings.monitor = monitor;
+   const MarchReport report = march(problem, history, state, settings, observe);
+   if (report.status == FrictionStatus::stopped) { return std::nullopt; }
    warn_of_cut_off(report.cut_off);
    require(report.status == FrictionStatus::converged,
            "option --closed: the march ended with status '", name(report.status),

@@ -4,17 +4,18 @@
 #include <cattaneo/shakedown/limit.hpp>
 #include <cattaneo/shakedown/load_cycle.hpp>
 #include <cattaneo/shakedown/residual_forces.hpp>
-#include <string>
+#include <optional>
 #include <vector>
 
 namespace miniapp
 {
 
-/// The nodes that are closed throughout some cycles marched from rest. InputError if the march
-/// does not end well.
-std::vector<Eigen::Index> stay_closed(const cattaneo::ReducedProblem &problem,
-                                      const cattaneo::LoadCycle &cycle, double load_factor,
-                                      int cycles);
+/// The nodes that are closed throughout some cycles marched from rest; none if the monitor
+/// stopped the march. InputError if it does not end well.
+std::optional<std::vector<Eigen::Index>> stay_closed(const cattaneo::ReducedProblem &problem,
+                                                     const cattaneo::LoadCycle &cycle,
+                                                     double load_factor, int cycles,
+                                                     const cattaneo::Monitor &monitor);
 
 /// Of the work that the mechanism of a limit dissipates, f p |slip|: the share within 1 % of
 /// the length from either end of the contact line. NaN without a mechanism.

@@ -155,16 +155,14 @@ void Shakedown::smallest_friction()
    study.value("method1", first.value, "method 1 (4.9)", none,
                text("at x = %.3f", x[first.node]));
    if (problem.components() == 1) { method2(); }
-   least = friction_limit(limit, lambda_max);
-   note(least);
+   least = smallest(limit);
    report("friction", least, lambda_max, least.limit);
    if (!standard || lambda_max != 0.8 || std::abs(reversal + 0.5) > 1e-12) { return; }
    // With (4.10) as printed, whose coupling block is the transpose of (3.25)'s.
    ReducedProblem transposed = problem;
    transposed.B() = problem.B().transpose().eval();
    complete(transposed); // rigid motions of the bodies do not belong to this matrix
-   const LimitReport other = friction_limit(limit_problem(transposed, cycle), lambda_max);
-   note(other);
+   const LimitReport other = smallest(limit_problem(transposed, cycle));
    study.value("friction_limit_transposed", other.limit, "exact with B transposed");
 }
 
@@ -207,9 +205,7 @@ void Shakedown::largest_load()
    {
       limit.cycle = cycle_of(problem, R);
       set_friction(limit.reduced, f);
-      const LimitReport of = load_limit(limit);
-      note(of);
-      study.row(table, {R, f, of.limit / f});
+      study.row(table, {R, f, largest(limit).limit / f});
    }
    as_before();
    study.value("method1_ratio",
@@ -219,8 +215,12 @@ void Shakedown::largest_load()
 
 void Shakedown::lower()
 {
-   const LowerLimitReport proven = lower_limit(limit, most);
+   Watch watch("lower limit");
+   LimitSettings settings;
+   settings.monitor = watch.monitor();
+   const LowerLimitReport proven = lower_limit(limit, most, settings);
    study.counters += proven.counters;
+   if (proven.status == LimitStatus::stopped) { stopped("the lower limit was not found yet"); }
    study.say("   lower limit λ1: " + proven.message);
    if (proven.kind != LowerLimitKind::none) { study.value("lower_limit", proven.value, "λ1"); }
    results["lower_limit_statement"] = proven.message;
@@ -234,13 +234,14 @@ void Shakedown::lower()
    }
    CounterExampleSettings search;
    search.starts = starts;
-   search.transient.cycles = cycles;
+   search.transient = of_cycles(watch);
    const CounterExample found = find_counter_example(limit, most, proven.value, search);
    study.counters += found.counters;
    study.say(text("   %s: %d marches", found.message.c_str(), found.marches));
    study.value("counter_example", found.found ? found.load_factor : none,
                "smallest λ that slips on");
    study.value("quiet_up_to", found.quiet);
+   if (settings.monitor.stopped()) { stopped(found.message); }
 }
 
 VectorXd Shakedown::traction(const VectorXd &force) const

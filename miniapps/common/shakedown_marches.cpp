@@ -28,12 +28,7 @@ TransientReport Shakedown::counted(TransientReport run)
 {
    warn_of_cut_off(run.cut_off);
    study.counters += run.counters;
-   if (run.verdict == TransientVerdict::stopped)
-   {
-      study.say("Stopped: " + run.message);
-      results["status"] = name(run.status);
-      throw Outcome();
-   }
+   if (run.verdict == TransientVerdict::stopped) { stopped(run.message); }
    return run;
 }
 
@@ -197,11 +192,7 @@ void Shakedown::limit_map()
       {
          const double R = std::array<double, 4>{-1, -0.75, -0.5, 0}[r];
          limit.cycle = cycle_of(problem, R);
-         LimitSettings settings;
-         if (k > 0) { settings.start = &column[r]; }
-         LimitReport next = load_limit(limit, settings);
-         note(next);
-         column[r] = std::move(next);
+         column[r] = largest(limit, k > 0 ? &column[r] : nullptr);
          const LimitReport &of = column[r];
          study.row(table, {f, R, of.limit / f, of.limit, of.lower, of.upper});
       }
@@ -224,12 +215,10 @@ void Shakedown::repeat(const char *table_name, const PunchOptions &other)
    study.counters += changed.reduction.counters;
    LimitProblem on = limit_problem(changed.problem(), cycle_of(changed.problem(), reversal));
    set_friction(on.reduced, friction);
-   const LimitReport f = friction_limit(on, lambda_max), load = load_limit(on);
+   const double f = smallest(on).limit, load = largest(on).limit;
    on.cycle = cycle_of(changed.problem(), -1);
-   const LimitReport reversed = load_limit(on);
-   for (const LimitReport *report : {&f, &load, &reversed}) { note(*report); }
-   study.row(table, {other.nodes, other.plane_stiffness, changed.dofs, on.coupling, f.limit,
-                     load.limit, reversed.limit});
+   study.row(table, {other.nodes, other.plane_stiffness, changed.dofs, on.coupling, f, load,
+                     largest(on).limit});
 }
 
 } // namespace miniapp

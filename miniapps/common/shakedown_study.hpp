@@ -36,7 +36,14 @@ private:
    /// The limit; if it alone is asked for, on the nodes that stay closed at the limit itself.
    void largest_of_closed();
    cattaneo::LoadCycle cycle_of(const cattaneo::ReducedProblem &of, double R) const;
-   void note(const cattaneo::LimitReport &report);
+   /// The largest load of a problem, and its smallest friction for the loads. Ctrl-C leaves the
+   /// study with what is proven by then.
+   cattaneo::LimitReport largest(const cattaneo::LimitProblem &of,
+                                 const cattaneo::LimitReport *start = nullptr);
+   cattaneo::LimitReport smallest(const cattaneo::LimitProblem &of);
+   cattaneo::LimitReport counted(cattaneo::LimitReport report);
+   /// Leaves the study.
+   [[noreturn]] void stopped(const std::string &message);
    /// A limit with its bounds, and whether it is one of the bodies. `what` is load or friction.
    void report(const std::string &what, const cattaneo::LimitReport &of, double load_factor,
                double f);
