@@ -5,8 +5,7 @@
 //
 //  Sample runs:  march -case problems/sliders.case.json
 //                march -reduced problems/hertz.json -history "P=0; P=1; Q=.24; Q=-.24"
-//                march -reduced problems/hertz.json -history "P=0;P=1;Q=.24" -method
-//                gauss-seidel
+//                march -method gauss-seidel -reduced problems/hertz.json -history "P=0; P=1"
 
 #include "common/own_history.hpp"
 
