@@ -193,18 +193,17 @@ nlohmann::ordered_json to_json(const cattaneo::Counters &counters)
 namespace
 {
 
-/// Of this run.
-std::vector<std::string> &warnings()
-{
-   static std::vector<std::string> list;
-   return list;
-}
+std::vector<std::string> given; ///< warnings of this run
 
 } // namespace
 
+const std::vector<std::string> &warnings()
+{
+   return given;
+}
+
 void warn(const std::string &text)
 {
-   std::vector<std::string> &given = warnings();
    if (std::find(given.begin(), given.end(), text) != given.end()) { return; }
    given.push_back(text);
    std::cout << "warning: " << text << std::endl;
@@ -213,7 +212,7 @@ void warn(const std::string &text)
 void write_json(nlohmann::ordered_json results, const std::string &file)
 {
    if (file.empty() || !writes()) { return; }
-   results["warnings"] = warnings();
+   results["warnings"] = given;
    cattaneo::write_whole(file, results.dump(2) + '\n');
 }
 

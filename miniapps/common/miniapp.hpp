@@ -45,6 +45,9 @@ nlohmann::ordered_json to_json(const cattaneo::Counters &counters);
 /// Prints a warning, once however often it is given; the results of write_json() list them.
 void warn(const std::string &text);
 
+/// Those that were given.
+const std::vector<std::string> &warnings();
+
 /// Writes results as JSON, whole or not at all, and with them the list `warnings`; nothing if
 /// the file name is empty.
 void write_json(nlohmann::ordered_json results, const std::string &file);

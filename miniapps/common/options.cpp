@@ -217,6 +217,8 @@ void Options::check_files() const
       require(option.text != Text::picture || type == ".png" || type == ".pdf" ||
                  type == ".svg",
               what, ": '", file, "' must end in .png, .pdf or .svg");
+      require(option.text != Text::page || type == ".html", what, ": '", file,
+              "' must end in .html");
       for (const Option &other : options_)
       {
          if (&other == &option || named(other).empty() || option.text == Text::prefix ||

@@ -35,7 +35,8 @@ enum class Text
    output,     ///< a file that is written
    prefix,     ///< the beginning of the names of files that are written
    folder,     ///< a folder for files, made with those above it if there is none
-   picture     ///< a file of matplotlib's: png, pdf or svg
+   picture,    ///< a file of matplotlib's: png, pdf or svg
+   page        ///< an html file
 };
 
 /** Options of a program: MFEM's parser with what it leaves open. Each is declared once, with

@@ -38,20 +38,6 @@ void check_start(const ContactState &state, const LoadHistory &history)
            history.piece(history.pieces() - 1).end);
 }
 
-/// A zone of a node that has no neighbours has no length: it is given one, to be seen.
-std::vector<Zone> widened(const ReducedProblem &problem, std::vector<Zone> zones)
-{
-   const double length = problem.arc_length.maxCoeff() - problem.arc_length.minCoeff(),
-                half = 0.4 * length / std::max<double>(1, problem.nodes() - 1);
-   for (Zone &zone : zones)
-   {
-      if (zone.first != zone.last || zone.from.position != zone.to.position) { continue; }
-      zone.from.position -= half;
-      zone.to.position += half;
-   }
-   return zones;
-}
-
 } // namespace
 
 OwnHistory::OwnHistory(Study &study) : study_(study)
@@ -138,6 +124,7 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
    if (!save_state_.empty() && writes()) { saver.emplace(save_state_); }
    Panel &diagram =
       study_.panel(Panel::Kind::zones, "zones_in_time", "Zones in time", "time", "arc length");
+   Film *film = study_.film(problem);
    auto next = wanted_.begin();
    double last_frame = state.time;
    const auto note = [&](const ContactState &reached, const IncrementRecord &record)
@@ -147,11 +134,12 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
       if (frame) { last_frame = reached.time; }
       if (tables || study_.draws())
       {
-         diagram.add(reached.time, widened(problem, zones(problem, reached)));
+         diagram.add(reached.time, drawn_zones(problem, reached));
       }
       if (history) { history->add(reached, record); }
       if (nodes && frame) { nodes->add(reached); }
       if (saver) { saver->add(reached, record); }
+      if (film) { film->add(problem, reached, record); }
       observe(reached, frame);
    };
    Watch watch("march");

@@ -17,7 +17,7 @@ using nlohmann::ordered_json;
 
 Run::Run(Study &study, const ReducedProblem &problem, const MarchSettings &settings_)
    : state(ContactState::virgin(problem)), settings(settings_),
-     solver(problem, settings_.friction), study_(study)
+     solver(problem, settings_.friction), study_(study), film_(study.film(problem))
 {
    study_.counters += solver.counters();
 }
@@ -60,7 +60,12 @@ const MarchReport &Run::march(const LoadHistory &history, const MarchObserver &o
    state.time = 0;
    Watch watch("march");
    settings.monitor = watch.monitor();
-   report = cattaneo::march(solver, history, state, settings, observe);
+   const auto note = [&](const ContactState &reached, const IncrementRecord &record)
+   {
+      if (film_) { film_->add(solver.problem(), reached, record); }
+      if (observe) { observe(reached, record); }
+   };
+   report = cattaneo::march(solver, history, state, settings, note);
    settings.monitor = {};
    study_.counters += report.counters;
    if (exit_code(solver.problem(), report) != 0 && leaves)

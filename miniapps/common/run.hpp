@@ -49,6 +49,7 @@ private:
    std::vector<cattaneo::NamedLoads>
    from_here(const std::vector<cattaneo::NamedLoads> &points) const;
    Study &study_;
+   Film *film_;
 };
 
 extern const char *const stepping_help;

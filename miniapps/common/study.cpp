@@ -4,6 +4,8 @@
 #include <cattaneo/reduced/reduced_file.hpp>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
+#include <sstream>
 
 namespace miniapp
 {
@@ -11,7 +13,7 @@ namespace miniapp
 using nlohmann::ordered_json;
 
 Study::Study(const std::string &name, int argc, char *argv[])
-   : options_(argc, argv), references_(name)
+   : options_(argc, argv), references_(name), name_(name)
 {
 }
 
@@ -20,6 +22,8 @@ void Study::parse(const char *json)
    option(&json_, {json, "json"}, "File for the results.", Text::output);
    option(&csv_, "csv", "Prefix of CSV files of tables and figures.", Text::prefix);
    option(&plot_, "plot", "Picture of the results (png, pdf, svg).", Text::picture);
+   option(&html_, "html", "Page of the run, with its increments to look at one by one.",
+          Text::page);
    option(&save_, "save", "File for the reduced problem (shakedown --reduced reads it).",
           Text::output);
    options_.parse();
@@ -92,7 +96,12 @@ void Study::value(const std::string &key, double x, const std::string &label, do
    if (label.empty()) { return; }
    std::string line =
       "   " + padded(label, 40) + " " + (std::isfinite(x) ? text("%.6g", x) : "-");
-   if (error > 0) { line += " ± " + error_text(error); }
+   values_.push_back({{"label", label}, {"value", x}, {"unit", unit}});
+   if (error > 0)
+   {
+      line += " ± " + error_text(error);
+      values_.back()["error"] = error_text(error);
+   }
    say(line + (unit.empty() ? "" : " " + unit));
 }
 
@@ -131,6 +140,18 @@ Panel &Study::panel(Panel::Kind kind, const std::string &name, const std::string
    const Panel &made = panels_.emplace_back(kind, name, title, x_label, y_label);
    sheets_.push_back([&made] { return Sheet{made.name(), made.csv(), true}; });
    return panels_.back();
+}
+
+Film *Study::film(const cattaneo::ReducedProblem &problem)
+{
+   constexpr std::size_t most = 12;
+   if (html_.empty() || !writes()) { return nullptr; }
+   if (films_.size() == most)
+   {
+      ++more_films_;
+      return nullptr;
+   }
+   return &films_.emplace_back(std::to_string(films_.size() + 1), problem);
 }
 
 void Study::compare(const std::string &name, double exact, Allowed allowed, double computed)
@@ -179,6 +200,44 @@ void Study::finish()
    const bool nothing = code != 0 && !plot_.empty() && !drawn;
    if (nothing) { say("no picture: the study ended before there was anything to draw"); }
    output(sheets, code != 0 && sheets.empty() ? "" : csv_, nothing ? "" : plot_);
+   if (!html_.empty() && writes()) { write_html(drawn ? sheets : std::vector<Sheet>()); }
+}
+
+void Study::write_html(const std::vector<Sheet> &sheets) const
+{
+   ordered_json films = ordered_json::array(), tables = ordered_json::array();
+   for (const Film &film : films_)
+   {
+      if (!film.empty()) { films.push_back(film.json()); }
+   }
+   for (const Table &table : tables_)
+   {
+      const ordered_json printed = table.printed();
+      if (!printed["head"].empty() && !printed["rows"].empty()) { tables.push_back(printed); }
+   }
+   std::string figure;
+   if (!sheets.empty())
+   {
+      const std::string svg = html_ + ".svg";
+      output(sheets, "", svg);
+      std::ostringstream text;
+      text << std::ifstream(svg).rdbuf();
+      std::remove(svg.c_str());
+      figure = text.str().substr(std::min(text.str().find("<svg"), text.str().size()));
+   }
+   write_page(html_,
+              {{"study", name_},
+               {"status", results["status"]},
+               {"message", results.value("message", "")},
+               {"seconds", results["seconds"]},
+               {"warnings", warnings()},
+               {"options", options_.values()},
+               {"values", values_},
+               {"tables", tables},
+               {"references", results["references"]},
+               {"films", films},
+               {"more_films", more_films_}},
+              figure);
 }
 
 int Study::run(const std::string &name, int argc, char *argv[],

@@ -3,6 +3,7 @@
 #include "common/figure.hpp"
 #include "common/miniapp.hpp"
 #include "common/options.hpp"
+#include "common/page.hpp"
 #include "common/references.hpp"
 #include "common/scene.hpp"
 #include "common/table.hpp"
@@ -30,8 +31,8 @@ struct Outcome
     or a row of a table, which is printed, goes to JSON and CSV, may be drawn, and is compared
     with the references of the study (miniapps/data/references.json).
 
-    All studies have the options --case, --json, --csv, --plot and --save, and end with their
-    references, sizes, times, counters and warnings. Made first: it holds the clock. */
+    All studies have the options --case, --json, --csv, --plot, --html and --save, and end with
+    their references, sizes, times, counters and warnings. Made first: it holds the clock. */
 class Study
 {
 public:
@@ -54,7 +55,7 @@ public:
    /// Adds those that all studies have, and parses. @param json short name of --json
    void parse(const char *json = "json");
    /// True if a picture is wanted.
-   bool draws() const { return !plot_.empty(); }
+   bool draws() const { return !plot_.empty() || !html_.empty(); }
    const std::string &csv() const { return csv_; } ///< prefix of its CSV files, if any
 
    /// To be called when the problem has been reduced: prints its size, writes it to the file of
@@ -90,6 +91,10 @@ public:
    Panel &panel(Panel::Kind kind, const std::string &name, const std::string &title,
                 const std::string &x_label, const std::string &y_label);
 
+   /// Where the increments of a march go that the page (--html) is to show; null if there is
+   /// no page, or enough on it. Stays where it is.
+   Film *film(const cattaneo::ReducedProblem &problem);
+
    /// A closed form beside what was computed, in the table of references.
    void compare(const std::string &name, double exact, Allowed allowed, double computed);
 
@@ -104,6 +109,7 @@ public:
 
 private:
    void finish();
+   void write_html(const std::vector<Sheet> &sheets) const;
    /// What a name means: a column of the row, a single result or an option.
    nlohmann::ordered_json meaning(const std::string &name,
                                   const nlohmann::ordered_json &row) const;
@@ -111,9 +117,12 @@ private:
    Options options_;
    References references_;
    ReferenceTable compared_;
-   std::string json_, csv_, plot_, save_;
+   std::string name_, json_, csv_, plot_, html_, save_;
    std::deque<Table> tables_;
    std::deque<Panel> panels_;
+   std::deque<Film> films_;
+   int more_films_ = 0;                                              ///< not on the page
+   nlohmann::ordered_json values_ = nlohmann::ordered_json::array(); ///< as they are printed
    std::vector<std::function<Sheet()>> sheets_; ///< in the order of the figure
    struct Found
    {

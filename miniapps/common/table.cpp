@@ -88,13 +88,15 @@ const ordered_json &Table::row(const std::vector<ordered_json> &values,
    print_headings();
    ordered_json row;
    std::string line;
+   std::vector<std::string> &cells = printed_.emplace_back();
    for (std::size_t k = 0; k < values.size(); ++k)
    {
       const Column &column = columns_[k];
       if (!column.key.empty()) { row[column.key] = values[k]; }
       if (!column.heading.empty())
       {
-         line += "  " + right(cell(values[k], column), width(column) - 2);
+         cells.push_back(cell(values[k], column));
+         line += "  " + right(cells.back(), width(column) - 2);
       }
    }
    if (!line.empty()) { std::printf("%s\n", line.c_str()); }
@@ -127,6 +129,16 @@ Table &Table::shade(double from, double to, const std::string &word)
 {
    comments_ += text("# shade: %g,%g,", from, to) + word + "\n";
    return *this;
+}
+
+ordered_json Table::printed() const
+{
+   ordered_json head = ordered_json::array();
+   for (const Column &column : columns_)
+   {
+      if (!column.heading.empty()) { head.push_back(column.heading); }
+   }
+   return {{"name", name_}, {"head", head}, {"rows", printed_}};
 }
 
 std::string Table::csv() const

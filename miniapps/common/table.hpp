@@ -47,11 +47,14 @@ public:
    const std::string &name() const { return name_; }
    const nlohmann::ordered_json &json() const { return rows_; }
    std::string csv() const; ///< nothing without rows
+   /// Its headings and rows as they are printed.
+   nlohmann::ordered_json printed() const;
 
 private:
    std::string name_, comments_;
    std::vector<Column> columns_;
    nlohmann::ordered_json rows_ = nlohmann::ordered_json::array();
+   std::vector<std::vector<std::string>> printed_;
 };
 
 } // namespace miniapp

@@ -1,0 +1,140 @@
+#include "common/page.hpp"
+
+#include "common/figure.hpp"
+#include "common/text.hpp"
+
+#include <algorithm>
+#include <cattaneo/input_error.hpp>
+#include <cattaneo/whole_file.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+namespace miniapp
+{
+
+using namespace cattaneo;
+using Eigen::Index;
+using Eigen::VectorXd;
+using nlohmann::ordered_json;
+
+namespace
+{
+
+/// Eight digits are enough to look at.
+ordered_json rounded(double x)
+{
+   if (!std::isfinite(x)) { return nullptr; }
+   return std::strtod(text("%.8g", x).c_str(), nullptr);
+}
+
+ordered_json list(const VectorXd &values)
+{
+   ordered_json list = ordered_json::array();
+   for (double x : values) { list.push_back(rounded(x)); }
+   return list;
+}
+
+/// Tangential nodal forces; with two components their length.
+VectorXd shear(const ReducedProblem &problem, const ContactState &state)
+{
+   const Index n = problem.nodes();
+   if (problem.components() == 0) { return VectorXd::Zero(n); }
+   if (problem.components() == 1) { return state.q; }
+   return state.q.reshaped(n, 2).rowwise().norm();
+}
+
+} // namespace
+
+Film::Film(const std::string &name, const ReducedProblem &problem)
+   : most_(std::clamp<std::size_t>(400000 / (2 * problem.nodes() + 1), 40, 600))
+{
+   ordered_json loads = ordered_json::array(), breaks = ordered_json::array();
+   for (const LoadPattern &pattern : problem.patterns)
+   {
+      const bool force = pattern.control == Control::force;
+      loads.push_back({{"name", pattern.name},
+                       {"force", force},
+                       {"word", std::string(problem.knows_loads() ? "" : "contact ") +
+                                   (force ? "displacement" : "reaction")}});
+   }
+   for (const ContactChain &chain : problem.chains) { breaks.push_back(chain.first); }
+   head_ = {{"name", name},
+            {"loads", loads},
+            {"position", list(problem.arc_length)},
+            {"friction", list(problem.friction)},
+            {"breaks", breaks}};
+}
+
+void Film::add(const ReducedProblem &problem, const ContactState &state,
+               const IncrementRecord &record)
+{
+   ordered_json zones = ordered_json::array();
+   for (const Zone &zone : drawn_zones(problem, state))
+   {
+      zones.push_back(
+         {name(zone.state), rounded(zone.from.position), rounded(zone.to.position)});
+   }
+   last_ = {{"row", history_.size()},
+            {"p", list(tractions(problem, state.p))},
+            {"q", list(tractions(problem, shear(problem, state)))},
+            {"zones", zones}};
+   if (history_.size() % stride_ == 0) { frames_.push_back(last_); }
+   history_.push_back({{"time", record.time},
+                       {"cycle", record.cycle},
+                       {"loads", list(record.multipliers)},
+                       {"conjugates", list(record.conjugates)},
+                       {"dissipation", rounded(record.dissipation)}});
+   if (frames_.size() <= most_) { return; }
+   std::vector<ordered_json> kept;
+   for (std::size_t k = 0; k < frames_.size(); k += 2) { kept.push_back(frames_[k]); }
+   frames_ = kept;
+   stride_ *= 2;
+}
+
+ordered_json Film::json() const
+{
+   ordered_json film = head_;
+   film["stride"] = stride_;
+   film["history"] = history_;
+   film["frames"] = frames_;
+   if (frames_.back()["row"] != last_["row"]) { film["frames"].push_back(last_); }
+   return film;
+}
+
+void write_page(const std::string &file, const ordered_json &run, const std::string &figure)
+{
+   const std::string place = std::string(CATTANEO_SOURCE_DIR) + "/miniapps/plot/page.html";
+   std::ifstream in(place);
+   require(in.good(), "option --html: cannot read '", place, "'");
+   std::ostringstream page;
+   page << in.rdbuf();
+   std::string text = page.str(), data = run.dump();
+   // Within a script "</" would end it.
+   for (std::size_t at = 0; (at = data.find("</", at)) != std::string::npos; at += 3)
+   {
+      data.replace(at, 2, "<\\/");
+   }
+   for (const auto &[mark, content] : {std::pair{"@RUN@", data}, {"@FIGURE@", figure}})
+   {
+      text.replace(text.find(mark), std::string(mark).size(), content);
+   }
+   write_whole(file, text);
+}
+
+std::vector<Zone> drawn_zones(const ReducedProblem &problem, const ContactState &state)
+{
+   const double length = problem.arc_length.maxCoeff() - problem.arc_length.minCoeff(),
+                half = 0.4 * length / std::max<double>(1, problem.nodes() - 1);
+   std::vector<Zone> list = zones(problem, state);
+   for (Zone &zone : list)
+   {
+      if (zone.first != zone.last || zone.from.position != zone.to.position) { continue; }
+      zone.from.position -= half;
+      zone.to.position += half;
+   }
+   return list;
+}
+
+} // namespace miniapp

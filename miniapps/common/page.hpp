@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cattaneo/friction/march.hpp>
+#include <cattaneo/readout/zones.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace miniapp
+{
+
+/** The increments of a march, for the slider of the page (--html): all loads with what does
+    work with them, and tractions and zones of so many that a page can hold. */
+class Film
+{
+public:
+   Film(const std::string &name, const cattaneo::ReducedProblem &problem);
+   /// To be called with every accepted increment of that problem.
+   void add(const cattaneo::ReducedProblem &problem, const cattaneo::ContactState &state,
+            const cattaneo::IncrementRecord &record);
+   bool empty() const { return frames_.empty(); }
+   nlohmann::ordered_json json() const;
+
+private:
+   nlohmann::ordered_json head_;
+   std::vector<nlohmann::ordered_json> history_, frames_;
+   nlohmann::ordered_json last_; ///< frame, whether it is one of those kept or not
+   std::size_t most_, stride_ = 1;
+};
+
+/// Writes the page of a run, whole or not at all: miniapps/plot/page.html with its data and its
+/// figure (SVG, or nothing) in it. InputError if it cannot.
+void write_page(const std::string &file, const nlohmann::ordered_json &run,
+                const std::string &figure);
+
+/// Zones as they are drawn: one of a node without neighbours has no length, and is given one.
+std::vector<cattaneo::Zone> drawn_zones(const cattaneo::ReducedProblem &problem,
+                                        const cattaneo::ContactState &state);
+
+} // namespace miniapp
