@@ -29,6 +29,13 @@ VectorXd symmetric_eigenvalues(const MatrixXd &matrix)
    return Eigen::SelfAdjointEigenSolver<MatrixXd>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
+MatrixXd at_rest(const MatrixXd &Z, const MatrixXd &rows)
+{
+   if (Z.cols() == 0) { return Z; }
+   const SymmetricModes modes = symmetric_modes(rows.transpose() * rows);
+   return Z * modes.vectors.leftCols((modes.values.array() < 1e-14).count());
+}
+
 VectorXd least_squares(const MatrixXd &A, const VectorXd &b)
 {
    return A.colPivHouseholderQr().solve(b);

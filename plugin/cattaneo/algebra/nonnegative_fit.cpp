@@ -71,4 +71,16 @@ NonnegativeFit fit_nonnegative(const MatrixXd &G, const VectorXd &g)
    return polished();
 }
 
+std::optional<VectorXd> least_distance(const MatrixXd &G, const VectorXd &h)
+{
+   const Index k = G.cols();
+   const double scale = h.size() > 0 ? h.maxCoeff() : 0;
+   if (scale <= 0) { return VectorXd::Zero(k); }
+   MatrixXd E(k + 1, G.rows());
+   E << G.transpose(), h.transpose() / scale;
+   const VectorXd r = fit_nonnegative(E, VectorXd::Unit(k + 1, k)).residual;
+   if (r[k] <= 1e-12) { return {}; }
+   return -scale / r[k] * r.head(k);
+}
+
 } // namespace cattaneo

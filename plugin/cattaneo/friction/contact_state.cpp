@@ -7,9 +7,20 @@ namespace cattaneo
 
 const char *name(NodeState state)
 {
-   constexpr const char *names[] = {"stick", "separation", "forward slip", "backward slip",
-                                    "slip"};
-   return names[static_cast<int>(state)];
+   switch (state)
+   {
+   case NodeState::stick:
+      return "stick";
+   case NodeState::separation:
+      return "separation";
+   case NodeState::forward_slip:
+      return "forward slip";
+   case NodeState::backward_slip:
+      return "backward slip";
+   case NodeState::slip:
+      return "slip";
+   }
+   return "";
 }
 
 Eigen::VectorXd ContactState::displacements() const

@@ -8,16 +8,10 @@ namespace cattaneo
 using Eigen::Index;
 using Eigen::VectorXd;
 
-namespace
-{
-
-/// Of the forces of a load pattern in the displacements of a state.
 double work(const LoadPattern &pattern, const ContactState &state)
 {
    return pattern.q.dot(state.v) + pattern.p.dot(state.w);
 }
-
-} // namespace
 
 VectorXd frictional_loss(const ReducedProblem &problem, const ContactState &before,
                          const ContactState &after)

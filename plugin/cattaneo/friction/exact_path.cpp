@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cattaneo/friction/exact_path.hpp>
+#include <cattaneo/friction/methods.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
 
@@ -182,6 +183,11 @@ bool ExactPath::advance(ContactState &state, double time, const VectorXd &multip
    const bool found = find_rates(state, multipliers);
    counters_.dense_factorisations += equations_.factorisations() - factored;
    if (!found) { return false; }
+   if (free_motions(problem_, equations_.states()).cols() > 0)
+   {
+      failure_ = "a body slips wherever it touches";
+      return false;
+   }
    const std::vector<NodeState> &states = equations_.states();
    const std::size_t listed = changes.size();
    list_changes(state, states, changes);

@@ -12,9 +12,22 @@ using Eigen::VectorXd;
 
 const char *name(FrictionStatus status)
 {
-   constexpr const char *names[] = {"converged",   "gross sliding", "not unique",
-                                    "no solution", "stalled",       "stopped"};
-   return names[static_cast<int>(status)];
+   switch (status)
+   {
+   case FrictionStatus::converged:
+      return "converged";
+   case FrictionStatus::gross_sliding:
+      return "gross sliding";
+   case FrictionStatus::not_unique:
+      return "not unique";
+   case FrictionStatus::no_solution:
+      return "no solution";
+   case FrictionStatus::stalled:
+      return "stalled";
+   case FrictionStatus::stopped:
+      return "stopped";
+   }
+   return "";
 }
 
 void FrictionSettings::validate() const
@@ -146,12 +159,19 @@ IncrementReport FrictionSystem::solve(ContactState &state, const VectorXd &multi
       next = at.end();
       return obeys_laws(at.v_old, next, at.scale(), report);
    };
-   bool solved = find_end(at) && !runs_away(at);
+   bool solved = find_end(at);
+   if (solved && take_least_motion(at)) { at.residuals(); }
+   solved = solved && !runs_away(at);
    if (solved)
    {
       // Displacements are rounded after they were found, and their forces are not quite those
       // of the solution: once more, from there. (The disc forms its forces anew at each step.)
-      solved = ends_here() || (!disc() && solve_for_states(at, true) && ends_here());
+      solved = ends_here();
+      if (!solved && !disc() && solve_for_states(at, true))
+      {
+         take_least_motion(at);
+         solved = ends_here();
+      }
       if (report.round_off >= lost) { at.lost_in_round_off = report.round_off; }
       // What is eliminated has moved far: it is not left to round-off.
       if (tangential && report.round_off > may_hide_sliding) { solved = false; }
@@ -162,6 +182,11 @@ IncrementReport FrictionSystem::solve(ContactState &state, const VectorXd &multi
       if (!moves_away(at) && at.at_rest)
       {
          next = *at.rested;
+         if (!frictionless)
+         {
+            at.take(next.displacements(), next.status);
+            if (take_least_motion(at)) { next = at.end(); }
+         }
          report = {};
          report.found_by = "rest";
          solved = obeys_laws(at.v_old, next, at.scale(), report);

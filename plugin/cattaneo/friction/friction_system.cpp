@@ -21,6 +21,12 @@ const ReducedProblem &valid(const ReducedProblem &problem)
 
 } // namespace
 
+VectorXd node_lengths(const ReducedProblem &problem)
+{
+   const bool known = problem.weights.size() > 0 && problem.weights.minCoeff() > 0;
+   return known ? problem.weights : VectorXd::Ones(problem.nodes());
+}
+
 FrictionSystem::FrictionSystem(const ReducedProblem &given, const FrictionSettings &chosen,
                                bool tangential_unknowns)
    : problem(valid(given)), settings(chosen), n(problem.nodes()),
@@ -56,10 +62,8 @@ FrictionSystem::FrictionSystem(const ReducedProblem &given, const FrictionSettin
    tangential = std::make_unique<SemidefiniteSolver>(problem.A(), slides_freely);
    if (slides_freely.cols() > 0)
    {
-      const bool lengths = problem.weights.size() == n && problem.weights.minCoeff() > 0;
-      const VectorXd weight = lengths ? problem.weights : VectorXd::Ones(n);
       const MatrixXd weighted =
-         weight.replicate(problem.components(), 1).asDiagonal() * slides_freely;
+         node_lengths(problem).replicate(problem.components(), 1).asDiagonal() * slides_freely;
       const MatrixXd square = slides_freely.transpose() * weighted;
       share_of_motion = square.ldlt().solve(weighted.transpose());
    }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cattaneo/friction/energy.hpp>
 #include <cattaneo/friction/loop.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
@@ -19,8 +20,7 @@ Eigen::VectorXd conjugates(const ReducedProblem &problem, const ContactState &st
    for (Eigen::Index k = 0; k < count; ++k)
    {
       const LoadPattern &pattern = problem.patterns[k];
-      const double moved = pattern.q.dot(state.v) + pattern.p.dot(state.w);
-      result[k] += pattern.control == Control::force ? -moved : moved;
+      result[k] += (pattern.control == Control::force ? -1 : 1) * work(pattern, state);
    }
    return result;
 }

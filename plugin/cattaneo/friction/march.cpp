@@ -46,15 +46,6 @@ struct Trial
    bool stalled() const { return increment.status == FrictionStatus::stalled; }
 };
 
-/// False for a free body that slips at every node: how far it has slipped is not known.
-bool holds(const ReducedProblem &problem, const ContactState &state)
-{
-   const Eigen::MatrixXd &rigid = problem.rigid_motions;
-   return rigid.cols() == 0 || rigid.topRows(problem.slips()).isZero(1e-12) ||
-          std::any_of(state.status.begin(), state.status.end(),
-                      [](NodeState node) { return closed(node) && !slips(node); });
-}
-
 /// One march in progress.
 class March
 {
@@ -211,10 +202,7 @@ void March::bisect_event(double failed, IncrementReport failure)
       const IncrementReport &found = trial.increment;
       const double stated =
          std::max({found.residual_normal, found.residual_tangential, found.round_off});
-      if (stated <= known_to && holds(problem_, trial.state))
-      {
-         accept(std::move(trial), false);
-      }
+      if (stated <= known_to) { accept(std::move(trial), false); }
    }
    record_.stop(failure);
    record_.report.event_time = reached;

@@ -216,20 +216,6 @@ void ReducedProblem::validate() const
    check_facts(*this);
 }
 
-namespace
-{
-
-/// Combinations of orthonormal motions Z that leave some of their rows at rest. What moves
-/// these by less than 1e-7 of the rest meets, by the forces of its square, less than round-off.
-Eigen::MatrixXd at_rest(const Eigen::MatrixXd &Z, const Eigen::MatrixXd &rows)
-{
-   if (Z.cols() == 0) { return Z; }
-   const SymmetricModes modes = symmetric_modes(rows.transpose() * rows);
-   return Z * modes.vectors.leftCols((modes.values.array() < 1e-14).count());
-}
-
-} // namespace
-
 void hold(ReducedProblem &problem, const std::vector<Eigen::Index> &rows)
 {
    for (Eigen::Index row : rows)

@@ -14,9 +14,24 @@ LimitProblem limit_problem(ReducedProblem reduced, LoadCycle cycle)
 
 const char *name(LimitStatus status)
 {
-   constexpr const char *names[] = {"certified", "bracketed", "unlimited",  "no solution",
-                                    "failed",    "stopped",   "unavailable"};
-   return names[static_cast<int>(status)];
+   switch (status)
+   {
+   case LimitStatus::certified:
+      return "certified";
+   case LimitStatus::bracketed:
+      return "bracketed";
+   case LimitStatus::unlimited:
+      return "unlimited";
+   case LimitStatus::no_solution:
+      return "no solution";
+   case LimitStatus::failed:
+      return "failed";
+   case LimitStatus::stopped:
+      return "stopped";
+   case LimitStatus::unavailable:
+      return "unavailable";
+   }
+   return "";
 }
 
 void LimitSettings::validate() const

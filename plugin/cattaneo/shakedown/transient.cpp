@@ -23,10 +23,22 @@ bool starts_at_constant(const LoadCycle &cycle)
 
 const char *name(TransientVerdict verdict)
 {
-   constexpr const char *names[] = {"shaken down",    "shaken down but at nodes that open",
-                                    "cyclic slip",    "still slipping",
-                                    "no equilibrium", "stopped"};
-   return names[static_cast<int>(verdict)];
+   switch (verdict)
+   {
+   case TransientVerdict::shaken_down:
+      return "shaken down";
+   case TransientVerdict::slips_and_opens:
+      return "shaken down but at nodes that open";
+   case TransientVerdict::cyclic_slip:
+      return "cyclic slip";
+   case TransientVerdict::still_slipping:
+      return "still slipping";
+   case TransientVerdict::no_equilibrium:
+      return "no equilibrium";
+   case TransientVerdict::stopped:
+      return "stopped";
+   }
+   return "";
 }
 
 void TransientSettings::validate() const

@@ -24,6 +24,11 @@ SymmetricModes symmetric_modes(const Eigen::MatrixXd &matrix);
 /// The values alone.
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd &matrix);
 
+/// Combinations of the orthonormal columns of Z that are zero in these rows of it. What is less
+/// than 1e-7 of the rest there counts as zero: a stiffness of 1 makes less than round-off of
+/// its square.
+Eigen::MatrixXd at_rest(const Eigen::MatrixXd &Z, const Eigen::MatrixXd &rows);
+
 /// x with the least |A x - b|.
 Eigen::VectorXd least_squares(const Eigen::MatrixXd &A, const Eigen::VectorXd &b);
 

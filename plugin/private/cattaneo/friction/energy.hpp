@@ -5,6 +5,9 @@
 namespace cattaneo
 {
 
+/// Of the forces of a load pattern in the displacements of a state.
+double work(const LoadPattern &pattern, const ContactState &state);
+
 /** Frictional loss of each node (size n) over an increment: ½ f (p₀ + p₁)|Δv|, exact for a
     linear path along which the node is in contact and slips one way. Where slip has turned
     round since the last increment the node sticks first: p₀ is then the pressure at which

@@ -15,6 +15,9 @@ constexpr double lost = 1e-6;
 // and above this it may hide what drives a body that slides.
 constexpr double may_hide_sliding = 1e-10;
 
+/// Of the contact, for each node: its weight, or one where these are not known.
+Eigen::VectorXd node_lengths(const ReducedProblem &problem);
+
 /// What FrictionSolver keeps from increment to increment.
 struct FrictionSystem
 {

@@ -38,6 +38,15 @@ bool moves_away(Increment &at);
 /// Newton's method on the natural map with a line search, from several starts.
 Search damped_newton(Increment &at);
 
+/// A body that slips wherever it touches could slip on as it is, with the same forces: it has
+/// moved the least, by the length of the contact, that its states ask for, as where the last
+/// node that stuck let go. False if no body can (friction in the disc: not asked).
+bool take_least_motion(Increment &at);
+
+/// Rigid motions of bodies that touch, which no node that sticks or bears resists.
+Eigen::MatrixXd free_motions(const ReducedProblem &problem,
+                             const std::vector<NodeState> &states);
+
 /// Moves to the solution of the linear equations of the present states. False if they are
 /// singular. `from_here`: once more from the present displacements, for round-off that is left
 /// of them.
