@@ -56,7 +56,8 @@ def check(file):
 
 
 def main():
-    files = sys.argv[1:] or sorted(set(glob.glob(os.path.join(HERE, "*.json"))) - set(glob.glob(os.path.join(HERE, "*.solution.json"))))
+    files = sys.argv[1:] or sorted(
+        file.replace(".solution.json", ".json") for file in glob.glob(os.path.join(HERE, "*.solution.json")))
     bad = False
     for file in files:
         worst = check(file)

@@ -264,6 +264,15 @@ TEST(Streaming, RowsAreThereAsSoonAsTheyAreAdded)
          });
    write_nodes(folder + "whole_nodes.csv", problem, states);
    EXPECT_EQ(content(folder + "growing_nodes.csv"), content(folder + "whole_nodes.csv"));
+
+   // Nodes of which it is not known where they are have no rows.
+   const std::string none = folder + "nowhere.csv";
+   problem.position.resize(0, 0);
+   expect_input_error([&] { NodeWriter(none, problem); }, "no arc length or positions");
+   problem.position = Eigen::MatrixXd::Zero(4, 2);
+   problem.arc_length.resize(0);
+   expect_input_error([&] { NodeWriter(none, problem); }, "no arc length or positions");
+   EXPECT_FALSE(std::filesystem::exists(none));
 }
 
 TEST(Streaming, AStateIsSavedWhenItIsTime)

@@ -33,6 +33,16 @@ endfunction()
 extract(README.md "# Cattaneo" ${project}/embed)
 extract(docs/embedding.md "# Contact in an MFEM program" ${project}/doors)
 extract(docs/embedding.md "## Core alone" ${project}/core/bars)
+# The march that is watched has no program around it on its page.
+extract(docs/embedding.md "A long march is watched, stopped and taken up again:" ${project}/watched)
+file(READ ${project}/watched.cpp watched)
+file(APPEND ${project}/doors.cpp "#include <atomic>
+using namespace cattaneo;
+void watch(Reduction &reduction, const ElasticBody &body, const LoadHistory &loads, ContactState &state)
+{
+const ReducedProblem &problem = reduction.problem;
+${watched}}
+")
 file(COPY ${SOURCE}/tests/install/CMakeLists.txt ${SOURCE}/tests/install/core DESTINATION ${project})
 if(EACH_HEADER)
    file(GLOB_RECURSE headers RELATIVE ${SOURCE}/plugin ${SOURCE}/plugin/cattaneo/*.hpp)
