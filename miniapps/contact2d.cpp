@@ -131,7 +131,14 @@ void contact2d(miniapp::Study &study)
    std::optional<miniapp::SidesThatBear> beyond_corners;
    if (own.materials.size() == 1) { beyond_corners.emplace(line); }
    std::optional<ReductionFields> fields;
-   if (!options.paraview.empty()) { fields.emplace(own.scene.fields(options.paraview)); }
+   if (!options.paraview.empty())
+   {
+      for (const char *part : {"", "/contact", "/body1", "/body2"})
+      {
+         study.begins(options.paraview + part, true);
+      }
+      fields.emplace(own.scene.fields(options.paraview));
+   }
    const Counters &spent = own.scene.reduction.counters;
    int frames = 0;
    history.march(problem,

@@ -8,6 +8,7 @@
 #include <cattaneo/input_error.hpp>
 #include <cmath>
 #include <cstdio>
+#include <deque>
 
 namespace miniapp
 {
@@ -37,6 +38,47 @@ void check_start(const ContactState &state, const LoadHistory &history)
            " is outside of the history, which ends at ",
            history.piece(history.pieces() - 1).end);
 }
+
+void check_energies(std::initializer_list<double> energies)
+{
+   for (double energy : energies)
+   {
+      require(std::isfinite(energy),
+              "the energies of the march overflow: the loads or the moduli need other units");
+   }
+}
+
+/// As much of a march as a picture can show, whatever its length.
+constexpr std::size_t most_drawn = 4096;
+
+/// The zones of a march, of a long one those of every second increment, every fourth, ….
+class ZonesInTime
+{
+public:
+   void add(const ReducedProblem &problem, const ContactState &state)
+   {
+      if (count_++ % stride_ != 0) { return; }
+      drawn_.emplace_back(state.time, drawn_zones(problem, state));
+      if (drawn_.size() < most_drawn) { return; }
+      for (std::size_t k = 1; 2 * k < drawn_.size(); ++k) { drawn_[k] = drawn_[2 * k]; }
+      drawn_.resize(drawn_.size() / 2);
+      stride_ *= 2;
+   }
+   /// With the last state.
+   void draw(Panel &panel, const ReducedProblem &problem, const ContactState &last)
+   {
+      if (drawn_.empty()) { return; }
+      if (drawn_.back().first != last.time)
+      {
+         drawn_.emplace_back(last.time, drawn_zones(problem, last));
+      }
+      for (const auto &[time, zones] : drawn_) { panel.add(time, zones); }
+   }
+
+private:
+   std::vector<std::pair<double, std::vector<Zone>>> drawn_;
+   long count_ = 0, stride_ = 1;
+};
 
 } // namespace
 
@@ -106,36 +148,43 @@ void OwnHistory::check_times(const std::string &option, const std::vector<double
 
 void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
 {
-   const bool tables = !study_.csv().empty() && writes();
+   const bool tables = !study_.csv().empty() && writes(), goes_on = !load_state_.empty();
    std::optional<HistoryWriter> history;
    std::optional<NodeWriter> nodes;
    std::optional<StateSaver> saver;
-   const std::string rows = study_.csv() + "_history.csv", frames = study_.csv() + "_nodes.csv";
-   if (tables && load_state_.empty())
+   if (tables)
    {
-      history.emplace(rows, problem);
-      nodes.emplace(frames, problem);
-   }
-   else if (tables) // what the march before has left there stays
-   {
+      const std::string rows = study_.csv() + "_history.csv",
+                        frames = study_.csv() + "_nodes.csv";
+      for (const std::string &file : {rows, frames})
+      {
+         study_.begins(file, goes_on);
+         if (!goes_on) { std::remove(file.c_str()); }
+      }
       history.emplace(rows, problem, state.time);
       nodes.emplace(frames, problem, state.time);
    }
-   if (!save_state_.empty() && writes()) { saver.emplace(save_state_); }
+   if (!save_state_.empty() && writes())
+   {
+      study_.begins(save_state_);
+      saver.emplace(save_state_);
+   }
    Panel &diagram =
       study_.panel(Panel::Kind::zones, "zones_in_time", "Zones in time", "time", "arc length");
    Film *film = study_.film(problem);
+   ZonesInTime zones_in_time;
+   std::deque<IncrementRecord> last_increments;
    auto next = wanted_.begin();
    double last_frame = state.time;
    const auto note = [&](const ContactState &reached, const IncrementRecord &record)
    {
+      check_energies({reached.dissipation, record.external_work});
       bool frame = frames_ == "all";
       for (; next != wanted_.end() && reached.time >= *next; ++next) { frame = true; }
       if (frame) { last_frame = reached.time; }
-      if (tables || study_.draws())
-      {
-         diagram.add(reached.time, drawn_zones(problem, reached));
-      }
+      if (tables || study_.draws()) { zones_in_time.add(problem, reached); }
+      last_increments.push_back(record);
+      if (last_increments.size() > most_drawn) { last_increments.pop_front(); }
       if (history) { history->add(reached, record); }
       if (nodes && frame) { nodes->add(reached); }
       if (saver) { saver->add(reached, record); }
@@ -144,20 +193,11 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
    };
    Watch watch("march");
    settings.monitor = watch.monitor();
-   try
-   {
-      report = cattaneo::march(problem, history_, state, settings, note);
-      require(std::isfinite(report.energy_imbalance) && std::isfinite(state.dissipation),
-              "the energies of the march overflow: the loads or the moduli need other units");
-   }
-   catch (const InputError &) // leaves no new file
-   {
-      for (const std::string &file : {rows, frames})
-      {
-         if (tables && load_state_.empty()) { std::remove(file.c_str()); }
-      }
-      throw;
-   }
+   settings.keep_increments = false;
+   report = cattaneo::march(problem, history_, state, settings, note);
+   check_energies({report.energy_imbalance, state.dissipation});
+   report.increments.assign(last_increments.begin(), last_increments.end());
+   zones_in_time.draw(diagram, problem, state);
    study_.counters += report.counters;
    study_.code = exit_code(problem, report);
    add_outcome(problem, report, study_.results);

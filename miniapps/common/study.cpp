@@ -4,6 +4,7 @@
 #include <cattaneo/reduced/reduced_file.hpp>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -11,6 +12,7 @@ namespace miniapp
 {
 
 using nlohmann::ordered_json;
+namespace fs = std::filesystem;
 
 Study::Study(const std::string &name, int argc, char *argv[])
    : options_(argc, argv), references_(name), name_(name)
@@ -59,6 +61,17 @@ void Study::condensed(const cattaneo::ReducedProblem &problem, int dofs)
    say(text("Read a problem of %ld contact nodes, %ld dofs, with the loads ",
             static_cast<long>(nodes_), left) +
        loads);
+}
+
+void Study::begins(const std::string &path, bool goes_on)
+{
+   if (writes() && !(goes_on && fs::exists(path))) { begun_.paths.push_back(path); }
+}
+
+Study::Begun::~Begun()
+{
+   std::error_code none;
+   for (const std::string &path : paths) { fs::remove_all(path, none); }
 }
 
 void Study::save(const cattaneo::ReducedProblem &problem) const
@@ -168,6 +181,7 @@ ordered_json Study::meaning(const std::string &name, const ordered_json &row) co
 
 void Study::finish()
 {
+   begun_.paths.clear();
    for (const Table &table : tables_) { results[table.name()] = table.json(); }
    for (const Found &found : found_)
    {

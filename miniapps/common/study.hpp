@@ -66,6 +66,10 @@ public:
    void condensed(const cattaneo::ReducedProblem &problem, int dofs); ///< 0: it was read
    void save(const cattaneo::ReducedProblem &problem) const;
 
+   /// A file or folder that is written while the study runs, which removes it if it ends as bad
+   /// input. @param goes_on with what is there: that stays
+   void begins(const std::string &path, bool goes_on = false);
+
    /// Frames for ParaView, of a scene that has been reduced, see Scene::fields().
    void write_frames(const std::string &folder, Scene &scene,
                      const std::vector<cattaneo::ContactState> &states);
@@ -118,6 +122,12 @@ private:
    References references_;
    ReferenceTable compared_;
    std::string name_, json_, csv_, plot_, html_, save_;
+   /// Removes what is in it when it goes.
+   struct Begun
+   {
+      std::vector<std::string> paths;
+      ~Begun();
+   } begun_;
    std::deque<Table> tables_;
    std::deque<Panel> panels_;
    std::deque<Film> films_;

@@ -740,11 +740,11 @@ TEST(FrictionDisc, TablesHaveBothComponents)
    problem.arc_length = VectorXd::LinSpaced(6, 0, 1);
    problem.position = Eigen::MatrixXd::Zero(6, 2);
    ContactState state = ContactState::virgin(problem);
-   HistoryTable table;
+   const std::string file = testing::TempDir() + "disc_table.csv";
+   HistoryWriter table(file, problem);
    march(problem, press_then_twist(0.8, 1), state, {},
          [&](const ContactState &now, const IncrementRecord &record)
          { table.add(now, record); });
-   const std::string file = testing::TempDir() + "disc_table.csv";
    auto check = [&](const std::string &column)
    {
       std::ifstream in(file);
@@ -761,9 +761,8 @@ TEST(FrictionDisc, TablesHaveBothComponents)
       EXPECT_GT(rows, 5);
       std::remove(file.c_str());
    };
-   table.write(file, problem);
    check(",stick,separation,slip,dissipation");
-   write_nodes(file, problem, {state});
+   NodeWriter(file, problem).add(state);
    check("q_radial,q_circumferential,slip_radial,slip_circumferential");
 }
 

@@ -65,6 +65,17 @@ std::vector<Case> cases()
    return all;
 }
 
+/// A march from rest with its history in a file: how many increments it takes.
+long march_to_file(const Case &c, const LoadHistory &history, ContactState &state,
+                   const std::string &file)
+{
+   HistoryWriter writer(file, c.problem);
+   return march(c.problem, history, state, c.settings,
+                [&](const ContactState &now, const IncrementRecord &record)
+                { writer.add(now, record); })
+      .counters.increments;
+}
+
 TEST(Stop, AtAnyIncrementTheMarchGoesOnToTheLastBit)
 {
    const std::string folder = testing::TempDir();
@@ -73,17 +84,10 @@ TEST(Stop, AtAnyIncrementTheMarchGoesOnToTheLastBit)
       SCOPED_TRACE(c.name);
       const LoadHistory history = to_and_fro(c.problem, 3);
       ContactState whole = ContactState::virgin(c.problem);
-      int increments = 0;
-      {
-         HistoryWriter writer(folder + "whole.csv", c.problem);
-         increments = march(c.problem, history, whole, c.settings,
-                            [&](const ContactState &state, const IncrementRecord &record)
-                            { writer.add(state, record); })
-                         .counters.increments;
-      }
+      const long increments = march_to_file(c, history, whole, folder + "whole.csv");
       ASSERT_GT(increments, 20);
       int stopped = 0;
-      for (int after = 0; after < increments; ++after)
+      for (long after = 0; after < increments; ++after)
       {
          std::atomic<bool> stop{after == 0};
          MarchSettings settings = c.settings;
@@ -164,11 +168,7 @@ TEST(Stop, AProgramThatEndsAnywhereIsTakenUpFromWhatItSaved)
       SCOPED_TRACE(c.name);
       const LoadHistory history = to_and_fro(c.problem, 3);
       ContactState whole = ContactState::virgin(c.problem);
-      HistoryWriter expected(folder + "whole.csv", c.problem);
-      const long increments = march(c.problem, history, whole, c.settings,
-                                    [&](const ContactState &state, const IncrementRecord &r)
-                                    { expected.add(state, r); })
-                                 .counters.increments;
+      const long increments = march_to_file(c, history, whole, folder + "whole.csv");
       for (long end = 1; end < increments; end += 5)
       {
          SCOPED_TRACE(end);
@@ -249,29 +249,31 @@ TEST(Streaming, RowsAreThereAsSoonAsTheyAreAdded)
    HistoryWriter history(folder + "growing.csv", problem);
    NodeWriter nodes(folder + "growing_nodes.csv", problem);
    ContactState state = ContactState::virgin(problem);
-   std::vector<ContactState> states;
    long rows = 0;
    march(problem, to_and_fro(problem, 1), state, {},
          [&](const ContactState &now, const IncrementRecord &record)
          {
             history.add(now, record);
             nodes.add(now);
-            states.push_back(now);
             ++rows;
-            const std::string text = content(folder + "growing.csv");
-            EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), rows + 1);
-            EXPECT_EQ(text.back(), '\n');
+            for (const auto &[file, lines] :
+                 {std::pair{"growing.csv", rows + 1}, {"growing_nodes.csv", 4 * rows + 1}})
+            {
+               const std::string text = content(folder + file);
+               EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), lines) << file;
+               EXPECT_EQ(text.back(), '\n');
+            }
          });
-   write_nodes(folder + "whole_nodes.csv", problem, states);
-   EXPECT_EQ(content(folder + "growing_nodes.csv"), content(folder + "whole_nodes.csv"));
 
    // Nodes of which it is not known where they are have no rows.
    const std::string none = folder + "nowhere.csv";
    problem.position.resize(0, 0);
-   expect_input_error([&] { NodeWriter(none, problem); }, "no arc length or positions");
+   expect_input_error([&] { NodeWriter(none, problem); },
+                      "no arc length, positions or weights");
    problem.position = Eigen::MatrixXd::Zero(4, 2);
    problem.arc_length.resize(0);
-   expect_input_error([&] { NodeWriter(none, problem); }, "no arc length or positions");
+   expect_input_error([&] { NodeWriter(none, problem); },
+                      "no arc length, positions or weights");
    EXPECT_FALSE(std::filesystem::exists(none));
 }
 

@@ -50,6 +50,13 @@ std::string content(const std::string &file)
    return text.str();
 }
 
+void write_nodes(const std::string &file, const ReducedProblem &problem,
+                 const std::vector<ContactState> &states)
+{
+   NodeWriter nodes(file, problem);
+   for (const ContactState &state : states) { nodes.add(state); }
+}
+
 int occurrences(const std::string &text, const std::string &word)
 {
    int count = 0;
@@ -325,9 +332,7 @@ TEST_F(Output, TablesAreReadBackToTheLastBit)
    record.dissipation = 0.1;
    record.multipliers = state.multipliers;
    record.conjugates = Eigen::VectorXd::Constant(1, 2.0 / 7);
-   HistoryTable table;
-   table.add(state, record);
-   table.write(folder + "/history.csv", problem);
+   HistoryWriter(folder + "/history.csv", problem).add(state, record);
    double time = 0, load = 0;
    int cycle = 0;
    char header[256];
@@ -364,15 +369,23 @@ TEST_F(Output, ATableThatCannotBeWrittenLeavesNothing)
    fs::create_directories(folder + "/taken");
    EXPECT_THROW(write_nodes(folder + "/taken", problem, {state}), InputError);
    EXPECT_THROW(write_nodes(folder + "/missing/nodes.csv", problem, {state}), InputError);
-   ContactState wrong = state;
-   wrong.p.resize(2);
-   EXPECT_THROW(write_nodes(folder + "/nodes.csv", problem, {state, wrong}), InputError);
-   HistoryTable table;
-   table.add(state, {});
    problem.patterns[0].name = "P,Q";
-   EXPECT_THROW(table.write(folder + "/history.csv", problem), InputError);
+   EXPECT_THROW(HistoryWriter(folder + "/history.csv", problem), InputError);
    fs::remove(folder + "/taken");
    EXPECT_TRUE(fs::is_empty(folder));
+}
+
+TEST_F(Output, AStateThatIsNotOfTheProblemLeavesTheTableAsItWas)
+{
+   const ReducedProblem problem = three_nodes();
+   const ContactState state = some_state(problem);
+   ContactState wrong = state;
+   wrong.p.resize(2);
+   NodeWriter nodes(folder + "/nodes.csv", problem);
+   nodes.add(state);
+   const std::string before = content(folder + "/nodes.csv");
+   EXPECT_THROW(nodes.add(wrong), InputError);
+   EXPECT_EQ(content(folder + "/nodes.csv"), before);
 }
 
 /// A CSV file: the words of each column by its name.
@@ -422,7 +435,7 @@ void expect_values(const std::vector<double> &found, const std::vector<double> &
 TEST_F(Output, ColumnsAreThoseOfAStateSolvedByHand)
 {
    const ReducedProblem problem = four_springs();
-   HistoryTable history;
+   HistoryWriter history(folder + "/history.csv", problem);
    std::vector<ContactState> states;
    ContactState state = ContactState::virgin(problem);
    const auto keep = [&](const ContactState &now, const IncrementRecord &record)
@@ -457,7 +470,6 @@ TEST_F(Output, ColumnsAreThoseOfAStateSolvedByHand)
              (std::vector<std::string>{"stick", "stick", "stick", "separation", "stick",
                                        "forward slip", "backward slip", "separation"}));
 
-   history.write(folder + "/history.csv", problem);
    auto table = columns_of(folder + "/history.csv");
    const auto last = [&](const char *column)
    { return table[column].empty() ? -1 : std::stod(table[column].back()); };
@@ -496,12 +508,11 @@ TEST_F(Output, EachColumnOfTheHistoryIsItsOwn)
    record.conjugates = Eigen::Vector2d(3.5, -4.5);
    const auto read = [&]
    {
-      HistoryTable table;
+      HistoryWriter table(folder + "/history.csv", problem);
       table.add(state, record);
       record.cycle = 20;
       table.add(state, record);
       record.cycle = 2;
-      table.write(folder + "/history.csv", problem);
       return columns_of(folder + "/history.csv");
    };
    std::map<std::string, std::vector<std::string>> plane = read();
@@ -540,16 +551,17 @@ TEST_F(Output, EachColumnOfTheHistoryIsItsOwn)
    expected["slip"] = 7;
    expect(disc, expected);
 
-   // Whatever would break the table is said, and nothing is written.
+   // Whatever would break the table is said, and no row is written.
    fs::remove(folder + "/history.csv");
    for (const std::string name : {"a,b", "a\"b", "a\nb", "a\rb"})
    {
       problem.patterns[1].name = name;
       expect_input_error([&] { read(); }, "'" + name + "' has a comma, a quote or");
    }
+   EXPECT_TRUE(fs::is_empty(folder));
    problem.patterns.pop_back();
    EXPECT_THROW(read(), InputError); // two multipliers for one pattern
-   EXPECT_TRUE(fs::is_empty(folder));
+   EXPECT_EQ(occurrences(content(folder + "/history.csv"), "\n"), 1);
 }
 
 TEST_F(Output, NodesWithTorsionAndWithoutFriction)

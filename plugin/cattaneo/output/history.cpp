@@ -80,29 +80,15 @@ void HistoryWriter::add(const ContactState &, const IncrementRecord &record)
    file_.add(history_row(record, patterns_, disc_));
 }
 
-void HistoryTable::add(const ContactState &, const IncrementRecord &record)
-{
-   rows_.push_back(record);
-}
-
-void HistoryTable::write(const std::string &file, const ReducedProblem &problem) const
-{
-   std::string text = history_header(problem) + '\n';
-   for (const IncrementRecord &record : rows_)
-   {
-      text += history_row(record, count_patterns(problem), has_disc(problem));
-   }
-   write_whole(file, text);
-}
-
 namespace
 {
 
 std::string node_header(const ReducedProblem &problem)
 {
    require(problem.arc_length.size() == problem.nodes() &&
-              problem.position.rows() == problem.nodes(),
-           "node table: the reduced problem has no arc length or positions");
+              problem.position.rows() == problem.nodes() &&
+              problem.weights.size() == problem.nodes(),
+           "node table: the reduced problem has no arc length, positions or weights");
    return std::string("time,node,arc_length,x,y,state,p,") +
           (has_disc(problem) ? "q_radial,q_circumferential,slip_radial,slip_circumferential"
                              : "q,slip") +
@@ -152,14 +138,6 @@ NodeWriter::NodeWriter(const std::string &file, const ReducedProblem &problem, d
 void NodeWriter::add(const ContactState &state)
 {
    file_.add(node_rows(problem_, state));
-}
-
-void write_nodes(const std::string &file, const ReducedProblem &problem,
-                 const std::vector<ContactState> &states)
-{
-   std::string text = node_header(problem) + '\n';
-   for (const ContactState &state : states) { text += node_rows(problem, state); }
-   write_whole(file, text);
 }
 
 StateSaver::StateSaver(const std::string &file, double seconds) : file_(file), seconds_(seconds)

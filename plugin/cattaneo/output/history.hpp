@@ -4,7 +4,6 @@
 #include <cattaneo/output/streamed_file.hpp>
 #include <chrono>
 #include <string>
-#include <vector>
 
 namespace cattaneo
 {
@@ -40,18 +39,6 @@ private:
    StreamedFile file_;
 };
 
-/// The same table, held until it is written whole or not at all.
-class HistoryTable
-{
-public:
-   void add(const ContactState &state, const IncrementRecord &record);
-   /// InputError as HistoryWriter, or if a record is not of the problem.
-   void write(const std::string &file, const ReducedProblem &problem) const;
-
-private:
-   std::vector<IncrementRecord> rows_;
-};
-
 /** Table of the contact nodes of some states, as CSV, one row a node and state, written as they
     come:
 
@@ -75,10 +62,6 @@ private:
    const ReducedProblem &problem_;
    StreamedFile file_;
 };
-
-/// The same of states at hand; whole or not at all.
-void write_nodes(const std::string &file, const ReducedProblem &problem,
-                 const std::vector<ContactState> &states);
 
 /** Saves a state every few seconds while a march goes on, so that little is lost if the program
     ends: with load_contact_state() the march is taken up again. The file is always whole. */
