@@ -13,6 +13,8 @@
 #include <cattaneo/friction/critical_friction.hpp>
 #include <cattaneo/halfplane/half_plane.hpp>
 #include <cattaneo/output/history.hpp>
+#include <cattaneo/reduced/interfaces.hpp>
+#include <cattaneo/reduced/mortar.hpp>
 #include <cattaneo/reduced/reduced_file.hpp>
 #include <cattaneo/reduced/reduction.hpp>
 #include <cattaneo/shakedown/closed_contact.hpp>

@@ -213,7 +213,7 @@ TEST(ReducedFile, SaysWhichFactIsWrong)
    refused("\"coupled\": true,", "\"coupled\": 1,", "is not a reduced problem");
    refused(", \"bodies\": [1, 0]", "", "bodies");
    refused("\"bodies\": [1, 0]", "\"bodies\": [1]", "is not a reduced problem");
-   refused("\"bodies\": [1, 0]", "\"bodies\": [1, 1]", "of body 1 that faces body 1");
+   refused("\"bodies\": [1, 0]", "\"bodies\": [2, 2]", "of body 2 that faces body 2");
    refused("\"bodies\": [1, 0]", "\"bodies\": [-1, 0]", "of body -1 that faces body 0");
    refused("\"bodies\": [1, 0]", "\"bodies\": [0, -2]", "of body 0 that faces body -2");
    refused("\"bodies\": [1, 0]", "\"bodies\": [0, 2]", "of body 0 that faces body 2");

@@ -35,6 +35,7 @@ public:
 class CondensedBody
 {
 public:
+   std::string name; ///< what sentences about unions call it; may be empty
    ContactLine line;
    /// 2n × 2n (torsion: n × n), symmetric; zero in the rows and columns that are held.
    Eigen::MatrixXd S;

@@ -28,6 +28,10 @@ void Reduction::add_torsion(std::vector<CondensedBody> twisting)
            problem.components(), " tangential components a node, must have 1");
    require(twisting.size() == bodies.size(), "add torsion: of ", twisting.size(),
            " bodies to a reduction of ", bodies.size(), ", must be as many");
+   require(
+      bodies.size() == 1 ? !union_ : !partner_.empty(),
+      "add torsion: to a union over interfaces, must be to one body, or to two whose nodes "
+      "match");
    for (std::size_t b = 0; b < bodies.size(); ++b)
    {
       require(bodies[b].line.formulation == Formulation::axisymmetric &&
@@ -51,8 +55,7 @@ void Reduction::add_torsion(std::vector<CondensedBody> twisting)
    else
    {
       ++counters.unions;
-      block =
-         united(twisting[0], twisting[1], union_->partner, torsion_pattern_, problem.patterns);
+      block = united(twisting[0], twisting[1], partner_, torsion_pattern_, problem.patterns);
       torsion_union_ = block.way_back;
    }
    Eigen::MatrixXd K = Eigen::MatrixXd::Zero(3 * n, 3 * n);

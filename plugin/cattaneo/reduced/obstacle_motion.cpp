@@ -11,7 +11,7 @@ void Reduction::add_obstacle_motion(const std::string &name, const ScalarField &
 {
    require(!name.empty(), "obstacle motion: it has no name, must have one");
    const std::string where = "obstacle motion '" + name + "'";
-   require(bodies.size() == 1, where, ": the reduction is of ", bodies.size(),
+   require(bodies.size() == 1 && !union_, where, ": the reduction is of ", bodies.size(),
            " bodies, must be of one on a rigid obstacle");
    for (const LoadPattern &pattern : problem.patterns)
    {

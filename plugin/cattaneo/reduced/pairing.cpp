@@ -123,22 +123,15 @@ std::string advice(const ContactLine &line1, const ContactLine &line2)
 
 } // namespace
 
-Pairing pair_lines(const ContactLine &line1, const ContactLine &line2, double tolerance)
+std::optional<Pairing> matching_nodes(const ContactLine &line1, const ContactLine &line2,
+                                      double tolerance)
 {
    require(tolerance > 0 && tolerance < 0.5, "pairing: tolerance is ", tolerance,
            ", must be above 0 and below 0.5 (edge lengths)");
    line1.validate();
    line2.validate();
    const Matches found = match(line1, line2, tolerance);
-   if (!found.complete)
-   {
-      std::ostringstream text;
-      text << "pairing: contact nodes without a partner within " << tolerance
-           << " edge lengths; of body 1 (" << line1.size()
-           << " nodes): " << listed(line1, found.matched1) << "; of body 2 (" << line2.size()
-           << " nodes): " << listed(line2, found.matched2) << "; " << advice(line1, line2);
-      throw InputError(text.str());
-   }
+   if (!found.complete) { return std::nullopt; }
    Pairing pairing{found.partner, Eigen::VectorXd::Zero(line1.size())};
    for (Eigen::Index i = 0; i < line1.size(); ++i)
    {
@@ -148,6 +141,21 @@ Pairing pair_lines(const ContactLine &line1, const ContactLine &line2, double to
       pairing.gap[i] = std::abs(gap) > 1e-9 * node.spacing ? gap : 0.0;
    }
    return pairing;
+}
+
+Pairing pair_lines(const ContactLine &line1, const ContactLine &line2, double tolerance)
+{
+   if (const std::optional<Pairing> found = matching_nodes(line1, line2, tolerance))
+   {
+      return *found;
+   }
+   const Matches found = match(line1, line2, tolerance);
+   std::ostringstream text;
+   text << "pairing: contact nodes without a partner within " << tolerance
+        << " edge lengths; of body 1 (" << line1.size()
+        << " nodes): " << listed(line1, found.matched1) << "; of body 2 (" << line2.size()
+        << " nodes): " << listed(line2, found.matched2) << "; " << advice(line1, line2);
+   throw InputError(text.str());
 }
 
 } // namespace cattaneo

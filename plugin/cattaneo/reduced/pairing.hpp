@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cattaneo/condense/contact_line.hpp>
+#include <optional>
 
 namespace cattaneo
 {
@@ -20,5 +21,8 @@ struct Pairing
    of coordinates, and zero. InputError unless every node of both lines has one partner, with
    unmatched nodes (coordinates), a tolerance that would do, and where the lines are. */
 Pairing pair_lines(const ContactLine &line1, const ContactLine &line2, double tolerance = 1e-6);
+/// The same; nothing unless every node has its partner.
+std::optional<Pairing> matching_nodes(const ContactLine &line1, const ContactLine &line2,
+                                      double tolerance = 1e-6);
 
 } // namespace cattaneo

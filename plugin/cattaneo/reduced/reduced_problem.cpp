@@ -128,9 +128,9 @@ void check_facts(const ReducedProblem &problem)
    {
       const auto [own, other] = chain.bodies;
       const auto known = problem.dofs.size() ? problem.dofs.cols() / 2 : own + other + 2;
-      require(own >= 0 && other >= -1 && own != other && std::max(own, other) < known,
+      require(own >= 0 && other >= -1 && std::max(own, other) < known,
               "reduced problem: a chain of nodes of body ", own, " that faces body ", other,
-              ", must be two of the bodies from 0, or -1 for a rigid obstacle that is faced");
+              ", must be bodies counted from 0, or -1 for a rigid obstacle that is faced");
    }
    require(problem.chains.empty() || next == n, "reduced problem: the chains have ", next,
            " nodes, must have all ", n);

@@ -22,7 +22,7 @@ struct ContactChain
    std::array<LineEnd, 2> ends{LineEnd::unknown, LineEnd::unknown};
    std::array<LineEnd, 2> other_ends{LineEnd::unknown, LineEnd::unknown};
    /// Numbers of the bodies that carry the nodes and that face them, as in the columns of
-   /// `dofs`; -1: a rigid obstacle.
+   /// `dofs`; the same of a body that touches itself, -1: a rigid obstacle.
    std::array<int, 2> bodies{0, -1};
 
    /// True if end 0 (the first node) or 1 (the last) lies on a plane or axis of symmetry of all

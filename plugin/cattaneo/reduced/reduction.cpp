@@ -121,6 +121,7 @@ Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairin
    const Block block =
       united(first, second, pairing.partner, result.pattern_, problem.patterns);
    result.union_ = block.way_back;
+   result.partner_ = pairing.partner;
    fill(problem, block, first.line);
    for (ContactChain &chain : problem.chains)
    {

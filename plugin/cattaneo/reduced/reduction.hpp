@@ -8,9 +8,26 @@
 namespace cattaneo
 {
 
-/** A reduced problem together with the way back to the fields of its bodies. The nodes are
-   those of body 1's contact line, in its order and frames. Load patterns of the bodies are
-   joined by name; the friction coefficient is zero until set.
+struct Interface;
+
+/// What an interface came to.
+struct InterfaceReport
+{
+   std::string name;
+   std::array<int, 2> bodies{0, -1};  ///< whose nodes it has, and whose face them
+   Eigen::Index first = 0, nodes = 0; ///< its nodes of the problem
+   bool matching = false;             ///< its nodes are also the other body's
+   /// Places of nodes of the slave that nothing faces, and of those that are faced but carry no
+   /// row: tips, nodes that are another interface's, those that close a ring of interfaces.
+   std::vector<Eigen::Vector2d> free_surface = {}, without_row = {};
+   double left_out = 0; ///< Mortar::left_out
+   double arm = 0;      ///< largest size of Mortar::arm: moment left by a normal force of 1
+};
+
+/** A reduced problem together with the way back to the fields of its bodies. Load patterns of
+   the bodies are joined by name; the friction coefficient is zero until set. Nodes of one body,
+   or of two whose nodes match, are those of body 1's contact line, in its order and frames;
+   of interfaces those of each one's slave, one after the other.
 
     Torsion is a third block that is there only if it is added: it decouples in the bulk, so
    that A = diag(A_r, A_θ) and B = (B_r, 0), and friction alone couples it to the rest. */
@@ -18,9 +35,10 @@ class Reduction
 {
 public:
    ReducedProblem problem;
-   std::vector<CondensedBody> bodies;  ///< one (rigid obstacle) or two
-   std::vector<CondensedBody> torsion; ///< as many again if something twists, or none
-   Counters counters;                  ///< sum over the bodies and all later recoveries
+   std::vector<CondensedBody> bodies;
+   std::vector<InterfaceReport> interfaces; ///< of a union over interfaces
+   std::vector<CondensedBody> torsion;      ///< as many again if something twists, or none
+   Counters counters;                       ///< sum over the bodies and all later recoveries
 
    /// Adds the circumferential components of one axisymmetric body (its torsion body, condensed
    /// to the same nodes): v_θ = u_θ and q_θ the force on the body, positive with the twist.
@@ -41,7 +59,7 @@ public:
    void add_obstacle_motion(const std::string &name, const ScalarField &ux,
                             const ScalarField &uy, const ScalarField &u_theta = 0.0);
 
-   /// Displacement of all true dofs of body `b` (0 or 1), for relative displacements v (of all
+   /// Displacement of all true dofs of body `b`, for relative displacements v (of all
    /// tangential components) and w of the contact nodes and multipliers of problem.patterns.
    /// One solve with that body's factor. If two free bodies move together unresisted, the
    /// common motion is the one of least squares zero.
@@ -50,19 +68,30 @@ public:
    /// Twist ψ = u_θ/r of all true dofs of torsion body `b`, for the same displacements v.
    Eigen::VectorXd twist(int b, const Eigen::VectorXd &v, const Eigen::VectorXd &multipliers);
 
-   struct Union; ///< how two bodies share a relative displacement
+   /// How bodies share relative displacements.
+   class Union
+   {
+   public:
+      virtual ~Union() = default;
+      /// Contact displacements of body `b` in its own order and frames.
+      virtual Eigen::VectorXd own(int b, const Eigen::VectorXd &relative,
+                                  const Eigen::VectorXd &multipliers) const = 0;
+   };
    /// Indices in problem.patterns of a body's patterns.
    using PatternIndex = std::vector<std::vector<int>>;
 
 private:
    friend Reduction reduce(CondensedBody body, const ScalarField &gap);
    friend Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairing);
+   friend Reduction reduce(std::vector<CondensedBody> bodies,
+                           const std::vector<Interface> &interfaces);
    void add_torsion(std::vector<CondensedBody> twisting);
    Eigen::VectorXd recover(CondensedBody &body, const Eigen::VectorXd &u,
                            const std::vector<int> &patterns,
                            const Eigen::VectorXd &multipliers);
 
    std::shared_ptr<const Union> union_, torsion_union_;
+   std::vector<int> partner_; ///< of two bodies with nodes that match
    PatternIndex pattern_, torsion_pattern_;
    /// Displacements {v; w} of a rigid obstacle, one column a pattern of the problem; empty if
    /// it rests.

@@ -7,7 +7,7 @@
 namespace cattaneo
 {
 
-std::vector<int> Reduction::Union::order(Eigen::Index rows) const
+std::vector<int> PairUnion::order(Eigen::Index rows) const
 {
    const auto n = static_cast<Eigen::Index>(partner.size());
    std::vector<int> result(rows);
@@ -18,8 +18,8 @@ std::vector<int> Reduction::Union::order(Eigen::Index rows) const
    return result;
 }
 
-Eigen::VectorXd Reduction::Union::own(int b, const Eigen::VectorXd &relative,
-                                      const Eigen::VectorXd &multipliers) const
+Eigen::VectorXd PairUnion::own(int b, const Eigen::VectorXd &relative,
+                               const Eigen::VectorXd &multipliers) const
 {
    Eigen::VectorXd u1 = pull * relative - difference * multipliers.head(difference.cols());
    sum.solve(u1);
@@ -53,10 +53,6 @@ Reduction::PatternIndex join(const std::vector<CondensedBody> &bodies,
    return index;
 }
 
-namespace
-{
-
-/// Forces {q; p} of a body's patterns as columns, in the order of the joined patterns.
 Eigen::MatrixXd clamped_forces(const CondensedBody &body, const std::vector<int> &index,
                                Eigen::Index count)
 {
@@ -77,6 +73,24 @@ void add_response(const CondensedBody &body, const std::vector<int> &index, Eige
       for (std::size_t j = 0; j < index.size(); ++j) { H(index[i], index[j]) += body.H(i, j); }
    }
 }
+
+void balance(const Eigen::MatrixXd &motions, Eigen::MatrixXd &forces,
+             const Eigen::VectorXd &scale, const std::vector<LoadPattern> &patterns)
+{
+   const Eigen::MatrixXd push = motions.transpose() * forces;
+   for (Eigen::Index k = 0; k < push.cols(); ++k)
+   {
+      const double load = push.col(k).norm();
+      require(load <= 1e-9 * scale[k], "reduce: load pattern '", patterns[k].name,
+              "' pushes both bodies in a common rigid motion that nothing resists (part ",
+              load / scale[k],
+              " of it), its loads must be in equilibrium or a body be supported");
+   }
+   forces -= motions * push;
+}
+
+namespace
+{
 
 /// What two bodies may do, orthonormal columns each.
 struct JoinedMotions
@@ -186,7 +200,7 @@ Block united(const CondensedBody &first, const CondensedBody &second,
    const Eigen::Index n = first.line.size(), size = first.S.rows();
    const auto count = static_cast<Eigen::Index>(patterns.size());
    // Body 2 in body 1's order, and in frames exactly opposite to body 1's.
-   auto shared = std::make_shared<Reduction::Union>();
+   auto shared = std::make_shared<PairUnion>();
    shared->partner = partner;
    FrameChange &frames = shared->frames;
    frames.a.resize(n);
@@ -228,17 +242,8 @@ Block united(const CondensedBody &first, const CondensedBody &second,
    const JoinedMotions motions = joined(first.free_motions, motions2);
    if (const Eigen::MatrixXd &Z = motions.common; Z.cols() > 0)
    {
-      const Eigen::MatrixXd push = Z.transpose() * shared->difference;
-      for (Eigen::Index k = 0; k < push.cols(); ++k)
-      {
-         const double load = push.col(k).norm();
-         const double scale = f1.col(k).norm() + f2.col(k).norm();
-         require(load <= 1e-9 * scale, "reduce: load pattern '", patterns[k].name,
-                 "' pushes both bodies in a common rigid motion that nothing resists (part ",
-                 load / scale,
-                 " of it), its loads must be in equilibrium or a body be supported");
-      }
-      shared->difference -= Z * push;
+      const Eigen::VectorXd scale = (f1.colwise().norm() + f2.colwise().norm()).transpose();
+      balance(Z, shared->difference, scale, patterns);
       sum.noalias() += sum.diagonal().mean() * Z * Z.transpose();
    }
    require(shared->sum.compute(std::move(sum)),

@@ -7,8 +7,10 @@
 namespace cattaneo
 {
 
-struct Reduction::Union
+/// Of two bodies whose nodes match.
+class PairUnion : public Reduction::Union
 {
+public:
    DenseCholesky sum;    ///< of S1 + S2 (+ springs on common rigid motions) where both are free
    Eigen::MatrixXd pull; ///< S2 in the order of body 1 and the opposite frames, see pull()
    Eigen::MatrixXd difference; ///< f1 - f2 of each pattern
@@ -18,9 +20,8 @@ struct Reduction::Union
 
    /// Where body 2 has the rows of body 1's order.
    std::vector<int> order(Eigen::Index rows) const;
-   /// Displacements of body `b` in its own order and frames.
    Eigen::VectorXd own(int b, const Eigen::VectorXd &relative,
-                       const Eigen::VectorXd &multipliers) const;
+                       const Eigen::VectorXd &multipliers) const override;
 };
 
 /// One or two bodies on relative displacements: f = S u + Σ λ_k f_k.
@@ -29,7 +30,7 @@ struct Block
    Eigen::MatrixXd S, f, H;
    Eigen::MatrixXd motions;                          ///< that nothing resists, orthonormal
    std::vector<int> held;                            ///< rows that no body moves
-   std::shared_ptr<const Reduction::Union> way_back; ///< of two bodies
+   std::shared_ptr<const Reduction::Union> way_back; ///< of several bodies
 };
 
 /// Numbers of the bodies' patterns among all, which grow by those that are new.
@@ -38,6 +39,17 @@ Reduction::PatternIndex join(const std::vector<CondensedBody> &bodies,
 
 /// One body on a rigid obstacle, of `count` patterns.
 Block alone(const CondensedBody &body, const std::vector<int> &index, Eigen::Index count);
+
+/// Forces {q; p} of a body's patterns as columns, in the order of the joined patterns.
+Eigen::MatrixXd clamped_forces(const CondensedBody &body, const std::vector<int> &index,
+                               Eigen::Index count);
+void add_response(const CondensedBody &body, const std::vector<int> &index, Eigen::MatrixXd &H);
+
+/// InputError if a load pattern does work on motions that nothing resists; else the rounding of
+/// that work is taken from the forces. `motions`: orthonormal columns; `forces`: a column a
+/// pattern; `scale`: their size.
+void balance(const Eigen::MatrixXd &motions, Eigen::MatrixXd &forces,
+             const Eigen::VectorXd &scale, const std::vector<LoadPattern> &patterns);
 
 /// Two bodies, by the formulas of reduce().
 Block united(const CondensedBody &first, const CondensedBody &second,

@@ -1,0 +1,553 @@
+#include <algorithm>
+#include <cattaneo/input_error.hpp>
+#include <cattaneo/reduced/bodies_union.hpp>
+#include <cattaneo/reduced/interfaces.hpp>
+#include <cattaneo/reduced/mortar.hpp>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+
+namespace cattaneo
+{
+
+using Eigen::Index;
+using Eigen::Vector2d;
+
+namespace
+{
+
+/// A node of a body's trace, over all bodies.
+using NodeOfBody = std::pair<int, int>;
+
+/// A side with the nodes of the condensed body that its own are.
+struct Side
+{
+   int body = -1;
+   ContactLine line; ///< its frames along what supports hold
+   std::vector<int> nodes;
+};
+
+bool holds(const CondensedBody &body, int node, int component)
+{
+   const auto row = static_cast<int>(node + component * body.line.size());
+   return std::binary_search(body.held.begin(), body.held.end(), row);
+}
+
+std::string at(const Vector2d &x)
+{
+   return "(" + exact_text(x[0]) + ", " + exact_text(x[1]) + ")";
+}
+
+/// One interface as it is worked on.
+class Facing
+{
+public:
+   Facing(const Interface &given, const std::vector<CondensedBody> &bodies);
+
+   /// Adds its rows; `taken` are slaves already, with the nodes that they depend on.
+   void add_rows(std::vector<ContactRow> &rows,
+                 std::map<NodeOfBody, std::vector<NodeOfBody>> &taken);
+   void add_facts(ReducedProblem &problem, std::vector<InterfaceReport> &reports) const;
+   const Side &slave() const { return slave_; }
+   const Side &master() const { return master_; }
+
+private:
+   Side side(const InterfaceSide &given) const;
+   void meet(const std::vector<int> &without);
+   ContactRow row(Index i) const;
+   void check_row(const ContactRow &row, Index i) const;
+   LineEnd other_end(Index i, bool last) const;
+
+   const Interface &given_;
+   const std::vector<CondensedBody> &bodies_;
+   std::string what_;
+   Side slave_, master_;
+   Mortar mortar_;
+   std::vector<bool> slides_;
+   std::vector<int> without_row_; ///< nodes of the slave
+};
+
+Facing::Facing(const Interface &given, const std::vector<CondensedBody> &bodies)
+   : given_(given), bodies_(bodies)
+{
+   what_ = "interface '" + given.name + "'";
+   const auto count = static_cast<int>(bodies.size());
+   for (const InterfaceSide *side : {&given.first, &given.second})
+   {
+      require(side->body >= (side == &given.first ? 0 : -1) && side->body < count, what_,
+              ": a side is of body ", side->body, ", must be from 0 to ", count - 1,
+              ", or -1 for a rigid obstacle as the second");
+   }
+   what_ +=
+      " of " + called(bodies, given.first.body) + " and " + called(bodies, given.second.body);
+   slave_ = side(given.first);
+   if (given.second.body < 0) { return; }
+   master_ = side(given.second);
+   const auto coarseness = [](const ContactLine &line)
+   { return line.each(&LineNode::spacing).array().log().mean(); };
+   // The first unless the second is finer by more than round-off.
+   const bool finer = coarseness(master_.line) < coarseness(slave_.line) - 0.01;
+   if (given.slave == SlaveSide::second || (given.slave == SlaveSide::finer && finer))
+   {
+      std::swap(slave_, master_);
+   }
+}
+
+Side Facing::side(const InterfaceSide &given) const
+{
+   const CondensedBody &body = bodies_[given.body];
+   std::map<std::array<int, 2>, int> number;
+   for (Index k = 0; k < body.line.size(); ++k)
+   {
+      number[body.line.nodes[k].dofs] = static_cast<int>(k);
+   }
+   given.line.validate();
+   Side made{given.body, given.line, {}};
+   for (LineNode &node : made.line.nodes)
+   {
+      const auto found = number.find(node.dofs);
+      // Dofs alone are numbers that other bodies have too.
+      const bool same = found != number.end() &&
+                        (body.line.nodes[found->second].position - node.position).norm() <=
+                           1e-9 * node.spacing;
+      require(same, what_, ": the node ", at(node.position), " is none that ",
+              called(bodies_, given.body),
+              " was condensed to, it must be condensed to the nodes of all of its interfaces "
+              "(joined())");
+      const int k = found->second;
+      made.nodes.push_back(k);
+      if (holds(body, k, 0) || holds(body, k, 1))
+      {
+         const Vector2d &along = body.line.nodes[k].tangent;
+         node.tangent = along.dot(node.tangent) < 0 ? Vector2d(-along) : along;
+      }
+   }
+   return made;
+}
+
+void Facing::meet(const std::vector<int> &without)
+{
+   if (master_.body >= 0)
+   {
+      mortar_ = mortar(slave_.line, master_.line, without, what_);
+      for (Index i = 0; i < mortar_.gap.size() && !given_.gap; ++i)
+      {
+         const double most = given_.most_overlap * mortar_.size[i];
+         require(mortar_.gap[i] >= -most, what_, ": the sides overlap by ", -mortar_.gap[i],
+                 " at ", at(slave_.line.nodes[mortar_.nodes[i]].position), ", at most ", most,
+                 " is allowed (", given_.most_overlap,
+                 " of the element's length, Interface::most_overlap); for a gap that is "
+                 "meant otherwise give it");
+      }
+      return;
+   }
+   // An obstacle faces every node.
+   const ContactLine &line = slave_.line;
+   mortar_ = Mortar();
+   for (Index k = 0; k < line.size(); ++k)
+   {
+      if (!std::count(without.begin(), without.end(), int(k)))
+      {
+         mortar_.nodes.push_back(static_cast<int>(k));
+      }
+   }
+   const auto n = static_cast<Index>(mortar_.nodes.size());
+   for (Mortar::Matrix &own : mortar_.own)
+   {
+      own.resize(n, line.size());
+      for (Index i = 0; i < n; ++i) { own.insert(i, mortar_.nodes[i]) = 1; }
+   }
+   for (Mortar::Matrix &other : mortar_.other) { other.resize(n, 0); }
+   mortar_.tangent = line.each(&LineNode::tangent)(mortar_.nodes, Eigen::all);
+   mortar_.weights = line.each(&LineNode::weight)(mortar_.nodes);
+   mortar_.gap = mortar_.arm = Eigen::VectorXd::Zero(n);
+}
+
+ContactRow Facing::row(Index i) const
+{
+   const CondensedBody &body = bodies_[slave_.body];
+   const int node = mortar_.nodes[i], k = slave_.nodes[node];
+   ContactRow made{slave_.body, k, mortar_.tangent.row(i), !holds(body, k, 0), {}};
+   if (!made.slides) { made.tangent = slave_.line.nodes[node].tangent; }
+   std::map<NodeOfBody, Vector2d> shares;
+   for (int c : {0, 1})
+   {
+      for (Mortar::Matrix::InnerIterator e(mortar_.own[c], i); e; ++e)
+      {
+         shares.try_emplace({slave_.body, slave_.nodes[e.col()]}, 0, 0).first->second[c] +=
+            e.value();
+      }
+      for (Mortar::Matrix::InnerIterator e(mortar_.other[c], i); e; ++e)
+      {
+         shares.try_emplace({master_.body, master_.nodes[e.col()]}, 0, 0).first->second[c] -=
+            e.value();
+      }
+   }
+   for (const auto &[of, share] : shares)
+   {
+      // Round-off of functions that only touch the part would tie nodes that do not meet.
+      if (share.cwiseAbs().maxCoeff() <= 1e-14) { continue; }
+      made.shares.push_back({of.first, of.second, share[0], share[1]});
+   }
+   return made;
+}
+
+void Facing::check_row(const ContactRow &row, Index i) const
+{
+   const Vector2d &place = slave_.line.nodes[mortar_.nodes[i]].position;
+   require(!holds(bodies_[row.body], row.node, 1), what_, ": the contact node at ", at(place),
+           " is fixed normal to the line, it must be able to open: the contact line must end "
+           "before it, or the other side be the slave");
+   if (row.slides || master_.body < 0) { return; }
+   // What faces it most, if it is at the same place along the line.
+   const CondensedBody &other = bodies_[master_.body];
+   const LineNode *nearest = nullptr;
+   int number = 0;
+   for (std::size_t m = 0; m < master_.nodes.size(); ++m)
+   {
+      const LineNode &node = master_.line.nodes[m];
+      const double off = std::abs((node.position - place).dot(row.tangent));
+      if (off <= 1e-6 * node.spacing &&
+          (!nearest || (node.position - place).norm() < (nearest->position - place).norm()))
+      {
+         nearest = &node;
+         number = master_.nodes[m];
+      }
+   }
+   require(nearest && holds(other, number, 0), what_, ": the contact node at ", at(place),
+           " is fixed along the line, and what it faces is not: the other side must be the "
+           "slave, or be fixed there as well");
+}
+
+void Facing::add_rows(std::vector<ContactRow> &rows,
+                      std::map<NodeOfBody, std::vector<NodeOfBody>> &taken)
+{
+   const auto place = [this](int node) { return NodeOfBody(slave_.body, slave_.nodes[node]); };
+   for (std::size_t k = 0; k < slave_.nodes.size(); ++k)
+   {
+      if (taken.count(place(int(k)))) { without_row_.push_back(static_cast<int>(k)); }
+   }
+   // Each node without a row gives its part to its neighbours, which may close a ring then.
+   while (true)
+   {
+      meet(without_row_);
+      auto slaves = taken;
+      const std::size_t before = without_row_.size();
+      std::vector<ContactRow> own;
+      for (Index i = 0; i < static_cast<Index>(mortar_.nodes.size()); ++i)
+      {
+         own.push_back(row(i));
+         const NodeOfBody slave = place(mortar_.nodes[i]);
+         std::vector<NodeOfBody> on;
+         bool on_itself = false; // a node that both sides have
+         for (const TraceShare &share : own.back().shares)
+         {
+            const NodeOfBody node(share.body, share.node);
+            const bool of_slave = std::find(slave_.nodes.begin(), slave_.nodes.end(),
+                                            share.node) != slave_.nodes.end() &&
+                                  share.body == slave_.body;
+            if (node != slave) { on.push_back(node); }
+            on_itself = on_itself || (node == slave && share.body == master_.body && of_slave &&
+                                      std::count(master_.nodes.begin(), master_.nodes.end(),
+                                                 share.node) > 0);
+         }
+         // Does anything that it depends on depend on it?
+         std::set<NodeOfBody> seen;
+         std::vector<NodeOfBody> open = on;
+         while (!open.empty() && !on_itself)
+         {
+            const NodeOfBody next = open.back();
+            open.pop_back();
+            if (!seen.insert(next).second) { continue; }
+            const auto found = slaves.find(next);
+            if (found == slaves.end()) { continue; }
+            on_itself = std::count(found->second.begin(), found->second.end(), slave) > 0;
+            open.insert(open.end(), found->second.begin(), found->second.end());
+         }
+         if (on_itself) { without_row_.push_back(mortar_.nodes[i]); }
+         else { slaves[slave] = on; }
+      }
+      if (without_row_.size() > before) { continue; }
+      taken = std::move(slaves);
+      slides_.clear();
+      for (Index i = 0; i < static_cast<Index>(own.size()); ++i)
+      {
+         check_row(own[i], i);
+         slides_.push_back(own[i].slides);
+         rows.push_back(std::move(own[i]));
+      }
+      return;
+   }
+}
+
+/// How the other body goes on beyond the first or last node of a run.
+LineEnd Facing::other_end(Index i, bool last) const
+{
+   if (master_.body < 0) { return LineEnd::smooth; }
+   const Vector2d tangent = mortar_.tangent.row(i), out = last ? tangent : Vector2d(-tangent);
+   const LineNode &node = slave_.line.nodes[mortar_.nodes[i]];
+   for (const LineChain &chain : master_.line.chains)
+   {
+      if (chain.loop) { continue; }
+      for (int end : {0, 1})
+      {
+         const Index k = end ? chain.first + chain.nodes - 1 : chain.first;
+         bool faces = false;
+         for (Mortar::Matrix::InnerIterator e(mortar_.other[1], i); e; ++e)
+         {
+            faces = faces || (e.col() == k && std::abs(e.value()) > 1e-14);
+         }
+         const LineNode &other = master_.line.nodes[k];
+         const double beyond = (other.position - node.position).dot(out);
+         // A line that runs on beyond the slave's last node has its end elsewhere, unless the
+         // slave goes on as well.
+         const LineChain &own = slave_.line.chain_of(mortar_.nodes[i]);
+         const bool at_end =
+            mortar_.nodes[i] == (last ? own.first + own.nodes - 1 : own.first) && !own.loop;
+         if (!faces || (at_end && beyond > 1e-6 * node.spacing)) { continue; }
+         // The lines run against each other: its last node is at this one's first.
+         if (end != (last ? 0 : 1)) { continue; }
+         return holds(bodies_[master_.body], master_.nodes[k], 0) ? LineEnd::symmetry
+                                                                  : chain.ends[end];
+      }
+   }
+   return LineEnd::smooth;
+}
+
+void Facing::add_facts(ReducedProblem &problem, std::vector<InterfaceReport> &reports) const
+{
+   const ContactLine &line = slave_.line;
+   const auto n = static_cast<Index>(mortar_.nodes.size());
+   InterfaceReport report{given_.name, {slave_.body, master_.body}, 0, n};
+   report.first = reports.empty() ? 0 : reports.back().first + reports.back().nodes;
+   const Index first = report.first;
+   report.left_out = mortar_.left_out;
+   report.arm = n ? mortar_.arm.cwiseAbs().maxCoeff() : 0;
+   report.matching = master_.body >= 0 && matching_nodes(slave_.line, master_.line).has_value();
+   for (int k : mortar_.free_surface) { report.free_surface.push_back(line.nodes[k].position); }
+   for (int k : without_row_) { report.without_row.push_back(line.nodes[k].position); }
+   for (Index i = 0; i < n; ++i)
+   {
+      const LineNode &node = line.nodes[mortar_.nodes[i]];
+      const double x = node.position[0], y = node.position[1];
+      const double gap = given_.gap ? (*given_.gap)(x, y) : mortar_.gap[i];
+      require(std::isfinite(gap), what_, ": the gap at ", at(node.position), " is ", gap,
+              ", must be finite");
+      problem.gap[first + i] = gap;
+      problem.weights[first + i] = mortar_.weights[i];
+      problem.arc_length[first + i] = node.arc_length;
+      problem.position.row(first + i) = node.position;
+      problem.dofs.block(first + i, 2 * slave_.body, 1, 2) << node.dofs[0], node.dofs[1];
+      if (report.matching)
+      {
+         Index facing = 0;
+         for (Mortar::Matrix::InnerIterator e(mortar_.other[1], i); e; ++e)
+         {
+            if (std::abs(e.value()) > 0.5) { facing = e.col(); }
+         }
+         const auto &dofs = master_.line.nodes[facing].dofs;
+         problem.dofs.block(first + i, 2 * master_.body, 1, 2) << dofs[0], dofs[1];
+      }
+   }
+   // Nodes that follow each other, one run a chain.
+   for (Index begin = 0; begin < n;)
+   {
+      const LineChain &chain = line.chain_of(mortar_.nodes[begin]);
+      Index end = begin + 1;
+      while (end < n && mortar_.nodes[end] == mortar_.nodes[end - 1] + 1 &&
+             mortar_.nodes[end] < chain.first + chain.nodes)
+      {
+         ++end;
+      }
+      ContactChain made;
+      made.interface = given_.name;
+      made.first = first + begin;
+      made.nodes = end - begin;
+      made.loop = chain.loop && made.nodes == chain.nodes;
+      made.bodies = {slave_.body, master_.body};
+      for (bool last : {false, true})
+      {
+         const Index i = last ? end - 1 : begin;
+         const Index outer = last ? chain.first + chain.nodes - 1 : chain.first;
+         const bool at_end = !chain.loop && mortar_.nodes[i] == outer;
+         made.ends[last] = !at_end       ? LineEnd::smooth
+                           : !slides_[i] ? LineEnd::symmetry
+                                         : chain.ends[last];
+         made.other_ends[last] = made.loop ? LineEnd::smooth : other_end(i, last);
+      }
+      problem.chains.push_back(made);
+      begin = end;
+   }
+   reports.push_back(std::move(report));
+}
+
+/// Numbers of the bodies that interfaces join, without those that touch an obstacle.
+std::vector<std::vector<int>> groups_of(std::size_t bodies, const std::vector<Facing> &facings)
+{
+   std::vector<int> group(bodies);
+   std::iota(group.begin(), group.end(), 0);
+   const auto join = [&](int a, int b)
+   {
+      const int from = group[a], to = group[b];
+      std::replace(group.begin(), group.end(), from, to);
+   };
+   for (const Facing &facing : facings)
+   {
+      if (facing.master().body >= 0) { join(facing.slave().body, facing.master().body); }
+   }
+   std::map<int, std::vector<int>> members;
+   for (std::size_t b = 0; b < bodies; ++b)
+   {
+      members[group[b]].push_back(static_cast<int>(b));
+   }
+   for (const Facing &facing : facings)
+   {
+      if (facing.master().body < 0) { members.erase(group[facing.slave().body]); }
+   }
+   std::vector<std::vector<int>> result;
+   for (auto &[number, list] : members) { result.push_back(std::move(list)); }
+   return result;
+}
+
+} // namespace
+
+ContactLine joined(const std::vector<ContactLine> &lines)
+{
+   require(!lines.empty(), "contact lines to be joined: there are none, must be at least one");
+   ContactLine all;
+   all.formulation = lines.front().formulation;
+   std::set<std::array<int, 2>> known;
+   for (const ContactLine &line : lines)
+   {
+      require(line.formulation == all.formulation, "contact lines to be joined: they are ",
+              name(all.formulation), " and ", name(line.formulation), ", must be the same");
+      line.validate();
+      for (LineChain chain : line.chains)
+      {
+         const Index from = chain.first;
+         chain.first = all.size();
+         bool whole = true;
+         for (Index i = 0; i < chain.nodes; ++i)
+         {
+            const LineNode &node = line.nodes[from + i];
+            if (known.insert(node.dofs).second) { all.nodes.push_back(node); }
+            else { whole = false; }
+         }
+         for (LineElement &element : chain.elements)
+         {
+            for (Index &node : element.nodes)
+            {
+               if (node >= 0) { node += chain.first - from; }
+            }
+         }
+         // The elements are the lines' own; of a trace that has lost a node none are left.
+         if (!whole)
+         {
+            chain.elements.clear();
+            chain.loop = false;
+         }
+         chain.nodes = all.size() - chain.first;
+         if (chain.nodes > 0) { all.chains.push_back(chain); }
+      }
+   }
+   return all;
+}
+
+Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface> &interfaces)
+{
+   require(!bodies.empty() && !interfaces.empty(), "reduce: ", bodies.size(), " bodies and ",
+           interfaces.size(), " interfaces, must be at least one of each");
+   // What has formulas of its own.
+   const Interface &one = interfaces.front();
+   const auto is_all = [&](const InterfaceSide &side, int b)
+   {
+      const ContactLine &line = bodies[b].line;
+      return side.body == b && side.line.size() == line.size() &&
+             std::equal(line.nodes.begin(), line.nodes.end(), side.line.nodes.begin(),
+                        [](const LineNode &i, const LineNode &j) { return i.dofs == j.dofs; });
+   };
+   const auto named = [&](Reduction reduction)
+   {
+      for (ContactChain &chain : reduction.problem.chains) { chain.interface = one.name; }
+      InterfaceReport report{one.name, {0, one.second.body}, 0, reduction.problem.nodes()};
+      report.matching = one.second.body >= 0;
+      reduction.interfaces.push_back(report);
+      return reduction;
+   };
+   if (interfaces.size() == 1 && is_all(one.first, 0))
+   {
+      if (bodies.size() == 1 && one.second.body < 0)
+      {
+         return named(reduce(std::move(bodies[0]), one.gap.value_or(0.0)));
+      }
+      if (bodies.size() == 2 && one.slave != SlaveSide::second && is_all(one.second, 1))
+      {
+         if (auto pairing = matching_nodes(bodies[0].line, bodies[1].line))
+         {
+            for (Index i = 0; one.gap && i < pairing->gap.size(); ++i)
+            {
+               const Vector2d &x = bodies[0].line.nodes[i].position;
+               pairing->gap[i] = (*one.gap)(x[0], x[1]);
+            }
+            return named(reduce(std::move(bodies[0]), std::move(bodies[1]), *pairing));
+         }
+      }
+   }
+
+   Reduction result;
+   for (const CondensedBody &body : bodies)
+   {
+      require(body.line.formulation == bodies[0].line.formulation &&
+                 body.line.formulation != Formulation::torsion,
+              "reduce: the bodies must be all plane or all axisymmetric");
+      result.counters += body.counters;
+   }
+   ++result.counters.unions;
+   result.bodies = std::move(bodies);
+   std::vector<Facing> facings;
+   std::vector<ContactRow> rows;
+   std::map<NodeOfBody, std::vector<NodeOfBody>> taken;
+   std::set<int> touched;
+   for (const Interface &interface : interfaces)
+   {
+      facings.emplace_back(interface, result.bodies);
+      facings.back().add_rows(rows, taken);
+      touched.insert({interface.first.body, interface.second.body});
+   }
+   const auto count = static_cast<int>(result.bodies.size());
+   for (int b = 0; b < count; ++b)
+   {
+      require(touched.count(b), "reduce: ", called(result.bodies, b),
+              " is at no interface, nothing touches it: it must be at one, or be left out");
+   }
+   const auto n = static_cast<Index>(rows.size());
+   ReducedProblem &problem = result.problem;
+   result.pattern_ = join(result.bodies, problem.patterns);
+   const Block block = united(result.bodies, rows, groups_of(result.bodies.size(), facings),
+                              result.pattern_, problem.patterns);
+   result.union_ = block.way_back;
+   problem.K = block.S;
+   problem.H = block.H;
+   problem.rigid_motions = block.motions;
+   for (int row : block.held)
+   {
+      problem.K(row, row) = problem.K(n + row, n + row); // any stiffness would do
+      problem.held.push_back(row);
+   }
+   for (std::size_t k = 0; k < problem.patterns.size(); ++k)
+   {
+      const auto column = static_cast<Index>(k);
+      problem.patterns[k].q = block.f.col(column).head(n);
+      problem.patterns[k].p = block.f.col(column).tail(n);
+   }
+   problem.gap = problem.friction = problem.weights = problem.arc_length =
+      Eigen::VectorXd::Zero(n);
+   problem.position.resize(n, 2);
+   problem.dofs = Eigen::MatrixXi::Constant(n, 2 * count, -1);
+   for (const Facing &facing : facings) { facing.add_facts(problem, result.interfaces); }
+   join_coupling(problem);
+   return result;
+}
+
+} // namespace cattaneo

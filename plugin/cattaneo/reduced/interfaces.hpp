@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cattaneo/reduced/reduction.hpp>
+#include <optional>
+
+namespace cattaneo
+{
+
+/// One side of an interface: a part of a body's trace.
+struct InterfaceSide
+{
+   int body = -1;    ///< number of the body; -1: a rigid obstacle, which has no line
+   ContactLine line; ///< all of its nodes are nodes of the condensed body's line
+};
+
+enum class SlaveSide
+{
+   finer, ///< whose nodes are nearer to each other in the (geometric) mean; or the first
+   first,
+   second
+};
+
+/// Where two bodies may touch, or a body and a rigid obstacle, or two parts of one body.
+struct Interface
+{
+   std::string name = "contact";
+   InterfaceSide first, second; ///< a rigid obstacle is the second
+   SlaveSide slave = SlaveSide::finer;
+   /// Initial gap as a function of the contact nodes' places, instead of that of the geometry;
+   /// 0.0: closed, whatever chordal errors say. A rigid obstacle is closed unless this is
+   /// given.
+   std::optional<ScalarField> gap = std::nullopt;
+   /// Largest overlap of the geometry that is taken for what it is, in lengths of the slave's
+   /// elements.
+   double most_overlap = 0.1;
+};
+
+/** The trace of a body with several interfaces, to be condensed to at once: the nodes of all
+    lines, one after the other, each once. A node that two lines share (the end of one is the
+    beginning of the other) has the frame of the first, and the chain of the later ones loses
+   it. InputError if the lines are of different formulations, or of none. */
+ContactLine joined(const std::vector<ContactLine> &lines);
+
+/** Any number of bodies over any number of interfaces. With U the contact displacements of all
+    bodies and S their stiffnesses, each contact node has u = G U, the relative displacement of
+    its Mortar row; with U = R u + Z y (y: all contact dofs that are no slave's)
+
+       K = Rᵀ[S - S Z (Zᵀ S Z)⁻¹ Zᵀ S] R,
+
+    for two bodies S_s - S_s P (S_m + Pᵀ S_s P)⁻¹ Pᵀ S_s, and the loads likewise. Two bodies
+    with nodes that match at their only interface go to reduce(body1, body2, pairing), one on an
+    obstacle to reduce(body, gap); nodes that match have P = 1 in any union.
+
+    A body is condensed once, to joined() of all its lines, whatever the number of its
+    interfaces; nodes of it that no interface has are free. A node is a slave once: of a second
+    interface that has it as well it carries no row, nor where rows would go in a ring (crack
+    tips of a body that touches itself, interfaces that meet at one point). Relative
+    displacements of the nodes are in the common frame of both sides, (own frames where a
+    component is held).
+
+    Rigid motions that supports leave free are known from the bodies: those that bodies which
+    touch have in common are at rest in the mean over their traces, which takes nothing from
+    what happens at interfaces; loads that push them are refused. If the slave of an interface
+    is much stiffer than its master digits are lost: of a ratio of 1e6 of the stiffnesses six.
+
+    InputError, with the names of interface and bodies and coordinates, if numbers of bodies or
+    nodes do not fit, a body is at no interface, sides do not face each other or overlap by more
+    than Interface::most_overlap, a contact node is fixed across the line, or along it while the
+    other side is not, or nothing holds the bodies together. */
+Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface> &interfaces);
+
+} // namespace cattaneo

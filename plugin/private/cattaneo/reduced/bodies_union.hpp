@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cattaneo/reduced/relative_displacement.hpp>
+#include <cattaneo/reduced/union.hpp>
+
+namespace cattaneo
+{
+
+/** Bodies on the relative displacements of contact nodes: the formula of reduce(bodies,
+    interfaces). `groups`: numbers of the bodies that interfaces join, those that touch a rigid
+    obstacle left out (nothing moves them together without moving them against it). */
+Block united(const std::vector<CondensedBody> &bodies, const std::vector<ContactRow> &rows,
+             const std::vector<std::vector<int>> &groups, const Reduction::PatternIndex &index,
+             const std::vector<LoadPattern> &patterns);
+
+/// What a body is called in a sentence.
+std::string called(const std::vector<CondensedBody> &bodies, int body);
+
+} // namespace cattaneo

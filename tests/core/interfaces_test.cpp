@@ -1,0 +1,637 @@
+#include "expect_input_error.hpp"
+#include "line_along.hpp"
+
+#include <cattaneo/condense/condense.hpp>
+#include <cattaneo/reduced/interfaces.hpp>
+#include <cattaneo/reduced/mortar.hpp>
+#include <gtest/gtest.h>
+#include <random>
+
+namespace
+{
+
+using namespace cattaneo;
+using namespace cattaneo_test;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+
+std::mt19937 random_numbers(7);
+double number(double low = -1, double high = 1)
+{
+   return std::uniform_real_distribution<double>(low, high)(random_numbers);
+}
+
+class Interfaces : public testing::Test
+{
+   void SetUp() override { random_numbers.seed(7); } // whatever tests ran before
+};
+
+/** A body that no finite-element program made: points joined by bars, each to each, of random
+    stiffnesses. Its points are the nodes of its lines, each once, and some more around a place.
+    Rigid motions strain none. */
+struct Truss
+{
+   std::vector<ContactLine> lines;
+   std::vector<Vector2d> points;
+   std::vector<int> fixed; ///< dofs
+   MatrixXd K;
+   std::vector<BodyLoad> loads;
+
+   Truss(std::vector<ContactLine> sides, const Vector2d &around, double stiffness = 1)
+      : lines(std::move(sides))
+   {
+      for (ContactLine &line : lines)
+      {
+         for (LineNode &node : line.nodes)
+         {
+            std::size_t p = 0;
+            while (p < points.size() && (points[p] - node.position).norm() > 1e-9) { ++p; }
+            if (p == points.size()) { points.push_back(node.position); }
+            node.dofs = {2 * static_cast<int>(p), 2 * static_cast<int>(p) + 1};
+         }
+      }
+      for (int k = 0; k < 5; ++k)
+      {
+         points.push_back(around + Vector2d(number(-0.3, 0.3), number(-0.3, 0.3)));
+      }
+      const auto count = static_cast<int>(points.size());
+      K = MatrixXd::Zero(2 * count, 2 * count);
+      for (int p = 0; p < count; ++p)
+      {
+         for (int q = p + 1; q < count; ++q)
+         {
+            const Vector2d along = points[q] - points[p];
+            const Eigen::Vector4d stretch =
+               (Eigen::Vector4d() << -along, along).finished() / along.norm();
+            const std::vector<int> dofs{2 * p, 2 * p + 1, 2 * q, 2 * q + 1};
+            K(dofs, dofs) +=
+               stiffness * number(0.5, 2) / along.norm() * stretch * stretch.transpose();
+         }
+      }
+   }
+   int size() const { return static_cast<int>(K.rows()); }
+   /// Of two points inside.
+   Truss &hold()
+   {
+      for (int k = 4; k > 0; --k) { fixed.push_back(size() - k); }
+      return *this;
+   }
+   Truss &load(const std::string &name)
+   {
+      loads.push_back({name, Control::force, VectorXd(size())});
+      for (double &force : loads.back().values) { force = number(); }
+      for (int dof : fixed) { loads.back().values[dof] = 0; }
+      return *this;
+   }
+   Truss &lift(const std::string &name)
+   {
+      loads.push_back({name, Control::displacement, VectorXd::Zero(size())});
+      for (int dof : fixed) { loads.back().values[dof] = number(-0.1, 0.1); }
+      return *this;
+   }
+   CondensedBody condensed(const std::string &name = "",
+                           const CondensedBody *alike = nullptr) const
+   {
+      AssembledBody body;
+      body.K = SharedMatrix(Eigen::SparseMatrix<double, Eigen::RowMajor>(K.sparseView()));
+      body.places = {VectorXd(size()), VectorXd(size()), {}, Formulation::plane};
+      for (int dof = 0; dof < size(); ++dof)
+      {
+         body.places.x[dof] = points[dof / 2][0];
+         body.places.y[dof] = points[dof / 2][1];
+         body.places.component.push_back(dof % 2);
+      }
+      body.fixed = fixed;
+      body.loads = loads;
+      CondensedBody made =
+         condense(body, joined(lines), SparseFactor::Backend::automatic, alike);
+      made.name = name;
+      return made;
+   }
+};
+
+double difference(const MatrixXd &a, const MatrixXd &b)
+{
+   return a.size() ? (a - b).cwiseAbs().maxCoeff() / std::max(1e-300, b.cwiseAbs().maxCoeff())
+                   : 0;
+}
+
+/// Nodes of a line that stand at given places.
+std::vector<int> at_places(const ContactLine &line, const std::vector<Vector2d> &places)
+{
+   std::vector<int> nodes;
+   for (Index k = 0; k < line.size(); ++k)
+   {
+      for (const Vector2d &x : places)
+      {
+         if ((line.nodes[k].position - x).norm() < 1e-12) { nodes.push_back(int(k)); }
+      }
+   }
+   return nodes;
+}
+
+/** The whole of all bodies by Lagrange multipliers: rows of relative displacements, made of the
+    dual functions and frames, tie all dofs of all bodies. Compares stiffness, loads, energies
+    and fields of the reduction with it. `flip`: sides of the interfaces as (slave, master). */
+void agrees_with_multipliers(const std::vector<Truss> &bodies, Reduction &reduction,
+                             const std::vector<Interface> &interfaces, double tolerance = 1e-9)
+{
+   const ReducedProblem &problem = reduction.problem;
+   problem.validate();
+   const Index n = problem.nodes();
+   std::vector<Index> offset{0};
+   for (const Truss &body : bodies) { offset.push_back(offset.back() + body.size()); }
+   const Index size = offset.back();
+   MatrixXd G = MatrixXd::Zero(2 * n, size);
+   Index row = 0;
+   for (std::size_t k = 0; k < interfaces.size(); ++k)
+   {
+      const InterfaceReport &report = reduction.interfaces[k];
+      ASSERT_EQ(report.first, row);
+      const bool first = interfaces[k].slave == SlaveSide::first;
+      const InterfaceSide &slave = first ? interfaces[k].first : interfaces[k].second,
+                          &master = first ? interfaces[k].second : interfaces[k].first;
+      const ContactLine &line = slave.line;
+      if (master.body < 0)
+      {
+         for (const LineNode &node : line.nodes)
+         {
+            for (int c : {0, 1})
+            {
+               const Index column = offset[slave.body] + node.dofs[c];
+               G(row, column) = node.tangent[c];
+               G(n + row, column) = node.normal()[c];
+            }
+            ++row;
+         }
+         continue;
+      }
+      const Mortar found = mortar(line, master.line, at_places(line, report.without_row));
+      ASSERT_EQ(report.nodes, Index(found.nodes.size()));
+      for (Index i = 0; i < report.nodes; ++i, ++row)
+      {
+         const Vector2d t = found.tangent.row(i), normal(-t[1], t[0]);
+         const auto add =
+            [&](const InterfaceSide &side, const std::array<Mortar::Matrix, 2> &of, double sign)
+         {
+            for (int c : {0, 1})
+            {
+               for (Index j = 0; j < side.line.size(); ++j)
+               {
+                  const double share = sign * of[c].coeff(i, j);
+                  const Index column = offset[side.body] + side.line.nodes[j].dofs[c];
+                  G(row, column) += t[c] * share;
+                  G(n + row, column) += normal[c] * share;
+               }
+            }
+         };
+         add(slave, found.own, 1);
+         add(master, found.other, -1);
+      }
+   }
+   ASSERT_EQ(row, n);
+   for (Index held : problem.held) { G.row(held).setZero(); }
+   const auto patterns = static_cast<Index>(problem.patterns.size());
+   MatrixXd K = MatrixXd::Zero(size, size), F = MatrixXd::Zero(size, patterns),
+            given = MatrixXd::Zero(size, patterns);
+   std::vector<Index> rest;
+   for (std::size_t b = 0; b < bodies.size(); ++b)
+   {
+      const Truss &body = bodies[b];
+      K.block(offset[b], offset[b], body.size(), body.size()) = body.K;
+      for (const BodyLoad &load : body.loads)
+      {
+         auto &values = load.control == Control::force ? F : given;
+         values.block(offset[b], problem.pattern(load.name), body.size(), 1) += load.values;
+      }
+      for (int dof = 0; dof < body.size(); ++dof)
+      {
+         if (!std::count(body.fixed.begin(), body.fixed.end(), dof))
+         {
+            rest.push_back(offset[b] + dof);
+         }
+      }
+   }
+   const auto m = static_cast<Index>(rest.size());
+   MatrixXd system = MatrixXd::Zero(m + 2 * n, m + 2 * n);
+   const double unit = K.diagonal().mean();
+   system << K(rest, rest), unit * G(Eigen::all, rest).transpose(), unit * G(Eigen::all, rest),
+      MatrixXd::Zero(2 * n, 2 * n);
+   const Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver(system);
+   // Unit displacements, then unit multipliers.
+   MatrixXd rhs = MatrixXd::Zero(m + 2 * n, 2 * n + patterns),
+            u = MatrixXd::Zero(2 * n, rhs.cols());
+   u.leftCols(2 * n).setIdentity();
+   rhs.bottomLeftCorner(2 * n, 2 * n) = unit * MatrixXd::Identity(2 * n, 2 * n);
+   for (Index held : problem.held) { rhs.row(m + held).setZero(); }
+   rhs.topRightCorner(m, patterns) = F(rest, Eigen::all) - (K * given)(rest, Eigen::all);
+   rhs.bottomRightCorner(2 * n, patterns) = -unit * G * given;
+   const MatrixXd x = solver.solve(rhs);
+   EXPECT_LT((system * x - rhs).cwiseAbs().maxCoeff(), 1e-9 * unit); // independent rows
+   // K U - F = Gᵀ f
+   MatrixXd f = -unit * x.bottomRows(2 * n);
+   // What does not slide has any stiffness.
+   for (Index held : problem.held) { f(held, held) = problem.K(held, held); }
+   EXPECT_LT(difference(problem.K, f.leftCols(2 * n)), tolerance);
+   for (Index k = 0; k < patterns; ++k)
+   {
+      VectorXd own(2 * n);
+      own << problem.patterns[k].q, problem.patterns[k].p;
+      EXPECT_LT(difference(own, f.col(2 * n + k)), tolerance) << problem.patterns[k].name;
+   }
+   // Fields and conjugates of something at random.
+   VectorXd z(2 * n + patterns);
+   for (double &value : z) { value = number(); }
+   MatrixXd U = MatrixXd::Zero(size, 1);
+   U(rest, Eigen::all) = x.topRows(m) * z;
+   U += given * z.tail(patterns);
+   // A motion that all bodies have in common is nobody's.
+   const auto held = static_cast<Index>(problem.held.size());
+   const bool moves = system.cols() - held > solver.rank();
+   VectorXd strained = K * U.col(0);
+   for (std::size_t b = 0; b < bodies.size(); ++b)
+   {
+      const VectorXd field = reduction.displacement(static_cast<int>(b), z.head(n),
+                                                    z.segment(n, n), z.tail(patterns));
+      if (!moves)
+      {
+         EXPECT_LT(difference(field, U.middleRows(offset[b], bodies[b].size())), tolerance);
+      }
+      EXPECT_LT(difference(bodies[b].K * field, strained.segment(offset[b], bodies[b].size())),
+                10 * tolerance);
+   }
+   for (Index k = 0; k < patterns && !moves; ++k)
+   {
+      const LoadPattern &pattern = problem.patterns[k];
+      const double work = pattern.q.dot(z.head(n)) + pattern.p.dot(z.segment(n, n));
+      const VectorXd forces = K * U.col(0) - F * z.tail(patterns);
+      const bool force = pattern.control == Control::force;
+      const double direct = force ? F.col(k).dot(U.col(0)) : given.col(k).dot(forces);
+      const double response = problem.H.row(k).dot(z.tail(patterns));
+      EXPECT_NEAR(response + (force ? -work : work), direct, 1e-8 * (1 + std::abs(direct)))
+         << pattern.name;
+   }
+}
+
+Interface between(int a, const ContactLine &one, int b, const ContactLine &two,
+                  SlaveSide slave = SlaveSide::first)
+{
+   return {"face", {a, one}, {b, two}, slave, std::nullopt, 1.0};
+}
+
+ContactLine side(const Vector2d &from, const Vector2d &to, int elements, int order = 1)
+{
+   return line_along(straight(from, to), uniform_grid(0, 1, elements), order);
+}
+
+TEST_F(Interfaces, OfTwoBodiesAgreeWithMultipliers)
+{
+   for (SlaveSide slave : {SlaveSide::first, SlaveSide::second})
+   {
+      for (int held : {0, 1, 2})
+      {
+         Truss upper({side({0, 0}, {2, 0}, 4, 2)}, {1, 1}),
+            lower({side({2, 0}, {0, 0}, 5, 1)}, {1, -1}, 3);
+         if (held != 1) { upper.hold().lift("lift"); }
+         if (held != 0) { lower.hold(); }
+         upper.load("P");
+         lower.load("P").load("Q");
+         const std::vector<Interface> one{between(0, upper.lines[0], 1, lower.lines[0], slave)};
+         Reduction reduction = reduce({upper.condensed(), lower.condensed()}, one);
+         EXPECT_EQ(reduction.problem.rigid_motions.cols(), held == 2 ? 0 : 3);
+         EXPECT_EQ(reduction.counters.unions, 1);
+         EXPECT_EQ(reduction.counters.factorisations, 2);
+         agrees_with_multipliers({upper, lower}, reduction, one);
+      }
+   }
+}
+
+TEST_F(Interfaces, OfAGappedArcAgreeWithMultipliers)
+{
+   const ContactLine disc = line_along(circle({0, 1}, 1), uniform_grid(-2.3, -0.8, 5), 2),
+                     hole =
+                        line_along(circle({0, 0.9}, 1.2, true), uniform_grid(0.9, 2.2, 4), 3);
+   Truss inner({disc}, {0, 1}), outer({hole}, {0, -1});
+   outer.hold().load("P");
+   inner.load("P");
+   const std::vector<Interface> one{between(0, disc, 1, hole, SlaveSide::second)};
+   Reduction reduction = reduce({inner.condensed("pin"), outer.condensed("plate")}, one);
+   EXPECT_GT(reduction.problem.gap.minCoeff(), 0.05);
+   agrees_with_multipliers({inner, outer}, reduction, one);
+}
+
+/// A middle body with two faces, of one of which it is the slave; only the lowest is held.
+TEST_F(Interfaces, OfAStackAgreeWithMultipliers)
+{
+   for (int which = 0; which < 4; ++which)
+   {
+      Truss low({side({2, 0}, {0, 0}, 3, 2)}, {1, -1}),
+         middle({side({0, 0}, {2, 0}, 5, 1), side({2, 1}, {0, 1}, 2, 3)}, {1, 0.5}, 10),
+         top({side({0, 1}, {2, 1}, 4, 1)}, {1, 2});
+      low.hold().lift("lift");
+      for (Truss *body : {&low, &middle, &top}) { body->load("P"); }
+      top.load("Q");
+      const auto slave = [](bool second)
+      { return second ? SlaveSide::second : SlaveSide::first; };
+      const std::vector<Interface> two{
+         between(0, low.lines[0], 1, middle.lines[0], slave(which & 1)),
+         between(1, middle.lines[1], 2, top.lines[0], slave(which & 2))};
+      Reduction reduction = reduce({low.condensed(), middle.condensed(), top.condensed()}, two);
+      EXPECT_EQ(reduction.problem.rigid_motions.cols(), 6);
+      EXPECT_EQ(reduction.counters.factorisations, 3);
+      EXPECT_EQ(reduction.problem.chains.size(), 2u);
+      agrees_with_multipliers({low, middle, top}, reduction, two);
+   }
+}
+
+/// Half of a model: on the plane of symmetry neither body slides, which is no row.
+TEST_F(Interfaces, OnAPlaneOfSymmetryAgreeWithMultipliers)
+{
+   Truss upper({side({0, 0}, {2, 0}, 4, 2)}, {1, 1}), lower({side({2, 0}, {0, 0}, 5)}, {1, -1});
+   upper.load("P");
+   lower.hold().load("P");
+   upper.fixed = {0}; // the first node of its line
+   lower.fixed.insert(lower.fixed.begin(), 10);
+   for (Truss *body : {&upper, &lower})
+   {
+      for (int dof : body->fixed) { body->loads[0].values[dof] = 0; }
+   }
+   for (SlaveSide slave : {SlaveSide::first, SlaveSide::second})
+   {
+      const std::vector<Interface> one{between(0, upper.lines[0], 1, lower.lines[0], slave)};
+      Reduction reduction = reduce({upper.condensed(), lower.condensed()}, one);
+      ASSERT_EQ(reduction.problem.held.size(), 1u);
+      EXPECT_EQ(reduction.problem.rigid_motions.cols(),
+                2); // up, and turning about a point of it
+      const ContactChain &chain = reduction.problem.chains[0];
+      const std::size_t end = slave == SlaveSide::first ? 0 : 1;
+      EXPECT_TRUE(chain.mirrored_at(end));
+      EXPECT_FALSE(chain.mirrored_at(1 - end));
+      agrees_with_multipliers({upper, lower}, reduction, one);
+   }
+   lower.fixed.erase(lower.fixed.begin());
+   expect_input_error(
+      [&]
+      {
+         reduce({upper.condensed("pad"), lower.condensed()},
+                {between(0, upper.lines[0], 1, lower.lines[0])});
+      },
+      "the contact node at (0, 0) is fixed along the line, and what it faces is not");
+   upper.fixed = {1};
+   expect_input_error(
+      [&]
+      {
+         reduce({upper.condensed("pad"), lower.condensed()},
+                {between(0, upper.lines[0], 1, lower.lines[0])});
+      },
+      "the contact node at (0, 0) is fixed normal to the line");
+}
+
+/// Both lips of a slit in one body, which have their tip in common: it carries no row.
+TEST_F(Interfaces, OfABodyWithItselfLeaveOutTheTip)
+{
+   Truss body({side({0, 0.01}, {2, 0}, 4), side({2, 0}, {0, -0.01}, 3, 2)}, {3, 0});
+   body.hold().load("P");
+   const std::vector<Interface> one{between(0, body.lines[0], 0, body.lines[1])};
+   Reduction reduction = reduce({body.condensed()}, one);
+   ASSERT_EQ(reduction.interfaces[0].without_row.size(), 1u);
+   EXPECT_EQ(reduction.interfaces[0].without_row[0], Vector2d(2, 0));
+   EXPECT_EQ(reduction.problem.nodes(), 4);
+   EXPECT_EQ(reduction.problem.chains[0].bodies, (std::array<int, 2>{0, 0}));
+   agrees_with_multipliers({body}, reduction, one);
+}
+
+/// Four bricks that meet at one point, all of whose sides touch: the last interface of the ring
+/// has no row there, and a corner that is slave of one may be master of the next.
+TEST_F(Interfaces, InARingLeaveOutARow)
+{
+   for (int trial = 0; trial < 6; ++trial)
+   {
+      const auto count = [&] { return 2 + trial % 2 + (number() > 0 ? 1 : 0); };
+      std::vector<Truss> bricks;
+      // Counter-clockwise from the first quadrant; each has a side on the one before and after.
+      for (int q = 0; q < 4; ++q)
+      {
+         const Eigen::Rotation2Dd turn(M_PI / 2 * q);
+         const auto made = [&](Vector2d a, Vector2d b)
+         {
+            return side((turn * a).array().round(), (turn * b).array().round(), count(),
+                        1 + trial % 3);
+         };
+         bricks.emplace_back(
+            std::vector<ContactLine>{made({0, 0}, {1, 0}), made({0, 1}, {0, 0})},
+            turn * Vector2d(1, 1));
+         bricks.back().load("P");
+      }
+      bricks[0].hold();
+      std::vector<Interface> ring;
+      for (int q = 0; q < 4; ++q)
+      {
+         ring.push_back(between(q, bricks[q].lines[1], (q + 1) % 4,
+                                bricks[(q + 1) % 4].lines[0],
+                                number() > 0 ? SlaveSide::first : SlaveSide::second));
+      }
+      std::vector<CondensedBody> condensed;
+      for (const Truss &brick : bricks) { condensed.push_back(brick.condensed()); }
+      Reduction reduction = reduce(condensed, ring);
+      std::size_t without = 0;
+      for (const InterfaceReport &report : reduction.interfaces)
+      {
+         without += report.without_row.size();
+         for (const Vector2d &x : report.without_row) { EXPECT_EQ(x, Vector2d(0, 0)); }
+      }
+      EXPECT_GE(without, 1u);
+      EXPECT_EQ(reduction.problem.rigid_motions.cols(), 9);
+      agrees_with_multipliers(bricks, reduction, ring, 1e-9);
+   }
+}
+
+/// A wall of bricks at random on a rigid floor, which is the obstacle of some.
+TEST_F(Interfaces, OfManyBodiesAgreeWithMultipliers)
+{
+   for (int trial = 0; trial < 5; ++trial)
+   {
+      std::vector<Truss> bodies;
+      std::vector<Interface> all;
+      const int levels = 3 + trial;
+      for (int k = 0; k < levels; ++k)
+      {
+         const double y = k;
+         const int order = 1 + (k + trial) % 3;
+         bodies.emplace_back(
+            std::vector<ContactLine>{side({0.1 * k, y}, {2, y}, 2 + trial % 3, order),
+                                     side({2, y + 1}, {0, y + 1}, 3, 1 + k % 2)},
+            Vector2d(1, y + 0.5), std::pow(10, number()));
+         bodies.back().load(k % 2 ? "P" : "Q");
+         if (number() > 0.3 && k > 0) { bodies.back().hold(); }
+      }
+      all.push_back({"floor", {0, bodies[0].lines[0]}, {}, SlaveSide::first});
+      for (int k = 1; k < levels; ++k)
+      {
+         all.push_back(between(k - 1, bodies[k - 1].lines[1], k, bodies[k].lines[0],
+                               number() > 0 ? SlaveSide::first : SlaveSide::second));
+      }
+      std::vector<CondensedBody> condensed;
+      for (const Truss &body : bodies) { condensed.push_back(body.condensed()); }
+      Reduction reduction = reduce(condensed, all);
+      agrees_with_multipliers(bodies, reduction, all);
+   }
+}
+
+/// Nodes that match are what they were, to the last bit, at the same cost; and the union over
+/// interfaces says the same of them.
+TEST_F(Interfaces, WithNodesThatMatchAreThePairing)
+{
+   Truss upper({side({0, 0}, {2, 0}, 4, 2)}, {1, 1}),
+      lower({side({2, 0}, {0, 0}, 4, 2)}, {1, -1}, 3);
+   upper.load("P");
+   lower.hold().load("P");
+   const CondensedBody one = upper.condensed(), two = lower.condensed();
+   const Pairing pairing = pair_lines(one.line, two.line);
+   const Reduction before = reduce(one, two, pairing);
+   const Reduction same = reduce({one, two}, {{"flank", {0, one.line}, {1, two.line}}});
+   EXPECT_EQ(before.problem.K, same.problem.K);
+   EXPECT_EQ(before.problem.patterns[0].p, same.problem.patterns[0].p);
+   EXPECT_EQ(before.problem.H, same.problem.H);
+   EXPECT_EQ(same.problem.chains[0].interface, "flank");
+   EXPECT_TRUE(same.interfaces[0].matching);
+   EXPECT_EQ(before.counters.unions, same.counters.unions);
+   // By the other way round, and by the formula of many.
+   const Reduction turned = reduce(two, one, pair_lines(two.line, one.line));
+   const Reduction many =
+      reduce({one, two}, {{"flank", {0, one.line}, {1, two.line}, SlaveSide::second}});
+   EXPECT_LT(difference(many.problem.K, turned.problem.K), 1e-11);
+   EXPECT_LT(difference(many.problem.patterns[0].p, turned.problem.patterns[0].p), 1e-11);
+   EXPECT_LT(difference(many.problem.H, turned.problem.H), 1e-11);
+   EXPECT_LT(
+      difference(many.problem.rigid_motions * many.problem.rigid_motions.transpose(),
+                 turned.problem.rigid_motions * turned.problem.rigid_motions.transpose()),
+      1e-11);
+}
+
+/// Free bodies: what moves all of them together is at rest, loads in balance are carried, and
+/// others are refused. A gap between curved sides turns nothing into slip.
+TEST_F(Interfaces, OfFreeBodiesKnowTheirCommonMotions)
+{
+   for (double gap : {0.0, 0.05})
+   {
+      const ContactLine disc = line_along(circle({0, 0}, 1), uniform_grid(-1, 1, 5), 2),
+                        ring = line_along(circle({0, 0}, 1 + gap, true),
+                                          uniform_grid(-0.9, 0.9, 4), 2);
+      Truss inner({disc}, {0, 0}), outer({ring}, {2, 0});
+      inner.load("P");
+      outer.load("P");
+      // In balance on each body alone.
+      const auto balance = [](Truss &body)
+      {
+         MatrixXd Z(body.size(), 3);
+         for (int p = 0; p < body.size() / 2; ++p)
+         {
+            Z.row(2 * p) << 1, 0, -body.points[p][1];
+            Z.row(2 * p + 1) << 0, 1, body.points[p][0];
+         }
+         VectorXd &f = body.loads[0].values;
+         f -= Z * (Z.transpose() * Z).ldlt().solve(Z.transpose() * f);
+      };
+      expect_input_error(
+         [&] {
+            reduce({inner.condensed(), outer.condensed()}, {between(0, disc, 1, ring)});
+         },
+         "common rigid motion that nothing resists");
+      balance(inner);
+      balance(outer);
+      const std::vector<Interface> one{between(0, disc, 1, ring)};
+      Reduction reduction = reduce({inner.condensed(), outer.condensed()}, one);
+      EXPECT_EQ(reduction.problem.rigid_motions.cols(), 3);
+      reduction.problem.validate();
+      // Nothing else is free: all other motions are resisted.
+      const MatrixXd &Q = reduction.problem.rigid_motions;
+      const MatrixXd K = reduction.problem.K + Q * Q.transpose() * reduction.problem.K.trace();
+      EXPECT_GT(Eigen::SelfAdjointEigenSolver<MatrixXd>(K).eigenvalues()[0], 1e-4);
+   }
+}
+
+/// Equal bodies, with all of their faces, have one factor.
+TEST_F(Interfaces, OfEqualBodiesShareAFactor)
+{
+   const Truss upper({side({0, 0}, {2, 0}, 4), side({2, 1}, {0, 1}, 3)}, {1, 0.5});
+   const CondensedBody one = upper.condensed();
+   const CondensedBody two = upper.condensed("", &one);
+   EXPECT_EQ(one.counters.factorisations + two.counters.factorisations, 1);
+}
+
+TEST_F(Interfaces, AreAsFineAsTheFinerSide)
+{
+   Truss upper({side({0, 0}, {2, 0}, 3)}, {1, 1}), lower({side({2, 0}, {0, 0}, 4)}, {1, -1});
+   lower.hold();
+   const std::vector<CondensedBody> bodies{upper.condensed("pad"), lower.condensed("disc")};
+   Interface face{"flank", {0, upper.lines[0]}, {1, lower.lines[0]}};
+   EXPECT_EQ(reduce(bodies, {face}).interfaces[0].bodies, (std::array<int, 2>{1, 0}));
+   face.slave = SlaveSide::first;
+   EXPECT_EQ(reduce(bodies, {face}).interfaces[0].bodies, (std::array<int, 2>{0, 1}));
+}
+
+/// A side that is longer than the other: what nothing faces is counted.
+TEST_F(Interfaces, CountTheFreeSurface)
+{
+   Truss upper({side({0.5, 0}, {1.6, 0}, 3)}, {1, 1}),
+      lower({side({2, 0}, {0, 0}, 8, 2)}, {1, -1});
+   lower.hold();
+   upper.load("P");
+   const std::vector<Interface> one{between(1, lower.lines[0], 0, upper.lines[0])};
+   Reduction reduction = reduce({upper.condensed(), lower.condensed()}, one);
+   EXPECT_EQ(reduction.interfaces[0].free_surface.size(), 8u); // x < 0.5 and x > 1.6
+   EXPECT_NEAR(reduction.problem.weights.sum(), 1.1, 1e-12);
+   ASSERT_EQ(reduction.problem.chains.size(), 1u);
+   EXPECT_EQ(reduction.problem.chains[0].ends,
+             (std::array<LineEnd, 2>{LineEnd::smooth, LineEnd::smooth}));
+   agrees_with_multipliers({upper, lower}, reduction, one);
+}
+
+TEST_F(Interfaces, RefuseWhatDoesNotFit)
+{
+   Truss upper({side({0, 0}, {2, 0}, 3)}, {1, 1}), lower({side({2, 0}, {0, 0}, 4)}, {1, -1});
+   lower.hold();
+   const CondensedBody pad = upper.condensed("pad"), disc = lower.condensed("disc");
+   const ContactLine &one = upper.lines[0], &two = lower.lines[0];
+   const auto refused = [&](const std::vector<Interface> &faces, const std::string &part) {
+      expect_input_error([&] { reduce({pad, disc}, faces); }, part);
+   };
+   refused({{"flank", {0, one}, {2, two}}},
+           "interface 'flank': a side is of body 2, must be from 0 to 1");
+   refused({{"flank", {0, one}, {1, one}}},
+           "interface 'flank' of body 'pad' and body 'disc': the node (0, 0) is none that body "
+           "'disc' was condensed to");
+   refused({{"floor", {1, two}, {}}}, "body 'pad' is at no interface");
+   refused({}, "2 bodies and 0 interfaces");
+   Truss overlapping({side({2, 0.3}, {0, 0.3}, 4)}, {1, -1});
+   overlapping.hold();
+   expect_input_error(
+      [&]
+      {
+         reduce({pad, overlapping.condensed("disc")},
+                {{"flank", {0, one}, {1, overlapping.lines[0]}}});
+      },
+      "interface 'flank' of body 'pad' and body 'disc': the sides overlap by 0.3");
+   // Asked to press it open.
+   Interface open{"flank", {0, one}, {1, overlapping.lines[0]}};
+   open.most_overlap = 1;
+   EXPECT_NEAR(reduce({pad, overlapping.condensed()}, {open}).problem.gap.maxCoeff(), -0.3,
+               1e-12);
+   open.gap = 0.0;
+   EXPECT_EQ(reduce({pad, overlapping.condensed()}, {open}).problem.gap.maxCoeff(), 0);
+   // Turning about one node is not resisted.
+   Truss small({side({0.9, 0}, {1.1, 0}, 1)}, {1, 1});
+   small.lines[0].nodes.resize(2);
+   expect_input_error(
+      [&]
+      {
+         const std::vector<Interface> faces{between(1, two, 0, small.lines[0])};
+         reduce({small.condensed("pad"), disc}, faces);
+      },
+      "the bodies can move without resistance even where every contact node is closed");
+}
+
+} // namespace
