@@ -7,6 +7,7 @@
 //
 //  Sample runs:  contact2d -case meshes/dovetail.json
 //                contact2d -case meshes/rounded_punch.json --cycles 2 -edges "1 2 3"
+//                contact2d -case meshes/rounded_punch.json --check --plot check.png
 //                contact2d -mesh1 meshes/rounded_punch.msh -contact1 3 -load1 "P pressure 2 .1"
 
 #include "common/contact_edges.hpp"

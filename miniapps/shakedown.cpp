@@ -135,14 +135,14 @@ void Shakedown::prepare()
    {
       scene = make_punch(punch);
       gapped = scene.problem();
-      study.counters += scene.reduction.counters;
    }
    set_friction(gapped, friction);
    whole = gapped.gap.isZero(0) ? gapped : absorb_gap(gapped);
    problem = whole;
    if (closed) { keep_closed(lambda_max); }
    set_up();
-   study.condensed(gapped, scene.dofs);
+   if (saved) { study.condensed(gapped, 0); }
+   else { study.condensed(scene); }
    study.save(gapped);
    study.value("coupling", limit.coupling, "degree of coupling (0: none, 1: most)");
    study.say(std::string("The limits are those of a contact without separation: ") +

@@ -43,9 +43,10 @@ Panel::Panel(Kind kind, const std::string &name, const std::string &title,
              const std::string &x_label, const std::string &y_label)
    : name_(name)
 {
-   static const char *const kinds[] = {"lines", "zones", "plan", "field"};
+   static const char *const kinds[] = {"lines", "zones", "plan", "field", "scene"};
    static const char *const headers[] = {"series,style,x,y\n", "time,state,from,to\n",
-                                         "item,from,to\n", "series,x,y,value\n"};
+                                         "item,from,to\n", "series,x,y,value\n",
+                                         "item,x,y,dx,dy\n"};
    const auto k = static_cast<std::size_t>(kind);
    for (const auto &[key, word] : {std::pair<std::string, std::string>{"kind", kinds[k]},
                                    {"title", title},
@@ -121,6 +122,12 @@ void Panel::add(const std::vector<Zone> &rings)
 void Panel::arrow(const std::string &kind, double radius, double angle)
 {
    row({kind}, {radius, angle});
+}
+
+void Panel::item(const std::string &item, const Eigen::Vector2d &from,
+                 const Eigen::Vector2d &extent)
+{
+   row({item}, {from[0], from[1], extent[0], extent[1]});
 }
 
 void Panel::add(const std::string &series, double x, double y, double value)

@@ -24,7 +24,8 @@ public:
       lines, ///< curves of y over x
       zones, ///< states along the contact (y) against time or load (x)
       plan,  ///< a surface of revolution from above: rings in their states, arrows of slip
-      field  ///< a value over x and y
+      field, ///< a value over x and y
+      scene  ///< bodies with their supports and loads
    };
    Panel(Kind kind, const std::string &name, const std::string &title,
          const std::string &x_label, const std::string &y_label);
@@ -53,6 +54,9 @@ public:
    /// An arrow of a plan, shown all around: "rate" (of slip) or "total" (slip), at a radius, by
    /// its angle from the radial direction, radians.
    void arrow(const std::string &kind, double radius, double angle);
+   /// Of a scene: an edge of a body, an arrow, or a mark (without extent), named by its kind.
+   void item(const std::string &item, const Eigen::Vector2d &from,
+             const Eigen::Vector2d &extent);
    /// A value of a field.
    void add(const std::string &series, double x, double y, double value);
 

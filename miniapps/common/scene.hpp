@@ -22,6 +22,7 @@ struct Scene
    int dofs = 0; ///< of all bodies
 
    cattaneo::ReducedProblem &problem() { return reduction.problem; }
+   const cattaneo::ReducedProblem &problem() const { return reduction.problem; }
 
    /// A body on a mesh of its own, distributed as all bodies are (distribute()); warns if it
    /// locks.

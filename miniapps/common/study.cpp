@@ -1,5 +1,7 @@
 #include "common/study.hpp"
 
+#include "common/check.hpp"
+
 #include <algorithm>
 #include <cattaneo/reduced/reduced_file.hpp>
 #include <cmath>
@@ -26,6 +28,9 @@ void Study::parse(const char *json)
    option(&plot_, "plot", "Picture of the results (png, pdf, svg).", Text::picture);
    option(&html_, "html", "Page of the run, with its increments to look at one by one.",
           Text::page);
+   option(&check_, "check",
+          "Show bodies, contact, supports and loads (tables, --plot), and stop there.");
+   options_.leave_out_of_cases("check");
    option(&save_, "save", "File for the reduced problem (shakedown --reduced reads it).",
           Text::output);
    options_.parse();
@@ -41,6 +46,11 @@ void Study::condensed(const Scene &scene)
 {
    counters += scene.reduction.counters;
    condensed(scene.reduction.problem, scene.dofs);
+   if (!check_) { return; }
+   checked_ = true;
+   results["status"] = "checked";
+   show(*this, scene);
+   throw Checked();
 }
 
 void Study::condensed(const cattaneo::ReducedProblem &problem, int dofs)
@@ -49,6 +59,7 @@ void Study::condensed(const cattaneo::ReducedProblem &problem, int dofs)
    dofs_ = dofs;
    seconds_ = watch.seconds();
    const auto left = static_cast<long>(problem.K.rows());
+   cattaneo::require(!check_ || dofs > 0, "option --check: this run has no meshes");
    if (dofs > 0)
    {
       return say(text("Condensed %d dofs to %ld in %.3g s", dofs, left, seconds_));
@@ -181,6 +192,7 @@ ordered_json Study::meaning(const std::string &name, const ordered_json &row) co
 
 void Study::finish()
 {
+   cattaneo::require(!check_ || checked_, "option --check: this run has no meshes");
    begun_.paths.clear();
    for (const Table &table : tables_) { results[table.name()] = table.json(); }
    for (const Found &found : found_)
@@ -264,6 +276,9 @@ int Study::run(const std::string &name, int argc, char *argv[],
          try
          {
             body(study);
+         }
+         catch (const Checked &)
+         {
          }
          catch (const Outcome &)
          {

@@ -26,6 +26,10 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 struct Outcome
 {
 };
+/// Leaves a study that was only to be checked (--check).
+struct Checked
+{
+};
 
 /** Options, results and outputs of a study, each stated once: an option with its check; a value
     or a row of a table, which is printed, goes to JSON and CSV, may be drawn, and is compared
@@ -59,7 +63,7 @@ public:
    const std::string &csv() const { return csv_; } ///< prefix of its CSV files, if any
 
    /// To be called when the problem has been reduced: prints its size, writes it to the file of
-   /// --save, if any, and counts what it took.
+   /// --save, if any, and counts what it took. With --check shows the scene, and leaves.
    void reduced(const Scene &scene);
    /// The same in two parts, for a problem that may still prove to be bad input.
    void condensed(const Scene &scene);
@@ -143,6 +147,7 @@ private:
    std::vector<Found> found_; ///< to be compared at the end
    Eigen::Index nodes_ = 0;
    int dofs_ = 0;
+   bool check_ = false, checked_ = false;
    double seconds_ = 0; ///< up to the reduced problem
 };
 

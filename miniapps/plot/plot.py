@@ -5,7 +5,7 @@ usage: plot.py PANEL.csv [PANEL.csv ...] FILE.png     (also .pdf, .svg)
 
 A panel is a CSV file with comment lines that name it and its axes:
 
-    # kind: lines            or zones, plan, field, or table
+    # kind: lines            or zones, plan, field, scene, or table
     # title: ...             # x: label    # y: label
     # limits x: lo,hi        an empty side is left to the data; also "limits y"
     # inside: 0.1            limits of y by what lies inside, without that share at either end
@@ -16,6 +16,7 @@ A panel is a CSV file with comment lines that name it and its axes:
     item,from,to             plan of a body of revolution: rings (state, radii) and arrows (rate or total, radius,
                              angle from the radial direction)
     series,x,y,value         field: one picture a series
+    item,x,y,dx,dy           scene: edges of bodies, contact nodes, normals, gaps, supports (held), loads
 
 A table is drawn as its comments say: "over: column", "curve: column=word" (several), "by: column=word" (one curve for
 each of its values), "mark: x,y" (values of the thesis).
@@ -32,6 +33,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+from matplotlib.collections import LineCollection
 from matplotlib.patches import Annulus, Patch, Polygon
 
 COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000"]
@@ -223,6 +225,31 @@ def draw_field(axes, comments, rows):
     axes.invert_yaxis()
 
 
+def draw_scene(axes, comments, rows):
+    items, arrows = OrderedDict(), 0
+    for row in rows:
+        items.setdefault(row["item"], []).append([value(row[key]) for key in ("x", "y", "dx", "dy")])
+    for item, parts in items.items():
+        x, y, dx, dy = zip(*parts)
+        kind = item.split()[0]
+        if kind in ("body", "gap"):
+            colour = "black" if kind == "gap" else {"body 1": COLOURS[0], "body 2": COLOURS[1]}.get(item, "#555555")
+            axes.add_collection(LineCollection([[(a, b), (a + c, b + d)] for a, b, c, d in parts], colors=colour,
+                                               linewidths=1.4 if kind == "body" else 0.8, label=item))
+        elif kind == "contact":
+            axes.plot(x, y, "o" if item.endswith("1") else "x", color=COLOURS[0 if item.endswith("1") else 1],
+                      markersize=4, markerfacecolor="none", label=item)
+        elif kind == "held":
+            axes.plot(x, y, ">" if item == "held x" else "^", color="black", markersize=3.5, label=item)
+        else:
+            colour = "#555555" if kind == "normal" else COLOURS[2 + arrows % 5]
+            arrows += kind == "load"
+            axes.quiver(x, y, dx, dy, angles="xy", scale_units="xy", scale=1, width=0.004, color=colour, zorder=3,
+                        label=item)
+    axes.set_aspect("equal")
+    axes.legend(fontsize=7, ncol=3, loc="upper center", bbox_to_anchor=(0.5, -0.2), frameon=False)
+
+
 def finish(axes, comments):
     one = {key: texts[0] for key, texts in comments.items() if texts}
     axes.set_title(one.get("title", ""), pad={"zones": 20, "plan": 34}.get(one["kind"], 6))
@@ -247,7 +274,8 @@ def finish(axes, comments):
         axes.invert_xaxis()
 
 
-DRAW = {"lines": draw_lines, "table": draw_lines, "zones": draw_zones, "plan": draw_plan, "field": draw_field}
+DRAW = {"lines": draw_lines, "table": draw_lines, "zones": draw_zones, "plan": draw_plan, "field": draw_field,
+        "scene": draw_scene}
 
 
 def main(arguments):

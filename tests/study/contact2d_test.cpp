@@ -139,6 +139,22 @@ TEST_F(Contact2D, DovetailCarriesItsLoadOnTheFlank)
    EXPECT_NEAR(total, r["total_dissipation"].get<double>(), 1e-12 * total);
 }
 
+TEST_F(Contact2D, WhatHasNoMeshesCannotBeShown)
+{
+   for (const char *program : {"fretting", "march -reduced problems/hertz.json",
+                               "shakedown -reduced problems/hertz.json"})
+   {
+      const std::string words = program;
+      const std::size_t end = std::min(words.find(' '), words.size());
+      const Run run = run_miniapp(words.substr(0, end), words.substr(end) + " --check");
+      EXPECT_EQ(run.code, 1) << program;
+      EXPECT_NE(run.output.find("error: option --check: this run has no meshes\n"),
+                std::string::npos)
+         << run.output;
+      EXPECT_TRUE(run.results.is_null()) << program;
+   }
+}
+
 TEST_F(Contact2D, RoundedPunchHasTheContactWidthOfTheClosedForm)
 {
    const std::string pressed = "--case meshes/rounded_punch.json --history 'P=0; P=1' "

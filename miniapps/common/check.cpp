@@ -1,0 +1,313 @@
+#include "common/check.hpp"
+
+#include "common/study.hpp"
+
+#include <algorithm>
+#include <cattaneo/input_error.hpp>
+#include <cmath>
+
+namespace miniapp
+{
+
+using namespace cattaneo;
+using Eigen::Index;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+
+namespace
+{
+
+/// What is drawn of a contact line or of a load, at most.
+constexpr Index most_arrows = 60;
+
+/// A rectangle that holds points.
+struct Frame
+{
+   Vector2d low = Vector2d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+
+   void hold(const Vector2d &point)
+   {
+      low = low.cwiseMin(point);
+      high = high.cwiseMax(point);
+   }
+   double size() const { return (high - low).maxCoeff(); }
+   /// With at least half the height of its width, or the other way round.
+   void round()
+   {
+      const Vector2d middle = 0.5 * (low + high),
+                     half = (0.5 * (high - low)).cwiseMax(0.25 * size());
+      low = middle - half;
+      high = middle + half;
+   }
+};
+
+/// Values of a load or marks of the supports at a node.
+struct AtNode
+{
+   Vector2d position;
+   std::array<double, 2> value{0, 0};
+};
+
+/// By nodes, of values by true dofs (torsion: of one component).
+std::vector<AtNode> at_nodes(const ElasticBody &body, const VectorXd &values)
+{
+   std::vector<AtNode> all;
+   const mfem::DenseMatrix &place = body.node_coordinates();
+   for (int node = 0; node < place.Width(); ++node)
+   {
+      AtNode at{{place(0, node), place(1, node)}};
+      for (int c = 0; c < body.components(); ++c)
+      {
+         const int dof = body.true_dof(node, c);
+         if (dof >= 0) { at.value[c] = values[dof]; }
+      }
+      if (at.value[0] != 0 || at.value[1] != 0) { all.push_back(at); }
+   }
+   return all;
+}
+
+/// The components that are held, not those that a load prescribes.
+std::vector<AtNode> supports(const ElasticBody &body)
+{
+   VectorXd held = VectorXd::Zero(body.space().GetTrueVSize());
+   for (int dof : body.essential_dofs()) { held[dof] = 1; }
+   for (const BodyLoad &load : body.patterns())
+   {
+      if (load.control == Control::force) { continue; }
+      for (Index dof = 0; dof < held.size(); ++dof)
+      {
+         if (load.values[dof] != 0) { held[dof] = 0; }
+      }
+   }
+   return at_nodes(body, held);
+}
+
+std::string body_name(std::size_t k)
+{
+   return "body " + std::to_string(k + 1);
+}
+
+void list_bodies(Study &study, const Scene &scene)
+{
+   Table &bodies = study.table("bodies", {{"body", "body"},
+                                          {"elements", "elements"},
+                                          {"dofs", "dofs"},
+                                          {"x_from", "x from", "%.5g"},
+                                          {"x_to", "to", "%.5g"},
+                                          {"y_from", "y from", "%.5g"},
+                                          {"y_to", "to", "%.5g"},
+                                          {"held_x", "held in x"},
+                                          {"held_y", "in y (nodes)"}});
+   for (std::size_t k = 0; k < scene.bodies.size(); ++k)
+   {
+      const ElasticBody &body = *scene.bodies[k];
+      const mfem::DenseMatrix &place = body.node_coordinates();
+      Frame frame;
+      for (int i = 0; i < place.Width(); ++i) { frame.hold({place(0, i), place(1, i)}); }
+      int held[2] = {0, 0};
+      for (const AtNode &support : supports(body))
+      {
+         for (int c : {0, 1}) { held[c] += support.value[c] != 0; }
+      }
+      study.row(bodies, {body_name(k), scene.meshes[k]->GetNE(), body.dofs(), frame.low[0],
+                         frame.high[0], frame.low[1], frame.high[1], held[0], held[1]});
+   }
+}
+
+void list_lines(Study &study, const Reduction &reduction)
+{
+   Table &lines = study.table("lines", {{"line", "contact of"},
+                                        {"nodes", "nodes"},
+                                        {"pieces", "pieces"},
+                                        {"length", "length", "%.5g"},
+                                        {"least_spacing", "spacing", "%.3g"},
+                                        {"most_spacing", "to", "%.3g"}});
+   for (std::size_t k = 0; k < reduction.bodies.size(); ++k)
+   {
+      const ContactLine &line = reduction.bodies[k].line;
+      const VectorXd spacing = line.each(&LineNode::spacing);
+      double length = line.nodes.back().arc_length;
+      study.row(lines, {body_name(k), line.size(), line.chains.size(), length,
+                        spacing.minCoeff(), spacing.maxCoeff()});
+   }
+   const VectorXd &gap = reduction.problem.gap;
+   study.value("least_gap", gap.minCoeff(), "least gap (negative: overlap)");
+   study.value("most_gap", gap.maxCoeff(), "largest gap");
+}
+
+/// A sum without what is round-off of its parts.
+double settled(double sum, double of)
+{
+   return std::abs(sum) < 1e-12 * of ? 0 : sum;
+}
+
+void list_loads(Study &study, const Scene &scene)
+{
+   Table &loads = study.table("loads", {{"load", "load"},
+                                        {"body", "body"},
+                                        {"kind", "kind"},
+                                        {"nodes", "nodes"},
+                                        {"x", "sum x", "%.6g"},
+                                        {"y", "sum y", "%.6g"},
+                                        {"moment", "moment", "%.6g"}});
+   for (std::size_t k = 0; k < scene.bodies.size(); ++k)
+   {
+      for (const BodyLoad &load : scene.bodies[k]->patterns())
+      {
+         const std::vector<AtNode> nodes = at_nodes(*scene.bodies[k], load.values);
+         const bool force = load.control == Control::force,
+                    plane = scene.bodies[k]->formulation() == Formulation::plane;
+         double x = 0, y = 0, moment = 0, all = 0, far = 0;
+         for (const AtNode &at : nodes)
+         {
+            x += at.value[0];
+            y += at.value[1];
+            moment += at.position[0] * at.value[1] - at.position[1] * at.value[0];
+            all += std::hypot(at.value[0], at.value[1]);
+            far = std::max(far, at.position.norm());
+         }
+         study.row(loads,
+                   {load.name, body_name(k), force ? "forces" : "displacement", nodes.size(),
+                    force ? settled(x, all) : none, force ? settled(y, all) : none,
+                    plane && force ? settled(moment, all * far) : none});
+      }
+   }
+   for (std::size_t k = 0; k < scene.torsion.size(); ++k)
+   {
+      for (const BodyLoad &load : scene.torsion[k]->patterns())
+      {
+         const bool force = load.control == Control::force;
+         study.row(loads, {load.name, body_name(k), force ? "torque" : "twist",
+                           at_nodes(*scene.torsion[k], load.values).size(), none, none,
+                           force ? load.values.sum() : none});
+      }
+   }
+}
+
+/// Edges of the boundary as pieces of straight lines; curved ones in four.
+void draw_boundary(Panel &panel, const std::string &item, mfem::Mesh &mesh)
+{
+   for (int e = 0; e < mesh.GetNBE(); ++e)
+   {
+      mfem::ElementTransformation &edge = *mesh.GetBdrElementTransformation(e);
+      const int pieces = edge.Order() > 1 ? 4 : 1;
+      double ends[2][2];
+      for (int k = 0; k <= pieces; ++k)
+      {
+         mfem::IntegrationPoint at;
+         at.Set1w(static_cast<double>(k) / pieces, 1);
+         mfem::Vector point(ends[k % 2], 2);
+         edge.Transform(at, point);
+         if (k == 0) { continue; }
+         const double *a = ends[(k + 1) % 2], *b = ends[k % 2];
+         panel.item(item, {a[0], a[1]}, {b[0] - a[0], b[1] - a[1]});
+      }
+   }
+}
+
+void draw_nodes(Panel &panel, const Reduction &reduction)
+{
+   for (std::size_t k = 0; k < reduction.bodies.size(); ++k)
+   {
+      for (const LineNode &node : reduction.bodies[k].line.nodes)
+      {
+         panel.item("contact of " + body_name(k), node.position, {0, 0});
+      }
+   }
+}
+
+void draw_normals(Panel &panel, const Reduction &reduction, double arrow)
+{
+   const ContactLine &line = reduction.bodies[0].line;
+   const VectorXd &gap = reduction.problem.gap;
+   const Index stride = 1 + line.size() / most_arrows;
+   for (Index i = 0; i < line.size(); ++i)
+   {
+      const LineNode &node = line.nodes[i];
+      if (i % stride == 0) { panel.item("normal", node.position, arrow * node.normal()); }
+      // What the node faces: of a rigid obstacle the point on it, else the node of body 2
+      // there.
+      Vector2d partner = node.position - gap[i] * node.normal();
+      if (reduction.bodies.size() == 2)
+      {
+         const Eigen::MatrixX2d others = reduction.bodies[1].line.each(&LineNode::position);
+         Index nearest = 0;
+         (others.rowwise() - partner.transpose()).rowwise().squaredNorm().minCoeff(&nearest);
+         partner = others.row(nearest);
+      }
+      panel.item("gap", node.position, partner - node.position);
+   }
+}
+
+void draw_loads(Panel &panel, const ElasticBody &body, double arrow)
+{
+   for (const AtNode &support : supports(body))
+   {
+      if (support.value[0] != 0) { panel.item("held x", support.position, {0, 0}); }
+      if (support.value[1] != 0) { panel.item("held y", support.position, {0, 0}); }
+   }
+   for (const BodyLoad &load : body.patterns())
+   {
+      const std::vector<AtNode> nodes = at_nodes(body, load.values);
+      double largest = 0;
+      for (const AtNode &at : nodes)
+      {
+         largest = std::max(largest, std::hypot(at.value[0], at.value[1]));
+      }
+      const std::string item = "load " + load.name;
+      const std::size_t stride = 1 + nodes.size() / most_arrows;
+      for (std::size_t i = 0; i < nodes.size(); i += stride)
+      {
+         const Vector2d shown =
+            Vector2d(nodes[i].value[0], nodes[i].value[1]) / largest * arrow;
+         panel.item(item, nodes[i].position - shown, shown); // ends where it acts
+      }
+   }
+}
+
+Panel &draw(Study &study, const Scene &scene, const std::string &name, const std::string &title,
+            Frame frame)
+{
+   frame.round();
+   const bool about_axis = scene.bodies[0]->formulation() != Formulation::plane;
+   Panel &panel = study.panel(Panel::Kind::scene, name, title, about_axis ? "r" : "x",
+                              about_axis ? "z" : "y");
+   const double margin = 0.12 * frame.size();
+   for (std::size_t k = 0; k < scene.bodies.size(); ++k)
+   {
+      draw_boundary(panel, body_name(k), *scene.meshes[k]);
+   }
+   draw_nodes(panel, scene.reduction);
+   for (const auto &body : scene.bodies) { draw_loads(panel, *body, 0.8 * margin); }
+   panel.limit("x", frame.low[0] - margin, frame.high[0] + margin);
+   panel.limit("y", frame.low[1] - margin, frame.high[1] + margin);
+   return panel;
+}
+
+} // namespace
+
+void show(Study &study, const Scene &scene)
+{
+   require(ranks() == 1, "option --check: there are ", ranks(), " ranks, must be one");
+   study.title("What is to be computed with");
+   list_bodies(study, scene);
+   list_lines(study, scene.reduction);
+   list_loads(study, scene);
+   Frame all, contact;
+   for (const auto &body : scene.bodies)
+   {
+      const mfem::DenseMatrix &place = body->node_coordinates();
+      for (int i = 0; i < place.Width(); ++i) { all.hold({place(0, i), place(1, i)}); }
+   }
+   for (const LineNode &node : scene.reduction.bodies[0].line.nodes)
+   {
+      contact.hold(node.position);
+   }
+   draw(study, scene, "scene", "Bodies, supports, loads", all);
+   Panel &panel = draw(study, scene, "contact", "Contact, normals into body 1", contact);
+   draw_normals(panel, scene.reduction, 0.06 * contact.size());
+   study.panel(Panel::Kind::lines, "gap", "Initial gap", "arc length", "gap")
+      .add("", scene.problem().arc_length, scene.problem().gap);
+}
+
+} // namespace miniapp
