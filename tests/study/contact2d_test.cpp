@@ -146,7 +146,7 @@ TEST_F(Contact2D, WhatHasNoMeshesCannotBeShown)
    {
       const std::string words = program;
       const std::size_t end = std::min(words.find(' '), words.size());
-      const Run run = run_miniapp(words.substr(0, end), words.substr(end) + " --check");
+      const auto run = run_miniapp(words.substr(0, end), words.substr(end) + " --check");
       EXPECT_EQ(run.code, 1) << program;
       EXPECT_NE(run.output.find("error: option --check: this run has no meshes\n"),
                 std::string::npos)
