@@ -457,7 +457,7 @@ TEST(MfemDoors, InitialStrainsThatNothingCouldMeanAreRefused)
    at.SetIntPoint(&mfem::Geometries.GetCenter(mfem::Geometry::SQUARE));
    expect_input_error([&] { stress_at(hot, u, at); }, "multiplier of the initial strain 'T'");
    EXPECT_NEAR(stress_at(hot, u, at, {{"T", -2}}).xx, 2 / (1 - 2 * 0.3), 1e-14);
-   BodyFields fields(hot, "hot", "body");
+   BodyFields fields(hot, testing::TempDir() + "hot", "body");
    expect_input_error([&] { fields.write(VectorXd::Zero(hot.space().GetTrueVSize()), 0); },
                       "multiplier of the initial strain 'T'");
    fields.write(VectorXd::Zero(hot.space().GetTrueVSize()), 0, {{"T", -2}});
@@ -510,7 +510,8 @@ TEST(MfemDoors, StressesOfAUsersOperatorAreAskedOfTheUser)
       });
    ASSERT_TRUE(own.has_stress());
    const VectorXd u = VectorXd::Random(body.space().GetTrueVSize());
-   BodyFields expected(body, "stress", "body"), fields(own, "stress", "own");
+   const std::string folder = testing::TempDir() + "stress";
+   BodyFields expected(body, folder, "body"), fields(own, folder, "own");
    expected.write(u, 0);
    fields.write(u, 0, {{"Q", 7}});
    const mfem::GridFunction &sigma = expected.field("sigma_xx"),
