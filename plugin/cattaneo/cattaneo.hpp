@@ -1,7 +1,7 @@
 #pragma once
 
 // All of Cattaneo for programs that use MFEM.
-#include <cattaneo/contact/condense_body.hpp>
+#include <cattaneo/contact/interfaces_of_bodies.hpp>
 #include <cattaneo/core.hpp>
 #include <cattaneo/elastic/axisymmetric.hpp>
 #include <cattaneo/elastic/point_stress.hpp>

@@ -562,15 +562,21 @@ TEST_F(Interfaces, OfEqualBodiesShareAFactor)
    EXPECT_EQ(one.counters.factorisations + two.counters.factorisations, 1);
 }
 
-TEST_F(Interfaces, AreAsFineAsTheFinerSide)
+TEST_F(Interfaces, HaveTheNodesOfTheCoarserSideUnlessTheOtherIsNamed)
 {
-   Truss upper({side({0, 0}, {2, 0}, 3)}, {1, 1}), lower({side({2, 0}, {0, 0}, 4)}, {1, -1});
+   Truss upper({side({0, 0}, {2, 0}, 4)}, {1, 1}), lower({side({2, 0}, {0, 0}, 3)}, {1, -1});
    lower.hold();
    const std::vector<CondensedBody> bodies{upper.condensed("pad"), lower.condensed("disc")};
    Interface face{"flank", {0, upper.lines[0]}, {1, lower.lines[0]}};
-   EXPECT_EQ(reduce(bodies, {face}).interfaces[0].bodies, (std::array<int, 2>{1, 0}));
-   face.slave = SlaveSide::first;
-   EXPECT_EQ(reduce(bodies, {face}).interfaces[0].bodies, (std::array<int, 2>{0, 1}));
+   const auto slave = [&](SlaveSide which)
+   {
+      face.slave = which;
+      return reduce(bodies, {face}).interfaces[0].bodies[0];
+   };
+   EXPECT_EQ(slave(SlaveSide::coarser), 1);
+   EXPECT_EQ(slave(SlaveSide::finer), 0);
+   EXPECT_EQ(slave(SlaveSide::first), 0);
+   EXPECT_EQ(slave(SlaveSide::second), 1);
 }
 
 /// A side that is longer than the other: what nothing faces is counted.

@@ -84,11 +84,13 @@ Facing::Facing(const Interface &given, const std::vector<CondensedBody> &bodies)
    slave_ = side(given.first);
    if (given.second.body < 0) { return; }
    master_ = side(given.second);
-   const auto coarseness = [](const ContactLine &line)
+   const auto spacing = [](const ContactLine &line)
    { return line.each(&LineNode::spacing).array().log().mean(); };
-   // The first unless the second is finer by more than round-off.
-   const bool finer = coarseness(master_.line) < coarseness(slave_.line) - 0.01;
-   if (given.slave == SlaveSide::second || (given.slave == SlaveSide::finer && finer))
+   const double coarser = spacing(master_.line) - spacing(slave_.line);
+   const double same = 0.01; // more than round-off
+   if (given.slave == SlaveSide::second ||
+       (given.slave == SlaveSide::coarser && coarser > same) ||
+       (given.slave == SlaveSide::finer && coarser < -same))
    {
       std::swap(slave_, master_);
    }

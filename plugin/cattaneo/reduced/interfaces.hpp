@@ -13,9 +13,15 @@ struct InterfaceSide
    ContactLine line; ///< all of its nodes are nodes of the condensed body's line
 };
 
+/** Which side carries the nodes of the reduced problem. Nodes are nearer to each other or not
+   in the (geometric) mean; the first side is taken if they are as near. The coarser one is the
+    choice that is safe: it has no more forces than either body has displacements. A finer slave
+    that is stiff, on a coarse soft master, has tractions that swing from node to node
+    (docs/interfaces.md has figures). */
 enum class SlaveSide
 {
-   finer, ///< whose nodes are nearer to each other in the (geometric) mean; or the first
+   coarser,
+   finer,
    first,
    second
 };
@@ -25,7 +31,7 @@ struct Interface
 {
    std::string name = "contact";
    InterfaceSide first, second; ///< a rigid obstacle is the second
-   SlaveSide slave = SlaveSide::finer;
+   SlaveSide slave = SlaveSide::coarser;
    /// Initial gap as a function of the contact nodes' places, instead of that of the geometry;
    /// 0.0: closed, whatever chordal errors say. A rigid obstacle is closed unless this is
    /// given.
