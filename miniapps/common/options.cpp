@@ -1,6 +1,7 @@
 #include "common/options.hpp"
 
 #include "common/miniapp.hpp"
+#include "common/text.hpp"
 
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
@@ -10,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <set>
 
 namespace miniapp
@@ -59,7 +61,83 @@ Check within(double low, double high)
            "must be " + exact_text(low) + " to " + exact_text(high)};
 }
 
-Options::Options(int argc, char *argv[]) : words_(argv, argv + argc), parser_(argc, argv)
+namespace
+{
+
+/// Where --sweep is given several times: once, with statements.
+std::vector<std::string> with_one_sweep(int argc, char *argv[])
+{
+   std::vector<std::string> words;
+   std::string sweep;
+   for (int i = 0; i < argc; ++i)
+   {
+      const std::string word = argv[i];
+      if ((word != "--sweep" && word != "-sweep") || i + 1 == argc)
+      {
+         words.push_back(word);
+         continue;
+      }
+      sweep += (sweep.empty() ? "" : "; ") + std::string(argv[++i]);
+   }
+   if (!sweep.empty()) { words.insert(words.end(), {"--sweep", sweep}); }
+   return words;
+}
+
+std::vector<char *> pointers(const std::vector<std::string> &words)
+{
+   std::vector<char *> list;
+   for (const std::string &word : words) { list.push_back(const_cast<char *>(word.c_str())); }
+   return list;
+}
+
+/// A number that an option is given as a word.
+void check_number(const std::string &option, const std::string &word, bool integer)
+{
+   char *end = nullptr;
+   const double value = std::strtod(word.c_str(), &end);
+   require(!word.empty() && *end == 0 && std::isfinite(value) &&
+              (!integer || word.find_first_not_of("+-0123456789") == std::string::npos),
+           "option ", option, ": '", word, "' is not ", integer ? "an integer" : "a number");
+   constexpr int most = std::numeric_limits<int>::max();
+   require(!integer || std::abs(value) <= most, "option ", option, ": ", word,
+           " is too large, must be at most ", most);
+}
+
+/// Entry k of a text of entries is another value; with a load's name, its part LOAD=value.
+std::string replaced(const std::string &text, const std::string &separators,
+                     const std::string &key, const std::string &value)
+{
+   const std::vector<std::string> path = split(key, ".");
+   std::vector<std::string> entries = split(text, separators.c_str());
+   char *end = nullptr;
+   const long k = std::strtol(path[1].c_str(), &end, 10);
+   require(*end == 0 && k >= 0 && k < static_cast<long>(entries.size()), "option --sweep: '",
+           key, "': option --", path[0], " has ", entries.size(),
+           " entries, must name one of them from 0");
+   std::string &entry = entries[static_cast<std::size_t>(k)];
+   if (path.size() == 2) { entry = value; }
+   else
+   {
+      std::vector<std::string> loads = split(entry, ", ");
+      const std::string begin = path[2] + "=";
+      const auto same = [&](const std::string &load) { return load.find(begin) == 0; };
+      loads.erase(std::remove_if(loads.begin(), loads.end(), same), loads.end());
+      entry = begin + value;
+      for (const std::string &load : loads) { entry += " " + load; }
+   }
+   std::string result;
+   for (const std::string &one : entries)
+   {
+      result += (result.empty() ? "" : separators.substr(0, 1)) + one;
+   }
+   return result;
+}
+
+} // namespace
+
+Options::Options(int argc, char *argv[])
+   : words_(with_one_sweep(argc, argv)), arguments_(pointers(words_)),
+     parser_(static_cast<int>(arguments_.size()), arguments_.data())
 {
    add(&case_file_, "case", "JSON file with options; those of the command line override it.",
        Text::input);
@@ -166,16 +244,7 @@ void Options::check_words() const
               " has no value");
       const std::string &word = words_[++i];
       if (option->kind == Kind::text || option->kind == Kind::list) { continue; }
-      const bool integer = option->kind == Kind::integer;
-      char *end = nullptr;
-      const double value = std::strtod(word.c_str(), &end);
-      require(!word.empty() && *end == 0 && std::isfinite(value) &&
-                 (!integer || word.find_first_not_of("+-0123456789") == std::string::npos),
-              "option ", words_[i - 1], ": '", word, "' is not ",
-              integer ? "an integer" : "a number");
-      constexpr int most = std::numeric_limits<int>::max();
-      require(!integer || std::abs(value) <= most, "option ", words_[i - 1], ": ", word,
-              " is too large, must be at most ", most);
+      check_number(words_[i - 1], word, option->kind == Kind::integer);
    }
 }
 
@@ -246,6 +315,87 @@ void Options::parse()
          std::visit([](auto *value) { return nlohmann::ordered_json(*value); }, option.value);
    }
    check_files();
+}
+
+const Options::Option &Options::changeable(const std::string &key) const
+{
+   const std::size_t dots = static_cast<std::size_t>(std::count(key.begin(), key.end(), '.'));
+   const std::string name = key.substr(0, key.find('.'));
+   std::string known;
+   for (const Option &option : options_)
+   {
+      if (!option.in_cases || of_sweep(option)) { continue; }
+      known += (known.empty() ? "" : ", ") + option.names.name;
+      if (option.names.name != name) { continue; }
+      const std::size_t most = option.kind == Kind::list         ? 1
+                               : option.text == Text::statements ? 2
+                                                                 : 0;
+      require(dots <= most, "option --sweep: '", key, "': option --", name,
+              most == 0 ? " has no entries" : " has no entries of entries");
+      return option;
+   }
+   throw InputError("option --sweep: there is no option '" + name + "', must be one of " +
+                    known);
+}
+
+std::vector<std::string>
+Options::command(const std::vector<std::pair<std::string, std::string>> &changes) const
+{
+   std::map<const Option *, std::string> values;
+   for (const auto &[key, value] : changes)
+   {
+      const Option &option = changeable(key);
+      const std::string separators = option.text == Text::statements ? ";" : " ,";
+      const nlohmann::ordered_json &now = values_.at(option.names.name);
+      std::string &text =
+         values.try_emplace(&option, now.is_string() ? now.get<std::string>() : "")
+            .first->second;
+      text = key == option.names.name ? value : replaced(text, separators, key, value);
+   }
+   std::vector<std::string> words;
+   for (std::size_t i = 1; i < words_.size(); ++i)
+   {
+      const Option *option = find(words_[i]);
+      if (!option) { continue; }
+      const bool flag = option->kind == Kind::flag,
+                 written = option->kind == Kind::text && option->text > Text::input;
+      const std::size_t last = flag ? i : i + 1;
+      static const std::set<std::string> of_all = {"json", "csv", "plot", "html"};
+      require(!written || of_all.count(option->names.name) > 0, "option ", words_[i],
+              " is of one run, a sweep has many");
+      if (!written && values.count(option) == 0 && !of_sweep(*option))
+      {
+         words.insert(words.end(), words_.begin() + i, words_.begin() + last + 1);
+      }
+      i = last;
+   }
+   words.insert(words.end(), {"--sweep", "none"}); // a case file may have one
+   for (const auto &[option, text] : values)
+   {
+      const std::string name = "--" + option->names.name;
+      std::size_t on = 1;
+      if (auto number = std::get_if<int *>(&option->value))
+      {
+         check_number(name, text, true);
+         **number = std::stoi(text);
+      }
+      else if (auto number = std::get_if<double *>(&option->value))
+      {
+         check_number(name, text, false);
+         **number = std::stod(text);
+      }
+      else if (option->kind == Kind::flag)
+      {
+         require(text == "true" || text == "false", "option --sweep: ", name, " is ", text,
+                 ", must be true or false");
+         on = text == "true" ? 1 : 3;
+      }
+      else { *std::get<std::string *>(option->value) = text; }
+      if (option->settle) { option->settle(); }
+      words.push_back(option->names.on[on]);
+      if (option->kind != Kind::flag) { words.push_back(text); }
+   }
+   return words;
 }
 
 void Options::read(const std::string &file)

@@ -91,6 +91,13 @@ public:
    /// a file that cannot be used.
    void parse();
 
+   /** The words of a command that runs the same with some values changed, and without what it
+       writes; a key is an option's long name, NAME.k for entry k (from 0) of a list or of
+       statements, or NAME.k.LOAD for a load's multiplier at point k of a history. To be called
+       after parse(). InputError if a key is none or an option does not allow its value. */
+   std::vector<std::string>
+   command(const std::vector<std::pair<std::string, std::string>> &changes) const;
+
    /// What was parsed, by long names, lists as text.
    const nlohmann::ordered_json &values() const { return values_; }
 
@@ -121,7 +128,14 @@ private:
    void set(const Option &option, const nlohmann::json &value, const std::string &where,
             const std::string &file);
 
+   const Option &changeable(const std::string &key) const;
+   static bool of_sweep(const Option &option)
+   {
+      return option.names.name == "sweep" || option.names.name == "sweep-results";
+   }
+
    const std::vector<std::string> words_; ///< of the command line
+   std::vector<char *> arguments_;        ///< the same for the parser
    mfem::OptionsParser parser_;
    std::deque<Option> options_; ///< MFEM keeps pointers to their names: these stay in place
    std::deque<std::string> lists_;

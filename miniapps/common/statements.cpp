@@ -1,5 +1,7 @@
 #include "common/statements.hpp"
 
+#include "common/text.hpp"
+
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
 #include <cctype>
@@ -17,23 +19,6 @@ using namespace cattaneo;
 
 namespace
 {
-
-/// Pieces of a text between separators, without spaces around them; empty ones are left out.
-std::vector<std::string> split(const std::string &text, const char *separators)
-{
-   std::vector<std::string> pieces;
-   std::size_t from = 0;
-   while (from <= text.size())
-   {
-      const std::size_t to = std::min(text.find_first_of(separators, from), text.size());
-      std::string piece = text.substr(from, to - from);
-      piece.erase(0, piece.find_first_not_of(" \t\n"));
-      piece.erase(piece.find_last_not_of(" \t\n") + 1);
-      if (!piece.empty()) { pieces.push_back(piece); }
-      from = to + 1;
-   }
-   return pieces;
-}
 
 /// Text that JSON can hold.
 bool is_utf8(const std::string &text)

@@ -1,6 +1,7 @@
 #include "common/study.hpp"
 
 #include "common/check.hpp"
+#include "common/sweep.hpp"
 
 #include <algorithm>
 #include <cattaneo/reduced/reduced_file.hpp>
@@ -33,7 +34,18 @@ void Study::parse(const char *json)
    options_.leave_out_of_cases("check");
    option(&save_, "save", "File for the reduced problem (shakedown --reduced reads it).",
           Text::output);
+   option(
+      &sweep_, "sweep",
+      "Runs that differ in an option, as 'friction=0.2 0.5' or 'order=1:4:4' (from:to:count); "
+      "may be given several times, for all combinations.",
+      Text::statements);
+   option(
+      &sweep_results_, "sweep-results",
+      "Results of a sweep, as in --json ('dissipation.0 peak_pressure'); default: numbers.");
    options_.parse();
+   if (check_ || sweep_ == "none" || sweep_.empty()) { return; }
+   run_sweep(*this, sweep_, sweep_results_);
+   throw Done();
 }
 
 void Study::reduced(const Scene &scene)
@@ -50,7 +62,7 @@ void Study::condensed(const Scene &scene)
    checked_ = true;
    results["status"] = "checked";
    show(*this, scene);
-   throw Checked();
+   throw Done();
 }
 
 void Study::condensed(const cattaneo::ReducedProblem &problem, int dofs)
@@ -277,7 +289,7 @@ int Study::run(const std::string &name, int argc, char *argv[],
          {
             body(study);
          }
-         catch (const Checked &)
+         catch (const Done &)
          {
          }
          catch (const Outcome &)

@@ -26,8 +26,8 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 struct Outcome
 {
 };
-/// Leaves a study that was only to be checked (--check).
-struct Checked
+/// Leaves a study that was to do something else instead, and has (--check, --sweep).
+struct Done
 {
 };
 
@@ -35,8 +35,9 @@ struct Checked
     or a row of a table, which is printed, goes to JSON and CSV, may be drawn, and is compared
     with the references of the study (miniapps/data/references.json).
 
-    All studies have the options --case, --json, --csv, --plot, --html and --save, and end with
-    their references, sizes, times, counters and warnings. Made first: it holds the clock. */
+    All studies have the options --case, --json, --csv, --plot, --html, --save and --sweep, and
+    end with their references, sizes, times, counters and warnings. Made first: it holds the
+   clock. */
 class Study
 {
 public:
@@ -125,7 +126,7 @@ private:
    Options options_;
    References references_;
    ReferenceTable compared_;
-   std::string name_, json_, csv_, plot_, html_, save_;
+   std::string name_, json_, csv_, plot_, html_, save_, sweep_ = "none", sweep_results_;
    /// Removes what is in it when it goes.
    struct Begun
    {

@@ -21,6 +21,22 @@ std::string error_text(double error)
    return text("%.2g", std::ceil(error / unit * (1 - 1e-12)) * unit);
 }
 
+std::vector<std::string> split(const std::string &text, const char *separators)
+{
+   std::vector<std::string> pieces;
+   std::size_t from = 0;
+   while (from <= text.size())
+   {
+      const std::size_t to = std::min(text.find_first_of(separators, from), text.size());
+      std::string piece = text.substr(from, to - from);
+      piece.erase(0, piece.find_first_not_of(" \t\n"));
+      piece.erase(piece.find_last_not_of(" \t\n") + 1);
+      if (!piece.empty()) { pieces.push_back(piece); }
+      from = to + 1;
+   }
+   return pieces;
+}
+
 std::size_t characters(const std::string &text)
 {
    return std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; });

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <string>
+#include <vector>
 
 namespace miniapp
 {
@@ -21,6 +22,9 @@ std::string text(const char *format, Values... values)
    std::snprintf(result.data(), result.size() + 1, format, values...);
    return result;
 }
+
+/// Pieces of a text between separators, without spaces around them; empty ones are left out.
+std::vector<std::string> split(const std::string &text, const char *separators);
 
 /// Of UTF-8, not its bytes.
 std::size_t characters(const std::string &text);

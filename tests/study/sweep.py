@@ -1,0 +1,114 @@
+"""sweep.py PROGRAMS: the points of --sweep are those of single runs, in their order; outcomes are rows; Ctrl-C leaves what there is."""
+
+import csv
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+os.environ["OPENBLAS_NUM_THREADS"] = "1"  # as each point has: sums in another order have other last bits
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PROGRAMS = pathlib.Path(sys.argv[1])
+
+
+def run(program, *options, code=0):
+    done = subprocess.run([PROGRAMS / program, *map(str, options)], cwd=ROOT, text=True, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, check=False)
+    assert done.returncode == code, (options, done.returncode, done.stdout)
+    return done.stdout
+
+
+def read(file):
+    return json.loads(file.read_text(encoding="utf-8"))
+
+
+def agrees(folder):
+    """A study's own options; all values are those of single runs, to the last bit."""
+    out = folder / "s.json"
+    run("square_punch", "-nodes", 33, "-shear", "0.5", "--sweep", "obstacle=rigid half-plane", "--sweep", "friction=0.2:0.6:3",
+        "--json", out, "--csv", folder / "s", "--plot", folder / "s.png", "--html", folder / "s.html",
+        "--sweep-results", "peak_pressure levels.0.stick_right")
+    rows = read(out)["sweep"]
+    order = [(obstacle, friction) for obstacle in ("rigid", "half-plane") for friction in (0.2, 0.4, 0.6)]
+    assert [(row["obstacle"], row["friction"]) for row in rows] == order, rows
+    for row in rows:
+        run("square_punch", "-nodes", 33, "-shear", "0.5", "-obstacle", row["obstacle"], "-friction", row["friction"],
+            "--json", folder / "one.json")
+        one = read(folder / "one.json")
+        assert row["status"] == "converged" and row["peak_pressure"] == one["peak_pressure"], (row, one["peak_pressure"])
+        assert row["levels.0.stick_right"] == one["levels"][0]["stick_right"] is not None, row
+    table = list(csv.DictReader((folder / "s_sweep.csv").open(encoding="utf-8")))
+    assert [(line["obstacle"], float(line["friction"])) for line in table] == order
+    assert (folder / "s.png").stat().st_size > 5000
+    assert "half-plane" in (folder / "s.html").read_text(encoding="utf-8")
+
+
+def outcomes(folder):
+    """Gross sliding where Q > f P: that is a row, and the exit code says that there is one. A place in a history is swept."""
+    case = folder / "case.json"
+    case.write_text(json.dumps({"reduced": str(ROOT / "problems/hertz.json"), "history": ["P=0", "P=1", "Q=0.1"],
+                                "sweep": ["friction=0.2 0.4", "history.2.Q=0.1:0.26:3"]}), encoding="utf-8")
+    out = folder / "o.json"
+    shown = run("march", "--case", case, "--json", out, code=2)
+    results = read(out)
+    assert "5 of 6 points converged" in shown and results["status"] == "ended early", shown
+    for row in results["sweep"]:
+        holds = row["history.2.Q"] < row["friction"]
+        assert row["status"] == ("converged" if holds else "gross sliding"), row
+        assert (row["message"] == "") == holds, row
+        if holds: # equilibrium
+            assert abs(row["tangential_force"] + row["history.2.Q"] * row["normal_force"]) < 1e-12, row
+    # A case of contact2d, by an entry of a list and a word of its own.
+    run("contact2d", "--case", "meshes/dovetail.json", "--cycles", 1, "--sweep", "young1.0=100 200", "--sweep", "plane-stress=true false",
+        "--json", out)
+    pressures = [row["peak_pressure"] for row in read(out)["sweep"]]
+    assert len(set(pressures)) == 4, pressures
+
+
+def refused():
+    """One sentence, before anything is run."""
+    hertz = ["-reduced", "problems/hertz.json", "--sweep"]
+    for sweep, words in (("frction=0.2", "there is no option 'frction'"), ("friction=0.2 -1", "option --friction is -1"),
+                         ("friction=0.2 much", "'much' is not a number"), ("friction", "must be OPTION=values"),
+                         ("friction=", "has no values"), ("friction=0:1:1", "at least 2"), ("increments=1.5", "not an integer"),
+                         ("method=newton", "'newton' is not one of"), ("history.4.Q=1", "has 0 entries"), ("friction.1=2", "has no entries"),
+                         ("json=a b", "there is no option 'json'"), ("sweep=a", "there is no option 'sweep'"),
+                         ("friction=0.1; friction=0.2", "'friction' is there twice")):
+        begun = time.monotonic()
+        shown = run("march", *hertz, sweep, code=1)
+        error = shown[shown.index("error:"):]
+        assert words in error and error.count("\n") == 1, (sweep, error)
+        assert time.monotonic() - begun < 5
+    for option in ("--save", "--save-state"):
+        assert "a sweep has many" in run("march", *hertz, "friction=0.2", option, "nowhere.json", code=1)
+    # What only the runs themselves can tell: no row, if it is all of them.
+    shown = run("march", *hertz, "friction=0.2 0.3", "-history", "P=0; R=1", code=1)
+    assert "every point of the sweep is refused" in shown and "no load pattern 'R'" in shown, shown
+
+
+def interrupted(folder):
+    """What has been computed stays, what was running says that it was stopped, and no process is left."""
+    out = folder / "i.json"
+    sweep = subprocess.Popen([PROGRAMS / "lap_joint", "-all-cycles", "-spacing", "0.05", "--sweep",
+                              "cycles=2 3 4 100000:100199:200", "--json", out], cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    time.sleep(10)
+    assert sweep.poll() is None
+    sweep.send_signal(signal.SIGINT)
+    assert sweep.wait(60) == 2
+    results = read(out)
+    states = [row["status"] for row in results["sweep"]]
+    assert results["status"] == "stopped" and 3 < len(states) < 203, results
+    assert states[:3] == 3 * ["converged"] and set(states[3:]) == {"stopped"}, states
+    left = subprocess.run(["pgrep", "-f", "cycles 100[01][0-9][0-9]"], stdout=subprocess.PIPE, check=False).stdout
+    assert not left, left
+
+
+with tempfile.TemporaryDirectory() as name:
+    agrees(pathlib.Path(name))
+    outcomes(pathlib.Path(name))
+    refused()
+    interrupted(pathlib.Path(name))
