@@ -8,6 +8,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
@@ -154,6 +155,21 @@ private:
    std::string path_;
 };
 
+/// A process that mpiexec started tells its children that they are of its job: each is one of
+/// its own.
+void leave_job()
+{
+#ifdef MFEM_USE_MPI
+   for (char **variable = environ; *variable;)
+   {
+      const std::string name(*variable, std::strcspn(*variable, "="));
+      const bool job = name.find("OMPI_") == 0 || name.find("PMIX_") == 0;
+      if (job) { unsetenv(name.c_str()); }
+      variable = job ? environ : variable + 1;
+   }
+#endif
+}
+
 /// The program of this process with other words, one thread, and nothing on the screen.
 pid_t start(const std::vector<std::string> &words, const std::string &json,
             const std::string &errors)
@@ -173,6 +189,7 @@ pid_t start(const std::vector<std::string> &words, const std::string &json,
    prctl(PR_SET_PDEATHSIG, SIGTERM);
 #endif
    setenv("OPENBLAS_NUM_THREADS", "1", 1);
+   leave_job();
    const int out = open("/dev/null", O_WRONLY);
    const int err = open(errors.c_str(), O_WRONLY | O_CREAT, 0600);
    dup2(out, STDOUT_FILENO);
