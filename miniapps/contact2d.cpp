@@ -61,9 +61,7 @@ struct Options
                   "Mesh of body 2; without it body 1 is on a rigid line.");
       study.option(&order, "order", "Order of the elements.", miniapp::within(1, 8));
       study.option(&plane_stress, "plane-stress", "Plane stress instead of plane strain.");
-      study.option(
-         &friction, "friction", "Coefficient of friction.",
-         miniapp::Check{miniapp::not_negative.holds, "must be a number that is not negative"});
+      study.option(&friction, "friction", "Coefficient of friction.", miniapp::not_negative);
       study.option(&gap, "gap", "Initial gap: geometry (from the meshes) or closed (none).",
                    {"geometry", "closed"});
       study.option(&pairing, "pairing",

@@ -1,5 +1,6 @@
 #include "common/options.hpp"
 
+#include "common/case_file.hpp"
 #include "common/miniapp.hpp"
 #include "common/text.hpp"
 
@@ -9,7 +10,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <set>
@@ -400,34 +400,10 @@ Options::command(const std::vector<std::pair<std::string, std::string>> &changes
 
 void Options::read(const std::string &file)
 {
-   const std::string where = "case file '" + file + "'";
-   std::ifstream in(file);
-   require(in.good() && !fs::is_directory(file), where, " cannot be read");
-   json j;
-   std::set<std::string> names;
-   // Of a key that is there twice the parser itself keeps the last without a word.
-   const auto once = [&](int depth, json::parse_event_t event, const json &name)
+   const json keys = read_case(file);
+   const std::string where = "case file '" + file + "': ";
+   for (const auto &[name, value] : keys.items())
    {
-      if (event == json::parse_event_t::key && depth == 1)
-      {
-         const auto key = name.get<std::string>();
-         require(names.insert(key).second, where, ": key '", key,
-                 "' is there twice, must be there once");
-      }
-      return true;
-   };
-   try
-   {
-      j = json::parse(in, once);
-   }
-   catch (const json::exception &error)
-   {
-      throw InputError(where + " is not JSON: " + error.what());
-   }
-   require(j.is_object(), where, " holds a JSON ", j.type_name(), ", must be an object");
-   for (const auto &[name, value] : j.items())
-   {
-      if (name == "$schema") { continue; } // for editors
       const Option *option = nullptr;
       std::string known;
       for (const Option &o : options_)
@@ -436,8 +412,8 @@ void Options::read(const std::string &file)
          if (o.names.name == name) { option = &o; }
          known += (known.empty() ? "" : ", ") + o.names.name;
       }
-      require(option, where, ": unknown key '", name, "', must be one of ", known);
-      set(*option, value, where + ": key '" + name + "'", file);
+      require(option, where, "unknown key '", name, "', must be one of ", known);
+      set(*option, value, where + "key '" + name + "'", file);
    }
 }
 
@@ -454,7 +430,7 @@ void Options::set(const Option &option, const json &value, const std::string &wh
    { return value.is_array() && std::all_of(value.begin(), value.end(), is); };
    const auto is_number = [](const json &v) { return v.is_number(); };
    const auto is_attribute = [](const json &v)
-   { return v.is_number_integer() && v.get<double>() > 0; };
+   { return v.is_number() && v > 0 && v < 1e9 && v == std::floor(v.get<double>()); };
    const auto is_string = [](const json &v) { return v.is_string(); };
    // A value, or an array of them with something between.
    const auto joined = [&value](const char *between)
@@ -463,17 +439,17 @@ void Options::set(const Option &option, const json &value, const std::string &wh
       const json values = value.is_array() ? value : json::array({value});
       for (const json &v : values)
       {
-         list +=
-            (list.empty() ? "" : between) + (v.is_string() ? v.get<std::string>() : v.dump());
+         list += list.empty() ? "" : between;
+         list += v.is_string() ? v.get<std::string>() : exact_text(v.get<double>());
       }
       return list;
    };
    if (auto integer = std::get_if<int *>(&option.value))
    {
-      expect(value.is_number_integer() &&
-                std::abs(value.get<double>()) <= std::numeric_limits<int>::max(),
-             "an integer");
-      **integer = value.get<int>();
+      constexpr int most = std::numeric_limits<int>::max();
+      const double x = value.is_number() ? value.get<double>() : std::nan("");
+      expect(x == std::floor(x) && std::abs(x) <= most, "an integer"); // 2.0 is one in JSON
+      **integer = static_cast<int>(x);
    }
    else if (auto number = std::get_if<double *>(&option.value))
    {
@@ -497,7 +473,7 @@ void Options::set(const Option &option, const json &value, const std::string &wh
       {
          expect(value.is_string() || is_attribute(value) || all(is_attribute),
                 "boundary attributes: a string such as \"3,4\" or \"3[-1<x<1]\", a positive "
-                "integer, or an array of positive integers");
+                "integer below 1e9, or an array of positive integers below 1e9");
          text = joined(",");
       }
       else if (option.text == Text::statements)

@@ -89,9 +89,10 @@ OwnHistory::OwnHistory(Study &study) : study_(study)
                 "0 to 1.",
                 Text::statements);
    study.option(&cycle_start_, "cycle-start",
-                "Point of the history (from 0) where its cycle starts; -1: there is none.");
-   study.option(&cycles_, "cycles",
-                "How often the cycle is marched (fewer once it is steady).");
+                "Point of the history (from 0) where its cycle starts; -1: there is none.",
+                at_least(-1));
+   study.option(&cycles_, "cycles", "How often the cycle is marched (fewer once it is steady).",
+                at_least(1));
    study.option(&settings.increments, "increments",
                 "Load increments between two points of the history.", at_least(1));
    study.option(&stepping_, "stepping", stepping_help, stepping_choices);
@@ -107,9 +108,6 @@ OwnHistory::OwnHistory(Study &study) : study_(study)
 
 void OwnHistory::check_options()
 {
-   require(cycle_start_ >= -1, "option cycle-start is ", cycle_start_,
-           ", must be a point of the history, from 0, or -1 for no cycle");
-   require(cycles_ >= 1, "option cycles: ", cycles_, " cycles, at least 1 is needed");
    if (cycles_ > 1 && cycle_start_ < 0)
    {
       warn("option cycles is " + std::to_string(cycles_) +

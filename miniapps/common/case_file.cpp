@@ -1,0 +1,50 @@
+#include "common/case_file.hpp"
+
+#include <cattaneo/input_error.hpp>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+namespace miniapp
+{
+
+using cattaneo::InputError;
+using cattaneo::require;
+using nlohmann::json;
+
+json read_case(const std::string &file)
+{
+   const std::string where = "case file '" + file + "'";
+   std::ifstream in(file);
+   require(in.good() && !std::filesystem::is_directory(file), where, " cannot be read");
+   json keys;
+   std::set<std::string> names;
+   // Of a key that is there twice the parser itself keeps the last without a word.
+   const auto once = [&](int depth, json::parse_event_t event, const json &name)
+   {
+      if (event == json::parse_event_t::key && depth == 1)
+      {
+         const auto key = name.get<std::string>();
+         require(names.insert(key).second, where, ": key '", key,
+                 "' is there twice, must be there once");
+      }
+      return true;
+   };
+   try
+   {
+      keys = json::parse(in, once);
+   }
+   catch (const json::exception &error)
+   {
+      throw InputError(where + " is not JSON: " + error.what());
+   }
+   require(keys.is_object(), where, " holds a JSON ", keys.type_name(), ", must be an object");
+   const json version = keys.value("version", json(1));
+   require(version == 1, where, ": key 'version' is ",
+           version.is_structured() ? version.type_name() : version.dump(),
+           ", must be 1, the only version that this program knows");
+   for (const char *key : {"version", "$schema"}) { keys.erase(key); }
+   return keys;
+}
+
+} // namespace miniapp
