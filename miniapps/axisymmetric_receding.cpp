@@ -213,7 +213,7 @@ void axisymmetric_receding(miniapp::Study &study)
 {
    Disc disc;
    miniapp::DiscOptions &options = disc.options;
-   std::string twisted = "top";
+   std::string twisted = "top", obstacle = "half-plane";
    std::vector<double> levels, torques, rotations, bonded_a, map_a, map_f = {0.5, 0.8}, discs,
                                                                     critical_f = {0, 0.5, 0.8};
    double amplitude = 0.5;
@@ -223,7 +223,9 @@ void axisymmetric_receding(miniapp::Study &study)
    study.option(&disc.f, "friction", "Coefficient of friction (0: no tangential unknowns).",
                 miniapp::not_negative);
    study.option(&options.poisson, "poisson", "Poisson's ratio of both bodies.");
-   study.option(&options.domain, "domain", "Radius and depth of the cylinder below, in t.");
+   study.option(&obstacle, "obstacle", "What the disc lies on: half-plane, a half-space.",
+                {"half-plane"});
+   study.option(&options.domain, "domain", miniapp::domain_help);
    study.option(&options.order, "order", "Order of the elements.");
    study.option(&options.spacing, "spacing", "Distance of the contact nodes, in t.");
    study.option(&levels, "unload", "Unloading: list of P/P0 to report (empty: none).",

@@ -10,13 +10,12 @@
 //  Sample runs:  plane_receding
 //                plane_receding -friction 0.7 -unload "0.9 0.5 0.2 0.1" -steps 50
 //                plane_receding -friction 0.7 -unload "0.9 0.5 0.2 0.1" -march exact
-//                plane_receding -domain half-plane
-//                plane_receding -domain th0 -friction 0.3 -order 1 -spacing 0.04 -corner 0.001
-//                plane_receding -overhang 0.8 -friction 1.4
-//                plane_receding -map "0.4 0.8 1.2 1.6 2 3" -spacing 0.05 -corner 0.01
-//                plane_receding -map 4 -map-friction "0.3 0.5 1"
-//                plane_receding -domain th0 -unload 0.5
-//                plane_receding -domain th0 -overhang 2 -unload 0.5
+//                plane_receding -domain 1e4
+//                plane_receding -obstacle th0 -friction 0.3 -order 1 -spacing 0.04 -corner
+//                0.001 plane_receding -overhang 0.8 -friction 1.4 plane_receding -map "0.4
+//                0.8 1.2 1.6 2 3" -spacing 0.05 -corner 0.01 plane_receding -map 4
+//                -map-friction "0.3 0.5 1" plane_receding -obstacle th0 -unload 0.5
+//                plane_receding -obstacle th0 -overhang 2 -unload 0.5
 
 #include "common/extent.hpp"
 #include "common/receding.hpp"
@@ -226,20 +225,20 @@ void domain_study(miniapp::Study &study, miniapp::RecedingOptions options, doubl
 {
    study.title(miniapp::text("Domain study, n = %g, f = %g", overhang, friction));
    Table &table = study.table("domain_study", {{"length", "length", "%g"},
-                                               {"depth", "depth", "%g"},
+                                               {"domain", "domain", "%g"},
                                                {"side", "side", "%g"},
                                                {"separation", "s/t"},
                                                {"stick_slip", "e/t"}});
    options.overhangs = {overhang};
-   for (const auto &[length, depth, side] : {std::array<double, 3>{20, 200, 80},
-                                             {20, 1e4, 1e4},
-                                             {50, 1e3, 1e3},
-                                             {100, 1e4, 1e4},
-                                             {400, 1e5, 1e5},
-                                             {100, 0, 0}}) // a half-plane without a mesh
+   for (const auto &[length, domain, side] : {std::array<double, 3>{20, 200, 80},
+                                              {20, 1e4, 1e4},
+                                              {50, 1e3, 1e3},
+                                              {100, 1e4, 1e4},
+                                              {400, 1e5, 1e5},
+                                              {100, 0, 0}}) // a half-plane without a mesh
    {
       options.length = length;
-      options.depth = depth;
+      options.domain = domain;
       options.side = side;
       miniapp::Scene scene = miniapp::make_receding(options);
       set_friction(scene.problem(), friction);
@@ -247,29 +246,29 @@ void domain_study(miniapp::Study &study, miniapp::RecedingOptions options, doubl
       miniapp::Run run(study, scene.problem());
       run.to({{overhang_load(overhang), 1}});
       const miniapp::Extent found = extent(scene.problem(), run.state, overhang);
-      study.row(table, {length, depth, side, -found.separation, -found.stick});
+      study.row(table, {length, domain, side, -found.separation, -found.stick});
    }
 }
 
 void plane_receding(miniapp::Study &study)
 {
    miniapp::RecedingOptions options;
-   std::string domain = "hp", march_by = "advancing";
-   double friction = 0.7, length = 0, depth = 0, side = 0;
+   std::string obstacle = "half-plane", march_by = "advancing";
+   double friction = 0.7;
    std::vector<double> map_n, map_f = {0.3, 0.5, 0.7, 1};
    Unloading unloading{4, 50, 0.05, {}, {-0.5, 0, 0.5}};
    bool study_domain = false;
    study.option(&unloading.overhang, "overhang",
                 "n: the strip's end to the edge of the load, in t.");
    study.option(&friction, "friction", "Coefficient of friction.", miniapp::positive);
-   study.option(
-      &domain, "domain",
-      "hp (a block close to a half-plane), half-plane (itself, without a mesh) or th0 "
-      "(a finite block).",
-      {"hp", "half-plane", "th0"});
-   study.option(&length, "length", "Length of the strip in t (0: the domain's).");
-   study.option(&depth, "depth", "Depth of the block below in t (0: the domain's).");
-   study.option(&side, "side", "Block beyond the strip's end in t (0: the domain's).");
+   study.option(&obstacle, "obstacle",
+                "What the strip lies on: half-plane, or th0, the thesis' block: --length 20 "
+                "--domain 200 --side 80.",
+                {"half-plane", "th0"});
+   study.option(&options.domain, "domain", miniapp::domain_help, miniapp::none_or_above(1));
+   study.option(&options.side, "side",
+                "Block beyond the strip's end in t (0: as far as it is deep).");
+   study.option(&options.length, "length", "Length of the strip in t.");
    study.option(&options.order, "order", "Order of the elements.");
    study.option(&options.spacing, "spacing", "Distance of the contact nodes, in t.");
    study.option(&options.corner, "corner",
@@ -288,14 +287,14 @@ void plane_receding(miniapp::Study &study)
    study.option(&map_f, "map-friction", "Map of s and e: list of f.", miniapp::positive);
    study.option(&study_domain, "domain-study", "Print s and e for growing domains.");
    study.parse();
-   if (domain == "th0") { options.thesis_domain(); }
-   else { options.half_plane_domain(); }
-   if (domain == "half-plane") { options.depth = options.side = 0; }
-   if (length != 0) { options.length = length; }
-   if (depth != 0) { options.depth = depth; }
-   if (side != 0) { options.side = side; }
-   // References are of these domains as they are.
-   study.results["domain"] = length != 0 || depth != 0 || side != 0 ? "own" : domain;
+   if (obstacle == "th0")
+   {
+      require(options.domain == 0 && options.side == 0,
+              "option --obstacle th0 is a block of its own, without --domain and --side");
+      options.length = 20;
+      options.domain = 200;
+      options.side = 80;
+   }
    const double overhang = unloading.overhang;
    require(map_n.empty() || !map_f.empty(),
            "option --map-friction is empty, must list the coefficients of the map");

@@ -96,8 +96,6 @@ void Shakedown::options()
                 "Stiffnesses of the half-plane over the block's to repeat the limits with.");
    study.option(&obstacle, "obstacle", "What the block stands on: rigid or half-plane.",
                 {"rigid", "half-plane"});
-   // A block: on coarse meshes the corner's nodal forces are nearer to their limit with it.
-   punch.domain = 1e4;
    add_options(study, punch);
    study.option(&reduced, "reduced", "A saved reduced problem instead of the punch.",
                 Text::input);

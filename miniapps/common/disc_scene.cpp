@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cattaneo/friction/friction_solver.hpp>
 #include <cattaneo/friction/settled_states.hpp>
+#include <cattaneo/halfplane/half_plane.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/mesh/graded_mesh.hpp>
 #include <cmath>
@@ -26,8 +27,9 @@ void DiscOptions::validate() const
    check_growth(growth);
    require(disc_radius >= spacing * order, "option --disc-radius is ", disc_radius,
            ", must be at least one element, ", spacing * order, " (in t)");
-   require(domain > disc_radius + 1, "option --domain is ", domain, ", must be above ",
-           disc_radius + 1, " (in t)");
+   require(domain == 0 || domain > disc_radius + 1, "option --domain is ", domain,
+           ", must be 0, for a half-space without a mesh, or above ", disc_radius + 1,
+           " (in t)");
    require(!load_radii.empty(), "there is no load radius");
    for (double a : load_radii)
    {
@@ -62,17 +64,18 @@ Scene make_disc(const DiscOptions &options)
       h = smallest_step(contact);
       h_end = contact.back() - contact[contact.size() - 2];
    }
-   std::vector<double> depth = graded(0, -R, h, growth);
-   std::reverse(depth.begin(), depth.end());
-   mfem::Mesh above = rectangle_mesh(contact, graded(0, 1, h, growth, 0.4 * (growth - 1))),
-              half_space =
-                 rectangle_mesh(joined({contact, graded(b, R, h_end, growth)}), depth);
-   ElasticBody &disc = scene.add(std::move(above), options.order, material,
-                                 Formulation::axisymmetric),
-               &below = scene.add(std::move(half_space), options.order, material,
-                                  Formulation::axisymmetric);
+   ElasticBody &disc =
+      scene.add(rectangle_mesh(contact, graded(0, 1, h, growth, 0.4 * (growth - 1))),
+                options.order, material, Formulation::axisymmetric);
+   const bool meshed = R > 0;
+   if (meshed)
+   {
+      std::vector<double> depth = graded(0, -R, h, growth);
+      std::reverse(depth.begin(), depth.end());
+      scene.add(rectangle_mesh(joined({contact, graded(b, R, h_end, growth)}), depth),
+                options.order, material, Formulation::axisymmetric);
+   }
    const BoundaryPart far({bottom, side});
-   for (int c : {0, 1}) { below.fix(far, c); }
    const auto line_of_disc = [&](const ElasticBody &body)
    { return contact_line(body, bottom); };
    const auto line_below = [&](const ElasticBody &body)
@@ -82,38 +85,54 @@ Scene make_disc(const DiscOptions &options)
    {
       disc.add_pressure(radius_load(a), BoundaryPart({top}, 0, 0, a), 1.0);
    }
-   const ContactLine upper = line_of_disc(disc), lower = line_below(below);
-   scene.reduction = reduce(condense(disc, upper, condensation()),
-                            condense(below, lower, condensation()), pair_lines(upper, lower));
-   if (options.twist != Twist::none)
+   HalfPlane half_space;
+   half_space.material = material;
+   CondensedBody upper = condense(disc, line_of_disc(disc), condensation());
+   if (meshed)
    {
-      scene.add_torsion(options.order, material);
-      ElasticBody &twisting = *scene.torsion[0], &held = *scene.torsion[1];
-      held.fix(far, 0);
-      const double a = options.load_radii.front();
-      const BoundaryPart loaded({top}, 0, 0, a);
-      switch (options.twist)
-      {
-      case Twist::none:
-         break;
-      case Twist::top:
-         twisting.add_displacement("twist", top, 0, 1.0);
-         break;
-      case Twist::loaded:
-         twisting.add_displacement("twist", loaded, 0, 1.0);
-         break;
-      case Twist::rim:
-         // Above the contact, whose last node is at the rim and must be free.
-         twisting.add_displacement("twist", BoundaryPart({side}, 1, 0.4 * h, 1), 0, 1.0);
-         break;
-      case Twist::traction:
-         twisting.add_traction(
-            "twist", loaded, [a](double r, double) { return 2 * r / (M_PI * std::pow(a, 4)); });
-         break;
-      }
-      scene.reduction.add_torsion(condense(twisting, line_of_disc(twisting), condensation()),
-                                  condense(held, line_below(held), condensation()));
+      ElasticBody &below = *scene.bodies[1];
+      for (int c : {0, 1}) { below.fix(far, c); }
+      const ContactLine line = line_below(below);
+      const Pairing pairing = pair_lines(upper.line, line);
+      scene.reduction =
+         reduce(std::move(upper), condense(below, line, condensation()), pairing);
    }
+   else { scene.reduction = reduce(std::move(upper), half_space); }
+   if (options.twist == Twist::none) { return scene; }
+
+   scene.add_torsion(options.order, material);
+   ElasticBody &twisting = *scene.torsion[0];
+   const double a = options.load_radii.front();
+   const BoundaryPart loaded({top}, 0, 0, a);
+   switch (options.twist)
+   {
+   case Twist::none:
+      break;
+   case Twist::top:
+      twisting.add_displacement("twist", top, 0, 1.0);
+      break;
+   case Twist::loaded:
+      twisting.add_displacement("twist", loaded, 0, 1.0);
+      break;
+   case Twist::rim:
+      // Above the contact, whose last node is at the rim and must be free.
+      twisting.add_displacement("twist", BoundaryPart({side}, 1, 0.4 * h, 1), 0, 1.0);
+      break;
+   case Twist::traction:
+      twisting.add_traction("twist", loaded,
+                            [a](double r, double) { return 2 * r / (M_PI * std::pow(a, 4)); });
+      break;
+   }
+   upper = condense(twisting, line_of_disc(twisting), condensation());
+   CondensedBody lower;
+   if (meshed)
+   {
+      ElasticBody &held = *scene.torsion[1];
+      held.fix(far, 0);
+      lower = condense(held, line_below(held), condensation());
+   }
+   else { lower = condense(half_space, upper.line); }
+   scene.reduction.add_torsion(std::move(upper), std::move(lower));
    return scene;
 }
 

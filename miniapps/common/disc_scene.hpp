@@ -20,8 +20,9 @@ enum class Twist
 };
 
 /** The axisymmetric receding contact of thesis chapter 7: a disc 0 < r < b, 0 < z < t on a
-   cylinder r < R, -R < z < 0 of the same material, which stands for a half-space and is fixed
-   on its side and bottom. Dead pressure p0 on r < a of the disc's top.
+   half-space of the same material: the half-space itself, which has no mesh, or a cylinder r <
+   R, -R < z < 0 that is fixed on its side and bottom. Dead pressure p0 on r < a of the disc's
+   top.
 
     Units t = p0 = E = 1. Every load radius is a load pattern of its own, see radius_load(), on
    one condensed pair: the end of the load need not be a mesh line. The twist is the pattern
@@ -30,7 +31,7 @@ struct DiscOptions
 {
    double disc_radius = 5;                 ///< b, in t
    std::vector<double> load_radii = {2.5}; ///< a, in t
-   double domain = 100;                    ///< R, in t
+   double domain = 0; ///< R, in t; 0: the half-space itself, without a mesh
    int order = 2;
    double spacing = 0.02; ///< of the contact nodes (rounded so that elements end at b), in t
    /// Of the elements away from the contact; those of the disc are 0.4 (growth - 1) t high at

@@ -61,6 +61,16 @@ Check within(double low, double high)
            "must be " + exact_text(low) + " to " + exact_text(high)};
 }
 
+Check none_or_above(double low)
+{
+   return {[=](double x) { return x == 0 || x > low; },
+           "must be 0, for a half-plane without a mesh, or above " + exact_text(low)};
+}
+
+const char *const domain_help =
+   "Half-width and depth of a meshed block in place of the half-plane, as a check (0: none, "
+   "the half-plane itself, which has no mesh).";
+
 namespace
 {
 

@@ -24,6 +24,7 @@ Check between(double low, double high);        ///< neither bound
 Check above_up_to(double low, double high);    ///< without the lower bound
 Check at_least_below(double low, double high); ///< without the upper bound
 Check within(double low, double high);         ///< both bounds
+Check none_or_above(double low);               ///< 0, or above the bound
 
 /// What a text option is, here and in a case file.
 enum class Text
@@ -38,6 +39,9 @@ enum class Text
    picture,    ///< a file of matplotlib's: png, pdf or svg
    page        ///< an html file
 };
+
+/// Of --domain, which every study with a half-plane has: 0, and the half-plane has no mesh.
+extern const char *const domain_help;
 
 /** Options of a program: MFEM's parser with what it leaves open. Each is declared once, with
    its check. Numbers that are none, or too large, are refused with the name of their option,

@@ -22,8 +22,6 @@ void PunchOptions::validate() const
    check_growth(growth);
    require(plane_stiffness > 0, "stiffness of the half-plane over the block's is ",
            plane_stiffness, ", must be positive");
-   require(domain == 0 || domain > 2, "option --domain is ", domain,
-           ", must be above 2 (in a), or 0 for a half-plane without a mesh");
 }
 
 void add_options(Study &study, PunchOptions &options)
@@ -34,10 +32,7 @@ void add_options(Study &study, PunchOptions &options)
    study.option(
       &options.grading, "grading",
       "Size of the contact elements at the corners over the middle ones (1: uniform).");
-   study.option(
-      &options.domain, "domain",
-      "Half-width and depth in a of a meshed block in place of the half-plane (0: the "
-      "half-plane itself).");
+   study.option(&options.domain, "domain", domain_help, none_or_above(2));
 }
 
 Scene make_punch(const PunchOptions &options)

@@ -21,19 +21,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-void RecedingOptions::half_plane_domain()
-{
-   length = 100;
-   depth = side = 1e4;
-}
-
-void RecedingOptions::thesis_domain()
-{
-   length = 20;
-   depth = 200;
-   side = 80;
-}
-
 void RecedingOptions::validate() const
 {
    require(order >= 1 && order <= 8, "option --order is ", order, ", must be 1 to 8");
@@ -42,9 +29,12 @@ void RecedingOptions::validate() const
    require(corner > 0 && corner <= spacing, "option --corner is ", corner,
            ", must be above 0 and at most the spacing ", spacing);
    require(growth > 1 && growth <= 2, "growth is ", growth, ", must be above 1 and at most 2");
-   require(length > 0 && (!meshed() || (depth > 1 && side > 1)),
-           "options --length, --depth and --side are ", length, ", ", depth, " and ", side,
-           ", must be positive, above 1 and above 1 (in t)");
+   require(length > 0, "option --length is ", length, ", must be positive (in t)");
+   require(domain == 0 || domain > 1, "option --domain is ", domain,
+           ", must be 0, for a half-plane without a mesh, or above 1 (in t)");
+   require(side == 0 || (side > 1 && domain > 0), "option --side is ", side,
+           domain > 0 ? ", must be 0 or above 1 (in t)"
+                      : ", is of a block: --domain must say how deep it is");
    require(!overhangs.empty(), "there is no overhang");
    for (double n : overhangs)
    {
@@ -101,7 +91,7 @@ Scene make_receding(const RecedingOptions &options)
    strip.fix(BoundaryPart({right}, 1, clear, 1), 0);
 
    CondensedBody upper = condense(strip, contact_line(strip, bottom), condensation());
-   if (!options.meshed())
+   if (options.domain == 0)
    {
       HalfPlane below;
       below.material = material;
@@ -111,14 +101,15 @@ Scene make_receding(const RecedingOptions &options)
       scene.reduction = reduce(std::move(upper), below);
       return scene;
    }
-   std::vector<double> outside = graded(0, -options.side, contact[1] - contact[0], growth);
+   const double side = options.side > 0 ? options.side : options.domain;
+   std::vector<double> outside = graded(0, -side, contact[1] - contact[0], growth);
    std::reverse(outside.begin(), outside.end());
-   std::vector<double> depth = graded(0, -options.depth, h_corner, growth);
+   std::vector<double> depth = graded(0, -options.domain, h_corner, growth);
    std::reverse(depth.begin(), depth.end());
    ElasticBody &block = scene.add(refined(rectangle_mesh(joined({outside, contact}), depth), 1),
                                   options.order, material);
    block.fix(bottom, 1);
-   block.fix(BoundaryPart({right}, 1, -options.depth, -clear), 0);
+   block.fix(BoundaryPart({right}, 1, -options.domain, -clear), 0);
 
    const ContactLine below = contact_line(block, BoundaryPart({top}, 0, 0, L));
    const Pairing pairing = pair_lines(upper.line, below);

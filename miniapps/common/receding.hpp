@@ -12,7 +12,7 @@ namespace miniapp
 
 /** The plane receding contact of thesis chapter 5: an elastic strip 0 < x < length, 0 < y < t
    on a similar half-plane: the half-plane itself, which has no mesh, or the block -side < x <
-   length, -depth < y < 0, u_y = 0 at its bottom. A pressure p0 acts on the strip's top for x >
+   length, -domain < y < 0, u_y = 0 at its bottom. A pressure p0 acts on the strip's top for x >
    n t. u_x = 0 at x = length (of both).
 
     Units t = p0 = E' = 1, E' = E/(1-ν²). Every overhang n is a load pattern of its own, see
@@ -20,8 +20,10 @@ namespace miniapp
    serves all n. */
 struct RecedingOptions
 {
-   double length = 100, depth = 1e4, side = 1e4; ///< in t; depth = side = 0: no block
-   std::vector<double> overhangs = {4.0};        ///< n, in t
+   double length = 100; ///< of the strip, in t
+   double domain = 0;   ///< depth of the block, in t; 0: none, the half-plane itself
+   double side = 0;     ///< of the block beyond the strip's end, in t; 0: the depth
+   std::vector<double> overhangs = {4.0}; ///< n, in t
    int order = 2;
    double spacing =
       0.02; ///< of the contact nodes from the corner to beyond the edge of the load
@@ -35,11 +37,6 @@ struct RecedingOptions
    /// Refines the mesh of a body (0 or 1) before it is made; both alike along the contact.
    std::function<void(mfem::Mesh &, int)> refine = {};
 
-   bool meshed() const { return depth != 0 || side != 0; }
-   /// A block close to a half-plane, or the finite one that comes close to what the thesis
-   /// used.
-   void half_plane_domain();
-   void thesis_domain();
    /// InputError naming the option, its value and what is allowed.
    void validate() const;
 };
