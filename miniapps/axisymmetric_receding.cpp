@@ -14,9 +14,10 @@
 //                axisymmetric_receding -torque "0.5 0.9" -twist traction -spacing 0.05
 //                axisymmetric_receding -cycles 3 -amplitude 0.6 -spacing 0.05 -steps 40
 //                axisymmetric_receding -bonded "2.1 3.75 4.25 4.7" -map "0.5 1 2 3 4"
-//                axisymmetric_receding -critical "1 3 5" -spacing 0.05
+//                axisymmetric_receding -critical "1 3 5"
 //                axisymmetric_receding -map "0.5 2.5" -map-friction "0.8 0.9" -spacing 0.05
-//                axisymmetric_receding -critical 8 -spacing 0.05
+//                axisymmetric_receding -critical 8
+//                axisymmetric_receding -domain 100 -spacing 0.04
 
 #include "common/disc_torsion.hpp"
 

@@ -8,13 +8,13 @@
 //  "backward". Units t = p0 = E' = 1, E' = E/(1-ν²).
 //
 //  Sample runs:  plane_receding
-//                plane_receding -friction 0.7 -unload "0.9 0.5 0.2 0.1" -steps 50
+//                plane_receding -domain 1e4 -unload "0.9 0.5 0.2 0.1" -steps 50
 //                plane_receding -friction 0.7 -unload "0.9 0.5 0.2 0.1" -march exact
-//                plane_receding -domain 1e4
-//                plane_receding -obstacle th0 -friction 0.3 -order 1 -spacing 0.04 -corner
-//                0.001 plane_receding -overhang 0.8 -friction 1.4 plane_receding -map "0.4
-//                0.8 1.2 1.6 2 3" -spacing 0.05 -corner 0.01 plane_receding -map 4
-//                -map-friction "0.3 0.5 1" plane_receding -obstacle th0 -unload 0.5
+//                plane_receding -obstacle th0 -friction 0.3 -order 1 -spacing 0.04
+//                plane_receding -domain 1e4 -overhang 0.8 -friction 1.4
+//                plane_receding -map "0.4 0.8 1.2 1.6 2 3" -spacing 0.05 -corner 0.01
+//                plane_receding -domain 1e4 -map 4 -map-friction "0.3 0.5 1"
+//                plane_receding -obstacle th0 -unload 0.5
 //                plane_receding -obstacle th0 -overhang 2 -unload 0.5
 
 #include "common/extent.hpp"

@@ -15,7 +15,7 @@
 //
 //  Sample runs:  shakedown
 //                shakedown -nodes 101 -find load -friction 1 -reversal -1 -march -cycles 30
-//                shakedown -nodes 65 -map -adhesion-map
+//                shakedown -nodes 81 -map -adhesion-map
 //                shakedown -nodes 33 -mesh-study "33 65 101"
 //                shakedown -nodes 33 -mismatch "0.1 1 10"
 //                shakedown -obstacle rigid -nodes 65 -friction 0.6 -starts 4

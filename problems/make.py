@@ -24,9 +24,9 @@ SET = {
     "punch_on_half_plane": ("square_punch -nodes 41 -grading 0.05 -shear none -obstacle half-plane",
                             "0 0; 1 0; 1 0.32; 1 -0.32; 1 0.32", 5),
     # Equal half-planes, parabolic gap, f = 0.4: contact advances, then partial slip; B = 0.
-    "hertz": ("hertz -nodes 41 -shear none", "0 0; 1 0; 1 0.24; 1 -0.24; 1 0.24", 5),
+    "hertz": ("hertz -domain 1e4 -nodes 41 -shear none", "0 0; 1 0; 1 0.24; 1 -0.24; 1 0.24", 5),
     # A strip that lifts off a half-plane, f = 0.7, loaded and unloaded: five zones.
-    "receding_strip": ("plane_receding -overhang 2 -length 6 -depth 60 -side 24 -spacing 0.2 -corner 0.05",
+    "receding_strip": ("plane_receding -overhang 2 -length 6 -domain 60 -side 24 -spacing 0.2 -corner 0.05",
                        "0; 1; 0.2", 10),
     # Two laps pinched by a bolt and pulled in cycles, f = 0.2.
     "lap_joint": ("lap_joint -spacing 0.1 -cycles 1", "0 0; 1 0; 1 0.04; 1 0; 1 0.04", 5),

@@ -14,7 +14,7 @@ const double williams_ratio[2] = {0.543075578837, -0.218923236249};
 
 MatrixXd williams_strengths(const Eigen::VectorXd &x, const MatrixXd &tractions)
 {
-   if (x.size() < 8)
+   if (x.size() < 10)
    {
       return MatrixXd::Constant(2, tractions.cols(), std::numeric_limits<double>::quiet_NaN());
    }

@@ -114,26 +114,26 @@ TEST(AxisymmetricReceding, WhatDoesNotTwistHasNoCircumferentialUnknowns)
    EXPECT_EQ(count(twisted, "tangential_unknowns"), 2 * nodes);
    for (const Result *one : {&smooth, &rough})
    {
-      EXPECT_EQ(count(*one, "assemblies"), 2);
-      EXPECT_EQ(count(*one, "factorisations"), 2);
+      EXPECT_EQ(count(*one, "assemblies"), 1); // the half-space has no mesh
+      EXPECT_EQ(count(*one, "factorisations"), 1);
    }
-   EXPECT_EQ(count(twisted, "assemblies"), 4);
-   EXPECT_EQ(count(twisted, "factorisations"), 4);
+   EXPECT_EQ(count(twisted, "assemblies"), 2);
+   EXPECT_EQ(count(twisted, "factorisations"), 2);
 }
 
 TEST(AxisymmetricReceding, MapsCondenseOncePerDisc)
 {
-   const auto result = run("-spacing 0.05 -map '0.5 1.5 2.5 3.5' -critical '3 5'");
+   const auto result = run("-map '0.5 1.5 2.5 3.5' -critical '3 5'");
    ASSERT_EQ(result.code, 0) << result.output;
-   EXPECT_EQ(result.results["counters"]["factorisations"], 2 * 3);
+   EXPECT_EQ(result.results["counters"]["factorisations"], 3);
    EXPECT_EQ(result.results["map"].size(), 8u);
    EXPECT_EQ(result.results["critical_load_radius"].size(), 6u);
-   // The rim's node tells: of the first order in the spacing, 0.05 t here.
-   const double coarse = 0.005, rim = 0.01;
-   expect_values(result, {{"d/t, loaded, a = 2.5, f = 0.5", 3.728, spread, coarse},
-                          {"c/t, loaded, a = 2.5, f = 0.5", 1.879, spread, coarse},
-                          {"d/t, loaded, a = 2.5, f = 0.8", 4.046, spread, coarse},
-                          {"c/t, loaded, a = 2.5, f = 0.8", 2.384, spread, coarse},
+   // The rim's node tells: of the first order in the spacing.
+   const double rim = 0.004;
+   expect_values(result, {{"d/t, loaded, a = 2.5, f = 0.5", 3.728, spread, read_out},
+                          {"c/t, loaded, a = 2.5, f = 0.5", 1.879, spread, read_out},
+                          {"d/t, loaded, a = 2.5, f = 0.8", 4.046, spread, read_out},
+                          {"c/t, loaded, a = 2.5, f = 0.8", 2.384, spread, read_out},
                           {"critical a/t, b = 3, f = 0", 2.367, 0.002, rim},
                           {"critical a/t, b = 3, f = 0.5", 1.733, 0.002, rim},
                           {"critical a/t, b = 3, f = 0.8", 1.341, 0.002, rim},

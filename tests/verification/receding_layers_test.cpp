@@ -162,7 +162,7 @@ TEST(RecedingLayers, StripOnAHalfPlaneMatchesTheIntegralEquation)
       miniapp::RecedingOptions options;
       options.length = 7;
       options.overhangs = {6};
-      options.depth = options.side = domain;
+      options.domain = domain;
       options.corner = options.spacing;
       miniapp::Scene scene = miniapp::make_receding(options);
       ReducedProblem &problem = scene.reduction.problem;
