@@ -110,7 +110,7 @@ TEST(ReadOut, IntensitiesOfTheLapJointAreWithinTheirErrors)
 
 TEST(ReadOut, EdgesOfTheStripAreWithinTheirErrors)
 {
-   // Half-plane limit, n = 4 (± 0.003).
+   // On a block of 1e4 t, n = 4 (± 0.003).
    struct
    {
       const char *friction;
@@ -124,7 +124,7 @@ TEST(ReadOut, EdgesOfTheStripAreWithinTheirErrors)
       for (const char *spacing : {"0.08", "0.04", "0.02"})
       {
          const Result run =
-            run_miniapp("plane_receding", std::string("-corner 0.005 -friction ") +
+            run_miniapp("plane_receding", std::string("-domain 1e4 -corner 0.005 -friction ") +
                                              row.friction + " -spacing " + spacing);
          ASSERT_EQ(run.code, 0) << run.output;
          SCOPED_TRACE(run.output);
@@ -150,8 +150,9 @@ TEST(ReadOut, EdgesOfTheDiscAreWithinTheirErrors)
    {
       for (const char *spacing : {"0.1", "0.05", "0.025"})
       {
-         const Result run = run_miniapp("axisymmetric_receding",
-                                        std::string(row.load) + " -spacing " + spacing);
+         const Result run =
+            run_miniapp("axisymmetric_receding",
+                        std::string(row.load) + " -domain 100 -spacing " + spacing);
          ASSERT_EQ(run.code, 0) << run.output;
          SCOPED_TRACE(run.output);
          const double h = std::stod(spacing), d_error = run.results["separation_error"],
