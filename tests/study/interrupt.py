@@ -16,29 +16,40 @@ LONG = {"lap_joint": "-all-cycles -cycles 100000 -spacing 0.05",
         "shakedown": "-nodes 401 -map"}
 
 
-def interrupted(program, options, folder, terminal):
-    """What is left of a run that is interrupted after some seconds: exit code, stdout, stderr, results."""
+def interrupted(program, options, folder, terminal, seconds=None):
+    """What is left of a run that is interrupted once it shows progress, or after some seconds: exit code, stdout,
+    what it showed, results, and when it was interrupted."""
     results = folder / "results.json"
     results.unlink(missing_ok=True)
     ours, theirs = pty.openpty() if terminal else os.pipe()
+    os.set_blocking(ours, False)
+    shown, start = b"", time.monotonic()
     with open(folder / "out", "w", encoding="utf-8") as out:
         run = subprocess.Popen([program, *options.split(), "--json", str(results)], stdout=out, stderr=theirs)
         os.close(theirs)
-        while run.poll() is None and "Condensed" not in (folder / "out").read_text(encoding="utf-8"):
-            time.sleep(0.1)
-        time.sleep(12 if "shakedown" in program else 6)
-        assert run.poll() is None, f"{program} ended by itself: " + (folder / "out").read_text(encoding="utf-8")
+        while (b" steps, " not in shown) if terminal else time.monotonic() < start + seconds:
+            assert run.poll() is None, f"{program} ended by itself: " + (folder / "out").read_text(encoding="utf-8")
+            assert time.monotonic() < start + 60, f"{program} shows no progress"
+            time.sleep(0.05)
+            shown += read(ours)
+        took = time.monotonic() - start
         run.send_signal(signal.SIGINT)
         code = run.wait(60)
-    shown = b""
-    try:
-        while chunk := os.read(ours, 65536):
-            shown += chunk
-    except OSError:  # a terminal whose other side is closed
-        pass
+    shown += read(ours)
     os.close(ours)
     return (code, (folder / "out").read_text(encoding="utf-8"), shown.decode(),
-            json.loads(results.read_text(encoding="utf-8")))
+            json.loads(results.read_text(encoding="utf-8")), took)
+
+
+def read(source):
+    """All that there is now."""
+    found = b""
+    try:
+        while chunk := os.read(source, 65536):
+            found += chunk
+    except OSError:  # nothing yet, or a terminal whose other side is closed
+        pass
+    return found
 
 
 def main():
@@ -46,8 +57,10 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         for program, options in LONG.items():
+            seconds = None
             for terminal in (True, False):
-                code, out, shown, results = interrupted(str(programs / program), options, folder, terminal)
+                code, out, shown, results, took = interrupted(str(programs / program), options, folder, terminal, seconds)
+                seconds = took + 1
                 assert code == 2, (program, code, out)
                 assert results["status"] == "stopped", (program, results["status"])
                 assert "topped" in out, (program, out)
