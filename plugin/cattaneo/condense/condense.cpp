@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cattaneo/condense/condensation.hpp>
 #include <cattaneo/condense/condense.hpp>
 #include <cattaneo/condense/stiffness_error.hpp>
 #include <cattaneo/input_error.hpp>

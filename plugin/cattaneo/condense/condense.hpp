@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cattaneo/algebra/sparse_factor.hpp>
+#include <cattaneo/condense/assembled_body.hpp>
 #include <cattaneo/condense/condensed_body.hpp>
 
 namespace cattaneo
@@ -20,10 +21,5 @@ namespace cattaneo
 CondensedBody condense(const AssembledBody &body, const ContactLine &line,
                        SparseFactor::Backend backend = SparseFactor::Backend::automatic,
                        const CondensedBody *alike = nullptr);
-
-/// What condense() finds before it turns to the frames of the line; `contact`: the free ones of
-/// contact_dofs().
-Condensation condense_by_factor(const AssembledBody &body, const std::vector<int> &contact,
-                                SparseFactor::Backend backend, const BodySolver *alike);
 
 } // namespace cattaneo

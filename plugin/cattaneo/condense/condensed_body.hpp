@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cattaneo/condense/contact_line.hpp>
-#include <cattaneo/condense/free_motions.hpp>
 #include <cattaneo/counters.hpp>
 #include <cattaneo/load_pattern.hpp>
 #include <memory>
@@ -74,51 +73,5 @@ private:
    /// Positions in {x; y} of all nodes of the components that are free.
    std::vector<int> free_positions() const;
 };
-
-/// What load patterns do to a body whose contact nodes are clamped, in global components.
-struct ClampedLoads
-{
-   Eigen::MatrixXd forces;   ///< contact forces, one column a pattern
-   Eigen::MatrixXd response; ///< F_kᵀ K_II⁻¹ F_j of the patterns' interior forces
-   /// Work of pattern k's forces (or those of its motion) at the supports on the motion that
-   /// pattern j prescribes.
-   Eigen::MatrixXd reaction;
-};
-
-/// What a solver finds of a body, in global components, of contact dofs that are free.
-struct Condensation
-{
-   Eigen::MatrixXd S;
-   FreeMotions free;
-   ClampedLoads clamped;
-   Counters counters;
-   std::shared_ptr<const BodySolver> solver;
-};
-
-/// Dofs of a contact line, {x; y} of all its nodes (torsion: the twist), and which of them
-/// supports hold: no part of the body's trace.
-struct ContactDofs
-{
-   std::vector<int> all;
-   std::vector<int> held; ///< positions in `all`, increasing
-
-   std::vector<int> free() const;
-   std::vector<int> free_positions() const;
-};
-
-/// Of a line whose body has so many dofs; InputError if the line is not sound
-/// (ContactLine::validate), is of another formulation, or its dofs are not from 0 to dofs - 1.
-ContactDofs contact_dofs(const ContactLine &line, Formulation formulation, int dofs);
-
-/// InputError that names the node and the pattern if a load displaces a contact dof: `moved`
-/// are positions of those.
-void require_unmoved(const ContactLine &line, const std::string &pattern,
-                     const std::vector<int> &moved);
-
-/// The same in the frames of the contact line, freed of what round-off makes of rigid motions.
-/// Of `loads` names and controls alone are asked for. InputError if one component of a node is
-/// held and the line meets it at neither 0 nor 90 degrees, to LineChain::smooth_turn.
-CondensedBody in_local_frames(const ContactLine &line, const std::vector<BodyLoad> &loads,
-                              const ContactDofs &contact, Condensation found);
 
 } // namespace cattaneo

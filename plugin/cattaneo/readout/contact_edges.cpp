@@ -276,6 +276,182 @@ void read_slip_zone(const ReducedProblem &problem, const std::vector<Zone> &all,
    edge.slip_zone = 2 * edge.half_width;
 }
 
+/// The edges of a stretch of contact (of its half, if the other is its mirror image), located.
+std::vector<ContactEdge> edges_of(const ReducedProblem &problem, const ContactState &loaded,
+                                  const Zone &stretch, const FitSettings &settings)
+{
+   // The node on a plane of symmetry is the middle of the whole contact.
+   const bool from_mirror = mirrored(problem, stretch.first),
+              to_mirror = mirrored(problem, stretch.last);
+   const Index mirrors = from_mirror + to_mirror;
+   if (mirrors == 2) { return {}; }
+   // Each edge has half of a stretch.
+   const bool chosen = settings.window.farthest == 0;
+   const Index least = 2 * (FitSettings::least_nodes + (chosen ? settings.skip : 0));
+   const Index half = stretch.last - stretch.first + 1, size = mirrors ? 2 * half - 1 : half;
+   require(size >= least, "a stretch of contact has ", size,
+           " nodes; the fit of its edges needs at least ", least, ": refine the contact.");
+   const Index middle = from_mirror ? stretch.first
+                        : to_mirror ? stretch.last
+                                    : (stretch.first + stretch.last) / 2;
+   std::vector<ContactEdge> found;
+   for (const int side : {1, -1})
+   {
+      if (side > 0 ? from_mirror : to_mirror) { continue; }
+      ContactEdge edge;
+      edge.side = side;
+      edge.position = side > 0 ? stretch.from : stretch.to;
+      edge.first = side > 0 ? stretch.first : middle + 1;
+      edge.last = side > 0 ? middle : stretch.last;
+      edge.friction = problem.friction[side > 0 ? edge.first : edge.last];
+      if (side > 0 ? stretch.first == 0 : stretch.last == problem.nodes() - 1)
+      {
+         refuse_at_end(problem, edge);
+      }
+      else
+      {
+         // p² is smooth, and a parabola for Hertz, but its last nodes are not: it is asked
+         // only where zones() has found no more than two nodes to lie between.
+         const VectorXd p = tractions(problem, loaded.p);
+         const Index end = side > 0 ? edge.first : edge.last;
+         const Zero zero = zero_near_end(problem, end, side > 0 ? edge.last : edge.first, side,
+                                         [&](Index i) { return p[i] * p[i]; });
+         const double h = std::abs(problem.arc_length[end - side] - problem.arc_length[end]);
+         const double error = std::max(zero.error, 0.5 * h);
+         if (error < edge.position.error) { edge.position = {zero.position, error}; }
+      }
+      found.push_back(edge);
+   }
+   const double first_edge = found.front().position.position,
+                half_width = mirrors ? std::abs(first_edge - middle_of(problem, stretch))
+                                     : 0.5 * (found.back().position.position - first_edge);
+   for (ContactEdge &edge : found) { edge.half_width = half_width; }
+   return found;
+}
+
+/// The tractions that are fitted if the edge is at this position.
+EdgeTractions tractions_from(const ReducedProblem &problem, const ContactState &state,
+                             ContactEdge edge, CrackedBody cracked, double position)
+{
+   edge.position.position = position;
+   return edge_tractions(problem, state, edge, cracked);
+}
+
+void read_k_n(const ReducedProblem &problem, const ContactState &loaded, CrackedBody cracked,
+              const FitSettings &settings, ContactEdge &edge)
+{
+   const auto fitted = [&](double shift)
+   {
+      const double position = edge.position.position + shift;
+      return fit_edge(tractions_from(problem, loaded, edge, cracked, position), settings).k_n;
+   };
+   FittedIntensity &k_n = edge.k_n;
+   k_n = fitted(0);
+   // What the error of the edge's position makes of it.
+   double change = 0;
+   for (const double shift : {-edge.position.error, edge.position.error})
+   {
+      change = std::max(change, std::abs(fitted(shift).value - k_n.value));
+   }
+   if (k_n.value != 0) { k_n.relative_error += change / std::abs(k_n.value); }
+}
+
+/// Two stuck solutions about an edge: where their shear is singular.
+struct StuckPair
+{
+   Zero from;              ///< the nodes in contact are tied
+   Zero to;                ///< and one more, beyond the edge
+   std::vector<bool> tied; ///< these
+};
+
+std::vector<StuckPair> stuck_pairs(const ReducedProblem &problem, const ContactState &loaded,
+                                   const std::vector<ContactEdge> &edges,
+                                   const std::vector<bool> &base)
+{
+   const VectorXd &s = problem.arc_length;
+   const std::vector<Zone> contact = contact_zones(zones(problem, loaded));
+   const std::vector<Zero> from = singular_positions(problem, loaded, contact, edges, base);
+   std::vector<StuckPair> pairs;
+   for (std::size_t e = 0; e < edges.size(); e++)
+   {
+      StuckPair pair{from[e], {}, base};
+      if (edges[e].why_not.empty())
+      {
+         const int side = edges[e].side;
+         const Index end = side > 0 ? edges[e].first : edges[e].last;
+         pair.tied[end - side] = true;
+         pair.to = singular_positions(problem, loaded, contact, edges, pair.tied)[e];
+         // One node more moves the singularity by about a spacing. Where it was not found so,
+         // both are the middles beyond the last tied nodes.
+         const double h = std::abs(s[end - side] - s[end]),
+                      moved = side * (pair.from.position - pair.to.position);
+         if (std::max(pair.from.error, pair.to.error) >= 0.5 * h || moved < 0.5 * h ||
+             moved > 1.5 * h)
+         {
+            pair.from = {s[end] - 0.5 * side * h, 0.5 * h};
+            pair.to = {s[end] - 1.5 * side * h, 0.5 * h};
+         }
+         // The spread of a fit is no bound: as zones() has it, a quarter of a spacing at least.
+         pair.from.error = std::max(pair.from.error, 0.25 * h);
+         pair.to.error = std::max(pair.to.error, 0.25 * h);
+      }
+      pairs.push_back(pair);
+   }
+   return pairs;
+}
+
+/// K_T of every edge, between the solution with the nodes in contact stuck and those with one
+/// more at each edge in turn: where the edge itself lies.
+void read_k_t(const ReducedProblem &problem, const ContactState &pressed,
+              const ContactState &loaded, CrackedBody cracked, const FitSettings &settings,
+              std::vector<ContactEdge> &edges)
+{
+   const std::vector<bool> base = closed_nodes(problem, loaded);
+   const std::vector<StuckPair> pairs = stuck_pairs(problem, loaded, edges, base);
+   const auto fitted = [&](const ContactState &stuck, std::size_t e, double position)
+   {
+      EdgeTractions tractions = tractions_from(problem, stuck, edges[e], cracked, position);
+      // A node tied outside the contact has no pressure of its own, but counts.
+      std::fill(tractions.pressure.begin(), tractions.pressure.end(), 1.0);
+      return fit_edge(tractions, settings).k_t;
+   };
+   std::vector<std::size_t> read;
+   for (std::size_t e = 0; e < edges.size(); e++)
+   {
+      if (edges[e].why_not.empty()) { read.push_back(e); }
+   }
+   const ContactState base_state = fully_stuck(problem, pressed, loaded, base);
+   for (const std::size_t e : read)
+   {
+      edges[e].k_t = fitted(base_state, e, pairs[e].from.position);
+   }
+   std::vector<double> value(edges.size()), doubtful(edges.size(), 0.0);
+   for (const std::size_t e : read) { value[e] = edges[e].k_t.value; }
+   for (const std::size_t e : read)
+   {
+      const ContactState stuck = fully_stuck(problem, pressed, loaded, pairs[e].tied);
+      const Zero &from = pairs[e].from, &to = pairs[e].to;
+      const double step = to.position - from.position;
+      const double fraction = (edges[e].position.position - from.position) / step;
+      const double doubt = edges[e].position.error + std::abs(1 - fraction) * from.error +
+                           std::abs(fraction) * to.error;
+      for (const std::size_t other : read)
+      {
+         const double position = other == e ? to.position : pairs[other].from.position;
+         const double change = fitted(stuck, other, position).value - edges[other].k_t.value;
+         value[other] += fraction * change;
+         doubtful[other] += std::abs(change / step) * doubt;
+      }
+   }
+   for (const std::size_t e : read)
+   {
+      FittedIntensity &k_t = edges[e].k_t;
+      const double error = k_t.relative_error * std::abs(k_t.value) + doubtful[e];
+      k_t.value = value[e];
+      k_t.relative_error = error > 0 ? error / std::abs(k_t.value) : 0.0;
+   }
+}
+
 } // namespace
 
 ContactState fully_stuck(const ReducedProblem &problem, const ContactState &pressed,
@@ -343,153 +519,21 @@ std::vector<ContactEdge> contact_edges(const ReducedProblem &problem,
    check_one_chain(problem);
    check_seam(problem, loaded);
    settings.validate();
-   const Index n = problem.nodes();
    const std::vector<Zone> all = zones(problem, loaded);
-   const std::vector<Zone> contact = contact_zones(all);
-   // Each edge has half of a stretch.
-   const bool chosen = settings.window.farthest == 0;
-   const Index least = 2 * (FitSettings::least_nodes + (chosen ? settings.skip : 0));
    std::vector<ContactEdge> edges;
-   for (const Zone &stretch : contact)
+   for (const Zone &stretch : contact_zones(all))
    {
-      // The node on a plane of symmetry is the middle of the whole contact.
-      const bool from_mirror = mirrored(problem, stretch.first),
-                 to_mirror = mirrored(problem, stretch.last);
-      const Index mirrors = from_mirror + to_mirror;
-      if (mirrors == 2) { continue; }
-      const Index half = stretch.last - stretch.first + 1, size = mirrors ? 2 * half - 1 : half;
-      require(size >= least, "a stretch of contact has ", size,
-              " nodes; the fit of its edges needs at least ", least, ": refine the contact.");
-      const Index middle = from_mirror ? stretch.first
-                           : to_mirror ? stretch.last
-                                       : (stretch.first + stretch.last) / 2;
-      std::vector<ContactEdge> found;
-      for (const int side : {1, -1})
+      for (ContactEdge &edge : edges_of(problem, loaded, stretch, settings))
       {
-         if (side > 0 ? from_mirror : to_mirror) { continue; }
-         ContactEdge edge;
-         edge.side = side;
-         edge.position = side > 0 ? stretch.from : stretch.to;
-         edge.first = side > 0 ? stretch.first : middle + 1;
-         edge.last = side > 0 ? middle : stretch.last;
-         edge.friction = problem.friction[side > 0 ? edge.first : edge.last];
-         if (side > 0 ? stretch.first == 0 : stretch.last == n - 1)
-         {
-            refuse_at_end(problem, edge);
-         }
-         else
-         {
-            // p² is smooth, and a parabola for Hertz, but its last nodes are not: it is asked
-            // only where zones() has found no more than two nodes to lie between.
-            const VectorXd p = tractions(problem, loaded.p);
-            const Index end = side > 0 ? edge.first : edge.last;
-            const Zero zero = zero_near_end(problem, end, side > 0 ? edge.last : edge.first,
-                                            side, [&](Index i) { return p[i] * p[i]; });
-            const double h = std::abs(problem.arc_length[end - side] - problem.arc_length[end]);
-            const double error = std::max(zero.error, 0.5 * h);
-            if (error < edge.position.error) { edge.position = {zero.position, error}; }
-         }
-         found.push_back(edge);
-      }
-      const double first_edge = found.front().position.position,
-                   half_width = mirrors ? std::abs(first_edge - middle_of(problem, stretch))
-                                        : 0.5 * (found.back().position.position - first_edge);
-      for (ContactEdge &edge : found)
-      {
-         edge.half_width = half_width;
          read_slip_zone(problem, all, stretch, edge);
          edges.push_back(edge);
       }
    }
-
-   // Stuck solutions: the nodes in contact, then one more at each edge in turn.
-   const std::vector<bool> base = closed_nodes(problem, loaded);
-   std::vector<Zero> base_positions = singular_positions(problem, loaded, contact, edges, base);
-   const ContactState base_state = fully_stuck(problem, pressed, loaded, base);
-   std::vector<Zero> extended_positions(edges.size());
-   std::vector<std::vector<bool>> extended(edges.size(), base);
-   for (std::size_t e = 0; e < edges.size(); e++)
+   for (ContactEdge &edge : edges)
    {
-      if (!edges[e].why_not.empty()) { continue; }
-      const int side = edges[e].side;
-      const Index end = side > 0 ? edges[e].first : edges[e].last;
-      extended[e][end - side] = true;
-      Zero &from = base_positions[e], &to = extended_positions[e];
-      to = singular_positions(problem, loaded, contact, edges, extended[e])[e];
-      // One node more moves the singularity by about a spacing. Where it was not found so,
-      // both are the middles beyond the last tied nodes.
-      const VectorXd &s = problem.arc_length;
-      const double h = std::abs(s[end - side] - s[end]),
-                   moved = side * (from.position - to.position);
-      if (std::max(from.error, to.error) >= 0.5 * h || moved < 0.5 * h || moved > 1.5 * h)
-      {
-         from = {s[end] - 0.5 * side * h, 0.5 * h};
-         to = {s[end] - 1.5 * side * h, 0.5 * h};
-      }
-      // The spread of a fit is no bound: as zones() has it, a quarter of a spacing at least.
-      from.error = std::max(from.error, 0.25 * h);
-      to.error = std::max(to.error, 0.25 * h);
+      if (edge.why_not.empty()) { read_k_n(problem, loaded, cracked, settings, edge); }
    }
-   const auto fit = [&](const ContactState &state, std::size_t e, double position)
-   {
-      ContactEdge edge = edges[e];
-      edge.position.position = position;
-      return edge_tractions(problem, state, edge, cracked);
-   };
-   const auto fit_shear = [&](const ContactState &stuck, std::size_t e, double position)
-   {
-      EdgeTractions tractions = fit(stuck, e, position);
-      // A node tied outside the contact has no pressure of its own, but counts.
-      std::fill(tractions.pressure.begin(), tractions.pressure.end(), 1.0);
-      return fit_edge(tractions, settings).k_t;
-   };
-   for (std::size_t e = 0; e < edges.size(); e++)
-   {
-      if (!edges[e].why_not.empty()) { continue; }
-      const ZoneBorder &at = edges[e].position;
-      FittedIntensity &k_n = edges[e].k_n;
-      k_n = fit_edge(fit(loaded, e, at.position), settings).k_n;
-      // What the error of the edge's position makes of it.
-      double change = 0;
-      for (const double shift : {-at.error, at.error})
-      {
-         const double shifted =
-            fit_edge(fit(loaded, e, at.position + shift), settings).k_n.value;
-         change = std::max(change, std::abs(shifted - k_n.value));
-      }
-      if (k_n.value != 0) { k_n.relative_error += change / std::abs(k_n.value); }
-      edges[e].k_t = fit_shear(base_state, e, base_positions[e].position);
-   }
-   std::vector<FittedIntensity> found(edges.size());
-   for (std::size_t e = 0; e < edges.size(); e++) { found[e] = edges[e].k_t; }
-   std::vector<double> read_out(edges.size(), 0.0);
-   for (std::size_t e = 0; e < edges.size(); e++)
-   {
-      if (!edges[e].why_not.empty()) { continue; }
-      const ContactState stuck = fully_stuck(problem, pressed, loaded, extended[e]);
-      const Zero &from = base_positions[e], &to = extended_positions[e];
-      const double step = to.position - from.position;
-      const double fraction = (edges[e].position.position - from.position) / step;
-      const double doubt = edges[e].position.error + std::abs(1 - fraction) * from.error +
-                           std::abs(fraction) * to.error;
-      for (std::size_t other = 0; other < edges.size(); other++)
-      {
-         if (!edges[other].why_not.empty()) { continue; }
-         const double k_t =
-            fit_shear(stuck, other, other == e ? to.position : base_positions[other].position)
-               .value;
-         const double change = k_t - edges[other].k_t.value;
-         found[other].value += fraction * change;
-         read_out[other] += std::abs(change / step) * doubt;
-      }
-   }
-   for (std::size_t e = 0; e < edges.size(); e++)
-   {
-      if (!edges[e].why_not.empty()) { continue; }
-      const double error = found[e].relative_error * std::abs(edges[e].k_t.value) + read_out[e];
-      edges[e].k_t = found[e];
-      edges[e].k_t.relative_error = error > 0 ? error / std::abs(found[e].value) : 0.0;
-   }
+   read_k_t(problem, pressed, loaded, cracked, settings, edges);
    return edges;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cattaneo/condense/condensed_body.hpp>
+#include <cattaneo/condense/condensation.hpp>
 #include <cattaneo/elastic/body.hpp>
 
 namespace cattaneo

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <cattaneo/condense/condensed_body.hpp>
+#include <cattaneo/condense/condensation.hpp>
 #include <cattaneo/elastic/body.hpp>
 #include <memory>
 #include <vector>

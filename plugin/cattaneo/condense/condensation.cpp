@@ -1,0 +1,203 @@
+#include <algorithm>
+#include <cattaneo/algebra/dense_algebra.hpp>
+#include <cattaneo/condense/condensation.hpp>
+#include <cattaneo/condense/local_frame.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cmath>
+#include <numeric>
+
+namespace cattaneo
+{
+
+namespace
+{
+
+/// ReducedProblem::H, signs and symmetry, from the energies of clamped loads.
+Eigen::MatrixXd load_by_load(const std::vector<BodyLoad> &loads, const ClampedLoads &clamped)
+{
+   const auto count = static_cast<Eigen::Index>(loads.size());
+   const Eigen::MatrixXd &response = clamped.response, &reaction = clamped.reaction;
+   Eigen::MatrixXd H(count, count);
+   for (Eigen::Index k = 0; k < count; ++k)
+   {
+      for (Eigen::Index j = 0; j < count; ++j)
+      {
+         const bool force = loads[k].control == Control::force;
+         double &h = H(k, j);
+         if (loads[j].control == loads[k].control)
+         {
+            // Flexibility of forces, or stiffness of prescribed displacements.
+            h = 0.5 * (response(k, j) + response(j, k));
+            if (!force) { h = 0.5 * (reaction(j, k) + reaction(k, j)) - h; }
+         }
+         else
+         {
+            // Displacement of force f by motion d; the support's reaction is its opposite.
+            const Eigen::Index f = force ? k : j, d = force ? j : k;
+            h = reaction(f, d) + response(f, d);
+            if (!force) { h = -h; }
+         }
+      }
+   }
+   return H;
+}
+
+/// Puts rows at their positions among so many, and zeros elsewhere.
+void spread(Eigen::MatrixXd &M, const std::vector<int> &positions, Eigen::Index rows)
+{
+   const Eigen::MatrixXd dense = std::move(M);
+   M = Eigen::MatrixXd::Zero(rows, dense.cols());
+   M(positions, Eigen::all) = dense;
+}
+
+/// Turns the frames of nodes of which one component is held along it, and returns the rows in
+/// the frames that are held. A chain that ends at a node that cannot slide ends at a plane of
+/// symmetry.
+std::vector<int> align(ContactLine &line, const std::vector<int> &held)
+{
+   if (line.formulation == Formulation::torsion) { return held; }
+   const auto n = static_cast<int>(line.size());
+   const double degrees = 180 / std::acos(-1.0);
+   std::vector<int> rows;
+   for (int position : held)
+   {
+      const int i = position % n, c = position / n;
+      const bool both = std::binary_search(held.begin(), held.end(), (1 - c) * n + i);
+      if (both)
+      {
+         rows.push_back(position);
+         continue;
+      }
+      LineNode &node = line.nodes[i];
+      const double along = node.tangent[c], across = node.normal()[c];
+      const bool tangential = std::abs(along) >= std::abs(across);
+      const double turn = degrees * std::asin(std::min(std::abs(along), std::abs(across)));
+      require(turn <= LineChain::smooth_turn, "condense: component ",
+              component_name(line.formulation, c), " of the contact node at (",
+              node.position[0], ", ", node.position[1], ") is fixed, and the line meets it at ",
+              tangential ? turn : 90 - turn, " degrees, must be 0 or 90, to ",
+              LineChain::smooth_turn);
+      node.tangent.setZero();
+      node.tangent[tangential ? c : 1 - c] = std::copysign(1.0, tangential ? along
+                                                                : c == 0   ? -across
+                                                                           : across);
+      rows.push_back(tangential ? i : n + i);
+      for (LineChain &chain : line.chains)
+      {
+         if (!tangential || chain.loop) { continue; }
+         if (i == chain.first) { chain.ends[0] = LineEnd::symmetry; }
+         if (i == chain.first + chain.nodes - 1) { chain.ends[1] = LineEnd::symmetry; }
+      }
+   }
+   std::sort(rows.begin(), rows.end());
+   return rows;
+}
+
+} // namespace
+
+std::vector<int> others(const std::vector<int> &held, Eigen::Index count)
+{
+   std::vector<int> all(count), rest;
+   std::iota(all.begin(), all.end(), 0);
+   std::set_difference(all.begin(), all.end(), held.begin(), held.end(),
+                       std::back_inserter(rest));
+   return rest;
+}
+
+std::vector<int> ContactDofs::free_positions() const
+{
+   return others(held, static_cast<Eigen::Index>(all.size()));
+}
+
+std::vector<int> ContactDofs::free() const
+{
+   std::vector<int> dofs;
+   for (int position : free_positions()) { dofs.push_back(all[position]); }
+   require(!dofs.empty(), "condense: all components of all ", all.size(),
+           " contact dofs are fixed, one at least must be free");
+   return dofs;
+}
+
+ContactDofs contact_dofs(const ContactLine &line, Formulation formulation, int dofs)
+{
+   line.validate();
+   require(line.formulation == formulation, "condense: the contact line is ",
+           name(line.formulation), ", the body ", name(formulation),
+           ", must be the same (is it a line of this body?)");
+   const auto n = line.size();
+   std::vector<int> contact(components(formulation) * n);
+   for (Eigen::Index i = 0; i < n; ++i)
+   {
+      for (int c = 0; c < components(formulation); ++c)
+      {
+         const int dof = line.nodes[i].dofs[c];
+         require(dof >= 0 && dof < dofs, "condense: contact dof ", dof, " of node ", i,
+                 " of the line, must be from 0 to ", dofs - 1, " (is it a line of this body?)");
+         contact[c * n + i] = dof;
+      }
+   }
+   return {contact, {}};
+}
+
+void require_unmoved(const ContactLine &line, const std::string &pattern,
+                     const std::vector<int> &moved)
+{
+   if (moved.empty()) { return; }
+   const auto n = line.size();
+   const Eigen::Index a = *std::min_element(moved.begin(), moved.end()), i = a % n;
+   require(
+      false, "condense: component ", component_name(line.formulation, static_cast<int>(a / n)),
+      " of the contact node at (", line.nodes[i].position[0], ", ", line.nodes[i].position[1],
+      ") is displaced by load pattern '", pattern, "', contact nodes must be free or fixed");
+}
+
+CondensedBody in_local_frames(const ContactLine &line, const std::vector<BodyLoad> &loads,
+                              const ContactDofs &contact, Condensation found)
+{
+   CondensedBody result;
+   result.line = line;
+   if (!contact.held.empty())
+   {
+      result.held = align(result.line, contact.held);
+      const std::vector<int> free = contact.free_positions();
+      const auto rows = static_cast<Eigen::Index>(contact.all.size());
+      spread(found.S, free, rows);
+      found.S.transposeInPlace();
+      spread(found.S, free, rows);
+      spread(found.free.contact, free, rows);
+      spread(found.clamped.forces, free, rows);
+   }
+   result.counters = found.counters;
+   result.solver = std::move(found.solver);
+   result.rigid_modes = found.free.count;
+   result.H = load_by_load(loads, found.clamped);
+   const Equilibrium equilibrium(found.free);
+   equilibrium.impose_on_stiffness(found.S);
+   equilibrium.impose_on_forces(found.clamped.forces);
+   const FrameChange frames = FrameChange::of(result.line);
+   result.S = frames.both(found.S);
+   // Displacements change with the frames as forces do, but for those of torsion, r times the
+   // twist.
+   const Eigen::MatrixXd &motions = equilibrium.motions();
+   result.free_motions = line.formulation == Formulation::torsion
+                            ? thin_qr(frames.a.cwiseInverse().asDiagonal() * motions).Q
+                            : frames.rows(motions);
+   Eigen::MatrixXd local = frames.rows(found.clamped.forces);
+   for (int row : result.held) // not even round-off of the free motions
+   {
+      result.S.row(row).setZero();
+      result.S.col(row).setZero();
+      result.free_motions.row(row).setZero();
+      local.row(row).setZero();
+   }
+   const auto n = line.size();
+   for (std::size_t k = 0; k < loads.size(); ++k)
+   {
+      const auto force = local.col(static_cast<Eigen::Index>(k));
+      result.patterns.push_back(
+         {loads[k].name, loads[k].control, force.head(n), force.tail(local.rows() - n)});
+   }
+   return result;
+}
+
+} // namespace cattaneo
