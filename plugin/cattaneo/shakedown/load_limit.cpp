@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <optional>
 
 namespace cattaneo
 {
@@ -97,6 +98,262 @@ Held largest_held(const ConeProgramme &programme, const ReducedProblem &problem,
    return at(good);
 }
 
+/// A search for the largest load factor.
+class LoadLimit
+{
+public:
+   LoadLimit(const ReducedProblem &reduced, const ResidualForces &residual,
+             const StuckForces &loads, const LimitSettings &settings);
+   LimitReport find();
+
+private:
+   LimitReport finish(LimitStatus status, const std::string &message);
+   /// A slip in proportion to the load factor that holds the varying loads by itself holds them
+   /// however large they are: this one does, proven up to a load factor.
+   LimitReport unlimited(const Eigen::VectorXd &ray, double proven, const std::string &message);
+   /// A state under the constant loads: the stuck one, the one without their shear, or the one
+   /// furthest from all cones. How the search ends, if there is none.
+   std::optional<LimitReport> hold_constant_loads();
+   void start_from_settings();
+   /// The bounds that a solution of the programme proves.
+   void take_bounds(ConeSolution &solution);
+   void lower_the_upper(CollapseMechanism mechanism);
+   bool closed() const;
+   /// Does a slip in proportion to the load hold any load? How the search ends, if so, or if
+   /// what was found shows that the bounds meet.
+   std::optional<LimitReport> try_ray();
+
+   const ReducedProblem &reduced_;
+   const ResidualForces &residual_;
+   const StuckForces &loads_;
+   const LimitSettings &settings_;
+   ProgressReport progress_;
+   const bool nothing_constant_, nothing_varies_;
+   const Eigen::VectorXd no_slip_, varying_scale_;
+   ConeProgramme programme_, alone_; // alone: of the varying loads
+   double sliding_ = 0;              // the load factor of gross sliding, its size
+   ConeStart start_;
+   bool held_ = false; // the constant loads are, to round-off, by
+   Eigen::VectorXd first_slip_;
+   LimitReport report_;
+};
+
+LoadLimit::LoadLimit(const ReducedProblem &reduced, const ResidualForces &residual,
+                     const StuckForces &loads, const LimitSettings &settings)
+   : reduced_(reduced), residual_(residual), loads_(loads), settings_(settings),
+     progress_(settings.monitor), nothing_constant_(loads.q0.isZero(0) && loads.p0.isZero(0)),
+     nothing_varies_(loads.q1.isZero(0) && loads.p1.isZero(0)),
+     no_slip_(Eigen::VectorXd::Zero(reduced.slips())),
+     varying_scale_(typical_forces(loads.q1, loads.p1))
+{
+   programme_.residual = &residual;
+   programme_.friction = reduced.friction;
+   programme_.loads = loads;
+   programme_.ceiling = settings.largest_factor;
+   programme_.force_scale =
+      nothing_constant_ ? varying_scale_ : typical_forces(loads.q0, loads.p0);
+   // The load factor at which the varying loads exhaust the friction of the constant ones,
+   // summed over the contact.
+   const Eigen::VectorXd &f = programme_.friction;
+   const double varying =
+      std::max((f.asDiagonal() * loads.p1).cwiseAbs().colwise().sum().maxCoeff(),
+               loads.q1.cwiseAbs().colwise().sum().maxCoeff());
+   if (varying > 0) { programme_.theta_scale = f.dot(programme_.force_scale) / varying; }
+   sliding_ = programme_.theta_scale;
+   alone_ = programme_;
+   alone_.loads = {loads.q1, 0 * loads.q1, loads.p1, 0 * loads.p1};
+   alone_.force_scale = varying_scale_;
+   report_.upper = infinity;
+}
+
+LimitReport LoadLimit::finish(LimitStatus status, const std::string &message)
+{
+   report_.status = unless_stopped(status, settings_.monitor);
+   report_.message = message;
+   report_.limit = report_.lower;
+   report_.seconds = progress_.seconds();
+   progress_.end(1.0, report_.iterations);
+   return report_;
+}
+
+LimitReport LoadLimit::unlimited(const Eigen::VectorXd &ray, double proven,
+                                 const std::string &message)
+{
+   report_.ray = ray;
+   report_.mechanism = {};
+   report_.lower = infinity;
+   finish(LimitStatus::unlimited, message);
+   report_.lower = proven;
+   return report_;
+}
+
+std::optional<LimitReport> LoadLimit::hold_constant_loads()
+{
+   const auto take = [&](const Eigen::VectorXd &slip, const Eigen::VectorXd &r)
+   {
+      const double violation = worst_violation(programme_, reduced_, 0, slip);
+      if (start_.r.size() && !(violation < report_.violation)) { return; }
+      report_.violation = violation;
+      report_.slip = slip;
+      start_.r = r;
+   };
+   take(no_slip_, no_slip_);
+   if (report_.violation > -1e-3)
+   {
+      const Eigen::VectorXd relief = -(residual_.flexibility * loads_.q0.col(0));
+      take(relief, reduced_.A() * relief);
+      Clearance constant = largest_clearance(
+         reduced_, residual_, loads_, programme_.force_scale, settings_, report_, progress_);
+      if (constant.solution.outcome == ConeOutcome::unavailable)
+      {
+         return finish(LimitStatus::unavailable, constant.solution.message);
+      }
+      if (constant.bound < 0)
+      {
+         report_.mechanism = std::move(constant.solution.mechanism);
+         return finish(LimitStatus::no_solution,
+                       "no slip keeps the contact stuck and closed under the constant loads "
+                       "alone (proven by the mechanism)");
+      }
+      if (constant.slip.size()) { take(constant.slip, constant.solution.r); }
+   }
+   // Forces that touch their cones, as where there are none, do so to round-off.
+   held_ = report_.violation <= round_off;
+   first_slip_ = report_.slip;
+   return std::nullopt;
+}
+
+void LoadLimit::start_from_settings()
+{
+   const auto *start = settings_.start;
+   if (!start || start->slip.size() != reduced_.slips() || !std::isfinite(start->limit))
+   {
+      return;
+   }
+   start_.theta = start->limit;
+   start_.r = reduced_.A() * start->slip;
+   if (start->mechanism.slip.cols() == loads_.vertices())
+   {
+      start_.mechanism = start->mechanism;
+   }
+}
+
+void LoadLimit::take_bounds(ConeSolution &solution)
+{
+   const Eigen::VectorXd slip = residual_.flexibility * solution.r;
+   const Held best =
+      largest_held(programme_, reduced_, solution.theta, slip, held_ ? first_slip_ : slip);
+   if (best.theta > report_.lower)
+   {
+      report_.lower = best.theta;
+      report_.slip = best.slip;
+      report_.violation = worst_violation(programme_, reduced_, best.theta, best.slip);
+   }
+   lower_the_upper(std::move(solution.mechanism));
+}
+
+void LoadLimit::lower_the_upper(CollapseMechanism mechanism)
+{
+   const double bound =
+      weak_duality_bound(programme_, reduced_, mechanism, slip_size(report_.slip));
+   if (!(bound < report_.upper)) { return; }
+   report_.upper = bound;
+   report_.mechanism = std::move(mechanism);
+}
+
+bool LoadLimit::closed() const
+{
+   // Relative to a limit, or to a ten-thousandth of gross sliding if that is more.
+   const double gap = settings_.tolerance * (report_.upper + 1e-4 * sliding_);
+   return std::isfinite(report_.upper) && report_.upper - report_.lower <= gap;
+}
+
+std::optional<LimitReport> LoadLimit::try_ray()
+{
+   Clearance ray = largest_clearance(reduced_, residual_, alone_.loads, varying_scale_,
+                                     settings_, report_, progress_);
+   if (held_ && ray.reached > 0)
+   {
+      report_.slip = first_slip_;
+      return unlimited(ray.slip, infinity,
+                       "a slip in proportion to the load holds any load (proven)");
+   }
+   lower_the_upper(std::move(ray.solution.mechanism));
+   if (closed()) { return finish(LimitStatus::certified, ""); }
+   const Eigen::VectorXd relief = -(residual_.flexibility * loads_.q1.rowwise().mean());
+   const double relieved = -worst_violation(alone_, reduced_, 0, relief, Rounding::against);
+   if (!(ray.reached > relieved))
+   {
+      ray.slip = relief;
+      ray.reached = relieved;
+   }
+   if (!held_ || std::isfinite(report_.upper) || !(ray.reached > -1e-9))
+   {
+      return std::nullopt;
+   }
+   // It does so to round-off: up to which load factor?
+   const auto holds = [&](double factor)
+   {
+      return worst_violation(programme_, reduced_, factor, first_slip_ + factor * ray.slip) <=
+             round_off;
+   };
+   double factor = 1e12 * sliding_;
+   while (factor > 1e3 * sliding_ && !holds(factor)) { factor /= 10; }
+   if (!holds(factor)) { return std::nullopt; }
+   report_.slip = first_slip_;
+   char text[150];
+   std::snprintf(text, sizeof text,
+                 "a slip in proportion to the load holds any load to round-off; proven up to "
+                 "%.0e",
+                 factor);
+   return unlimited(ray.slip, factor, text);
+}
+
+LimitReport LoadLimit::find()
+{
+   if (nothing_constant_ && nothing_varies_)
+   {
+      report_.slip = no_slip_;
+      return unlimited(no_slip_, infinity, "there is no load");
+   }
+   if (const auto end = hold_constant_loads()) { return *end; }
+   if (held_ && (nothing_varies_ || worst_violation(alone_, reduced_, 0, no_slip_) <= 0))
+   {
+      return unlimited(no_slip_, infinity,
+                       nothing_varies_ ? "no load varies: there is nothing to limit"
+                                       : "every varying load presses more than it shears");
+   }
+   start_from_settings();
+   report_.lower = held_ ? 0 : -infinity;
+   std::string message;
+   constexpr int max_ceilings = 3;
+   for (int k = 0; k < max_ceilings; ++k)
+   {
+      ConeSolution solution = solve_counted(programme_, settings_, start_, report_, progress_);
+      if (solution.outcome == ConeOutcome::unavailable)
+      {
+         return finish(LimitStatus::unavailable, solution.message);
+      }
+      message = solution.message;
+      if (usable(solution)) { take_bounds(solution); }
+      if (closed()) { return finish(LimitStatus::certified, ""); }
+      if (k == 0)
+      {
+         if (const auto end = try_ray()) { return *end; }
+      }
+      if (solution.outcome != ConeOutcome::ceiling || settings_.monitor.stopped()) { break; }
+      programme_.theta_scale *= programme_.ceiling;
+      programme_.reach *= programme_.ceiling;
+   }
+   if (!std::isfinite(report_.lower))
+   {
+      report_.lower = 0;
+      return finish(LimitStatus::failed, "no admissible slip was found. " + message);
+   }
+   return finish(LimitStatus::bracketed,
+                 "the gap between the bounds is not closed. " + message);
+}
+
 } // namespace
 
 LimitReport load_limit(const LimitProblem &problem, const LimitSettings &settings)
@@ -110,211 +367,13 @@ LimitReport load_limit(const LimitProblem &problem, const LimitSettings &setting
 LimitReport load_limit(const ReducedProblem &reduced, const ResidualForces &residual,
                        const StuckForces &loads, const LimitSettings &settings)
 {
-   ProgressReport progress(settings.monitor);
    check_limit(reduced, residual, settings);
-   const Eigen::Index n = reduced.nodes(), m = reduced.slips();
-   for (Eigen::Index i = 0; i < n; ++i)
+   for (Eigen::Index i = 0; i < reduced.nodes(); ++i)
    {
       require(reduced.friction[i] > 0, "shakedown: friction coefficient ", reduced.friction[i],
               " at node ", i, ", must be positive: a node without friction never sticks");
    }
-
-   LimitReport report;
-   report.upper = infinity;
-   const auto finish = [&](LimitStatus status, const std::string &message)
-   {
-      report.status = unless_stopped(status, settings.monitor);
-      report.message = message;
-      report.limit = report.lower;
-      report.seconds = progress.seconds();
-      progress.end(1.0, report.iterations);
-      return report;
-   };
-
-   ConeProgramme programme;
-   programme.residual = &residual;
-   programme.friction = reduced.friction;
-   programme.loads = loads;
-   programme.ceiling = settings.largest_factor;
-   const bool nothing_constant = loads.q0.isZero(0) && loads.p0.isZero(0);
-   const bool nothing_varies = loads.q1.isZero(0) && loads.p1.isZero(0);
-   if (nothing_constant && nothing_varies)
-   {
-      report.lower = infinity;
-      report.slip = report.ray = Eigen::VectorXd::Zero(m);
-      return finish(LimitStatus::unlimited, "there is no load");
-   }
-   const Eigen::VectorXd varying_scale = typical_forces(loads.q1, loads.p1);
-   programme.force_scale =
-      nothing_constant ? varying_scale : typical_forces(loads.q0, loads.p0);
-   // The load factor at which the varying loads exhaust the friction of the constant ones,
-   // summed over the contact: the size of gross sliding.
-   const Eigen::VectorXd &f = programme.friction;
-   const double varying =
-      std::max((f.asDiagonal() * loads.p1).cwiseAbs().colwise().sum().maxCoeff(),
-               loads.q1.cwiseAbs().colwise().sum().maxCoeff());
-   if (varying > 0) { programme.theta_scale = f.dot(programme.force_scale) / varying; }
-
-   // First a state under the constant loads: the stuck one, the one without their shear, or the
-   // one furthest from all cones.
-   ConeStart start;
-   const auto take = [&](const Eigen::VectorXd &slip, const Eigen::VectorXd &r)
-   {
-      const double violation = worst_violation(programme, reduced, 0, slip);
-      if (start.r.size() && !(violation < report.violation)) { return; }
-      report.violation = violation;
-      report.slip = slip;
-      start.r = r;
-   };
-   const Eigen::VectorXd no_slip = Eigen::VectorXd::Zero(m);
-   take(no_slip, no_slip);
-   if (report.violation > -1e-3)
-   {
-      const Eigen::VectorXd relief = -(residual.flexibility * loads.q0.col(0));
-      take(relief, reduced.A() * relief);
-      Clearance constant = largest_clearance(reduced, residual, loads, programme.force_scale,
-                                             settings, report, progress);
-      if (constant.solution.outcome == ConeOutcome::unavailable)
-      {
-         return finish(LimitStatus::unavailable, constant.solution.message);
-      }
-      if (constant.bound < 0)
-      {
-         report.mechanism = std::move(constant.solution.mechanism);
-         return finish(LimitStatus::no_solution,
-                       "no slip keeps the contact stuck and closed under the constant loads "
-                       "alone (proven by the mechanism)");
-      }
-      if (constant.slip.size()) { take(constant.slip, constant.solution.r); }
-   }
-   // Forces that touch their cones, as where there are none, do so to round-off.
-   const bool held = report.violation <= round_off;
-
-   // A slip in proportion to the load factor that holds the varying loads by itself holds them
-   // however large they are.
-   const auto unlimited =
-      [&](const Eigen::VectorXd &ray, double proven, const std::string &message)
-   {
-      report.ray = ray;
-      report.mechanism = {};
-      report.lower = infinity;
-      finish(LimitStatus::unlimited, message);
-      report.lower = proven;
-      return report;
-   };
-   ConeProgramme alone = programme; // the varying loads
-   alone.loads = {loads.q1, 0 * loads.q1, loads.p1, 0 * loads.p1};
-   alone.force_scale = varying_scale;
-   if (held && (nothing_varies || worst_violation(alone, reduced, 0, no_slip) <= 0))
-   {
-      return unlimited(no_slip, infinity,
-                       nothing_varies ? "no load varies: there is nothing to limit"
-                                      : "every varying load presses more than it shears");
-   }
-
-   if (settings.start && settings.start->slip.size() == m &&
-       std::isfinite(settings.start->limit))
-   {
-      start.theta = settings.start->limit;
-      start.r = reduced.A() * settings.start->slip;
-      if (settings.start->mechanism.slip.cols() == loads.vertices())
-      {
-         start.mechanism = settings.start->mechanism;
-      }
-   }
-   const Eigen::VectorXd first_slip = report.slip;
-   const double sliding = programme.theta_scale;
-   const auto lower_the_upper = [&](CollapseMechanism mechanism)
-   {
-      const double bound =
-         weak_duality_bound(programme, reduced, mechanism, slip_size(report.slip));
-      if (!(bound < report.upper)) { return; }
-      report.upper = bound;
-      report.mechanism = std::move(mechanism);
-   };
-   const auto closed = [&]
-   {
-      // Relative to a limit, or to a ten-thousandth of gross sliding if that is more.
-      const double gap = settings.tolerance * (report.upper + 1e-4 * sliding);
-      return std::isfinite(report.upper) && report.upper - report.lower <= gap;
-   };
-   report.lower = held ? 0 : -infinity;
-   std::string message;
-   constexpr int max_ceilings = 3;
-   for (int k = 0; k < max_ceilings; ++k)
-   {
-      ConeSolution solution = solve_counted(programme, settings, start, report, progress);
-      if (solution.outcome == ConeOutcome::unavailable)
-      {
-         return finish(LimitStatus::unavailable, solution.message);
-      }
-      message = solution.message;
-      if (usable(solution))
-      {
-         const Eigen::VectorXd slip = residual.flexibility * solution.r;
-         const Held best =
-            largest_held(programme, reduced, solution.theta, slip, held ? first_slip : slip);
-         if (best.theta > report.lower)
-         {
-            report.lower = best.theta;
-            report.slip = best.slip;
-            report.violation = worst_violation(programme, reduced, best.theta, best.slip);
-         }
-         lower_the_upper(std::move(solution.mechanism));
-      }
-      if (closed()) { return finish(LimitStatus::certified, ""); }
-      if (k == 0)
-      {
-         Clearance ray = largest_clearance(reduced, residual, alone.loads, varying_scale,
-                                           settings, report, progress);
-         if (held && ray.reached > 0)
-         {
-            report.slip = first_slip;
-            return unlimited(ray.slip, infinity,
-                             "a slip in proportion to the load holds any load (proven)");
-         }
-         lower_the_upper(std::move(ray.solution.mechanism));
-         if (closed()) { return finish(LimitStatus::certified, ""); }
-         const Eigen::VectorXd relief = -(residual.flexibility * loads.q1.rowwise().mean());
-         const double relieved = -worst_violation(alone, reduced, 0, relief, Rounding::against);
-         if (!(ray.reached > relieved))
-         {
-            ray.slip = relief;
-            ray.reached = relieved;
-         }
-         if (held && !std::isfinite(report.upper) && ray.reached > -1e-9)
-         {
-            // It does so to round-off: up to which load factor?
-            const auto holds = [&](double factor)
-            {
-               return worst_violation(programme, reduced, factor,
-                                      first_slip + factor * ray.slip) <= round_off;
-            };
-            double factor = 1e12 * sliding;
-            while (factor > 1e3 * sliding && !holds(factor)) { factor /= 10; }
-            if (holds(factor))
-            {
-               report.slip = first_slip;
-               char text[150];
-               std::snprintf(text, sizeof text,
-                             "a slip in proportion to the load holds any load to round-off; "
-                             "proven up to %.0e",
-                             factor);
-               return unlimited(ray.slip, factor, text);
-            }
-         }
-      }
-      if (solution.outcome != ConeOutcome::ceiling || settings.monitor.stopped()) { break; }
-      programme.theta_scale *= programme.ceiling;
-      programme.reach *= programme.ceiling;
-   }
-   if (!std::isfinite(report.lower))
-   {
-      report.lower = 0;
-      return finish(LimitStatus::failed, "no admissible slip was found. " + message);
-   }
-   return finish(LimitStatus::bracketed,
-                 "the gap between the bounds is not closed. " + message);
+   return LoadLimit(reduced, residual, loads, settings).find();
 }
 
 } // namespace cattaneo
