@@ -6,7 +6,6 @@
 #include <cctype>
 #include <cstdio>
 #include <iostream>
-#include <sstream>
 #include <thread>
 
 namespace miniapp
@@ -17,14 +16,6 @@ using cattaneo::InputError;
 namespace
 {
 
-cattaneo::CondenseSettings condense_settings;
-
-/// Leaves the body with an exit code.
-struct Leave
-{
-   int code;
-};
-
 /// What a user typed or a file held may stand in a message: it must stay one line of text.
 std::string one_line(std::string message)
 {
@@ -33,24 +24,6 @@ std::string one_line(std::string message)
       if (std::iscntrl(static_cast<unsigned char>(c))) { c = ' '; }
    }
    return message;
-}
-
-/// MFEM's text without the values that were not set: a number without a default is NaN, which
-/// says nothing to the reader.
-std::string without_unset(const std::string &text)
-{
-   const std::string none = ", current value: nan";
-   std::istringstream lines(text);
-   std::string result;
-   for (std::string line; std::getline(lines, line);)
-   {
-      const bool unset = line.size() > 4 && line.substr(line.size() - 4) == " nan";
-      const auto at = line.find(none);
-      if (at != std::string::npos) { line.erase(at, none.size()); }
-      else if (unset) { continue; }
-      result += line + "\n";
-   }
-   return result;
 }
 
 /// True if the other ranks come here too, within a second: most errors are seen by all alike.
@@ -92,12 +65,18 @@ bool writes()
 #endif
 }
 
+cattaneo::CondenseSettings &condensation()
+{
+   static cattaneo::CondenseSettings settings;
+   return settings;
+}
+
 std::unique_ptr<mfem::Mesh> distribute(mfem::Mesh mesh, [[maybe_unused]] int order)
 {
 #ifdef MFEM_USE_MPI
    const mfem::H1_FECollection elements(order, mesh.Dimension());
    if (ranks() > 1 && mfem::FiniteElementSpace(&mesh, &elements, 2).GetTrueVSize() >
-                         condense_settings.direct_dofs)
+                         condensation().direct_dofs)
    {
       cattaneo::require(mesh.GetNE() >= ranks(), "the mesh has ", mesh.GetNE(),
                         " elements for ", ranks(),
@@ -119,9 +98,9 @@ int run(const std::function<int()> &body)
    {
       return body();
    }
-   catch (const Leave &leave)
+   catch (const Leave &)
    {
-      return leave.code;
+      return 0;
    }
    catch (const InputError &error)
    {
@@ -137,49 +116,6 @@ int run(const std::function<int()> &body)
 #endif
       return 1;
    }
-}
-
-void parse(mfem::OptionsParser &options)
-{
-   if (ranks() > 1)
-   {
-      options.AddOption(
-         &condense_settings.direct_dofs, "-direct-dofs", "--direct-dofs",
-         "Bodies of more dofs than this are distributed and condensed by iterations, "
-         "others factored by every rank.");
-      options.AddOption(&condense_settings.max_iterations, "-max-iterations",
-                        "--max-iterations", "Most iterations for a right-hand side.");
-   }
-   options.Parse();
-   if (options.Help())
-   {
-      std::ostringstream help;
-      options.PrintHelp(help);
-      std::cout << without_unset(help.str());
-      throw Leave{0};
-   }
-   if (!options.Good())
-   {
-      // MFEM's message has empty lines around it and may stream a null pointer.
-      std::ostringstream text;
-      options.PrintError(text);
-      std::istringstream words(text.str());
-      std::string message, word;
-      while (words >> word) { message += " " + word; }
-      if (writes())
-      {
-         std::cerr << "error:" << one_line(message) << " (-h lists the options)" << std::endl;
-      }
-      throw Leave{1};
-   }
-   std::ostringstream values;
-   options.PrintOptions(values);
-   std::cout << without_unset(values.str()) << std::endl;
-}
-
-cattaneo::CondenseSettings condensation()
-{
-   return condense_settings;
 }
 
 nlohmann::ordered_json to_json(const cattaneo::Counters &counters)

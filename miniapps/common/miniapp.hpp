@@ -20,6 +20,11 @@ namespace miniapp
    error that only one rank sees ends the others too. */
 int run(const std::function<int()> &body);
 
+/// Leaves the body with exit code 0.
+struct Leave
+{
+};
+
 /// How many ranks run this.
 int ranks();
 
@@ -32,13 +37,8 @@ bool writes();
 /// would do, to the same bits.
 std::unique_ptr<mfem::Mesh> distribute(mfem::Mesh mesh, int order);
 
-/// What Options::parse() leaves to MFEM: parses the options, echoes them, prints help for -h.
-/// Leaves through run() with exit code 0 after help and 1, with one sentence, after a bad
-/// option. On several ranks there are two more options, which say how bodies are condensed.
-void parse(mfem::OptionsParser &options);
-
 /// How bodies are to be condensed, as the options say.
-cattaneo::CondenseSettings condensation();
+cattaneo::CondenseSettings &condensation();
 
 nlohmann::ordered_json to_json(const cattaneo::Counters &counters);
 

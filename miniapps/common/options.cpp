@@ -74,51 +74,12 @@ const char *const domain_help =
 namespace
 {
 
-/// Where --sweep is given several times: once, with statements.
-std::vector<std::string> with_one_sweep(int argc, char *argv[])
-{
-   std::vector<std::string> words;
-   std::string sweep;
-   for (int i = 0; i < argc; ++i)
-   {
-      const std::string word = argv[i];
-      if ((word != "--sweep" && word != "-sweep") || i + 1 == argc)
-      {
-         words.push_back(word);
-         continue;
-      }
-      sweep += (sweep.empty() ? "" : "; ") + std::string(argv[++i]);
-   }
-   if (!sweep.empty()) { words.insert(words.end(), {"--sweep", sweep}); }
-   return words;
-}
-
-std::vector<char *> pointers(const std::vector<std::string> &words)
-{
-   std::vector<char *> list;
-   for (const std::string &word : words) { list.push_back(const_cast<char *>(word.c_str())); }
-   return list;
-}
-
-/// A number that an option is given as a word.
-void check_number(const std::string &option, const std::string &word, bool integer)
-{
-   char *end = nullptr;
-   const double value = std::strtod(word.c_str(), &end);
-   require(!word.empty() && *end == 0 && std::isfinite(value) &&
-              (!integer || word.find_first_not_of("+-0123456789") == std::string::npos),
-           "option ", option, ": '", word, "' is not ", integer ? "an integer" : "a number");
-   constexpr int most = std::numeric_limits<int>::max();
-   require(!integer || std::abs(value) <= most, "option ", option, ": ", word,
-           " is too large, must be at most ", most);
-}
-
 /// Entry k of a text of entries is another value; with a load's name, its part LOAD=value.
 std::string replaced(const std::string &text, const std::string &separators,
                      const std::string &key, const std::string &value)
 {
    const std::vector<std::string> path = split(key, ".");
-   std::vector<std::string> entries = split(text, separators.c_str());
+   std::vector<std::string> entries = split(text, separators);
    char *end = nullptr;
    const long k = std::strtol(path[1].c_str(), &end, 10);
    require(*end == 0 && k >= 0 && k < static_cast<long>(entries.size()), "option --sweep: '",
@@ -132,95 +93,38 @@ std::string replaced(const std::string &text, const std::string &separators,
       const std::string begin = path[2] + "=";
       const auto same = [&](const std::string &load) { return load.find(begin) == 0; };
       loads.erase(std::remove_if(loads.begin(), loads.end(), same), loads.end());
-      entry = begin + value;
-      for (const std::string &load : loads) { entry += " " + load; }
+      loads.insert(loads.begin(), begin + value);
+      entry = listed(loads, " ");
    }
-   std::string result;
-   for (const std::string &one : entries)
-   {
-      result += (result.empty() ? "" : separators.substr(0, 1)) + one;
-   }
-   return result;
+   return listed(entries, separators.substr(0, 1));
 }
 
 } // namespace
 
-Options::Options(int argc, char *argv[])
-   : words_(with_one_sweep(argc, argv)), arguments_(pointers(words_)),
-     parser_(static_cast<int>(arguments_.size()), arguments_.data())
+Options::Options(int argc, char *argv[]) : words_(argv, argv + argc)
 {
    add(&case_file_, "case", "JSON file with options; those of the command line override it.",
        Text::input);
-   options_.back().in_cases = false;
+   leave_out_of_cases("case");
 }
 
-Options::Option &Options::keep(Option option)
+void Options::add(Value value, const Names &names, const char *help, const Check &check)
 {
-   options_.push_back(std::move(option));
-   return options_.back();
-}
-
-void Options::add(int *value, const Names &names, const char *help, const Check &check)
-{
-   const auto settle = [=]
-   { require(check.holds(*value), "option --", names.name, " is ", *value, ", ", check.must); };
-   const Option &o = keep({names, Kind::integer, Text::word, value, settle, true});
-   parser_.AddOption(value, o.names.on[0].c_str(), o.names.on[1].c_str(), help);
-}
-
-void Options::add(double *value, const Names &names, const char *help, const Check &check)
-{
-   const auto settle = [=]
-   {
-      require(std::isnan(*value) || check.holds(*value), "option --", names.name, " is ",
-              *value, ", ", check.must);
-   };
-   const Option &o = keep({names, Kind::number, Text::word, value, settle, true});
-   parser_.AddOption(value, o.names.on[0].c_str(), o.names.on[1].c_str(), help);
-}
-
-void Options::add(bool *value, const Names &names, const char *help)
-{
-   const Option &o = keep({names, Kind::flag, Text::word, value, {}, true});
-   parser_.AddOption(value, o.names.on[0].c_str(), o.names.on[1].c_str(), o.names.on[2].c_str(),
-                     o.names.on[3].c_str(), help);
+   options_.push_back({names, help, value, check});
 }
 
 void Options::add(std::string *value, const Names &names, const char *help, Text kind)
 {
-   const bool written = kind > Text::input;
-   const Option &o = keep({names, Kind::text, kind, value, {}, !written});
-   parser_.AddOption(value, o.names.on[0].c_str(), o.names.on[1].c_str(), help);
+   add(value, names, help);
+   options_.back().kind = kind;
+   options_.back().in_cases = !options_.back().is_written();
 }
 
 void Options::add(std::string *value, const Names &names, const char *help,
                   const std::vector<std::string> &choices)
 {
    add(value, names, help);
-   options_.back().settle = [=]
-   {
-      std::string list;
-      for (const std::string &choice : choices) { list += (list.empty() ? "" : ", ") + choice; }
-      require(std::find(choices.begin(), choices.end(), *value) != choices.end(), "option --",
-              names.name, ": '", *value, "' is not one of ", list);
-   };
-}
-
-void Options::add(std::vector<double> *value, const Names &names, const char *help,
-                  const Check &check)
-{
-   std::string &text = lists_.emplace_back();
-   for (double x : *value) { text += (text.empty() ? "" : " ") + exact_text(x); }
-   add(&text, names, help);
-   options_.back().kind = Kind::list;
-   options_.back().settle = [value, names, check, &text]
-   {
-      *value = numbers("--" + names.name, text);
-      for (double x : *value)
-      {
-         require(check.holds(x), "option --", names.name, ": ", x, " ", check.must);
-      }
-   };
+   options_.back().choices = choices;
 }
 
 void Options::leave_out_of_cases(const std::string &name)
@@ -231,30 +135,141 @@ void Options::leave_out_of_cases(const std::string &name)
    }
 }
 
+nlohmann::ordered_json Options::Option::as_json() const
+{
+   return std::visit(
+      [this](auto *x) -> nlohmann::ordered_json
+      {
+         if constexpr (std::is_same_v<decltype(x), std::vector<double> *>) { return text(); }
+         else { return *x; }
+      },
+      value);
+}
+
+std::string Options::Option::text() const
+{
+   if (const auto *integer = std::get_if<int *>(&value)) { return std::to_string(**integer); }
+   if (const auto *number = std::get_if<double *>(&value))
+   {
+      return std::isnan(**number) ? "" : exact_text(**number);
+   }
+   if (const auto *flag = std::get_if<bool *>(&value)) { return **flag ? "true" : "false"; }
+   if (const auto *words = std::get_if<std::string *>(&value)) { return **words; }
+   std::string list;
+   for (double x : *std::get<std::vector<double> *>(value))
+   {
+      list += (list.empty() ? "" : " ") + exact_text(x);
+   }
+   return list;
+}
+
+void Options::Option::set(const std::string &as, const std::string &text) const
+{
+   const std::string what = "option " + as;
+   if (const auto *integer = std::get_if<int *>(&value))
+   {
+      require(!text.empty() && text.find_first_not_of("+-0123456789") == std::string::npos,
+              what, ": '", text, "' is not an integer");
+      constexpr int most = std::numeric_limits<int>::max();
+      const double x = number(what, text);
+      require(std::abs(x) <= most, what, ": ", text, " is too large, must be at most ", most);
+      **integer = static_cast<int>(x);
+   }
+   else if (const auto *real = std::get_if<double *>(&value)) { **real = number(what, text); }
+   else if (const auto *flag = std::get_if<bool *>(&value))
+   {
+      require(text == "true" || text == "false", what, " is ", text, ", must be true or false");
+      **flag = text == "true";
+   }
+   else if (const auto *words = std::get_if<std::string *>(&value)) { **words = text; }
+   else { *std::get<std::vector<double> *>(value) = numbers(as, text); }
+}
+
+void Options::Option::validate() const
+{
+   const std::string what = "option --" + names.name;
+   if (const auto *integer = std::get_if<int *>(&value))
+   {
+      require(check.holds(**integer), what, " is ", **integer, ", ", check.must);
+   }
+   else if (const auto *real = std::get_if<double *>(&value))
+   {
+      require(std::isnan(**real) || check.holds(**real), what, " is ", **real, ", ",
+              check.must);
+   }
+   else if (const auto *list = std::get_if<std::vector<double> *>(&value))
+   {
+      for (double x : **list) { require(check.holds(x), what, ": ", x, " ", check.must); }
+   }
+   else if (!choices.empty())
+   {
+      require(std::find(choices.begin(), choices.end(), text()) != choices.end(), what, ": '",
+              text(), "' is not one of ", listed(choices));
+   }
+}
+
 const Options::Option *Options::find(const std::string &word) const
 {
    for (const Option &option : options_)
    {
-      const std::size_t count = option.kind == Kind::flag ? 4 : 2;
-      for (std::size_t k = 0; k < count; ++k)
-      {
-         if (option.names.on[k] == word) { return &option; }
-      }
+      const auto &on = option.names.on;
+      const auto end = option.is_flag() ? on.end() : on.begin() + 2;
+      if (std::find(on.begin(), end, word) != end) { return &option; }
    }
    return nullptr;
 }
 
-void Options::check_words() const
+void Options::read_words()
 {
    for (std::size_t i = 1; i < words_.size(); ++i)
    {
-      const Option *option = find(words_[i]);
-      if (!option || option->kind == Kind::flag) { continue; }
-      require(i + 1 < words_.size() && !find(words_[i + 1]), "option ", words_[i],
-              " has no value");
-      const std::string &word = words_[++i];
-      if (option->kind == Kind::text || option->kind == Kind::list) { continue; }
-      check_number(words_[i - 1], word, option->kind == Kind::integer);
+      const std::string &word = words_[i];
+      if (word == "-h" || word == "--help")
+      {
+         print_help();
+         throw Leave();
+      }
+      const Option *option = find(word);
+      require(option, "Unrecognized option: ", word, " (-h lists the options)");
+      Given given{option, word, ""};
+      if (option->is_flag())
+      {
+         const auto &on = option->names.on;
+         given.text = word == on[0] || word == on[1] ? "true" : "false";
+      }
+      else
+      {
+         require(i + 1 < words_.size() && !find(words_[i + 1]), "option ", word,
+                 " has no value");
+         given.text = words_[++i];
+      }
+      const auto before =
+         std::find_if(given_.begin(), given_.end(),
+                      [&](const Given &other) { return other.option == option; });
+      if (before == given_.end()) { given_.push_back(given); }
+      else
+      {
+         require(option->names.name == "sweep", "option ", word, " is there twice");
+         before->text += "; " + given.text;
+      }
+   }
+}
+
+void Options::print_help() const
+{
+   std::printf("Options (-h, --help: this list):\n");
+   for (const Option &option : options_)
+   {
+      static const char *const kinds[] = {"integer", "number", "", "text", "numbers"};
+      const auto &on = option.names.on;
+      const std::string now = option.text(), kind = option.choices.empty()
+                                                       ? kinds[option.value.index()]
+                                                       : listed(option.choices, "|");
+      std::printf("   %s, %s %s%s\n", on[0].c_str(), on[1].c_str(),
+                  option.is_flag() ? ("or " + on[2] + ", " + on[3]).c_str()
+                                   : ("<" + kind + ">").c_str(),
+                  option.is_flag() || now.empty() ? "" : (", default " + now).c_str());
+      std::printf("%s", wrapped(option.help, 8).c_str());
    }
 }
 
@@ -268,18 +283,18 @@ void Options::check_files() const
    const auto named = [](const Option &option)
    {
       const auto *text = std::get_if<std::string *>(&option.value);
-      return text && option.kind == Kind::text && option.text >= Text::input ? **text : "";
+      return text && option.kind >= Text::input ? **text : "";
    };
    for (const Option &option : options_)
    {
       const std::string file = named(option), what = "option --" + option.names.name;
-      if (file.empty() || option.text == Text::input) { continue; }
+      if (file.empty() || option.kind == Text::input) { continue; }
       try
       {
-         const bool folder = option.text == Text::folder;
+         const bool folder = option.kind == Text::folder;
          require(!folder || !fs::exists(file) || fs::is_directory(file), "'", file,
                  "' is a file, must be a folder");
-         if (option.text == Text::prefix) { cattaneo::require_writable(file + "_.csv"); }
+         if (option.kind == Text::prefix) { cattaneo::require_writable(file + "_.csv"); }
          else if (!folder) { cattaneo::require_writable(file); }
          else
          {
@@ -293,15 +308,15 @@ void Options::check_files() const
          throw InputError(what + ": " + error.what());
       }
       const std::string type = fs::path(file).extension();
-      require(option.text != Text::picture || type == ".png" || type == ".pdf" ||
+      require(option.kind != Text::picture || type == ".png" || type == ".pdf" ||
                  type == ".svg",
               what, ": '", file, "' must end in .png, .pdf or .svg");
-      require(option.text != Text::page || type == ".html", what, ": '", file,
+      require(option.kind != Text::page || type == ".html", what, ": '", file,
               "' must end in .html");
       for (const Option &other : options_)
       {
-         if (&other == &option || named(other).empty() || option.text == Text::prefix ||
-             other.text == Text::prefix)
+         if (&other == &option || named(other).empty() || option.kind == Text::prefix ||
+             other.kind == Text::prefix)
          {
             continue;
          }
@@ -313,16 +328,26 @@ void Options::check_files() const
 
 void Options::parse()
 {
-   check_words();
-   // First for the name of the case file only; a bad command line is reported below.
-   parser_.Parse();
-   if (parser_.Good() && !case_file_.empty()) { read(case_file_); }
-   miniapp::parse(parser_);
+   read_words();
+   for (const Given &given : given_)
+   {
+      if (given.option->value == Value(&case_file_)) { read(given.text); }
+   }
+   for (const Given &given : given_) { given.option->set(given.as, given.text); }
+   std::printf("Options used:\n");
    for (const Option &option : options_)
    {
-      if (option.settle) { option.settle(); }
-      values_[option.names.name] =
-         std::visit([](auto *value) { return nlohmann::ordered_json(*value); }, option.value);
+      const std::string text = option.text();
+      const auto &on = option.names.on;
+      if (option.is_flag()) { std::printf("   %s\n", on[text == "true" ? 1 : 3].c_str()); }
+      else if (!text.empty()) { std::printf("   %s %s\n", on[1].c_str(), text.c_str()); }
+   }
+   std::printf("\n");
+   std::fflush(stdout);
+   for (const Option &option : options_)
+   {
+      option.validate();
+      values_[option.names.name] = option.as_json();
    }
    check_files();
 }
@@ -331,79 +356,54 @@ const Options::Option &Options::changeable(const std::string &key) const
 {
    const std::size_t dots = static_cast<std::size_t>(std::count(key.begin(), key.end(), '.'));
    const std::string name = key.substr(0, key.find('.'));
-   std::string known;
+   std::vector<std::string> known;
    for (const Option &option : options_)
    {
-      if (!option.in_cases || of_sweep(option)) { continue; }
-      known += (known.empty() ? "" : ", ") + option.names.name;
+      if (!option.in_cases || option.is_of_sweep()) { continue; }
+      known.push_back(option.names.name);
       if (option.names.name != name) { continue; }
-      const std::size_t most = option.kind == Kind::list         ? 1
-                               : option.text == Text::statements ? 2
-                                                                 : 0;
+      const std::size_t most = option.is_list() ? 1 : option.kind == Text::statements ? 2 : 0;
       require(dots <= most, "option --sweep: '", key, "': option --", name,
               most == 0 ? " has no entries" : " has no entries of entries");
       return option;
    }
    throw InputError("option --sweep: there is no option '" + name + "', must be one of " +
-                    known);
+                    listed(known));
 }
 
 std::vector<std::string>
 Options::command(const std::vector<std::pair<std::string, std::string>> &changes) const
 {
-   std::map<const Option *, std::string> values;
+   std::map<std::string, std::string> values; // by long names
+   for (const Given &given : given_)
+   {
+      const std::string &name = given.option->names.name;
+      static const std::set<std::string> of_all = {"json", "csv", "plot", "html"};
+      require(!given.option->is_written() || of_all.count(name) > 0, "option ", given.as,
+              " is of one run, a sweep has many");
+      if (!given.option->is_written()) { values[name] = given.text; }
+   }
+   values.erase("sweep-results");
+   values["sweep"] = "none"; // a case file may have one
    for (const auto &[key, value] : changes)
    {
       const Option &option = changeable(key);
-      const std::string separators = option.text == Text::statements ? ";" : " ,";
-      const nlohmann::ordered_json &now = values_.at(option.names.name);
+      const std::string &name = option.names.name;
+      const nlohmann::ordered_json &now = values_.at(name);
       std::string &text =
-         values.try_emplace(&option, now.is_string() ? now.get<std::string>() : "")
-            .first->second;
-      text = key == option.names.name ? value : replaced(text, separators, key, value);
+         values.try_emplace(name, now.is_string() ? now.get<std::string>() : "").first->second;
+      text = key == name
+                ? value
+                : replaced(text, option.kind == Text::statements ? ";" : " ,", key, value);
+      option.set("--" + name, text);
+      option.validate();
    }
    std::vector<std::string> words;
-   for (std::size_t i = 1; i < words_.size(); ++i)
+   for (const auto &[name, text] : values)
    {
-      const Option *option = find(words_[i]);
-      if (!option) { continue; }
-      const bool flag = option->kind == Kind::flag,
-                 written = option->kind == Kind::text && option->text > Text::input;
-      const std::size_t last = flag ? i : i + 1;
-      static const std::set<std::string> of_all = {"json", "csv", "plot", "html"};
-      require(!written || of_all.count(option->names.name) > 0, "option ", words_[i],
-              " is of one run, a sweep has many");
-      if (!written && values.count(option) == 0 && !of_sweep(*option))
-      {
-         words.insert(words.end(), words_.begin() + i, words_.begin() + last + 1);
-      }
-      i = last;
-   }
-   words.insert(words.end(), {"--sweep", "none"}); // a case file may have one
-   for (const auto &[option, text] : values)
-   {
-      const std::string name = "--" + option->names.name;
-      std::size_t on = 1;
-      if (auto number = std::get_if<int *>(&option->value))
-      {
-         check_number(name, text, true);
-         **number = std::stoi(text);
-      }
-      else if (auto number = std::get_if<double *>(&option->value))
-      {
-         check_number(name, text, false);
-         **number = std::stod(text);
-      }
-      else if (option->kind == Kind::flag)
-      {
-         require(text == "true" || text == "false", "option --sweep: ", name, " is ", text,
-                 ", must be true or false");
-         on = text == "true" ? 1 : 3;
-      }
-      else { *std::get<std::string *>(option->value) = text; }
-      if (option->settle) { option->settle(); }
-      words.push_back(option->names.on[on]);
-      if (option->kind != Kind::flag) { words.push_back(text); }
+      const Option &option = *find("--" + name);
+      words.push_back(option.names.on[text == "false" && option.is_flag() ? 3 : 1]);
+      if (!option.is_flag()) { words.push_back(text); }
    }
    return words;
 }
@@ -411,115 +411,85 @@ Options::command(const std::vector<std::pair<std::string, std::string>> &changes
 void Options::read(const std::string &file)
 {
    const json keys = read_case(file);
-   const std::string where = "case file '" + file + "': ";
    for (const auto &[name, value] : keys.items())
    {
+      const std::string where = "case file '" + file + "': ";
       const Option *option = nullptr;
-      std::string known;
+      std::vector<std::string> known;
       for (const Option &o : options_)
       {
          if (!o.in_cases) { continue; }
          if (o.names.name == name) { option = &o; }
-         known += (known.empty() ? "" : ", ") + o.names.name;
+         known.push_back(o.names.name);
       }
-      require(option, where, "unknown key '", name, "', must be one of ", known);
-      set(*option, value, where + "key '" + name + "'", file);
+      require(option, where, "unknown key '", name, "', must be one of ", listed(known));
+      std::string text = option->from_json(value, where + "key '" + name + "'");
+      if (option->kind == Text::input)
+      {
+         text = (fs::path(file).parent_path() / text).string();
+      }
+      option->set("--" + name, text);
    }
 }
 
-void Options::set(const Option &option, const json &value, const std::string &where,
-                  const std::string &file)
+/// Of a case file, as it would stand on the command line.
+std::string Options::Option::from_json(const json &x, const std::string &where) const
 {
    const auto expect = [&](bool condition, const char *allowed)
    {
       // Nothing nested is shown: it may be too deep to be written.
-      require(condition, where, " is ",
-              value.is_structured() ? value.type_name() : value.dump(), ", must be ", allowed);
+      require(condition, where, " is ", x.is_structured() ? x.type_name() : x.dump(),
+              ", must be ", allowed);
    };
-   const auto all = [&value](auto is)
-   { return value.is_array() && std::all_of(value.begin(), value.end(), is); };
-   const auto is_number = [](const json &v) { return v.is_number(); };
-   const auto is_attribute = [](const json &v)
-   { return v.is_number() && v > 0 && v < 1e9 && v == std::floor(v.get<double>()); };
-   const auto is_string = [](const json &v) { return v.is_string(); };
-   // A value, or an array of them with something between.
-   const auto joined = [&value](const char *between)
-   {
-      std::string list;
-      const json values = value.is_array() ? value : json::array({value});
-      for (const json &v : values)
-      {
-         list += list.empty() ? "" : between;
-         list += v.is_string() ? v.get<std::string>() : exact_text(v.get<double>());
-      }
-      return list;
-   };
-   if (auto integer = std::get_if<int *>(&option.value))
+   const auto is_whole = [](const json &v)
+   { return v.is_number() && v == std::floor(v.get<double>()); }; // 2.0 is one in JSON
+   const auto is_attribute = [&](const json &v) { return is_whole(v) && v > 0 && v < 1e9; };
+   const auto all = [&x](auto is)
+   { return x.is_array() && std::all_of(x.begin(), x.end(), is); };
+   if (std::holds_alternative<int *>(value))
    {
       constexpr int most = std::numeric_limits<int>::max();
-      const double x = value.is_number() ? value.get<double>() : std::nan("");
-      expect(x == std::floor(x) && std::abs(x) <= most, "an integer"); // 2.0 is one in JSON
-      **integer = static_cast<int>(x);
+      expect(is_whole(x) && std::abs(x.get<double>()) <= most, "an integer");
    }
-   else if (auto number = std::get_if<double *>(&option.value))
+   else if (std::holds_alternative<double *>(value)) { expect(x.is_number(), "a number"); }
+   else if (is_flag()) { expect(x.is_boolean(), "true or false"); }
+   else if (is_list())
    {
-      expect(value.is_number(), "a number");
-      **number = value.get<double>();
+      expect(x.is_number() || all([](const json &v) { return v.is_number(); }),
+             "a number or an array of numbers");
    }
-   else if (auto flag = std::get_if<bool *>(&option.value))
+   else if (kind == Text::attributes)
    {
-      expect(value.is_boolean(), "true or false");
-      **flag = value.get<bool>();
+      expect(x.is_string() || is_attribute(x) || all(is_attribute),
+             "boundary attributes: a string such as \"3,4\" or \"3[-1<x<1]\", a positive "
+             "integer below 1e9, or an array of positive integers below 1e9");
+   }
+   else if (kind == Text::statements)
+   {
+      expect(x.is_string() || all([](const json &v) { return v.is_string(); }),
+             "a string or an array of strings");
    }
    else
    {
-      std::string &text = *std::get<std::string *>(option.value);
-      if (option.kind == Kind::list)
-      {
-         expect(value.is_number() || all(is_number), "a number or an array of numbers");
-         text = joined(" ");
-      }
-      else if (option.text == Text::attributes)
-      {
-         expect(value.is_string() || is_attribute(value) || all(is_attribute),
-                "boundary attributes: a string such as \"3,4\" or \"3[-1<x<1]\", a positive "
-                "integer below 1e9, or an array of positive integers below 1e9");
-         text = joined(",");
-      }
-      else if (option.text == Text::statements)
-      {
-         expect(value.is_string() || all(is_string), "a string or an array of strings");
-         text = joined("; ");
-      }
-      else
-      {
-         const bool path = option.text == Text::input;
-         expect(value.is_string(), path ? "a string (the path of a file)" : "a string");
-         text = value.get<std::string>();
-         if (path) { text = (fs::path(file).parent_path() / text).string(); }
-      }
+      expect(x.is_string(), kind == Text::input ? "a string (the path of a file)" : "a string");
    }
+   std::vector<std::string> words;
+   for (const json &v : x.is_array() ? x : json::array({x}))
+   {
+      words.push_back(v.is_string()   ? v.get<std::string>()
+                      : v.is_number() ? exact_text(v.get<double>())
+                                      : v.dump());
+   }
+   return listed(words, kind == Text::statements ? "; " : kind == Text::attributes ? "," : " ");
 }
 
 std::vector<double> numbers(const std::string &option, const std::string &text)
 {
    std::vector<double> values;
-   if (text == "none") { return values; }
-   std::string word;
-   for (char c : text + " ")
+   for (const std::string &word :
+        text == "none" ? std::vector<std::string>() : split(text, " ,"))
    {
-      if (c != ' ' && c != ',')
-      {
-         word += c;
-         continue;
-      }
-      if (word.empty()) { continue; }
-      char *end = nullptr;
-      const double value = std::strtod(word.c_str(), &end);
-      require(*end == 0 && std::isfinite(value), "option ", option, ": '", word,
-              "' is not a number");
-      values.push_back(value);
-      word.clear();
+      values.push_back(number("option " + option, word));
    }
    return values;
 }

@@ -2,7 +2,6 @@
 
 #include <deque>
 #include <functional>
-#include <mfem.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <variant>
@@ -43,11 +42,10 @@ enum class Text
 /// Of --domain, which every study with a half-plane has: 0, and the half-plane has no mesh.
 extern const char *const domain_help;
 
-/** Options of a program: MFEM's parser with what it leaves open. Each is declared once, with
-   its check. Numbers that are none, or too large, are refused with the name of their option,
-   and so are options without a value. Files to be read and written are known as such, so that a
-    run does not end, after all its work, with nowhere to write to, or writes over what it
-   reads.
+/** Options of a program, each declared once, with its check. Numbers that are none, or too
+   large, are refused with the name of their option, and so are options without a value. Files
+   to be read and written are known as such, so that a run does not end, after all its work,
+   with nowhere to write to, or writes over what it reads.
 
     --case FILE.json gives options as well, by their long names without dashes; the command line
     overrides it. Files that are written are named on the command line only. */
@@ -75,24 +73,22 @@ public:
       std::string name;
    };
 
-   void add(int *value, const Names &names, const char *help, const Check &check = any);
-   /// A number; NaN is one that has not been given, which no check asks.
-   void add(double *value, const Names &names, const char *help, const Check &check = any);
-   void add(bool *value, const Names &names, const char *help);
-   void add(std::string *value, const Names &names, const char *help, Text kind = Text::word);
+   /// Where the value goes: NaN is a number that has not been given, which no check asks; a
+   /// list is written with spaces or commas, "none" and "" are the empty one.
+   using Value = std::variant<int *, double *, bool *, std::string *, std::vector<double> *>;
+
+   /// @param check of a number, or of each in a list
+   void add(Value value, const Names &names, const char *help, const Check &check = any);
+   void add(std::string *value, const Names &names, const char *help, Text kind);
    /// One of some words.
    void add(std::string *value, const Names &names, const char *help,
             const std::vector<std::string> &choices);
-   /// A list of numbers; "none" and "" are the empty one.
-   void add(std::vector<double> *value, const Names &names, const char *help,
-            const Check &check = any);
 
    /// Names what is no part of a case: where results go, or which of them are shown.
    void leave_out_of_cases(const std::string &name);
 
-   /// Sets all options, echoes them, prints help for -h. Leaves through run() with exit code 0
-   /// after help and 1, with one sentence, after a bad command line; InputError for a value or
-   /// a file that cannot be used.
+   /// Sets all options and echoes those with a value; -h prints them all and leaves the program
+   /// (Leave). InputError for what is no option, and for a value or a file that cannot be used.
    void parse();
 
    /** The words of a command that runs the same with some values changed, and without what it
@@ -106,43 +102,48 @@ public:
    const nlohmann::ordered_json &values() const { return values_; }
 
 private:
-   enum class Kind
-   {
-      integer,
-      number,
-      flag,
-      text,
-      list
-   };
    struct Option
    {
       Names names;
-      Kind kind;
-      Text text;
-      std::variant<int *, double *, bool *, std::string *> value;
-      std::function<void()> settle; ///< after parsing: checks, makes the list
-      bool in_cases;
+      std::string help;
+      Value value;
+      Check check = any;
+      Text kind = Text::word;
+      std::vector<std::string> choices = {};
+      bool in_cases = true;
+
+      bool is_flag() const { return std::holds_alternative<bool *>(value); }
+      bool is_list() const { return std::holds_alternative<std::vector<double> *>(value); }
+      bool is_written() const { return kind > Text::input; }
+      bool is_of_sweep() const
+      {
+         return names.name == "sweep" || names.name == "sweep-results";
+      }
+      std::string text() const;               ///< its value
+      nlohmann::ordered_json as_json() const; ///< the same, a list as text
+      /// A value of a case file as it would stand on the command line.
+      std::string from_json(const nlohmann::json &x, const std::string &where) const;
+      /// @param as what the option is called in an error
+      void set(const std::string &as, const std::string &text) const;
+      void validate() const; ///< its value
+   };
+   /// What the command line says.
+   struct Given
+   {
+      const Option *option;
+      std::string as, text; ///< the option's name as it was typed, and its value
    };
 
-   Option &keep(Option option);
    const Option *find(const std::string &word) const;
-   void check_words() const;
+   void read_words();
+   void print_help() const;
    void check_files() const;
    void read(const std::string &file);
-   void set(const Option &option, const nlohmann::json &value, const std::string &where,
-            const std::string &file);
-
    const Option &changeable(const std::string &key) const;
-   static bool of_sweep(const Option &option)
-   {
-      return option.names.name == "sweep" || option.names.name == "sweep-results";
-   }
 
    const std::vector<std::string> words_; ///< of the command line
-   std::vector<char *> arguments_;        ///< the same for the parser
-   mfem::OptionsParser parser_;
-   std::deque<Option> options_; ///< MFEM keeps pointers to their names: these stay in place
-   std::deque<std::string> lists_;
+   std::deque<Option> options_;           ///< these stay where they are
+   std::vector<Given> given_;
    std::string case_file_;
    nlohmann::ordered_json values_;
 };

@@ -33,15 +33,6 @@ bool is_utf8(const std::string &text)
    }
 }
 
-double number(const std::string &where, const std::string &text)
-{
-   char *end = nullptr;
-   const double value = std::strtod(text.c_str(), &end);
-   require(!text.empty() && *end == 0 && std::isfinite(value), where, ": '", text,
-           "' is not a number");
-   return value;
-}
-
 /// The node nearest to a point far off is none that was meant.
 void check_point(const ElasticBody &body, const std::string &where, double x, double y)
 {
@@ -191,13 +182,13 @@ void add_loads(ElasticBody &body, const std::string &option, const std::string &
               pattern, "' must not hold =, a comma or a quote");
       require(is_utf8(pattern), where, ": the pattern name is not UTF-8");
       const Kind *kind = nullptr;
-      std::string known;
+      std::vector<std::string> known;
       for (const Kind &k : kinds)
       {
          if (words[1] == k.name) { kind = &k; }
-         known += (known.empty() ? "" : ", ") + std::string(k.name);
+         known.emplace_back(k.name);
       }
-      require(kind, where, ": kind '", words[1], "' is not one of ", known);
+      require(kind, where, ": kind '", words[1], "' is not one of ", listed(known));
       require(words.size() == kind->words, where, ": has ", words.size(), " words, must be ",
               kind->form);
       const auto field = [&](std::size_t k) { return linear_field(where, words[k]); };

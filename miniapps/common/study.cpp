@@ -42,6 +42,14 @@ void Study::parse(const char *json)
    option(
       &sweep_results_, "sweep-results",
       "Results of a sweep, as in --json ('dissipation.0 peak_pressure'); default: numbers.");
+   if (ranks() > 1)
+   {
+      option(&condensation().direct_dofs, "direct-dofs",
+             "Bodies of more dofs than this are distributed and condensed by iterations, "
+             "others factored by every rank.");
+      option(&condensation().max_iterations, "max-iterations",
+             "Most iterations for a right-hand side.");
+   }
    options_.parse();
    if (check_ || sweep_ == "none" || sweep_.empty()) { return; }
    run_sweep(*this, sweep_, sweep_results_);
@@ -76,14 +84,14 @@ void Study::condensed(const cattaneo::ReducedProblem &problem, int dofs)
    {
       return say(text("Condensed %d dofs to %ld in %.3g s", dofs, left, seconds_));
    }
-   std::string loads;
+   std::vector<std::string> loads;
    for (const cattaneo::LoadPattern &pattern : problem.patterns)
    {
-      loads += (loads.empty() ? "" : ", ") + pattern.name;
+      loads.push_back(pattern.name);
    }
    say(text("Read a problem of %ld contact nodes, %ld dofs, with the loads ",
             static_cast<long>(nodes_), left) +
-       loads);
+       listed(loads));
 }
 
 void Study::begins(const std::string &path, bool goes_on)

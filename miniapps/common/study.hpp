@@ -126,7 +126,7 @@ private:
    Options options_;
    References references_;
    ReferenceTable compared_;
-   std::string name_, json_, csv_, plot_, html_, save_, sweep_ = "none", sweep_results_;
+   std::string name_, json_, csv_, plot_, html_, save_, sweep_, sweep_results_;
    /// Removes what is in it when it goes.
    struct Begun
    {

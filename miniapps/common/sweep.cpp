@@ -338,16 +338,15 @@ void draw(Study &study, const std::vector<Key> &keys, const std::vector<Point> &
                                  name, keys[over].name, name);
       for (const Point &point : points)
       {
-         std::string series;
+         std::vector<std::string> series; // of the other keys
          for (std::size_t k = 0; k < keys.size(); ++k)
          {
-            if (k == over) { continue; }
-            series += (series.empty() ? "" : ", ") + keys[k].name + " = " + point.values[k];
+            if (k != over) { series.push_back(keys[k].name + " = " + point.values[k]); }
          }
          const ordered_json y = result(point.results, name);
          if (y.is_number() && point.status == "converged")
          {
-            panel.add(series, std::vector<double>{as_number(point.values[over])},
+            panel.add(listed(series), std::vector<double>{as_number(point.values[over])},
                       std::vector<double>{y}, "marked");
          }
       }

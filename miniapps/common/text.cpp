@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
+#include <cstdlib>
 #include <sstream>
 
 namespace miniapp
@@ -21,7 +22,7 @@ std::string error_text(double error)
    return text("%.2g", std::ceil(error / unit * (1 - 1e-12)) * unit);
 }
 
-std::vector<std::string> split(const std::string &text, const char *separators)
+std::vector<std::string> split(const std::string &text, const std::string &separators)
 {
    std::vector<std::string> pieces;
    std::size_t from = 0;
@@ -35,6 +36,22 @@ std::vector<std::string> split(const std::string &text, const char *separators)
       from = to + 1;
    }
    return pieces;
+}
+
+std::string listed(const std::vector<std::string> &pieces, const std::string &between)
+{
+   std::string text;
+   for (const std::string &piece : pieces) { text += (text.empty() ? "" : between) + piece; }
+   return text;
+}
+
+double number(const std::string &where, const std::string &word)
+{
+   char *end = nullptr;
+   const double value = std::strtod(word.c_str(), &end);
+   cattaneo::require(!word.empty() && *end == 0 && std::isfinite(value), where, ": '", word,
+                     "' is not a number");
+   return value;
 }
 
 std::size_t characters(const std::string &text)

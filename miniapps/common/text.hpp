@@ -24,7 +24,12 @@ std::string text(const char *format, Values... values)
 }
 
 /// Pieces of a text between separators, without spaces around them; empty ones are left out.
-std::vector<std::string> split(const std::string &text, const char *separators);
+std::vector<std::string> split(const std::string &text, const std::string &separators);
+/// Pieces with something between them.
+std::string listed(const std::vector<std::string> &pieces, const std::string &between = ", ");
+
+/// A word that is a finite number; InputError "WHERE: 'WORD' is not a number".
+double number(const std::string &where, const std::string &word);
 
 /// Of UTF-8, not its bytes.
 std::size_t characters(const std::string &text);

@@ -73,6 +73,22 @@ TEST_F(Options, EveryOptionHasAValue)
       expect_refused(program, "--friction --order 2", {"option --friction has no value"});
    }
    expect_refused("fretting", "--plot -P 3", {"option --plot has no value"});
+   expect_refused("hertz", "-friction 0.1 --friction 0.2", {"option --friction", "twice"});
+}
+
+/// -h lists every option with both its names and what it is, and nothing is computed.
+TEST_F(Options, HelpListsThem)
+{
+   const auto run = run_miniapp("fretting", "-P 300 -h");
+   EXPECT_EQ(run.code, 0);
+   EXPECT_TRUE(run.results.is_null());
+   for (const char *words :
+        {"-P, --normal-load <number>, default 400", "-f, --friction <number>\n",
+         "-p, --pad <hertz|flat-rounded|fe|kn>, default hertz",
+         "-ps, --plane-stress or -no-ps, --plane-strain\n", "--json <text>"})
+   {
+      EXPECT_NE(run.output.find(words), std::string::npos) << words << "\n" << run.output;
+   }
 }
 
 TEST_F(Options, FilesAreCheckedBeforeTheWork)
