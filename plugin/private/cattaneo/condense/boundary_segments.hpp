@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cattaneo/condense/contact_line.hpp>
+#include <string>
+
+namespace cattaneo
+{
+
+/// A node as one boundary element knows it. Of `node`, the weight and the tangent are those of
+/// this element, and the arc length counts from its first node.
+struct SegmentNode
+{
+   int id = 0; ///< the same on all ranks and in all elements
+   LineNode node;
+   double share = 0; ///< ∫φ ds
+   bool on_axis = false;
+
+   /// Calls visit(value&) for every number of it.
+   template <class Visitor>
+   void for_each(Visitor visit)
+   {
+      visit(id);
+      for (int &dof : node.dofs) { visit(dof); }
+      for (double &x : node.position) { visit(x); }
+      for (double &t : node.tangent) { visit(t); }
+      visit(node.weight);
+      visit(node.arc_length);
+      visit(share);
+      visit(on_axis);
+   }
+};
+
+/// The nodes of one boundary element, in the direction with the body on the left.
+using Segment = std::vector<SegmentNode>;
+
+/// An outer edge of the body, seen from a node that it shares with the line. (One that is on
+/// the line leaves it backwards there.)
+struct WayOn
+{
+   int node;
+   double x, y; ///< unit vector that leaves the node
+};
+
+/** The contact line of boundary elements in any order: chains of them, nodes on the axis left
+    out, ends by the outer edges that leave its nodes. InputError, which begins with `where`, if
+    more than two elements meet at a node, nodes lie on one another, the line turns back on
+    itself, or the line is not sound (ContactLine::validate). */
+ContactLine line_of(const std::vector<Segment> &segments, const std::vector<WayOn> &ways,
+                    Formulation formulation, const std::string &where);
+
+} // namespace cattaneo
