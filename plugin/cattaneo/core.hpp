@@ -2,6 +2,8 @@
 
 // All of Cattaneo::core, which knows no MFEM.
 #include <cattaneo/condense/condense.hpp>
+#include <cattaneo/exchange/read_stiffness.hpp>
+#include <cattaneo/exchange/write_stiffness.hpp>
 #include <cattaneo/fretting/assessment.hpp>
 #include <cattaneo/fretting/calibration.hpp>
 #include <cattaneo/fretting/corner.hpp>

@@ -1,4 +1,4 @@
-# Installs Cattaneo, extracts the embedding examples from README.md and docs/embedding.md, builds
+# Installs Cattaneo, extracts the examples from README.md, docs/embedding.md and docs/exchange.md, builds
 # them as projects of their own with find_package(Cattaneo), that of the core alone where there is
 # no MFEM, and runs them. With EACH_HEADER every
 # installed header is compiled alone, too.
@@ -33,6 +33,7 @@ endfunction()
 extract(README.md "# Cattaneo" ${project}/embed)
 extract(docs/embedding.md "# Contact in an MFEM program" ${project}/doors)
 extract(docs/embedding.md "## Core alone" ${project}/core/bars)
+extract(docs/exchange.md "## In a program" ${project}/core/laps)
 # The march that is watched has no program around it on its page.
 extract(docs/embedding.md "A long march is watched, stopped and taken up again:" ${project}/watched)
 file(READ ${project}/watched.cpp watched)
@@ -72,7 +73,8 @@ foreach(header IN LISTS headers)
       message(FATAL_ERROR "${header} is installed, and <cattaneo/cattaneo.hpp> does not include it")
    endif()
 endforeach()
-foreach(program IN ITEMS embed doors core/bars)
+file(COPY ${SOURCE}/meshes/calculix/ DESTINATION ${project}/build)
+foreach(program IN ITEMS embed doors core/bars core/laps)
    step(${CMAKE_COMMAND} -E chdir ${project}/build ./${program})
    message("${program}: ${output}")
    if(NOT output MATCHES "converged")

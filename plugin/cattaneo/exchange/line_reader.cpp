@@ -1,0 +1,100 @@
+#include <algorithm>
+#include <cattaneo/exchange/line_reader.hpp>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+
+namespace cattaneo
+{
+
+namespace
+{
+
+constexpr const char *blanks = " \t\r";
+
+/// The whole field as a number, or false.
+template <class Number>
+bool parse(std::string_view field, Number &value)
+{
+   if (!field.empty() && field.front() == '+') { field.remove_prefix(1); }
+   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+   return error == std::errc() && end == field.data() + field.size();
+}
+
+} // namespace
+
+std::string_view trimmed(std::string_view text)
+{
+   const std::size_t first = text.find_first_not_of(blanks);
+   if (first == std::string_view::npos) { return {}; }
+   return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+std::string upper_case(std::string_view text)
+{
+   std::string result(text);
+   for (char &c : result)
+   {
+      c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+   }
+   return result;
+}
+
+LineReader::LineReader(std::string file) : file_(std::move(file)), in_(file_)
+{
+   cattaneo::require(in_.good() && !std::filesystem::is_directory(file_), "cannot read file '",
+                     file_, "'");
+}
+
+bool LineReader::next()
+{
+   while (std::getline(in_, line_))
+   {
+      ++number_;
+      if (!trimmed(line_).empty()) { return true; }
+   }
+   return false;
+}
+
+std::vector<std::string_view> LineReader::words() const
+{
+   return split(line_.find(',') == std::string::npos ? blanks : ",");
+}
+
+std::vector<std::string_view> LineReader::split(const char *separators) const
+{
+   std::vector<std::string_view> found;
+   std::string_view rest = trimmed(line_);
+   while (!rest.empty())
+   {
+      const std::size_t end = std::min(rest.find_first_of(separators), rest.size());
+      found.push_back(trimmed(rest.substr(0, end)));
+      rest = trimmed(rest.substr(std::min(end + 1, rest.size())));
+   }
+   return found;
+}
+
+double LineReader::number(std::string_view field, const char *what) const
+{
+   double value = 0;
+   bool good = parse(field, value);
+   if (!good) // Fortran's double precision: 1.5D+03
+   {
+      std::string text(field);
+      std::replace_if(
+         text.begin(), text.end(), [](char c) { return c == 'D' || c == 'd'; }, 'e');
+      good = parse(std::string_view(text), value);
+   }
+   require(good && std::isfinite(value), what, " is '", field, "', must be a finite number");
+   return value;
+}
+
+int LineReader::integer(std::string_view field, const char *what) const
+{
+   int value = 0;
+   require(parse(field, value), what, " is '", field, "', must be an integer");
+   return value;
+}
+
+} // namespace cattaneo

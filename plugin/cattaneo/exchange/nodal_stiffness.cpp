@@ -1,0 +1,508 @@
+#include <algorithm>
+#include <cattaneo/algebra/lobatto_basis.hpp>
+#include <cattaneo/algebra/quadrature.hpp>
+#include <cattaneo/condense/boundary_segments.hpp>
+#include <cattaneo/condense/local_frame.hpp>
+#include <cattaneo/exchange/line_reader.hpp>
+#include <cattaneo/exchange/nodal_stiffness.hpp>
+#include <cmath>
+#include <set>
+
+namespace cattaneo
+{
+
+using Eigen::Index;
+using Eigen::Vector2d;
+
+namespace
+{
+
+constexpr const char *leave_free =
+   "leave it free in the program that writes the matrix, and fix or move it here";
+
+/// A boundary element through its nodes; numbers of dofs are left out.
+Segment segment_through(const NodalStiffness::Nodes &nodes,
+                        const NodalStiffness::Places &places, Formulation formulation,
+                        double axis)
+{
+   const auto count = static_cast<Index>(nodes.size());
+   const LobattoBasis &basis = lobatto_basis(count - 1);
+   Eigen::Matrix2Xd points(2, count);
+   for (Index a = 0; a < count; ++a) { points.col(a) = places.at(nodes[a]); }
+   const Eigen::Matrix2Xd slopes = points * basis.slopes.transpose(); // at the nodes
+   Segment segment(nodes.size());
+   const QuadratureRule &rule = gauss_rule(16);
+   Eigen::VectorXd phi(count);
+   const auto along = [&](double t) -> double
+   {
+      basis.evaluate(t, phi);
+      return (slopes * phi).norm();
+   };
+   for (Index a = 0; a < count; ++a)
+   {
+      SegmentNode &each = segment[a];
+      each.id = nodes[a];
+      each.node.position = points.col(a);
+      each.node.tangent = slopes.col(a).normalized();
+      each.on_axis = formulation != Formulation::plane && std::abs(points(0, a)) <= axis;
+      if (a == 0) { continue; }
+      const double from = basis.nodes[a - 1], step = basis.nodes[a] - from;
+      each.node.arc_length = segment[a - 1].node.arc_length;
+      for (Index k = 0; k < rule.points.size(); ++k)
+      {
+         each.node.arc_length += step * rule.weights[k] * along(from + step * rule.points[k]);
+      }
+   }
+   for (Index k = 0; k < rule.points.size(); ++k)
+   {
+      const double ds = rule.weights[k] * along(rule.points[k]);
+      const double r = points.row(0) * phi;
+      for (Index a = 0; a < count; ++a)
+      {
+         segment[a].share += ds * phi[a];
+         segment[a].node.weight += ds * phi[a] * measure(formulation, r);
+      }
+   }
+   return segment;
+}
+
+} // namespace
+
+std::map<NodeDof, int> NodalStiffness::rows() const
+{
+   std::map<NodeDof, int> rows;
+   for (std::size_t row = 0; row < dofs.size(); ++row)
+   {
+      const NodeDof &dof = dofs[row];
+      require(dof.direction == 1 || dof.direction == 2, "stiffness '", name, "': row ", row,
+              " is direction ", dof.direction, " of node ", dof.node, ", must be 1 or 2");
+      require(rows.emplace(dof, row).second, "stiffness '", name, "': direction ",
+              dof.direction, " of node ", dof.node, " has a second row ", row,
+              ", must have one");
+      const auto place = places.find(dof.node);
+      require(place != places.end() && place->second.allFinite(), "stiffness '", name,
+              "': node ", dof.node, " has no place, must have two finite coordinates");
+   }
+   return rows;
+}
+
+void NodalStiffness::validate() const
+{
+   const Index size = K.rows();
+   require(size > 0 && K.cols() == size && static_cast<Index>(dofs.size()) == size,
+           "stiffness '", name, "': it is ", size, "×", K.cols(), " with ", dofs.size(),
+           " dofs, must be square and have a dof for each row");
+   require(components(formulation) == 2, "stiffness '", name,
+           "': it is of torsion, must be plane or axisymmetric");
+   rows();
+   for (std::size_t k = 0; k < fixed.size(); ++k)
+   {
+      require(fixed[k] >= 0 && fixed[k] < size && (k == 0 || fixed[k - 1] < fixed[k]),
+              "stiffness '", name, "': row ", fixed[k],
+              " is fixed, rows must increase from 0 to ", size - 1);
+   }
+   for (const BodyLoad &load : loads)
+   {
+      require(load.values.size() == size, "stiffness '", name, "': load '", load.name, "' has ",
+              load.values.size(), " values, must have ", size);
+   }
+}
+
+const NodalStiffness::Nodes &NodalStiffness::nodes_of(const std::string &set) const
+{
+   const auto found = sets.find(upper_case(set));
+   if (found != sets.end()) { return found->second; }
+   std::string known;
+   for (const auto &[each, nodes] : sets) { known += (known.empty() ? "" : ", ") + each; }
+   throw InputError("stiffness '" + name + "': there is no set '" + set + "', there are " +
+                    (known.empty() ? "none" : known));
+}
+
+std::vector<int> NodalStiffness::rows_of(const Nodes &nodes, int direction,
+                                         bool missing_allowed) const
+{
+   require(direction == 1 || direction == 2, "stiffness '", name, "': direction ", direction,
+           ", must be 1 or 2");
+   const std::map<NodeDof, int> all = rows();
+   std::vector<int> found;
+   for (int node : nodes)
+   {
+      require(places.count(node) == 1, "stiffness '", name, "': there is no node ", node);
+      const auto row = all.find({node, direction});
+      found.push_back(row == all.end() ? -1 : row->second);
+      require(row != all.end() || missing_allowed, "stiffness '", name, "': direction ",
+              direction, " of node ", node, " has no row: ", leave_free);
+   }
+   return found;
+}
+
+BodyLoad &NodalStiffness::load_of(const std::string &load, Control control)
+{
+   for (BodyLoad &each : loads)
+   {
+      if (each.name != load) { continue; }
+      require(each.control == control, "stiffness '", name, "': load '", load,
+              "' has forces and displacements, must have one of them");
+      return each;
+   }
+   loads.push_back({load, control, Eigen::VectorXd::Zero(K.rows())});
+   return loads.back();
+}
+
+void NodalStiffness::fix(const Nodes &nodes, int direction)
+{
+   std::set<int> all(fixed.begin(), fixed.end());
+   for (int row : rows_of(nodes, direction, supports_left_out))
+   {
+      if (row >= 0) { all.insert(row); }
+   }
+   fixed.assign(all.begin(), all.end());
+}
+
+void NodalStiffness::add_forces(const std::string &load, const Nodes &nodes, int direction,
+                                double force)
+{
+   const std::vector<int> at = rows_of(nodes, direction, supports_left_out);
+   Eigen::VectorXd &values = load_of(load, Control::force).values;
+   for (int row : at)
+   {
+      if (row >= 0) { values[row] += force; }
+   }
+}
+
+void NodalStiffness::add_displacement(const std::string &load, const Nodes &nodes,
+                                      int direction, double value)
+{
+   const std::vector<int> at = rows_of(nodes, direction, false);
+   fix(nodes, direction);
+   Eigen::VectorXd &values = load_of(load, Control::displacement).values;
+   for (int row : at) { values[row] = value; }
+}
+
+void NodalStiffness::add_traction(const std::string &load, const Nodes &nodes,
+                                  const Vector2d &traction, int order)
+{
+   const std::map<NodeDof, int> all = rows();
+   const double near_axis = axis();
+   const std::vector<Nodes> elements = elements_on(nodes, order);
+   Eigen::VectorXd &values = load_of(load, Control::force).values;
+   for (const Nodes &element : elements)
+   {
+      for (const SegmentNode &each : segment_through(element, places, formulation, near_axis))
+      {
+         for (int c : {0, 1})
+         {
+            const auto row = all.find({each.id, c + 1});
+            require(row != all.end() || supports_left_out, "stiffness '", name, "': direction ",
+                    c + 1, " of node ", each.id, " has no row, it must be loaded");
+            if (row != all.end()) { values[row->second] += each.node.weight * traction[c]; }
+         }
+      }
+   }
+}
+
+double NodalStiffness::axis() const
+{
+   double farthest = 0;
+   for (const auto &[node, place] : places) { farthest = std::max(farthest, place[0]); }
+   return 1e-9 * farthest;
+}
+
+void NodalStiffness::require_free(const DofPlaces &at) const
+{
+   const bool plane = formulation == Formulation::plane;
+   for (int motion = plane ? 0 : 1; motion < (plane ? 3 : 2); ++motion)
+   {
+      Eigen::VectorXd u(K.rows());
+      for (Index row = 0; row < u.size(); ++row)
+      {
+         const int c = at.component[row];
+         u[row] = motion < 2 ? c == motion : c == 0 ? -at.y[row] : at.x[row];
+      }
+      const double energy = u.dot(K * u), size = u.cwiseAbs().dot(K.cwiseAbs() * u.cwiseAbs());
+      constexpr const char *called[] = {"a translation along x", "a translation along y",
+                                        "a rotation"};
+      require(std::abs(energy) <= 1e-12 * size, "stiffness '", name, "': it resists ",
+              called[motion], " by ", std::abs(energy) / size,
+              " of its entries, without supports at most 1e-12 is allowed: has it less than 13 "
+              "digits, or were supports left out of it (supports_left_out)?");
+   }
+}
+
+AssembledBody NodalStiffness::body() const
+{
+   validate();
+   AssembledBody body;
+   const auto size = static_cast<Index>(dofs.size());
+   body.K = SharedMatrix(K);
+   body.loads = loads;
+   body.grounded = supports_left_out;
+   body.places = {Eigen::VectorXd(size), Eigen::VectorXd(size), {}, formulation};
+   std::set<int> held(fixed.begin(), fixed.end());
+   const double near_axis = axis();
+   for (Index row = 0; row < size; ++row)
+   {
+      const Vector2d &place = places.at(dofs[row].node);
+      body.places.x[row] = place[0];
+      body.places.y[row] = place[1];
+      body.places.component.push_back(dofs[row].direction - 1);
+      const bool on_axis = formulation == Formulation::axisymmetric && place[0] <= near_axis;
+      if (on_axis && dofs[row].direction == 1) { held.insert(static_cast<int>(row)); }
+   }
+   if (fixed.empty() && !supports_left_out) { require_free(body.places); }
+   body.fixed.assign(held.begin(), held.end());
+   return body;
+}
+
+std::vector<NodalStiffness::Nodes> NodalStiffness::elements_on(const Nodes &nodes,
+                                                               int order) const
+{
+   for (int node : nodes)
+   {
+      require(places.count(node) == 1, "stiffness '", name, "': there is no node ", node);
+   }
+   std::vector<Nodes> elements;
+   if (order == 0)
+   {
+      require(
+         !edges.empty(), "stiffness '", name,
+         "': no elements are known, nodes must be given in order, with an order of elements");
+      const std::set<int> among(nodes.begin(), nodes.end());
+      for (const Nodes &edge : edges)
+      {
+         if (std::all_of(edge.begin(), edge.end(), [&](int n) { return among.count(n) == 1; }))
+         {
+            elements.push_back(edge);
+         }
+      }
+      require(!elements.empty(), "stiffness '", name,
+              "': no outer edge of an element has all of its "
+              "nodes among the ",
+              nodes.size(), " given, there must be one at least");
+      return elements;
+   }
+   const auto step = static_cast<std::size_t>(order);
+   require(order > 0 && order <= LobattoBasis::highest_order && nodes.size() > step &&
+              (nodes.size() - 1) % step == 0,
+           "stiffness '", name, "': ", nodes.size(), " nodes in elements of order ", order,
+           ", must be of order 1 to 8, and one more node than a multiple of it");
+   for (std::size_t first = 0; first + 1 < nodes.size(); first += step)
+   {
+      elements.emplace_back(nodes.begin() + first, nodes.begin() + first + step + 1);
+   }
+   return elements;
+}
+
+void NodalStiffness::require_body_on_left(const ContactLine &line) const
+{
+   std::set<int> on_line;
+   for (const LineNode &node : line.nodes) { on_line.insert({node.dofs[0], node.dofs[1]}); }
+   double depth = 0;
+   for (const LineNode &node : line.nodes)
+   {
+      for (Matrix::InnerIterator entry(K, node.dofs[0]); entry; ++entry)
+      {
+         if (on_line.count(static_cast<int>(entry.col())) == 1) { continue; }
+         const Vector2d &inside = places.at(dofs[entry.col()].node);
+         depth += (inside - node.position).normalized().dot(node.normal());
+      }
+   }
+   require(
+      depth >= 0, "stiffness '", name,
+      "': the body is on the right of its contact nodes, which must be given the other way "
+      "round");
+}
+
+ContactLine NodalStiffness::contact_line(const Nodes &nodes, int order) const
+{
+   validate();
+   const std::string where = "contact line of '" + name + "'";
+   const std::vector<Nodes> elements = elements_on(nodes, order);
+   const std::map<NodeDof, int> all = rows();
+   const double near_axis = axis();
+   std::vector<Segment> segments;
+   std::set<int> ends;
+   for (const Nodes &element : elements)
+   {
+      segments.push_back(segment_through(element, places, formulation, near_axis));
+      ends.insert({element.front(), element.back()});
+      for (SegmentNode &each : segments.back())
+      {
+         if (each.on_axis) { continue; }
+         for (int c : {0, 1})
+         {
+            const auto row = all.find({each.id, c + 1});
+            require(row != all.end(), where, ": direction ", c + 1, " of node ", each.id,
+                    " has no row: ", leave_free);
+            each.node.dofs[c] = row->second;
+         }
+      }
+   }
+   std::vector<WayOn> ways;
+   for (const Nodes &edge : edges)
+   {
+      if (ends.count(edge.front()) + ends.count(edge.back()) == 0) { continue; }
+      const Segment way = segment_through(edge, places, formulation, near_axis);
+      const Vector2d &leaves = way.front().node.tangent, back = -way.back().node.tangent;
+      ways.push_back({edge.front(), leaves[0], leaves[1]});
+      ways.push_back({edge.back(), back[0], back[1]});
+   }
+   ContactLine line = line_of(segments, ways, formulation, where);
+   if (order > 0) { require_body_on_left(line); }
+   return line;
+}
+
+std::vector<NodalStiffness> NodalStiffness::parts() const
+{
+   validate();
+   // Rows of one node are of one body, whether K connects them or not.
+   std::vector<Eigen::Triplet<double>> links;
+   int last = -1, last_node = 0;
+   for (const auto &[dof, row] : rows())
+   {
+      if (last >= 0 && last_node == dof.node) { links.emplace_back(last, row, 1.0); }
+      last = row;
+      last_node = dof.node;
+   }
+   Matrix linked(K.rows(), K.cols());
+   linked.setFromTriplets(links.begin(), links.end());
+   const std::vector<std::vector<int>> groups =
+      SharedMatrix(K + linked + Matrix(linked.transpose())).connected_parts();
+   std::map<int, std::size_t> owner; // of nodes
+   for (std::size_t g = 0; g < groups.size(); ++g)
+   {
+      for (int row : groups[g]) { owner[dofs[row].node] = g; }
+   }
+   // Supported nodes that have no rows are those of the body whose edges they are on.
+   for (bool more = true; more;)
+   {
+      more = false;
+      for (const Nodes &edge : edges)
+      {
+         const auto known = std::find_if(edge.begin(), edge.end(),
+                                         [&](int node) { return owner.count(node) == 1; });
+         for (int node : edge)
+         {
+            more = (known != edge.end() && owner.emplace(node, owner[*known]).second) || more;
+         }
+      }
+   }
+   std::vector<std::size_t> order; // by the lowest number of a node
+   for (const auto &[node, group] : owner)
+   {
+      if (std::find(order.begin(), order.end(), group) == order.end())
+      {
+         order.push_back(group);
+      }
+   }
+   std::vector<NodalStiffness> found;
+   for (std::size_t group : order) { found.push_back(part(groups[group], owner, group)); }
+   for (std::size_t b = 0; b < found.size(); ++b)
+   {
+      if (found[b].name.empty()) { found[b].name = "body " + std::to_string(b + 1); }
+   }
+   return found;
+}
+
+NodalStiffness NodalStiffness::part(const std::vector<int> &rows,
+                                    const std::map<int, std::size_t> &owner,
+                                    std::size_t group) const
+{
+   NodalStiffness own;
+   own.formulation = formulation;
+   own.supports_left_out = supports_left_out;
+   std::vector<int> number(dofs.size(), -1);
+   for (int row : rows)
+   {
+      number[row] = static_cast<int>(own.dofs.size());
+      own.dofs.push_back(dofs[row]);
+   }
+   for (const auto &[node, of] : owner)
+   {
+      if (of == group) { own.places[node] = places.at(node); }
+   }
+   std::vector<Eigen::Triplet<double>> entries;
+   for (int row : rows)
+   {
+      for (Matrix::InnerIterator entry(K, row); entry; ++entry)
+      {
+         entries.emplace_back(number[row], number[entry.col()], entry.value());
+      }
+   }
+   own.K.resize(rows.size(), rows.size());
+   own.K.setFromTriplets(entries.begin(), entries.end());
+   for (int row : fixed)
+   {
+      if (number[row] >= 0) { own.fixed.push_back(number[row]); }
+   }
+   for (const BodyLoad &load : loads)
+   {
+      const Eigen::VectorXd values = load.values(rows);
+      if (!values.isZero(0)) { own.loads.push_back({load.name, load.control, values}); }
+   }
+   for (const Nodes &edge : edges)
+   {
+      if (own.places.count(edge.front()) == 1) { own.edges.push_back(edge); }
+   }
+   std::size_t smallest = 0;
+   for (const auto &[set, nodes] : sets)
+   {
+      Nodes kept;
+      bool others = false;
+      for (int node : nodes)
+      {
+         const auto found = owner.find(node);
+         if (found == owner.end()) { continue; }
+         if (found->second == group) { kept.push_back(node); }
+         else { others = true; }
+      }
+      if (!others && kept.size() == own.places.size() &&
+          (smallest == 0 || nodes.size() < smallest))
+      {
+         own.name = set;
+         smallest = nodes.size();
+      }
+      if (!kept.empty()) { own.sets[set] = std::move(kept); }
+   }
+   return own;
+}
+
+NodalStiffness nodal_stiffness(const CondensedBody &body)
+{
+   const ContactLine &line = body.line;
+   require(line.formulation != Formulation::torsion,
+           "stiffness of a condensed body: it is of torsion, must be plane or axisymmetric");
+   const FrameChange back = FrameChange::of(line).transposed();
+   const Index n = line.size();
+   const Eigen::MatrixXd S = back.both(body.S);
+   NodalStiffness result;
+   result.name = body.name;
+   result.formulation = line.formulation;
+   std::vector<int> rows; // of {x; y}, that are not held
+   for (Index i = 0; i < n; ++i)
+   {
+      const auto node = static_cast<int>(i + 1);
+      result.places[node] = line.nodes[i].position;
+      result.sets["CONTACT"].push_back(node);
+      for (int c : {0, 1})
+      {
+         const Index row = i + c * n;
+         if (S(row, row) == 0) { continue; }
+         rows.push_back(static_cast<int>(row));
+         result.dofs.push_back({node, c + 1});
+      }
+   }
+   result.supports_left_out =
+      body.free_motions.cols() < (line.formulation == Formulation::plane ? 3 : 1);
+   result.K = Eigen::MatrixXd(S(rows, rows)).sparseView();
+   for (const LoadPattern &pattern : body.patterns)
+   {
+      Eigen::VectorXd forces(2 * n);
+      forces << pattern.q, pattern.p;
+      const Eigen::VectorXd loads = -back.rows(forces);
+      result.loads.push_back({pattern.name, Control::force, loads(rows)});
+   }
+   return result;
+}
+
+} // namespace cattaneo

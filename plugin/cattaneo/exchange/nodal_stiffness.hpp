@@ -1,0 +1,120 @@
+#pragma once
+
+#include <Eigen/Sparse>
+#include <cattaneo/condense/assembled_body.hpp>
+#include <cattaneo/condense/condensed_body.hpp>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace cattaneo
+{
+
+/// A row of another program's matrix.
+struct NodeDof
+{
+   int node = 0;
+   int direction = 1; ///< 1: x (r about an axis), 2: y (z)
+
+   bool operator<(const NodeDof &other) const
+   {
+      return node < other.node || (node == other.node && direction < other.direction);
+   }
+};
+
+/** The stiffness of one body or several, with rows that are called by nodes and directions as
+    finite-element programs call them: what every reader returns, and what supports, loads and
+    contact lines are named on. Public, for matrices from elsewhere too.
+
+    Forces are per unit thickness in the plane, of the whole circumference about an axis. Set
+    names are found whatever their capitals. Where nodes are asked for, nodes_of("TOP") or a
+    list goes. What does not fit is an InputError that names the file, the node and the
+    direction. */
+class NodalStiffness
+{
+public:
+   using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+   using Nodes = std::vector<int>;
+   using Places = std::map<int, Eigen::Vector2d>;
+   using Sets = std::map<std::string, Nodes>;
+
+   std::string name; ///< of the file; of a part, the set that is the part, or "body 1", …
+   Formulation formulation = Formulation::plane;
+   Matrix K;                    ///< symmetric, both triangles
+   std::vector<NodeDof> dofs;   ///< of each row, each once
+   Places places;               ///< of each node: (x, y), or (r, z)
+   Sets sets;                   ///< names in capitals
+   std::vector<int> fixed;      ///< rows; sorted
+   std::vector<BodyLoad> loads; ///< values by row
+   /// Nodes of each outer edge of the body, along it with the body on the left. Empty if no
+   /// elements are known.
+   std::vector<Nodes> edges;
+   /// The program that wrote K left out rows of supports, so that K resists motions.
+   bool supports_left_out = false;
+
+   const Nodes &nodes_of(const std::string &set) const;
+
+   /// Holds a direction (1 or 2) of nodes. Rows that K has no more are held already.
+   void fix(const Nodes &nodes, int direction);
+   /// Adds a force at each of the nodes to the load of that name, which is new or has force
+   /// control.
+   void add_forces(const std::string &load, const Nodes &nodes, int direction, double force);
+   /// Moves nodes by a value per unit multiplier, and fixes them; a row that K has no more
+   /// cannot be moved.
+   void add_displacement(const std::string &load, const Nodes &nodes, int direction,
+                         double value);
+   /// Force per length (area, about an axis) on the elements that contact_line() finds.
+   void add_traction(const std::string &load, const Nodes &nodes,
+                     const Eigen::Vector2d &traction, int order = 0);
+
+   /// The load of that name, a new one of zeros if there is none; InputError if it has the
+   /// other control.
+   BodyLoad &load_of(const std::string &load, Control control);
+
+   /** Bodies that are connected to nothing, by the lowest number of their nodes. Each has the
+       rows, places, edges, supports and loads that are its own, and of the sets what of them is
+       its own; it is called by the smallest set that has all of its nodes and no other body's,
+       else "body 1", "body 2", …. */
+   std::vector<NodalStiffness> parts() const;
+
+   /** For condense(), with rows for dofs. Nodes on an axis do not move off it, whether a
+      support says so or not. */
+   AssembledBody body() const;
+
+   /** The trace on nodes, whose dofs are rows of K.
+
+       order 0: on the outer edges all of whose nodes are among the given ones, in whatever
+      order these are. order 1 to 8, where no elements are known: nodes are in order, the body
+      on their left, elements of that order through them, each but its ends at the Gauss–Lobatto
+      points (order 2: the middle); a loop names its first node again at the end. Refused if K
+      shows that the body is on the right.
+
+       Weights, tangents, ends and what happens on an axis are those of a contact line of MFEM.
+    */
+   ContactLine contact_line(const Nodes &nodes, int order = 0) const;
+
+   /// InputError unless rows, places, fixed rows and loads fit each other.
+   void validate() const;
+
+private:
+   std::map<NodeDof, int> rows() const;
+   /// One for each node, -1 if there is none and that is allowed.
+   std::vector<int> rows_of(const Nodes &nodes, int direction, bool missing_allowed) const;
+   double axis() const; ///< nodes at smaller r are on it
+   /// Elements of a trace, as contact_line() finds them.
+   std::vector<Nodes> elements_on(const Nodes &nodes, int order) const;
+   /// InputError if K resists rigid motions.
+   void require_free(const DofPlaces &at) const;
+   void require_body_on_left(const ContactLine &line) const;
+   /// Of a group of rows; `owner` of nodes that have rows.
+   NodalStiffness part(const std::vector<int> &rows, const std::map<int, std::size_t> &owner,
+                       std::size_t group) const;
+};
+
+/** What a condensed body is to another program: its stiffness in global components, {x; y} of
+    node 1, of node 2, … along its contact line, and the contact forces of its loads turned into
+    forces on that stiffness. Components that are held have no row. `sets` has one, "CONTACT".
+    InputError for a body of torsion. */
+NodalStiffness nodal_stiffness(const CondensedBody &body);
+
+} // namespace cattaneo

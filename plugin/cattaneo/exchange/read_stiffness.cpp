@@ -1,0 +1,614 @@
+#include <algorithm>
+#include <cattaneo/exchange/input_deck.hpp>
+#include <cattaneo/exchange/line_reader.hpp>
+#include <cattaneo/exchange/numpy_file.hpp>
+#include <cattaneo/exchange/read_stiffness.hpp>
+#include <cattaneo/exchange/symmetric_entries.hpp>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+namespace cattaneo
+{
+
+namespace
+{
+
+using Matrix = NodalStiffness::Matrix;
+
+/// A matrix and what its rows are called; directions as the file has them.
+struct Rows
+{
+   Matrix K;
+   std::vector<NodeDof> dofs;
+   bool supports_left_out = false;
+};
+
+std::string dof_name(const NodeDof &dof)
+{
+   return "node " + std::to_string(dof.node) + " direction " + std::to_string(dof.direction);
+}
+
+/// Rotations and what is off the plane are no business of a plane body.
+void require_plane(const LineReader &in, const NodeDof &dof)
+{
+   in.require(dof.direction == 1 || dof.direction == 2, "direction ", dof.direction,
+              " of node ", dof.node, ", must be 1 or 2",
+              dof.direction == 3
+                 ? ": elements of CalculiX in plane stress keep their thickness; plane strain "
+                   "with E (1 + 2ν)/(1 + ν)² and ν/(1 + ν) is the same without"
+                 : "");
+}
+
+// --- CalculiX ------------------------------------------------------------------------------
+
+Rows read_calculix(const std::string &file)
+{
+   Rows rows;
+   LineReader dofs(std::filesystem::path(file).replace_extension(".dof").string());
+   while (dofs.next())
+   {
+      const std::string_view text = trimmed(dofs.line());
+      const std::size_t point = text.find('.');
+      dofs.require(point != std::string_view::npos, "'", text, "', must be node.direction");
+      const NodeDof dof{dofs.integer(text.substr(0, point), "a node"),
+                        dofs.integer(text.substr(point + 1), "a direction")};
+      require_plane(dofs, dof);
+      rows.dofs.push_back(dof);
+   }
+   const auto size = static_cast<int>(rows.dofs.size());
+   SymmetricEntries entries;
+   LineReader in(file);
+   while (in.next())
+   {
+      const std::vector<std::string_view> fields = in.words();
+      in.require(fields.size() == 3, "'", trimmed(in.line()),
+                 "', must be row, column and value");
+      const int row = in.integer(fields[0], "a row"),
+                column = in.integer(fields[1], "a column");
+      in.require(std::min(row, column) >= 1 && std::max(row, column) <= size, "entry (", row,
+                 ", ", column, "), must be within ", size, "×", size, ", which '", dofs.file(),
+                 "' has");
+      entries.add(row - 1, column - 1, in.number(fields[2], "an entry"));
+   }
+   rows.K = entries.matrix(size, file, [&](int row) { return dof_name(rows.dofs[row]); });
+   return rows;
+}
+
+// --- ABAQUS --------------------------------------------------------------------------------
+
+/// Without rows that are `gone`: those of supports are left out, internal ones eliminated, K_bb
+/// - K_bi K_ii⁻¹ K_ib.
+void drop(Rows &rows, const std::vector<bool> &supported, const std::string &file)
+{
+   std::vector<int> number(rows.dofs.size(), -1);
+   std::array<int, 2> count{};
+   std::vector<NodeDof> kept;
+   for (std::size_t row = 0; row < rows.dofs.size(); ++row)
+   {
+      if (supported[row]) { continue; }
+      const bool internal = rows.dofs[row].node < 0;
+      if (!internal) { kept.push_back(rows.dofs[row]); }
+      number[row] = count[internal]++;
+   }
+   std::vector<Eigen::Triplet<double>> bb, ib, ii;
+   for (int row = 0; row < rows.K.rows(); ++row)
+   {
+      for (Matrix::InnerIterator entry(rows.K, row); entry; ++entry)
+      {
+         const auto column = static_cast<int>(entry.col());
+         if (number[row] < 0 || number[column] < 0) { continue; }
+         const bool inside = rows.dofs[row].node < 0,
+                    column_inside = rows.dofs[column].node < 0;
+         if (!inside && column_inside) { continue; } // the transpose of K_ib
+         (inside ? column_inside ? ii : ib : bb)
+            .emplace_back(number[row], number[column], entry.value());
+      }
+   }
+   Eigen::SparseMatrix<double> K(count[0], count[0]), coupling(count[1], count[0]),
+      inner(count[1], count[1]);
+   K.setFromTriplets(bb.begin(), bb.end());
+   if (count[1] > 0)
+   {
+      coupling.setFromTriplets(ib.begin(), ib.end());
+      inner.setFromTriplets(ii.begin(), ii.end());
+      const Eigen::SparseLU<Eigen::SparseMatrix<double>> factor(inner);
+      require(factor.info() == Eigen::Success, "file '", file,
+              "': the stiffness of its internal nodes is singular, must not be");
+      const Eigen::SparseMatrix<double> inside = factor.solve(coupling);
+      const Eigen::SparseMatrix<double> part = coupling.transpose() * inside;
+      K -= 0.5 * (part + Eigen::SparseMatrix<double>(part.transpose()));
+   }
+   rows.supports_left_out = std::count(supported.begin(), supported.end(), true) > 0;
+   rows.K = K;
+   rows.dofs = kept;
+}
+
+Rows read_abaqus_sparse(const std::string &file)
+{
+   Rows rows;
+   SymmetricEntries entries;
+   std::map<NodeDof, int> number;
+   std::vector<bool> supported;
+   LineReader in(file);
+   while (in.next())
+   {
+      if (in.line()[0] == '*') { continue; } // *MATRIX INPUT, or a comment
+      const std::vector<std::string_view> fields = in.words();
+      in.require(fields.size() == 5, "'", trimmed(in.line()),
+                 "', must be node, direction, node, direction and value");
+      std::array<int, 2> at{};
+      for (std::size_t k : {0, 1})
+      {
+         const NodeDof dof{in.integer(fields[2 * k], "a node"),
+                           in.integer(fields[2 * k + 1], "a direction")};
+         in.require(dof.node != 0, "node 0, must be a node, or an internal one below zero");
+         if (dof.node > 0) { require_plane(in, dof); }
+         at[k] = number.emplace(dof, static_cast<int>(rows.dofs.size())).first->second;
+         if (at[k] == static_cast<int>(rows.dofs.size()))
+         {
+            rows.dofs.push_back(dof);
+            supported.push_back(false);
+         }
+      }
+      double value = in.number(fields[4], "an entry");
+      constexpr double support = 1e36;
+      if (at[0] == at[1] && value >= 0.5 * support)
+      {
+         supported[at[0]] = true;
+         value = 1; // what was there before is lost
+      }
+      // Multipliers, of internal nodes, have diagonals of any sign: judged when eliminated.
+      entries.add(at[0], at[1], value);
+   }
+   const auto size = static_cast<int>(rows.dofs.size());
+   rows.K = entries.matrix(
+      size, file, [&](int row) { return dof_name(rows.dofs[row]); },
+      [&](int row) { return rows.dofs[row].node > 0; });
+   drop(rows, supported, file);
+   return rows;
+}
+
+/// *USER ELEMENT: nodes in a comment, directions of the first node and of those from which on
+/// they change, then the triangle of the stiffness.
+Rows read_user_element(const std::string &file)
+{
+   Rows rows;
+   LineReader in(file);
+   std::vector<int> nodes;
+   std::map<int, std::vector<int>> directions; // from a position among the nodes on
+   std::vector<double> values;
+   int count = 0;
+   enum
+   {
+      nothing,
+      listed_nodes,
+      listed_directions,
+      stiffness
+   } state = nothing;
+   while (in.next())
+   {
+      const std::string line = upper_case(in.line());
+      const std::vector<std::string_view> fields = in.words();
+      const auto says = [&](const char *words)
+      { return line.find(words) != std::string::npos; };
+      if (line.rfind("**", 0) == 0)
+      {
+         if (says("ELEMENT NODES")) { state = listed_nodes; }
+         else if (state == listed_nodes)
+         {
+            std::string rest = in.line().substr(2);
+            std::replace(rest.begin(), rest.end(), ',', ' ');
+            for (std::size_t from = rest.find_first_not_of(" \t\r"); from < rest.size();)
+            {
+               const std::size_t end = std::min(rest.find_first_of(" \t\r", from), rest.size());
+               nodes.push_back(in.integer(rest.substr(from, end - from), "a node"));
+               from = rest.find_first_not_of(" \t\r", end);
+            }
+         }
+         continue;
+      }
+      if (line[0] == '*')
+      {
+         const bool is_stiffness = says("*MATRIX") && says("STIFFNESS");
+         in.require(!is_stiffness || values.empty(), "a second *MATRIX, TYPE=STIFFNESS begins, "
+                                                     "there must be one in a file");
+         in.require(!says("UNSYMM"), "the element is UNSYMM, its stiffness must be symmetric");
+         if (says("*USER ELEMENT"))
+         {
+            const std::size_t place = line.find("NODES=");
+            in.require(place != std::string::npos, "*USER ELEMENT has no NODES=, must have");
+            std::string_view number = std::string_view(line).substr(place + 6);
+            number = trimmed(number.substr(0, number.find(',')));
+            count = in.integer(number, "the number of nodes");
+            state = listed_directions;
+         }
+         else { state = is_stiffness ? stiffness : nothing; }
+      }
+      else if (state == stiffness)
+      {
+         for (const std::string_view field : fields)
+         {
+            if (!field.empty()) { values.push_back(in.number(field, "an entry")); }
+         }
+      }
+      else if (state == listed_directions || state == listed_nodes)
+      {
+         state = listed_directions;
+         std::vector<int> numbers;
+         for (const std::string_view field : fields)
+         {
+            if (!field.empty()) { numbers.push_back(in.integer(field, "a direction")); }
+         }
+         int from = 1;
+         if (!directions.empty())
+         {
+            from = numbers[0];
+            numbers.erase(numbers.begin());
+         }
+         in.require(from >= 1 && from <= count && !numbers.empty(), "directions from node ",
+                    from, " of the element on, must be from one of its ", count, " nodes");
+         for (int direction : numbers) { require_plane(in, {from, direction}); }
+         directions[from] = numbers;
+      }
+   }
+   require(
+      count > 0 && static_cast<int>(nodes.size()) == count && !directions.empty(), "file '",
+      file, "': a user element of ", count, " nodes lists ", nodes.size(),
+      " of them, must list all in a comment behind '** ELEMENT NODES', and their directions");
+   for (int k = 0; k < count; ++k)
+   {
+      const auto &of = std::prev(directions.upper_bound(k + 1))->second;
+      for (int direction : of) { rows.dofs.push_back({nodes[k], direction}); }
+   }
+   const auto size = static_cast<int>(rows.dofs.size());
+   require(values.size() == std::size_t(size) * (size + 1) / 2, "file '", file,
+           "': ", values.size(), " entries of a stiffness of ", size,
+           " rows, its triangle must have ", std::size_t(size) * (size + 1) / 2);
+   SymmetricEntries entries;
+   for (int row = 0, k = 0; row < size; ++row)
+   {
+      for (int column = 0; column <= row; ++column) { entries.add(row, column, values[k++]); }
+   }
+   rows.K = entries.matrix(size, file, [&](int row) { return dof_name(rows.dofs[row]); });
+   rows.supports_left_out = true; // those of its inside, if it has any
+   return rows;
+}
+
+// --- MatrixMarket, NumPy ---------------------------------------------------------------------
+
+std::string row_number(int row)
+{
+   return "row " + std::to_string(row + 1);
+}
+
+Matrix read_matrix_market(const std::string &file)
+{
+   LineReader in(file);
+   in.next();
+   const std::string banner = upper_case(in.line());
+   const auto says = [&](const char *word) { return banner.find(word) != std::string::npos; };
+   in.require(
+      says("MATRIX") && (says("REAL") || says("INTEGER")) &&
+         (says("SYMMETRIC") || says("GENERAL")) && !says("SKEW") &&
+         (says("COORDINATE") || says("ARRAY")),
+      "'", trimmed(in.line()),
+      "', must be %%MatrixMarket matrix coordinate (or array) real symmetric (or general)");
+   const bool array = says("ARRAY"), triangle = says("SYMMETRIC");
+   const auto next = [&]
+   {
+      while (in.next())
+      {
+         if (in.line()[0] != '%') { return true; }
+      }
+      return false;
+   };
+   require(next(), "file '", file, "' ends before the size of its matrix");
+   std::vector<std::string_view> fields = in.words();
+   in.require(fields.size() == (array ? 2 : 3), "'", trimmed(in.line()),
+              "', must be the size of the matrix");
+   const int size = in.integer(fields[0], "the number of rows");
+   in.require(size > 0 && in.integer(fields[1], "the number of columns") == size,
+              "the matrix is ", fields[0], "×", fields[1], ", must be square");
+   const long stated = array ? triangle ? long(size) * (size + 1) / 2 : long(size) * size
+                             : in.integer(fields[2], "the number of entries");
+   in.require(stated >= size, stated, " entries of ", size,
+              " rows, must be one a row at least");
+   SymmetricEntries entries;
+   int row = 0, column = 0; // of an array, by columns
+   long count = 0;
+   for (; next(); ++count)
+   {
+      in.require(count < stated, "there are more entries than ", stated, ", must be as many");
+      fields = in.words();
+      in.require(fields.size() == (array ? 1 : 3), "'", trimmed(in.line()), "', must be ",
+                 array ? "one entry" : "row, column and value");
+      if (!array)
+      {
+         row = in.integer(fields[0], "a row") - 1;
+         column = in.integer(fields[1], "a column") - 1;
+         in.require(std::min(row, column) >= 0 && std::max(row, column) < size, "entry (",
+                    row + 1, ", ", column + 1, "), must be within ", size, "×", size);
+      }
+      entries.add(row, column, in.number(fields.back(), "an entry"));
+      if (array && ++row == size) { row = triangle ? ++column : (++column, 0); }
+   }
+   require(count == stated, "file '", file, "' is cut short: it has ", count, " of ", stated,
+           " entries");
+   return entries.matrix(size, file, row_number);
+}
+
+Matrix read_numpy(const std::string &file, bool archive)
+{
+   SymmetricEntries entries;
+   Eigen::Index size = 0;
+   const std::string content = whole_content(file);
+   const auto files =
+      archive ? stored_files(content, file) : std::map<std::string, std::string>();
+   const auto array = [&](const std::string &name)
+   {
+      const auto found = files.find(name + ".npy");
+      require(found != files.end(), "file '", file, "' has no array '", name,
+              "', must have K, or data, indices, indptr and shape (scipy's csr or csc)");
+      return numpy_array(found->second, file + "/" + name);
+   };
+   const auto finite = [&](Eigen::Index i, Eigen::Index j, double value)
+   {
+      require(std::isfinite(value), "file '", file, "': entry (row ", i + 1, ", row ", j + 1,
+              ") is ", value, ", must be finite");
+      entries.add(static_cast<int>(i), static_cast<int>(j), value);
+   };
+   if (!archive || files.count("K.npy") == 1)
+   {
+      const Eigen::MatrixXd K =
+         (archive ? array("K") : numpy_array(content, file)).matrix(file);
+      size = K.rows();
+      require(size > 0 && K.cols() == size, "file '", file, "': its matrix is ", size, "×",
+              K.cols(), ", must be square");
+      for (Eigen::Index j = 0; j < size; ++j)
+      {
+         for (Eigen::Index i = 0; i < size; ++i)
+         {
+            if (K(i, j) != 0) { finite(i, j, K(i, j)); }
+         }
+      }
+   }
+   else
+   {
+      const NumpyArray data = array("data"), indices = array("indices"),
+                       start = array("indptr"), shape = array("shape");
+      const std::size_t count = data.values.size(), rows = start.values.size();
+      size = static_cast<Eigen::Index>(rows) - 1;
+      require(data.shape.size() == 1 && indices.values.size() == count && rows > 1 &&
+                 shape.values == std::vector<double>(2, double(size)) && start.values[0] == 0 &&
+                 std::is_sorted(start.values.begin(), start.values.end()) &&
+                 start.values.back() == double(count),
+              "file '", file,
+              "': its data, indices, indptr and shape are no square matrix in "
+              "scipy's csr or csc");
+      for (Eigen::Index i = 0; i < size; ++i)
+      {
+         for (auto k = std::size_t(start.values[i]); k < std::size_t(start.values[i + 1]); ++k)
+         {
+            const double j = indices.values[k];
+            require(j >= 0 && j < double(size), "file '", file, "': row ", i + 1, " has index ",
+                    j, ", must be from 0 to ", size - 1);
+            finite(i, static_cast<Eigen::Index>(j), data.values[k]);
+         }
+      }
+   }
+   return entries.matrix(static_cast<int>(size), file, row_number);
+}
+
+// --- where nodes are -------------------------------------------------------------------------
+
+/// Supports and loads of a file, by nodes and directions.
+class Entries
+{
+public:
+   Entries(NodalStiffness &stiffness) : stiffness_(stiffness)
+   {
+      for (std::size_t row = 0; row < stiffness.dofs.size(); ++row)
+      {
+         rows_.emplace(stiffness.dofs[row], static_cast<int>(row));
+      }
+   }
+   bool has_row(const NodeDof &dof) const { return rows_.count(dof) == 1; }
+   void fix(const NodeDof &dof)
+   {
+      std::vector<int> &fixed = stiffness_.fixed;
+      const int row = rows_.at(dof);
+      const auto place = std::lower_bound(fixed.begin(), fixed.end(), row);
+      if (place == fixed.end() || *place != row) { fixed.insert(place, row); }
+   }
+   void add(const std::string &load, Control control, const NodeDof &dof, double value)
+   {
+      stiffness_.load_of(load, control).values[rows_.at(dof)] += value;
+      if (control == Control::displacement) { fix(dof); }
+   }
+
+private:
+   NodalStiffness &stiffness_;
+   std::map<NodeDof, int> rows_;
+};
+
+/// Rows of a matrix as they are called by nodes of a deck, with all that the deck says.
+NodalStiffness with_deck(Rows rows, InputDeck deck)
+{
+   NodalStiffness result;
+   result.formulation = deck.formulation;
+   result.places = std::move(deck.places);
+   result.sets = std::move(deck.sets);
+   result.edges = std::move(deck.edges);
+   result.K = std::move(rows.K);
+   result.dofs = std::move(rows.dofs);
+   result.supports_left_out = rows.supports_left_out;
+   Entries entries(result);
+   for (const InputDeck::Card &card : deck.cards)
+   {
+      const bool moves = card.control == Control::displacement;
+      for (const auto &[at, value] : card.values)
+      {
+         const bool there = entries.has_row(at);
+         result.supports_left_out = result.supports_left_out || (moves && !there);
+         require(
+            there || (moves ? value == 0 : result.supports_left_out), "file '", deck.file,
+            "': '", card.name, moves ? "' moves " : "' loads ", dof_name(at),
+            ", which the matrix has no row of, it must be free in the step that writes the "
+            "matrix");
+         if (!there) { continue; } // held by what is no part of the matrix
+         if (moves && value == 0) { entries.fix(at); }
+         else { entries.add(card.name, card.control, at, value); }
+      }
+   }
+   return result;
+}
+
+/// Of a matrix whose rows a `.dofs` file names.
+NodalStiffness with_dofs(Matrix K, const std::string &file)
+{
+   NodalStiffness result;
+   result.K = std::move(K);
+   const auto each_line = [&](const auto &visit)
+   {
+      LineReader in(file);
+      while (in.next())
+      {
+         const std::vector<std::string_view> fields = in.words();
+         if (!fields.empty() && fields[0].substr(0, 1) != "#") { visit(in, fields); }
+      }
+   };
+   const auto is_word = [](std::string_view field)
+   { return !field.empty() && std::isalpha(static_cast<unsigned char>(field[0])); };
+   const auto dof_at =
+      [&](const LineReader &in, std::string_view node, std::string_view direction)
+   {
+      const NodeDof dof{in.integer(node, "a node"), in.integer(direction, "a direction")};
+      require_plane(in, dof);
+      return dof;
+   };
+   each_line(
+      [&](const LineReader &in, const std::vector<std::string_view> &fields)
+      {
+         if (is_word(fields[0])) { return; }
+         in.require(fields.size() == 4, "'", trimmed(in.line()),
+                    "', must be node, direction, x and y");
+         const NodeDof dof = dof_at(in, fields[0], fields[1]);
+         const Eigen::Vector2d place(in.number(fields[2], "x"), in.number(fields[3], "y"));
+         const Eigen::Vector2d &known = result.places.emplace(dof.node, place).first->second;
+         in.require(known == place, "node ", dof.node, " is at (", place[0], ", ", place[1],
+                    "), and was at (", known[0], ", ", known[1], ") before");
+         result.dofs.push_back(dof);
+      });
+   require(static_cast<Eigen::Index>(result.dofs.size()) == result.K.rows(), "file '", file,
+           "' names ", result.dofs.size(), " rows, the matrix has ", result.K.rows());
+   Entries entries(result);
+   each_line(
+      [&](const LineReader &in, const std::vector<std::string_view> &fields)
+      {
+         if (!is_word(fields[0])) { return; }
+         const std::string word(fields[0]);
+         const bool force = word == "force";
+         if (word == "axisymmetric" && fields.size() == 1)
+         {
+            result.formulation = Formulation::axisymmetric;
+         }
+         else if (word == "supports_left_out" && fields.size() == 1)
+         {
+            result.supports_left_out = true;
+         }
+         else if (word == "set" && fields.size() > 1)
+         {
+            NodalStiffness::Nodes &nodes = result.sets[upper_case(fields[1])];
+            for (std::size_t k = 2; k < fields.size(); ++k)
+            {
+               nodes.push_back(in.integer(fields[k], "a node"));
+               in.require(result.places.count(nodes.back()) == 1, "a set has node ",
+                          nodes.back(), ", which has no row");
+            }
+         }
+         else if ((word == "fixed" && fields.size() == 3) ||
+                  ((force || word == "displacement") && fields.size() == 5))
+         {
+            const std::size_t first = fields.size() - (word == "fixed" ? 2 : 3);
+            const NodeDof dof = dof_at(in, fields[first], fields[first + 1]);
+            in.require(entries.has_row(dof), dof_name(dof), " has no row");
+            if (word == "fixed") { entries.fix(dof); }
+            else
+            {
+               entries.add(std::string(fields[1]),
+                           force ? Control::force : Control::displacement, dof,
+                           in.number(fields[4], "a value"));
+            }
+         }
+         else
+         {
+            in.require(false, "'", trimmed(in.line()),
+                       "', must be axisymmetric, supports_left_out, set NAME nodes, fixed node "
+                       "direction, force or displacement LOAD node direction value");
+         }
+      });
+   return result;
+}
+
+/// The first line that is no comment of ABAQUS tells what an .mtx is.
+enum class MtxForm
+{
+   matrix_market,
+   user_element,
+   sparse
+};
+
+MtxForm form_of(const std::string &file)
+{
+   LineReader in(file);
+   while (in.next())
+   {
+      const std::string line = upper_case(trimmed(in.line()));
+      if (line.rfind("%%MATRIXMARKET", 0) == 0) { return MtxForm::matrix_market; }
+      if (line.rfind("*USER ELEMENT", 0) == 0) { return MtxForm::user_element; }
+      if (line[0] != '*') { return MtxForm::sparse; }
+   }
+   throw InputError("file '" + file + "' is empty, must have a matrix");
+}
+
+} // namespace
+
+NodalStiffness read_stiffness(const std::string &matrix, const std::string &places)
+{
+   namespace fs = std::filesystem;
+   const std::string ending = fs::path(matrix).extension().string();
+   require(ending == ".sti" || ending == ".mtx" || ending == ".npy" || ending == ".npz",
+           "stiffness '", matrix, "' ends with '", ending,
+           "', must end with .sti, .mtx, .npy or .npz");
+   const auto beside = [&](const char *of)
+   { return places.empty() ? fs::path(matrix).replace_extension(of).string() : places; };
+   const MtxForm form = ending == ".mtx" ? form_of(matrix) : MtxForm::matrix_market;
+   NodalStiffness result;
+   if (ending == ".sti")
+   {
+      InputDeck deck = read_input_deck(beside(".inp"));
+      Rows rows = read_calculix(matrix);
+      // Forces are those of the whole circumference already.
+      if (deck.formulation == Formulation::axisymmetric) { rows.K *= 180.0; }
+      result = with_deck(std::move(rows), std::move(deck));
+   }
+   else if (form == MtxForm::matrix_market)
+   {
+      result = with_dofs(ending == ".mtx" ? read_matrix_market(matrix)
+                                          : read_numpy(matrix, ending == ".npz"),
+                         beside(".dofs"));
+   }
+   else
+   {
+      InputDeck deck = read_input_deck(beside(".inp"));
+      result = with_deck(form == MtxForm::sparse ? read_abaqus_sparse(matrix)
+                                                 : read_user_element(matrix),
+                         std::move(deck));
+   }
+   result.name = matrix;
+   result.validate();
+   return result;
+}
+
+} // namespace cattaneo

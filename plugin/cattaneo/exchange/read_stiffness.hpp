@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cattaneo/exchange/nodal_stiffness.hpp>
+
+namespace cattaneo
+{
+
+/** Reads a stiffness that another program wrote; `places` names the file that says where its
+    nodes are. What is read goes by the end of the name and the first line:
+
+    | matrix | written by | places (unless given: beside it, of the same name) |
+    |---|---|---|
+    | `.sti` | CalculiX, *FREQUENCY, SOLVER=MATRIXSTORAGE; rows from `.dof` beside it | `.inp` |
+    | `.mtx` | ABAQUS, *MATRIX GENERATE: lines node, direction, node, direction, value | `.inp`
+   | | `.mtx` | ABAQUS, CalculiX: *USER ELEMENT, *MATRIX, TYPE=STIFFNESS, dense | `.inp` | |
+   `.mtx` | MatrixMarket, coordinate or array | `.dofs` | | `.npy` | NumPy, a dense matrix |
+   `.dofs` | | `.npz` | scipy.sparse.save_npz(…, compressed=False), or an array K | `.dofs` |
+
+    An `.inp` gives nodes, elements (so that contact lines follow outer edges), sets, and what
+   its steps load: each *CLOAD card is a load of forces, "CLOAD 1", …, each *BOUNDARY card with
+    displacements a load "BOUNDARY 1", …; zero ones are supports. Supports that the program took
+    out of the matrix (CalculiX: all of those of its step; ABAQUS: 1e36 on the diagonal) are
+    left out here too, internal nodes of ABAQUS (negative numbers) are eliminated. Of CalculiX's
+    axisymmetric elements, flat wedges of 2 degrees, the matrix is multiplied by 180: 2e-4 of it
+    are the wedge's.
+
+    A `.dofs` file says of each row, in their order, `node direction x y`, and may say, in lines
+   of their own, `axisymmetric`, `set NAME nodes…`, `fixed node direction`, `force LOAD node
+    direction value` and `displacement LOAD node direction value`; # begins a comment.
+
+    InputError, in one sentence with the file and the line or the entry, for what is cut short,
+   not finite, there twice, not symmetric, of rotations or a third direction. */
+NodalStiffness read_stiffness(const std::string &matrix, const std::string &places = "");
+
+} // namespace cattaneo

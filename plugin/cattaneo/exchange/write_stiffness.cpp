@@ -1,0 +1,230 @@
+#include <cattaneo/exchange/write_stiffness.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cattaneo/whole_file.hpp>
+#include <filesystem>
+#include <sstream>
+
+namespace cattaneo
+{
+
+using Eigen::Index;
+using Arrays = std::map<std::string, Eigen::MatrixXd>;
+
+namespace
+{
+
+void add_mass(Arrays &arrays, const Eigen::MatrixXd &M, Index size)
+{
+   if (M.size() == 0) { return; }
+   require(M.rows() == size && M.cols() == size, "mass matrix: it is ", M.rows(), "×", M.cols(),
+           ", must be ", size, "×", size, " as the stiffness");
+   arrays["M"] = M;
+}
+
+void require_forces(const std::string &file, const NodalStiffness &stiffness)
+{
+   for (const BodyLoad &load : stiffness.loads)
+   {
+      require(
+         load.control == Control::force, "file '", file, "': load '", load.name,
+         "' prescribes displacements, must be forces there: condense the body, whose loads "
+         "are forces");
+   }
+}
+
+std::string beside(const std::string &file, const char *ending)
+{
+   require(std::filesystem::path(file).extension() == ".mtx", "file '", file,
+           "' must end with .mtx");
+   return std::filesystem::path(file).replace_extension(ending).string();
+}
+
+/// Blanks would end a name.
+void require_word(const std::string &what, const std::string &name)
+{
+   require(!name.empty() && name.find_first_of(" \t\r\n,#*=") == std::string::npos, what, " '",
+           name, "', must be one word without , # * and = for a file");
+}
+
+} // namespace
+
+void write_npz(const std::string &file, const NodalStiffness &stiffness,
+               const Eigen::MatrixXd &M)
+{
+   stiffness.validate();
+   require_forces(file, stiffness);
+   const auto size = static_cast<Index>(stiffness.dofs.size()),
+              count = static_cast<Index>(stiffness.loads.size());
+   Eigen::MatrixXd loads(size, count), dofs(size, 2), places(size, 2);
+   for (Index k = 0; k < count; ++k) { loads.col(k) = stiffness.loads[k].values; }
+   for (Index row = 0; row < size; ++row)
+   {
+      const NodeDof &dof = stiffness.dofs[row];
+      dofs.row(row) << dof.node, dof.direction;
+      places.row(row) = stiffness.places.at(dof.node).transpose();
+   }
+   Arrays arrays = {{"K", Eigen::MatrixXd(stiffness.K)},
+                    {"loads", loads},
+                    {"dofs", dofs},
+                    {"places", places}};
+   add_mass(arrays, M, size);
+   write_npz(file, arrays);
+}
+
+void write_npz(const std::string &file, const ReducedProblem &problem, const Eigen::MatrixXd &M)
+{
+   problem.validate();
+   const auto count = static_cast<Index>(problem.patterns.size());
+   Eigen::MatrixXd loads(problem.K.rows(), count);
+   for (Index k = 0; k < count; ++k)
+   {
+      loads.col(k) << problem.patterns[k].q, problem.patterns[k].p;
+   }
+   Arrays arrays = {{"K", problem.K},
+                    {"loads", loads},
+                    {"H", problem.H},
+                    {"gap", problem.gap},
+                    {"friction", problem.friction},
+                    {"weights", problem.weights},
+                    {"position", problem.position}};
+   add_mass(arrays, M, problem.K.rows());
+   write_npz(file, arrays);
+}
+
+void write_matrix_market(const std::string &file, const NodalStiffness &stiffness)
+{
+   stiffness.validate();
+   const std::string names = beside(file, ".dofs");
+   std::ostringstream matrix, dofs;
+   Index count = 0;
+   for (Index row = 0; row < stiffness.K.rows(); ++row)
+   {
+      for (NodalStiffness::Matrix::InnerIterator entry(stiffness.K, row); entry; ++entry)
+      {
+         if (entry.col() > row) { continue; }
+         ++count;
+         matrix << row + 1 << ' ' << entry.col() + 1 << ' ' << exact_text(entry.value())
+                << '\n';
+      }
+   }
+   if (stiffness.formulation == Formulation::axisymmetric) { dofs << "axisymmetric\n"; }
+   if (stiffness.supports_left_out) { dofs << "supports_left_out\n"; }
+   dofs << "# node direction x y\n";
+   const auto called = [&](std::size_t row)
+   {
+      const NodeDof &dof = stiffness.dofs[row];
+      return std::to_string(dof.node) + ' ' + std::to_string(dof.direction);
+   };
+   for (std::size_t row = 0; row < stiffness.dofs.size(); ++row)
+   {
+      const Eigen::Vector2d &place = stiffness.places.at(stiffness.dofs[row].node);
+      dofs << called(row) << ' ' << exact_text(place[0]) << ' ' << exact_text(place[1]) << '\n';
+   }
+   for (const auto &[set, nodes] : stiffness.sets)
+   {
+      require_word("set", set);
+      dofs << "set " << set;
+      for (int node : nodes) { dofs << ' ' << node; }
+      dofs << '\n';
+   }
+   for (int row : stiffness.fixed) { dofs << "fixed " << called(row) << '\n'; }
+   for (const BodyLoad &load : stiffness.loads)
+   {
+      require_word("load", load.name);
+      for (Index row = 0; row < load.values.size(); ++row)
+      {
+         if (load.values[row] == 0) { continue; }
+         dofs << (load.control == Control::force ? "force " : "displacement ") << load.name
+              << ' ' << called(row) << ' ' << exact_text(load.values[row]) << '\n';
+      }
+   }
+   std::ostringstream head;
+   head << "%%MatrixMarket matrix coordinate real symmetric\n"
+        << stiffness.K.rows() << ' ' << stiffness.K.rows() << ' ' << count << '\n';
+   write_whole(names, dofs.str());
+   write_whole(file, head.str() + matrix.str());
+}
+
+void write_abaqus(const std::string &file, const NodalStiffness &stiffness)
+{
+   stiffness.validate();
+   require_forces(file, stiffness);
+   const std::string deck_file = beside(file, ".inp");
+   // Rows of a node follow each other there.
+   std::map<int, std::vector<std::size_t>> rows;
+   for (std::size_t row = 0; row < stiffness.dofs.size(); ++row)
+   {
+      rows[stiffness.dofs[row].node].push_back(row);
+   }
+   std::ostringstream element, deck;
+   element << "*USER ELEMENT, NODES=" << rows.size() << ", TYPE=U1, LINEAR\n** ELEMENT NODES\n";
+   deck << "*NODE\n";
+   std::ostringstream directions, connectivity;
+   std::vector<int> order, last;
+   int position = 0;
+   for (auto &[node, own] : rows)
+   {
+      std::sort(own.begin(), own.end(),
+                [&](std::size_t a, std::size_t b)
+                { return stiffness.dofs[a] < stiffness.dofs[b]; });
+      std::vector<int> of_node;
+      for (std::size_t row : own)
+      {
+         order.push_back(static_cast<int>(row));
+         of_node.push_back(stiffness.dofs[row].direction);
+      }
+      if (of_node != last)
+      {
+         if (position > 0) { directions << position + 1 << ", "; }
+         for (std::size_t k = 0; k < of_node.size(); ++k)
+         {
+            directions << (k > 0 ? ", " : "") << of_node[k];
+         }
+         directions << '\n';
+         last = of_node;
+      }
+      const Eigen::Vector2d &place = stiffness.places.at(node);
+      deck << node << ", " << exact_text(place[0]) << ", " << exact_text(place[1]) << '\n';
+      element << "** " << node << '\n';
+      connectivity << (position % 15 == 14 ? ",\n" : ", ") << node;
+      ++position;
+   }
+   element << directions.str() << "*MATRIX, TYPE=STIFFNESS\n";
+   const Eigen::MatrixXd K = Eigen::MatrixXd(stiffness.K)(order, order);
+   for (Index i = 0; i < K.rows(); ++i)
+   {
+      for (Index j = 0; j <= i; ++j)
+      {
+         element << exact_text(K(i, j)) << (j == i || j % 4 == 3 ? "\n" : ", ");
+      }
+   }
+   deck << "*INCLUDE, INPUT=" << std::filesystem::path(file).filename().string()
+        << "\n*ELEMENT, TYPE=U1, ELSET=CONDENSED\n1" << connectivity.str()
+        << "\n*UEL PROPERTY, ELSET=CONDENSED\n";
+   for (const auto &[set, nodes] : stiffness.sets)
+   {
+      require_word("set", set);
+      deck << "*NSET, NSET=" << set << '\n';
+      for (int node : nodes) { deck << node << '\n'; }
+   }
+   const auto called = [&](std::size_t row)
+   {
+      const NodeDof &dof = stiffness.dofs[row];
+      return std::to_string(dof.node) + ", " + std::to_string(dof.direction);
+   };
+   if (!stiffness.fixed.empty()) { deck << "*BOUNDARY\n"; }
+   for (int row : stiffness.fixed) { deck << called(row) << '\n'; }
+   for (const BodyLoad &load : stiffness.loads)
+   {
+      deck << "** " << load.name << "\n*CLOAD\n";
+      for (Index row = 0; row < load.values.size(); ++row)
+      {
+         if (load.values[row] == 0) { continue; }
+         deck << called(row) << ", " << exact_text(load.values[row]) << '\n';
+      }
+   }
+   write_whole(deck_file, deck.str());
+   write_whole(file, element.str());
+}
+
+} // namespace cattaneo

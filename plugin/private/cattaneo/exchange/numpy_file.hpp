@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace cattaneo
+{
+
+/// An array of NumPy's, of numbers of any kind that doubles hold.
+struct NumpyArray
+{
+   std::vector<Eigen::Index> shape;
+   bool by_columns = false;
+   std::vector<double> values;
+
+   /// InputError, with `name`, unless it has two dimensions.
+   Eigen::MatrixXd matrix(const std::string &name) const;
+};
+
+/// `content` of an .npy file; InputError, with `name`, if it is none, or of other numbers than
+/// little-endian float32, float64, int32 and int64.
+NumpyArray numpy_array(const std::string &content, const std::string &name);
+
+/// The files in a zip archive by name, stored without compression as np.savez does; InputError
+/// of any other.
+std::map<std::string, std::string> stored_files(const std::string &archive,
+                                                const std::string &name);
+
+/// All of a file; InputError if it cannot be read.
+std::string whole_content(const std::string &file);
+
+} // namespace cattaneo

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Sparse>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace cattaneo
+{
+
+/// Entries of a symmetric matrix as a file has them: of one triangle, or of both.
+class SymmetricEntries
+{
+public:
+   using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+   void add(int row, int column, double value) { entries_.push_back({row, column, value}); }
+
+   /** All of the matrix. InputError if an entry is there twice, if an entry and its mirror
+       image are both there and differ by more than 1e-10 of the largest, or if a row (one that
+       `is_elastic`) has no positive diagonal. The sentence begins with `file`, rows are called
+       by `row_name`. */
+   Matrix matrix(
+      int size, const std::string &file, const std::function<std::string(int)> &row_name,
+      const std::function<bool(int)> &is_elastic = [](int) { return true; }) const;
+
+private:
+   struct Entry
+   {
+      int row, column;
+      double value;
+   };
+   std::vector<Entry> entries_;
+};
+
+} // namespace cattaneo

@@ -1,0 +1,578 @@
+// Stiffnesses of other programs. Files and expectations are those of data/exchange/make.py and
+// of a real CalculiX 2.20, which wrote the .sti.
+
+#include "expect_input_error.hpp"
+
+#include <cattaneo/condense/condense.hpp>
+#include <cattaneo/exchange/read_stiffness.hpp>
+#include <cattaneo/exchange/write_stiffness.hpp>
+#include <cattaneo/friction/march.hpp>
+#include <cattaneo/reduced/interfaces.hpp>
+#include <cattaneo/whole_file.hpp>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <random>
+
+namespace
+{
+
+using namespace cattaneo;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+const std::string folder = std::string(CATTANEO_SOURCE_DIR) + "/tests/data/exchange/";
+
+/// In global components, {x; y} of the contact nodes.
+MatrixXd expected(const std::string &name)
+{
+   std::ifstream in(folder + "expected.json");
+   const auto rows = nlohmann::json::parse(in).at(name).get<std::vector<std::vector<double>>>();
+   MatrixXd S(rows.size(), rows.size());
+   for (std::size_t i = 0; i < rows.size(); ++i)
+   {
+      for (std::size_t j = 0; j < rows.size(); ++j) { S(i, j) = rows[i][j]; }
+   }
+   return S;
+}
+
+double difference(const MatrixXd &a, const MatrixXd &b)
+{
+   return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
+}
+
+VectorXd vector(std::initializer_list<double> values)
+{
+   return Eigen::Map<const VectorXd>(values.begin(), static_cast<Eigen::Index>(values.size()));
+}
+
+/// Files are written where the test program has its own.
+class Exchange : public testing::Test
+{
+protected:
+   Exchange() : before_(std::filesystem::current_path())
+   {
+      std::filesystem::current_path(testing::TempDir());
+   }
+   ~Exchange() override { std::filesystem::current_path(before_); }
+
+private:
+   std::filesystem::path before_;
+};
+
+NodalStiffness lower_lap()
+{
+   NodalStiffness lower = read_stiffness(folder + "rows.mtx");
+   lower.name = "lower";
+   return lower;
+}
+
+TEST_F(Exchange, CalculixLapsAreFoundAndNamed)
+{
+   const NodalStiffness laps = read_stiffness(folder + "laps.sti");
+   const std::vector<NodalStiffness> parts = laps.parts();
+   ASSERT_EQ(parts.size(), 2);
+   // By the lowest number of their nodes, called by their element sets.
+   EXPECT_EQ(parts[0].name, "LOWER");
+   EXPECT_EQ(parts[1].name, "UPPER");
+   EXPECT_EQ(parts[0].dofs.size(), 20); // its floor was taken out
+   EXPECT_EQ(parts[1].dofs.size(), 30);
+   EXPECT_TRUE(parts[0].loads.empty());
+   ASSERT_EQ(parts[1].loads.size(), 2);
+   EXPECT_EQ(parts[1].loads[0].name, "CLOAD 1");
+   EXPECT_EQ(parts[1].loads[0].values.sum(), -1.5 * 5);
+   EXPECT_EQ(parts[1].loads[1].values.sum(), 3);
+   EXPECT_EQ(parts[1].sets.count("FLOOR"), 0);
+   EXPECT_EQ(parts[0].nodes_of("floor").size(), 5);
+
+   const ContactLine below = parts[0].contact_line(parts[0].nodes_of("LOWER_FACE")),
+                     above = parts[1].contact_line(parts[1].nodes_of("upper_face"));
+   // Along the boundary with the body on the left, by the elements.
+   EXPECT_EQ(above.nodes.front().position, Eigen::Vector2d(0.5, 0));
+   EXPECT_EQ(above.nodes.front().tangent, Eigen::Vector2d(1, 0));
+   EXPECT_EQ(below.nodes.front().position, Eigen::Vector2d(2, 0));
+   EXPECT_EQ(below.nodes.front().tangent, Eigen::Vector2d(-1, 0));
+   EXPECT_LT((above.each(&LineNode::weight) - vector({0.25, 0.5, 0.5, 0.5, 0.25})).norm(),
+             1e-15);
+   EXPECT_LT((above.each(&LineNode::arc_length) - vector({0, 0.5, 1, 1.5, 2})).norm(), 1e-15);
+   EXPECT_EQ(above.chains[0].ends, (std::array<LineEnd, 2>{LineEnd::corner, LineEnd::corner}));
+
+   const CondensedBody lower = condense(parts[0].body(), below),
+                       upper = condense(parts[1].body(), above);
+   EXPECT_EQ(lower.free_motions.cols(), 0);
+   EXPECT_EQ(upper.free_motions.cols(), 3);
+   // CalculiX writes 14 digits.
+   EXPECT_LT(difference(lower.S, expected("lower")), 1e-12);
+   EXPECT_LT(difference(upper.S, expected("upper")), 1e-12);
+   EXPECT_LT((upper.S * upper.rigid_motions()).norm(), 1e-13 * upper.S.norm());
+}
+
+TEST_F(Exchange, CalculixLapsMarch)
+{
+   std::vector<NodalStiffness> parts = read_stiffness(folder + "laps.sti").parts();
+   std::vector<CondensedBody> bodies;
+   std::vector<InterfaceSide> sides;
+   for (const char *face : {"LOWER_FACE", "UPPER_FACE"})
+   {
+      const NodalStiffness &part = parts[bodies.size()];
+      sides.push_back(
+         {static_cast<int>(bodies.size()), part.contact_line(part.nodes_of(face))});
+      bodies.push_back(condense(part.body(), sides.back().line));
+   }
+   Reduction reduction = reduce(bodies, {{"face", sides[1], sides[0]}});
+   ReducedProblem &problem = reduction.problem;
+   EXPECT_EQ(problem.nodes(), 4); // the fifth of the upper one hangs over
+   set_friction(problem, 0.5);
+   ContactState state = ContactState::virgin(problem);
+   const MarchReport report = march(
+      problem,
+      LoadHistory::through(problem, {{}, {{"CLOAD 1", 1}}, {{"CLOAD 1", 1}, {"CLOAD 2", 1}}}),
+      state);
+   EXPECT_EQ(report.status, FrictionStatus::converged);
+   EXPECT_NEAR(state.p.sum(), 7.5, 1e-12);
+   EXPECT_NEAR(std::abs(state.q.sum()), 3, 1e-12);
+}
+
+TEST_F(Exchange, CalculixQuadraticElements)
+{
+   const NodalStiffness block = read_stiffness(folder + "quadratic.sti");
+   const ContactLine line = block.contact_line(block.nodes_of("BOTTOM"));
+   EXPECT_EQ(line.chains[0].elements.size(), 4);
+   EXPECT_EQ(line.chains[0].elements[0].order(), 2);
+   // Simpson's weights of elements of length 1/2.
+   EXPECT_LT((line.each(&LineNode::weight) * 12 - vector({1, 4, 2, 4, 2, 4, 2, 4, 1})).norm(),
+             1e-14);
+   EXPECT_LT(difference(condense(block.body(), line).S, expected("quadratic")), 1e-12);
+}
+
+TEST_F(Exchange, CalculixRingIsAFlatWedge)
+{
+   const NodalStiffness ring = read_stiffness(folder + "ring.sti");
+   EXPECT_EQ(ring.formulation, Formulation::axisymmetric);
+   EXPECT_EQ(ring.loads[0].values.sum(), -3); // of the whole circumference
+   const ContactLine line = ring.contact_line(ring.nodes_of("BOTTOM"));
+   ASSERT_EQ(line.size(), 4); // the node on the axis is none
+   EXPECT_EQ(line.chains[0].ends[0], LineEnd::symmetry);
+   EXPECT_NEAR(line.each(&LineNode::weight).sum(), M_PI * 4, 1e-12);
+   const CondensedBody body = condense(ring.body(), line);
+   EXPECT_EQ(body.free_motions.cols(), 1);
+   const double flat = difference(body.S, expected("ring"));
+   EXPECT_LT(flat, 5e-4);
+   EXPECT_GT(flat, 1e-5);
+}
+
+TEST_F(Exchange, AbaqusSparseWithSupports)
+{
+   const NodalStiffness lower = read_stiffness(folder + "abaqus.mtx");
+   EXPECT_EQ(lower.dofs.size(), 20); // 1e36 on the diagonal of ten
+   const ContactLine line = lower.contact_line(lower.nodes_of("face"));
+   EXPECT_LT(difference(condense(lower.body(), line).S, expected("lower")), 1e-13);
+}
+
+/// K of one spring of `k` between internal node -1 and node 1, another to node 2, and 5 across.
+TEST_F(Exchange, AbaqusInternalNodesAreEliminated)
+{
+   write_whole("internal.mtx", "1,1,1,1,2.\n1,2,1,2,5.\n2,1,2,1,3.\n2,2,1,2,-5.\n2,2,2,2,5.\n"
+                               "-1,1,1,1,-2.\n-1,1,2,1,-3.\n-1,1,-1,1,5.\n");
+   write_whole("internal.inp", "*NODE\n1, 0., 0.\n2, 1., 0.\n");
+   const NodalStiffness springs = read_stiffness("internal.mtx");
+   ASSERT_EQ(springs.dofs.size(), 4);
+   const double series = 1 / (1 / 2.0 + 1 / 3.0);
+   for (int a = 0; a < 4; ++a)
+   {
+      for (int b = 0; b < 4; ++b)
+      {
+         const NodeDof &i = springs.dofs[a], &j = springs.dofs[b];
+         const double k = i.direction != j.direction ? 0 : i.direction == 1 ? series : 5;
+         EXPECT_NEAR(springs.K.coeff(a, b), i.node == j.node ? k : -k, 1e-15);
+      }
+   }
+}
+
+TEST_F(Exchange, ASuperelementIsTakenAsItIs)
+{
+   const NodalStiffness dense = read_stiffness(folder + "superelement.mtx");
+   EXPECT_THROW(dense.contact_line(dense.nodes_of("FACE")), InputError); // no elements
+   const ContactLine line = dense.contact_line({15, 14, 13, 12, 11}, 1);
+   const CondensedBody body = condense(dense.body(), line);
+   EXPECT_LT(difference(body.S, expected("lower")), 1e-14);
+   EXPECT_EQ(body.free_motions.cols(), 0);
+}
+
+TEST_F(Exchange, RowsOfAnyProgram)
+{
+   const NodalStiffness market = lower_lap();
+   const ContactLine line = market.contact_line(market.nodes_of("FACE"), 1);
+   EXPECT_LT(difference(condense(market.body(), line).S, expected("lower")), 1e-13);
+   for (const char *file : {"rows.npy", "rows_csr.npz", "rows_dense.npz"})
+   {
+      const NodalStiffness other = read_stiffness(folder + file, folder + "rows.dofs");
+      EXPECT_EQ(MatrixXd(other.K), MatrixXd(market.K)) << file;
+      EXPECT_EQ(other.fixed, market.fixed);
+   }
+   expect_input_error([]
+                      { read_stiffness(folder + "rows_compressed.npz", folder + "rows.dofs"); },
+                      "is compressed, must not be");
+}
+
+TEST_F(Exchange, LinesByOrderAreThoseByElements)
+{
+   for (const char *file : {"laps.sti", "quadratic.sti"})
+   {
+      NodalStiffness part = read_stiffness(folder + file).parts().back();
+      const bool quadratic = part.name == "BLOCK";
+      NodalStiffness::Nodes nodes = part.nodes_of(quadratic ? "BOTTOM" : "UPPER_FACE");
+      const int order = quadratic ? 2 : 1;
+      const ContactLine by_elements = part.contact_line({nodes.rbegin(), nodes.rend()}),
+                        by_order = part.contact_line(nodes, order);
+      ASSERT_EQ(by_order.size(), by_elements.size());
+      for (Eigen::Index i = 0; i < by_order.size(); ++i)
+      {
+         EXPECT_EQ(by_order.nodes[i].dofs, by_elements.nodes[i].dofs);
+         EXPECT_EQ(by_order.nodes[i].weight, by_elements.nodes[i].weight);
+         EXPECT_EQ(by_order.nodes[i].tangent, by_elements.nodes[i].tangent);
+      }
+      std::reverse(nodes.begin(), nodes.end());
+      expect_input_error([&] { part.contact_line(nodes, order); }, "body is on the right");
+      nodes.pop_back();
+      if (quadratic)
+      {
+         expect_input_error([&] { part.contact_line(nodes, 2); },
+                            "8 nodes in elements of order 2");
+      }
+   }
+}
+
+TEST_F(Exchange, TractionsAreConsistent)
+{
+   NodalStiffness block = read_stiffness(folder + "quadratic.sti");
+   block.add_traction("T", block.nodes_of("BOTTOM"), {2, -3});
+   const VectorXd &values = block.loads.back().values;
+   const VectorXd simpson = vector({1, 4, 2, 4, 2, 4, 2, 4, 1}) / 12;
+   for (int i = 0; i < 9; ++i)
+   {
+      EXPECT_NEAR(values[2 * i], 2 * simpson[i], 1e-15);
+      EXPECT_NEAR(values[2 * i + 1], -3 * simpson[i], 1e-15);
+   }
+   // About an axis, hat functions on r: 2π ∫φ r dr, the node on the axis too.
+   NodalStiffness ring = read_stiffness(folder + "ring.sti");
+   ring.add_traction("T", ring.nodes_of("BOTTOM"), {0, 1});
+   const double h = 0.5;
+   for (std::size_t row = 0; row < ring.dofs.size(); ++row)
+   {
+      const NodeDof &dof = ring.dofs[row];
+      if (dof.direction != 2 || dof.node > 5) { continue; }
+      const double r = h * (dof.node - 1), end = dof.node == 5 ? r * h / 2 - h * h / 6 : r * h;
+      EXPECT_NEAR(ring.loads.back().values[row], 2 * M_PI * (dof.node == 1 ? h * h / 6 : end),
+                  1e-13);
+   }
+}
+
+TEST_F(Exchange, SupportsAndLoadsByName)
+{
+   NodalStiffness block = read_stiffness(folder + "quadratic.sti");
+   block.sets["TOP"] = {37, 38, 39, 40, 41, 42, 43, 44, 45};
+   block.add_displacement("press", block.nodes_of("top"), 2, -0.1);
+   block.fix(block.nodes_of("TOP"), 1);
+   block.add_forces("pull", {20}, 1, 3.0);
+   const AssembledBody body = block.body();
+   EXPECT_EQ(body.fixed.size(), 18);
+   EXPECT_EQ(body.loads[0].values.sum(), -0.9);
+   EXPECT_EQ(body.loads[1].values.sum(), 3);
+   const CondensedBody pressed = condense(body, block.contact_line(block.nodes_of("BOTTOM")));
+   // Forces of the clamped bottom and of the pull are in balance with the held top.
+   EXPECT_EQ(pressed.rigid_modes, 0);
+   EXPECT_GT(pressed.patterns[0].p.minCoeff(), 0);
+   expect_input_error([&] { block.add_forces("press", {20}, 1, 1); },
+                      "forces and displacements");
+   expect_input_error([&] { block.fix({99}, 1); }, "there is no node 99");
+   expect_input_error([&] { block.fix({1}, 3); }, "direction 3, must be 1 or 2");
+   expect_input_error([&] { block.nodes_of("side"); }, "there are BLOCK, BOTTOM, TOP");
+   const NodalStiffness lower = read_stiffness(folder + "abaqus.mtx");
+   NodalStiffness moved = lower;
+   moved.fix(lower.nodes_of("FLOOR"), 1); // held already
+   EXPECT_TRUE(moved.fixed.empty());
+   expect_input_error([&] { moved.add_displacement("up", lower.nodes_of("FLOOR"), 2, 1); },
+                      "direction 2 of node 1 has no row: leave it free");
+}
+
+TEST_F(Exchange, DigitsThatAreMissingAreSaid)
+{
+   NodalStiffness block = read_stiffness(folder + "quadratic.sti");
+   for (int row = 0; row < block.K.rows(); ++row) { block.K.coeffRef(row, row) *= 1 + 1e-7; }
+   expect_input_error([&] { block.body(); }, "it resists a translation along x by");
+   block.supports_left_out = true; // a foundation
+   EXPECT_NO_THROW(block.body());
+}
+
+TEST_F(Exchange, WhatIsWrittenComesBack)
+{
+   NodalStiffness lower = lower_lap();
+   lower.add_forces("P", {13, 14}, 2, -1.0 / 3);
+   write_matrix_market("back.mtx", lower);
+   const NodalStiffness market = read_stiffness("back.mtx");
+   EXPECT_EQ(MatrixXd(market.K), MatrixXd(lower.K));
+   EXPECT_EQ(market.sets, lower.sets);
+   EXPECT_EQ(market.places, lower.places);
+   EXPECT_EQ(market.fixed, lower.fixed);
+   ASSERT_EQ(market.loads.size(), 1);
+   EXPECT_EQ(market.loads[0].name, "P");
+   EXPECT_EQ(market.loads[0].values, lower.loads[0].values);
+
+   write_abaqus("element.mtx", lower);
+   const NodalStiffness element = read_stiffness("element.mtx");
+   EXPECT_EQ(MatrixXd(element.K), MatrixXd(lower.K));
+   EXPECT_EQ(element.nodes_of("FACE"), lower.nodes_of("FACE"));
+   EXPECT_EQ(element.fixed, lower.fixed);
+   EXPECT_EQ(element.loads[0].values, lower.loads[0].values);
+
+   write_npz("arrays.npz", lower);
+   write_matrix_market("arrays.mtx", lower); // for its .dofs
+   EXPECT_EQ(MatrixXd(read_stiffness("arrays.npz").K), MatrixXd(lower.K));
+
+   lower.add_displacement("U", {1}, 1, 1);
+   for (auto write : {+[](const NodalStiffness &of) { write_abaqus("element.mtx", of); },
+                      +[](const NodalStiffness &of) { write_npz("arrays.npz", of); }})
+   {
+      expect_input_error([&] { write(lower); }, "load 'U' prescribes displacements");
+   }
+   lower.loads[0].name = "P and Q";
+   expect_input_error([&] { write_matrix_market("back.mtx", lower); },
+                      "'P and Q', must be one word");
+   expect_input_error([&] { write_matrix_market("back.txt", lower); }, "must end with .mtx");
+   expect_input_error([&] { write_npz("arrays.npz", lower_lap(), MatrixXd::Identity(3, 3)); },
+                      "mass matrix: it is 3×3, must be 30×30");
+}
+
+TEST_F(Exchange, ACondensedBodyIsASuperelement)
+{
+   NodalStiffness lower = lower_lap();
+   lower.add_forces("P", {8}, 2, -1.0);
+   const CondensedBody body =
+      condense(lower.body(), lower.contact_line(lower.nodes_of("FACE"), 1));
+   write_abaqus("condensed.mtx", nodal_stiffness(body));
+   const NodalStiffness back = read_stiffness("condensed.mtx");
+   const CondensedBody again =
+      condense(back.body(), back.contact_line(back.nodes_of("CONTACT"), 1));
+   EXPECT_LT(difference(again.S, body.S), 1e-14);
+   EXPECT_LT((again.patterns[0].p - body.patterns[0].p).norm(), 1e-14);
+   EXPECT_LT((again.patterns[0].q - body.patterns[0].q).norm(), 1e-14);
+}
+
+TEST_F(Exchange, NumpyReadsWhatIsWritten)
+{
+   NodalStiffness lower = lower_lap();
+   lower.add_forces("P", {13}, 2, -2.5);
+   const CondensedBody body =
+      condense(lower.body(), lower.contact_line(lower.nodes_of("FACE"), 1));
+   write_npz("body.npz", nodal_stiffness(body), MatrixXd::Identity(10, 10));
+   write_npz("problem.npz", reduce(body).problem);
+   write_whole("read.py",
+               "import sys\n"
+               "try:\n   import numpy\nexcept ImportError:\n   sys.exit(77)\n"
+               "b = numpy.load('body.npz'); p = numpy.load('problem.npz')\n"
+               "assert sorted(b) == ['K', 'M', 'dofs', 'loads', 'places'], sorted(b)\n"
+               "assert b['K'].shape == (10, 10) and (b['M'] == numpy.eye(10)).all()\n"
+               "assert b['loads'].sum() == -2.5 and b['places'][0, 0] == 2.0\n"
+               "assert abs(p['K'] - p['K'].T).max() == 0 and p['gap'].shape == (5, 1)\n"
+               "assert abs(p['loads'].sum() - 2.5 * -1) < 1e-12, p['loads'].sum()\n"
+               "assert abs(p['K'].trace() - b['K'].trace()) < 1e-9\n");
+   const int code = std::system("python3 read.py || /usr/bin/python3 read.py");
+   if (WEXITSTATUS(code) == 77) { GTEST_SKIP() << "there is no NumPy"; }
+   EXPECT_EQ(code, 0);
+}
+
+/// A file of a kind with one mistake, and what must be said of it.
+struct Mistake
+{
+   const char *file, *content, *says;
+};
+
+TEST_F(Exchange, MistakesAreToldInOneSentence)
+{
+   const std::string deck = "*NODE\n1, 0., 0.\n2, 1., 0.\n", banner = "%%MatrixMarket matrix ";
+   for (const Mistake &m : std::vector<Mistake>{
+           {"m.txt", "", "ends with '.txt', must end with .sti, .mtx, .npy or .npz"},
+           {"m.mtx", "", "is empty"},
+           {"m.mtx", "1,1,1,1,2.\n1,1,1,x,3.\n",
+            "line 2: a direction is 'x', must be an integer"},
+           {"m.mtx", "1,1,1,1,nan\n", "line 1: an entry is 'nan', must be a finite number"},
+           {"m.mtx", "1,1,1,1,1e999\n", "must be a finite number"},
+           {"m.mtx", "1,1,1,1\n",
+            "line 1: '1,1,1,1', must be node, direction, node, direction and"},
+           {"m.mtx", "1,6,1,6,2.\n", "direction 6 of node 1, must be 1 or 2"},
+           {"m.mtx", "1,3,1,3,2.\n", "plane strain with E (1 + 2ν)/(1 + ν)²"},
+           {"m.mtx", "1,1,1,1,2.\n1,1,1,1,3.\n",
+            "entry (node 1 direction 1, node 1 direction 1) is there twice"},
+           {"m.mtx", "1,1,1,1,2.\n2,1,2,1,2.\n2,1,1,1,1.\n1,1,2,1,1.1\n", "must be symmetric"},
+           {"m.mtx", "1,1,1,1,2.\n2,1,1,1,1.\n", "node 2 direction 1) is 0, the diagonal"},
+           {"m.mtx", "1,1,1,1,-2.\n", "is -2, the diagonal of a stiffness must be positive"},
+           {"m.mtx", "7,1,7,1,2.\n", "node 7 has no place"},
+           {"m.mtx", "*USER ELEMENT, LINEAR\n", "*USER ELEMENT has no NODES="},
+           {"m.mtx", "*USER ELEMENT, NODES=1, LINEAR\n1, 2\n*MATRIX, TYPE=STIFFNESS\n1.\n",
+            "lists 0 of them, must list all"},
+           {"m.mtx",
+            "*USER ELEMENT, NODES=1\n** ELEMENT NODES\n** 1\n1, 2\n*MATRIX, "
+            "TYPE=STIFFNESS\n1.\n",
+            "1 entries of a stiffness of 2 rows, its triangle must have 3"},
+           {"m.mtx", "*USER ELEMENT, NODES=1\n** ELEMENT NODES\n** 1\n1, 2, 6\n",
+            "direction 6 of node 1, must be 1 or 2"},
+           {"m.npy", "nonsense", "is no NumPy array"},
+           {"m.npz", "nonsense", "is no whole zip archive"},
+        })
+   {
+      write_whole(m.file, m.content);
+      write_whole("m.inp", deck);
+      expect_input_error([&] { read_stiffness(m.file); }, m.says);
+   }
+   for (const Mistake &m : std::vector<Mistake>{
+           {"coordinate real symmetric\n", "2 3 2\n", "the matrix is 2×3, must be square"},
+           {"coordinate real symmetric\n", "2 2 2\n1 1 1\n", "it has 1 of 2 entries"},
+           {"coordinate real symmetric\n", "2 2 2\n1 1 1\n3 1 1\n",
+            "entry (3, 1), must be within 2×2"},
+           {"coordinate real symmetric\n", "2 2 2\n1 1 1\n2 2 1\n2 1 1\n",
+            "more entries than 2"},
+           {"coordinate complex symmetric\n", "", "must be %%MatrixMarket matrix coordinate"},
+           {"coordinate real symmetric\n", "", "ends before the size"},
+           {"coordinate real symmetric\n", "999999999 999999999 1\n", "one a row at least"},
+           {"coordinate real general\n", "2 2 3\n1 1 1\n2 2 1\n2 1 1\n", ""},
+           {"array real general\n", "1 1\n1\n", "names 2 rows, the matrix has 1"}})
+   {
+      write_whole("m.mtx", banner + m.file + m.content);
+      write_whole("m.dofs", "1 1 0 0\n1 2 0 0\n");
+      if (*m.says == 0) { EXPECT_NO_THROW(read_stiffness("m.mtx")); }
+      else
+      {
+         expect_input_error([&] { read_stiffness("m.mtx"); }, m.says);
+      }
+   }
+   write_whole("m.mtx", banner + "array real general\n2 2\n1\n0\n0\n1\n");
+   for (const Mistake &m : std::vector<Mistake>{
+           {"", "1 1 0 0\n1 2 1 0\n", "node 1 is at (1, 0), and was at (0, 0) before"},
+           {"", "1 1 0 0\n1 1 0 0\n", "direction 1 of node 1 has a second row 1"},
+           {"", "1 1 0 0\n1 2 0\n", "line 2: '1 2 0', must be node, direction, x and y"},
+           {"", "1 1 0 0\n1 2 0 0\nfixed 3 1\n", "node 3 direction 1 has no row"},
+           {"", "1 1 0 0\n1 2 0 0\nhold 3 1\n", "'hold 3 1', must be axisymmetric"},
+           {"", "1 1 0 0\n1 2 0 0\nset A 4\n", "a set has node 4"},
+           {"", "1 1 0 0\n1 2 0 0\nforce P 1 1 1\ndisplacement P 1 2 1\n",
+            "forces and displacements"}})
+   {
+      write_whole("m.dofs", m.content);
+      expect_input_error([&] { read_stiffness("m.mtx"); }, m.says);
+   }
+   write_whole("m.sti", "1 1 1.\n2 2 1.\n");
+   write_whole("m.dof", "1.1\n1.2\n");
+   for (const Mistake &m : std::vector<Mistake>{
+           {"", "", "there is no *NODE"},
+           {"", "*NODE\n1, 0.\n", "line 2: *NODE has 2 fields"},
+           {"", "*NODE\n1, 0., 0., 3.\n", "node 1 is at z = 3, must be in the plane z = 0"},
+           {"", "*NODE\n1, 0., 0.\n1, 0., 0.\n", "line 3: node 1 is there a second time"},
+           {"", "*NODE\n1, 0., 0.\n*ELEMENT, TYPE=CPE4\n1, 1, 2, 3, 4\n",
+            "an element has node 2"},
+           {"", "*NODE\n1, 0., 0.\n*ELEMENT, TYPE=CPE4\n1, 1\n",
+            "an element CPE4 has 1 nodes, must have 4"},
+           {"", "*NODE\n1, 0., 0.\n*TRANSFORM\n", "*TRANSFORM turns directions"},
+           {"", "*NODE\n1, 0., 0.\n*NSET, NSET=A\nB\n", "line 4: there is no set 'B'"},
+           {"", "*NODE\n1, 0., 0.\n*NSET, NSET=A, GENERATE\n1, 2000000000\n",
+            "between nodes that are there"},
+           {"", "*NODE\n1, 0., 0.\n*SOLID SECTION\n2.\n",
+            "is 2, must be 1: everything is per unit"},
+           {"", "*NODE\n1, 0., 0.\n*CLOAD\n1, 3, 1.\n", "'CLOAD 1' loads node 1 direction 3"},
+           {"", "*NODE\n1, 0., 0.\n2, 1., 0.\n*BOUNDARY\n2, 1, 1, 0.5\n",
+            "'BOUNDARY 1' moves node 2"},
+           {"", "*INCLUDE, INPUT=m.inp\n", "more than 10 deep"},
+           {"", "*INCLUDE\n", "*INCLUDE has no INPUT"},
+           {"", "*PART, NAME=A\n*END PART\n*PART, NAME=B\n", "a second *PART begins"},
+           {"", "*INSTANCE, NAME=A, PART=B\n1., 0., 0.\n", "an instance is moved"}})
+   {
+      write_whole("m.inp", m.content);
+      expect_input_error([&] { read_stiffness("m.sti"); }, m.says);
+   }
+   write_whole("m.inp", deck);
+   write_whole("m.dof", "1,1\n");
+   expect_input_error([&] { read_stiffness("m.sti"); }, "'1,1', must be node.direction");
+   write_whole("m.dof", "1.1\n");
+   expect_input_error([&] { read_stiffness("m.sti"); }, "entry (2, 2), must be within 1×1");
+   std::filesystem::remove("m.dof");
+   expect_input_error([&] { read_stiffness("m.sti"); }, "cannot read file 'm.dof'");
+}
+
+/// Whatever becomes of a file, it is read or refused.
+TEST_F(Exchange, DamagedFilesAreReadOrRefused)
+{
+   std::mt19937 random(5);
+   const auto below = [&](std::size_t end) { return random() % end; };
+   int refused = 0, read = 0;
+   for (const char *job : {"laps.sti laps.inp laps.dof", "abaqus.mtx abaqus.inp",
+                           "superelement.mtx superelement.inp", "rows.mtx rows.dofs",
+                           "rows.npy rows.dofs", "rows_csr.npz rows.dofs"})
+   {
+      std::istringstream names(job);
+      std::vector<std::string> files, contents;
+      for (std::string name; names >> name;)
+      {
+         std::ifstream in(folder + name, std::ios::binary);
+         files.push_back(name.rfind("rows", 0) == 0 && name.find("dofs") != name.npos
+                            ? "damaged.dofs"
+                            : "damaged" + name.substr(name.find('.')));
+         contents.emplace_back(std::istreambuf_iterator<char>(in),
+                               std::istreambuf_iterator<char>());
+      }
+      const std::vector<std::string> bits = {
+         "-1", "1e999", "nan",     "*",          ",", ",,", "\n", "99999999999",
+         "0",  ".",     "*STEP\n", "4294967295", "=", "\"", "\t"};
+      for (int trial = 0; trial < 100; ++trial)
+      {
+         for (std::size_t f = 0; f < files.size(); ++f) { write_whole(files[f], contents[f]); }
+         const std::size_t f = below(files.size());
+         std::string text = contents[f];
+         const std::size_t at = below(text.size());
+         switch (below(5))
+         {
+         case 0:
+            text.resize(at);
+            break;
+         case 1:
+            text[at] = static_cast<char>(random());
+            break;
+         case 2:
+            text.insert(at, bits[below(bits.size())]);
+            break;
+         case 3:
+            text.erase(at, 1 + below(40));
+            break;
+         default:
+            text.replace(at, 1, bits[below(bits.size())]);
+         }
+         write_whole(files[f], text);
+         try
+         {
+            const NodalStiffness result = read_stiffness(files[0]);
+            for (const NodalStiffness &part : result.parts())
+            {
+               for (const auto &[set, nodes] : part.sets)
+               {
+                  try
+                  {
+                     part.contact_line(nodes);
+                  }
+                  catch (const InputError &)
+                  {
+                  }
+               }
+            }
+            ++read;
+         }
+         catch (const InputError &error)
+         {
+            EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+            ++refused;
+         }
+      }
+   }
+   EXPECT_GT(refused, 100);
+   EXPECT_GT(read, 20);
+}
+
+} // namespace
