@@ -21,11 +21,11 @@
 //                shakedown -obstacle rigid -nodes 65 -friction 0.6 -starts 4
 //                shakedown -march -cycles 2
 
-#include "common/limit_of_the_mesh.hpp"
 #include "common/shakedown_study.hpp"
 
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/reduced_file.hpp>
+#include <cattaneo/shakedown/stay_closed.hpp>
 #include <cmath>
 
 namespace miniapp
@@ -156,10 +156,18 @@ void Shakedown::prepare()
 void Shakedown::keep_closed(double load_factor)
 {
    Watch watch("march");
-   const auto nodes =
+   const StayedClosed stayed =
       stay_closed(gapped, cycle_of(gapped, reversal), load_factor, 3, watch.monitor());
-   if (!nodes) { stopped("the nodes that stay closed were not found yet"); }
-   part = closed_contact(whole, *nodes);
+   const MarchReport &march = stayed.march;
+   if (march.status == FrictionStatus::stopped)
+   {
+      stopped("the nodes that stay closed were not found yet");
+   }
+   warn_of_cut_off(march.cut_off);
+   require(march.status == FrictionStatus::converged,
+           "option --closed: the march ended with status '", name(march.status),
+           "': ", march.message);
+   part = closed_contact(whole, stayed.nodes);
    problem = part.reduced;
    study.say(text("%zu of %ld nodes stay closed at λ = %g; the limits assume that they do "
                   "and that the others stay open",

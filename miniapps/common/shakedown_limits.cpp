@@ -1,9 +1,9 @@
-#include "common/limit_of_the_mesh.hpp"
 #include "common/shakedown_study.hpp"
 #include "common/williams.hpp"
 
 #include <algorithm>
 #include <cattaneo/shakedown/estimates.hpp>
+#include <cattaneo/shakedown/limit_of_the_mesh.hpp>
 #include <cattaneo/shakedown/lower_limit.hpp>
 #include <cmath>
 

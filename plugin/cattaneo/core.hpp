@@ -21,6 +21,8 @@
 #include <cattaneo/reduced/reduction.hpp>
 #include <cattaneo/shakedown/closed_contact.hpp>
 #include <cattaneo/shakedown/estimates.hpp>
+#include <cattaneo/shakedown/limit_of_the_mesh.hpp>
 #include <cattaneo/shakedown/lower_limit.hpp>
+#include <cattaneo/shakedown/stay_closed.hpp>
 #include <cattaneo/shakedown/transient.hpp>
 #include <cattaneo/whole_file.hpp>
