@@ -161,7 +161,7 @@ void contact2d(miniapp::Study &study)
    history.report_march(problem);
    if (!snapshots.times.empty() && snapshots.complete())
    {
-      miniapp::EdgeStudy edges{problem, snapshots.states[0], snapshots.states[1]};
+      fretting::MarchedStates edges{problem, snapshots.states[0], snapshots.states[1]};
       if (snapshots.times.size() == 3 && !history.report.cycles.empty())
       {
          edges.opposite = &snapshots.states[2];
@@ -170,9 +170,7 @@ void contact2d(miniapp::Study &study)
       if (own.materials.size() == 1) { edges.cracked = CrackedBody::first; }
       edges.modulus = own.modulus();
       edges.corner = [&](int end) { return own.corner(end); };
-      const miniapp::EdgeReport found = miniapp::read_edges(edges);
-      miniapp::print(found, [](double s) { return s; });
-      study.results["edges"] = miniapp::to_json(found);
+      miniapp::report_edges(study, fretting::read_edges(edges));
    }
    miniapp::report_critical_friction(study, problem);
 }

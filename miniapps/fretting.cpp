@@ -209,7 +209,8 @@ void print_solution(miniapp::Study &study, const miniapp::SolvedPad &solved)
 {
    study.title(
       text("6. The finite element contact (%d dofs, %.4g s)", solved.dofs, solved.seconds));
-   Page page(study);
+   const double middle =
+      0.5 * (solved.trailing.edge.position.position + solved.leading.edge.position.position);
    Json &fe = study.results["fe"];
    fe = {{"half_width", solved.half_width},
          {"steady_cycle", solved.steady_cycle},
@@ -219,29 +220,12 @@ void print_solution(miniapp::Study &study, const miniapp::SolvedPad &solved)
    for (const bool trailing : {true, false})
    {
       const miniapp::PadEdge &solution = trailing ? solved.trailing : solved.leading;
-      const ContactEdge &edge = solution.edge;
       Json &j = fe[trailing ? "trailing" : "leading"];
       j = miniapp::to_json(solution);
       j["slip_zone_reversed"] = solution.reversed_slip_zone;
       j["resolved"] = solution.resolved;
-      study.say(trailing ? "   trailing edge" : "   leading edge");
-      const auto fitted = [&](const char *what, const FittedIntensity &k, const char *unit)
-      {
-         page.line(what, number(k.value, unit),
-                   text("± %.4g %%, fitted from %.4g to %.4g mm (%d nodes)",
-                        100 * k.relative_error, k.window.nearest, k.window.farthest, k.nodes));
-      };
-      fitted("K_N", edge.k_n, "MPa/√mm");
-      fitted("K_T", edge.k_t, "MPa√mm");
-      page.line("slip zone d", number(edge.slip_zone, "mm"),
-                "± " + number(edge.slip_zone_error, "mm") + "; from K_N and K_T " +
-                   number(slip_zone(near_edge(edge)), "mm") +
-                   (edge.slides ? "; the whole contact slides" : ""));
-      page.line("energy per cycle", number(solution.energy->computed_total, "N"),
-                "from K_N and K_T " + number(solution.energy->predicted_total, "N"));
-      page.line("largest per area", number(solution.energy->computed_max, "N/mm"),
-                "from K_T " + number(solution.energy->predicted_max, "N/mm"));
-      if (edge.k_t.value != 0 && !solution.resolved)
+      miniapp::report_edge(study, solution, trailing ? "trailing" : "leading", -middle);
+      if (solution.edge.k_t.value != 0 && !solution.resolved)
       {
          study.say(wrapped("The slip zone is shorter than two spacings of the contact nodes (" +
                               number(solved.spacing, "mm") +

@@ -137,13 +137,11 @@ void single(miniapp::Study &study, Joint &joint)
    study.results["zones"] = evolution;
    study.results["seconds_march"] = o.report.seconds;
    // The remote load goes from none to its peak: the pressed state is the cycle's other end.
-   miniapp::EdgeStudy edges{problem, o.tightened, o.first_peak};
+   fretting::MarchedStates edges{problem, o.tightened, o.first_peak};
    edges.opposite = &edges.pressed;
    edges.cycle = &o.report.cycles.back();
    edges.modulus = 0.5; // E*, with E' = 1 of both laps
-   const miniapp::EdgeReport report = miniapp::read_edges(edges);
-   miniapp::print(report, x);
-   study.results["edges"] = miniapp::to_json(report);
+   miniapp::report_edges(study, fretting::read_edges(edges), shift);
    draw(study, joint, o, diagram);
    if (!joint.paraview.empty()) { write_frames(study, joint, states); }
 }

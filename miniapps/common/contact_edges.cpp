@@ -1,12 +1,5 @@
 #include "common/contact_edges.hpp"
 
-#include "common/text.hpp"
-
-#include <algorithm>
-#include <cattaneo/input_error.hpp>
-#include <cmath>
-#include <cstdio>
-
 namespace miniapp
 {
 
@@ -14,161 +7,61 @@ using namespace cattaneo;
 using namespace cattaneo::fretting;
 using Json = nlohmann::ordered_json;
 
-namespace
-{
-
-void predict(const EdgeStudy &study, const ContactEdge *before, const ContactEdge *opposite,
-             SolvedEdge &solved)
+void report_edge(Study &study, const SolvedEdge &solved, const std::string &name, double shift)
 {
    const ContactEdge &edge = solved.edge;
-   const double d = slip_zone(near_edge(edge));
-   const Eigen::VectorXd &arc = study.problem.arc_length;
-   const Eigen::Index end = edge.side > 0 ? edge.first : edge.last;
-   const double spacing = std::abs(arc[end + edge.side] - arc[end]);
-   if (std::min(d, edge.slip_zone) < 2 * spacing && d > 0)
+   const auto line =
+      [&](const std::string &what, double x, double error = none, const std::string &more = "")
+   { study.value("", x, name + what, error, more); };
+   const auto intensity = [&](const char *what, const FittedIntensity &k)
    {
-      solved.notes.push_back(
-         text("a slip zone of %.3g is shorter than two spacings of the nodes (%.3g): its "
-              "computed length and energy are not resolved",
-              std::min(d, edge.slip_zone), spacing));
-   }
-   // A fit that its own next term changes by a tenth has not found the square root.
-   if (std::max(edge.k_n.relative_error, edge.k_t.relative_error) > 0.1 && d > 0)
+      line(what, k.value, k.relative_error * std::abs(k.value),
+           text("(fitted from %.3g to %.3g, %d nodes)", k.window.nearest, k.window.farthest,
+                k.nodes));
+   };
+   line(" edge at", edge.position.position + shift, edge.position.error);
+   if (edge.why_not.empty())
    {
-      solved.notes.push_back("the fit is uncertain: refine the contact near its edge");
+      intensity(": K_N", edge.k_n);
+      intensity(": K_T", edge.k_t);
+      line(": slip zone", edge.slip_zone, edge.slip_zone_error,
+           edge.slides ? "(the whole contact slides)" : "");
+      line(": slip zone from K_N and K_T", slip_zone(near_edge(edge)));
    }
-   if (edge.slides) { solved.notes.push_back("the whole stretch of contact slides"); }
-   if (before)
+   if (solved.energy)
    {
-      solved.travel = edge.position.position - before->position.position;
-      // The slip zone's length follows from the pressure at its root: a tenth is what the
-      // fields can bear.
-      if (std::abs(solved.travel) > 0.1 * d)
-      {
-         solved.notes.push_back(
-            text("the edge moves by %.3g under the cyclic loads, the slip zone is %.3g: K_N is "
-                 "not constant, as the predictions take it to be",
-                 solved.travel, d));
-      }
+      line(": energy per cycle", solved.energy->computed_total);
+      line(": energy from K_N and K_T", solved.energy->predicted_total, none,
+           text("(ΔK_T %.4g)", solved.k_t_range));
+      line(": largest energy per area", solved.energy->computed_max);
+      line(": largest from K_T", solved.energy->predicted_max);
    }
-   if (!study.cycle) { return; }
-   if (study.modulus <= 0)
+   if (solved.corner)
    {
-      solved.notes.push_back("no energy is predicted: the bodies are not of one material");
-      return;
+      const CornerFit &fit = *solved.corner;
+      intensity(": K_I", fit.k_one);
+      if (fit.modes.two) { intensity(": K_II", fit.k_two); }
+      line(": exponent λ-1 of K_I", fit.modes.one.eigenvalue - 1);
+      if (fit.modes.two) { line(": exponent λ-1 of K_II", fit.modes.two->eigenvalue - 1); }
+      line(": the corner slips below f", fit.least_friction);
    }
-   if (!opposite || !opposite->why_not.empty())
-   {
-      solved.notes.push_back("this edge has no like at the other end of the cycle: no energy "
-                             "is predicted");
-      return;
-   }
-   solved.k_t_range = std::abs(edge.k_t.value - opposite->k_t.value);
-   solved.energy =
-      compare_energy(study.problem, edge, *study.cycle, solved.k_t_range, study.modulus);
+   for (const std::string &note : solved.notes) { study.say("   " + note); }
 }
 
-void fit_at_corner(const EdgeStudy &study, SolvedEdge &solved)
+void report_edges(Study &study, const EdgeReport &report, double shift)
 {
-   solved.notes.push_back(solved.edge.why_not);
-   if (!study.corner || !solved.edge.complete) { return; }
-   try
-   {
-      const CornerModes modes = study.corner(solved.edge.side);
-      const ContactState stuck =
-         fully_stuck(study.problem, ContactState::virgin(study.problem), study.peak);
-      solved.corner = fit_corner(modes, edge_tractions(study.problem, stuck, solved.edge));
-   }
-   catch (const InputError &error)
-   {
-      solved.notes.push_back(std::string("not fitted as a corner: ") + error.what());
-   }
-}
-
-} // namespace
-
-EdgeReport read_edges(const EdgeStudy &study)
-{
-   EdgeReport report;
-   try
-   {
-      const std::vector<ContactEdge> edges =
-         contact_edges(study.problem, study.pressed, study.peak, study.cracked);
-      const std::vector<ContactEdge> before =
-         contact_edges(study.problem, study.pressed, study.pressed, study.cracked);
-      // A cycle between nothing and the peak has the pressed state as its other end.
-      const std::vector<ContactEdge> opposite =
-         !study.opposite ? std::vector<ContactEdge>()
-         : study.opposite == &study.pressed
-            ? before
-            : contact_edges(study.problem, study.pressed, *study.opposite, study.cracked);
-      for (std::size_t e = 0; e < edges.size(); e++)
-      {
-         SolvedEdge solved;
-         solved.edge = edges[e];
-         if (!solved.edge.why_not.empty()) { fit_at_corner(study, solved); }
-         else
-         {
-            // Edges correspond while no stretch of contact is born or dies.
-            const auto like = [&](const std::vector<ContactEdge> &all)
-            { return all.size() == edges.size() ? &all[e] : nullptr; };
-            predict(study, like(before), like(opposite), solved);
-         }
-         report.edges.push_back(solved);
-      }
-      if (edges.empty())
-      {
-         report.why_not = "nothing is in contact, or all between planes of symmetry";
-      }
-   }
-   catch (const InputError &error)
-   {
-      report = {};
-      report.why_not = error.what();
-   }
-   return report;
-}
-
-void print(const EdgeReport &report, const std::function<double(double)> &coordinate)
-{
-   std::printf("\nEdges of the contact (units of the problem)\n");
-   if (!report.why_not.empty()) { std::printf("   not read: %s\n", report.why_not.c_str()); }
+   study.title("Edges of the contact (units of the problem)");
+   if (!report.why_not.empty()) { study.say("   not read: " + report.why_not); }
+   Json &list = study.results["edges"] = Json::array();
    for (const SolvedEdge &solved : report.edges)
    {
-      const ContactEdge &edge = solved.edge;
-      std::printf(" %s edge at %.5g ± %s\n", edge.side > 0 ? "first" : "last",
-                  coordinate(edge.position.position), error_text(edge.position.error).c_str());
-      const auto line = [](const char *what, const FittedIntensity &fitted)
-      {
-         std::printf("   %-12s %11.4e ± %s %%, fitted from %.3g to %.3g (%d nodes)\n", what,
-                     fitted.value, error_text(100 * fitted.relative_error).c_str(),
-                     fitted.window.nearest, fitted.window.farthest, fitted.nodes);
-      };
-      if (edge.why_not.empty())
-      {
-         line("K_N", edge.k_n);
-         line("K_T", edge.k_t);
-         std::printf("   slip zone    %11.4e ± %s, predicted %.4e\n", edge.slip_zone,
-                     error_text(edge.slip_zone_error).c_str(), slip_zone(near_edge(edge)));
-      }
-      if (solved.energy)
-      {
-         std::printf("   energy/cycle %11.4e, predicted %.4e (ΔK_T %.3e)\n",
-                     solved.energy->computed_total, solved.energy->predicted_total,
-                     solved.k_t_range);
-      }
-      if (solved.corner)
-      {
-         const CornerFit &fit = *solved.corner;
-         line("K_I", fit.k_one);
-         if (fit.modes.two) { line("K_II", fit.k_two); }
-         std::printf("   exponents λ-1 %.4f", fit.modes.one.eigenvalue - 1);
-         if (fit.modes.two) { std::printf(", %.4f", fit.modes.two->eigenvalue - 1); }
-         std::printf("; the corner slips below f = %.4f\n", fit.least_friction);
-      }
-      for (const std::string &note : solved.notes) { std::printf("   %s\n", note.c_str()); }
+      report_edge(study, solved, solved.edge.side > 0 ? "first" : "last", shift);
+      list.push_back(to_json(solved));
    }
 }
+
+namespace
+{
 
 Json to_json(const FittedIntensity &fitted)
 {
@@ -177,6 +70,8 @@ Json to_json(const FittedIntensity &fitted)
            {"window", {fitted.window.nearest, fitted.window.farthest}},
            {"nodes", fitted.nodes}};
 }
+
+} // namespace
 
 Json to_json(const SolvedEdge &solved)
 {
@@ -217,13 +112,6 @@ Json to_json(const SolvedEdge &solved)
    }
    j["notes"] = solved.notes;
    return j;
-}
-
-Json to_json(const EdgeReport &report)
-{
-   Json list = Json::array();
-   for (const SolvedEdge &solved : report.edges) { list.push_back(to_json(solved)); }
-   return list;
 }
 
 } // namespace miniapp

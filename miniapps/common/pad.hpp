@@ -42,7 +42,7 @@ struct PadContact
 PadContact calibrate(const Pad &pad);
 
 /// One edge of the finite element contact over one steady cycle.
-struct PadEdge : SolvedEdge
+struct PadEdge : cattaneo::fretting::SolvedEdge
 {
    double reversed_slip_zone = 0.0; ///< computed, back at peak load
    bool resolved = false; ///< fewer spacings than two do not carry a slip zone, nor its energy

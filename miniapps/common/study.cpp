@@ -134,8 +134,8 @@ void Study::say(const std::string &line)
 void Study::value(const std::string &key, double x, const std::string &label, double error,
                   const std::string &unit)
 {
-   results[key] = x;
-   if (!std::isnan(error)) { results[key + "_error"] = error; }
+   if (!key.empty()) { results[key] = x; }
+   if (!key.empty() && !std::isnan(error)) { results[key + "_error"] = error; }
    if (references_.has(key)) { found_.push_back({key, x, error, {}}); }
    if (label.empty()) { return; }
    std::string line =

@@ -8,7 +8,7 @@
 #include <cattaneo/fretting/calibration.hpp>
 #include <cattaneo/fretting/corner.hpp>
 #include <cattaneo/fretting/edge_crack.hpp>
-#include <cattaneo/fretting/from_contact.hpp>
+#include <cattaneo/fretting/edge_report.hpp>
 #include <cattaneo/fretting/hertz_field.hpp>
 #include <cattaneo/fretting/measures.hpp>
 #include <cattaneo/fretting/yield.hpp>

@@ -5,6 +5,7 @@
 #include <array>
 #include <cattaneo/fretting/calibration.hpp>
 #include <cattaneo/fretting/corner.hpp>
+#include <cattaneo/fretting/edge_report.hpp>
 #include <cattaneo/fretting/from_contact.hpp>
 #include <cattaneo/fretting/measures.hpp>
 #include <cattaneo/input_error.hpp>
@@ -672,6 +673,104 @@ TEST(FromContact, TractionsOfAnEdgeNeedItsPlaces)
 }
 
 // --- corners
+
+/// Does a note of the edge say this?
+bool notes_say(const SolvedEdge &solved, const std::string &words)
+{
+   return std::any_of(solved.notes.begin(), solved.notes.end(),
+                      [&](const std::string &note)
+                      { return note.find(words) != std::string::npos; });
+}
+
+TEST(EdgeReport, OfAHertzContactHasTheClosedFormsOfItsCycle)
+{
+   const ReducedProblem problem = hertz_pair(161);
+   const double x = 0.3, shear = x * 0.5 * load;
+   const Solved solved = solve(problem, {load, 0, 0}, {0, shear, 0});
+   ContactState opposite = solved.peak;
+   opposite.time = 0;
+   march(
+      problem,
+      LoadHistory::through({Eigen::Vector3d(load, shear, 0), Eigen::Vector3d(load, -shear, 0)}),
+      opposite);
+   MarchedStates states{problem, solved.pressed, solved.peak};
+   for (const SolvedEdge &one : read_edges(states).edges) // of two states there is no energy
+   {
+      EXPECT_FALSE(one.energy || one.corner);
+      EXPECT_TRUE(one.notes.empty()) << one.notes[0];
+   }
+   states.opposite = &opposite;
+   states.cycle = &solved.cycles.cycles.back();
+   for (const SolvedEdge &one : read_edges(states).edges)
+   {
+      EXPECT_FALSE(one.energy);
+      EXPECT_TRUE(notes_say(one, "not of one material"));
+   }
+   states.modulus = modulus;
+   const EdgeReport report = read_edges(states);
+   EXPECT_TRUE(report.why_not.empty());
+   ASSERT_EQ(report.edges.size(), 2u);
+   const double k_t = shear_intensities(1, shear, 0).trailing,
+                energy = 0.5 * hertz_slip_energy(0.5, load, x, modulus);
+   for (const SolvedEdge &one : report.edges)
+   {
+      EXPECT_NEAR(one.travel, 0, 1e-9); // similar bodies: shear leaves the pressure alone
+      EXPECT_NEAR(one.k_t_range, 2 * k_t, 0.02 * k_t);
+      ASSERT_TRUE(one.energy);
+      EXPECT_NEAR(one.energy->computed_total, energy, 0.02 * energy);
+      EXPECT_EQ(one.energy->predicted_total,
+                slip_energy_total(near_edge(one.edge), one.k_t_range, modulus));
+      EXPECT_TRUE(one.notes.empty()) << one.notes[0];
+   }
+   states.opposite = &solved.pressed; // half the cycle, as far as it is told
+   EXPECT_NEAR(read_edges(states).edges[0].k_t_range, k_t, 0.01 * k_t);
+   states.opposite = nullptr;
+   EXPECT_TRUE(notes_say(read_edges(states).edges[0], "no like at the other end"));
+}
+
+TEST(EdgeReport, SaysWhatIsNotToBeTrusted)
+{
+   const ReducedProblem problem = hertz_pair(41); // a slip zone of 0.01, nodes 0.07 apart
+   const Solved solved = solve(problem, {load, 0, 0}, {0, 0.02 * 0.5 * load, 0});
+   const EdgeReport report = read_edges({problem, solved.pressed, solved.peak});
+   ASSERT_EQ(report.edges.size(), 2u);
+   EXPECT_TRUE(
+      notes_say(report.edges[0], "shorter than two spacings of the nodes (0.0683)")); // 2.8/41
+   ContactState apart = solved.pressed;
+   apart.status.assign(41, NodeState::separation);
+   apart.p.setZero();
+   apart.q.setZero();
+   EXPECT_NE(read_edges({problem, apart, apart}).why_not, "");
+   ReducedProblem smooth = problem;
+   set_friction(smooth, 0);
+   const EdgeReport refused = read_edges({smooth, solved.pressed, solved.peak});
+   EXPECT_TRUE(refused.edges.empty());
+   EXPECT_NE(refused.why_not.find("friction"), std::string::npos) << refused.why_not;
+}
+
+TEST(EdgeReport, ACornerIsFittedWhereItsModesAreKnown)
+{
+   const ReducedProblem problem = half_planes(41, 1, [](double) { return 0.0; });
+   const Solved solved = solve(problem, {load, 0, 0}, {0, 0.1 * load, 0});
+   MarchedStates states{problem, solved.pressed, solved.peak};
+   for (const SolvedEdge &one : read_edges(states).edges)
+   {
+      EXPECT_FALSE(one.corner);
+      EXPECT_TRUE(notes_say(one, one.edge.why_not));
+   }
+   states.corner = [](int side)
+   {
+      require(side > 0, "nobody knows");
+      return corner_modes(Corner{pi / 2, pi});
+   };
+   const EdgeReport report = read_edges(states);
+   ASSERT_EQ(report.edges.size(), 2u);
+   ASSERT_TRUE(report.edges[0].corner);
+   EXPECT_NEAR(report.edges[0].corner->least_friction, 0.543075578837, 1e-11);
+   EXPECT_GT(report.edges[0].corner->k_one.nodes, 3);
+   EXPECT_FALSE(report.edges[1].corner);
+   EXPECT_TRUE(notes_say(report.edges[1], "not fitted as a corner: nobody knows"));
+}
 
 TEST(Corner, SquarePunchOnAHalfPlane)
 {

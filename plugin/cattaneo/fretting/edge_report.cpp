@@ -1,0 +1,133 @@
+#include <algorithm>
+#include <cattaneo/fretting/edge_report.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cmath>
+#include <sstream>
+
+namespace cattaneo::fretting
+{
+
+namespace
+{
+
+/// A sentence with its numbers to three digits.
+template <class... Parts>
+std::string sentence(const Parts &...parts)
+{
+   std::ostringstream text;
+   text.precision(3);
+   (text << ... << parts);
+   return text.str();
+}
+
+void predict(const MarchedStates &states, const ContactEdge *before,
+             const ContactEdge *opposite, SolvedEdge &solved)
+{
+   const ContactEdge &edge = solved.edge;
+   const double d = slip_zone(near_edge(edge));
+   const Eigen::VectorXd &arc = states.problem.arc_length;
+   const Eigen::Index end = edge.side > 0 ? edge.first : edge.last;
+   const double spacing = std::abs(arc[end + edge.side] - arc[end]);
+   if (std::min(d, edge.slip_zone) < 2 * spacing && d > 0)
+   {
+      solved.notes.push_back(sentence("a slip zone of ", std::min(d, edge.slip_zone),
+                                      " is shorter than two spacings of the nodes (", spacing,
+                                      "): its computed length and energy are not resolved"));
+   }
+   // A fit that its own next term changes by a tenth has not found the square root.
+   if (std::max(edge.k_n.relative_error, edge.k_t.relative_error) > 0.1 && d > 0)
+   {
+      solved.notes.push_back("the fit is uncertain: refine the contact near its edge");
+   }
+   if (edge.slides) { solved.notes.push_back("the whole stretch of contact slides"); }
+   if (before)
+   {
+      solved.travel = edge.position.position - before->position.position;
+      // The slip zone's length follows from the pressure at its root: a tenth is what the
+      // fields can bear.
+      if (std::abs(solved.travel) > 0.1 * d)
+      {
+         solved.notes.push_back(sentence(
+            "the edge moves by ", solved.travel, " under the cyclic loads, the slip zone is ",
+            d, ": K_N is not constant, as the predictions take it to be"));
+      }
+   }
+   if (!states.cycle) { return; }
+   if (states.modulus <= 0)
+   {
+      solved.notes.push_back("no energy is predicted: the bodies are not of one material");
+      return;
+   }
+   if (!opposite || !opposite->why_not.empty())
+   {
+      solved.notes.push_back("this edge has no like at the other end of the cycle: no energy "
+                             "is predicted");
+      return;
+   }
+   solved.k_t_range = std::abs(edge.k_t.value - opposite->k_t.value);
+   solved.energy =
+      compare_energy(states.problem, edge, *states.cycle, solved.k_t_range, states.modulus);
+}
+
+void fit_at_corner(const MarchedStates &states, SolvedEdge &solved)
+{
+   solved.notes.push_back(solved.edge.why_not);
+   if (!states.corner || !solved.edge.complete) { return; }
+   try
+   {
+      const CornerModes modes = states.corner(solved.edge.side);
+      const ContactState stuck =
+         fully_stuck(states.problem, ContactState::virgin(states.problem), states.peak);
+      solved.corner = fit_corner(modes, edge_tractions(states.problem, stuck, solved.edge));
+   }
+   catch (const InputError &error)
+   {
+      solved.notes.push_back(std::string("not fitted as a corner: ") + error.what());
+   }
+}
+
+} // namespace
+
+EdgeReport read_edges(const MarchedStates &states)
+{
+   EdgeReport report;
+   try
+   {
+      const std::vector<ContactEdge> edges =
+         contact_edges(states.problem, states.pressed, states.peak, states.cracked);
+      const std::vector<ContactEdge> before =
+         contact_edges(states.problem, states.pressed, states.pressed, states.cracked);
+      // A cycle between nothing and the peak has the pressed state as its other end.
+      const std::vector<ContactEdge> opposite =
+         !states.opposite ? std::vector<ContactEdge>()
+         : states.opposite == &states.pressed
+            ? before
+            : contact_edges(states.problem, states.pressed, *states.opposite, states.cracked);
+      for (std::size_t e = 0; e < edges.size(); e++)
+      {
+         SolvedEdge solved;
+         solved.edge = edges[e];
+         if (!solved.edge.why_not.empty()) { fit_at_corner(states, solved); }
+         else
+         {
+            // Edges correspond while no stretch of contact is born or dies.
+            const auto like = [&](const std::vector<ContactEdge> &all)
+            { return all.size() == edges.size() ? &all[e] : nullptr; };
+            predict(states, like(before), like(opposite), solved);
+         }
+         report.edges.push_back(solved);
+      }
+      if (edges.empty())
+      {
+         report.why_not = "nothing is in contact, or all between planes of symmetry";
+      }
+   }
+   catch (const InputError &error)
+   {
+      report = {};
+      report.why_not = error.what();
+   }
+   return report;
+}
+
+} // namespace cattaneo::fretting
