@@ -208,10 +208,7 @@ struct Record
          }
          const auto target = targets.find(columns[i]);
          require(target != targets.end(), where, ": there is no column '", columns[i], "'.");
-         char *end = nullptr;
-         *target->second = std::strtod(cells[i].c_str(), &end);
-         require(!cells[i].empty() && *end == '\0' && std::isfinite(*target->second), where,
-                 ": '", cells[i], "' in column ", columns[i], " is not a number.");
+         *target->second = number(where + ", column " + columns[i], cells[i]);
       }
       require(cycles > 0, where, ": the number of cycles must be given and positive.");
       require(runout == 0 || runout == 1, where, ": runout is ", runout,

@@ -1,8 +1,7 @@
 #include "common/own_bodies.hpp"
 
-#include "common/statements.hpp"
-
 #include <algorithm>
+#include <cattaneo/elastic/statements.hpp>
 #include <cattaneo/fretting/calibration.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/mesh/filled_corner.hpp>

@@ -1,10 +1,10 @@
 #include "common/own_history.hpp"
 
-#include "common/statements.hpp"
 #include "common/watch.hpp"
 
 #include <algorithm>
 #include <cattaneo/friction/critical_friction.hpp>
+#include <cattaneo/friction/history_statements.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
 #include <cstdio>

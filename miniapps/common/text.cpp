@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
-#include <cstdlib>
 #include <sstream>
 
 namespace miniapp
@@ -20,38 +19,6 @@ std::string error_text(double error)
    const double unit = std::pow(10.0, std::floor(std::log10(error)) - 1);
    // What is a whole number of units but for round-off is not rounded up.
    return text("%.2g", std::ceil(error / unit * (1 - 1e-12)) * unit);
-}
-
-std::vector<std::string> split(const std::string &text, const std::string &separators)
-{
-   std::vector<std::string> pieces;
-   std::size_t from = 0;
-   while (from <= text.size())
-   {
-      const std::size_t to = std::min(text.find_first_of(separators, from), text.size());
-      std::string piece = text.substr(from, to - from);
-      piece.erase(0, piece.find_first_not_of(" \t\n"));
-      piece.erase(piece.find_last_not_of(" \t\n") + 1);
-      if (!piece.empty()) { pieces.push_back(piece); }
-      from = to + 1;
-   }
-   return pieces;
-}
-
-std::string listed(const std::vector<std::string> &pieces, const std::string &between)
-{
-   std::string text;
-   for (const std::string &piece : pieces) { text += (text.empty() ? "" : between) + piece; }
-   return text;
-}
-
-double number(const std::string &where, const std::string &word)
-{
-   char *end = nullptr;
-   const double value = std::strtod(word.c_str(), &end);
-   cattaneo::require(!word.empty() && *end == 0 && std::isfinite(value), where, ": '", word,
-                     "' is not a number");
-   return value;
 }
 
 std::size_t characters(const std::string &text)

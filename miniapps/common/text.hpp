@@ -1,11 +1,15 @@
 #pragma once
 
+#include <cattaneo/words.hpp>
 #include <cstdio>
 #include <string>
-#include <vector>
 
 namespace miniapp
 {
+
+using cattaneo::listed;
+using cattaneo::number;
+using cattaneo::split;
 
 /// A name with a number so exact that no two numbers share one: "f = 0.5".
 std::string exact_text(const std::string &words, double value);
@@ -22,14 +26,6 @@ std::string text(const char *format, Values... values)
    std::snprintf(result.data(), result.size() + 1, format, values...);
    return result;
 }
-
-/// Pieces of a text between separators, without spaces around them; empty ones are left out.
-std::vector<std::string> split(const std::string &text, const std::string &separators);
-/// Pieces with something between them.
-std::string listed(const std::vector<std::string> &pieces, const std::string &between = ", ");
-
-/// A word that is a finite number; InputError "WHERE: 'WORD' is not a number".
-double number(const std::string &where, const std::string &word);
 
 /// Of UTF-8, not its bytes.
 std::size_t characters(const std::string &text);

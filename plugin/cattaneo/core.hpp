@@ -13,6 +13,7 @@
 #include <cattaneo/fretting/measures.hpp>
 #include <cattaneo/fretting/yield.hpp>
 #include <cattaneo/friction/critical_friction.hpp>
+#include <cattaneo/friction/history_statements.hpp>
 #include <cattaneo/halfplane/half_plane.hpp>
 #include <cattaneo/output/history.hpp>
 #include <cattaneo/reduced/interfaces.hpp>

@@ -1,21 +1,15 @@
-#include "common/statements.hpp"
-
-#include "common/text.hpp"
-
 #include <algorithm>
+#include <cattaneo/elastic/statements.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/words.hpp>
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <set>
-#include <sstream>
 
-namespace miniapp
+namespace cattaneo
 {
-
-using namespace cattaneo;
 
 namespace
 {
@@ -73,7 +67,7 @@ std::vector<int> components(const std::string &where, const std::string &text)
 
 } // namespace
 
-BoundaryPart boundary_part(const std::string &where, const std::string &text)
+BoundaryPart boundary_part(const std::string &called, const std::string &text)
 {
    const std::string form = "', must be boundary attributes such as 3 or 3,4, perhaps with an "
                             "interval such as 3[-1<x<1]";
@@ -83,26 +77,26 @@ BoundaryPart boundary_part(const std::string &where, const std::string &text)
    {
       char *end = nullptr;
       const long attribute = std::strtol(word.c_str(), &end, 10);
-      require(*end == 0 && attribute > 0 && attribute < 1000000000, where, ": '", text, form);
+      require(*end == 0 && attribute > 0 && attribute < 1000000000, called, ": '", text, form);
       attributes.push_back(static_cast<int>(attribute));
    }
-   require(!attributes.empty(), where, ": '", text, form);
+   require(!attributes.empty(), called, ": '", text, form);
    if (bracket == text.size()) { return attributes; }
-   require(text.back() == ']', where, ": '", text, form);
+   require(text.back() == ']', called, ": '", text, form);
    const std::vector<std::string> bounds =
       split(text.substr(bracket + 1, text.size() - bracket - 2), "<");
-   require(bounds.size() == 3 && (bounds[1] == "x" || bounds[1] == "y"), where, ": '", text,
+   require(bounds.size() == 3 && (bounds[1] == "x" || bounds[1] == "y"), called, ": '", text,
            form);
-   return {attributes, bounds[1] == "x" ? 0 : 1, number(where, bounds[0]),
-           number(where, bounds[2])};
+   return {attributes, bounds[1] == "x" ? 0 : 1, number(called, bounds[0]),
+           number(called, bounds[2])};
 }
 
-ScalarField linear_field(const std::string &where, const std::string &text)
+ScalarField linear_field(const std::string &called, const std::string &text)
 {
    double coefficients[3] = {0, 0, 0}; // of 1, x, y
    const auto check = [&](bool condition)
    {
-      require(condition, where, ": '", text,
+      require(condition, called, ": '", text,
               "' is not a number or a linear function such as 1-3*x+2*y");
    };
    check(!text.empty());
@@ -135,11 +129,11 @@ ScalarField linear_field(const std::string &where, const std::string &text)
    return [=](double x, double y) { return c + cx * x + cy * y; };
 }
 
-void add_supports(ElasticBody &body, const std::string &option, const std::string &text)
+void add_supports(ElasticBody &body, const std::string &called, const std::string &text)
 {
    for (const std::string &statement : split(text, " ;\t\n"))
    {
-      const std::string where = option + " '" + statement + "'";
+      const std::string where = called + " '" + statement + "'";
       const std::size_t colon = statement.find(':');
       require(colon != std::string::npos, where,
               ": must be attributes:components such as 1:xy, or @x,y:components for one node");
@@ -159,7 +153,7 @@ void add_supports(ElasticBody &body, const std::string &option, const std::strin
    }
 }
 
-void add_loads(ElasticBody &body, const std::string &option, const std::string &text)
+void add_loads(ElasticBody &body, const std::string &called, const std::string &text)
 {
    struct Kind
    {
@@ -174,7 +168,7 @@ void add_loads(ElasticBody &body, const std::string &option, const std::string &
                                 {"displacement-y", 4, "PATTERN displacement-y WHERE u"}};
    for (const std::string &statement : split(text, ";\n"))
    {
-      const std::string where = option + " '" + statement + "'";
+      const std::string where = called + " '" + statement + "'";
       const std::vector<std::string> words = split(statement, " \t");
       require(words.size() >= 2, where, ": must be PATTERN KIND WHERE VALUES");
       const std::string &pattern = words[0];
@@ -207,48 +201,4 @@ void add_loads(ElasticBody &body, const std::string &option, const std::string &
    }
 }
 
-LoadHistory load_history(const std::string &option, const std::string &text,
-                         const ReducedProblem &problem)
-{
-   NamedLoads loads;
-   std::vector<NamedLoads> points;
-   for (const std::string &statement : split(text, ";"))
-   {
-      const std::string where = option + " '" + statement + "'";
-      std::set<std::string> named;
-      for (const std::string &word : split(statement, ", \t\n"))
-      {
-         const std::size_t equals = word.find('=');
-         require(equals != std::string::npos, where, ": '", word,
-                 "', must be PATTERN=number such as P=1");
-         const std::string name = word.substr(0, equals);
-         require(named.insert(name).second, where, ": '", name,
-                 "' is there twice, each point has one value of it; points are separated by "
-                 "semicolons, as 'P=0; P=1'");
-         try
-         {
-            problem.pattern(name);
-         }
-         catch (const InputError &error)
-         {
-            throw InputError(where + ": " + error.what());
-         }
-         loads[name] = number(where, word.substr(equals + 1));
-      }
-      points.push_back(loads);
-   }
-   if (points.empty())
-   {
-      points.emplace_back();
-      for (const LoadPattern &pattern : problem.patterns) { loads[pattern.name] = 1; }
-      points.push_back(loads);
-   }
-   for (const auto &[name, value] : points[0])
-   {
-      require(value == 0, option, ": ", name, " is ", value,
-              " at the first point, must be 0: the bodies start without load");
-   }
-   return LoadHistory::through(problem, points);
-}
-
-} // namespace miniapp
+} // namespace cattaneo

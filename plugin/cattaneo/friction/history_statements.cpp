@@ -1,0 +1,53 @@
+#include <cattaneo/friction/history_statements.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cattaneo/words.hpp>
+#include <set>
+
+namespace cattaneo
+{
+
+LoadHistory load_history(const std::string &called, const std::string &text,
+                         const ReducedProblem &problem)
+{
+   NamedLoads loads;
+   std::vector<NamedLoads> points;
+   for (const std::string &statement : split(text, ";"))
+   {
+      const std::string where = called + " '" + statement + "'";
+      std::set<std::string> named;
+      for (const std::string &word : split(statement, ", \t\n"))
+      {
+         const std::size_t equals = word.find('=');
+         require(equals != std::string::npos, where, ": '", word,
+                 "', must be PATTERN=number such as P=1");
+         const std::string name = word.substr(0, equals);
+         require(named.insert(name).second, where, ": '", name,
+                 "' is there twice, each point has one value of it; points are separated by "
+                 "semicolons, as 'P=0; P=1'");
+         try
+         {
+            problem.pattern(name);
+         }
+         catch (const InputError &error)
+         {
+            throw InputError(where + ": " + error.what());
+         }
+         loads[name] = number(where, word.substr(equals + 1));
+      }
+      points.push_back(loads);
+   }
+   if (points.empty())
+   {
+      points.emplace_back();
+      for (const LoadPattern &pattern : problem.patterns) { loads[pattern.name] = 1; }
+      points.push_back(loads);
+   }
+   for (const auto &[name, value] : points[0])
+   {
+      require(value == 0, called, ": ", name, " is ", value,
+              " at the first point, must be 0: the bodies start without load");
+   }
+   return LoadHistory::through(problem, points);
+}
+
+} // namespace cattaneo

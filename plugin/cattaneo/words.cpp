@@ -1,0 +1,42 @@
+#include <algorithm>
+#include <cattaneo/input_error.hpp>
+#include <cattaneo/words.hpp>
+#include <cmath>
+#include <cstdlib>
+
+namespace cattaneo
+{
+
+std::vector<std::string> split(const std::string &text, const std::string &separators)
+{
+   std::vector<std::string> pieces;
+   std::size_t from = 0;
+   while (from <= text.size())
+   {
+      const std::size_t to = std::min(text.find_first_of(separators, from), text.size());
+      std::string piece = text.substr(from, to - from);
+      piece.erase(0, piece.find_first_not_of(" \t\n"));
+      piece.erase(piece.find_last_not_of(" \t\n") + 1);
+      if (!piece.empty()) { pieces.push_back(piece); }
+      from = to + 1;
+   }
+   return pieces;
+}
+
+std::string listed(const std::vector<std::string> &pieces, const std::string &between)
+{
+   std::string text;
+   for (const std::string &piece : pieces) { text += (text.empty() ? "" : between) + piece; }
+   return text;
+}
+
+double number(const std::string &where, const std::string &word)
+{
+   char *end = nullptr;
+   const double value = std::strtod(word.c_str(), &end);
+   require(!word.empty() && *end == 0 && std::isfinite(value), where, ": '", word,
+           "' is not a number");
+   return value;
+}
+
+} // namespace cattaneo

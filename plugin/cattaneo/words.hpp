@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace cattaneo
+{
+
+/// Pieces of a text between separators (any of these characters), without spaces, tabs and line
+/// ends around them; empty ones are left out.
+std::vector<std::string> split(const std::string &text, const std::string &separators);
+/// Pieces with something between them.
+std::string listed(const std::vector<std::string> &pieces, const std::string &between = ", ");
+
+/// A word that is a finite number and nothing else; InputError "WHERE: 'WORD' is not a number".
+double number(const std::string &where, const std::string &word);
+
+} // namespace cattaneo

@@ -1,0 +1,60 @@
+#include "expect_input_error.hpp"
+#include "small_problems.hpp"
+
+#include <cattaneo/friction/history_statements.hpp>
+#include <cattaneo/words.hpp>
+#include <gtest/gtest.h>
+
+namespace
+{
+
+using namespace cattaneo;
+using Words = std::vector<std::string>;
+
+TEST(Words, PiecesOfATextAndBack)
+{
+   EXPECT_EQ(split(" a b;;\tc \n; ", ";"), (Words{"a b", "c"}));
+   EXPECT_EQ(split("1, 2 3", ", "), (Words{"1", "2", "3"}));
+   EXPECT_EQ(split("", ","), Words());
+   EXPECT_EQ(listed({"a", "b c"}), "a, b c");
+   EXPECT_EQ(listed({"a", "b"}, "; "), "a; b");
+   EXPECT_EQ(listed({}), "");
+}
+
+TEST(Words, NumbersAreWholeWordsAndFinite)
+{
+   EXPECT_EQ(number("here", "-.5e1"), -5);
+   EXPECT_EQ(number("here", "0"), 0);
+   for (const char *word : {"", "x", "1x", "1,5", "1 2", "nan", "inf", "1e999"})
+   {
+      expect_input_error([&] { number("option --a", word); },
+                         "option --a: '" + std::string(word) + "' is not a number");
+   }
+}
+
+TEST(HistoryStatements, PointsKeepWhatIsNotNamed)
+{
+   const ReducedProblem problem = cattaneo_test::one_block(0.5);
+   const LoadHistory history =
+      load_history("history", "press=0; press=1 ;shear=.2, press=2\n; shear=-0.2", problem);
+   EXPECT_EQ(history.times, Eigen::Vector4d(0, 1, 2, 3));
+   EXPECT_EQ(history.multipliers,
+             (Eigen::Matrix<double, 2, 4>{{0, 1, 2, 2}, {0, 0, 0.2, -0.2}}));
+   EXPECT_EQ(history.cycle_start, -1);
+   const LoadHistory all = load_history("history", "", problem);
+   EXPECT_EQ(all.multipliers, (Eigen::Matrix2d{{0, 1}, {0, 1}}));
+}
+
+TEST(HistoryStatements, MistakesAreQuoted)
+{
+   const ReducedProblem problem = cattaneo_test::one_block(0.5);
+   const auto refused = [&](const std::string &text, const std::string &part)
+   { expect_input_error([&] { load_history("--history", text, problem); }, part); };
+   refused("press=0; press", "--history 'press': 'press', must be PATTERN=number");
+   refused("press=0; press=1x", "'press=1x': '1x' is not a number");
+   refused("press=0; pres=1", "no load pattern 'pres'");
+   refused("press=0; press=1 press=2", "'press' is there twice");
+   refused("press=1; press=2", "--history: press is 1 at the first point");
+}
+
+} // namespace
