@@ -3,6 +3,7 @@
 #include "common/contact_grid.hpp"
 #include "common/miniapp.hpp"
 
+#include <cattaneo/halfplane/half_plane.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/mesh/graded_mesh.hpp>
 #include <cattaneo/readout/zones.hpp>
@@ -35,7 +36,10 @@ void HalfPlanes::validate() const
    require(!grid.empty() || (nodes >= 9 && (nodes - 1) % order == 0), "option --nodes is ",
            nodes, ", must be at least 9 and one more than a multiple of the order ", order);
    require(span > 1, "option --span is ", span, ", must be above 1");
-   require(domain > 10, "option --domain is ", domain, ", must be above 10");
+   require(domain == 0 || domain > 10, "option --domain is ", domain,
+           ", must be 0, for half-planes without a mesh, or above 10");
+   require(domain > 0 || !(bulk || bulk_pad),
+           "bulk stress is asked for without option --domain, must be in a block");
    check_growth(growth);
    require(half_width > 0 && load > 0, "the half-width ", half_width, " and the load ", load,
            " of the contact must be positive");
@@ -50,6 +54,16 @@ Scene make_scene(const HalfPlanes &options)
       options.grid.empty() ? graded_to_ends(options.span * options.half_width,
                                             (options.nodes - 1) / options.order, 1.0)
                            : options.grid;
+   if (options.domain == 0)
+   {
+      HalfPlane pad, specimen;
+      pad.material = specimen.material = options.material;
+      pad.depth = specimen.depth = 1e4 * contact.back();
+      pad.normal = {0, 1};
+      pad.forces = {{"P", {0, -options.load}}, {"Q", {options.load, 0}}};
+      scene.reduction = reduce(condense(pad, contact, options.order), specimen);
+      return scene;
+   }
    const double span = contact.back(), h = smallest_step(contact),
                 growth = element_growth(options.growth, options.order);
    const std::vector<double> depth = graded(0, span, h, growth, 0.8 * (growth - 1) * span);
@@ -89,15 +103,23 @@ Scene make_scene(const BlockOnHalfPlane &options)
    ElasticBody &block = scene.add(rectangle_mesh(contact, graded(0, 2, h, growth, 0.1)),
                                   options.order, options.material);
    load(block, top, 1, 2, options.load, 1);
+   CondensedBody above = condense(block, contact_line(block, bottom), condensation());
+   if (options.domain == 0)
+   {
+      HalfPlane plane;
+      plane.material = options.material;
+      plane.depth = 1e4;
+      scene.reduction = reduce(std::move(above), plane);
+      return scene;
+   }
    ElasticBody &plane = scene.add(half_plane_mesh(contact, graded(0, 1, h, growth, 0.1),
                                                   ring_scales(1, options.domain, h, growth)),
                                   options.order, options.material);
    const int surface = 1, far = 3;
    for (int component : {0, 1}) { plane.fix(far, component); }
-   const ContactLine above = contact_line(block, bottom);
    const ContactLine below = contact_line(plane, surface);
-   scene.reduction = reduce(condense(block, above, condensation()),
-                            condense(plane, below, condensation()), pair_lines(above, below));
+   const Pairing pairing = pair_lines(above.line, below);
+   scene.reduction = reduce(std::move(above), condense(plane, below, condensation()), pairing);
    return scene;
 }
 

@@ -10,20 +10,21 @@
 namespace miniapp
 {
 
-/** Two half-planes of the same material, a pad above (body 1) and a specimen below, both free
-    bodies under loads in equilibrium; body 2 is body 1 turned by 180°. Without a gap: that is
-    set in the reduced problem. Any consistent units.
+/** Two half-planes of the same material, a pad above (body 1) and a specimen below. They have
+   no mesh: the specimen is held, the pad takes the loads. Or they are blocks, both free under
+    loads in equilibrium, of which body 2 is body 1 turned by 180°. Without a gap: that is set
+   in the reduced problem. Any consistent units.
 
     Load patterns: "P", the normal force `load`; "Q", a shear of the same resultant, +x on the
-    pad, with the pressure that balances its moment; "bulk" and "bulk pad" if asked for, unit
-    tension along x in the specimen and in the pad. */
+    pad, on blocks with the pressure that balances its moment; "bulk" and "bulk pad" if asked
+    for, unit tension along x in the specimen and in the pad, which are blocks then. */
 struct HalfPlanes
 {
    int order = 2;
    int nodes = 101;         ///< contact nodes; (nodes - 1) a multiple of the order
    double half_width = 1.0; ///< expected half-width of the contact, the unit of the next two
    double span = 1.67;      ///< half-width of the contact candidates
-   double domain = 1e4;     ///< half-width and depth of each block that stands for a half-plane
+   double domain = 0; ///< half-width and depth of each block; 0: the half-planes themselves
    cattaneo::Material material;
    double load = 1.0; ///< per unit thickness
    bool bulk = false, bulk_pad = false;
@@ -36,13 +37,13 @@ struct HalfPlanes
    void validate() const;
 };
 
-/// Square block of side 2 on a half-plane that is held at its bottom; loads as above, the
-/// specimen's are its support's.
+/// Square block of side 2 on a half-plane, which has no mesh, or is one that is held at its
+/// bottom; loads as above, the specimen's are its support's.
 struct BlockOnHalfPlane
 {
    int order = 2;
    int nodes = 101;
-   double domain = 1e4;
+   double domain = 0;
    cattaneo::Material material;
    double load = 1.0;
 };

@@ -89,7 +89,7 @@ void Study::condensed(const cattaneo::ReducedProblem &problem, int dofs)
    {
       loads.push_back(pattern.name);
    }
-   say(text("Read a problem of %ld contact nodes, %ld dofs, with the loads ",
+   say(text("A reduced problem of %ld contact nodes, %ld dofs, with the loads ",
             static_cast<long>(nodes_), left) +
        listed(loads));
 }

@@ -2,7 +2,9 @@
 #include "straight_line.hpp"
 
 #include <cattaneo/algebra/dense_algebra.hpp>
+#include <cattaneo/algebra/quadrature.hpp>
 #include <cattaneo/condense/condense.hpp>
+#include <cattaneo/condense/straight_line.hpp>
 #include <cattaneo/friction/march.hpp>
 #include <cattaneo/halfplane/half_plane.hpp>
 #include <cattaneo/readout/zones.hpp>
@@ -17,7 +19,6 @@ namespace
 using namespace cattaneo;
 using cattaneo_test::halving;
 using cattaneo_test::halving_both_ways;
-using cattaneo_test::straight_line;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -76,13 +77,17 @@ TEST(HalfPlane, UniformPressureOnAStrip)
          // ∫∫ ln|x-s| over the square of a length l: l² (ln l - 3/2).
          const double modulus = strain ? E / (1 - nu * nu) : E, scale = 2 / (M_PI * modulus);
          const double square = length * length;
-         const double work = scale * square * (std::log(depth / length) - 1 + 1.5);
+         // A force P moves the surface by 2P/πE' ln D/x - (1+ν)P/πE from what is at the depth D
+         // below it (Timoshenko and Goodier, art. 36, where 1/E stands for 1/E' and ν for
+         // ν/(1-ν) in plane strain).
+         const double below = (1 + nu) / (M_PI * E) / scale;
+         const double work = scale * square * (std::log(depth / length) - below + 1.5);
          EXPECT_NEAR(f.dot(u), work, 1e-12 * work) << order;
          // A uniform shear along the surface: of opposite signs in front and behind.
          VectorXd shear = VectorXd::Zero(2 * n);
          shear.head(n) = weights;
          const VectorXd moved = solved(body.S, shear);
-         const double along = scale * square * (std::log(depth / length) + 1 + 1.5);
+         const double along = scale * square * (std::log(depth / length) + below + 1.5);
          EXPECT_NEAR(shear.dot(moved), along, 1e-12 * along);
          for (Index i = 0; i < n; ++i)
          {
@@ -108,7 +113,7 @@ TEST(HalfPlane, RigidPunchesOnTheHalfPlane)
 
    // Frictionless (Johnson, 2.8): p = P/π√(a²-x²), and ∫ p ln|x-s| ds = P ln(a/2).
    const VectorXd pressed = without_shear(body.S, VectorXd::Ones(n));
-   const double sinking = 2 / (M_PI * modulus) * (std::log(2 * depth / a) - 1);
+   const double sinking = 2 / (M_PI * modulus) * (std::log(2 * depth / a) - 0.5 / (1 - nu));
    EXPECT_NEAR(pressed.sum() * sinking, 1, tolerance);
    EXPECT_NEAR(pressed.dot(x.cwiseAbs2()) / (pressed.sum() * a * a / 2), 1, tolerance);
    // Turned: M = π/4 E' a² φ.
@@ -452,6 +457,13 @@ struct Pair
    }
 };
 
+/// E'/4G of plane strain: what a force moves the surface less than the logarithm says, against
+/// what is below it.
+double below(double poisson)
+{
+   return 0.5 / (1 - poisson);
+}
+
 TEST(HalfPlane, HertzAndCattaneoOfTwoHalfPlanes)
 {
    const double nu = 0.3, R = 3, a = 1, f = 0.4;
@@ -463,7 +475,7 @@ TEST(HalfPlane, HertzAndCattaneoOfTwoHalfPlanes)
    problem.gap = problem.position.col(0).cwiseAbs2() / (2 * R);
    // E' = 1 of each: P = π a²/8R; ∫ p ln|s| ds = P (ln(a/2) - 1/2) in the middle.
    const double P = M_PI * a * a / (8 * R), p0 = 2 * P / (M_PI * a);
-   const double sinking = 4 / M_PI * P * (std::log(2 * depth / a) - 0.5);
+   const double sinking = 4 / M_PI * P * (std::log(2 * depth / a) + 0.5 - below(nu));
    const VectorXd ones = VectorXd::Ones(n), zeros = VectorXd::Zero(n);
    problem.patterns = {approach(problem, "press", (VectorXd(2 * n) << zeros, ones).finished()),
                        approach(problem, "shift", (VectorXd(2 * n) << ones, zeros).finished())};
@@ -483,9 +495,9 @@ TEST(HalfPlane, HertzAndCattaneoOfTwoHalfPlanes)
    // Cattaneo: sheared, the stick zone is c = a √(1 - Q/fP), and bodies that shift without slip
    // far away shift by u(Q) = f (δ(P) - δ(P*)), where Q = f (P - P*).
    const double c = 0.6, inner = M_PI * c * c / (8 * R);
-   const double shift =
-      4 / M_PI * f *
-      (P * (std::log(2 * depth / a) + 1.5) - inner * (std::log(2 * depth / c) + 1.5));
+   const double shift = 4 / M_PI * f *
+                        (P * (std::log(2 * depth / a) + 0.5 + below(nu)) -
+                         inner * (std::log(2 * depth / c) + 0.5 + below(nu)));
    ASSERT_EQ(solver.solve(state, Eigen::Vector2d(sinking, shift)).status,
              FrictionStatus::converged);
    EXPECT_NEAR(state.q.sum() / (f * (P - inner)), 1, 3e-3);
@@ -494,17 +506,81 @@ TEST(HalfPlane, HertzAndCattaneoOfTwoHalfPlanes)
    EXPECT_NEAR(problem.position(stick.last, 0), c, 1.5 / elements);
 }
 
+/// The same by forces from far away: a half-plane that no support holds.
+TEST(HalfPlane, FarForcesPressAndShear)
+{
+   const double nu = 0.3, R = 3, a = 1, f = 0.4, c = 0.6, P = M_PI * a * a / (8 * R);
+   const int elements = 80; // of -1.5 < x < 1.5
+   HalfPlane upper = half_plane(1 - nu * nu, nu), lower = upper;
+   upper.normal = {0, 1};
+   upper.forces = {{"P", {0, -P}}, {"Q", {P, 0}}};
+   for (const bool turned : {false, true}) // the lower one is loaded, and bodies change places
+   {
+      if (turned)
+      {
+         upper.normal = {0, -1};
+         lower.normal = {0, 1};
+         upper.forces = {{"P", {0, P}}, {"Q", {P, 0}}};
+      }
+      const CondensedBody loaded = condense(upper, even(-1.5, 1.5, elements), 2);
+      // What moves freely meets no resistance, and the clamped contact holds the loads.
+      EXPECT_LT((loaded.S * loaded.free_motions).cwiseAbs().maxCoeff(), 1e-14);
+      EXPECT_NEAR(loaded.patterns[0].p.sum(), P, 1e-14);
+      EXPECT_NEAR(std::abs(loaded.patterns[1].q.sum()), P, 1e-14);
+      ReducedProblem problem = reduce(loaded, lower).problem;
+      const Index n = problem.nodes();
+      problem.gap = problem.position.col(0).cwiseAbs2() / (2 * R);
+      set_friction(problem, f);
+      FrictionSolver solver(problem);
+      ContactState state = ContactState::virgin(problem);
+      ASSERT_EQ(solver.solve(state, Eigen::Vector2d(1, 0)).status, FrictionStatus::converged);
+      EXPECT_NEAR(state.p.sum(), P, 1e-14);
+      const VectorXd p = tractions(problem, state.p);
+      for (Index i = 0; i < n; ++i)
+      {
+         const double x = problem.position(i, 0);
+         if (std::abs(x) < 0.9)
+         {
+            EXPECT_NEAR(p[i] / (2 * P / (M_PI * a)), std::sqrt(1 - x * x), 3e-3) << x;
+         }
+      }
+      const VectorXd sunk = conjugates(problem, state);
+      EXPECT_NEAR(sunk[0] / (P * P) / (4 / M_PI * (std::log(2 * depth / a) + 0.5 - below(nu))),
+                  1, 1e-3);
+      ASSERT_EQ(solver.solve(state, Eigen::Vector2d(1, f * (1 - c * c))).status,
+                FrictionStatus::converged);
+      const Zone stick = stick_zone(problem, state);
+      EXPECT_NEAR(std::abs(problem.position(stick.first, 0)), c, 1.5 / elements);
+      EXPECT_NEAR(std::abs(problem.position(stick.last, 0)), c, 1.5 / elements);
+   }
+   // A half-space: Hertz again, P = 4/3 E* a³/R, approach a²/R.
+   HalfPlane sphere = half_plane(1 - nu * nu, nu);
+   sphere.normal = {0, 1};
+   const double load = 4.0 / 3 * 0.5 / R;
+   sphere.forces = {{"P", {0, -load}}};
+   ReducedProblem problem =
+      reduce(condense(sphere, even(0, 1.5, 60), 2, Formulation::axisymmetric),
+             half_plane(1 - nu * nu, nu))
+         .problem;
+   problem.gap = problem.position.col(0).cwiseAbs2() / (2 * R);
+   FrictionSolver solver(problem);
+   ContactState state = ContactState::virgin(problem);
+   ASSERT_EQ(solver.solve(state, VectorXd::Ones(1)).status, FrictionStatus::converged);
+   EXPECT_NEAR(contact_zone(problem, state).to.position, 1, 0.005);
+   EXPECT_NEAR(conjugates(problem, state)[0] / load * R, 1, 1e-3);
+}
+
 // Cattaneo and Mindlin: under a constant force P the shift is u(Q) = f (δ(P) - δ(P - Q/f)),
-// where δ(P) = 4/π P (ln(2 depth/a) + 3/2) with a² ~ P. What is linear in P encloses no area:
-// with g(P) = -2/π P ln P and its integral G, the loop of Masing's rule loses
-// 4 Q u - 8 ∫ u dQ = 4 f² (P - P*)(g(P) - g(P*)) - 8 f² (g(P)(P - P*) - G(P) + G(P*)).
+// where δ(P) = 4/π P (ln(2 depth/a) + 1/2 + κ) with a² ~ P. What is linear in P encloses no
+// area: with g(P) = -2/π P ln P and its integral G, the loop of Masing's rule loses 4 Q u - 8 ∫
+// u dQ = 4 f² (P - P*)(g(P) - g(P*)) - 8 f² (g(P)(P - P*) - G(P) + G(P*)).
 TEST(HalfPlane, LoopOfCattaneoAndMindlin)
 {
    const double nu = 0.3, R = 3, a = 1, f = 0.4, c = 0.6;
    const double P = M_PI * a * a / (8 * R), inner = M_PI * c * c / (8 * R);
-   const double sinking = 4 / M_PI * P * (std::log(2 * depth / a) - 0.5);
-   const auto by_depth = [](double force, double half_width)
-   { return 4 / M_PI * force * (std::log(2 * depth / half_width) + 1.5); };
+   const double sinking = 4 / M_PI * P * (std::log(2 * depth / a) + 0.5 - below(nu));
+   const auto by_depth = [nu](double force, double half_width)
+   { return 4 / M_PI * force * (std::log(2 * depth / half_width) + 0.5 + below(nu)); };
    const double shift = f * (by_depth(P, a) - by_depth(inner, c)), Q = f * (P - inner);
    const auto g = [](double p) { return -2 / M_PI * p * std::log(p); };
    const auto G = [](double p) { return -2 / M_PI * p * p * (0.5 * std::log(p) - 0.25); };
@@ -625,6 +701,17 @@ TEST(HalfPlane, BadInputIsNamed)
    refused(bad, line, "crosses the plane of symmetry");
    bad.normal = {std::sqrt(0.5), std::sqrt(0.5)};
    refused(bad, line, "horizontal or vertical");
+   const auto loaded = [&](std::vector<FarForce> forces, const std::string &says)
+   {
+      HalfPlane body = good;
+      body.symmetric = true;
+      body.forces = std::move(forces);
+      refused(body, line, says);
+   };
+   loaded({{"", {0, 1}}}, "has no pattern");
+   loaded({{"P", {1, 1}}}, "along the normal");
+   loaded({{"P", {0, 1}}, {"P", {0, 2}}}, "two far forces are of the pattern 'P'");
+   expect_input_error([&] { condense(good, {0, 1, 1}, 2); }, "1 and 1 follow each other");
    const ContactLine round = straight_line(uneven, 2, Formulation::axisymmetric);
    refused(bad, round, "along the axis");
    bad.normal = {0, -1};

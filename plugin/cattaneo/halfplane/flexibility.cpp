@@ -46,19 +46,20 @@ Flexibility plane_flexibility(const SurfaceTrace &trace, const Material &materia
            symmetric ? " with its mirror image" : "",
            " (contact under given forces does not depend on it)");
 
+   const double below = material.plane_modulus() / (4 * material.mu());
    MatrixXd direct = -kernel_integrals(trace, trace, logarithm());
    const Eigen::VectorXd all = trace.integral(one);
    const MatrixXd together = all * all.transpose(), order = trace.ordered_integral(one, one);
-   MatrixXd normal = direct + (std::log(depth) - 1) * together, tangential,
+   MatrixXd normal = direct + (std::log(depth) - below) * together, tangential,
             sign = order - order.transpose();
    if (symmetric)
    {
       const MatrixXd image = -kernel_integrals(trace, trace.mirrored(), logarithm());
       tangential = direct - image;
-      normal += image + (std::log(depth) - 1) * together;
+      normal += image + (std::log(depth) - below) * together;
       sign += (from >= 0 ? 1 : -1) * together;
    }
-   else { tangential = direct + (std::log(depth) + 1) * together; }
+   else { tangential = direct + (std::log(depth) + below) * together; }
    const double scale = 2 / (M_PI * material.plane_modulus());
    const double beta = 0.25 / (material.lambda() + material.mu());
    return joined(scale * tangential, -beta * sign, scale * normal);

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cattaneo/algebra/dense_algebra.hpp>
 #include <cattaneo/algebra/dense_cholesky.hpp>
+#include <cattaneo/condense/straight_line.hpp>
 #include <cattaneo/halfplane/flexibility.hpp>
 #include <cattaneo/halfplane/half_plane.hpp>
 #include <cattaneo/input_error.hpp>
@@ -219,6 +221,43 @@ double least_eigenvalue(const DenseCholesky &factor, const VectorXd &diagonal)
    return 1 / largest;
 }
 
+/// What moves without resistance, (x, y) along columns.
+MatrixXd translations(const HalfPlane &body, Formulation formulation)
+{
+   if (formulation != Formulation::plane) { return Eigen::Vector2d(0, 1); }
+   if (body.symmetric) { return body.normal; }
+   return Eigen::Matrix2d::Identity();
+}
+
+/// Of a body that is held: free to go where the forces take it.
+void release(CondensedBody &body, const HalfPlane &half_plane)
+{
+   const MatrixXd axes = translations(half_plane, body.line.formulation);
+   const bool plane = body.line.formulation == Formulation::plane;
+   const MatrixXd motions =
+      plane ? MatrixXd(body.rigid_motions().leftCols(2) * axes) : body.rigid_motions();
+   MatrixXd forces(axes.cols(), half_plane.forces.size());
+   for (Index k = 0; k < forces.cols(); ++k)
+   {
+      forces.col(k) = axes.transpose() * half_plane.forces[k].force;
+   }
+   // Energy ½ (u - R y)ᵀ S (u - R y) - Fᵀ y of the translation y, which nothing holds.
+   const MatrixXd held_back = body.S * motions;
+   const Eigen::LLT<MatrixXd> resistance(motions.transpose() * held_back);
+   body.S -= held_back * resistance.solve(held_back.transpose());
+   body.S.triangularView<Eigen::StrictlyUpper>() = body.S.transpose();
+   const MatrixXd moved = resistance.solve(forces), clamped = -held_back * moved;
+   body.H = forces.transpose() * moved;
+   const Index n = body.line.size();
+   for (Index k = 0; k < forces.cols(); ++k)
+   {
+      body.patterns.push_back({half_plane.forces[k].pattern, Control::force,
+                               clamped.col(k).head(n), clamped.col(k).tail(n)});
+   }
+   body.rigid_modes = static_cast<int>(motions.cols());
+   body.free_motions = thin_qr(motions).Q;
+}
+
 } // namespace
 
 void HalfPlane::validate(Formulation formulation) const
@@ -237,6 +276,20 @@ void HalfPlane::validate(Formulation formulation) const
            plane && symmetric ? ", and horizontal or vertical beside a plane of symmetry" : "");
    require(plane || !symmetric, "half-plane: a plane of symmetry is said of a half-space about "
                                 "an axis, is for the plane alone");
+   for (const FarForce &load : forces)
+   {
+      const Eigen::Vector2d &F = load.force;
+      require(!load.pattern.empty(), "half-plane: a far force has no pattern, must name one");
+      require(F.allFinite() && ((plane && !symmetric) || F.dot(tangent(*this)) == 0),
+              "half-plane: the far force of the pattern '", load.pattern, "' is (", F[0], ", ",
+              F[1], "), must be finite",
+              plane && !symmetric ? "" : " and along the normal of the surface");
+      require(std::count_if(forces.begin(), forces.end(),
+                            [&](const FarForce &other)
+                            { return other.pattern == load.pattern; }) == 1,
+              "half-plane: two far forces are of the pattern '", load.pattern,
+              "', must be one");
+   }
 }
 
 CondensedBody condense(const HalfPlane &body, const ContactLine &other)
@@ -320,7 +373,26 @@ CondensedBody condense(const HalfPlane &body, const ContactLine &other)
                             std::sqrt(double(size)) /
                             least_eigenvalue(factor, flexible.diagonal());
    result.solver = std::move(solver);
+   if (!body.forces.empty() && !torsion) { release(result, body); }
    return result;
+}
+
+CondensedBody condense(const HalfPlane &body, const std::vector<double> &grid, int order,
+                       Formulation formulation)
+{
+   ContactLine own = straight_line(grid, order, formulation);
+   const Surface surface(body, own);
+   for (LineNode &node : own.nodes) { node.position = surface.place(node.position[0]); }
+   for (LineElement &element : own.chains[0].elements)
+   {
+      for (Index a = 0; a < element.points.cols(); ++a)
+      {
+         element.points.col(a) = surface.place(element.points(0, a));
+      }
+   }
+   ContactLine facing = surface_line(own, surface);
+   set_weights(facing, trace_of(facing, surface));
+   return condense(body, facing);
 }
 
 Reduction reduce(CondensedBody body, const HalfPlane &half_plane)

@@ -2,9 +2,19 @@
 
 #include <cattaneo/material.hpp>
 #include <cattaneo/reduced/reduction.hpp>
+#include <string>
+#include <vector>
 
 namespace cattaneo
 {
+
+/// On a half-plane itself, from far away: per unit thickness, or about an axis the resultant of
+/// the whole circumference, along the axis.
+struct FarForce
+{
+   std::string pattern;
+   Eigen::Vector2d force;
+};
 
 /** An elastic half-plane, in axisymmetry and torsion half-space, with a straight surface: a
    body without a mesh. It is as large as it looks: no domain, and no error of one. */
@@ -23,6 +33,11 @@ struct HalfPlane
    /// Of the plane: the line through `point` along the normal is one of symmetry, and contact
    /// lies on one side of it. The surface must be horizontal or vertical.
    bool symmetric = false;
+   /** With none it is held: at its depth, in axisymmetry at infinity. With some it goes,
+      without turning, where they and the contact take it: load patterns, whose conjugates are
+      its displacements there. Beside a plane of symmetry they act along the normal. None of
+      them twists. */
+   std::vector<FarForce> forces = {};
 
    /// InputError for a material that is none, a normal of another length than 1 (not along the
    /// axis, if there is one), and what is said above.
@@ -46,6 +61,11 @@ struct HalfPlane
     InputError if the line has no elements, if they turn back along the surface or overlap, or
    see HalfPlane. */
 CondensedBody condense(const HalfPlane &body, const ContactLine &line);
+
+/// The same on a trace of its own, straight_line() along its surface from `point` on (from the
+/// axis): of two half-planes that meet the one, on whose line the other is condensed.
+CondensedBody condense(const HalfPlane &body, const std::vector<double> &grid, int order,
+                       Formulation formulation = Formulation::plane);
 
 /// A body pressed on a half-plane. The gap is that of the geometry: how far the body's contact
 /// nodes lie from the surface.

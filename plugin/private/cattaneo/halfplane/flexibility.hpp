@@ -12,11 +12,11 @@ namespace cattaneo
    twist alone. Symmetric to the last bit. */
 using Flexibility = Eigen::MatrixXd;
 
-/** Plane strain or stress, x along the tangent (Johnson, Contact Mechanics, 2.3; E' =
-    Material::plane_modulus()):
+/** Plane strain or stress, x along the tangent (Timoshenko and Goodier, Theory of Elasticity,
+    art. 36; E' = Material::plane_modulus(), G the shear modulus):
 
-       u_x = 2/(πE') ∫ (ln D/|x-s| + 1) t_x ds - β ∫ sgn(x-s) t_y ds,   β = (1-2ν)(1+ν)/2E
-       u_y = 2/(πE') ∫ (ln D/|x-s| - 1) t_y ds + β ∫ sgn(x-s) t_x ds
+       u_x = 2/(πE') ∫ (ln D/|x-s| + κ) t_x ds - β ∫ sgn(x-s) t_y ds,   β = (1-2ν)(1+ν)/2E
+       u_y = 2/(πE') ∫ (ln D/|x-s| - κ) t_y ds + β ∫ sgn(x-s) t_x ds,   κ = E'/4G
 
     relative to the point at the depth D below each force. If x = 0 is a plane of symmetry,
    beside which the trace lies, the forces of its mirror image act as well. InputError if D is

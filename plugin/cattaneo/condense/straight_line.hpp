@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cattaneo/condense/contact_line.hpp>
+
+namespace cattaneo
+{
+
+/** The trace of a body above y = 0 without a mesh: elements of one order that end at the given
+    places, x (or r), increasing. In axisymmetry and torsion a node on the axis is left out.
+    Weights are not known of it. InputError if the places do not increase. */
+ContactLine straight_line(const std::vector<double> &grid, int order,
+                          Formulation formulation = Formulation::plane);
+
+} // namespace cattaneo
