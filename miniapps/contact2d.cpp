@@ -1,4 +1,4 @@
-//  contact2d: frictional contact of your own meshes: two bodies, or one on a rigid line
+//  contact2d: frictional contact of your own meshes: two bodies, or one on a line or half-plane
 //
 //  Reads one or two meshes (MFEM, or Gmsh in format 2.2), condenses them to the nodes of their
 //  contact attributes and marches a load history with Coulomb friction. Materials, supports,
@@ -8,6 +8,7 @@
 //  Sample runs:  contact2d -case meshes/dovetail.json
 //                contact2d -case meshes/rounded_punch.json --cycles 2 -edges "1 2 3"
 //                contact2d -case meshes/rounded_punch.json --check --plot check.png
+//                contact2d -case meshes/punch_on_half_plane.json
 //                contact2d -mesh1 meshes/rounded_punch.msh -contact1 3 -load1 "P pressure 2 .1"
 
 #include "common/contact_edges.hpp"
@@ -48,6 +49,7 @@ struct Snapshots
 struct Options
 {
    std::vector<miniapp::BodyOptions> bodies{2};
+   miniapp::HalfPlaneOptions half_plane;
    int order = 2;
    bool plane_stress = false;
    double friction = 0, pairing = 1e-6;
@@ -58,7 +60,8 @@ struct Options
    {
       add_options(study, bodies[0], "1", "Mesh of body 1 (MFEM, or Gmsh 2.2).");
       add_options(study, bodies[1], "2",
-                  "Mesh of body 2; without it body 1 is on a rigid line.");
+                  "Mesh of body 2; without it body 1 is on a rigid line or a half-plane.");
+      add_options(study, half_plane);
       study.option(&order, "order", "Order of the elements.", miniapp::within(1, 8));
       study.option(&plane_stress, "plane-stress", "Plane stress instead of plane strain.");
       study.option(&friction, "friction", "Coefficient of friction.", miniapp::not_negative);
@@ -80,6 +83,17 @@ struct Options
       require(!bodies[0].mesh.empty(), "option mesh1 is empty, must name a mesh file");
       require(!second.mesh.empty() || (second.contact + second.support + second.load).empty(),
               "options contact2, support2 or load2 are given without a mesh2");
+      require(
+         second.mesh.empty() || !half_plane.given(),
+         "options mesh2 and half-plane-young are both given: body 1 stands on body 2 or on "
+         "the half-plane");
+      require(std::isnan(half_plane.poisson) != half_plane.given() &&
+                 (half_plane.given() || std::isnan(half_plane.depth)),
+              "options half-plane-young and half-plane-poisson must be given together, "
+              "half-plane-depth with them only");
+      require(paraview.empty() || !half_plane.given() || !std::isnan(half_plane.depth),
+              "option paraview writes displacements, which on a half-plane are relative to a "
+              "depth: option half-plane-depth must state it");
       if (second.mesh.empty()) { bodies.pop_back(); }
       require(edges.empty() || edges.size() == 2 || edges.size() == 3, "option edges has ",
               edges.size(),
@@ -111,8 +125,8 @@ void contact2d(miniapp::Study &study)
    Snapshots snapshots{options.edges, {}};
    snapshots.states.resize(snapshots.times.size());
 
-   miniapp::OwnBodies own =
-      make_own_bodies(options.bodies, options.order, options.plane_stress, options.pairing);
+   miniapp::OwnBodies own = make_own_bodies(options.bodies, options.half_plane, options.order,
+                                            options.plane_stress, options.pairing);
    const ContactLine &line = own.line();
    ReducedProblem &problem = own.scene.problem();
    set_friction(problem, options.friction);

@@ -3,6 +3,7 @@
 #include <cattaneo/input_error.hpp>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <set>
 
 namespace miniapp
@@ -18,14 +19,15 @@ json read_case(const std::string &file)
    std::ifstream in(file);
    require(in.good() && !std::filesystem::is_directory(file), where, " cannot be read");
    json keys;
-   std::set<std::string> names;
+   std::map<int, std::set<std::string>> names; ///< so far, of the object at a depth
    // Of a key that is there twice the parser itself keeps the last without a word.
    const auto once = [&](int depth, json::parse_event_t event, const json &name)
    {
-      if (event == json::parse_event_t::key && depth == 1)
+      if (event == json::parse_event_t::object_start) { names[depth + 1].clear(); }
+      if (event == json::parse_event_t::key)
       {
          const auto key = name.get<std::string>();
-         require(names.insert(key).second, where, ": key '", key,
+         require(names[depth].insert(key).second, where, ": key '", key,
                  "' is there twice, must be there once");
       }
       return true;

@@ -127,6 +127,15 @@ void Options::add(std::string *value, const Names &names, const char *help,
    options_.back().choices = choices;
 }
 
+void Options::in_object(const std::string &name, const std::vector<std::string> &required)
+{
+   objects_[name] = required;
+   for (Option &option : options_)
+   {
+      if (option.names.name.find(name + "-") == 0) { option.object = name; }
+   }
+}
+
 void Options::leave_out_of_cases(const std::string &name)
 {
    for (Option &option : options_)
@@ -411,25 +420,49 @@ Options::command(const std::vector<std::pair<std::string, std::string>> &changes
 void Options::read(const std::string &file)
 {
    const json keys = read_case(file);
+   const std::string where = "case file '" + file + "': ";
+   const auto set = [&](const Option &option, const json &value, const std::string &name)
+   {
+      std::string text = option.from_json(value, where + "key '" + name + "'");
+      if (option.kind == Text::input) { text = (fs::path(file).parent_path() / text).string(); }
+      option.set("--" + option.names.name, text);
+   };
    for (const auto &[name, value] : keys.items())
    {
-      const std::string where = "case file '" + file + "': ";
-      const Option *option = nullptr;
-      std::vector<std::string> known;
-      for (const Option &o : options_)
+      if (objects_.count(name) == 0)
       {
-         if (!o.in_cases) { continue; }
-         if (o.names.name == name) { option = &o; }
-         known.push_back(o.names.name);
+         set(of_case("", name, where), value, name);
+         continue;
       }
-      require(option, where, "unknown key '", name, "', must be one of ", listed(known));
-      std::string text = option->from_json(value, where + "key '" + name + "'");
-      if (option->kind == Text::input)
+      const std::string key = where + "key '" + name + "'";
+      require(value.is_object(), key, " is ",
+              value.is_array() ? value.type_name() : value.dump(), ", must be an object");
+      for (const std::string &required : objects_.at(name))
       {
-         text = (fs::path(file).parent_path() / text).string();
+         require(value.contains(required), key, " has no '", required, "', must have one");
       }
-      option->set("--" + name, text);
+      for (const auto &[inner, its] : value.items())
+      {
+         set(of_case(name, inner, key + ": "), its, name + "." + inner);
+      }
    }
+}
+
+const Options::Option &Options::of_case(const std::string &object, const std::string &key,
+                                        const std::string &where) const
+{
+   std::vector<std::string> known;
+   for (const Option &option : options_)
+   {
+      if (!option.in_cases || option.object != object) { continue; }
+      if (option.key() == key) { return option; }
+      known.push_back(option.key());
+   }
+   if (object.empty())
+   {
+      for (const auto &entry : objects_) { known.push_back(entry.first); }
+   }
+   throw InputError(where + "unknown key '" + key + "', must be one of " + listed(known));
 }
 
 /// Of a case file, as it would stand on the command line.

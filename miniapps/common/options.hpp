@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <variant>
@@ -84,6 +85,8 @@ public:
    void add(std::string *value, const Names &names, const char *help,
             const std::vector<std::string> &choices);
 
+   /// In a case file the options NAME-KEY are one object, NAME: {KEY: …}, which must have some.
+   void in_object(const std::string &name, const std::vector<std::string> &required);
    /// Names what is no part of a case: where results go, or which of them are shown.
    void leave_out_of_cases(const std::string &name);
 
@@ -111,6 +114,13 @@ private:
       Text kind = Text::word;
       std::vector<std::string> choices = {};
       bool in_cases = true;
+      std::string object = {}; ///< of the case file that it is in; empty: it is in none
+
+      /// In a case file.
+      std::string key() const
+      {
+         return object.empty() ? names.name : names.name.substr(object.size() + 1);
+      }
 
       bool is_flag() const { return std::holds_alternative<bool *>(value); }
       bool is_list() const { return std::holds_alternative<std::vector<double> *>(value); }
@@ -139,11 +149,15 @@ private:
    void print_help() const;
    void check_files() const;
    void read(const std::string &file);
+   /// The option of a key in an object of the case file, or in none.
+   const Option &of_case(const std::string &object, const std::string &key,
+                         const std::string &where) const;
    const Option &changeable(const std::string &key) const;
 
    const std::vector<std::string> words_; ///< of the command line
    std::deque<Option> options_;           ///< these stay where they are
    std::vector<Given> given_;
+   std::map<std::string, std::vector<std::string>> objects_; ///< with what they must have
    std::string case_file_;
    nlohmann::ordered_json values_;
 };

@@ -35,6 +35,20 @@ void add_options(Study &study, BodyOptions &body, const std::string &k, const ch
       Text::statements);
 }
 
+void add_options(Study &study, HalfPlaneOptions &half_plane)
+{
+   study.option(&half_plane.young, "half-plane-young",
+                "Young's modulus of a half-plane without a mesh, in place of body 2.",
+                positive);
+   study.option(&half_plane.poisson, "half-plane-poisson", "Poisson's ratio of the half-plane.",
+                between(-1, 0.5));
+   study.option(&half_plane.depth, "half-plane-depth",
+                "Depth of the half-plane that displacements are relative to; without it none "
+                "are given, and none can be prescribed.",
+                positive);
+   study.options().in_object("half-plane", {"young", "poisson"});
+}
+
 namespace
 {
 
@@ -107,6 +121,53 @@ Reduction on_rigid_line(const CondensedBody &body)
                  [=](double x, double y) { return normal.dot(Eigen::Vector2d(x, y)) - level; });
 }
 
+/// How much of the nodes' common displacement along an axis the body resists, of 1.
+double held_share(const CondensedBody &body, const Eigen::Vector2d &axis)
+{
+   const Eigen::VectorXd motion = (body.rigid_motions().leftCols(2) * axis).normalized();
+   const Eigen::MatrixXd &free = body.free_motions;
+   return (motion - free * (free.transpose() * motion)).norm();
+}
+
+/// The half-plane touches the contact nodes as a rigid line does. Contact nodes that are held
+/// lie on a plane of symmetry, which it has as well.
+void stand_on_half_plane(OwnBodies &own, CondensedBody body, const HalfPlaneOptions &options,
+                         bool plane_stress)
+{
+   const ContactLine &line = body.line;
+   HalfPlane below;
+   below.material = {options.young, options.poisson,
+                     plane_stress ? PlaneState::stress : PlaneState::strain};
+   Eigen::Vector2d normal = mean_normal(line), at = line.nodes.front().position;
+   if (!body.held.empty())
+   {
+      const LineNode &node = line.nodes[body.held.front() % line.size()];
+      below.symmetric = true;
+      normal = node.normal();
+      at = node.position;
+   }
+   const double level = (line.each(&LineNode::position) * normal).minCoeff();
+   below.normal = -normal;
+   below.point = at + (level - normal.dot(at)) * normal;
+   const bool relative = std::isnan(options.depth); // to nothing: forces alone are known
+   if (relative)
+   {
+      const double most = below.symmetric ? held_share(body, normal)
+                                          : std::max(held_share(body, Eigen::Vector2d(1, 0)),
+                                                     held_share(body, Eigen::Vector2d(0, 1)));
+      require(most < 1e-7,
+              "half-plane: supports or prescribed displacements hold body 1 against "
+              "it, whose displacements are relative to a depth: option "
+              "half-plane-depth must state it, or forces alone act on body 1");
+   }
+   below.depth = relative ? 1e4 * line.nodes.back().arc_length : options.depth;
+   own.scene.reduction = reduce(std::move(body), below);
+   if (relative) { own.scene.problem().H.resize(0, 0); }
+   own.accuracy = std::max(own.accuracy, own.scene.reduction.bodies[1].error_estimate());
+   own.materials.push_back({below.material});
+   own.half_plane = below;
+}
+
 bool similar(const Material &a, const Material &b)
 {
    return a.young == b.young && a.poisson == b.poisson;
@@ -114,7 +175,8 @@ bool similar(const Material &a, const Material &b)
 
 } // namespace
 
-OwnBodies make_own_bodies(const std::vector<BodyOptions> &options, int order, bool plane_stress,
+OwnBodies make_own_bodies(const std::vector<BodyOptions> &options,
+                          const HalfPlaneOptions &half_plane, int order, bool plane_stress,
                           double pairing)
 {
    OwnBodies own;
@@ -124,6 +186,11 @@ OwnBodies make_own_bodies(const std::vector<BodyOptions> &options, int order, bo
       const std::string k = std::to_string(condensed.size() + 1);
       condensed.push_back(make_body(own, body, k, order, plane_stress));
       own.accuracy = std::max(own.accuracy, condensed.back().error_estimate());
+   }
+   if (half_plane.given())
+   {
+      stand_on_half_plane(own, std::move(condensed[0]), half_plane, plane_stress);
+      return own;
    }
    if (condensed.size() == 1)
    {
@@ -162,6 +229,7 @@ fretting::CornerModes OwnBodies::corner(int end) const
    };
    const auto wedge = [&](int body, bool at_first)
    {
+      if (half_plane && body == 1) { return Wedge{std::acos(-1.0), half_plane->material}; }
       const auto &nodes = line(body).nodes;
       const FilledCorner filled =
          filled_corner(*scene.meshes[body], (at_first ? nodes.front() : nodes.back()).position);

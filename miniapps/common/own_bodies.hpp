@@ -3,6 +3,9 @@
 #include "common/study.hpp"
 
 #include <cattaneo/fretting/corner.hpp>
+#include <cattaneo/halfplane/half_plane.hpp>
+#include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,13 +19,23 @@ struct BodyOptions
    std::vector<double> young = {1}, poisson = {0.3}; ///< one, or one for each attribute
 };
 
+/// What the options say of a half-plane without a mesh, in place of body 2.
+struct HalfPlaneOptions
+{
+   double young = none, poisson = none, depth = none;
+
+   bool given() const { return !std::isnan(young); }
+};
+void add_options(Study &study, HalfPlaneOptions &half_plane);
+
 /// The options of body k: mesh1, young1, poisson1, contact1, support1 and load1 for k = "1".
 void add_options(Study &study, BodyOptions &body, const std::string &k, const char *mesh_help);
 
-/// One body on the rigid line that touches it, or two.
+/// One body on the rigid line that touches it or on such a half-plane, or two.
 struct OwnBodies
 {
    Scene scene;
+   std::optional<cattaneo::HalfPlane> half_plane;
    std::vector<std::vector<cattaneo::Material>> materials; ///< of each body
    /// Estimated relative error of the stiffness; of two in series no more than the worse.
    double accuracy = 0;
@@ -39,7 +52,8 @@ struct OwnBodies
 };
 
 /// InputError naming body and option. @param pairing of nodes along the contact
-OwnBodies make_own_bodies(const std::vector<BodyOptions> &options, int order, bool plane_stress,
+OwnBodies make_own_bodies(const std::vector<BodyOptions> &options,
+                          const HalfPlaneOptions &half_plane, int order, bool plane_stress,
                           double pairing);
 
 /// Warns of bodies that overlap by more than the distance of their nodes.

@@ -15,10 +15,13 @@ import tempfile
 
 VALUES = [None, True, False, 0, -1, 1, 2, 3, 8, 9, -2, 2.0, 1.5, 0.25, 0.5, 0.499, 1e-9, -0.1, 2147483647, 2147483648,
           10**30, "", "x", "3", "geometry", "closed", "exact", "advancing", "fixed", [], [1], [1, 2], [0], [-3], [1.5],
-          ["a"], ["a", "b"], ["a", 1], [None], [[1]], {}, {"a": 1}]
+          ["a"], ["a", "b"], ["a", 1], [None], [[1]], {}, {"a": 1}, {"young": 1}, {"young": 1, "poisson": 0.3},
+          {"young": 0, "poisson": 0}, {"young": 2, "poisson": 0.5}, {"young": 2, "poisson": "0"},
+          {"young": 2, "poisson": -0.5, "depth": 100}, {"young": 2, "poisson": 0.3, "depth": None},
+          {"young": 2, "poisson": 0.3, "width": 1}]
 # How a schema may say things here: a keyword that is not read would be taken for granted.
 KEYWORDS = {"description", "$ref", "type", "enum", "const", "oneOf", "items", "minimum", "maximum", "exclusiveMinimum",
-            "exclusiveMaximum"}
+            "exclusiveMaximum", "properties", "required", "additionalProperties"}
 
 
 def is_number(value):
@@ -26,7 +29,7 @@ def is_number(value):
 
 
 TYPES = {"string": lambda v: isinstance(v, str), "boolean": lambda v: isinstance(v, bool), "number": is_number,
-         "integer": lambda v: is_number(v) and v == int(v), "array": lambda v: isinstance(v, list)}
+         "integer": lambda v: is_number(v) and v == int(v), "array": lambda v: isinstance(v, list), "object": lambda v: isinstance(v, dict)}
 
 
 def fits(schema, value, definitions):
@@ -41,6 +44,11 @@ def fits(schema, value, definitions):
         return value == schema["const"] and not isinstance(value, bool)
     if not TYPES[schema["type"]](value):
         return False
+    if schema["type"] == "object":
+        inner = schema["properties"]
+        assert schema["additionalProperties"] is False, schema
+        return set(schema["required"]) <= set(value) and all(
+            key in inner and fits(inner[key], item, definitions) for key, item in value.items())
     if schema["type"] == "array":
         return all(fits(schema["items"], item, definitions) for item in value)
     return all(holds(schema[word], value) for word, holds in (
@@ -65,7 +73,7 @@ class Program:
     def refuses(self, case):
         """The key that it does not accept as such, if there is one."""
         found = re.match(r"error: (?:case file '.*': (?:unknown )?key '|option --(?!sweep:))([\w$-]+)", self.says(case))
-        return found and found[1]
+        return found and ("half-plane" if found[1].startswith("half-plane-") else found[1])
 
     def keys(self):
         return set(self.says({"nonsense": 1}).split("must be one of ")[1].strip().split(", "))

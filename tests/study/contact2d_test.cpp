@@ -222,48 +222,13 @@ TEST_F(Contact2D, EdgesOfAHertzContactHaveTheClosedForms)
 {
    using namespace cattaneo;
    // A cylinder of radius 100 that touches a half-plane over |x| < 1, E* = 1/2. A block that
-   // stands for a half-plane has a remote tension Q/domain, which K_T feels.
-   const double radius = 100, domain = 1000, friction = 0.5, share = 0.3;
+   // stands for a half-plane has a remote tension of the order of Q/domain, which K_T feels,
+   // unless the other body has the same.
+   const double radius = 100, friction = 0.5, share = 0.3;
    const fretting::HertzContact hertz =
       fretting::hertz_contact(std::acos(-1.0) / (8 * radius), radius, 0.5);
    ASSERT_NEAR(hertz.half_width, 1, 1e-12);
    const double P = hertz.peak_pressure * std::acos(-1.0) / 2;
-   const auto line = graded_to_ends(1.67, 80, 1);
-   const double h = line[1] - line[0];
-   std::vector<std::string> files;
-   for (const double turn : {-1.0, 1.0})
-   {
-      mfem::Mesh mesh = half_plane_mesh(line, graded(0, 1.67, h, 1.25, 0.3),
-                                        ring_scales(1.67, domain, h, 1.25));
-      for (int v = 0; v < mesh.GetNV(); ++v)
-      {
-         double *x = mesh.GetVertex(v);
-         x[0] *= turn;
-         x[1] *= turn;
-      }
-      if (turn < 0)
-      {
-         mesh.SetCurvature(2);
-         mesh.Transform(lift_to_the_cylinder);
-      }
-      files.push_back(write(turn < 0 ? "pad.mesh" : "plane.mesh", mesh));
-   }
-   char loads[200];
-   std::snprintf(loads, sizeof loads,
-                 "P pressure 3 %.16g; Q traction 3 %.16g 0; Q pressure 3 %.16g*x",
-                 P / (2 * domain), P / (2 * domain), -1.5 * P / (domain * domain));
-   char rest[300];
-   std::snprintf(
-      rest, sizeof rest,
-      "' -young1 .91 -young2 .91 -contact1 1 -contact2 1 -support2 3:xy -friction %g "
-      "-pairing .01 -history 'P=0; P=1; Q=%g; Q=%g; Q=0' -cycle-start 1 -cycles 3 "
-      "-edges '1 2 3'",
-      friction, share * friction, -share * friction);
-   const auto run =
-      contact2d("-mesh1 '" + files[0] + "' -mesh2 '" + files[1] + "' -load1 '" + loads + rest);
-   ASSERT_EQ(run.code, 0) << run.output;
-   const auto &edges = run.results["edges"];
-   ASSERT_EQ(edges.size(), 2u) << run.output;
    const double k_t = fretting::shear_intensities(1, share * friction * P, 0).trailing;
    // The sheet: the slip zone is underestimated by this factor.
    const double factor = 0.5 * (1 + std::sqrt(1 - share));
@@ -271,17 +236,63 @@ TEST_F(Contact2D, EdgesOfAHertzContactHaveTheClosedForms)
       0.5 * fretting::hertz_slip_energy(friction, P, share, 0.5); // of one edge
    const double near =
       fretting::slip_energy_total({hertz.k_n, k_t, friction}, 2 * k_t, 0.5) / energy;
-   for (const auto &edge : edges)
+   for (const bool meshed : {true, false})
    {
-      EXPECT_FALSE(edge["complete"].get<bool>());
-      EXPECT_NEAR(edge["k_n"]["value"].get<double>(), hertz.k_n, 0.01 * hertz.k_n);
-      EXPECT_NEAR(std::abs(edge["k_t"]["value"].get<double>()), k_t, 0.01 * k_t);
-      EXPECT_NEAR(edge["k_t_range"].get<double>(), 2 * k_t, 0.02 * k_t);
-      const double d = edge["slip_zone"];
-      EXPECT_NEAR(d, 1 - std::sqrt(1 - share), 0.2 * h);
-      EXPECT_NEAR(edge["slip_zone_predicted"].get<double>() / d, factor, 0.05);
-      EXPECT_NEAR(edge["energy"].get<double>(), energy, 0.03 * energy);
-      EXPECT_NEAR(edge["energy_predicted"].get<double>() / energy, near, 0.05 * near);
+      const double domain = meshed ? 1e3 : 1e5;
+      // Equal blocks have no coupling at all; that of unlike discretisations is of their error.
+      const auto line = graded_to_ends(1.67, meshed ? 80 : 240, 1);
+      const double h = line[1] - line[0];
+      std::vector<std::string> files;
+      for (const double turn : {-1.0, 1.0})
+      {
+         mfem::Mesh mesh = half_plane_mesh(line, graded(0, 1.67, h, 1.25, 0.3),
+                                           ring_scales(1.67, domain, h, 1.25));
+         for (int v = 0; v < mesh.GetNV(); ++v)
+         {
+            double *x = mesh.GetVertex(v);
+            x[0] *= turn;
+            x[1] *= turn;
+         }
+         if (turn < 0)
+         {
+            mesh.SetCurvature(2);
+            mesh.Transform(lift_to_the_cylinder);
+         }
+         files.push_back(write(turn < 0 ? "pad.mesh" : "plane.mesh", mesh));
+      }
+      char loads[200];
+      std::snprintf(loads, sizeof loads,
+                    "P pressure 3 %.16g; Q traction 3 %.16g 0; Q pressure 3 %.16g*x",
+                    P / (2 * domain), P / (2 * domain), -1.5 * P / (domain * domain));
+      char rest[300];
+      std::snprintf(rest, sizeof rest,
+                    "' -young1 .91 -contact1 1 -friction %g -pairing .01 -history 'P=0; P=1; "
+                    "Q=%g; Q=%g; Q=0' -cycle-start 1 -cycles 3 "
+                    "-edges '1 2 3'",
+                    friction, share * friction, -share * friction);
+      const std::string below =
+         meshed
+            ? " -mesh2 '" + files[1] + "' -young2 .91 -contact2 1 -support2 3:xy"
+            : " -case '" +
+                 write("half.json", R"({"half-plane": {"young": 0.91, "poisson": 0.3}})") + "'";
+      const auto run = contact2d("-mesh1 '" + files[0] + "' -load1 '" + loads + rest + below);
+      ASSERT_EQ(run.code, 0) << run.output;
+      const auto &edges = run.results["edges"];
+      ASSERT_EQ(edges.size(), 2u) << run.output;
+      for (const auto &edge : edges)
+      {
+         EXPECT_FALSE(edge["complete"].get<bool>());
+         EXPECT_NEAR(edge["k_n"]["value"].get<double>(), hertz.k_n, 0.01 * hertz.k_n);
+         EXPECT_NEAR(std::abs(edge["k_t"]["value"].get<double>()), k_t, 0.01 * k_t);
+         EXPECT_NEAR(edge["k_t_range"].get<double>(), 2 * k_t, 0.02 * k_t);
+         const double d = edge["slip_zone"];
+         EXPECT_NEAR(d, 1 - std::sqrt(1 - share), 0.2 * h);
+         EXPECT_NEAR(edge["slip_zone_predicted"].get<double>() / d, factor, 0.05);
+         EXPECT_NEAR(edge["energy"].get<double>(), energy, 0.03 * energy);
+         EXPECT_NEAR(edge["energy_predicted"].get<double>() / energy, near, 0.05 * near);
+      }
+      EXPECT_NEAR(run.results["peak_pressure"].get<double>(), hertz.peak_pressure,
+                  0.01 * hertz.peak_pressure);
    }
 }
 
@@ -300,20 +311,24 @@ TEST_F(Contact2D, CornersHaveIntensitiesOfTheirOwn)
                            "-edges '1 2' ";
    const std::string body =
       "-mesh2 '" + write("plane.mesh", plane) + "' -contact2 1 -support2 3:xy ";
-   const auto similar = contact2d(pad + body + "-young2 0.91");
-   ASSERT_EQ(similar.code, 0) << similar.output;
-   ASSERT_EQ(similar.results["edges"].size(), 2u) << similar.output;
-   for (const auto &edge : similar.results["edges"])
+   for (const std::string &below :
+        {body + "-young2 0.91", std::string("-half-plane-young 0.91 -half-plane-poisson 0.3")})
    {
-      EXPECT_TRUE(edge["complete"].get<bool>());
-      EXPECT_FALSE(edge.contains("k_n"));
-      EXPECT_NE(edge["notes"][0].get<std::string>().find("corner"), std::string::npos);
-      ASSERT_TRUE(edge.contains("k_one")) << edge["notes"];
-      EXPECT_NEAR(edge["eigenvalues"][0].get<double>(), 0.544483736782, 1e-9);
-      EXPECT_NEAR(edge["eigenvalues"][1].get<double>(), 0.908529189846, 1e-9);
-      EXPECT_NEAR(edge["least_friction"].get<double>(), 0.543075578837, 1e-9);
-      EXPECT_GT(edge["k_one"]["value"].get<double>(), 0);
-      EXPECT_LT(edge["k_one"]["relative_error"].get<double>(), 0.02);
+      const auto similar = contact2d(pad + below);
+      ASSERT_EQ(similar.code, 0) << similar.output;
+      ASSERT_EQ(similar.results["edges"].size(), 2u) << similar.output;
+      for (const auto &edge : similar.results["edges"])
+      {
+         EXPECT_TRUE(edge["complete"].get<bool>());
+         EXPECT_FALSE(edge.contains("k_n"));
+         EXPECT_NE(edge["notes"][0].get<std::string>().find("corner"), std::string::npos);
+         ASSERT_TRUE(edge.contains("k_one")) << edge["notes"];
+         EXPECT_NEAR(edge["eigenvalues"][0].get<double>(), 0.544483736782, 1e-9);
+         EXPECT_NEAR(edge["eigenvalues"][1].get<double>(), 0.908529189846, 1e-9);
+         EXPECT_NEAR(edge["least_friction"].get<double>(), 0.543075578837, 1e-9);
+         EXPECT_GT(edge["k_one"]["value"].get<double>(), 0);
+         EXPECT_LT(edge["k_one"]["relative_error"].get<double>(), 0.02);
+      }
    }
    const auto rigid = contact2d(pad);
    ASSERT_EQ(rigid.code, 0) << rigid.output;
@@ -334,31 +349,114 @@ TEST_F(Contact2D, CornersHaveIntensitiesOfTheirOwn)
    }
 }
 
+/// A block on a half-plane that has no mesh: what forces do to the contact is known, how far
+/// they move is relative to a depth.
+TEST_F(Contact2D, DisplacementsOnAHalfPlaneAreRelativeToADepth)
+{
+   const auto x = cattaneo::graded_to_ends(1, 20, 0.1);
+   mfem::Mesh whole = cattaneo::rectangle_mesh(x, {0, 0.1, 0.3, 1, 2});
+   const std::string file = write("whole.mesh", whole);
+   const auto pressed = [&](const std::string &options, const std::string &half_plane)
+   {
+      return contact2d("-mesh1 '" + file + "' -young1 0.91 -contact1 1 -friction 0.4 -case '" +
+                       write("half.json", R"({"half-plane": {"young": 0.91, "poisson": 0.3)" +
+                                             half_plane + "}}") +
+                       "' -csv '" + folder + "/run' " + options);
+   };
+   const std::string forces =
+      "-load1 'P pressure 3 0.5; Q traction 3 0.5 0; Q pressure 3 -3*x' -history 'P=0; P=1; "
+      "Q=0.2'";
+   const auto without = pressed(forces, "");
+   ASSERT_EQ(without.code, 0) << without.output;
+   const std::string column = "displacement P";
+   EXPECT_EQ(table(folder + "/run_history.csv").count(column), 0u);
+   double sunk[2];
+   for (const int k : {0, 1})
+   {
+      const auto run = pressed(forces, k == 0 ? R"(, "depth": 100)" : R"(, "depth": 1000)");
+      ASSERT_EQ(run.code, 0) << run.output;
+      const auto history = table(folder + "/run_history.csv");
+      ASSERT_EQ(history.count(column), 1u);
+      sunk[k] = history.at(column).back();
+      // The contact does not know of it.
+      EXPECT_NEAR(run.results["peak_pressure"].get<double>(),
+                  without.results["peak_pressure"].get<double>(), 1e-9);
+      for (std::size_t zone = 0; zone < run.results["zones"].size(); ++zone)
+      {
+         EXPECT_NEAR(run.results["zones"][zone]["to"].get<double>(),
+                     without.results["zones"][zone]["to"].get<double>(), 1e-9);
+      }
+   }
+   // P = 1, E' = 1: 2/π ln(D₂/D₁).
+   EXPECT_NEAR(sunk[1] - sunk[0], 2 / std::acos(-1.0) * std::log(10.0), 1e-9);
+
+   // A prescribed displacement or a support needs the depth: 0.1 is more than what P = 0.1
+   // does.
+   const std::string moved = "-load1 'D displacement-y 3 -0.1' -history 'D=0; D=1'";
+   for (const std::string &held : {moved, forces + " -support1 3:x"})
+   {
+      const auto refused = pressed(held, "");
+      EXPECT_EQ(refused.code, 1) << refused.output;
+      EXPECT_NE(refused.output.find("half-plane-depth must state it"), std::string::npos)
+         << refused.output;
+   }
+   const auto given = pressed(moved, R"(, "depth": 1000)");
+   ASSERT_EQ(given.code, 0) << given.output;
+   const auto refused = pressed(forces + " -paraview '" + folder + "/fields'", "");
+   EXPECT_NE(refused.output.find("half-plane-depth must state it"), std::string::npos);
+}
+
+/// Half of the block, held on its plane of symmetry, presses as the whole does.
+TEST_F(Contact2D, APlaneOfSymmetryGoesOnInTheHalfPlane)
+{
+   const auto x = cattaneo::graded_to_ends(1, 20, 0.1);
+   const std::vector<double> y = {0, 0.1, 0.3, 1, 2}, right(x.begin() + 10, x.end());
+   mfem::Mesh whole = cattaneo::rectangle_mesh(x, y), half = cattaneo::rectangle_mesh(right, y);
+   const std::string options =
+      " -young1 0.91 -contact1 1 -friction 0.4 -load1 'P pressure 3 0.5' -half-plane-young 2 "
+      "-half-plane-poisson 0.2 -csv '" +
+      folder + "/run'";
+   std::vector<double> p[2];
+   for (const int k : {0, 1})
+   {
+      mfem::Mesh &mesh = k == 0 ? whole : half;
+      const auto run = contact2d("-mesh1 '" + write("block.mesh", mesh) + "'" +
+                                 (k == 0 ? "" : " -support1 4:x") + options);
+      ASSERT_EQ(run.code, 0) << run.output;
+      p[k] = table(folder + "/run_nodes.csv").at("p");
+   }
+   ASSERT_EQ(p[0].size(), 41u);
+   ASSERT_EQ(p[1].size(), 21u);
+   for (std::size_t i = 0; i < 21; ++i) { EXPECT_NEAR(p[1][i], p[0][20 + i], 1e-6); }
+}
+
 TEST_F(Contact2D, EqualsTheSquarePunch)
 {
-   for (const bool half_plane : {false, true})
+   for (const double domain : {-1.0, 0.0, 1e4}) // on a rigid line, a half-plane and a block
    {
+      const bool half_plane = domain >= 0;
       miniapp::PunchOptions options;
       options.nodes = 41;
       options.half_plane = half_plane;
-      options.domain = 1e4;
+      options.domain = std::max(domain, 0.0);
       const miniapp::Scene punch = miniapp::make_punch(options);
       std::string own = "--mesh1 '" + write("block.mesh", *punch.meshes[0]) +
                         "' --contact1 '1[-1<x<1]' --young1 0.91 --friction 0.3 --load1 "
                         "'P pressure 3 0.5; Q traction 3 0.5 0; Q pressure 3 -3*x' "
                         "--history 'P=0; P=1; Q=0.24; Q=0; Q=-0.24; Q=0' --cycle-start 1 "
                         "--cycles 3 --increments 40";
-      if (half_plane)
+      if (domain == 0) { own += " --half-plane-young 0.91 --half-plane-poisson 0.3"; }
+      if (domain > 0)
       {
          own += " --mesh2 '" + write("plane.mesh", *punch.meshes[1]) +
                 "' --contact2 1 --young2 0.91 --support2 3:xy";
       }
       const auto mine = contact2d(own);
-      const auto other =
-         run_miniapp("square_punch",
-                     std::string("--nodes 41 --friction 0.3 --shear '' --cycles 3 --domain 1e4 "
-                                 "--amplitude 0.8 --obstacle ") +
-                        (half_plane ? "half-plane" : "rigid"));
+      const auto other = run_miniapp(
+         "square_punch", std::string("--nodes 41 --friction 0.3 --shear '' --cycles 3 "
+                                     "--amplitude 0.8 --obstacle ") +
+                            (half_plane ? "half-plane" : "rigid") + " --domain " +
+                            std::to_string(options.domain));
       ASSERT_EQ(mine.code, 0) << mine.output;
       ASSERT_EQ(other.code, 0) << other.output;
       EXPECT_EQ(mine.results["dofs"], other.results["dofs"]);
@@ -468,6 +566,20 @@ TEST_F(Contact2D, BadInputIsOneSentenceAndLeavesNoFile)
    const std::vector<Bad> table = {
       {"--mesh1 nowhere.msh --contact1 3", {"body 1", "nowhere.msh", "cannot be read"}},
       {"", {"mesh1 is empty"}},
+      {pressed + "-half-plane-young 1", {"half-plane-poisson", "together"}},
+      {pressed + "-half-plane-depth 1", {"half-plane-depth", "only"}},
+      {pressed + "-half-plane-young 1 -half-plane-poisson 0.5",
+       {"half-plane-poisson is 0.5", "between -1 and 0.5"}},
+      {pressed + "-half-plane-young 1 -half-plane-poisson 0.3 -half-plane-depth 1",
+       {"depth 1", "at least twice the length"}},
+      {pair + "-half-plane-young 1 -half-plane-poisson 0.3", {"mesh2", "both given"}},
+      {case_file("half.json", R"({"mesh1": "a", "half-plane": {"young": 1}})"),
+       {"key 'half-plane' has no 'poisson'"}},
+      {case_file("inner.json", R"({"half-plane": {"young": 1, "poisson": 0.3, "width": 2}})"),
+       {"key 'half-plane'", "unknown key 'width'", "young, poisson, depth"}},
+      {case_file("twice_inside.json",
+                 R"({"half-plane": {"young": 1, "poisson": 0, "young": 2}})"),
+       {"key 'young' is there twice"}},
       {"--mesh1 '" + in_space + "' --contact1 1", {"solid.mesh", "dimension 3", "must be 2"}},
       {"--mesh1 '" + text + "' --contact1 1", {"text.mesh", "must begin with", "not a mesh"}},
       {"--mesh1 '" + truncated + "' --contact1 1",
