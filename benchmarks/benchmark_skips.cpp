@@ -121,6 +121,7 @@ int main()
       [] { return punch(true).reduction.counters.factorisations; });
    miniapp::HalfPlanes equal;
    equal.nodes = 201;
+   equal.domain = 1e4;
    miniapp::Scene pair = miniapp::make_scene(equal);
    ElasticBody &upper = *pair.bodies[0], &lower = *pair.bodies[1];
    const ContactLine above = contact_line(upper, 1), below = contact_line(lower, 1);
@@ -144,6 +145,7 @@ int main()
    const auto disc = [](miniapp::Twist twist)
    {
       miniapp::DiscOptions options;
+      options.domain = 100;
       options.spacing = 0.05;
       options.twist = twist;
       return miniapp::make_disc(options).reduction.counters.assemblies;
@@ -177,7 +179,11 @@ int main()
    }
    set_friction(uncoupled, 0.3);
    ReducedProblem coupled = uncoupled;
-   coupled.B()(0, 0) += 1e-9 * coupled.C().maxCoeff(); // of no consequence, but not zero
+   // Of no consequence, but not zero, and no rigid motion meets it.
+   Eigen::VectorXd both = Eigen::VectorXd::Zero(coupled.K.rows());
+   both[0] = both[coupled.slips()] = 1;
+   both -= coupled.rigid_motions * (coupled.rigid_motions.transpose() * both);
+   coupled.K += 1e-9 * coupled.C().maxCoeff() * both * both.transpose();
    complete(coupled);
    const Eigen::VectorXd normal = Vector2d(1, 0), shear = Vector2d(1, 0.2);
    row(

@@ -7,8 +7,10 @@
 //
 //  Meshes: uniform - nodes of equal distance where contact can be; graded - toward corners and
 //  toward the edges of contact and stick that a coarse run finds (its time is counted); nested
-//  - the same by splitting elements in four (nonconforming); default - the miniapp's own. Away
-//  from the contact elements grow, and all are about halved from one level to the next.
+//  - the same by splitting elements in four (nonconforming); block - graded, of order 2, with a
+//  meshed block in place of a half-plane, which has no mesh otherwise; default - the miniapp's
+//  own. Away from the contact elements grow, and all are about halved from one level to the
+//  next.
 //
 //  References are closed forms where there are any; else two runs of this library on another
 //  discretisation (orders 5 and 6 on finer graded meshes), whose difference is the uncertainty.
@@ -267,10 +269,12 @@ void compare(const Problem &problem, const std::vector<double> &orders, int leve
       write(problem, reference, all.back(), table);
    };
    if (problem.standard) { add(Family::standard, 2, 0); }
-   for (Family family : {Family::uniform, Family::graded, Family::nested})
+   for (Family family : {Family::uniform, Family::graded, Family::nested, Family::block})
    {
       if (family == Family::nested && !problem.nested) { continue; }
-      for (double order : orders)
+      const bool block = family == Family::block;
+      if (block && problem.domain == 0) { continue; }
+      for (double order : block ? std::vector<double>{2} : orders)
       {
          for (int level = 0; level < levels; ++level)
          {

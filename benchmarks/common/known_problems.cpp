@@ -33,6 +33,8 @@ const char *name(Family family)
       return "graded";
    case Family::nested:
       return "nested";
+   case Family::block:
+      return "block";
    case Family::standard:
       return "default";
    }
@@ -72,6 +74,7 @@ Answer hertz(const Resolution &r)
    miniapp::HalfPlanes options;
    options.material = Material{0.91, 0.3};
    options.load = P;
+   options.domain = r.domain;
    if (r.family != Family::standard)
    {
       options.order = r.order;
@@ -105,7 +108,7 @@ Answer hertz(const Resolution &r)
                          [&](double s) { return f * p0 * (ellipse(s, c) - ellipse(s, 1)); })
          .mean);
    answer.edges = {found, b};
-   answer.dofs = scene.dofs;
+   answer.dofs = scene.dofs > 0 ? scene.dofs : static_cast<double>(problem.K.rows());
    answer.nodes = static_cast<double>(problem.nodes());
    return answer;
 }
@@ -286,6 +289,7 @@ Answer strip(const Resolution &r)
 {
    const double f = 0.7, n = 4;
    miniapp::RecedingOptions options;
+   options.domain = r.domain;
    discretise(options, r, options.length, r.foci(0, n + 2.5));
    if (r.family == Family::nested)
    {
@@ -312,6 +316,7 @@ Answer disc(const Resolution &r)
 {
    const double f = 0.5;
    miniapp::DiscOptions options;
+   options.domain = r.domain;
    discretise(options, r, options.disc_radius, r.foci(0, options.disc_radius));
    miniapp::Scene scene = miniapp::make_disc(options);
    ReducedProblem &problem = scene.reduction.problem;
@@ -372,7 +377,7 @@ Answer shakedown(const Resolution &r)
    const double f = 0.85;
    miniapp::PunchOptions options;
    options.half_plane = true;
-   options.domain = 1e4;
+   options.domain = r.domain;
    if (r.family != Family::standard)
    {
       options.order = r.order;
@@ -411,7 +416,8 @@ const std::vector<Problem> &problems()
        1.0 / 8,
        1,
        0,
-       hertz},
+       hertz,
+       1e4},
       {"lubkin",
        "Lubkin: twisted spheres",
        {{"torque", 1, 1}, {"stick radius", 1, 1}, {"contact radius", 1, 1}},
@@ -420,6 +426,7 @@ const std::vector<Problem> &problems()
        1,
        0,
        lubkin,
+       0,
        false,
        false},
       {"punch",
@@ -433,6 +440,7 @@ const std::vector<Problem> &problems()
        1.0 / 64,
        3,
        punch,
+       0,
        true},
       {"strip",
        "Receding strip",
@@ -442,6 +450,7 @@ const std::vector<Problem> &problems()
        1,
        2,
        strip,
+       1e6,
        true},
       {"disc",
        "Receding disc",
@@ -452,7 +461,8 @@ const std::vector<Problem> &problems()
        1.0 / 16,
        1,
        2,
-       disc},
+       disc,
+       1e3},
       {"lap_joint",
        "Lap joint",
        {{"loss of a cycle", none, 0, 1.938e-4, 0.003 * 1.938e-4},
@@ -470,7 +480,8 @@ const std::vector<Problem> &problems()
        1,
        1.0 / 64,
        2,
-       shakedown},
+       shakedown,
+       1e4},
    };
    return all;
 }
@@ -483,13 +494,14 @@ Resolution resolution(const Problem &problem, Family family, int order, double l
            problem.finest,
            problem.corner,
            1 + 0.25 / std::pow(2, level),
-           {}};
+           {},
+           family == Family::block ? problem.domain : 0};
 }
 
 Answer solve(const Problem &problem, Resolution r)
 {
-   const bool finds =
-      (r.family == Family::graded || r.family == Family::nested) && problem.finest < 1;
+   const bool meets_edges = r.family != Family::uniform && r.family != Family::standard,
+              finds = meets_edges && problem.finest < 1;
    if (finds) { r.edges = problem.solve(resolution(problem, Family::uniform, 2, 0)).edges; }
    return problem.solve(r);
 }

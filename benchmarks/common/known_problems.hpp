@@ -18,6 +18,7 @@ enum class Family
    uniform,
    graded,
    nested,
+   block, ///< graded, and the half-plane is a meshed block
    standard
 };
 
@@ -33,6 +34,7 @@ struct Resolution
    double corner = 1;              ///< the same toward corners
    double growth = 1;              ///< from node to node
    std::vector<double> edges = {}; ///< of contact and stick, found before
+   double domain = 0;              ///< of a block; 0: a half-plane has no mesh
 
    double element_growth() const { return 1 + order * (growth - 1); }
 
@@ -75,6 +77,7 @@ struct Problem
    double finest, corner; ///< of graded meshes
    int fine;              ///< level of the first of the two reference meshes
    std::function<Answer(const Resolution &)> solve;
+   double domain = 0; ///< of the block of that family; 0: it has none
    bool nested = false;
    bool standard = true; ///< there is a miniapp with a default mesh
 };
