@@ -1,12 +1,10 @@
 #include "common/references.hpp"
 
 #include "common/miniapp.hpp"
-#include "common/text.hpp"
 
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <sstream>
 
@@ -17,71 +15,12 @@ using cattaneo::InputError;
 using cattaneo::require;
 using nlohmann::ordered_json;
 
-void ReferenceTable::add(const std::string &name, double reference, Allowed allowed,
-                         double computed, double thesis)
+std::string Reference::verdict() const
 {
-   rows_.push_back({name, reference, allowed, computed, thesis});
-}
-
-namespace
-{
-
-/// Outside of the reference's own ±, and whether the mesh explains it; NaN is outside. A
-/// closed form has no ±.
-std::string verdict(double difference, const Allowed &allowed)
-{
-   if (std::abs(difference) <= allowed.spread) { return ""; }
-   const bool explained = std::abs(difference) <= allowed.spread + allowed.mesh;
+   if (!outside()) { return ""; }
+   const bool explained = std::abs(difference()) <= allowed.spread + allowed.mesh;
    if (explained && allowed.spread == 0) { return "within the mesh's ±"; }
    return explained ? "outside, within the mesh's ±" : "outside";
-}
-
-} // namespace
-
-bool ReferenceTable::has(const std::string &name) const
-{
-   return std::any_of(rows_.begin(), rows_.end(),
-                      [&](const Row &row) { return row.name == name; });
-}
-
-void ReferenceTable::print() const
-{
-   if (rows_.empty()) { return; }
-   std::size_t width = 8;
-   for (const Row &row : rows_) { width = std::max(width, characters(row.name)); }
-   std::printf("\n%s | %11s %9s %9s | %8s | %11s | %10s\n", padded("quantity", width).c_str(),
-               "reference", "its ±", "mesh ±", "thesis", "computed", "difference");
-   for (const Row &row : rows_)
-   {
-      const std::string thesis = std::isfinite(row.thesis) ? text("%.4g", row.thesis) : "-",
-                        mesh = row.allowed.mesh > 0 ? text("%.2g", row.allowed.mesh) : "-";
-      const double difference = row.computed - row.reference;
-      std::printf("%s | %11.5g %8.2g %8s | %8s | %11.5g | %+10.2g  %s\n",
-                  padded(row.name, width).c_str(), row.reference, row.allowed.spread,
-                  mesh.c_str(), thesis.c_str(), row.computed, difference,
-                  verdict(difference, row.allowed).c_str());
-   }
-   for (const std::string &note : notes_) { std::printf("%s", wrapped(note, 2).c_str()); }
-   std::fflush(stdout);
-}
-
-ordered_json ReferenceTable::json() const
-{
-   ordered_json list = ordered_json::array();
-   for (const Row &row : rows_)
-   {
-      ordered_json j = {
-         {"quantity", row.name},
-         {"reference", row.reference},
-         {"spread", row.allowed.spread},
-         {"mesh", row.allowed.mesh},
-         {"tolerance", row.allowed.spread + row.allowed.mesh},
-         {"computed", row.computed},
-         {"outside", !(std::abs(row.computed - row.reference) <= row.allowed.spread)}};
-      if (std::isfinite(row.thesis)) { j["thesis"] = row.thesis; }
-      list.push_back(j);
-   }
-   return list;
 }
 
 namespace
@@ -190,27 +129,36 @@ bool References::has(const std::string &key) const
 }
 
 void References::compare(const std::string &key, double computed, double error,
-                         const Meaning &meaning, ReferenceTable &table) const
+                         const Meaning &meaning, std::vector<Reference> &found) const
 {
    for (const ordered_json &entry : entries_)
    {
-      if (!is_of(entry, key) || table.has(entry.at("name")) || !all_hold(entry, meaning))
+      const auto same = [&](const Reference &one) { return one.name == entry.at("name"); };
+      if (!is_of(entry, key) || std::any_of(found.begin(), found.end(), same) ||
+          !all_hold(entry, meaning))
       {
          continue;
       }
       const double mesh = mesh_share(entry.value("mesh", ordered_json(0.0)), meaning);
-      table.add(entry.at("name"), entry.at("value"),
-                {entry.at("spread"), mesh + (std::isfinite(error) ? error : 0)}, computed,
-                entry.value("thesis", std::numeric_limits<double>::quiet_NaN()));
+      found.push_back({entry.at("name"),
+                       entry.at("value"),
+                       {entry.at("spread"), mesh + (std::isfinite(error) ? error : 0)},
+                       computed,
+                       entry.value("thesis", std::numeric_limits<double>::quiet_NaN())});
    }
 }
 
-void References::add_notes(const Meaning &meaning, ReferenceTable &table) const
+std::vector<std::string> References::notes(const Meaning &meaning) const
 {
+   std::vector<std::string> notes;
    for (const ordered_json &entry : entries_)
    {
-      if (entry.contains("note") && all_hold(entry, meaning)) { table.note(entry["note"]); }
+      if (entry.contains("note") && all_hold(entry, meaning))
+      {
+         notes.push_back(entry["note"]);
+      }
    }
+   return notes;
 }
 
 } // namespace miniapp

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -18,29 +19,19 @@ struct Allowed
    double spread, mesh;
 };
 
-/// The table at the end of a study: reference | its ± | mesh ± | thesis | computed |
-/// difference.
-class ReferenceTable
+/// One that was found, or a closed form, beside what was computed.
+struct Reference
 {
-public:
-   void add(const std::string &name, double reference, Allowed allowed, double computed,
-            double thesis = std::numeric_limits<double>::quiet_NaN());
-   /// A line below the table: why the thesis differs, for instance.
-   void note(const std::string &text) { notes_.push_back(text); }
-   bool has(const std::string &name) const;
-   void print() const;
-   nlohmann::ordered_json json() const;
+   std::string name;
+   double value;
+   Allowed allowed;
+   double computed, thesis = std::numeric_limits<double>::quiet_NaN();
 
-private:
-   struct Row
-   {
-      std::string name;
-      double reference;
-      Allowed allowed;
-      double computed, thesis;
-   };
-   std::vector<Row> rows_;
-   std::vector<std::string> notes_;
+   double difference() const { return computed - value; }
+   /// Of its own ±; NaN is outside.
+   bool outside() const { return !(std::abs(difference()) <= allowed.spread); }
+   /// Whether the mesh explains what is outside; a closed form has no ± of its own.
+   std::string verdict() const;
 };
 
 /// What a name of a condition or of a mesh share stands for in a run; null for nothing.
@@ -54,12 +45,12 @@ public:
    explicit References(const std::string &study);
 
    bool has(const std::string &key) const;
-   /// Adds to the table the entries of a key whose conditions hold, with the error of the
-   /// computed value's own read-out. What is found twice is compared once.
+   /// Adds the entries of a key whose conditions hold, with the error of the computed value's
+   /// own read-out. What is found twice is compared once.
    void compare(const std::string &key, double computed, double error, const Meaning &meaning,
-                ReferenceTable &table) const;
-   /// Adds the notes whose conditions hold.
-   void add_notes(const Meaning &meaning, ReferenceTable &table) const;
+                std::vector<Reference> &found) const;
+   /// Those whose conditions hold: why the thesis differs, for instance.
+   std::vector<std::string> notes(const Meaning &meaning) const;
 
 private:
    nlohmann::ordered_json entries_;

@@ -200,7 +200,7 @@ Film *Study::film(const cattaneo::ReducedProblem &problem)
 
 void Study::compare(const std::string &name, double exact, Allowed allowed, double computed)
 {
-   compared_.add(name, exact, allowed, computed);
+   compared_.push_back({name, exact, allowed, computed});
 }
 
 ordered_json Study::meaning(const std::string &name, const ordered_json &row) const
@@ -210,19 +210,48 @@ ordered_json Study::meaning(const std::string &name, const ordered_json &row) co
    return options_.values().contains(name) ? options_.values()[name] : ordered_json();
 }
 
-void Study::finish()
+void Study::compare_references()
 {
-   cattaneo::require(!check_ || checked_, "option --check: this run has no meshes");
-   begun_.paths.clear();
-   for (const Table &table : tables_) { results[table.name()] = table.json(); }
    for (const Found &found : found_)
    {
       references_.compare(
          found.key, found.computed, found.error,
          [&](const std::string &name) { return meaning(name, found.row); }, compared_);
    }
-   references_.add_notes([&](const std::string &name) { return meaning(name, {}); }, compared_);
-   compared_.print();
+   results["references"] = ordered_json::array();
+   if (compared_.empty()) { return; }
+   std::size_t width = 8;
+   for (const Reference &one : compared_) { width = std::max(width, characters(one.name)); }
+   Table &all = table("references", {{"quantity"},
+                                     {"", padded("quantity", width)},
+                                     {"reference", "reference", "%.5g"},
+                                     {"spread", "its ±", "%.2g"},
+                                     {"mesh", "mesh ±", "%.2g"},
+                                     {"thesis", "thesis", "%.4g"},
+                                     {"computed", "computed", "%.5g"},
+                                     {"", "difference", "%+.2g"},
+                                     {"", "outside of its ±"},
+                                     {"tolerance"},
+                                     {"outside"}});
+   for (const Reference &one : compared_)
+   {
+      row(all, {one.name, padded(one.name, width), one.value, one.allowed.spread,
+                one.allowed.mesh, one.thesis, one.computed, one.difference(), one.verdict(),
+                one.allowed.spread + one.allowed.mesh, one.outside()});
+   }
+   for (const std::string &note :
+        references_.notes([&](const std::string &name) { return meaning(name, {}); }))
+   {
+      std::printf("%s", wrapped(note, 2).c_str());
+   }
+}
+
+void Study::finish()
+{
+   cattaneo::require(!check_ || checked_, "option --check: this run has no meshes");
+   begun_.paths.clear();
+   compare_references();
+   for (const Table &table : tables_) { results[table.name()] = table.json(); }
    if (!results.contains("status")) { results["status"] = "converged"; }
    if (nodes_ > 0)
    {
@@ -232,7 +261,6 @@ void Study::finish()
    }
    results["seconds"] = watch.seconds();
    results["counters"] = to_json(counters);
-   results["references"] = compared_.json();
    write_json(results, json_);
    std::vector<Sheet> sheets;
    for (const auto &sheet : sheets_)
@@ -280,7 +308,6 @@ void Study::write_html(const std::vector<Sheet> &sheets) const
                {"options", options_.values()},
                {"values", values_},
                {"tables", tables},
-               {"references", results["references"]},
                {"films", films},
                {"more_films", more_films_}},
               figure);

@@ -118,6 +118,7 @@ public:
 
 private:
    void finish();
+   void compare_references();
    void write_html(const std::vector<Sheet> &sheets) const;
    /// What a name means: a column of the row, a single result or an option.
    nlohmann::ordered_json meaning(const std::string &name,
@@ -125,7 +126,7 @@ private:
 
    Options options_;
    References references_;
-   ReferenceTable compared_;
+   std::vector<Reference> compared_;
    std::string name_, json_, csv_, plot_, html_, save_, sweep_, sweep_results_;
    /// Removes what is in it when it goes.
    struct Begun
