@@ -360,6 +360,32 @@ TEST_F(Exchange, ACondensedBodyIsASuperelement)
    EXPECT_LT((again.patterns[0].q - body.patterns[0].q).norm(), 1e-14);
 }
 
+/// For joint dynamics. Bodies that are held in series: K⁻¹ = L S⁻¹ Lᵀ of the united problem.
+TEST_F(Exchange, SeparateBodiesAndTheirRelativeDisplacements)
+{
+   std::vector<NodalStiffness> parts = read_stiffness(folder + "laps.sti").parts();
+   for (int direction : {1, 2}) { parts[1].fix(parts[1].nodes_of("TOP"), direction); }
+   parts[1].loads.clear();
+   parts[1].add_forces("P", {108}, 2, -3);
+   const ContactLine below = parts[0].contact_line(parts[0].nodes_of("LOWER_FACE")),
+                     above = parts[1].contact_line(parts[1].nodes_of("UPPER_FACE"));
+   const std::vector<CondensedBody> bodies = {condense(parts[0].body(), below),
+                                              condense(parts[1].body(), above)};
+   const std::vector<Interface> faces = {{"face", {1, above}, {0, below}}};
+   const ReducedProblem problem = reduce(bodies, faces).problem;
+   const SeparateBodies apart = separate(bodies, faces);
+   ASSERT_EQ(apart.K.rows(), 20);
+   ASSERT_EQ(apart.L.rows(), 8);
+   EXPECT_EQ(apart.patterns[0].name, "P");
+   const MatrixXd flexible = apart.K.inverse() * apart.L.transpose();
+   const MatrixXd series = (apart.L * flexible).inverse();
+   EXPECT_LT(difference(series, problem.K), 1e-12);
+   // Clamped: U = K⁻¹(Lᵀ f - f_1) with L U = 0.
+   const VectorXd clamped = series * flexible.transpose() * apart.loads.col(0);
+   EXPECT_LT((clamped.head(4) - problem.patterns[0].q).norm(), 1e-12);
+   EXPECT_LT((clamped.tail(4) - problem.patterns[0].p).norm(), 1e-12);
+}
+
 TEST_F(Exchange, NumpyReadsWhatIsWritten)
 {
    NodalStiffness lower = lower_lap();
@@ -409,7 +435,7 @@ TEST_F(Exchange, MistakesAreToldInOneSentence)
            {"m.mtx", "1,1,1,1,2.\n2,1,1,1,1.\n", "node 2 direction 1) is 0, the diagonal"},
            {"m.mtx", "1,1,1,1,-2.\n", "is -2, the diagonal of a stiffness must be positive"},
            {"m.mtx", "7,1,7,1,2.\n", "node 7 has no place"},
-           {"m.mtx", "*USER ELEMENT, LINEAR\n", "*USER ELEMENT has no NODES="},
+           {"m.mtx", "*USER ELEMENT, LINEAR\n", "*USER ELEMENT, must have NODES="},
            {"m.mtx", "*USER ELEMENT, NODES=1, LINEAR\n1, 2\n*MATRIX, TYPE=STIFFNESS\n1.\n",
             "lists 0 of them, must list all"},
            {"m.mtx",

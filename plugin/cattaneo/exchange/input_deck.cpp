@@ -184,15 +184,12 @@ void DeckReader::element(LineReader &in)
    const std::string &type = keyword_.parameters["TYPE"];
    const std::optional<PlaneElement> shape = PlaneElement::of(type);
    std::vector<int> nodes;
-   const auto add = [&]
+   in.add_integers(nodes, "a number of *ELEMENT");
+   while (trimmed(in.line()).back() == ',' && in.next())
    {
-      for (const std::string_view field : in.fields())
-      {
-         if (!field.empty()) { nodes.push_back(in.integer(field, "a number of *ELEMENT")); }
-      }
-   };
-   add();
-   while (trimmed(in.line()).back() == ',' && in.next()) { add(); }
+      in.add_integers(nodes, "a number of *ELEMENT");
+   }
+   if (nodes.empty()) { return; }
    nodes.erase(nodes.begin()); // the element's own number
    for (int node : nodes) { put(keyword_.parameter("ELSET"), node); }
    if (!shape) { return; } // springs and whatever else has no outer edges

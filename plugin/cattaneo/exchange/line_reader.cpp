@@ -57,22 +57,36 @@ bool LineReader::next()
    return false;
 }
 
-std::vector<std::string_view> LineReader::words() const
-{
-   return split(line_.find(',') == std::string::npos ? blanks : ",");
-}
-
-std::vector<std::string_view> LineReader::split(const char *separators) const
+std::vector<std::string_view> LineReader::fields() const
 {
    std::vector<std::string_view> found;
    std::string_view rest = trimmed(line_);
    while (!rest.empty())
    {
-      const std::size_t end = std::min(rest.find_first_of(separators), rest.size());
+      const std::size_t end = std::min(rest.find(','), rest.size());
       found.push_back(trimmed(rest.substr(0, end)));
       rest = trimmed(rest.substr(std::min(end + 1, rest.size())));
    }
    return found;
+}
+
+std::vector<std::string_view> LineReader::words() const
+{
+   constexpr const char *separators = " \t\r,*";
+   std::vector<std::string_view> found;
+   const std::string_view line = line_;
+   for (std::size_t from = line.find_first_not_of(separators); from < line.size();)
+   {
+      const std::size_t end = std::min(line.find_first_of(separators, from), line.size());
+      found.push_back(line.substr(from, end - from));
+      from = line.find_first_not_of(separators, end);
+   }
+   return found;
+}
+
+void LineReader::add_integers(std::vector<int> &numbers, const char *what) const
+{
+   for (const std::string_view word : words()) { numbers.push_back(integer(word, what)); }
 }
 
 double LineReader::number(std::string_view field, const char *what) const

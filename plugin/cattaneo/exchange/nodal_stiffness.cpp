@@ -440,10 +440,10 @@ NodalStiffness NodalStiffness::part(const std::vector<int> &rows,
       const Eigen::VectorXd values = load.values(rows);
       if (!values.isZero(0)) { own.loads.push_back({load.name, load.control, values}); }
    }
-   for (const Nodes &edge : edges)
-   {
-      if (own.places.count(edge.front()) == 1) { own.edges.push_back(edge); }
-   }
+   const auto is_own = [&](int node) { return own.places.count(node) == 1; };
+   std::copy_if(edges.begin(), edges.end(), std::back_inserter(own.edges),
+                [&](const Nodes &edge)
+                { return std::all_of(edge.begin(), edge.end(), is_own); });
    std::size_t smallest = 0;
    for (const auto &[set, nodes] : sets)
    {

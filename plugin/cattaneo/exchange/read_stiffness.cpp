@@ -173,85 +173,70 @@ Rows read_abaqus_sparse(const std::string &file)
 /// they change, then the triangle of the stiffness.
 Rows read_user_element(const std::string &file)
 {
-   Rows rows;
    LineReader in(file);
    std::vector<int> nodes;
    std::map<int, std::vector<int>> directions; // from a position among the nodes on
    std::vector<double> values;
    int count = 0;
-   enum
+   enum class Expected
    {
       nothing,
-      listed_nodes,
-      listed_directions,
+      nodes,
+      directions,
       stiffness
-   } state = nothing;
+   } expected = Expected::nothing;
    while (in.next())
    {
       const std::string line = upper_case(in.line());
-      const std::vector<std::string_view> fields = in.words();
       const auto says = [&](const char *words)
       { return line.find(words) != std::string::npos; };
       if (line.rfind("**", 0) == 0)
       {
-         if (says("ELEMENT NODES")) { state = listed_nodes; }
-         else if (state == listed_nodes)
-         {
-            std::string rest = in.line().substr(2);
-            std::replace(rest.begin(), rest.end(), ',', ' ');
-            for (std::size_t from = rest.find_first_not_of(" \t\r"); from < rest.size();)
-            {
-               const std::size_t end = std::min(rest.find_first_of(" \t\r", from), rest.size());
-               nodes.push_back(in.integer(rest.substr(from, end - from), "a node"));
-               from = rest.find_first_not_of(" \t\r", end);
-            }
-         }
+         if (expected == Expected::nodes) { in.add_integers(nodes, "a node"); }
+         if (says("ELEMENT NODES")) { expected = Expected::nodes; }
          continue;
       }
-      if (line[0] == '*')
+      if (says("*USER ELEMENT"))
       {
-         const bool is_stiffness = says("*MATRIX") && says("STIFFNESS");
-         in.require(!is_stiffness || values.empty(), "a second *MATRIX, TYPE=STIFFNESS begins, "
-                                                     "there must be one in a file");
-         in.require(!says("UNSYMM"), "the element is UNSYMM, its stiffness must be symmetric");
-         if (says("*USER ELEMENT"))
-         {
-            const std::size_t place = line.find("NODES=");
-            in.require(place != std::string::npos, "*USER ELEMENT has no NODES=, must have");
-            std::string_view number = std::string_view(line).substr(place + 6);
-            number = trimmed(number.substr(0, number.find(',')));
-            count = in.integer(number, "the number of nodes");
-            state = listed_directions;
-         }
-         else { state = is_stiffness ? stiffness : nothing; }
+         const std::size_t place = line.find("NODES=");
+         in.require(place != std::string::npos && !says("UNSYMM"),
+                    "*USER ELEMENT, must have NODES= and not be UNSYMM");
+         const std::string_view number = std::string_view(line).substr(place + 6);
+         count = in.integer(trimmed(number.substr(0, number.find(','))), "the number of nodes");
+         expected = Expected::directions;
       }
-      else if (state == stiffness)
+      else if (line[0] == '*')
       {
-         for (const std::string_view field : fields)
+         const bool stiffness = says("*MATRIX") && says("STIFFNESS");
+         in.require(!stiffness || values.empty(),
+                    "a second *MATRIX, TYPE=STIFFNESS begins, there must be one in a file");
+         expected = stiffness ? Expected::stiffness : Expected::nothing;
+      }
+      else if (expected == Expected::stiffness)
+      {
+         for (const std::string_view word : in.words())
          {
-            if (!field.empty()) { values.push_back(in.number(field, "an entry")); }
+            values.push_back(in.number(word, "an entry"));
          }
       }
-      else if (state == listed_directions || state == listed_nodes)
+      else if (expected != Expected::nothing)
       {
-         state = listed_directions;
+         expected = Expected::directions;
          std::vector<int> numbers;
-         for (const std::string_view field : fields)
+         if (directions.empty()) { numbers.push_back(1); } // of the first node
+         in.add_integers(numbers, "a direction");
+         in.require(numbers.size() > 1 && numbers[0] >= 1 && numbers[0] <= count, "'",
+                    trimmed(in.line()),
+                    "', must be directions of the nodes of the element, of ", count,
+                    ", behind the position of the first");
+         for (std::size_t k = 1; k < numbers.size(); ++k)
          {
-            if (!field.empty()) { numbers.push_back(in.integer(field, "a direction")); }
+            require_plane(in, {numbers[0], numbers[k]});
          }
-         int from = 1;
-         if (!directions.empty())
-         {
-            from = numbers[0];
-            numbers.erase(numbers.begin());
-         }
-         in.require(from >= 1 && from <= count && !numbers.empty(), "directions from node ",
-                    from, " of the element on, must be from one of its ", count, " nodes");
-         for (int direction : numbers) { require_plane(in, {from, direction}); }
-         directions[from] = numbers;
+         directions[numbers[0]].assign(numbers.begin() + 1, numbers.end());
       }
    }
+   Rows rows;
    require(
       count > 0 && static_cast<int>(nodes.size()) == count && !directions.empty(), "file '",
       file, "': a user element of ", count, " nodes lists ", nodes.size(),

@@ -412,6 +412,41 @@ std::vector<std::vector<int>> groups_of(std::size_t bodies, const std::vector<Fa
    return result;
 }
 
+void require_some(const std::vector<CondensedBody> &bodies,
+                  const std::vector<Interface> &interfaces)
+{
+   require(!bodies.empty() && !interfaces.empty(), "reduce: ", bodies.size(), " bodies and ",
+           interfaces.size(), " interfaces, must be at least one of each");
+}
+
+/// Contact nodes of all interfaces, which `facings` becomes.
+std::vector<ContactRow> rows_of(const std::vector<Interface> &interfaces,
+                                const std::vector<CondensedBody> &bodies,
+                                std::vector<Facing> &facings)
+{
+   for (const CondensedBody &body : bodies)
+   {
+      require(body.line.formulation == bodies[0].line.formulation &&
+                 body.line.formulation != Formulation::torsion,
+              "reduce: the bodies must be all plane or all axisymmetric");
+   }
+   std::vector<ContactRow> rows;
+   std::map<NodeOfBody, std::vector<NodeOfBody>> taken;
+   std::set<int> touched;
+   for (const Interface &interface : interfaces)
+   {
+      facings.emplace_back(interface, bodies);
+      facings.back().add_rows(rows, taken);
+      touched.insert({interface.first.body, interface.second.body});
+   }
+   for (int b = 0; b < static_cast<int>(bodies.size()); ++b)
+   {
+      require(touched.count(b), "reduce: ", called(bodies, b),
+              " is at no interface, nothing touches it: it must be at one, or be left out");
+   }
+   return rows;
+}
+
 } // namespace
 
 ContactLine joined(const std::vector<ContactLine> &lines)
@@ -458,8 +493,7 @@ ContactLine joined(const std::vector<ContactLine> &lines)
 
 Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface> &interfaces)
 {
-   require(!bodies.empty() && !interfaces.empty(), "reduce: ", bodies.size(), " bodies and ",
-           interfaces.size(), " interfaces, must be at least one of each");
+   require_some(bodies, interfaces);
    // What has formulas of its own.
    const Interface &one = interfaces.front();
    const auto is_all = [&](const InterfaceSide &side, int b)
@@ -498,31 +532,12 @@ Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface>
    }
 
    Reduction result;
-   for (const CondensedBody &body : bodies)
-   {
-      require(body.line.formulation == bodies[0].line.formulation &&
-                 body.line.formulation != Formulation::torsion,
-              "reduce: the bodies must be all plane or all axisymmetric");
-      result.counters += body.counters;
-   }
+   for (const CondensedBody &body : bodies) { result.counters += body.counters; }
    ++result.counters.unions;
    result.bodies = std::move(bodies);
    std::vector<Facing> facings;
-   std::vector<ContactRow> rows;
-   std::map<NodeOfBody, std::vector<NodeOfBody>> taken;
-   std::set<int> touched;
-   for (const Interface &interface : interfaces)
-   {
-      facings.emplace_back(interface, result.bodies);
-      facings.back().add_rows(rows, taken);
-      touched.insert({interface.first.body, interface.second.body});
-   }
+   const std::vector<ContactRow> rows = rows_of(interfaces, result.bodies, facings);
    const auto count = static_cast<int>(result.bodies.size());
-   for (int b = 0; b < count; ++b)
-   {
-      require(touched.count(b), "reduce: ", called(result.bodies, b),
-              " is at no interface, nothing touches it: it must be at one, or be left out");
-   }
    const auto n = static_cast<Index>(rows.size());
    ReducedProblem &problem = result.problem;
    result.pattern_ = join(result.bodies, problem.patterns);
@@ -549,6 +564,30 @@ Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface>
    problem.dofs = Eigen::MatrixXi::Constant(n, 2 * count, -1);
    for (const Facing &facing : facings) { facing.add_facts(problem, result.interfaces); }
    join_coupling(problem);
+   return result;
+}
+
+SeparateBodies separate(const std::vector<CondensedBody> &bodies,
+                        const std::vector<Interface> &interfaces)
+{
+   require_some(bodies, interfaces);
+   std::vector<Facing> facings;
+   const RelativeDisplacement map(bodies, rows_of(interfaces, bodies, facings));
+   SeparateBodies result;
+   const Reduction::PatternIndex index = join(bodies, result.patterns);
+   result.L = map.G;
+   result.K = Eigen::MatrixXd::Zero(map.size(), map.size());
+   std::vector<Eigen::MatrixXd> forces;
+   for (std::size_t b = 0; b < bodies.size(); ++b)
+   {
+      const std::vector<int> &free = map.free[b];
+      const auto rows = static_cast<Index>(free.size());
+      result.K.block(map.offsets[b], map.offsets[b], rows, rows) = bodies[b].S(free, free);
+      forces.push_back(
+         clamped_forces(bodies[b], index[b], static_cast<Index>(result.patterns.size())));
+   }
+   result.loads = map.stacked(forces);
+   for (LoadPattern &pattern : result.patterns) { pattern.q = pattern.p = Eigen::VectorXd(); }
    return result;
 }
 

@@ -75,4 +75,22 @@ ContactLine joined(const std::vector<ContactLine> &lines);
     other side is not, or nothing holds the bodies together. */
 Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface> &interfaces);
 
+/** Bodies that meet at interfaces but keep displacements of their own, for programs of joint
+    dynamics. U: contact displacements of all bodies that are not held, {v; w} of each in the
+    frames of its line, one body after the other; u = {v; w}: the relative ones of the contact
+    nodes, in the order of reduce() where nodes do not match.
+
+       K U + Σ λ_k f_k = Lᵀ {q; p},    u = L U */
+struct SeparateBodies
+{
+   Eigen::MatrixXd K; ///< the bodies' S, one block each
+   Eigen::SparseMatrix<double, Eigen::RowMajor> L;
+   Eigen::MatrixXd loads;             ///< one column f_k a pattern
+   std::vector<LoadPattern> patterns; ///< names and controls alone
+};
+
+/// InputError as of reduce(bodies, interfaces).
+SeparateBodies separate(const std::vector<CondensedBody> &bodies,
+                        const std::vector<Interface> &interfaces);
+
 } // namespace cattaneo

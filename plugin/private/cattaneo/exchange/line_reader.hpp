@@ -24,9 +24,11 @@ public:
 
    /// Fields of the line between commas, without blanks around them; one that ends the line
    /// after a comma is left out if it is empty.
-   std::vector<std::string_view> fields() const { return split(","); }
-   /// The same of a line without commas, between blanks.
+   std::vector<std::string_view> fields() const;
+   /// What stands between blanks, commas and stars (of a comment).
    std::vector<std::string_view> words() const;
+   /// All of them as numbers, added to `numbers`.
+   void add_integers(std::vector<int> &numbers, const char *what) const;
    /// A number as C or Fortran writes it; InputError unless it is finite.
    double number(std::string_view field, const char *what) const;
    int integer(std::string_view field, const char *what) const;
@@ -38,8 +40,6 @@ public:
    }
 
 private:
-   std::vector<std::string_view> split(const char *separators) const;
-
    std::string file_, line_;
    std::ifstream in_;
    int number_ = 0;
