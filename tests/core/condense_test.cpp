@@ -182,6 +182,41 @@ TEST(CondenseMatrix, AFreeBodyKeepsItsRigidMotions)
    EXPECT_NEAR(pull.p.dot(frame.line().each(&LineNode::position).col(0)), -moment, 1e-12);
 }
 
+TEST(StiffnessError, OfAFreeTwistByHand)
+{
+   // Rings about an axis, each sprung to the next: what turns them all alike meets nothing.
+   const int rings = 5;
+   MatrixXd K = MatrixXd::Zero(rings, rings);
+   for (int i = 0; i + 1 < rings; ++i)
+   {
+      K.block(i, i, 2, 2) += (i + 1) * Eigen::Matrix2d{{1, -1}, {-1, 1}};
+   }
+   AssembledBody body;
+   body.K = SharedMatrix(Eigen::SparseMatrix<double, Eigen::RowMajor>(K.sparseView()));
+   body.places = {VectorXd::LinSpaced(rings, 1, 3), VectorXd::Zero(rings),
+                  std::vector<int>(rings, 0), Formulation::torsion};
+   ContactLine line;
+   line.formulation = Formulation::torsion;
+   line.chains = {{0, 3}};
+   for (int i = 0; i < 3; ++i)
+   {
+      const double r = body.places.x[i];
+      line.nodes.push_back({{i, -1}, {r, 0}, {1, 0}, r, 0.5 * i, 0.5});
+   }
+   CondensedBody condensed = condense(body, line);
+   EXPECT_EQ(condensed.rigid_modes, 1);
+   // u_θ = r ψ and q = M / r; the rings beyond the third follow it without a moment.
+   const Eigen::Vector3d r = line.each(&LineNode::position).col(0);
+   const Eigen::Matrix3d chain{{1, -1, 0}, {-1, 3, -2}, {0, -2, 2}};
+   const Eigen::Matrix3d expected =
+      r.cwiseInverse().asDiagonal() * chain * r.cwiseInverse().asDiagonal();
+   EXPECT_LT(difference(condensed.S, expected), 1e-14);
+   EXPECT_LT(condensed.error_estimate(), 1e-12);
+   condensed.S *= 1.001;
+   EXPECT_GT(condensed.error_estimate(), 0.99e-3);
+   EXPECT_LT(condensed.error_estimate(), 0.1); // as sharp as of a plane body, on the whole
+}
+
 TEST(CondenseMatrix, TwoBodiesAreSpringsInSeries)
 {
    const Frame upper(5, 4, true), lower(5, 3, false, 2);
@@ -511,6 +546,10 @@ TEST(CondenseMatrix, SaysWhatIsWrong)
    bad.fixed.insert(bad.fixed.begin(), 5);
    expect_input_error([&] { reduce(condense(bad, line)); },
                       "(2, 0) is fixed normal to the line, it must be able to open");
+   bad.loads[1].values[5] = 0.1;
+   expect_input_error([&] { condense(bad, line); },
+                      "component y of the contact node at (2, 0) is displaced by load pattern "
+                      "'lift', contact nodes must be free or fixed");
    ContactLine beyond = line;
    beyond.nodes[1].dofs[1] = 24;
    expect_input_error([&] { condense(good, beyond); },
