@@ -9,6 +9,7 @@
 //                contact2d -case meshes/rounded_punch.json --cycles 2 -edges "1 2 3"
 //                contact2d -case meshes/rounded_punch.json --check --plot check.png
 //                contact2d -case meshes/punch_on_half_plane.json
+//                contact2d -case meshes/calculix/laps.json
 //                contact2d -mesh1 meshes/rounded_punch.msh -contact1 3 -load1 "P pressure 2 .1"
 
 #include "common/contact_edges.hpp"
@@ -53,7 +54,7 @@ struct Options
    int order = 2;
    bool plane_stress = false;
    double friction = 0, pairing = 1e-6;
-   std::string gap = "geometry", paraview;
+   std::string matrix, gap = "geometry", paraview;
    std::vector<double> edges;
 
    explicit Options(miniapp::Study &study)
@@ -62,6 +63,10 @@ struct Options
       add_options(study, bodies[1], "2",
                   "Mesh of body 2; without it body 1 is on a rigid line or a half-plane.");
       add_options(study, half_plane);
+      study.option(&matrix, "matrix",
+                   "Stiffness of both bodies, or of one, as another program wrote it, in place "
+                   "of the meshes; contact, supports and loads are on its sets of nodes.",
+                   miniapp::Text::input);
       study.option(&order, "order", "Order of the elements.", miniapp::within(1, 8));
       study.option(&plane_stress, "plane-stress", "Plane stress instead of plane strain.");
       study.option(&friction, "friction", "Coefficient of friction.", miniapp::not_negative);
@@ -77,16 +82,35 @@ struct Options
       study.option(&paraview, "paraview", "Folder for ParaView files.", miniapp::Text::folder);
    }
 
+   /// What a matrix has in itself, and what is not known of it.
+   void check_matrix() const
+   {
+      for (const miniapp::BodyOptions &body : bodies)
+      {
+         require(body.mesh.empty() && body.young == std::vector<double>{1} &&
+                    body.poisson == std::vector<double>{0.3},
+                 "option matrix goes without meshes and without the options young and poisson, "
+                 "which the matrix has in itself");
+      }
+      require(order == 2 && !plane_stress, "option matrix goes without the options order and "
+                                           "plane-stress, which the matrix has in itself");
+      require(edges.empty(), "option matrix goes without the option edges: materials are not "
+                             "known");
+   }
+
    void check()
    {
       const miniapp::BodyOptions &second = bodies[1];
-      require(!bodies[0].mesh.empty(), "option mesh1 is empty, must name a mesh file");
-      require(!second.mesh.empty() || (second.contact + second.support + second.load).empty(),
+      if (!matrix.empty()) { check_matrix(); }
+      require(!bodies[0].mesh.empty() || !matrix.empty(),
+              "option mesh1 is empty, must name a mesh file (or matrix a stiffness)");
+      const bool alone = second.mesh.empty() && (matrix.empty() || second.contact.empty());
+      require(!alone || (second.contact + second.support + second.load).empty(),
               "options contact2, support2 or load2 are given without a mesh2");
-      require(
-         second.mesh.empty() || !half_plane.given(),
-         "options mesh2 and half-plane-young are both given: body 1 stands on body 2 or on "
-         "the half-plane");
+      require(alone || !half_plane.given(),
+              "options mesh2 (or contact2) and half-plane-young are "
+              "both given: body 1 stands on body 2 or on "
+              "the half-plane");
       require(std::isnan(half_plane.poisson) != half_plane.given() &&
                  (half_plane.given() || std::isnan(half_plane.depth)),
               "options half-plane-young and half-plane-poisson must be given together, "
@@ -94,7 +118,7 @@ struct Options
       require(paraview.empty() || !half_plane.given() || !std::isnan(half_plane.depth),
               "option paraview writes displacements, which on a half-plane are relative to a "
               "depth: option half-plane-depth must state it");
-      if (second.mesh.empty()) { bodies.pop_back(); }
+      if (alone) { bodies.pop_back(); }
       require(edges.empty() || edges.size() == 2 || edges.size() == 3, "option edges has ",
               edges.size(),
               " times, must have two (pressed, peak) or three (the other end of the cycle)");
@@ -125,8 +149,14 @@ void contact2d(miniapp::Study &study)
    Snapshots snapshots{options.edges, {}};
    snapshots.states.resize(snapshots.times.size());
 
-   miniapp::OwnBodies own = make_own_bodies(options.bodies, options.half_plane, options.order,
-                                            options.plane_stress, options.pairing);
+   miniapp::OwnBodies own =
+      options.matrix.empty()
+         ? make_own_bodies(options.bodies, options.half_plane, options.order,
+                           options.plane_stress, options.pairing)
+         : own_bodies_of_matrix(options.matrix, options.bodies, options.half_plane,
+                                options.pairing);
+   require(options.paraview.empty() || !own.scene.bodies.empty(),
+           "option matrix goes without the option paraview: elements are not known");
    const ContactLine &line = own.line();
    ReducedProblem &problem = own.scene.problem();
    set_friction(problem, options.friction);

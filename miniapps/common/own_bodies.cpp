@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cattaneo/elastic/statements.hpp>
+#include <cattaneo/exchange/nodal_statements.hpp>
+#include <cattaneo/exchange/read_stiffness.hpp>
 #include <cattaneo/fretting/calibration.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/mesh/filled_corner.hpp>
 #include <cattaneo/mesh/mesh_file.hpp>
+#include <cattaneo/words.hpp>
 #include <cmath>
 #include <sstream>
 
@@ -173,6 +176,51 @@ bool similar(const Material &a, const Material &b)
    return a.young == b.young && a.poisson == b.poisson;
 }
 
+/// On each other, on a half-plane, or on a rigid line.
+void put_together(OwnBodies &own, std::vector<CondensedBody> condensed,
+                  const HalfPlaneOptions &half_plane, bool plane_stress, double pairing)
+{
+   for (CondensedBody &body : condensed)
+   {
+      own.accuracy = std::max(own.accuracy, body.error_estimate());
+   }
+   if (half_plane.given())
+   {
+      stand_on_half_plane(own, std::move(condensed[0]), half_plane, plane_stress);
+      return;
+   }
+   if (condensed.size() == 1)
+   {
+      own.scene.reduction = on_rigid_line(condensed[0]);
+      return;
+   }
+   try
+   {
+      const Pairing pairs = pair_lines(condensed[0].line, condensed[1].line, pairing);
+      own.scene.reduction = reduce(condensed[0], condensed[1], pairs);
+   }
+   catch (const InputError &error)
+   {
+      throw InputError(std::string("option ") + error.what());
+   }
+}
+
+CondensedBody make_body(NodalStiffness body, const BodyOptions &options, const std::string &k)
+{
+   try
+   {
+      require(body.formulation == Formulation::plane, "its elements are ",
+              name(body.formulation), ", must be plane");
+      add_supports(body, "support" + k, options.support);
+      add_loads(body, "load" + k, options.load);
+      return condense(body.body(), body.contact_line(body.nodes_of(options.contact)));
+   }
+   catch (const InputError &error)
+   {
+      throw InputError("body " + k + " ('" + body.name + "'): " + error.what());
+   }
+}
+
 } // namespace
 
 OwnBodies make_own_bodies(const std::vector<BodyOptions> &options,
@@ -185,27 +233,37 @@ OwnBodies make_own_bodies(const std::vector<BodyOptions> &options,
    {
       const std::string k = std::to_string(condensed.size() + 1);
       condensed.push_back(make_body(own, body, k, order, plane_stress));
-      own.accuracy = std::max(own.accuracy, condensed.back().error_estimate());
    }
-   if (half_plane.given())
+   put_together(own, std::move(condensed), half_plane, plane_stress, pairing);
+   return own;
+}
+
+OwnBodies own_bodies_of_matrix(const std::string &matrix,
+                               const std::vector<BodyOptions> &options,
+                               const HalfPlaneOptions &half_plane, double pairing)
+{
+   OwnBodies own;
+   std::vector<CondensedBody> condensed;
+   std::vector<NodalStiffness> parts = read_stiffness(matrix).parts();
+   std::vector<std::string> names;
+   for (const NodalStiffness &part : parts) { names.push_back(part.name); }
+   require(parts.size() == options.size(), "matrix '", matrix, "' has ", parts.size(),
+           " bodies (", listed(names), "), options contact1 and contact2 name the contact of ",
+           options.size());
+   for (const BodyOptions &body : options)
    {
-      stand_on_half_plane(own, std::move(condensed[0]), half_plane, plane_stress);
-      return own;
+      const std::string k = std::to_string(condensed.size() + 1);
+      const auto found =
+         std::find_if(parts.begin(), parts.end(),
+                      [&](const NodalStiffness &part) { return part.has_set(body.contact); });
+      require(found != parts.end(), "matrix '", matrix, "': option contact", k,
+              " names the set '", body.contact, "', there is no other body that has it");
+      own.scene.dofs += static_cast<int>(found->dofs.size());
+      own.materials.emplace_back(); // not known
+      condensed.push_back(make_body(std::move(*found), body, k));
+      parts.erase(found);
    }
-   if (condensed.size() == 1)
-   {
-      own.scene.reduction = on_rigid_line(condensed[0]);
-      return own;
-   }
-   try
-   {
-      const Pairing pairs = pair_lines(condensed[0].line, condensed[1].line, pairing);
-      own.scene.reduction = reduce(condensed[0], condensed[1], pairs);
-   }
-   catch (const InputError &error)
-   {
-      throw InputError(std::string("option ") + error.what());
-   }
+   put_together(own, std::move(condensed), half_plane, false, pairing);
    return own;
 }
 

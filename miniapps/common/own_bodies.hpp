@@ -44,7 +44,7 @@ struct OwnBodies
    {
       return scene.reduction.bodies[body].line;
    }
-   /// E* if all is of one material, else 0.
+   /// E* if all is of one material, else 0. Of materials that are known.
    double modulus() const;
    /// The corner at the first (1) or the last (-1) node of body 1's line; the lines of the two
    /// bodies run against each other. InputError where its exponents are not known.
@@ -55,6 +55,14 @@ struct OwnBodies
 OwnBodies make_own_bodies(const std::vector<BodyOptions> &options,
                           const HalfPlaneOptions &half_plane, int order, bool plane_stress,
                           double pairing);
+
+/** The same of a stiffness that another program wrote (read_stiffness()), which has as many
+   bodies as there are options. Body 1 is the one with a set of nodes that contact1 names;
+   supports and loads are on sets, "FLOOR:xy", "P traction TOP 0 -1", and the file has its own.
+   Their materials are not known. */
+OwnBodies own_bodies_of_matrix(const std::string &matrix,
+                               const std::vector<BodyOptions> &options,
+                               const HalfPlaneOptions &half_plane, double pairing);
 
 /// Warns of bodies that overlap by more than the distance of their nodes.
 void warn_of_overlap(const cattaneo::ReducedProblem &problem,

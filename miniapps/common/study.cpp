@@ -64,6 +64,8 @@ void Study::reduced(const Scene &scene)
 
 void Study::condensed(const Scene &scene)
 {
+   cattaneo::require(!check_ || !scene.bodies.empty(),
+                     "option --check: this run has no meshes");
    counters += scene.reduction.counters;
    condensed(scene.reduction.problem, scene.dofs);
    if (!check_) { return; }

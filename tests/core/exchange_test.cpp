@@ -4,6 +4,7 @@
 #include "expect_input_error.hpp"
 
 #include <cattaneo/condense/condense.hpp>
+#include <cattaneo/exchange/nodal_statements.hpp>
 #include <cattaneo/exchange/read_stiffness.hpp>
 #include <cattaneo/exchange/write_stiffness.hpp>
 #include <cattaneo/friction/march.hpp>
@@ -80,7 +81,7 @@ TEST_F(Exchange, CalculixLapsAreFoundAndNamed)
    EXPECT_EQ(parts[1].dofs.size(), 30);
    EXPECT_TRUE(parts[0].loads.empty());
    ASSERT_EQ(parts[1].loads.size(), 2);
-   EXPECT_EQ(parts[1].loads[0].name, "CLOAD 1");
+   EXPECT_EQ(parts[1].loads[0].name, "CLOAD1");
    EXPECT_EQ(parts[1].loads[0].values.sum(), -1.5 * 5);
    EXPECT_EQ(parts[1].loads[1].values.sum(), 3);
    EXPECT_EQ(parts[1].sets.count("FLOOR"), 0);
@@ -127,7 +128,7 @@ TEST_F(Exchange, CalculixLapsMarch)
    ContactState state = ContactState::virgin(problem);
    const MarchReport report = march(
       problem,
-      LoadHistory::through(problem, {{}, {{"CLOAD 1", 1}}, {{"CLOAD 1", 1}, {"CLOAD 2", 1}}}),
+      LoadHistory::through(problem, {{}, {{"CLOAD1", 1}}, {{"CLOAD1", 1}, {"CLOAD2", 1}}}),
       state);
    EXPECT_EQ(report.status, FrictionStatus::converged);
    EXPECT_NEAR(state.p.sum(), 7.5, 1e-12);
@@ -295,6 +296,35 @@ TEST_F(Exchange, SupportsAndLoadsByName)
    EXPECT_TRUE(moved.fixed.empty());
    expect_input_error([&] { moved.add_displacement("up", lower.nodes_of("FLOOR"), 2, 1); },
                       "direction 2 of node 1 has no row: leave it free");
+}
+
+TEST_F(Exchange, SupportsAndLoadsAsStatements)
+{
+   NodalStiffness block = read_stiffness(folder + "quadratic.sti");
+   block.sets["TOP"] = {37, 38, 39, 40, 41, 42, 43, 44, 45};
+   block.sets["END"] = {9, 18};
+   add_supports(block, "support1", "end:x TOP:xy");
+   EXPECT_EQ(block.fixed.size(), 20);
+   add_loads(block, "load1",
+             "P traction BOTTOM 0 2; P force end 0.5 0\n D displacement-y TOP -3");
+   ASSERT_EQ(block.loads.size(), 2);
+   EXPECT_NEAR(block.loads[0].values.sum(), 2 * 2 + 2 * 0.5, 1e-14);
+   EXPECT_EQ(block.loads[1].values.sum(), -27);
+   EXPECT_EQ(block.loads[1].control, Control::displacement);
+   for (const char *wrong : {"TOP", "TOP:", "TOP:z", "TOP:xyz", ":x", "SIDE:x"})
+   {
+      EXPECT_THROW(add_supports(block, "support1", wrong), InputError) << wrong;
+   }
+   for (const char *wrong : {"P", "P force TOP", "P force TOP 1", "P force SIDE 1 1",
+                             "P pressure TOP 1", "P traction TOP 1 x", "P displacement-z TOP 1",
+                             "P=1 force TOP 1 1", "D force TOP 1 1", "P traction END 1 1 1"})
+   {
+      EXPECT_THROW(add_loads(block, "load1", wrong), InputError) << wrong;
+   }
+   expect_input_error([&] { add_loads(block, "load1", "P traction TOP"); },
+                      "load1 'P traction TOP': must be PATTERN force SET fx fy");
+   expect_input_error([&] { add_supports(block, "support1", "TOP:z"); },
+                      "support1 'TOP:z': must be SET:x, SET:y or SET:xy");
 }
 
 TEST_F(Exchange, DigitsThatAreMissingAreSaid)
@@ -504,9 +534,9 @@ TEST_F(Exchange, MistakesAreToldInOneSentence)
             "between nodes that are there"},
            {"", "*NODE\n1, 0., 0.\n*SOLID SECTION\n2.\n",
             "is 2, must be 1: everything is per unit"},
-           {"", "*NODE\n1, 0., 0.\n*CLOAD\n1, 3, 1.\n", "'CLOAD 1' loads node 1 direction 3"},
+           {"", "*NODE\n1, 0., 0.\n*CLOAD\n1, 3, 1.\n", "'CLOAD1' loads node 1 direction 3"},
            {"", "*NODE\n1, 0., 0.\n2, 1., 0.\n*BOUNDARY\n2, 1, 1, 0.5\n",
-            "'BOUNDARY 1' moves node 2"},
+            "'BOUNDARY1' moves node 2"},
            {"", "*INCLUDE, INPUT=m.inp\n", "more than 10 deep"},
            {"", "*INCLUDE\n", "*INCLUDE has no INPUT"},
            {"", "*PART, NAME=A\n*END PART\n*PART, NAME=B\n", "a second *PART begins"},

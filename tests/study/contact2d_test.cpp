@@ -141,8 +141,9 @@ TEST_F(Contact2D, DovetailCarriesItsLoadOnTheFlank)
 
 TEST_F(Contact2D, WhatHasNoMeshesCannotBeShown)
 {
-   for (const char *program : {"fretting", "march -reduced problems/hertz.json",
-                               "shakedown -reduced problems/hertz.json"})
+   for (const char *program :
+        {"fretting", "march -reduced problems/hertz.json",
+         "shakedown -reduced problems/hertz.json", "contact2d -case meshes/calculix/laps.json"})
    {
       const std::string words = program;
       const std::size_t end = std::min(words.find(' '), words.size());
@@ -550,6 +551,7 @@ TEST_F(Contact2D, BadInputIsOneSentenceAndLeavesNoFile)
    const std::string block = "--mesh1 meshes/rounded_punch.msh --contact1 3 ";
    const std::string pressed = block + "--load1 'P pressure 2 1' ";
    const std::string pair = "--case meshes/dovetail.json ";
+   const std::string laps = "--matrix meshes/calculix/laps.sti --contact1 UPPER_FACE ";
    mfem::Mesh solid = mfem::Mesh::MakeCartesian3D(2, 2, 2, mfem::Element::HEXAHEDRON);
    const std::string in_space = write("solid.mesh", solid);
    const std::string text = write("text.mesh", "not a mesh\n");
@@ -573,6 +575,19 @@ TEST_F(Contact2D, BadInputIsOneSentenceAndLeavesNoFile)
       {pressed + "-half-plane-young 1 -half-plane-poisson 0.3 -half-plane-depth 1",
        {"depth 1", "at least twice the length"}},
       {pair + "-half-plane-young 1 -half-plane-poisson 0.3", {"mesh2", "both given"}},
+      {laps, {"has 2 bodies (LOWER, UPPER)", "name the contact of 1"}},
+      {laps + "--contact2 3", {"option contact2 names the set '3'", "no other body"}},
+      {laps + "--contact2 UPPER_FACE", {"names the set 'UPPER_FACE'", "no other body"}},
+      {laps + "--contact2 LOWER_FACE --young2 3", {"without the options young and poisson"}},
+      {laps + "--mesh1 nowhere.msh", {"goes without meshes"}},
+      {laps + "--contact2 LOWER_FACE --order 1", {"without the options order"}},
+      {laps + "--contact2 LOWER_FACE --edges '1 2' --friction 1", {"without the option edges"}},
+      {laps + "--contact2 LOWER_FACE --support2 WALL:z",
+       {"body 2 ('LOWER')", "support2 'WALL:z'", "SET:xy"}},
+      {laps + "--contact2 LOWER_FACE --load1 'P traction X 1 0'",
+       {"body 1 ('UPPER')", "there is no set 'X'"}},
+      {laps + "--contact2 LOWER_FACE", {"without the option paraview"}},
+      {"--matrix nowhere.sti --contact1 A", {"cannot read file 'nowhere.inp'"}},
       {case_file("half.json", R"({"mesh1": "a", "half-plane": {"young": 1}})"),
        {"key 'half-plane' has no 'poisson'"}},
       {case_file("inner.json", R"({"half-plane": {"young": 1, "poisson": 0.3, "width": 2}})"),

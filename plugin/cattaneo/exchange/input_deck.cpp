@@ -132,12 +132,12 @@ void DeckReader::begin(LineReader &in, int depth)
                           "are not told apart");
    if (name == "CLOAD")
    {
-      deck.cards.push_back({"CLOAD " + std::to_string(++loads_), Control::force, {}});
+      deck.cards.push_back({"CLOAD" + std::to_string(++loads_), Control::force, {}});
    }
    if (name == "BOUNDARY")
    {
       deck.cards.push_back(
-         {"BOUNDARY " + std::to_string(++displacements_), Control::displacement, {}});
+         {"BOUNDARY" + std::to_string(++displacements_), Control::displacement, {}});
    }
 }
 

@@ -108,6 +108,11 @@ void NodalStiffness::validate() const
    }
 }
 
+bool NodalStiffness::has_set(const std::string &set) const
+{
+   return sets.count(upper_case(set)) == 1;
+}
+
 const NodalStiffness::Nodes &NodalStiffness::nodes_of(const std::string &set) const
 {
    const auto found = sets.find(upper_case(set));

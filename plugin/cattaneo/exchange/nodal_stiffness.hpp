@@ -52,6 +52,7 @@ public:
    /// The program that wrote K left out rows of supports, so that K resists motions.
    bool supports_left_out = false;
 
+   bool has_set(const std::string &set) const;
    const Nodes &nodes_of(const std::string &set) const;
 
    /// Holds a direction (1 or 2) of nodes. Rows that K has no more are held already.

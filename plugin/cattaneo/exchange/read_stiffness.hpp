@@ -17,8 +17,8 @@ namespace cattaneo
    `.dofs` | | `.npz` | scipy.sparse.save_npz(…, compressed=False), or an array K | `.dofs` |
 
     An `.inp` gives nodes, elements (so that contact lines follow outer edges), sets, and what
-   its steps load: each *CLOAD card is a load of forces, "CLOAD 1", …, each *BOUNDARY card with
-    displacements a load "BOUNDARY 1", …; zero ones are supports. Supports that the program took
+   its steps load: each *CLOAD card is a load of forces, "CLOAD1", …, each *BOUNDARY card with
+    displacements a load "BOUNDARY1", …; zero ones are supports. Supports that the program took
     out of the matrix (CalculiX: all of those of its step; ABAQUS: 1e36 on the diagonal) are
     left out here too, internal nodes of ABAQUS (negative numbers) are eliminated. Of CalculiX's
     axisymmetric elements, flat wedges of 2 degrees, the matrix is multiplied by 180: 2e-4 of it
