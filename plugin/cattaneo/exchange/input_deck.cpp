@@ -127,6 +127,20 @@ void DeckReader::begin(LineReader &in, int depth)
    }
    in.require(name != "TRANSFORM", "*TRANSFORM turns directions of nodes, must be left out: "
                                    "matrices are read in x and y");
+   static const std::set<std::string> couplings = {"EQUATION",
+                                                   "MPC",
+                                                   "RIGID BODY",
+                                                   "COUPLING",
+                                                   "KINEMATIC",
+                                                   "DISTRIBUTING",
+                                                   "DISTRIBUTING COUPLING",
+                                                   "KINEMATIC COUPLING",
+                                                   "TIE",
+                                                   "CONTACT PAIR",
+                                                   "CYCLIC SYMMETRY MODEL"};
+   in.require(couplings.count(name) == 0, "*", name,
+              " makes nodes depend on others, whose rows "
+              "are not their own then, must be left out");
    parts_ += name == "PART";
    in.require(parts_ < 2, "a second *PART begins, there must be one: node numbers of several "
                           "are not told apart");

@@ -79,7 +79,8 @@ public:
    std::vector<NodalStiffness> parts() const;
 
    /** For condense(), with rows for dofs. Nodes on an axis do not move off it, whether a
-      support says so or not. */
+      support says so or not. InputError if nothing is fixed or left out and K resists a rigid
+      motion by more than 1e-12 of its entries. */
    AssembledBody body() const;
 
    /** The trace on nodes, whose dofs are rows of K.
