@@ -2,6 +2,7 @@
 
 // All of Cattaneo::core, which knows no MFEM.
 #include <cattaneo/condense/condense.hpp>
+#include <cattaneo/condense/straight_line.hpp>
 #include <cattaneo/exchange/nodal_statements.hpp>
 #include <cattaneo/exchange/read_stiffness.hpp>
 #include <cattaneo/exchange/write_stiffness.hpp>
