@@ -180,7 +180,8 @@ void contact2d(miniapp::Study &study)
       {
          study.begins(options.paraview + part, true);
       }
-      fields.emplace(own.scene.fields(options.paraview));
+      fields.emplace(
+         own.scene.fields(options.paraview, own.half_plane ? &*own.half_plane : nullptr));
    }
    const Counters &spent = own.scene.reduction.counters;
    int frames = 0;

@@ -42,11 +42,11 @@ void Scene::add_torsion(int order, const Material &material)
    }
 }
 
-ReductionFields Scene::fields(const std::string &folder)
+ReductionFields Scene::fields(const std::string &folder, const HalfPlane *half_plane)
 {
    std::vector<const ElasticBody *> all;
    for (const auto &body : bodies) { all.push_back(body.get()); }
-   return {reduction, all, folder};
+   return {reduction, all, folder, half_plane};
 }
 
 mfem::Mesh half_turn(mfem::Mesh mesh)

@@ -34,7 +34,9 @@ struct Scene
    /// The torsion of all bodies, to be condensed with them.
    void add_torsion(int order, const cattaneo::Material &material);
    /// Series of it for ParaView in a folder; the scene must outlive them.
-   cattaneo::ReductionFields fields(const std::string &folder);
+   /// `half_plane`: what the last body is, if it has no mesh.
+   cattaneo::ReductionFields fields(const std::string &folder,
+                                    const cattaneo::HalfPlane *half_plane = nullptr);
 };
 
 /// The mesh turned by 180° about the origin.

@@ -17,6 +17,7 @@
 #include <cattaneo/friction/critical_friction.hpp>
 #include <cattaneo/friction/history_statements.hpp>
 #include <cattaneo/halfplane/half_plane.hpp>
+#include <cattaneo/halfplane/half_plane_field.hpp>
 #include <cattaneo/output/history.hpp>
 #include <cattaneo/reduced/interfaces.hpp>
 #include <cattaneo/reduced/mortar.hpp>

@@ -401,8 +401,13 @@ TEST_F(Contact2D, DisplacementsOnAHalfPlaneAreRelativeToADepth)
       EXPECT_NE(refused.output.find("half-plane-depth must state it"), std::string::npos)
          << refused.output;
    }
-   const auto given = pressed(moved, R"(, "depth": 1000)");
+   const auto given =
+      pressed(moved + " -paraview '" + folder + "/fields'", R"(, "depth": 1000)");
    ASSERT_EQ(given.code, 0) << given.output;
+   for (const char *name : {"body1", "body2", "contact"})
+   {
+      EXPECT_TRUE(fs::exists(folder + "/fields/" + name + "/" + name + ".pvd")) << name;
+   }
    const auto refused = pressed(forces + " -paraview '" + folder + "/fields'", "");
    EXPECT_NE(refused.output.find("half-plane-depth must state it"), std::string::npos);
 }

@@ -4,10 +4,12 @@
 #include <cattaneo/contact/condense_body.hpp>
 #include <cattaneo/elastic/stress.hpp>
 #include <cattaneo/friction/march.hpp>
+#include <cattaneo/halfplane/half_plane.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/mesh/graded_mesh.hpp>
 #include <cattaneo/output/history.hpp>
 #include <cattaneo/output/paraview.hpp>
+#include <cattaneo/readout/zones.hpp>
 #include <cattaneo/reduced/reduction.hpp>
 #include <cmath>
 #include <filesystem>
@@ -791,6 +793,64 @@ TEST_F(Output, FieldsOfBodiesOfRevolutionHaveTheirNames)
          EXPECT_EQ(occurrences(written, "Name=\"" + field + "\""), 1) << field << written;
       }
    }
+}
+
+/// A block pressed and sheared on a half-plane: just below the contact are its tractions.
+TEST_F(Output, FieldsBelowAHalfPlaneWithoutAMesh)
+{
+   mfem::Mesh mesh = rectangle_mesh(graded_to_ends(1, 20, 0.2), {0, 0.1, 0.3, 1, 2});
+   ElasticBody block(mesh, 2, {0.91, 0.3});
+   block.add_pressure("P", 3, 0.5);
+   block.add_traction("Q", 3, 0.5, 0.0);
+   block.add_pressure("Q", 3, [](double x, double) { return -3 * x; });
+   HalfPlane below;
+   below.material = {0.91, 0.3};
+   below.depth = 100;
+   Reduction reduction = reduce(condense(block, contact_line(block, 1)), below);
+   set_friction(reduction.problem, 0.5);
+   ContactState state = ContactState::virgin(reduction.problem);
+   march(reduction.problem,
+         LoadHistory::through(reduction.problem, {{}, {{"P", 1}}, {{"P", 1}, {"Q", 0.3}}}),
+         state);
+   EXPECT_THROW(ReductionFields(reduction, {&block}, folder), InputError);
+   ReductionFields fields(reduction, {&block}, folder + "/fields", &below);
+   fields.write(state);
+   for (const char *name : {"body1", "body2", "contact"})
+   {
+      EXPECT_EQ(
+         occurrences(content(folder + "/fields/" + name + "/" + name + ".pvd"), "<DataSet"), 1);
+   }
+   const Eigen::VectorXd p = tractions(reduction.problem, state.p),
+                         q = tractions(reduction.problem, state.q);
+   const HalfPlaneFields &inside = *fields.below();
+   const mfem::GridFunction &sigma = inside.field("sigma_yy"), &tau = inside.field("tau_xy"),
+                            &moved = inside.field("displacement");
+   const mfem::Mesh &window = *sigma.FESpace()->GetMesh();
+   int compared = 0;
+   for (int e = 0; e < window.GetNE(); ++e)
+   {
+      mfem::Array<int> vertices, dofs;
+      window.GetElementVertices(e, vertices);
+      sigma.FESpace()->GetElementDofs(e, dofs);
+      const double *x = window.GetVertex(vertices[0]);
+      if (x[1] != 0) { continue; }
+      for (Eigen::Index i = 0; i < p.size(); ++i)
+      {
+         const double at = reduction.problem.position(i, 0);
+         if (std::abs(at - x[0]) > 1e-12 || std::abs(at) > 0.8) { continue; }
+         ++compared;
+         // Tractions of the consistent mass are those of lumped weights within the mesh's
+         // error.
+         EXPECT_NEAR(sigma(dofs[0]), -p[i], 0.03 * p[i]);
+         EXPECT_NEAR(tau(dofs[0]), -q[i], 0.03 * p[i]);
+         mfem::Array<int> both;
+         moved.FESpace()->GetVertexVDofs(vertices[0], both);
+         EXPECT_LT(moved(both[1]), 0); // pressed in, and drawn along
+         EXPECT_GT(moved(both[0]), 0);
+      }
+   }
+   EXPECT_GT(compared, 5);
+   expect_input_error([&] { inside.field("sigma_rr"); }, "no field 'sigma_rr'");
 }
 
 } // namespace

@@ -232,22 +232,52 @@ void ContactLineFields::write(const ContactState &state)
 
 ReductionFields::ReductionFields(Reduction &reduction,
                                  const std::vector<const ElasticBody *> &bodies,
-                                 const std::string &directory)
+                                 const std::string &directory, const HalfPlane *half_plane)
    : reduction_(reduction), contact_(reduction.problem, directory, "contact"), bodies_(bodies)
 {
-   require(bodies.size() == reduction.bodies.size(), "ParaView output: ", bodies.size(),
+   const std::size_t given = bodies.size() + (half_plane ? 1 : 0);
+   require(given == reduction.bodies.size(), "ParaView output: ", given,
            " bodies for a reduction of ", reduction.bodies.size());
+   const auto name = [](std::size_t k) { return "body" + std::to_string(k + 1); };
    for (std::size_t k = 0; k < bodies.size(); ++k)
    {
-      const std::string name = "body" + std::to_string(k + 1);
-      fields_.push_back(std::make_unique<BodyFields>(*bodies[k], directory, name));
+      fields_.push_back(std::make_unique<BodyFields>(*bodies[k], directory, name(k)));
+   }
+   if (half_plane)
+   {
+      below_ = std::make_unique<HalfPlaneFields>(*half_plane, reduction.bodies.back().line,
+                                                 directory, name(bodies.size()));
    }
 }
+
+namespace
+{
+
+/// What the contact does to the second body, whose nodes run against those of the first.
+Eigen::VectorXd forces_below(const Reduction &reduction, const ContactState &state)
+{
+   const std::vector<LineNode> &above = reduction.bodies.front().line.nodes,
+                               &below = reduction.bodies.back().line.nodes;
+   const auto n = static_cast<Eigen::Index>(above.size());
+   Eigen::VectorXd forces(2 * n);
+   for (Eigen::Index i = 0; i < n; ++i)
+   {
+      const LineNode &node = above[i], &facing = below[n - 1 - i];
+      const double q = state.q.size() > 0 ? state.q[i] : 0.0;
+      const Eigen::Vector2d force = -q * node.tangent - state.p[i] * node.normal();
+      forces[n - 1 - i] = force.dot(facing.tangent);
+      forces[2 * n - 1 - i] = force.dot(facing.normal());
+   }
+   return forces;
+}
+
+} // namespace
 
 void ReductionFields::write(const ContactState &state)
 {
    const bool first = Ranks::first_of_all();
    if (first) { contact_.write(state); }
+   if (first && below_) { below_->write(forces_below(reduction_, state), state.time); }
    for (std::size_t k = 0; k < bodies_.size(); ++k)
    {
       // A body that every rank has for itself is written by one.

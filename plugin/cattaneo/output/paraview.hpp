@@ -2,6 +2,7 @@
 
 #include <cattaneo/elastic/body.hpp>
 #include <cattaneo/friction/contact_state.hpp>
+#include <cattaneo/output/paraview_half_plane.hpp>
 #include <cattaneo/reduced/reduction.hpp>
 #include <map>
 #include <memory>
@@ -78,20 +79,24 @@ class ReductionFields
 {
 public:
    /// `bodies`: those that the reduction was made of, in its order; InputError if their number
-   /// is another.
+   /// is another. `half_plane`: on which the last of them stands, which has no mesh of its own.
    ReductionFields(Reduction &reduction, const std::vector<const ElasticBody *> &bodies,
-                   const std::string &directory);
+                   const std::string &directory, const HalfPlane *half_plane = nullptr);
 
    /// Recovers the fields of the bodies, one solve each, and writes them. On several ranks all
    /// must call it; what they share the first one writes. InputError as BodyFields and
    /// ContactLineFields.
    void write(const ContactState &state);
 
+   /// Of the half-plane; null if there is none.
+   const HalfPlaneFields *below() const { return below_.get(); }
+
 private:
    Reduction &reduction_;
    ContactLineFields contact_;
    std::vector<const ElasticBody *> bodies_;
    std::vector<std::unique_ptr<BodyFields>> fields_;
+   std::unique_ptr<HalfPlaneFields> below_;
 };
 
 } // namespace cattaneo

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cattaneo/halfplane/half_plane.hpp>
+#include <memory>
+
+namespace cattaneo
+{
+
+/** Displacements and stresses inside of a half-plane under the forces of its contact nodes, by
+    the closed-form kernels: at any point, without a mesh. The tractions are those that its
+    stiffness S = M F⁻¹ M knows, M⁻¹ times the nodal forces. Of the plane; displacements are
+    relative to the half-plane's depth, whatever it stands on. */
+class HalfPlaneField
+{
+public:
+   /// @a line: of the condensed half-plane (CondensedBody::line). @a forces: on its nodes,
+   /// {q; p} in their frames. InputError for another formulation than the plane, or forces that
+   /// do not fit the line.
+   HalfPlaneField(const HalfPlane &body, const ContactLine &line,
+                  const Eigen::VectorXd &forces);
+   ~HalfPlaneField();
+
+   /// In x and y, stresses positive in tension.
+   struct Point
+   {
+      Eigen::Vector2d displacement{0, 0};
+      double xx = 0, yy = 0, xy = 0;
+   };
+   /// On the surface stresses are those just below it. InputError for a point above it.
+   Point at(const Eigen::Vector2d &position) const;
+
+private:
+   struct Tractions;
+   std::unique_ptr<const Tractions> tractions_;
+};
+
+} // namespace cattaneo
