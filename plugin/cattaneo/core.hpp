@@ -30,3 +30,4 @@
 #include <cattaneo/shakedown/stay_closed.hpp>
 #include <cattaneo/shakedown/transient.hpp>
 #include <cattaneo/whole_file.hpp>
+#include <cattaneo/words.hpp>
