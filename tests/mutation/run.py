@@ -142,20 +142,22 @@ def configure(options):
 def parser_arguments():
     """The library's flags as libclang wants them, with the long headers read once."""
     commands = json.load(open(os.path.join(BUILD, "compile_commands.json")))
-    words = next(e["command"] for e in commands if f"/{LIBRARY}/" in e["file"]).split()
-    arguments, paired = ["-x", "c++", "-w"], False
-    for word in words:
-        if paired or re.match(r"-[DI]|-std", word):
+    arguments, pair = ["-x", "c++", "-w"], ""
+    # Core is compiled without MFEM, and each library with flags of its own: what both have goes for both.
+    for word in " ".join(e["command"] for e in commands if f"/{LIBRARY}/" in e["file"]).split():
+        if pair and word not in arguments:
+            arguments += [pair, word]
+        elif re.match(r"-[DI]|-std", word) and word not in arguments:
             arguments.append(word)
-        paired = word == "-isystem"
-        if paired:
-            arguments.append(word)
+        pair = word if word == "-isystem" else ""
     header = os.path.join(HOME, "long_headers.hpp")
     text = ("" if CORE else "#include <mfem.hpp>\n") + "#include <Eigen/Dense>\n"
     write_changed(header, text.encode())
     # Made anew by every run: a header read once is not valid any more when a package has been installed again.
     ready = os.path.join(HOME, "long_headers.pch")
     unit = faults.clang.Index.create().parse(header, args=["-x", "c++-header"] + arguments[2:], options=2)
+    if errors := [str(d) for d in unit.diagnostics if d.severity >= faults.clang.Diagnostic.Error]:
+        raise RuntimeError(f"{header} cannot be parsed: {errors[0]}")
     unit.save(ready)
     return arguments + ["-include-pch", ready]
 
