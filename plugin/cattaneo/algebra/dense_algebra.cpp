@@ -1,6 +1,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
+#include <algorithm>
 #include <cattaneo/algebra/dense_algebra.hpp>
 #include <cmath>
 
@@ -13,9 +14,9 @@ using Eigen::VectorXd;
 ThinQR thin_qr(const MatrixXd &matrix)
 {
    const Eigen::HouseholderQR<MatrixXd> qr(matrix);
-   const Eigen::Index columns = matrix.cols();
-   return {qr.householderQ() * MatrixXd::Identity(matrix.rows(), columns),
-           qr.matrixQR().topRows(columns).triangularView<Eigen::Upper>()};
+   const Eigen::Index rank = std::min(matrix.rows(), matrix.cols());
+   return {qr.householderQ() * MatrixXd::Identity(matrix.rows(), rank),
+           qr.matrixQR().topRows(rank).triangularView<Eigen::Upper>()};
 }
 
 SymmetricModes symmetric_modes(const MatrixXd &matrix)

@@ -6,15 +6,15 @@ namespace cattaneo
 {
 
 /** Reads a stiffness that another program wrote; `places` names the file that says where its
-    nodes are. What is read goes by the end of the name and the first line:
+    nodes are, if that is not beside it with the same name. What is read goes by the end of the
+    name and the first line:
 
-    | matrix | written by | places (unless given: beside it, of the same name) |
-    |---|---|---|
-    | `.sti` | CalculiX, *FREQUENCY, SOLVER=MATRIXSTORAGE; rows from `.dof` beside it | `.inp` |
-    | `.mtx` | ABAQUS, *MATRIX GENERATE: lines node, direction, node, direction, value | `.inp`
-   | | `.mtx` | ABAQUS, CalculiX: *USER ELEMENT, *MATRIX, TYPE=STIFFNESS, dense | `.inp` | |
-   `.mtx` | MatrixMarket, coordinate or array | `.dofs` | | `.npy` | NumPy, a dense matrix |
-   `.dofs` | | `.npz` | scipy.sparse.save_npz(…, compressed=False), or an array K | `.dofs` |
+    - `.sti`, places in `.inp`: CalculiX, *FREQUENCY, SOLVER=MATRIXSTORAGE; rows from `.dof`
+    - `.mtx`, places in `.inp`: ABAQUS, *MATRIX GENERATE, or (dense) *USER ELEMENT, *MATRIX,
+      TYPE=STIFFNESS, which CalculiX writes too
+    - `.mtx`, places in `.dofs`: MatrixMarket, coordinate or array
+    - `.npy`, places in `.dofs`: NumPy, a dense matrix
+    - `.npz`, places in `.dofs`: scipy.sparse.save_npz(…, compressed=False), or an array K
 
     An `.inp` gives nodes, elements (so that contact lines follow outer edges), sets, and what
    its steps load: each *CLOAD card is a load of forces, "CLOAD1", …, each *BOUNDARY card with

@@ -9,10 +9,9 @@ namespace cattaneo
 
 struct ThinQR
 {
-   Eigen::MatrixXd Q; ///< orthonormal columns, as many as the matrix has
-   Eigen::MatrixXd R; ///< upper triangular
+   Eigen::MatrixXd Q; ///< orthonormal columns, as many as the matrix has of what it has less
+   Eigen::MatrixXd R; ///< upper triangular, or trapezoidal
 };
-/// Of a matrix with no more columns than rows.
 ThinQR thin_qr(const Eigen::MatrixXd &matrix);
 
 struct SymmetricModes
