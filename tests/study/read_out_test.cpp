@@ -217,6 +217,7 @@ TEST(ReadOut, EveryStudyCountsItsFrictionProblem)
    {
       const char *name, *options;
       int components;
+      bool meshed = true;
    } const studies[] = {
       {"lap_joint", "-spacing 0.05 -increments 5", 1},
       {"lap_joint", "-spacing 0.05 -increments 5 -bolts '-1.2 0 1.2' -touch", 1},
@@ -229,7 +230,7 @@ TEST(ReadOut, EveryStudyCountsItsFrictionProblem)
       {"axisymmetric_receding", "-spacing 0.1 -steps 10 -torque 0.3", 2},
       {"square_punch", "-nodes 33", 1},
       {"square_punch", "-nodes 33 -friction 0 -shear none", 0},
-      {"hertz", "-nodes 33", 1},
+      {"hertz", "-nodes 33", 1, false},
       {"contact2d", "-case meshes/rounded_punch.json --cycles 1", 1}};
    for (const auto &study : studies)
    {
@@ -242,7 +243,8 @@ TEST(ReadOut, EveryStudyCountsItsFrictionProblem)
       EXPECT_GT(counters["increments"].get<long>(), 0);
       EXPECT_GT(counters["newton_steps"].get<long>(), 0);
       EXPECT_GT(counters["dense_factorisations"].get<long>(), 0);
-      EXPECT_GT(counters["back_substitutions"].get<long>(), 0);
+      // Half-planes without a mesh have nothing to solve for.
+      EXPECT_EQ(counters["back_substitutions"].get<long>() > 0, study.meshed);
    }
    const Result fretting = run_miniapp("fretting", "-p fe -f 0.6 -m Ti6Al4V -nodes 41");
    ASSERT_EQ(fretting.code, 0) << fretting.output;
