@@ -55,7 +55,7 @@ int main(int argc, char *argv[])
    if (!args.Good())
    {
       if (root) { args.PrintUsage(std::cout); }
-      return 1;
+      return args.Help() ? 0 : 1;
    }
 
    // 2. The mesh: attributes 1 bottom, 2 right, 3 top, 4 left (the plane of symmetry).

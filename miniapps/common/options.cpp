@@ -324,9 +324,18 @@ void Options::check_files() const
               "' must end in .html");
       for (const Option &other : options_)
       {
-         if (&other == &option || named(other).empty() || option.kind == Text::prefix ||
-             other.kind == Text::prefix)
+         if (&other == &option || named(other).empty() || option.kind == Text::prefix)
          {
+            continue;
+         }
+         if (other.kind == Text::prefix)
+         {
+            const std::string begin = fs::path(named(other) + "_").filename(),
+                              name = fs::path(file).filename();
+            require(type != ".csv" || name.compare(0, begin.size(), begin) != 0 ||
+                       !same(fs::path(file).replace_filename(begin), named(other) + "_"),
+                    what, ": '", file, "' is a name for the tables of option --",
+                    other.names.name, " ", named(other), ": name another");
             continue;
          }
          require(!same(file, named(other)), what, " would write over '", file,

@@ -154,13 +154,17 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
    {
       const std::string rows = study_.csv() + "_history.csv",
                         frames = study_.csv() + "_nodes.csv";
-      for (const std::string &file : {rows, frames})
+      for (const std::string &file : {rows, frames}) { study_.begins(file, goes_on); }
+      if (goes_on)
       {
-         study_.begins(file, goes_on);
-         if (!goes_on) { std::remove(file.c_str()); }
+         history.emplace(rows, problem, state.time);
+         nodes.emplace(frames, problem, state.time);
       }
-      history.emplace(rows, problem, state.time);
-      nodes.emplace(frames, problem, state.time);
+      else
+      {
+         history.emplace(rows, problem);
+         nodes.emplace(frames, problem);
+      }
    }
    if (!save_state_.empty() && writes())
    {

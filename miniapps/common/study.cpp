@@ -51,7 +51,10 @@ void Study::parse(const char *json)
              "Most iterations for a right-hand side.");
    }
    options_.parse();
-   if (check_ || sweep_ == "none" || sweep_.empty()) { return; }
+   cattaneo::require(!check_ || save_.empty(),
+                     "option --save: --check stops before there is anything to save");
+   if (sweep_ == "none" || sweep_.empty()) { return; }
+   cattaneo::require(!check_, "option --check is of one run, a sweep has many");
    run_sweep(*this, sweep_, sweep_results_);
    throw Done();
 }
@@ -98,7 +101,12 @@ void Study::condensed(const cattaneo::ReducedProblem &problem, int dofs)
 
 void Study::begins(const std::string &path, bool goes_on)
 {
-   if (writes() && !(goes_on && fs::exists(path))) { begun_.paths.push_back(path); }
+   // Devices, pipes and links are not ours to be removed.
+   const auto type = fs::symlink_status(path).type();
+   const bool ours =
+      type == fs::file_type::not_found ||
+      (!goes_on && (type == fs::file_type::regular || type == fs::file_type::directory));
+   if (writes() && ours) { begun_.paths.push_back(path); }
 }
 
 Study::Begun::~Begun()
@@ -109,7 +117,9 @@ Study::Begun::~Begun()
 
 void Study::save(const cattaneo::ReducedProblem &problem) const
 {
-   if (!save_.empty() && writes()) { cattaneo::save(problem, save_); }
+   if (save_.empty()) { return; }
+   saved_ = true;
+   if (writes()) { cattaneo::save(problem, save_); }
 }
 
 void Study::write_frames(const std::string &folder, Scene &scene,
@@ -251,6 +261,8 @@ void Study::compare_references()
 void Study::finish()
 {
    cattaneo::require(!check_ || checked_, "option --check: this run has no meshes");
+   cattaneo::require(save_.empty() || saved_ || code != 0,
+                     "option --save: this run has no reduced problem to save");
    begun_.paths.clear();
    compare_references();
    for (const Table &table : tables_) { results[table.name()] = table.json(); }

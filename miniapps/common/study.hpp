@@ -60,7 +60,8 @@ public:
    /// Adds those that all studies have, and parses. @param json short name of --json
    void parse(const char *json = "json");
    /// True if a picture is wanted.
-   bool draws() const { return !plot_.empty() || !html_.empty(); }
+   bool draws() const { return has_picture() || !html_.empty(); }
+   bool has_picture() const { return !plot_.empty(); }
    const std::string &csv() const { return csv_; } ///< prefix of its CSV files, if any
 
    /// To be called when the problem has been reduced: prints its size, writes it to the file of
@@ -150,6 +151,7 @@ private:
    Eigen::Index nodes_ = 0;
    int dofs_ = 0;
    bool check_ = false, checked_ = false;
+   mutable bool saved_ = false;
    double seconds_ = 0; ///< up to the reduced problem
 };
 

@@ -314,9 +314,9 @@ bool varies(const std::vector<Point> &points, const std::string &name)
                       });
 }
 
-/// A panel for each result over the key with the most numbers; of the other keys a curve each.
-void draw(Study &study, const std::vector<Key> &keys, const std::vector<Point> &points,
-          const std::vector<std::string> &names)
+/// The key with the most numbers, over which results are drawn; as many as there are keys if
+/// none has two.
+std::size_t drawn_over(const std::vector<Key> &keys)
 {
    std::size_t over = keys.size(), count = 0;
    for (std::size_t k = 0; k < keys.size(); ++k)
@@ -331,6 +331,14 @@ void draw(Study &study, const std::vector<Key> &keys, const std::vector<Point> &
          count = values.size();
       }
    }
+   return over;
+}
+
+/// A panel for each result over that key; of the other keys a curve each.
+void draw(Study &study, const std::vector<Key> &keys, const std::vector<Point> &points,
+          const std::vector<std::string> &names)
+{
+   const std::size_t over = drawn_over(keys);
    if (over == keys.size()) { return; }
    for (const std::string &name : names)
    {
@@ -359,6 +367,8 @@ void run_sweep(Study &study, const std::string &statements, const std::string &w
 {
    require(ranks() == 1, "option --sweep is for one rank, this runs on ", ranks());
    const std::vector<Key> keys = read_keys(statements);
+   require(!study.has_picture() || drawn_over(keys) < keys.size(),
+           "option --plot: no key of the sweep has two numbers to draw results over");
    std::vector<Point> points = make_points(study.options(), keys);
    Watch watch("sweep");
    run_points(points, watch.monitor());
@@ -373,6 +383,15 @@ void run_sweep(Study &study, const std::string &statements, const std::string &w
 
    const std::vector<std::string> names =
       wanted.empty() ? single_numbers(points, keys) : split(wanted, " ,");
+   for (const std::string &name : names)
+   {
+      const auto has = [&](const Point &point)
+      { return !result(point.results, name).is_null(); };
+      require(std::any_of(points.begin(), points.end(), has),
+              "option --sweep-results: no point has a number or a word of the name '", name,
+              "', must be one of ", listed(single_numbers(points, keys)),
+              ", or a place as 'levels.0.slip'");
+   }
    std::vector<Column> columns;
    for (const Key &key : keys) { columns.push_back({key.name, key.name, "%g"}); }
    constexpr std::size_t most = 9; // on the screen and in the figure
@@ -412,6 +431,8 @@ void run_sweep(Study &study, const std::string &statements, const std::string &w
                      "--csv alone; --sweep-results names those to be shown",
                      names.size() - shown.size()));
    }
+   // Where none varies, the first of them that are asked for or found.
+   if (shown.empty() && !names.empty()) { shown.push_back(names.front()); }
    draw(study, keys, points, shown);
    study.results["points"] = points.size();
    if (converged == static_cast<long>(asked)) { return; }

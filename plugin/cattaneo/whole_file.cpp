@@ -10,26 +10,66 @@
 namespace cattaneo
 {
 
+namespace fs = std::filesystem;
+
+namespace
+{
+
+/// Devices and pipes, which are written through and not replaced.
+bool stands_for_no_file(const std::string &file)
+{
+   return fs::exists(file) && !fs::is_regular_file(file);
+}
+
+/// Where a link leads, which stays a link.
+fs::path target(const std::string &file)
+{
+   fs::path path = file;
+   // Nobody makes so many, but they may run in a ring.
+   for (int links = 0; links < 40 && fs::is_symlink(path); ++links)
+   {
+      path = path.parent_path() / fs::read_symlink(path);
+   }
+   return path;
+}
+
+} // namespace
+
 void write_whole(const std::string &file, const std::string &text)
 {
-   const std::string part = file + ".part";
+   const bool through = stands_for_no_file(file);
+   const std::string end = target(file).string(), part = through ? file : end + ".part";
    std::ofstream out(part);
    out << text;
    out.close();
-   if (out.good() && std::rename(part.c_str(), file.c_str()) == 0) { return; }
+   if (out.good())
+   {
+      std::error_code kept;
+      if (!through && fs::exists(end))
+      {
+         fs::permissions(part, fs::status(end).permissions(), kept);
+      }
+      if (through || std::rename(part.c_str(), end.c_str()) == 0) { return; }
+   }
    const char *reason = std::strerror(errno);
-   std::remove(part.c_str());
+   if (!through) { std::remove(part.c_str()); }
    throw InputError("cannot write file '" + file + "': " + reason);
 }
 
 void require_writable(const std::string &file)
 {
-   std::filesystem::path folder = std::filesystem::path(file).parent_path();
-   if (folder.empty()) { folder = "."; }
-   require(std::filesystem::is_directory(folder), "cannot write file '", file,
-           "': there is no folder ", folder);
-   require(!std::filesystem::is_directory(file), "cannot write file '", file,
+   require(!fs::is_directory(file), "cannot write file '", file,
            "': there is a folder of that name");
+   if (stands_for_no_file(file))
+   {
+      require(access(file.c_str(), W_OK) == 0, "cannot write file '", file,
+              "': it may not be written to");
+      return;
+   }
+   fs::path folder = target(file).parent_path();
+   if (folder.empty()) { folder = "."; }
+   require(fs::is_directory(folder), "cannot write file '", file, "': there is no folder ",
+           folder);
    require(access(folder.c_str(), W_OK | X_OK) == 0, "cannot write file '", file, "': folder ",
            folder, " may not be written to");
 }

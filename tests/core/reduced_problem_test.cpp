@@ -129,9 +129,29 @@ TEST(ReducedProblem, SaysWhichSizeIsWrong)
               p.patterns.push_back(p.patterns[0]);
               p.H = MatrixXd::Zero(2, 2);
            });
+   // Work of a force on another's displacement; a displacement's reaction works against it.
+   for (const cattaneo::Control other :
+        {cattaneo::Control::force, cattaneo::Control::displacement})
+   {
+      const bool alike = other == cattaneo::Control::force;
+      const auto with = [&](ReducedProblem &p, double h)
+      {
+         const VectorXd z = VectorXd::Zero(2);
+         p.patterns = {{"one", cattaneo::Control::force, z, z}, {"two", other, z, z}};
+         p.H = Eigen::Matrix2d{{2, h}, {1, alike ? 3.0 : -3.0}};
+      };
+      refused(alike ? "H(1, 0) is 1 and H(0, 1) -1, must be the same"
+                    : "H(1, 0) is 1 and H(0, 1) 1, must be opposite",
+              [&](auto &p) { with(p, alike ? -1 : 1); });
+      ReducedProblem sound = two_nodes();
+      with(sound, alike ? 1 : -1);
+      EXPECT_NO_THROW(sound.validate());
+   }
    refused("the stiffness is 4×4 for the 3 nodes that have a gap",
            [](auto &p) { p.gap = VectorXd::Zero(3); });
    refused("weights has 1 entries", [](auto &p) { p.weights = VectorXd::Ones(1); });
+   refused("weight 0 of node 1, must be positive",
+           [](auto &p) { p.weights = VectorXd::Unit(p.nodes(), 0); });
    // Asymmetry of round-off is none: below 1e-9 of the largest entry, 5.
    ReducedProblem problem = two_nodes();
    problem.C()(0, 1) += 4e-9;

@@ -10,12 +10,14 @@
 #include <cmath>
 #include <csignal>
 #include <cstring>
+#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <limits>
 #include <string>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <vector>
 
@@ -128,6 +130,46 @@ TEST(WholeFile, IsWrittenWholeOrNotAtAll)
    EXPECT_TRUE(std::getline(in, text));
    EXPECT_EQ(text, "x,y");
    std::filesystem::remove_all(folder);
+}
+
+TEST(WholeFile, PipesAndLinksStayWhatTheyAre)
+{
+   namespace fs = std::filesystem;
+   const std::string folder =
+      testing::TempDir() + "cattaneo_links_" + std::to_string(getpid()) + "/";
+   fs::create_directories(folder);
+   const auto text_of = [](const std::string &file)
+   {
+      std::ifstream in(file);
+      std::string text;
+      std::getline(in, text);
+      return text;
+   };
+   // A link to a file with rights of its own, and one to a file that is not there yet.
+   std::ofstream(folder + "old.json") << "old\n";
+   const fs::perms own = fs::perms::owner_read | fs::perms::owner_write;
+   fs::permissions(folder + "old.json", own);
+   for (const std::string name : {"old", "new"})
+   {
+      const std::string link = folder + "link to " + name;
+      fs::create_symlink(name + ".json", link);
+      EXPECT_NO_THROW(require_writable(link));
+      write_whole(link, "it\n");
+      EXPECT_TRUE(fs::is_symlink(link));
+      EXPECT_EQ(text_of(folder + name + ".json"), "it");
+   }
+   EXPECT_EQ(fs::status(folder + "old.json").permissions(), own);
+   const std::string pipe = folder + "pipe";
+   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+   const int reader = open(pipe.c_str(), O_RDWR | O_NONBLOCK);
+   EXPECT_NO_THROW(require_writable(pipe));
+   write_whole(pipe, "through");
+   char through[8] = {};
+   EXPECT_EQ(read(reader, through, sizeof through), 7);
+   EXPECT_STREQ(through, "through");
+   close(reader);
+   EXPECT_TRUE(fs::is_fifo(pipe));
+   fs::remove_all(folder);
 }
 
 TEST(WholeFile, ANameThatCannotBeWrittenIsRefusedBeforeTheWork)

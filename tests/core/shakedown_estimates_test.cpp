@@ -445,7 +445,10 @@ TEST(ClosedContact, LoadsDoTheSameWorkAndFactsAreKept)
    ReducedProblem problem = random_contact(10, 6, 2, false);
    std::mt19937 random(4);
    problem.patterns[1].control = Control::displacement;
-   problem.H = random_matrix(random, 3, 3);
+   const Eigen::MatrixXd any = random_matrix(random, 3, 3);
+   problem.H = any + any.transpose();
+   problem.H.row(1) *= -1; // a displacement among forces
+   problem.H(1, 1) *= -1;
    problem.weights = random_matrix(random, 6, 1).cwiseAbs();
    problem.arc_length = Eigen::VectorXd::LinSpaced(6, 0, 5);
    problem.position = random_matrix(random, 6, 2);

@@ -116,6 +116,12 @@ TEST_F(Options, FilesAreCheckedBeforeTheWork)
                   {"option --paraview", "no folder"});
    const std::string save = " --save '" + testing::TempDir();
    expect_refused("hertz", save + "hertz.json'", {"--json", "--save", "name another"});
+   // What would write over a table of the run, or write nothing.
+   const std::string csv = "--csv '" + folder + "/t' ";
+   expect_refused("hertz", csv + "--save '" + folder + "/t_pressure.csv'",
+                  {"option --save", "t_pressure.csv", "tables of option --csv"});
+   expect_refused("fretting", save + "none.json'", {"--save", "no reduced problem"});
+   expect_refused("hertz", "--check" + save + "none.json'", {"--save", "--check stops before"});
 }
 
 /// Every study takes a case file: by the long names of its options, overridden by the command

@@ -83,11 +83,15 @@ def refused():
         error = shown[shown.index("error:"):]
         assert words in error and error.count("\n") == 1, (sweep, error)
         assert time.monotonic() - begun < 5
+    assert "no key of the sweep has two numbers" in run("march", *hertz, "stepping=exact fixed", "--plot", "nowhere.png", code=1)
+    assert "--check is of one run" in run("march", *hertz, "friction=0.2", "--check", code=1)
     for option in ("--save", "--save-state"):
         assert "a sweep has many" in run("march", *hertz, "friction=0.2", option, "nowhere.json", code=1)
     # What only the runs themselves can tell: no row, if it is all of them.
     shown = run("march", *hertz, "friction=0.2 0.3", "-history", "P=0; R=1", code=1)
     assert "every point of the sweep is refused" in shown and "no load pattern 'R'" in shown, shown
+    shown = run("march", *hertz, "friction=0.2 0.3", "--sweep-results", "peak_presure", code=1)
+    assert "'peak_presure', must be one of" in shown, shown
 
 
 def interrupted(folder):

@@ -203,8 +203,27 @@ void ReducedProblem::validate() const
            H.rows(), "×", H.cols(), ", must be square of the number of load patterns ", size,
            ", or empty if it is not known");
    require(H.allFinite(), "reduced problem: H has an entry that is not finite");
+   for (Eigen::Index k = 0; k < H.rows(); ++k)
+   {
+      for (Eigen::Index j = 0; j < k; ++j)
+      {
+         // Work of one force on the displacement of the other; a force and a displacement
+         // meet with opposite signs.
+         const double sign = patterns[k].control == patterns[j].control ? 1 : -1;
+         const double size = std::max(
+            {std::abs(H(k, j)), std::abs(H(j, k)), std::sqrt(std::abs(H(k, k) * H(j, j)))});
+         require(std::abs(H(k, j) - sign * H(j, k)) <= 1e-6 * size, "reduced problem: H(", k,
+                 ", ", j, ") is ", H(k, j), " and H(", j, ", ", k, ") ", H(j, k), ", must be ",
+                 sign > 0 ? "the same" : "opposite", " (Betti)");
+      }
+   }
    // A problem without a mesh has none of these.
    if (weights.size() > 0) { check_vector("weights", weights, n); }
+   for (Eigen::Index i = 0; i < weights.size(); ++i)
+   {
+      require(weights[i] > 0, "reduced problem: weight ", weights[i], " of node ", i,
+              ", must be positive");
+   }
    if (arc_length.size() > 0) { check_vector("arc_length", arc_length, n); }
    require(position.size() == 0 || (position.rows() == n && position.cols() == 2),
            "reduced problem: position is ", position.rows(), "×", position.cols(), ", must be ",
