@@ -207,7 +207,8 @@ void contact2d(miniapp::Study &study)
    if (!snapshots.times.empty() && snapshots.complete())
    {
       fretting::MarchedStates edges{problem, snapshots.states[0], snapshots.states[1]};
-      if (snapshots.times.size() == 3 && !history.report.cycles.empty())
+      if (snapshots.times.size() == 3 && !history.report.cycles.empty() &&
+          history.report.cycles.back().whole)
       {
          edges.opposite = &snapshots.states[2];
          edges.cycle = &history.report.cycles.back();

@@ -250,13 +250,10 @@ void OwnHistory::report_state(const ReducedProblem &problem, const std::string &
 
 void OwnHistory::report_march(const ReducedProblem &problem)
 {
-   const int last_cycle = report.increments.empty() ? 0 : report.increments.back().cycle;
-   // A cycle that was not finished has increments, but no record.
-   const bool unfinished = study_.code != 0 && last_cycle > 0;
-   const int ended = static_cast<int>(report.cycles.size()),
-             first_cycle = last_cycle - ended + (unfinished ? 0 : 1);
-   report_cycles(study_, problem, report, 1, first_cycle);
-   study_.results["first_cycle"] = ended == 0 ? 0 : first_cycle;
+   report_cycles(study_, problem, report);
+   const auto whole = std::find_if(report.cycles.begin(), report.cycles.end(),
+                                   [](const CycleRecord &cycle) { return cycle.whole; });
+   study_.results["first_cycle"] = whole == report.cycles.end() ? 0 : whole->cycle;
    study_.results["total_dissipation"] = state.dissipation;
    study_.results["advance_error"] = report.advance_error;
    study_.results["largest_residual"] = report.largest_residual;

@@ -148,7 +148,7 @@ void draw_loops(Study &study, const ReducedProblem &problem, const MarchReport &
 } // namespace
 
 void report_cycles(Study &study, const ReducedProblem &problem, const MarchReport &report,
-                   double unit, int first)
+                   double unit)
 {
    Table &cycles = study.table("cycles", {{"cycle", "cycle"},
                                           {"dissipation", "dissipation", "%.4e"},
@@ -157,6 +157,13 @@ void report_cycles(Study &study, const ReducedProblem &problem, const MarchRepor
    ordered_json &losses = study.results["dissipation"] = ordered_json::array();
    for (const CycleRecord &cycle : report.cycles)
    {
+      if (!cycle.whole)
+      {
+         study.say(text("cycle %d was taken up within it: what is known is its rest, which is "
+                        "left out",
+                        cycle.cycle));
+         continue;
+      }
       ordered_json loops = ordered_json::array();
       for (std::size_t k = 0; k < cycle.loops.size(); ++k)
       {
@@ -167,10 +174,10 @@ void report_cycles(Study &study, const ReducedProblem &problem, const MarchRepor
                           {"stiffness", loop.stiffness()},
                           {"loss_factor", loop.loss_factor()}});
       }
-      study.row(cycles,
-                {first + static_cast<int>(losses.size()), cycle.dissipation / unit,
-                 cycle.external_work / unit, cycle.slip_change},
-                {}, {{"loops", loops}});
+      study.row(
+         cycles,
+         {cycle.cycle, cycle.dissipation / unit, cycle.external_work / unit, cycle.slip_change},
+         {}, {{"loops", loops}});
       losses.push_back(cycle.dissipation / unit);
    }
    report_steady(study, report);

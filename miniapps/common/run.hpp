@@ -65,10 +65,10 @@ void report_exact_path(Study &study, const cattaneo::ReducedProblem &problem,
 
 /// A table of the cycles of a march with the loops of the loads that vary (cattaneo::Loop),
 /// which are drawn, and from where on they are steady; `dissipation`, `steady_cycle`,
-/// `steady_period` and `energy_imbalance` of the results. Energies are printed in `unit`s, and
-/// the first cycle has a number.
+/// `steady_period` and `energy_imbalance` of the results. Energies are printed in `unit`s. A
+/// cycle within which the march was taken up is left out, and that is said.
 void report_cycles(Study &study, const cattaneo::ReducedProblem &problem,
-                   const cattaneo::MarchReport &report, double unit = 1, int first = 1);
+                   const cattaneo::MarchReport &report, double unit = 1);
 
 /// From where on the cycles are steady, and how well energies balance: `steady_cycle`,
 /// `steady_period` and `energy_imbalance`.

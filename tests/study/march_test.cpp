@@ -55,6 +55,29 @@ TEST_F(March, ARunCutInTwoLeavesTheSameFiles)
    EXPECT_EQ(second.results["total_dissipation"], whole.results["total_dissipation"]);
 }
 
+/// Of a cycle within which a march is taken up the record has the rest alone: it is left out,
+/// and those after it are the same as of a march that was not cut.
+TEST_F(March, ACycleThatIsTakenUpWithinIsLeftOut)
+{
+   const std::string run = "-reduced problems/square_punch.json -increments 20 -history "
+                           "'P=0; P=1; Q=.16; Q=-.16",
+                     cycles = "; Q=.16' -cycle-start 2 -cycles 4",
+                     state = folder + "state.json'";
+   const auto whole = run_miniapp("march", run + cycles);
+   const auto first = run_miniapp("march", run + "' -save-state '" + state);
+   const auto second = run_miniapp("march", run + cycles + " -load-state '" + state);
+   ASSERT_EQ(whole.code, 0) << whole.output;
+   ASSERT_EQ(first.code, 0) << first.output;
+   ASSERT_EQ(second.code, 0) << second.output;
+   const auto &all = whole.results["cycles"], &rest = second.results["cycles"];
+   ASSERT_GT(all.size(), 1u);
+   ASSERT_EQ(rest.size(), all.size() - 1);
+   EXPECT_EQ(second.results["first_cycle"], 2);
+   EXPECT_EQ(whole.results["first_cycle"], 1);
+   for (std::size_t k = 0; k < rest.size(); ++k) { EXPECT_EQ(rest[k], all[k + 1]); }
+   EXPECT_NE(second.output.find("cycle 1 was taken up within it"), std::string::npos);
+}
+
 /// The thesis' method node by node comes to the forces of the other, which it shares no step
 /// with.
 TEST_F(March, MethodsAgree)
