@@ -115,7 +115,7 @@ Study::Begun::~Begun()
    for (const std::string &path : paths) { fs::remove_all(path, none); }
 }
 
-void Study::save(const cattaneo::ReducedProblem &problem) const
+void Study::save(const cattaneo::ReducedProblem &problem)
 {
    if (save_.empty()) { return; }
    saved_ = true;

@@ -70,7 +70,7 @@ public:
    /// The same in two parts, for a problem that may still prove to be bad input.
    void condensed(const Scene &scene);
    void condensed(const cattaneo::ReducedProblem &problem, int dofs); ///< 0: it was read
-   void save(const cattaneo::ReducedProblem &problem) const;
+   void save(const cattaneo::ReducedProblem &problem);
 
    /// A file or folder that is written while the study runs, which removes it if it ends as bad
    /// input. @param goes_on with what is there: that stays
@@ -150,8 +150,7 @@ private:
    std::vector<Found> found_; ///< to be compared at the end
    Eigen::Index nodes_ = 0;
    int dofs_ = 0;
-   bool check_ = false, checked_ = false;
-   mutable bool saved_ = false;
+   bool check_ = false, checked_ = false, saved_ = false;
    double seconds_ = 0; ///< up to the reduced problem
 };
 
