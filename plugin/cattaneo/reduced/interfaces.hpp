@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/SparseCore>
 #include <cattaneo/reduced/reduction.hpp>
 #include <optional>
 
