@@ -157,7 +157,7 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
       for (const std::string &file : {rows, frames}) { study_.begins(file, goes_on); }
       if (goes_on)
       {
-         history.emplace(rows, problem, state.time);
+         history.emplace(rows, problem, state);
          nodes.emplace(frames, problem, state.time);
       }
       else

@@ -145,15 +145,38 @@ void draw_loops(Study &study, const ReducedProblem &problem, const MarchReport &
    }
 }
 
+/// The loads that varied in any whole cycle: the others have no loop.
+std::vector<std::size_t> varied_loads(const MarchReport &report)
+{
+   std::set<std::size_t> varied;
+   for (const CycleRecord &cycle : report.cycles)
+   {
+      for (std::size_t k = 0; cycle.whole && k < cycle.loops.size(); ++k)
+      {
+         if (!std::isnan(cycle.loops[k].stiffness())) { varied.insert(k); }
+      }
+   }
+   return {varied.begin(), varied.end()};
+}
+
 } // namespace
 
 void report_cycles(Study &study, const ReducedProblem &problem, const MarchReport &report,
                    double unit)
 {
-   Table &cycles = study.table("cycles", {{"cycle", "cycle"},
-                                          {"dissipation", "dissipation", "%.4e"},
-                                          {"external_work", "external work", "%.4e"},
-                                          {"slip_change", "slip change", "%.2e"}});
+   std::vector<Column> columns = {{"cycle", "cycle"},
+                                  {"dissipation", "dissipation", "%.4e"},
+                                  {"external_work", "external work", "%.4e"},
+                                  {"slip_change", "slip change", "%.2e"}};
+   const std::vector<std::size_t> varied = varied_loads(report);
+   for (std::size_t k : varied)
+   {
+      const std::string &load = problem.patterns[k].name;
+      columns.push_back({"work " + load});
+      columns.push_back({"stiffness " + load, "stiffness " + load, "%.4e"});
+      columns.push_back({"loss_factor " + load, "loss factor " + load, "%.4f"});
+   }
+   Table &cycles = study.table("cycles", columns);
    ordered_json &losses = study.results["dissipation"] = ordered_json::array();
    for (const CycleRecord &cycle : report.cycles)
    {
@@ -164,20 +187,14 @@ void report_cycles(Study &study, const ReducedProblem &problem, const MarchRepor
                         cycle.cycle));
          continue;
       }
-      ordered_json loops = ordered_json::array();
-      for (std::size_t k = 0; k < cycle.loops.size(); ++k)
+      std::vector<ordered_json> row = {cycle.cycle, cycle.dissipation / unit,
+                                       cycle.external_work / unit, cycle.slip_change};
+      for (std::size_t k : varied)
       {
          const Loop &loop = cycle.loops[k];
-         if (std::isnan(loop.stiffness())) { continue; } // the load did not vary
-         loops.push_back({{"load", problem.patterns[k].name},
-                          {"work", loop.work() / unit},
-                          {"stiffness", loop.stiffness()},
-                          {"loss_factor", loop.loss_factor()}});
+         row.insert(row.end(), {loop.work() / unit, loop.stiffness(), loop.loss_factor()});
       }
-      study.row(
-         cycles,
-         {cycle.cycle, cycle.dissipation / unit, cycle.external_work / unit, cycle.slip_change},
-         {}, {{"loops", loops}});
+      study.row(cycles, row);
       losses.push_back(cycle.dissipation / unit);
    }
    report_steady(study, report);

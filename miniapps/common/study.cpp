@@ -4,6 +4,7 @@
 #include "common/sweep.hpp"
 
 #include <algorithm>
+#include <cattaneo/output/streamed_file.hpp>
 #include <cattaneo/reduced/reduced_file.hpp>
 #include <cmath>
 #include <cstdio>
@@ -344,6 +345,11 @@ int Study::run(const std::string &name, int argc, char *argv[],
          catch (const Outcome &)
          {
             study.code = 2;
+         }
+         catch (const cattaneo::WriteError &)
+         {
+            study.begun_.paths.clear(); // hours may be in them
+            throw;
          }
          study.finish();
          return study.code;

@@ -407,6 +407,7 @@ void run_sweep(Study &study, const std::string &statements, const std::string &w
    columns.push_back({"message"});
    Table &table = study.table("sweep", columns);
    long converged = 0;
+   std::set<std::string> refusals;
    for (const Point &point : points)
    {
       std::vector<ordered_json> row;
@@ -414,6 +415,7 @@ void run_sweep(Study &study, const std::string &statements, const std::string &w
       for (const std::string &name : names) { row.push_back(result(point.results, name)); }
       row.insert(row.end(), {point.status, point.message});
       study.row(table, row);
+      if (point.status == "refused") { refusals.insert(point.message); }
       converged += point.status == "converged" ? 1 : 0;
       for (const auto &warning : point.results.value("warnings", ordered_json::array()))
       {
@@ -425,6 +427,7 @@ void run_sweep(Study &study, const std::string &statements, const std::string &w
                                    { value = spent.value(name, 0L); });
       study.counters += counters;
    }
+   for (const std::string &message : refusals) { study.say("refused: " + message); }
    if (shown.size() < names.size())
    {
       study.say(text("%zu more results, which do not vary or are too many, are in --json and "

@@ -143,25 +143,27 @@ def draw_zones(axes, comments, rows):
         if row["state"] != "thesis":
             steps.setdefault(value(row["time"]), []).append((row["state"], value(row["from"]), value(row["to"])))
     times = list(steps)
-    seen = []
+    runs = []  # stretches of time with the same zones: their states, and bounds at each time
     for k, time in enumerate(times):
         # The states at the end of an increment hold during it; edges move linearly where the same
         # zones were there before, and jump where they were not.
-        before = steps[times[k - 1]] if k else None
-        start = times[k - 1] if k else (time if len(times) > 1 else 0)
-        same = before is not None and [z[0] for z in before] == [z[0] for z in steps[time]]
-        for j, (state, lo, hi) in enumerate(steps[time]):
-            lo0, hi0 = before[j][1:] if same else (lo, hi)
+        states, bounds = [z[0] for z in steps[time]], [z[1:] for z in steps[time]]
+        if not k or states != runs[-1][0]:
+            start = times[k - 1] if k else (time if len(times) > 1 else 0)
+            runs.append((states, [(start, bounds)]))
+        runs[-1][1].append((time, bounds))
+    seen = set()
+    for states, points in runs:
+        for j, state in enumerate(states):
+            below, above = ([(time, bounds[j][side]) for time, bounds in points] for side in (0, 1))
             colour, hatch = STATES[state]
-            corners = [(start, lo0), (time, lo), (time, hi), (start, hi0)]
-            axes.add_patch(Polygon(corners, closed=True, facecolor=colour, edgecolor="none", linewidth=0))
+            axes.add_patch(Polygon(below + above[::-1], closed=True, facecolor=colour, edgecolor="none", linewidth=0))
             if hatch:
-                axes.add_patch(Polygon(corners, closed=True, facecolor="none", edgecolor="#00000044", hatch=hatch,
-                                       linewidth=0))
+                axes.add_patch(Polygon(below + above[::-1], closed=True, facecolor="none", edgecolor="#00000044",
+                                       hatch=hatch, linewidth=0))
             if j:
-                axes.plot([start, time], [lo0, lo], color="black", linewidth=0.7)
-            if state not in seen:
-                seen.append(state)
+                axes.plot(*zip(*below), color="black", linewidth=0.7)
+            seen.add(state)
     axes.set_xlim(min(times) if len(times) > 1 else 0, max(times))
     axes.set_ylim(min(z[1] for s in steps.values() for z in s), max(z[2] for s in steps.values() for z in s))
     handles = [Patch(facecolor=STATES[s][0], edgecolor="#00000066", hatch=STATES[s][1], label=s)

@@ -116,7 +116,7 @@ TEST(Stop, AtAnyIncrementTheMarchGoesOnToTheLastBit)
          }
          save(state, folder + "state.json");
          ContactState rest = load_contact_state(folder + "state.json");
-         HistoryWriter writer(folder + "cut.csv", c.problem, rest.time);
+         HistoryWriter writer(folder + "cut.csv", c.problem, rest);
          const MarchReport report =
             march(c.problem, history, rest, c.settings,
                   [&](const ContactState &now, const IncrementRecord &record)
@@ -194,7 +194,7 @@ TEST(Stop, AProgramThatEndsAnywhereIsTakenUpFromWhatItSaved)
          {
             rest = load_contact_state(folder + "state.json");
          }
-         HistoryWriter writer(folder + "cut.csv", c.problem, rest.time);
+         HistoryWriter writer(folder + "cut.csv", c.problem, rest);
          march(c.problem, history, rest, c.settings,
                [&](const ContactState &now, const IncrementRecord &record)
                { writer.add(now, record); });
@@ -211,11 +211,12 @@ TEST(Streaming, AHistoryIsGoneOnWithOnlyIfItIsTheSame)
    std::mt19937 random(43);
    ReducedProblem problem = random_problem(4, 0.3, 0.1, random);
    std::filesystem::remove(file);
-   const ContactState state = ContactState::virgin(problem);
+   ContactState state = ContactState::virgin(problem);
    IncrementRecord record;
    record.multipliers = record.conjugates = VectorXd::Zero(2);
+   state.time = 3;
    {
-      HistoryWriter none(file, problem, 3.0); // no file to go on with: a new one
+      HistoryWriter none(file, problem, state); // no file to go on with: a new one
       for (double time : {0.5, 1.0, 1.5})
       {
          record.time = time;
@@ -224,14 +225,21 @@ TEST(Streaming, AHistoryIsGoneOnWithOnlyIfItIsTheSame)
    }
    const std::string before = content(file);
    EXPECT_EQ(std::count(before.begin(), before.end(), '\n'), 4);
+   // Of another march: it never came to time 1.2, and had other loads at time 1.
+   state.time = 1.2;
+   expect_input_error([&] { HistoryWriter(file, problem, state); }, "of another march");
+   state.time = 1;
+   state.multipliers[1] = 1e-17;
+   expect_input_error([&] { HistoryWriter(file, problem, state); }, "of another march");
+   EXPECT_EQ(content(file), before);
    problem.patterns[1].name = "other";
-   expect_input_error([&] { HistoryWriter(file, problem, 3.0); }, "displacement other");
+   expect_input_error([&] { HistoryWriter(file, problem, state); }, "displacement other");
    problem.patterns[1].name = "a,b";
-   expect_input_error([&] { HistoryWriter(file, problem, 3.0); }, "'a,b'");
+   expect_input_error([&] { HistoryWriter(file, problem, state); }, "'a,b'");
    EXPECT_EQ(content(file), before);
    problem.patterns[1].name = "shear";
    problem.H.resize(0, 0);
-   expect_input_error([&] { HistoryWriter(file, problem, 3.0); },
+   expect_input_error([&] { HistoryWriter(file, problem, state); },
                       "must be 'time,cycle,load press,load shear");
    EXPECT_EQ(content(file), before);
    expect_input_error([&] { HistoryWriter("no folder/h.csv", problem); }, "no folder");

@@ -2,7 +2,9 @@
 #include <cattaneo/output/history.hpp>
 #include <cattaneo/readout/zones.hpp>
 #include <cattaneo/whole_file.hpp>
+#include <cstdlib>
 #include <sstream>
+#include <vector>
 
 namespace cattaneo
 {
@@ -60,6 +62,24 @@ std::string history_row(const IncrementRecord &record, Eigen::Index patterns, bo
    return out.str();
 }
 
+/// A row begins with time and cycle, then come the multipliers.
+void check_goes_on(const std::string &file, const std::string &last, const ContactState &from)
+{
+   std::vector<double> row;
+   std::istringstream line(last);
+   for (std::string cell; std::getline(line, cell, ',');)
+   {
+      row.push_back(std::strtod(cell.c_str(), nullptr));
+   }
+   const auto patterns = from.multipliers.size();
+   const bool same =
+      static_cast<Eigen::Index>(row.size()) >= patterns + 2 && row[0] == from.time &&
+      Eigen::Map<const Eigen::VectorXd>(row.data() + 2, patterns) == from.multipliers;
+   require(same, "file '", file, "' cannot be gone on with: up to time ", from.time,
+           " it ends with the row '", last,
+           "', which is not the state that the march is taken up from: it is of another march");
+}
+
 } // namespace
 
 HistoryWriter::HistoryWriter(const std::string &file, const ReducedProblem &problem)
@@ -69,9 +89,10 @@ HistoryWriter::HistoryWriter(const std::string &file, const ReducedProblem &prob
 }
 
 HistoryWriter::HistoryWriter(const std::string &file, const ReducedProblem &problem,
-                             double time)
+                             const ContactState &from)
    : patterns_(count_patterns(problem)), disc_(has_disc(problem)),
-     file_(file, history_header(problem), time)
+     file_(file, history_header(problem), from.time,
+           [&](const std::string &last) { check_goes_on(file, last, from); })
 {
 }
 

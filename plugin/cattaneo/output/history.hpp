@@ -26,9 +26,11 @@ public:
    /// A new file. InputError if it cannot be written or the name of a pattern holds a comma, a
    /// quote or a line break. Of the problem nothing is kept but what columns there are.
    HistoryWriter(const std::string &file, const ReducedProblem &problem);
-   /// Goes on with the file of a march that is taken up at `time` (ContactState::time): rows
-   /// beyond it are dropped, so that in the end it is that of a march that never stopped.
-   HistoryWriter(const std::string &file, const ReducedProblem &problem, double time);
+   /// Goes on with the file of a march that is taken up from a state: rows beyond its time are
+   /// dropped, so that in the end it is that of a march that never stopped. InputError if what
+   /// stays does not end with the time and the multipliers of the state.
+   HistoryWriter(const std::string &file, const ReducedProblem &problem,
+                 const ContactState &from);
 
    /// InputError if the row cannot be written or has not a multiplier for each pattern.
    void add(const ContactState &state, const IncrementRecord &record);
@@ -52,7 +54,7 @@ class NodeWriter
 public:
    /// InputError if the file cannot be written or the problem lacks what is needed.
    NodeWriter(const std::string &file, const ReducedProblem &problem);
-   /// Goes on, as HistoryWriter.
+   /// Goes on from the time of a state, as HistoryWriter.
    NodeWriter(const std::string &file, const ReducedProblem &problem, double time);
 
    /// InputError if the state does not fit or cannot be written.

@@ -13,10 +13,11 @@ namespace
 {
 
 /// What of an old file stays.
-std::string kept_lines(const std::string &file, const std::string &header, double time)
+std::string kept_lines(const std::string &file, const std::string &header, double time,
+                       const std::function<void(const std::string &)> &check)
 {
    std::ifstream in(file);
-   std::string line, kept = header + '\n';
+   std::string line, last, kept = header + '\n';
    if (!std::getline(in, line)) { return kept; }
    require(line == header, "file '", file, "' cannot be gone on with: its first line is '",
            line, "', must be '", header, "'");
@@ -25,7 +26,9 @@ std::string kept_lines(const std::string &file, const std::string &header, doubl
    {
       if (!(std::strtod(line.c_str(), nullptr) <= time)) { break; }
       kept += line + '\n';
+      last = line;
    }
+   if (check && !last.empty()) { check(last); }
    return kept;
 }
 
@@ -38,11 +41,12 @@ StreamedFile::StreamedFile(const std::string &file, const std::string &header) :
    open();
 }
 
-StreamedFile::StreamedFile(const std::string &file, const std::string &header, double time)
+StreamedFile::StreamedFile(const std::string &file, const std::string &header, double time,
+                           const std::function<void(const std::string &)> &check)
    : file_(file)
 {
    require_writable(file);
-   write_whole(file, kept_lines(file, header, time));
+   write_whole(file, kept_lines(file, header, time, check));
    open();
 }
 
@@ -55,7 +59,8 @@ void StreamedFile::open()
 void StreamedFile::add(const std::string &lines)
 {
    out_ << lines << std::flush;
-   require(out_.good(), "cannot write file '", file_, "': ", std::strerror(errno));
+   if (out_.good()) { return; }
+   throw WriteError("cannot go on with file '" + file_ + "': " + std::strerror(errno));
 }
 
 } // namespace cattaneo

@@ -1,10 +1,19 @@
 #pragma once
 
+#include <cattaneo/input_error.hpp>
 #include <fstream>
+#include <functional>
 #include <string>
 
 namespace cattaneo
 {
+
+/// A table cannot be gone on with: the disk is full, or has gone. What is written stays.
+class WriteError : public InputError
+{
+public:
+   using InputError::InputError;
+};
 
 /** A table that is written as its rows come, a line each, and holds none of them: what was
    added is with the operating system when add() returns, and stays there whatever becomes of
@@ -17,10 +26,13 @@ public:
    StreamedFile(const std::string &file, const std::string &header);
    /** Goes on with the file that a program left behind: lines later than `time`, and one that
        was cut short, are dropped. A new file if there is none. InputError if it has another
-       header or cannot be written. */
-   StreamedFile(const std::string &file, const std::string &header, double time);
+       header or cannot be written.
+       @param check called with the last line that stays, before anything is dropped: throws if
+          this is not the file that is to be gone on with */
+   StreamedFile(const std::string &file, const std::string &header, double time,
+                const std::function<void(const std::string &)> &check = {});
 
-   /// Whole lines, with their ends. InputError if they cannot be written.
+   /// Whole lines, with their ends. WriteError if they cannot be written.
    void add(const std::string &lines);
 
 private:

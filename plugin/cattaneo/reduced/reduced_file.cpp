@@ -63,11 +63,26 @@ nlohmann::json to_json(const Matrix &M)
            {"values", std::vector<typename Matrix::Scalar>(M.data(), M.data() + M.size())}};
 }
 
+/// The JSON library would cut 3.5 to 3.
+Eigen::Index whole_number(const nlohmann::json &j, const char *key)
+{
+   const nlohmann::json &value = j.at(key);
+   require(value.is_number_integer(), "reduced problem: ", key, " is ", value.dump(),
+           ", must be a whole number");
+   return value;
+}
+
 template <class Matrix>
 void from_json(const nlohmann::json &j, Matrix &M)
 {
-   const auto values = j.at("values").get<std::vector<typename Matrix::Scalar>>();
-   const Eigen::Index rows = j.at("rows"), cols = j.at("cols");
+   const nlohmann::json &entries = j.at("values");
+   for (const nlohmann::json &value : entries)
+   {
+      require(!std::is_integral_v<typename Matrix::Scalar> || value.is_number_integer(),
+              "reduced problem: an entry of a table of whole numbers is ", value.dump());
+   }
+   const auto values = entries.get<std::vector<typename Matrix::Scalar>>();
+   const Eigen::Index rows = whole_number(j, "rows"), cols = whole_number(j, "cols");
    // Divided, so that no product overflows.
    const auto count = static_cast<Eigen::Index>(values.size());
    require(rows >= 0 && cols >= 0 &&
@@ -182,8 +197,9 @@ ReducedProblem load_reduced_problem(const std::string &file)
          problem.held = j.at("held").get<std::vector<Eigen::Index>>();
          for (const nlohmann::json &c : j.at("chains"))
          {
-            problem.chains.push_back({c.at("interface"), c.at("first"), c.at("nodes"),
-                                      c.at("loop"), ends_from_json(c.at("ends")),
+            problem.chains.push_back({c.at("interface"), whole_number(c, "first"),
+                                      whole_number(c, "nodes"), c.at("loop"),
+                                      ends_from_json(c.at("ends")),
                                       ends_from_json(c.at("other_ends")), c.at("bodies")});
          }
       }
