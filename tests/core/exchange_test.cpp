@@ -423,7 +423,11 @@ TEST_F(Exchange, NumpyReadsWhatIsWritten)
    const CondensedBody body =
       condense(lower.body(), lower.contact_line(lower.nodes_of("FACE"), 1));
    write_npz("body.npz", nodal_stiffness(body), MatrixXd::Identity(10, 10));
-   write_npz("problem.npz", reduce(body).problem);
+   ReducedProblem problem = reduce(body).problem;
+   problem.patterns.push_back(
+      {"two", Control::force, VectorXd::LinSpaced(5, 1, 5), VectorXd::LinSpaced(5, 6, 10)});
+   problem.H = MatrixXd::Zero(2, 2);
+   write_npz("problem.npz", problem);
    write_whole("read.py",
                "import sys\n"
                "try:\n   import numpy\nexcept ImportError:\n   sys.exit(77)\n"
@@ -432,7 +436,9 @@ TEST_F(Exchange, NumpyReadsWhatIsWritten)
                "assert b['K'].shape == (10, 10) and (b['M'] == numpy.eye(10)).all()\n"
                "assert b['loads'].sum() == -2.5 and b['places'][0, 0] == 2.0\n"
                "assert abs(p['K'] - p['K'].T).max() == 0 and p['gap'].shape == (5, 1)\n"
-               "assert abs(p['loads'].sum() - 2.5 * -1) < 1e-12, p['loads'].sum()\n"
+               "assert p['loads'].shape == (10, 2), p['loads'].shape\n"
+               "assert abs(p['loads'][:, 0].sum() + 2.5) < 1e-12, p['loads']\n"
+               "assert (p['loads'][:, 1] == numpy.arange(1., 11.)).all(), p['loads']\n"
                "assert abs(p['K'].trace() - b['K'].trace()) < 1e-9\n");
    const int code = std::system("python3 read.py || /usr/bin/python3 read.py");
    if (WEXITSTATUS(code) == 77) { GTEST_SKIP() << "there is no NumPy"; }
@@ -444,6 +450,25 @@ struct Mistake
 {
    const char *file, *content, *says;
 };
+
+TEST_F(Exchange, ADeckMayNameTheThirdCoordinateOrEndItsLinesWithAComma)
+{
+   write_whole("m.sti", "1 1 1.\n2 2 1.\n3 3 1.\n4 4 1.\n");
+   write_whole("m.dof", "1.1\n1.2\n2.1\n2.2\n");
+   for (const char *nodes :
+        {"*NODE\n1, 0., 2.\n2, 1., 2.\n", "*NODE\n1, 0., 2., 0.\n2, 1., 2.,\n",
+         "*NODE\n1, 0., 2., \n2, 1., 2., 0\n"})
+   {
+      write_whole("m.inp", nodes);
+      EXPECT_EQ(read_stiffness("m.sti").places.at(2), Eigen::Vector2d(1, 2)) << nodes;
+   }
+   write_whole("m.inp", "*NODE\n1, 0., 2., 1.\n2, 1., 2.\n");
+   expect_input_error([&] { read_stiffness("m.sti"); },
+                      "node 1 is at z = 1, must be in the plane");
+   NodalStiffness twisting = lower_lap();
+   twisting.formulation = Formulation::torsion;
+   expect_input_error([&] { twisting.validate(); }, "it is of torsion");
+}
 
 TEST_F(Exchange, MistakesAreToldInOneSentence)
 {

@@ -99,8 +99,136 @@ TEST(Fretting, RefusesBadInput)
    EXPECT_THROW(mode_two_range(-1), InputError);
    EXPECT_THROW(slip_energy_max(1, 0), InputError);
    EXPECT_THROW(hertz_slip_energy(0.3, 1, 1.01, 1), InputError);
-   expect_input_error([] { hertz_slip_energy(0, 1, 0.5, 1); }, "friction 0 and normal force 1");
-   expect_input_error([] { hertz_slip_energy(0.3, 0, 0.5, 1); }, "normal force 0 must be");
+   expect_input_error([] { hertz_slip_energy(0, 1, 0.5, 1); },
+                      "the friction coefficient is 0, must be");
+   expect_input_error([] { hertz_slip_energy(0.3, 0, 0.5, 1); },
+                      "the normal force is 0, must be");
+}
+
+/// A function of numbers, which it takes, and what each must be: positive (+), not negative (0)
+/// or finite (f); infinity is a limit of (i).
+struct Formula
+{
+   const char *name, *kinds;
+   std::vector<double> good;
+   std::function<void(const std::vector<double> &)> call;
+};
+
+TEST(Fretting, EachNumberOfEachFormulaIsChecked)
+{
+   using Numbers = const std::vector<double> &;
+   const std::vector<Formula> formulas = {
+      {"contact_modulus", "+", {1}, [](Numbers x) { contact_modulus(x[0], 0.3); }},
+      {"hertz_contact", "+++", {1, 1, 1}, [](Numbers x) { hertz_contact(x[0], x[1], x[2]); }},
+      {"hertz_k_n", "++", {1, 1}, [](Numbers x) { hertz_k_n(x[0], x[1]); }},
+      {"flat_rounded_contact",
+       "++0+",
+       {1, 1, 1, 1},
+       [](Numbers x) { flat_rounded_contact(x[0], x[1], x[2], x[3]); }},
+      {"rounded_edge", "+++", {1, 1, 1}, [](Numbers x) { rounded_edge(x[0], x[1], x[2]); }},
+      {"symmetric_k_n", "++", {1, 1}, [](Numbers x) { symmetric_k_n(x[0], x[1]); }},
+      {"edge_gradient", "++", {1, 1}, [](Numbers x) { edge_gradient(x[0], x[1]); }},
+      {"shear_intensities",
+       "+ff",
+       {1, 1, 1},
+       [](Numbers x) { shear_intensities(x[0], x[1], x[2]); }},
+      {"slip_zone",
+       "+f+",
+       {1, 1, 0.3},
+       [](Numbers x) {
+          slip_zone({x[0], x[1], x[2]});
+       }},
+      {"stress",
+       "f0",
+       {1, 1},
+       [](Numbers x) {
+          stress({1, 1, 0.3}, x[0], x[1]);
+       }},
+      {"crack_factor", "i", {1}, [](Numbers x) { crack_factor(x[0]); }},
+      {"crack_factor_slope", "+", {1}, [](Numbers x) { crack_factor_slope(x[0]); }},
+      {"crack_intensity",
+       "0",
+       {1},
+       [](Numbers x) {
+          crack_intensity({1, 1, 0.3}, x[0]);
+       }},
+      {"crack_intensity_range",
+       "00",
+       {1, 1},
+       [](Numbers x) {
+          crack_intensity_range({1, 1, 0.3}, x[0], x[1]);
+       }},
+      {"reversed_slip_zone",
+       "0",
+       {1},
+       [](Numbers x) {
+          reversed_slip_zone({1, 1, 0.3}, x[0]);
+       }},
+      {"edge_stress_range",
+       "0",
+       {1},
+       [](Numbers x) {
+          edge_stress_range({1, 1, 0.3}, x[0]);
+       }},
+      {"mode_two_range", "0", {1}, [](Numbers x) { mode_two_range(x[0]); }},
+      {"slip_energy_density",
+       "0+",
+       {1, 1},
+       [](Numbers x) {
+          slip_energy_density({1, 1, 0.3}, x[0], x[1], 0.1);
+       }},
+      {"slip_energy_max", "0+", {1, 1}, [](Numbers x) { slip_energy_max(x[0], x[1]); }},
+      {"slip_energy_total",
+       "0+",
+       {1, 1},
+       [](Numbers x) {
+          slip_energy_total({1, 1, 0.3}, x[0], x[1]);
+       }},
+      {"hertz_slip_energy",
+       "++0+",
+       {0.3, 1, 0.5, 1},
+       [](Numbers x) { hertz_slip_energy(x[0], x[1], x[2], x[3]); }},
+      {"threshold_ordinate",
+       "++f",
+       {0.3, 1, 0},
+       [](Numbers x) { threshold_ordinate(Criterion::open, x[0], x[1], x[2]); }},
+      {"threshold_minimum", "+", {0.3}, [](Numbers x) { threshold_minimum(x[0]); }},
+      {"assess_threshold",
+       "++",
+       {1, 1},
+       [](Numbers x) {
+          assess_threshold({{1, 1, 0.3}}, x[0], x[1]);
+       }},
+      {"surface_von_mises", "+", {0.3}, [](Numbers x) { surface_von_mises(x[0], 0.3, 0.5); }},
+      {"first_yield_load", "+", {0.3}, [](Numbers x) { first_yield_load(x[0], 0.3); }},
+      {"full_yield_load", "+", {0.3}, [](Numbers x) { full_yield_load(x[0]); }},
+      {"power_law_factor", "f", {0.5}, [](Numbers x) { power_law_factor(x[0]); }},
+   };
+   for (const Formula &formula : formulas)
+   {
+      EXPECT_NO_THROW(formula.call(formula.good)) << formula.name;
+      for (std::size_t k = 0; k < formula.good.size(); ++k)
+      {
+         const char kind = formula.kinds[k];
+         std::vector<double> bad = {nan, -infinity};
+         if (kind != 'i') { bad.push_back(infinity); }
+         if (kind != 'f') { bad.push_back(-1); }
+         if (kind == '+') { bad.push_back(0); }
+         else if (kind == '0')
+         {
+            std::vector<double> zero = formula.good;
+            zero[k] = 0;
+            EXPECT_NO_THROW(formula.call(zero)) << formula.name << " argument " << k;
+         }
+         for (double x : bad)
+         {
+            std::vector<double> numbers = formula.good;
+            numbers[k] = x;
+            EXPECT_THROW(formula.call(numbers), InputError)
+               << formula.name << " argument " << k << " = " << x;
+         }
+      }
+   }
 }
 
 TEST(Fretting, FrictionlessEdgeIsRefusedWithTheReason)

@@ -516,13 +516,20 @@ ReducedProblem one_behind_the_other(const ReducedProblem &a, const ReducedProble
    return both;
 }
 
-TEST(FromContact, TwoContactsOnALineAreReadAsEachAlone)
+/// `rounder_at`: -1: the rounder of the two comes first, 1: last.
+void expect_each_as_alone(int rounder_at)
 {
-   // The second one is rounder and reaches the end of its line.
-   const ReducedProblem first = hertz_pair(81),
-                        second = half_planes(
-                           91, 1.3,
-                           [](double x) { return (x - 0.6) * (x - 0.6) / (1.6 * radius); });
+   // The rounder one reaches the end of its line.
+   const ReducedProblem usual = hertz_pair(81),
+                        rounder = half_planes(91, 1.3,
+                                              [=](double x)
+                                              {
+                                                 const double from = x - 0.6 * rounder_at;
+                                                 return from * from / (1.6 * radius);
+                                              });
+   const ReducedProblem &first = rounder_at < 0 ? rounder : usual,
+                        &second = rounder_at < 0 ? usual : rounder;
+   const std::size_t at_the_end = rounder_at < 0 ? 0 : 3;
    const double offset = 10;
    const ReducedProblem both = one_behind_the_other(first, second, offset);
    const Eigen::Vector3d normal(load, 0, 0), cyclic(0, 0.15 * load, 0.1 * load); // of either
@@ -546,9 +553,9 @@ TEST(FromContact, TwoContactsOnALineAreReadAsEachAlone)
    {
       SCOPED_TRACE(e);
       const ContactEdge &a = alone[e], &b = together[e];
-      EXPECT_EQ(b.complete, e == 3);
-      EXPECT_EQ(a.complete, e == 3);
-      EXPECT_EQ(b.why_not.empty(), e != 3);
+      EXPECT_EQ(b.complete, e == at_the_end);
+      EXPECT_EQ(a.complete, e == at_the_end);
+      EXPECT_EQ(b.why_not.empty(), e != at_the_end);
       EXPECT_EQ(b.side, a.side);
       EXPECT_EQ(b.first, a.first);
       EXPECT_EQ(b.last, a.last);
@@ -562,6 +569,16 @@ TEST(FromContact, TwoContactsOnALineAreReadAsEachAlone)
       same(b.k_n.relative_error, a.k_n.relative_error);
       same(b.k_t.relative_error, a.k_t.relative_error);
    }
+}
+
+TEST(FromContact, TwoContactsOnALineAreReadAsEachAlone)
+{
+   expect_each_as_alone(1);
+}
+
+TEST(FromContact, TwoContactsOfWhichTheFirstHasNoFittedEdgeAreReadAsEachAlone)
+{
+   expect_each_as_alone(-1);
 }
 
 TEST(FromContact, StuckNodesKeepTheirSlipAndOthersMoveFreely)

@@ -174,6 +174,16 @@ TEST(ElementCheck, MeshesOutOfThePlaneAreNamed)
                               {{0, 1, 2, 3}, {1, 4, 5, 2}}, 3, 0.25);
    slope.GetVertex(0)[2] = slope.GetVertex(3)[2] = -1.75;
    expect_fault(std::move(slope), "element 0 (attribute 1, centre (0.5, 0.5)) is at z = -0.75");
+   const Points steps = {{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0},
+                         {0, 1}, {1, 1}, {2, 1}, {3, 1}, {4, 1}};
+   mfem::Mesh stairs =
+      mesh_of(steps, {{0, 1, 6, 5}, {1, 2, 7, 6}, {2, 3, 8, 7}, {3, 4, 9, 8}}, 3, 0.0);
+   for (const auto &[vertex, z] : {std::pair(0, 2.0), {3, 8.0}, {8, 4.0}})
+   {
+      stairs.GetVertex(vertex)[2] = z; // means of elements: 0.5, 0, 3, 3
+   }
+   stairs.GetVertex(9)[2] = -1; // 0.5, 0, 3, 2.75
+   expect_fault(std::move(stairs), "element 2 (attribute 3, centre (2.5, 0.5)) is at z = 3");
    mfem::Mesh solid = mfem::Mesh::MakeCartesian3D(1, 1, 1, mfem::Element::HEXAHEDRON);
    expect_fault(std::move(solid), "the mesh is of dimension 3");
 }

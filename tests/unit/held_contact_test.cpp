@@ -134,6 +134,24 @@ TEST(HeldContact, HalfModelOnARigidCylinderIsHalfOfTheWhole)
    EXPECT_EQ(data.S, condensed.S);
 }
 
+TEST(HeldContact, AHalfModelMayStandInAnyOfFourDirections)
+{
+   Eigen::MatrixXd upright;
+   for (int turns = 0; turns < 4; ++turns)
+   {
+      mfem::Mesh mesh = whole_or_half(true, 0);
+      rotate(mesh, turns * std::acos(-1.0) / 2);
+      ElasticBody body(mesh, 2, Material{1.0, 0.3});
+      body.fix(4, turns % 2); // across the plane of symmetry
+      body.fix(3, 0);
+      body.fix(3, 1);
+      const CondensedBody condensed = condense(body, contact_line(body, 1));
+      if (turns == 0) { upright = condensed.S; }
+      EXPECT_LT((condensed.S - upright).norm(), 1e-12 * upright.norm()) << turns;
+      EXPECT_EQ(condensed.held.size(), 1u);
+   }
+}
+
 TEST(HeldContact, HalfModelOfTwoBodiesIsHalfOfTheWhole)
 {
    // A block with a bottom that bulges on a softer one: the line meets the plane of symmetry at

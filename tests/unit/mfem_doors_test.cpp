@@ -489,7 +489,9 @@ TEST(MfemDoors, DisplacementsOfAGridFunctionAreThoseOfItsComponents)
       mfem::FiniteElementSpace other(&mesh, &collection, 2);
       mfem::GridFunction elsewhere(&other);
       elsewhere = 0.0;
-      expect_input_error([&] { body.add_displacement("P", 3, elsewhere); }, "not the body's");
+      expect_input_error([&] { body.add_displacement("P", 3, elsewhere); },
+                         "displacement 'P': the grid function is on a space of " +
+                            std::to_string(other.GetVSize()) + " dofs that is not the body's");
       u = nan_value;
       expect_input_error([&] { body.add_displacement("P", 3, u); }, "must be finite");
    }

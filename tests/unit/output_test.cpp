@@ -851,6 +851,19 @@ TEST_F(Output, FieldsBelowAHalfPlaneWithoutAMesh)
    }
    EXPECT_GT(compared, 5);
    expect_input_error([&] { inside.field("sigma_rr"); }, "no field 'sigma_rr'");
+   // The window reaches beyond both ends of the contact [-1, 1], as far as it is deep.
+   mfem::Vector low, high;
+   const_cast<mfem::Mesh &>(window).GetBoundingBox(low, high);
+   EXPECT_LT(low[0], -3);
+   EXPECT_NEAR(low[0], -high[0], 1e-9);
+   EXPECT_NEAR(high[1], 0, 1e-12);
+   EXPECT_NEAR(low[1], low[0] + 1, 1e-9);
+   double area = 0;
+   for (int e = 0; e < window.GetNE(); ++e)
+   {
+      area += const_cast<mfem::Mesh &>(window).GetElementVolume(e);
+   }
+   EXPECT_NEAR(area, (high[0] - low[0]) * (high[1] - low[1]), 1e-9);
 }
 
 } // namespace

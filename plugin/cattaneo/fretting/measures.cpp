@@ -53,8 +53,8 @@ double slip_energy_total(const Edge &edge, double k_t_range, double modulus)
 
 double hertz_slip_energy(double friction, double load, double load_ratio, double modulus)
 {
-   require(friction > 0 && load > 0, "friction ", friction, " and normal force ", load,
-           " must be positive.");
+   require_positive("the friction coefficient", friction);
+   require_positive("the normal force", load);
    require_positive("the contact modulus E*", modulus);
    const double x = load_ratio;
    require(x >= 0 && x <= 1, "Q/(fP) is ", x, "; it must be between 0 and 1.");
