@@ -406,20 +406,33 @@ TEST(HalfPlane, ForcedContactDoesNotKnowTheDepth)
 /// along the surface.
 TEST(HalfPlane, CurvedLineOverIt)
 {
-   CondensedBody drawn = frame({-1, -0.4, 0, 0.7, 1.5}, 1);
-   const MatrixXd flat = reduce(drawn, half_plane(2, 0.1)).problem.K;
-   const auto lift = [](double x) { return 0.01 * x * x; };
-   for (LineNode &node : drawn.line.nodes) { node.position[1] = lift(node.position[0]); }
-   for (LineElement &element : drawn.line.chains[0].elements)
+   for (const double unit : {1.0, 1e-9}) // of lengths
    {
-      for (Index a = 0; a < 2; ++a) { element.points(1, a) = lift(element.points(0, a)); }
+      std::vector<double> grid = {-1, -0.4, 0, 0.7, 1.5};
+      for (double &x : grid) { x *= unit; }
+      CondensedBody drawn = frame(grid, 1);
+      const MatrixXd flat = reduce(drawn, half_plane(2, 0.1)).problem.K;
+      const auto lift = [=](double x) { return 0.01 * x * x / unit; };
+      for (LineNode &node : drawn.line.nodes) { node.position[1] = lift(node.position[0]); }
+      for (LineElement &element : drawn.line.chains[0].elements)
+      {
+         for (Index a = 0; a < 2; ++a) { element.points(1, a) = lift(element.points(0, a)); }
+      }
+      const Reduction reduction = reduce(drawn, half_plane(2, 0.1));
+      const ReducedProblem &problem = reduction.problem;
+      for (Index i = 0; i < problem.nodes(); ++i)
+      {
+         EXPECT_NEAR(problem.gap[i], lift(problem.position(i, 0)), 1e-15 * unit);
+      }
+      EXPECT_LT((problem.K - flat).cwiseAbs().maxCoeff(), 1e-12 * flat.cwiseAbs().maxCoeff());
+      // Of the nodes of its surface, which run the other way: the nearer neighbour's distance.
+      const std::vector<double> spacing = {0.8, 0.7, 0.4, 0.4, 0.6};
+      for (std::size_t k = 0; k < 5; ++k)
+      {
+         EXPECT_NEAR(reduction.bodies.back().line.nodes[k].spacing, spacing[k] * unit,
+                     1e-12 * unit);
+      }
    }
-   const ReducedProblem problem = reduce(drawn, half_plane(2, 0.1)).problem;
-   for (Index i = 0; i < problem.nodes(); ++i)
-   {
-      EXPECT_NEAR(problem.gap[i], lift(problem.position(i, 0)), 1e-15);
-   }
-   EXPECT_LT((problem.K - flat).cwiseAbs().maxCoeff(), 1e-12 * flat.cwiseAbs().maxCoeff());
 }
 
 /// Relative displacements d of two bodies, prescribed: what closes and shears a contact of

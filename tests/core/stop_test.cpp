@@ -379,7 +379,9 @@ TEST(Stop, ALimitSaysOnlyWhatIsProven)
    const LimitProblem problem =
       limit_problem(punch_like(33), held_and_cycled(punch_like(33), "P", 1, "Q", -0.5));
    LimitSettings settings;
+   testing::internal::CaptureStdout(); // Ipopt would talk, if it were let
    const LimitReport whole = load_limit(problem, settings);
+   EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
    if (whole.status == LimitStatus::unavailable) { GTEST_SKIP() << whole.message; }
    ASSERT_EQ(whole.status, LimitStatus::certified);
    const LimitReport whole_friction = friction_limit(problem, 1);
@@ -391,6 +393,7 @@ TEST(Stop, ALimitSaysOnlyWhatIsProven)
       settings.monitor.interval = 0;
       settings.monitor.progress = [&](const Progress &p)
       {
+         EXPECT_EQ(p.time, 0); // a limit has none
          if (p.steps >= after) { stop = true; }
       };
       const LimitReport load = load_limit(problem, settings);

@@ -851,6 +851,7 @@ TEST_F(Output, FieldsBelowAHalfPlaneWithoutAMesh)
    }
    EXPECT_GT(compared, 5);
    expect_input_error([&] { inside.field("sigma_rr"); }, "no field 'sigma_rr'");
+   EXPECT_EQ(moved.FESpace()->GetNDofs(), window.GetNV()); // linear between vertices
    // The window reaches beyond both ends of the contact [-1, 1], as far as it is deep.
    mfem::Vector low, high;
    const_cast<mfem::Mesh &>(window).GetBoundingBox(low, high);

@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <cattaneo/algebra/quadrature.hpp>
 #include <cattaneo/condense/straight_line.hpp>
 #include <cattaneo/input_error.hpp>
+#include <limits>
 
 namespace cattaneo
 {
@@ -22,7 +24,8 @@ ContactLine straight_line(const std::vector<double> &grid, int order, Formulatio
       node.dofs = {2 * i, formulation == Formulation::torsion ? -1 : 2 * i + 1};
       node.position = {x, 0};
       node.arc_length = x - grid.front();
-      node.weight = node.spacing = 1; // not asked for
+      node.weight = 1; // not known
+      node.spacing = std::numeric_limits<double>::infinity();
       line.nodes.push_back(node);
       return line.size() - 1;
    };
@@ -38,6 +41,15 @@ ContactLine straight_line(const std::vector<double> &grid, int order, Formulatio
          const double x = a == order ? grid[e + 1] : (1 - t) * grid[e] + t * grid[e + 1];
          element.points(0, a) = x;
          element.nodes.push_back(a == 0 && e > 0 ? chain.elements.back().nodes.back() : add(x));
+      }
+      for (int a = 1; a <= order; ++a)
+      {
+         const double step = element.points(0, a) - element.points(0, a - 1);
+         for (const Eigen::Index node : {element.nodes[a - 1], element.nodes[a]})
+         {
+            if (node < 0) { continue; } // on the axis
+            line.nodes[node].spacing = std::min(line.nodes[node].spacing, step);
+         }
       }
       chain.elements.push_back(element);
    }

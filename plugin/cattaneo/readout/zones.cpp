@@ -26,12 +26,12 @@ VectorXd tractions(const ReducedProblem &problem, const VectorXd &nodal_forces)
 namespace
 {
 
-/// Zero of c0 + c1 x + c2 x² nearest to x = 0; NaN if there is none.
+/// Where c0 + c1 x + c2 x² changes sign nearest to x = 0; NaN if it does not.
 double zero(const VectorXd &c)
 {
    const double a = c.size() > 2 ? c[2] : 0.0;
    const double discriminant = c[1] * c[1] - 4 * a * c[0];
-   if (discriminant < 0 || c[1] == 0) { return std::numeric_limits<double>::quiet_NaN(); }
+   if (!(discriminant > 0)) { return std::numeric_limits<double>::quiet_NaN(); }
    return -2 * c[0] / (c[1] + std::copysign(std::sqrt(discriminant), c[1]));
 }
 
