@@ -774,7 +774,7 @@ TEST(EdgeReport, ACornerIsFittedWhereItsModesAreKnown)
    {
       EXPECT_FALSE(one.corner);
       EXPECT_TRUE(notes_say(one, one.edge.why_not));
-         EXPECT_EQ(one.travel, 0);
+      EXPECT_EQ(one.travel, 0);
    }
    states.corner = [](int side)
    {
