@@ -35,8 +35,27 @@ fs::path target(const std::string &file)
 
 } // namespace
 
+void require_writable(const std::string &file)
+{
+   require(!fs::is_directory(file), "cannot write file '", file,
+           "': there is a folder of that name");
+   if (stands_for_no_file(file))
+   {
+      require(access(file.c_str(), W_OK) == 0, "cannot write file '", file,
+              "': it may not be written to");
+      return;
+   }
+   fs::path folder = target(file).parent_path();
+   if (folder.empty()) { folder = "."; }
+   require(fs::is_directory(folder), "cannot write file '", file, "': there is no folder ",
+           folder);
+   require(access(folder.c_str(), W_OK | X_OK) == 0, "cannot write file '", file, "': folder ",
+           folder, " may not be written to");
+}
+
 void write_whole(const std::string &file, const std::string &text)
 {
+   require_writable(file);
    const bool through = stands_for_no_file(file);
    const std::string end = target(file).string(), part = through ? file : end + ".part";
    std::ofstream out(part);
@@ -54,24 +73,6 @@ void write_whole(const std::string &file, const std::string &text)
    const char *reason = std::strerror(errno);
    if (!through) { std::remove(part.c_str()); }
    throw InputError("cannot write file '" + file + "': " + reason);
-}
-
-void require_writable(const std::string &file)
-{
-   require(!fs::is_directory(file), "cannot write file '", file,
-           "': there is a folder of that name");
-   if (stands_for_no_file(file))
-   {
-      require(access(file.c_str(), W_OK) == 0, "cannot write file '", file,
-              "': it may not be written to");
-      return;
-   }
-   fs::path folder = target(file).parent_path();
-   if (folder.empty()) { folder = "."; }
-   require(fs::is_directory(folder), "cannot write file '", file, "': there is no folder ",
-           folder);
-   require(access(folder.c_str(), W_OK | X_OK) == 0, "cannot write file '", file, "': folder ",
-           folder, " may not be written to");
 }
 
 } // namespace cattaneo

@@ -451,6 +451,26 @@ struct Mistake
    const char *file, *content, *says;
 };
 
+TEST_F(Exchange, EntriesOfNumpysMatricesAreCountedByRowsOrByColumns)
+{
+   for (const bool by_columns : {false, true})
+   {
+      std::string head =
+         "{'descr': '<f8', 'fortran_order': " + std::string(by_columns ? "True" : "False") +
+         ", 'shape': (2, 2), }";
+      head += std::string(117 - head.size(), ' ') + "\n";
+      std::string content =
+         std::string("\x93NUMPY\x01\x00", 8) + char(head.size()) + '\0' + head;
+      const double values[] = {1, 2, 3, 4};
+      content.append(reinterpret_cast<const char *>(values), sizeof values);
+      write_whole("m.npy", content);
+      write_whole("m.dofs", "1 1 0 0\n1 2 0 0\n");
+      expect_input_error([&] { read_stiffness("m.npy"); },
+                         by_columns ? "row 1, row 2) is 3 and its mirror image 2"
+                                    : "row 1, row 2) is 2 and its mirror image 3");
+   }
+}
+
 TEST_F(Exchange, ADeckMayNameTheThirdCoordinateOrEndItsLinesWithAComma)
 {
    write_whole("m.sti", "1 1 1.\n2 2 1.\n3 3 1.\n4 4 1.\n");

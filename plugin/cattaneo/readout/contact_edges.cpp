@@ -353,7 +353,7 @@ void read_k_n(const ReducedProblem &problem, const ContactState &loaded, Cracked
    {
       change = std::max(change, std::abs(fitted(shift).value - k_n.value));
    }
-   if (k_n.value != 0) { k_n.relative_error += change / std::abs(k_n.value); }
+   if (k_n.value > 0) { k_n.relative_error += change / k_n.value; }
 }
 
 /// Two stuck solutions about an edge: where their shear is singular.

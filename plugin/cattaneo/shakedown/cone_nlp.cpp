@@ -364,7 +364,7 @@ private:
 /// One run of Ipopt. A convex programme needs no globalisation of the barrier parameter, and is
 /// twice as fast without; @a careful adds it.
 ConeSolution run_ipopt(const ConeProgramme &programme, const ConeSettings &settings,
-                       const ConeStart &start, bool careful)
+                       const ConeStart &start)
 {
    using namespace Ipopt;
    SmartPtr<ConeNlp> nlp = new ConeNlp(programme, settings, start);
@@ -386,7 +386,7 @@ ConeSolution run_ipopt(const ConeProgramme &programme, const ConeSettings &setti
       options->SetStringValue("jac_d_constant", "yes");
       options->SetStringValue("hessian_constant", "yes");
    }
-   options->SetStringValue("mu_strategy", careful ? "monotone" : "adaptive");
+   options->SetStringValue("mu_strategy", "adaptive");
    options->SetStringValue("adaptive_mu_globalization", "never-monotone-mode");
    if (start.mechanism.slip.size())
    {
@@ -430,11 +430,13 @@ ConeSolution run_ipopt(const ConeProgramme &programme, const ConeSettings &setti
 ConeSolution solve(const ConeProgramme &programme, const ConeSettings &settings,
                    const ConeStart &start)
 {
-   ConeSolution solution = run_ipopt(programme, settings, start, false);
-   if (solution.outcome == ConeOutcome::failed || solution.outcome == ConeOutcome::infeasible)
+   ConeSolution solution = run_ipopt(programme, settings, start);
+   const bool failed =
+      solution.outcome == ConeOutcome::failed || solution.outcome == ConeOutcome::infeasible;
+   if (failed && start.mechanism.slip.size() > 0) // multipliers that led astray
    {
       const int spent = solution.iterations;
-      solution = run_ipopt(programme, settings, {start.theta, start.r, {}}, true);
+      solution = run_ipopt(programme, settings, {start.theta, start.r, {}});
       solution.iterations += spent;
    }
    return solution;
