@@ -692,6 +692,25 @@ TEST(HalfSpace, HertzAndLubkinOfTwoHalfSpaces)
    EXPECT_NEAR(std::abs(state.q.segment(n, n).dot(r)) / torque, 1, 1e-3);
 }
 
+TEST(Pairing, NamesEachNodeOfTheOtherBodyOnce)
+{
+   const CondensedBody body = frame({-1, -0.4, 0, 0.7, 1.5}, 1);
+   for (const auto &[last, says] :
+        {std::pair(5, "partner 5"), {-1, "partner -1"}, {3, "partner 3"}})
+   {
+      expect_input_error(
+         [&, last = last] {
+            reduce(body, body, Pairing{{4, 3, 2, 1, last}, VectorXd::Zero(5)});
+         },
+         says + std::string(" in the pairing, must be each of 0 to 4 once"));
+   }
+   expect_input_error(
+      [&] {
+         reduce(body, body, Pairing{{3, 2, 1, 0}, VectorXd::Zero(4)});
+      },
+      "contact lines of 5 and 5 nodes with a pairing of 4");
+}
+
 TEST(HalfPlane, BadInputIsNamed)
 {
    const ContactLine line = straight_line(uneven, 2);
