@@ -131,6 +131,23 @@ bring_highs()
    mv "$target.part" "$target"
 }
 
+# What the Python package is built and tested with, in an environment of its own. Where it cannot be had
+# the package is not built, and its tests say that they are skipped.
+bring_python()
+{
+   local target=$PWD/$deps/python
+   [ -d "$target" ] || [ "$flavour$build_type" != serialRelease ] && return 0
+   command -v python3 >/dev/null || return 0
+   say "bringing nanobind, NumPy, SciPy, scikit-fem, matplotlib and pytest (for the tests of the Python package)"
+   mkdir -p "$deps"
+   rm -rf "$target.part"
+   { python3 -m venv "$target.part" && "$target.part/bin/python" -m pip install -q --disable-pip-version-check \
+      nanobind scikit-build-core numpy scipy scikit-fem matplotlib pytest &&
+      [ -f "$("$target.part/bin/python" -c 'import sysconfig; print(sysconfig.get_paths()["include"])')/Python.h" ]; } \
+      >"$deps/python.log" 2>&1 || { say "they could not be had ($deps/python.log says why)"; return 0; }
+   mv "$target.part" "$target"
+}
+
 # prepare TARGET…: everything up to built targets (all of them if none is named).
 prepare()
 {
@@ -140,6 +157,9 @@ prepare()
       printf '%s' "$packages" >"$deps/packages-$flavour"
    fi
    bring_mfem
+   if [ -d "$deps/python" ] && [ "$flavour$build_type" = serialRelease ]; then
+      CATTANEO_CMAKE_ARGS="${CATTANEO_CMAKE_ARGS:-} -DCATTANEO_PYTHON=ON -DPython_EXECUTABLE=$PWD/$deps/python/bin/python"
+   fi
    local configuration="$MFEM_DIR ${CATTANEO_CMAKE_ARGS:-}"
    if [ ! -f "$build/build.ninja" ] || [ "$(cat "$build/configured" 2>/dev/null)" != "$configuration" ]; then
       say "configuring ($build_type, MFEM at ${MFEM_DIR#"$PWD"/})"

@@ -4,6 +4,7 @@
 #include <cattaneo/condense/condense.hpp>
 #include <cattaneo/condense/straight_line.hpp>
 #include <cattaneo/exchange/nodal_statements.hpp>
+#include <cattaneo/exchange/outer_edges.hpp>
 #include <cattaneo/exchange/read_stiffness.hpp>
 #include <cattaneo/exchange/write_stiffness.hpp>
 #include <cattaneo/fretting/assessment.hpp>

@@ -5,6 +5,7 @@
 
 #include <cattaneo/condense/condense.hpp>
 #include <cattaneo/exchange/nodal_statements.hpp>
+#include <cattaneo/exchange/outer_edges.hpp>
 #include <cattaneo/exchange/read_stiffness.hpp>
 #include <cattaneo/exchange/write_stiffness.hpp>
 #include <cattaneo/friction/march.hpp>
@@ -677,6 +678,38 @@ TEST_F(Exchange, DamagedFilesAreReadOrRefused)
    }
    EXPECT_GT(refused, 100);
    EXPECT_GT(read, 20);
+}
+
+/// A square 0 1 2 3 and beside it, on its side 1 2, a triangle with the corner 4: five outer
+/// edges, the body on their left whichever way the elements turn; of order 2 with the middle
+/// between.
+TEST(OuterEdges, OfASquareAndATriangle)
+{
+   NodalStiffness::Places places = {
+      {0, {0, 0}}, {1, {1, 0}}, {2, {1, 1}}, {3, {0, 1}}, {4, {2, 0.5}}};
+   const std::vector<NodalStiffness::Nodes> expected = {{0, 1}, {3, 0}, {1, 4}, {2, 3}, {4, 2}};
+   EXPECT_EQ(outer_edges({{0, 1, 2, 3}, {1, 4, 2}}, places), expected);
+   EXPECT_EQ(outer_edges({{3, 2, 1, 0}, {2, 4, 1}}, places), expected);
+
+   const auto middle = [&](int node, int a, int b)
+   { places[node] = 0.5 * (places.at(a) + places.at(b)); };
+   middle(5, 1, 4);
+   middle(6, 4, 2);
+   middle(7, 2, 1);
+   const std::vector<NodalStiffness::Nodes> curved = {{2, 7, 1}, {1, 5, 4}, {4, 6, 2}};
+   std::vector<NodalStiffness::Nodes> found = outer_edges({{1, 4, 2, 5, 6, 7}}, places);
+   EXPECT_TRUE(std::is_permutation(found.begin(), found.end(), curved.begin(), curved.end()));
+   expect_input_error(
+      [&] {
+         outer_edges({{1, 4, 2, 6, 5, 7}}, places);
+      },
+      "element 0: node 6 is not between its corners 1 and 4");
+   expect_input_error(
+      [&] {
+         outer_edges({{0, 1, 2}, {0, 1}}, places);
+      },
+      "element 1 has 2 nodes");
+   expect_input_error([&] { outer_edges({{0, 1, 9}}, places); }, "has node 9");
 }
 
 } // namespace

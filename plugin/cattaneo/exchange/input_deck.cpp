@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cattaneo/exchange/input_deck.hpp>
 #include <cattaneo/exchange/line_reader.hpp>
+#include <cattaneo/exchange/outer_edges.hpp>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -29,7 +30,7 @@ struct Keyword
 struct PlaneElement
 {
    Formulation formulation;
-   std::size_t corners, nodes;
+   std::size_t nodes;
 
    static std::optional<PlaneElement> of(const std::string &type)
    {
@@ -38,7 +39,7 @@ struct PlaneElement
       const bool known = family == "CPE" || family == "CPS" || family == "CAX";
       if (!known || (nodes != 3 && nodes != 4 && nodes != 6 && nodes != 8)) { return {}; }
       return PlaneElement{family == "CAX" ? Formulation::axisymmetric : Formulation::plane,
-                          nodes > 4 ? nodes / 2 : nodes, nodes};
+                          nodes};
    }
 };
 
@@ -46,9 +47,9 @@ class DeckReader
 {
 public:
    InputDeck deck;
+   std::vector<NodalStiffness::Nodes> elements; ///< that have edges
 
    void read(const std::string &file, int depth);
-   void find_outer_edges();
 
 private:
    InputDeck::Card &new_card(Control control, const char *name);
@@ -68,7 +69,6 @@ private:
    Keyword keyword_;
    int parts_ = 0, loads_ = 0, displacements_ = 0;
    std::optional<Formulation> formulation_;
-   std::vector<std::pair<PlaneElement, std::vector<int>>> elements_;
 };
 
 /// A set that is named or listed several times has each node once, in the order of the file.
@@ -217,7 +217,7 @@ void DeckReader::element(LineReader &in)
       in.require(deck.places.count(node) == 1, "an element has node ", node,
                  ", which *NODE does not name, it must be there before");
    }
-   elements_.emplace_back(*shape, nodes);
+   elements.push_back(nodes);
 }
 
 NodalStiffness::Nodes DeckReader::nodes_of(const LineReader &in, std::string_view name) const
@@ -299,35 +299,6 @@ void DeckReader::support(const LineReader &in, const std::vector<std::string_vie
    }
 }
 
-void DeckReader::find_outer_edges()
-{
-   std::map<std::pair<int, int>, std::vector<std::vector<int>>> edges;
-   for (const auto &[shape, nodes] : elements_)
-   {
-      double area = 0; // twice, of its corners
-      for (std::size_t a = 0; a < shape.corners; ++a)
-      {
-         const Eigen::Vector2d &x = deck.places[nodes[a]],
-                               &y = deck.places[nodes[(a + 1) % shape.corners]];
-         area += x[0] * y[1] - x[1] * y[0];
-      }
-      for (std::size_t a = 0; a < shape.corners; ++a)
-      {
-         std::vector<int> edge{nodes[a], nodes[(a + 1) % shape.corners]};
-         if (shape.nodes > shape.corners)
-         {
-            edge.insert(edge.begin() + 1, nodes[shape.corners + a]);
-         }
-         if (area < 0) { std::reverse(edge.begin(), edge.end()); }
-         edges[std::minmax(edge.front(), edge.back())].push_back(edge);
-      }
-   }
-   for (const auto &[ends, shared] : edges)
-   {
-      if (shared.size() == 1) { deck.edges.push_back(shared.front()); }
-   }
-}
-
 } // namespace
 
 InputDeck read_input_deck(const std::string &file)
@@ -336,7 +307,7 @@ InputDeck read_input_deck(const std::string &file)
    reader.deck.file = file;
    reader.read(file, 0);
    require(!reader.deck.places.empty(), "file '", file, "': there is no *NODE, must be");
-   reader.find_outer_edges();
+   reader.deck.edges = outer_edges(reader.elements, reader.deck.places);
    for (auto &[name, nodes] : reader.deck.sets) { drop_repeated(nodes); }
    return std::move(reader.deck);
 }

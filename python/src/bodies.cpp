@@ -1,0 +1,608 @@
+#include "arrays.hpp"
+#include "module.hpp"
+#include <cattaneo/condense/condense.hpp>
+#include <cattaneo/condense/straight_line.hpp>
+#include <cattaneo/exchange/nodal_statements.hpp>
+#include <cattaneo/exchange/outer_edges.hpp>
+#include <cattaneo/exchange/read_stiffness.hpp>
+#include <cattaneo/exchange/write_stiffness.hpp>
+#include <cattaneo/reduced/interfaces.hpp>
+#include <limits>
+#include <nanobind/stl/string.h>
+#include <set>
+#include <sstream>
+
+// Stiffness matrices, their contact lines, and condensed bodies.
+
+namespace cattaneo::python
+{
+
+namespace
+{
+
+CATTANEO_ARGUMENT(Matrix,
+                  "scipy.sparse.sparray | scipy.sparse.spmatrix | numpy.typing.ArrayLike");
+CATTANEO_ARGUMENT(Elements, "None | numpy.typing.ArrayLike | "
+                            "collections.abc.Sequence[numpy.typing.ArrayLike]");
+CATTANEO_ARGUMENT(Nodes, "str | numpy.typing.ArrayLike");
+CATTANEO_ARGUMENT(Rows, "None | numpy.typing.ArrayLike");
+CATTANEO_ARGUMENT(LoadVectors, "None | collections.abc.Mapping[str, numpy.typing.ArrayLike]");
+CATTANEO_ARGUMENT(NodeSets, "None | collections.abc.Mapping[str, numpy.typing.ArrayLike]");
+CATTANEO_ARGUMENT(MaybeFile, "None | str | os.PathLike[str]");
+CATTANEO_ARGUMENT(Lines, "collections.abc.Sequence[ContactLine]");
+
+constexpr int most_rows = std::numeric_limits<int>::max() - 1;
+const std::vector<std::string> formulations = {"plane", "axisymmetric", "torsion"};
+
+/// A sparse or dense matrix of Python's, duplicates added up as scipy does.
+NodalStiffness::Matrix stiffness(nb::handle K)
+{
+   if (!nb::hasattr(K, "tocsr")) // dense
+   {
+      const Eigen::MatrixXd dense = matrix(K, "K");
+      require(dense.rows() == dense.cols() && dense.rows() > 0, "K has shape (", dense.rows(),
+              ", ", dense.cols(), "), must be square");
+      return dense.sparseView(0.0, 0.0);
+   }
+   const nb::object rows = K.attr("tocsr")().attr("copy")();
+   rows.attr("sum_duplicates")();
+   const Index size = integer(rows.attr("shape")[0]), columns = integer(rows.attr("shape")[1]),
+               entries = integer(rows.attr("nnz"));
+   require(size == columns && size > 0, "K has shape (", size, ", ", columns,
+           "), must be square");
+   require(entries <= most_rows, "K has ", entries, " entries, at most ", most_rows,
+           " are possible");
+   const Eigen::VectorXd values = vector(rows.attr("data"), "K.data", entries);
+   const auto column = indices(rows.attr("indices"), "K.indices", 0, size - 1),
+              start = indices(rows.attr("indptr"), "K.indptr", 0, entries);
+   require(static_cast<Index>(column.size()) == entries &&
+              static_cast<Index>(start.size()) == size + 1 && start.front() == 0 &&
+              start.back() == entries && std::is_sorted(start.begin(), start.end()),
+           "K.indptr does not fit K: it must have ", size + 1,
+           " entries that increase from 0 to ", entries);
+   return Eigen::Map<const NodalStiffness::Matrix>(size, size, entries, start.data(),
+                                                   column.data(), values.data());
+}
+
+/// Elements of one kind as rows of an array, or several such arrays.
+std::vector<NodalStiffness::Nodes> element_list(nb::handle elements, long most)
+{
+   std::vector<NodalStiffness::Nodes> all;
+   const auto add = [&](nb::handle block, const std::string &what)
+   {
+      const Eigen::MatrixXi nodes = whole_matrix(block, what, -1, -1, 0, most);
+      for (Index e = 0; e < nodes.rows(); ++e)
+      {
+         const Eigen::RowVectorXi row = nodes.row(e);
+         all.emplace_back(row.data(), row.data() + row.size());
+      }
+   };
+   const bool several =
+      (nb::isinstance<nb::list>(elements) || nb::isinstance<nb::tuple>(elements)) &&
+      nb::len(elements) > 0 &&
+      integer(nb::module_::import_("numpy").attr("ndim")(nb::object(elements[0]))) == 2;
+   if (!several)
+   {
+      add(elements, "elements");
+      return all;
+   }
+   for (std::size_t k = 0; k < nb::len(elements); ++k)
+   {
+      add(nb::object(elements[k]), "elements[" + std::to_string(k) + "]");
+   }
+   return all;
+}
+
+std::vector<int> node_numbers(const NodalStiffness &body)
+{
+   std::vector<int> nodes;
+   for (const auto &[node, place] : body.places) { nodes.push_back(node); }
+   return nodes;
+}
+
+/// A set by its name, numbers of nodes, or a mask over NodalStiffness.nodes.
+NodalStiffness::Nodes nodes_in(const NodalStiffness &body, nb::handle nodes)
+{
+   if (nb::isinstance<nb::str>(nodes)) { return body.nodes_of(text(nodes, "nodes")); }
+   if (!is_mask(nodes)) { return indices(nodes, "nodes", 0, most_rows); }
+   const std::vector<int> all = node_numbers(body);
+   NodalStiffness::Nodes found;
+   for (int k : indices(nodes, "nodes", 0, static_cast<long>(all.size()) - 1))
+   {
+      found.push_back(all[k]);
+   }
+   return found;
+}
+
+/// 1 and 2 for x and y, or r and z.
+std::vector<int> directions(const NodalStiffness &body, nb::handle direction)
+{
+   const bool plane = body.formulation == Formulation::plane;
+   const std::vector<std::string> words = plane ? std::vector<std::string>{"x", "y", "xy"}
+                                                : std::vector<std::string>{"r", "z", "rz"};
+   const std::size_t word = choice(direction, "direction", words);
+   return word == 2 ? std::vector<int>{1, 2} : std::vector<int>{static_cast<int>(word) + 1};
+}
+
+void fill(NodalStiffness &body, nb::handle places, nb::handle dofs, nb::handle elements,
+          nb::handle fixed, nb::handle loads, nb::handle sets)
+{
+   const int rows = static_cast<int>(body.K.rows());
+   const Eigen::MatrixXd at = matrix(places, "places", -1, 2);
+   const int nodes = static_cast<int>(at.rows());
+   require(nodes > 0, "places has shape (0, 2), must have a row for each node");
+   for (int node = 0; node < nodes; ++node) { body.places[node] = at.row(node); }
+   Eigen::MatrixXi row_of(nodes, 2);
+   if (dofs.is_none())
+   {
+      require(rows == 2 * nodes, "K has ", rows, " rows and places ", nodes,
+              " nodes: without dofs rows 2 i and 2 i + 1 are x and y of node i, there must be "
+              "twice as many rows as nodes");
+      for (int node = 0; node < nodes; ++node) { row_of.row(node) << 2 * node, 2 * node + 1; }
+   }
+   else { row_of = whole_matrix(dofs, "dofs", nodes, 2, -1, rows - 1); }
+   body.dofs.assign(rows, {-1, 0});
+   for (int node = 0; node < nodes; ++node)
+   {
+      for (int c : {0, 1})
+      {
+         const int row = row_of(node, c);
+         if (row < 0) { continue; }
+         NodeDof &dof = body.dofs[row];
+         require(dof.node < 0, "dofs[", node, ", ", c, "] is row ", row, ", which is dofs[",
+                 dof.node, ", ", dof.direction - 1,
+                 "] already; each row is of one node and direction");
+         dof = {node, c + 1};
+      }
+   }
+   for (int row = 0; row < rows; ++row)
+   {
+      require(body.dofs[row].node >= 0, "row ", row,
+              " of K is in no entry of dofs, must be a direction of a node");
+   }
+   if (!elements.is_none())
+   {
+      body.edges = outer_edges(element_list(elements, nodes - 1), body.places);
+   }
+   if (!fixed.is_none())
+   {
+      const std::vector<int> held = indices(fixed, "fixed", 0, rows - 1);
+      const std::set<int> sorted(held.begin(), held.end());
+      body.fixed.assign(sorted.begin(), sorted.end());
+   }
+   if (!loads.is_none())
+   {
+      if (!nb::isinstance<nb::dict>(loads))
+      {
+         refuse(loads, "loads", "a dict of arrays by names");
+      }
+      for (const auto &[key, values] : nb::borrow<nb::dict>(loads))
+      {
+         const std::string name = text(key, "a name in loads");
+         body.load_of(name, Control::force).values =
+            vector(values, "loads['" + name + "']", rows);
+      }
+   }
+   if (!sets.is_none())
+   {
+      if (!nb::isinstance<nb::dict>(sets)) { refuse(sets, "sets", "a dict of nodes by names"); }
+      for (const auto &[key, members] : nb::borrow<nb::dict>(sets))
+      {
+         std::string name = text(key, "a name in sets");
+         const std::vector<int> found = indices(members, "sets['" + name + "']", 0, nodes - 1);
+         for (char &letter : name)
+         {
+            letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
+         }
+         body.sets[name] = found;
+      }
+   }
+   body.validate();
+}
+
+nb::object sparse(const NodalStiffness::Matrix &K)
+{
+   const Index rows = K.rows(), entries = K.nonZeros();
+   return nb::module_::import_("scipy.sparse")
+      .attr("csr_array")(
+         nb::make_tuple(array(Eigen::VectorXd(K.coeffs())),
+                        array<Integers>(Eigen::VectorXi(
+                           Eigen::Map<const Eigen::VectorXi>(K.innerIndexPtr(), entries))),
+                        array<Integers>(Eigen::VectorXi(
+                           Eigen::Map<const Eigen::VectorXi>(K.outerIndexPtr(), rows + 1)))),
+         nb::arg("shape") = nb::make_tuple(rows, rows));
+}
+
+nb::list line_chains(const ContactLine &line)
+{
+   const char *const ends[] = {"unknown", "smooth", "corner", "symmetry"};
+   nb::list all;
+   for (const LineChain &chain : line.chains)
+   {
+      nb::dict each;
+      each["first"] = chain.first;
+      each["nodes"] = chain.nodes;
+      each["loop"] = chain.loop;
+      each["ends"] = nb::make_tuple(ends[static_cast<int>(chain.ends[0])],
+                                    ends[static_cast<int>(chain.ends[1])]);
+      all.append(each);
+   }
+   return all;
+}
+
+std::string brief(const NodalStiffness &body)
+{
+   std::ostringstream text;
+   text << "<NodalStiffness '" << body.name << "': " << name(body.formulation) << ", "
+        << body.places.size() << " nodes, " << body.K.rows() << " rows, " << body.fixed.size()
+        << " fixed";
+   if (body.supports_left_out) { text << ", supports left out by its program"; }
+   text << ", loads:";
+   for (const BodyLoad &load : body.loads) { text << " " << load.name; }
+   if (body.loads.empty()) { text << " none"; }
+   text << ", sets:";
+   for (const auto &[set, nodes] : body.sets)
+   {
+      text << " " << set << " (" << nodes.size() << ")";
+   }
+   if (body.sets.empty()) { text << " none"; }
+   text << (body.edges.empty() ? ", no elements known>" : ">");
+   return text.str();
+}
+
+void bind_stiffness(nb::module_ &m)
+{
+   using Self = NodalStiffness;
+   nb::class_<Self>(
+      m, "NodalStiffness",
+      "The stiffness of one elastic body or several, with supports and loads, of any "
+      "program.\n\n"
+      "Forces are per unit thickness in the plane, of the whole circumference about an axis. "
+      "Where nodes are asked for, the name of a set goes, numbers of nodes, or a mask over "
+      "`nodes`. A direction is 'x', 'y' or 'xy', about an axis 'r', 'z' or 'rz'.")
+      .def(
+         "__init__",
+         [](Self *self, Matrix K, Numbers places, Rows dofs, Elements elements,
+            Text formulation, Rows fixed, LoadVectors loads, NodeSets sets, Text name)
+         {
+            Self body;
+            body.name = text(name, "name");
+            body.formulation =
+               chosen<Formulation>(formulation, "formulation", {"plane", "axisymmetric"});
+            body.K = stiffness(K);
+            fill(body, places, dofs, elements, fixed, loads, sets);
+            new (self) Self(std::move(body));
+         },
+         arg("K"), arg("places"), arg("dofs") = nb::none(), arg("elements") = nb::none(),
+         nb::kw_only(), arg("formulation") = "plane", arg("fixed") = nb::none(),
+         arg("loads") = nb::none(), arg("sets") = nb::none(), arg("name") = "body",
+         "K: symmetric, of all rows, supported ones among them, not eliminated (n rows).\n"
+         "places: (nodes, 2), x and y (r and z) of node 0, 1, ….\n"
+         "dofs: (nodes, 2), rows of K of each node's two directions, -1: none. Left out: rows "
+         "2 i and 2 i + 1 are those of node i.\n"
+         "elements: (elements, 3, 4, 6, 7, 8 or 9) nodes, corners in order around it, then the "
+         "middles of the sides; a list of such arrays if there are several kinds. They tell "
+         "outer edges, so that contact_line() takes nodes in any order.\n"
+         "fixed: rows that are held. loads: forces on all rows by name. sets: nodes by name.")
+      .def_prop_rw(
+         "name", [](const Self &self) { return self.name; },
+         [](Self &self, Text name) { self.name = text(name, "name"); },
+         nb::for_setter(arg("name")))
+      .def_prop_ro("formulation", [](const Self &self)
+                   { return formulations[static_cast<int>(self.formulation)]; })
+      .def_prop_ro(
+         "K", [](const Self &self) { return sparse(self.K); },
+         nb::sig("def K(self) -> scipy.sparse.csr_array"), "a copy")
+      .def_prop_ro(
+         "nodes", [](const Self &self) { return array_of_indices(node_numbers(self)); },
+         "numbers of the nodes, increasing")
+      .def_prop_ro(
+         "places",
+         [](const Self &self)
+         {
+            Eigen::MatrixXd all(self.places.size(), 2);
+            Index k = 0;
+            for (const auto &[node, place] : self.places) { all.row(k++) = place; }
+            return array(std::move(all));
+         },
+         "(nodes, 2), in the order of `nodes`")
+      .def_prop_ro(
+         "dofs",
+         [](const Self &self)
+         {
+            std::map<int, Index> at;
+            for (const auto &[node, place] : self.places) { at.emplace(node, at.size()); }
+            Eigen::MatrixXi rows = Eigen::MatrixXi::Constant(at.size(), 2, -1);
+            for (std::size_t row = 0; row < self.dofs.size(); ++row)
+            {
+               rows(at.at(self.dofs[row].node), self.dofs[row].direction - 1) =
+                  static_cast<int>(row);
+            }
+            return array<Integers>(std::move(rows));
+         },
+         "(nodes, 2), rows of each node's directions in the order of `nodes`, -1: none")
+      .def_prop_ro(
+         "sets",
+         [](const Self &self)
+         {
+            nb::dict all;
+            for (const auto &[set, nodes] : self.sets)
+            {
+               all[set.c_str()] = array_of_indices(nodes);
+            }
+            return all;
+         },
+         "numbers of nodes by the name of the set, in capitals")
+      .def_prop_ro(
+         "fixed", [](const Self &self) { return array_of_indices(self.fixed); },
+         "rows that are held")
+      .def_prop_ro(
+         "loads",
+         [](const Self &self)
+         {
+            nb::dict all;
+            for (const BodyLoad &load : self.loads)
+            {
+               all[load.name.c_str()] = array(load.values);
+            }
+            return all;
+         },
+         "values on all rows by the name of the load: forces, or prescribed displacements")
+      .def(
+         "nodes_of",
+         [](const Self &self, Text set)
+         { return array_of_indices(self.nodes_of(text(set, "set"))); },
+         arg("set"))
+      .def(
+         "fix",
+         [](Self &self, Nodes nodes, Text direction)
+         {
+            const NodalStiffness::Nodes at = nodes_in(self, nodes);
+            for (int d : directions(self, direction)) { self.fix(at, d); }
+         },
+         arg("nodes"), arg("direction"), "Holds nodes.")
+      .def(
+         "add_forces",
+         [](Self &self, Text load, Nodes nodes, Text direction, Number force)
+         {
+            const NodalStiffness::Nodes at = nodes_in(self, nodes);
+            const double value = number(force, "force");
+            for (int d : directions(self, direction))
+            {
+               self.add_forces(text(load, "load"), at, d, value);
+            }
+         },
+         arg("load"), arg("nodes"), arg("direction"), arg("force"),
+         "Adds a force at each of the nodes to the load of that name.")
+      .def(
+         "add_displacement",
+         [](Self &self, Text load, Nodes nodes, Text direction, Number value)
+         {
+            const NodalStiffness::Nodes at = nodes_in(self, nodes);
+            const double moved = number(value, "value");
+            for (int d : directions(self, direction))
+            {
+               self.add_displacement(text(load, "load"), at, d, moved);
+            }
+         },
+         arg("load"), arg("nodes"), arg("direction"), arg("value"),
+         "Moves nodes by a value per unit multiplier, and fixes them.")
+      .def(
+         "add_traction",
+         [](Self &self, Text load, Nodes nodes, Numbers traction, Whole order)
+         {
+            self.add_traction(text(load, "load"), nodes_in(self, nodes),
+                              vector(traction, "traction", 2),
+                              static_cast<int>(whole(order, "order", 0, 8)));
+         },
+         arg("load"), arg("nodes"), arg("traction"), arg("order") = 0,
+         "A force (x, y) per length (area, about an axis) on the elements that contact_line() "
+         "finds.")
+      .def(
+         "add_supports",
+         [](Self &self, Text supports)
+         { add_supports(self, "supports", text(supports, "supports")); },
+         arg("supports"), "Supports in words, as in case files: \"FLOOR:y WALL:xy\".")
+      .def(
+         "add_loads",
+         [](Self &self, Text loads) { add_loads(self, "loads", text(loads, "loads")); },
+         arg("loads"), "Loads in words: \"P traction TOP 0 -1; D displacement-x END 0.01\".")
+      .def(
+         "parts",
+         [](const Self &self)
+         {
+            nb::list all;
+            for (NodalStiffness &part : self.parts()) { all.append(nb::cast(std::move(part))); }
+            return all;
+         },
+         nb::sig("def parts(self) -> list[NodalStiffness]"),
+         "The bodies that are connected to nothing, each called by a set that is all of it.")
+      .def(
+         "contact_line",
+         [](const Self &self, Nodes nodes, Whole order)
+         {
+            return self.contact_line(nodes_in(self, nodes),
+                                     static_cast<int>(whole(order, "order", 0, 8)));
+         },
+         arg("nodes"), arg("order") = 0,
+         "The trace of the body on nodes.\n\norder 0: on outer edges all of whose nodes are "
+         "among the given ones, in whatever order. order 1 to 8, where no elements are known: "
+         "nodes in order, the body on their left, elements of that order through them.")
+      .def("__repr__", &brief);
+
+   m.def(
+      "read_stiffness",
+      [](File matrix, MaybeFile places)
+      {
+         return read_stiffness(file(matrix, "matrix"),
+                               places.is_none() ? std::string() : file(places, "places"));
+      },
+      arg("matrix"), arg("places") = nb::none(),
+      "Reads a stiffness that CalculiX (.sti), ABAQUS (.mtx) or a script (.mtx, .npy, .npz "
+      "with "
+      ".dofs) wrote; `places`: the file that says where nodes are, if that is not beside it.");
+   m.def(
+      "nodal_stiffness",
+      [](Of<CondensedBody> body) { return nodal_stiffness(given(body, "body")); }, arg("body"),
+      "What a condensed body is to another program.");
+   m.def(
+      "write_abaqus",
+      [](File name, Of<Self> stiffness)
+      { write_abaqus(file(name), given(stiffness, "stiffness")); },
+      arg("file"), arg("stiffness"), "An .mtx with *USER ELEMENT, and an .inp beside it.");
+   m.def(
+      "write_matrix_market",
+      [](File name, Of<Self> stiffness)
+      { write_matrix_market(file(name), given(stiffness, "stiffness")); },
+      arg("file"), arg("stiffness"),
+      "An .mtx, and the .dofs beside it that read_stiffness() asks for.");
+}
+
+void bind_lines(nb::module_ &m)
+{
+   using Self = ContactLine;
+   nb::class_<Self>(
+      m, "ContactLine",
+      "The trace of a body on an interface: its contact nodes, in order with the body on the "
+      "left, and the boundary elements between them.")
+      .def("__len__", &Self::size)
+      .def_prop_ro("formulation", [](const Self &self)
+                   { return formulations[static_cast<int>(self.formulation)]; })
+      .def_prop_ro(
+         "positions",
+         [](const Self &self)
+         { return array(Eigen::MatrixXd(self.each(&LineNode::position))); },
+         "(n, 2)")
+      .def_prop_rw(
+         "tangents",
+         [](const Self &self) { return array(Eigen::MatrixXd(self.each(&LineNode::tangent))); },
+         [](Self &self, Numbers tangents)
+         {
+            const Eigen::MatrixXd all = matrix(tangents, "tangents", self.size(), 2);
+            for (Index i = 0; i < self.size(); ++i)
+            {
+               require(std::abs(all.row(i).norm() - 1) < 1e-9, "tangents[", i, "] has length ",
+                       all.row(i).norm(), ", must be a unit vector");
+               self.nodes[i].tangent = all.row(i);
+            }
+         },
+         nb::for_setter(arg("tangents")),
+         "(n, 2), unit vectors along the line, the body on their left; a copy, to be set as a "
+         "whole")
+      .def_prop_ro(
+         "normals",
+         [](const Self &self) { return array(Eigen::MatrixXd(self.each(&LineNode::normal))); },
+         "(n, 2), into the body")
+      .def_prop_ro(
+         "weights",
+         [](const Self &self) { return array(Eigen::VectorXd(self.each(&LineNode::weight))); },
+         "consistent: they sum to the length; about an axis to the area")
+      .def_prop_ro("arc_length", [](const Self &self)
+                   { return array(Eigen::VectorXd(self.each(&LineNode::arc_length))); })
+      .def_prop_ro(
+         "dofs",
+         [](const Self &self)
+         {
+            Eigen::MatrixXi all(self.size(), 2);
+            for (Index i = 0; i < self.size(); ++i)
+            {
+               all.row(i) << self.nodes[i].dofs[0], self.nodes[i].dofs[1];
+            }
+            return array<Integers>(std::move(all));
+         },
+         "(n, 2), rows of the stiffness")
+      .def_prop_ro(
+         "chains", &line_chains, nb::sig("def chains(self) -> list[dict[str, typing.Any]]"),
+         "nodes that follow each other: first, nodes, loop, and how the boundary goes "
+         "on at both ends")
+      .def("__repr__",
+           [](const Self &self)
+           {
+              double length = 0;
+              for (const LineNode &node : self.nodes) { length += node.weight; }
+              return "<ContactLine: " + std::to_string(self.size()) + " nodes in " +
+                     std::to_string(self.chains.size()) +
+                     (self.chains.size() == 1 ? " chain, " : " chains, ") +
+                     (self.formulation == Formulation::plane ? "length " : "area ") +
+                     exact_text(length) + ">";
+           });
+
+   m.def(
+      "joined",
+      [](Lines lines)
+      {
+         std::vector<ContactLine> all;
+         for (const nb::object &line : sequence(lines, "lines"))
+         {
+            all.push_back(given<Self>(line, "lines[" + std::to_string(all.size()) + "]"));
+         }
+         return joined(all);
+      },
+      arg("lines"), "The trace of a body with several interfaces, to be condensed to at once.");
+   m.def(
+      "straight_line",
+      [](Numbers grid, Whole order, Text formulation)
+      {
+         const Eigen::VectorXd ends = vector(grid, "grid");
+         return straight_line({ends.data(), ends.data() + ends.size()},
+                              static_cast<int>(whole(order, "order", 1, 8)),
+                              chosen<Formulation>(formulation, "formulation", formulations));
+      },
+      arg("grid"), arg("order") = 1, arg("formulation") = "plane",
+      "The trace of a body above y = 0 without a mesh: elements that end at the places "
+      "`grid`.");
+}
+
+void bind_condensed(nb::module_ &m)
+{
+   using Self = CondensedBody;
+   nb::class_<Self>(m, "CondensedBody",
+                    "A body reduced to its contact nodes: f = S u + sum of multiplier × load, "
+                    "with u = {v; w} and f = {q; p} in the frames of its contact line.")
+      .def_prop_rw(
+         "name", [](const Self &self) { return self.name; },
+         [](Self &self, Text name) { self.name = text(name, "name"); },
+         nb::for_setter(arg("name")), "what sentences call it")
+      .def_prop_ro(
+         "line", [](const Self &self) { return self.line; }, "a copy")
+      .def_prop_ro("S", viewed(&Self::S), "(2 n, 2 n), symmetric")
+      .def_prop_ro("H", viewed(&Self::H), "loads by loads with the contact clamped")
+      .def_prop_ro(
+         "held", [](const Self &self) { return array_of_indices(self.held); },
+         "rows of S that supports hold")
+      .def_ro("rigid_modes", &Self::rigid_modes, "rigid motions that are free")
+      .def_ro("counters", &Self::counters)
+      .def(
+         "recover",
+         [](Self &self, Numbers u, Numbers multipliers)
+         {
+            return array(self.recover(
+               vector(u, "u", self.S.rows()),
+               vector(multipliers, "multipliers", static_cast<Index>(self.patterns.size()))));
+         },
+         arg("u"), arg("multipliers"),
+         "Displacements of all rows for those of the contact nodes {v; w} and load "
+         "multipliers.")
+      .def("error_estimate", &Self::error_estimate,
+           "Relative error of S from round-off, from above; a few solves.")
+      .def("__repr__",
+           [](const Self &self)
+           {
+              std::string loads;
+              for (const LoadPattern &each : self.patterns) { loads += " " + each.name; }
+              return "<CondensedBody '" + self.name + "': " + std::to_string(self.line.size()) +
+                     " contact nodes, " + std::to_string(self.rigid_modes) +
+                     " free rigid motions, loads:" + (loads.empty() ? " none" : loads) + ">";
+           });
+}
+
+} // namespace
+
+void bind_bodies(nb::module_ &m)
+{
+   bind_stiffness(m);
+   bind_lines(m);
+   bind_condensed(m);
+}
+
+} // namespace cattaneo::python

@@ -1,0 +1,463 @@
+#include "arrays.hpp"
+#include "module.hpp"
+#include <cattaneo/fretting/assessment.hpp>
+#include <cattaneo/fretting/calibration.hpp>
+#include <cattaneo/fretting/corner.hpp>
+#include <cattaneo/fretting/edge_crack.hpp>
+#include <cattaneo/fretting/hertz_field.hpp>
+#include <cattaneo/fretting/measures.hpp>
+#include <cattaneo/fretting/yield.hpp>
+#include <functional>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+#include <sstream>
+
+// Near-edge fields, closed forms and criteria of fretting. Functions of numbers take arrays
+// too, entry by entry, as NumPy's do.
+
+namespace cattaneo::python
+{
+
+namespace
+{
+
+using namespace fretting;
+
+CATTANEO_ARGUMENT(Entries, "float | numpy.typing.NDArray[numpy.float64]");
+
+using Names = std::vector<const char *>;
+
+/// f of each entry of the arguments, broadcast; a float if all are numbers. f gives `columns`
+/// values, which are the last dimension of the result if they are several.
+nb::object each_entry(const std::vector<nb::object> &arguments, const Names &names,
+                      std::size_t columns,
+                      const std::function<void(const double *, double *)> &f)
+{
+   const nb::module_ numpy = nb::module_::import_("numpy");
+   nb::list all;
+   for (std::size_t k = 0; k < arguments.size(); ++k)
+   {
+      const nb::object &argument = arguments[k];
+      if (PyFloat_CheckExact(argument.ptr()) || PyLong_CheckExact(argument.ptr()))
+      {
+         all.append(numpy.attr("float64")(number(argument, names[k])));
+         continue;
+      }
+      // Checked as one row, so that an entry is named.
+      const nb::object shape = numpy.attr("shape")(argument);
+      const nb::object flat = nb::len(shape) == 0 ? argument : numpy.attr("ravel")(argument);
+      const Eigen::VectorXd values = nb::len(shape) == 0
+                                        ? Eigen::VectorXd::Constant(1, number(flat, names[k]))
+                                        : vector(flat, names[k]);
+      all.append(array(values).attr("reshape")(shape));
+   }
+   nb::object same;
+   try
+   {
+      same = numpy.attr("broadcast_arrays")(*nb::tuple(all));
+   }
+   catch (nb::python_error &error)
+   {
+      if (!error.matches(PyExc_ValueError)) { throw; }
+      throw InputError(std::string("shapes of ") + names.front() + " to " + names.back() +
+                       " do not fit each other, must broadcast");
+   }
+   const nb::object shape = same[0].attr("shape");
+   const nb::object rows = numpy.attr("stack")(same, nb::arg("axis") = -1); // (…, arguments)
+   const Eigen::MatrixXd table =
+      matrix(rows.attr("reshape")(-1, static_cast<Index>(arguments.size())), "arguments");
+   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> result(
+      table.rows(), static_cast<Index>(columns));
+   for (Index i = 0; i < table.rows(); ++i)
+   {
+      const Eigen::RowVectorXd row = table.row(i);
+      f(row.data(), result.row(i).data());
+   }
+   if (nb::len(shape) == 0 && columns == 1) { return nb::cast(result(0, 0)); }
+   nb::list sizes;
+   for (const nb::handle size : shape) { sizes.append(size); }
+   if (columns > 1) { sizes.append(columns); }
+   return array(std::move(result)).attr("reshape")(nb::tuple(sizes));
+}
+
+template <class>
+using AnyNumbers = Numbers;
+
+template <class... Each, std::size_t... I>
+void define(nb::module_ &m, const char *name, double (*f)(Each...),
+            const std::array<const char *, sizeof...(Each)> &names, const char *doc,
+            std::index_sequence<I...>)
+{
+   m.def(
+      name,
+      [f, names](AnyNumbers<Each>... values)
+      {
+         return nb::borrow<Entries>(
+            each_entry({values...}, Names(names.begin(), names.end()), 1,
+                       [f](const double *x, double *y) { *y = f(x[I]...); }));
+      },
+      arg(names[I])..., doc);
+}
+/// A function of numbers.
+template <class... Each>
+void define(nb::module_ &m, const char *name, double (*f)(Each...),
+            const std::array<const char *, sizeof...(Each)> &names, const char *doc)
+{
+   define(m, name, f, names, doc, std::index_sequence_for<Each...>());
+}
+
+template <class... Each, std::size_t... I>
+void define_of_edge(nb::module_ &m, const char *name, double (*f)(const Edge &, Each...),
+                    const std::array<const char *, sizeof...(Each)> &names, const char *doc,
+                    std::index_sequence<I...>)
+{
+   m.def(
+      name,
+      [f, names](Of<Edge> edge, AnyNumbers<Each>... values)
+      {
+         const Edge of = given(edge, "edge");
+         return nb::borrow<Entries>(
+            each_entry({values...}, Names(names.begin(), names.end()), 1,
+                       [f, of](const double *x, double *y) { *y = f(of, x[I]...); }));
+      },
+      arg("edge"), arg(names[I])..., doc);
+}
+/// A function of an edge and numbers.
+template <class... Each>
+void define_of_edge(nb::module_ &m, const char *name, double (*f)(const Edge &, Each...),
+                    const std::array<const char *, sizeof...(Each)> &names, const char *doc)
+{
+   define_of_edge(m, name, f, names, doc, std::index_sequence_for<Each...>());
+}
+
+void bind_near_edge(nb::module_ &m)
+{
+   nb::class_<Edge>(
+      m, "Edge",
+      "What the contact edge knows of the contact at one instant: p = k_n √t, fully "
+      "stuck q = k_t/√t at the distance t from the edge.")
+      .def(
+         "__init__",
+         [](Edge *self, Number k_n, Number k_t, Number friction)
+         {
+            const Edge edge{number(k_n, "k_n"), number(k_t, "k_t"),
+                            number(friction, "friction")};
+            edge.validate();
+            new (self) Edge(edge);
+         },
+         arg("k_n"), arg("k_t"), arg("friction"))
+      .def_ro("k_n", &Edge::k_n)
+      .def_ro("k_t", &Edge::k_t)
+      .def_ro("friction", &Edge::friction)
+      .def("__repr__",
+           [](const Edge &self)
+           {
+              return "Edge(k_n=" + exact_text(self.k_n) + ", k_t=" + exact_text(self.k_t) +
+                     ", friction=" + exact_text(self.friction) + ")";
+           });
+   m.def(
+      "slip_zone", [](Of<Edge> edge) { return slip_zone(given(edge, "edge")); }, arg("edge"),
+      "2 |K_T|/(f K_N)");
+   m.def(
+      "edge_stress", [](Of<Edge> edge) { return edge_stress(given(edge, "edge")); },
+      arg("edge"), "σ_xx at the contact edge");
+   define_of_edge(m, "pressure", &pressure, {"t"}, "at t; 0 outside the contact");
+   define_of_edge(m, "shear_traction", &shear_traction, {"t"}, "at t under partial slip");
+   m.def(
+      "stress",
+      [](Of<Edge> edge, Numbers t, Numbers y)
+      {
+         const Edge of = given(edge, "edge");
+         return nb::borrow<Reals>(each_entry({t, y}, {"t", "y"}, 3,
+                                             [&](const double *x, double *s)
+                                             {
+                                                const InPlaneStress at = stress(of, x[0], x[1]);
+                                                s[0] = at.xx;
+                                                s[1] = at.yy;
+                                                s[2] = at.xy;
+                                             }));
+      },
+      arg("edge"), arg("t"), arg("y"), "xx, yy, xy in the near-edge field, y >= 0");
+   define_of_edge(m, "reversed_slip_zone", &reversed_slip_zone, {"k_t_range"}, "ΔK_T/(f K_N)");
+   define_of_edge(m, "edge_stress_range", &edge_stress_range, {"k_t_range"},
+                  "range of σ_xx at the contact edge");
+   define(m, "mode_two_range", &mode_two_range, {"k_t_range"}, "√(2π) ΔK_T");
+   define_of_edge(m, "slip_energy_density", &slip_energy_density, {"k_t_range", "modulus", "t"},
+                  "frictional energy per area and cycle at t");
+   define(m, "slip_energy_max", &slip_energy_max, {"k_t_range", "modulus"}, "√3 ΔK_T²/E*");
+   define_of_edge(m, "slip_energy_total", &slip_energy_total, {"k_t_range", "modulus"},
+                  "per cycle, edge and thickness");
+   define(m, "hertz_slip_energy", &hertz_slip_energy,
+          {"friction", "load", "load_ratio", "modulus"},
+          "per cycle and thickness of a Hertz contact under ±Q, load_ratio Q/fP");
+   define(m, "crack_factor", &crack_factor, {"ratio"}, "κ(c/d): K_I = 2 K_T κ(c/d)");
+   define(m, "power_law_factor", &power_law_factor, {"exponent"}, "h(λ) of an edge crack");
+   define_of_edge(m, "crack_intensity", &crack_intensity, {"depth"},
+                  "K_I of a crack at the contact edge");
+   define_of_edge(m, "crack_intensity_range", &crack_intensity_range, {"k_t_range", "depth"},
+                  "range of K_I in the steady cycle");
+}
+
+void bind_calibration(nb::module_ &m)
+{
+   define(m, "hertz_k_n", &hertz_k_n, {"load", "half_width"}, "K_N of a Hertz contact");
+   define(m, "symmetric_k_n", &symmetric_k_n, {"half_width", "load_rate"},
+          "of any symmetric contact, load_rate dP/da");
+   define(m, "edge_gradient", &edge_gradient, {"radius", "modulus"}, "E*/R");
+   m.def(
+      "contact_modulus",
+      [](Number young, Number poisson, Flag plane_stress)
+      {
+         return contact_modulus(number(young, "young"), number(poisson, "poisson"),
+                                flag(plane_stress, "plane_stress"));
+      },
+      arg("young"), arg("poisson"), arg("plane_stress") = false, "E* of two similar bodies");
+
+   nb::class_<HertzContact>(m, "HertzContact")
+      .def_ro("half_width", &HertzContact::half_width)
+      .def_ro("peak_pressure", &HertzContact::peak_pressure)
+      .def_ro("k_n", &HertzContact::k_n)
+      .def("__repr__",
+           [](const HertzContact &self)
+           {
+              return "HertzContact(half_width=" + exact_text(self.half_width) +
+                     ", peak_pressure=" + exact_text(self.peak_pressure) +
+                     ", k_n=" + exact_text(self.k_n) + ")";
+           });
+   m.def(
+      "hertz_contact",
+      [](Number load, Number radius, Number modulus)
+      {
+         return hertz_contact(number(load, "load"), number(radius, "radius"),
+                              number(modulus, "modulus"));
+      },
+      arg("load"), arg("radius"), arg("modulus"), "Load per thickness, relative radius, E*.");
+   nb::class_<FlatRoundedContact>(m, "FlatRoundedContact")
+      .def_ro("half_width", &FlatRoundedContact::half_width)
+      .def_ro("k_n", &FlatRoundedContact::k_n)
+      .def(
+         "pressure",
+         [](const FlatRoundedContact &self, Numbers x)
+         {
+            return nb::borrow<Entries>(each_entry(
+               {x}, {"x"}, 1, [&](const double *at, double *p) { *p = self.pressure(*at); }));
+         },
+         arg("x"), "at x from the centre");
+   m.def(
+      "flat_rounded_contact",
+      [](Number load, Number radius, Number flat, Number modulus)
+      {
+         return flat_rounded_contact(number(load, "load"), number(radius, "radius"),
+                                     number(flat, "flat"), number(modulus, "modulus"));
+      },
+      arg("load"), arg("radius"), arg("flat"), arg("modulus"),
+      "A pad with a flat of half-width `flat` and rounded edges.");
+   m.def(
+      "shear_intensities",
+      [](Number half_width, Number shear, Number bulk_difference)
+      {
+         const ShearIntensities k =
+            shear_intensities(number(half_width, "half_width"), number(shear, "shear"),
+                              number(bulk_difference, "bulk_difference"));
+         return nb::make_tuple(k.trailing, k.leading);
+      },
+      arg("half_width"), arg("shear"), arg("bulk_difference") = 0.0,
+      nb::sig("def shear_intensities(half_width: float, shear: float, bulk_difference: float = "
+              "0.0) -> tuple[float, float]"),
+      "K_T of the trailing and of the leading edge.");
+   m.def(
+      "hertz_stress",
+      [](Number friction, Number load_ratio, Numbers x, Numbers y)
+      {
+         const double f = number(friction, "friction"),
+                      ratio = number(load_ratio, "load_ratio");
+         return nb::borrow<Reals>(each_entry({x, y}, {"x", "y"}, 3,
+                                             [&](const double *at, double *s)
+                                             {
+                                                const InPlaneStress stress =
+                                                   hertz_stress(f, ratio, at[0], at[1]);
+                                                s[0] = stress.xx;
+                                                s[1] = stress.yy;
+                                                s[2] = stress.xy;
+                                             }));
+      },
+      arg("friction"), arg("load_ratio"), arg("x"), arg("y"),
+      "xx, yy, xy under a Hertz contact in partial slip, in units of p0 and a.");
+   define(m, "first_yield_load", &first_yield_load, {"friction", "constraint"},
+          "K_N √d/k at first yield of the slip zone");
+   define(m, "full_yield_load", &full_yield_load, {"friction"}, "… when all of it yields");
+   m.def(
+      "out_of_plane_constraint",
+      [](Number poisson, Flag plane_stress)
+      {
+         return out_of_plane_constraint(number(poisson, "poisson"),
+                                        flag(plane_stress, "plane_stress"));
+      },
+      arg("poisson"), arg("plane_stress") = false);
+}
+
+void bind_corner(nb::module_ &m)
+{
+   nb::class_<CornerMode>(m, "CornerMode",
+                          "One of Williams' eigensolutions of a bonded corner.")
+      .def_ro("eigenvalue", &CornerMode::eigenvalue, "singular below 1")
+      .def_ro("pressure", &CornerMode::pressure)
+      .def_ro("shear", &CornerMode::shear)
+      .def_prop_ro("traction_ratio", &CornerMode::traction_ratio)
+      .def("__repr__", [](const CornerMode &self)
+           { return "<CornerMode: eigenvalue " + exact_text(self.eigenvalue) + ">"; });
+   nb::class_<CornerModes>(m, "CornerModes")
+      .def_ro("one", &CornerModes::one)
+      .def_prop_ro(
+         "two", [](const CornerModes &self) { return self.two; },
+         "None if there is no second one");
+   m.def(
+      "corner_modes",
+      [](Number pad_angle, Number body_angle)
+      {
+         return corner_modes(
+            Corner{number(pad_angle, "pad_angle"), number(body_angle, "body_angle")});
+      },
+      arg("pad_angle"), arg("body_angle"),
+      "Angles in radians that a pad and a body of the same material fill.");
+   m.def(
+      "rigid_corner_modes",
+      [](Number pad_angle, Number poisson, Flag plane_stress)
+      {
+         return corner_modes(RigidCorner{number(pad_angle, "pad_angle"),
+                                         number(poisson, "poisson"),
+                                         flag(plane_stress, "plane_stress")});
+      },
+      arg("pad_angle"), arg("poisson"), arg("plane_stress") = false,
+      "Of an elastic pad on a rigid body.");
+   nb::class_<CornerFit>(m, "CornerFit")
+      .def_ro("k_one", &CornerFit::k_one)
+      .def_ro("k_two", &CornerFit::k_two)
+      .def_ro("modes", &CornerFit::modes)
+      .def_ro("least_friction", &CornerFit::least_friction);
+   m.def(
+      "fit_corner",
+      [](Of<CornerModes> modes, Of<EdgeTractions> tractions)
+      { return fit_corner(given(modes, "modes"), given(tractions, "tractions")); },
+      arg("modes"), arg("tractions"));
+}
+
+void bind_criteria(nb::module_ &m)
+{
+   using Self = FatigueMaterial;
+   nb::class_<Self>(m, "FatigueMaterial", "What the criteria need of a material: N, mm, MPa.")
+      .def_ro("name", &Self::name)
+      .def_ro("young", &Self::young)
+      .def_ro("poisson", &Self::poisson)
+      .def_ro("threshold", &Self::threshold, "ΔK_th, MPa√mm")
+      .def_prop_ro("fatigue_limit", [](const Self &self)
+                   { return nb::make_tuple(self.fatigue_limit.low, self.fatigue_limit.high); })
+      .def_prop_ro("critical_length", &critical_length, "a0, mm")
+      .def("__repr__",
+           [](const Self &self) { return "<FatigueMaterial '" + self.name + "'>"; });
+   m.def(
+      "read_materials", [](File name) { return read_materials(file(name)); }, arg("file"));
+   m.def(
+      "find_material",
+      [](File materials, Text name) {
+         return find_material(read_materials(file(materials, "materials")), text(name, "name"));
+      },
+      arg("materials"), arg("name"), "materials: a file of them.");
+
+   nb::class_<FrettingReport> report(m, "FrettingReport", "What the criteria say of an edge.");
+   report.def_ro("k_t_range", &FrettingReport::k_t_range)
+      .def_ro("slip_zone", &FrettingReport::slip_zone)
+      .def_ro("edge_stress", &FrettingReport::edge_stress)
+      .def_ro("edge_stress_range", &FrettingReport::edge_stress_range)
+      .def_ro("yield_ratio_first", &FrettingReport::yield_ratio_first)
+      .def_ro("yield_ratio_full", &FrettingReport::yield_ratio_full)
+      .def_ro("critical_length", &FrettingReport::critical_length)
+      .def_ro("k_i_max", &FrettingReport::k_i_max)
+      .def_ro("k_i_min", &FrettingReport::k_i_min)
+      .def_ro("abscissa", &FrettingReport::abscissa)
+      .def_ro("ordinate", &FrettingReport::ordinate)
+      .def_ro("threshold_ordinate", &FrettingReport::threshold_ordinate)
+      .def_prop_ro("verdict",
+                   [](const FrettingReport &self) { return to_string(self.threshold.verdict); })
+      .def_prop_ro("arrest_depth",
+                   [](const FrettingReport &self) { return self.threshold.arrest_depth; })
+      .def_ro("mode_two_range", &FrettingReport::mode_two_range)
+      .def_ro("mode_two_utilisation", &FrettingReport::mode_two_utilisation)
+      .def_ro("energy_max", &FrettingReport::energy_max)
+      .def_ro("energy_total", &FrettingReport::energy_total)
+      .def_prop_ro("trust", [](const FrettingReport &self) { return to_string(self.trust); })
+      .def_prop_ro(
+         "validity",
+         [](const FrettingReport &self)
+         {
+            nb::list all;
+            for (const Validity &each : self.validity)
+            {
+               all.append(nb::make_tuple(to_string(each.trust), each.text));
+            }
+            return all;
+         },
+         nb::sig("def validity(self) -> list[tuple[str, str]]"))
+      .def("__repr__",
+           [](const FrettingReport &self)
+           {
+              std::ostringstream text;
+              text << "<FrettingReport: crack " << to_string(self.threshold.verdict)
+                   << ", slip zone " << self.slip_zone << " mm, edge stress range "
+                   << self.edge_stress_range << " MPa, trust " << to_string(self.trust) << ">";
+              return text.str();
+           });
+   const std::vector<std::string> criteria = {"open", "range", "half_range"};
+   m.def(
+      "assess",
+      [criteria](Of<Edge> edge, Of<Self> material, Number stress_ratio, nb::object bulk_stress,
+                 Number stress_gradient, Flag plane_stress, Number half_width,
+                 Number rounded_width, Text criterion)
+      {
+         FrettingProblem problem;
+         problem.crack = {given(edge, "edge"), number(stress_ratio, "stress_ratio"),
+                          bulk_stress.is_none() ? 0.0 : number(bulk_stress, "bulk_stress"),
+                          number(stress_gradient, "stress_gradient")};
+         problem.material = given(material, "material");
+         problem.plane_stress = flag(plane_stress, "plane_stress");
+         problem.half_width = number(half_width, "half_width");
+         problem.rounded_width = number(rounded_width, "rounded_width");
+         problem.bulk_known = !bulk_stress.is_none();
+         FrettingSettings settings;
+         settings.criterion = chosen<Criterion>(criterion, "criterion", criteria);
+         return assess(problem, settings);
+      },
+      arg("edge"), arg("material"), nb::kw_only(), arg("stress_ratio") = -1.0,
+      arg("bulk_stress") = nb::none(), arg("stress_gradient") = 0.0,
+      arg("plane_stress") = false, arg("half_width") = 0.0, arg("rounded_width") = 0.0,
+      arg("criterion") = "open",
+      nb::sig(
+         "def assess(edge: Edge, material: FatigueMaterial, *, stress_ratio: float = -1.0, "
+         "bulk_stress: None | float = None, stress_gradient: float = 0.0, plane_stress: bool "
+         "= False, half_width: float = 0.0, rounded_width: float = 0.0, criterion: str = "
+         "'open') -> FrettingReport"),
+      "Judges a contact edge at peak load; N, mm, MPa.");
+   m.def(
+      "threshold_ordinate",
+      [criteria](Text criterion, Number friction, Number abscissa, Number stress_ratio)
+      {
+         return threshold_ordinate(chosen<Criterion>(criterion, "criterion", criteria),
+                                   number(friction, "friction"), number(abscissa, "abscissa"),
+                                   number(stress_ratio, "stress_ratio"));
+      },
+      arg("criterion"), arg("friction"), arg("abscissa"), arg("stress_ratio") = -1.0);
+}
+
+} // namespace
+
+void bind_fretting(nb::module_ &m)
+{
+   nb::module_ of = m.def_submodule("fretting", "Near-edge fields and criteria of fretting.");
+   bind_near_edge(of);
+   bind_calibration(of);
+   bind_corner(of);
+   bind_criteria(of);
+}
+
+} // namespace cattaneo::python

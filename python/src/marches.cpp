@@ -1,0 +1,470 @@
+#include "arrays.hpp"
+#include "module.hpp"
+#include "watch.hpp"
+#include <cattaneo/friction/history_statements.hpp>
+#include <cattaneo/friction/march.hpp>
+#include <limits>
+#include <nanobind/stl/string.h>
+#include <sstream>
+
+// Marches along load histories.
+
+namespace cattaneo::python
+{
+
+namespace
+{
+
+CATTANEO_ARGUMENT(Points, "collections.abc.Sequence[collections.abc.Mapping[str, float]]");
+CATTANEO_ARGUMENT(MaybeWhole, "None | int");
+CATTANEO_ARGUMENT(MaybeNumbers, "None | numpy.typing.ArrayLike");
+CATTANEO_ARGUMENT(Observer, "None | collections.abc.Callable[[ContactState], object]");
+
+/// A report with the state it ended in, and the problem it is of.
+struct March
+{
+   nb::object problem;
+   std::vector<std::string> loads;
+   MarchReport report;
+   ContactState state;
+   std::vector<ContactState> states; ///< of all increments, if they were to be kept
+
+   /// A column for each increment.
+   template <class Value>
+   Eigen::VectorXd each(Value value) const
+   {
+      Eigen::VectorXd all(report.increments.size());
+      for (Index k = 0; k < all.size(); ++k)
+      {
+         all[k] = static_cast<double>(std::invoke(value, report.increments[k]));
+      }
+      return all;
+   }
+   nb::dict each_load(Eigen::VectorXd IncrementRecord::*values) const
+   {
+      nb::dict all;
+      for (std::size_t l = 0; l < loads.size(); ++l)
+      {
+         all[loads[l].c_str()] =
+            array(each([&](const IncrementRecord &record) { return (record.*values)[l]; }));
+      }
+      return all;
+   }
+};
+
+LoadHistory history_through(const ReducedProblem &problem, nb::handle points,
+                            nb::handle cycle_start, nb::handle cycles, nb::handle times)
+{
+   std::vector<NamedLoads> loads;
+   for (const nb::object &point : sequence(points, "points"))
+   {
+      loads.push_back(named_loads(point, "points[" + std::to_string(loads.size()) + "]"));
+   }
+   require(loads.size() >= 2, "points has ", loads.size(),
+           " entries, must have two at least: where the history starts and where it goes");
+   LoadHistory history = LoadHistory::through(problem, loads);
+   const auto count = static_cast<long>(loads.size());
+   if (!times.is_none()) { history.times = vector(times, "times", count); }
+   if (!cycle_start.is_none())
+   {
+      history.cycle_start = static_cast<int>(whole(cycle_start, "cycle_start", 0, count - 2));
+      history.cycles = static_cast<int>(
+         whole(cycles, "cycles", 1, std::numeric_limits<int>::max() / count - 1));
+   }
+   else
+   {
+      require(whole(cycles, "cycles", 1, std::numeric_limits<int>::max()) == 1,
+              "cycles needs cycle_start, the point at which the cycle starts");
+   }
+   history.validate(static_cast<int>(problem.patterns.size()));
+   return history;
+}
+
+LoadHistory any_history(const ReducedProblem &problem, nb::handle history)
+{
+   if (nb::isinstance<LoadHistory>(history)) { return given<LoadHistory>(history, "history"); }
+   if (!nb::isinstance<nb::list>(history) && !nb::isinstance<nb::tuple>(history))
+   {
+      refuse(history, "history", "a LoadHistory or a list of loads by names");
+   }
+   return history_through(problem, history, nb::none(), nb::cast(1), nb::none());
+}
+
+void warn_of(const MarchReport &report)
+{
+   const bool fine =
+      report.status == FrictionStatus::converged || report.status == FrictionStatus::stopped;
+   if (!fine)
+   {
+      warn(std::string("march: ") + name(report.status) + " at time " +
+           exact_text(report.event_time) + ": " + report.message);
+   }
+   for (const CutOffContact &end : report.cut_off) { warn("march: " + end.message()); }
+}
+
+nb::object march_from(nb::handle problem, nb::handle history, nb::handle state,
+                      const MarchSettings &given_settings, nb::handle keep_states,
+                      nb::handle observer, nb::handle progress, nb::handle stop)
+{
+   const ReducedProblem &of = given<ReducedProblem>(problem, "problem");
+   MarchSettings settings = given_settings;
+   March march{nb::borrow(problem), {}, {}, {}, {}};
+   for (const LoadPattern &each : of.patterns) { march.loads.push_back(each.name); }
+   const LoadHistory loads = any_history(of, history);
+   loads.validate(static_cast<int>(of.patterns.size()));
+   march.state =
+      state.is_none() ? ContactState::virgin(of) : given<ContactState>(state, "state");
+   const bool keep = flag(keep_states, "keep_states");
+   if (!observer.is_none() && PyCallable_Check(observer.ptr()) == 0)
+   {
+      refuse(observer, "observer", "a function or None");
+   }
+   Watch watch(progress, stop);
+   settings.monitor = watch.monitor();
+   const MarchObserver each = [&](const ContactState &at, const IncrementRecord &)
+   {
+      if (keep) { march.states.push_back(at); }
+      if (observer.is_none()) { return; }
+      const nb::gil_scoped_acquire lock;
+      observer(nb::cast(ContactState(at)));
+   };
+   const MarchObserver watched = keep || !observer.is_none() ? each : MarchObserver();
+   const ReducedProblem copy = of; // that no other thread changes meanwhile
+   march.report =
+      unlocked([&] { return cattaneo::march(copy, loads, march.state, settings, watched); });
+   nb::object result = nb::cast(std::move(march));
+   warn_of(nb::inst_ptr<March>(result)->report);
+   return result;
+}
+
+std::string brief(const March &self)
+{
+   const MarchReport &report = self.report;
+   std::ostringstream text;
+   text << "<MarchReport: " << name(report.status);
+   if (!report.message.empty()) { text << " (" << report.message << ")"; }
+   text << " at time " << report.time << ", " << report.counters.increments << " increments, "
+        << report.cycles.size() << " cycles";
+   if (report.steady_cycle > 0) { text << ", steady from cycle " << report.steady_cycle; }
+   text << "\n  loads:";
+   for (std::size_t l = 0; l < self.loads.size(); ++l)
+   {
+      text << " " << self.loads[l] << " = " << self.state.multipliers[static_cast<Index>(l)];
+   }
+   text << "\n  normal force " << self.state.p.sum() << ", tangential force "
+        << self.state.q.sum() << ", dissipation " << self.state.dissipation
+        << "\n  largest residual " << report.largest_residual << ", energy imbalance "
+        << report.energy_imbalance << ", error of advancing contact " << report.advance_error;
+   if (report.not_unique)
+   {
+      text << "\n  not unique from time " << report.not_unique->time << ": "
+           << report.not_unique->message;
+   }
+   for (const CutOffContact &end : report.cut_off) { text << "\n  " << end.message(); }
+   text << ">";
+   return text.str();
+}
+
+void bind_cycles(nb::module_ &m)
+{
+   nb::class_<Loop>(
+      m, "Loop",
+      "The way of one load in the plane of its force and displacement, over a cycle.")
+      .def_prop_ro("work", &Loop::work, "enclosed area where the loop closes")
+      .def_prop_ro("force_range", &Loop::force_range)
+      .def_prop_ro("displacement_range", &Loop::displacement_range)
+      .def_prop_ro("stiffness", &Loop::stiffness, "secant, nan if the load did not vary")
+      .def_prop_ro("loss_factor", &Loop::loss_factor)
+      .def("__repr__",
+           [](const Loop &self)
+           {
+              std::ostringstream text;
+              text << "<Loop: work " << self.work() << ", secant stiffness " << self.stiffness()
+                   << ", loss factor " << self.loss_factor() << ">";
+              return text.str();
+           });
+   nb::class_<StateChange>(m, "StateChange", "A node changes its state on the exact path.")
+      .def_ro("time", &StateChange::time)
+      .def_ro("node", &StateChange::node)
+      .def_prop_ro("multipliers", viewed(&StateChange::multipliers))
+      .def_ro("from_", &StateChange::from)
+      .def_ro("to", &StateChange::to)
+      .def("__repr__",
+           [](const StateChange &self)
+           {
+              std::ostringstream text;
+              text << "<StateChange at time " << self.time << ": node " << self.node << " from "
+                   << name(self.from) << " to " << name(self.to) << ">";
+              return text.str();
+           });
+}
+
+/// A marched cycle, with the names of its loads.
+struct Cycle
+{
+   CycleRecord record;
+   std::vector<std::string> loads;
+};
+
+} // namespace
+
+void bind_marches(nb::module_ &m)
+{
+   nb::class_<LoadHistory>(
+      m, "LoadHistory",
+      "A piecewise-linear history of load multipliers: an opening part, then "
+      "a cycle that repeats.")
+      .def_static(
+         "through",
+         [](Of<ReducedProblem> problem, Points points, MaybeWhole cycle_start, Whole cycles,
+            MaybeNumbers times) {
+            return history_through(given(problem, "problem"), points, cycle_start, cycles,
+                                   times);
+         },
+         arg("problem"), arg("points"), arg("cycle_start") = nb::none(), arg("cycles") = 1,
+         arg("times") = nb::none(),
+         "Through loads by names, zero for those that are not named: through(problem, [{}, "
+         "{'P': 1}, {'P': 1, 'Q': 0.2}]).\n\ncycle_start: the point from which on the rest "
+         "repeats, `cycles` times; its loads are those of the last point. times: increasing, "
+         "0, "
+         "1, 2, … unless given; only a parameter.")
+      .def_static(
+         "read",
+         [](Of<ReducedProblem> problem, Text history) {
+            return load_history("history", text(history, "history"), given(problem, "problem"));
+         },
+         arg("problem"), arg("text"),
+         "As programs write it, \"P=0; P=1; Q=0.1; Q=-0.1\": a load that is not named keeps "
+         "its "
+         "value.")
+      .def_prop_ro("times", viewed(&LoadHistory::times))
+      .def_prop_ro("multipliers", viewed(&LoadHistory::multipliers), "(loads, points)")
+      .def_ro("cycle_start", &LoadHistory::cycle_start, "-1: no cycle")
+      .def_ro("cycles", &LoadHistory::cycles)
+      .def("__repr__",
+           [](const LoadHistory &self)
+           {
+              std::ostringstream text;
+              text << "<LoadHistory: " << self.times.size() << " points from time "
+                   << self.times[0] << " to " << self.times[self.times.size() - 1];
+              if (self.cycle_start >= 0)
+              {
+                 text << ", " << self.cycles << " cycles from point " << self.cycle_start;
+              }
+              text << ">";
+              return text.str();
+           });
+   bind_cycles(m);
+
+   nb::class_<Cycle>(m, "CycleRecord", "One marched cycle.")
+      .def_prop_ro(
+         "cycle", [](const Cycle &self) { return self.record.cycle; }, "from 1")
+      .def_prop_ro(
+         "whole", [](const Cycle &self) { return self.record.whole; },
+         "False if the march was taken up within it")
+      .def_prop_ro(
+         "loops",
+         [](const Cycle &self)
+         {
+            nb::dict all;
+            for (std::size_t l = 0; l < self.loads.size(); ++l)
+            {
+               all[self.loads[l].c_str()] = nb::cast(Loop(self.record.loops[l]));
+            }
+            return all;
+         },
+         nb::sig("def loops(self) -> dict[str, Loop]"), "of each load")
+      .def_prop_ro("dissipation", [](const Cycle &self) { return self.record.dissipation; })
+      .def_prop_ro("external_work", [](const Cycle &self) { return self.record.external_work; })
+      .def_prop_ro(
+         "slip_change", [](const Cycle &self) { return self.record.slip_change; },
+         "largest difference from the slip one cycle before")
+      .def_prop_ro("node_dissipation",
+                   [](const Cycle &self) { return array(self.record.node_dissipation); })
+      .def("__repr__",
+           [](const Cycle &self)
+           {
+              std::ostringstream text;
+              text << "<CycleRecord " << self.record.cycle << ": dissipation "
+                   << self.record.dissipation << ", slip change " << self.record.slip_change
+                   << ">";
+              return text.str();
+           });
+
+   using Self = March;
+   const auto number_of = [](auto member)
+   { return [member](const Self &self) { return array(self.each(member)); }; };
+   nb::class_<Self>(
+      m, "MarchReport",
+      "What a march came to: `state` at its end, arrays with an entry an increment, "
+      "and loops a cycle.")
+      .def_prop_ro(
+         "problem", [](const Self &self) { return self.problem; },
+         nb::sig("def problem(self) -> ReducedProblem"))
+      .def_prop_ro(
+         "status", [](const Self &self) { return name(self.report.status); },
+         "'converged', 'gross sliding', 'not unique', 'no solution', 'stalled' or "
+         "'stopped'")
+      .def_prop_ro("converged", [](const Self &self)
+                   { return self.report.status == FrictionStatus::converged; })
+      .def_prop_ro("message", [](const Self &self) { return self.report.message; })
+      .def_prop_ro(
+         "state", [](Self &self) -> ContactState & { return self.state; },
+         nb::rv_policy::reference_internal, "at the end")
+      .def_prop_ro(
+         "states",
+         [](nb::handle_t<Self> self)
+         {
+            nb::list all;
+            for (ContactState &state : given<Self>(self, "self").states)
+            {
+               all.append(nb::cast(state, nb::rv_policy::reference_internal, self));
+            }
+            return all;
+         },
+         nb::sig("def states(self) -> list[ContactState]"),
+         "of each increment, if keep_states was True")
+      .def_prop_ro("time", number_of(&IncrementRecord::time))
+      .def_prop_ro("cycle", number_of(&IncrementRecord::cycle), "0: opening part")
+      .def_prop_ro(
+         "multipliers",
+         [](const Self &self) { return self.each_load(&IncrementRecord::multipliers); },
+         nb::sig("def multipliers(self) -> dict[str, numpy.typing.NDArray[numpy.float64]]"),
+         "by the name of the load")
+      .def_prop_ro(
+         "conjugates",
+         [](const Self &self) { return self.each_load(&IncrementRecord::conjugates); },
+         nb::sig("def conjugates(self) -> dict[str, numpy.typing.NDArray[numpy.float64]]"),
+         "displacement of a force, reaction of a displacement, by the name of the load")
+      .def_prop_ro("stick", number_of(&IncrementRecord::stick), "number of nodes")
+      .def_prop_ro("separation", number_of(&IncrementRecord::separation))
+      .def_prop_ro("forward_slip", number_of(&IncrementRecord::forward_slip))
+      .def_prop_ro("backward_slip", number_of(&IncrementRecord::backward_slip))
+      .def_prop_ro("slip", number_of(&IncrementRecord::slip),
+                   "with two tangential components: nodes that slip")
+      .def_prop_ro("dissipation", number_of(&IncrementRecord::dissipation),
+                   "lost by friction in each increment")
+      .def_prop_ro("external_work", number_of(&IncrementRecord::external_work))
+      .def_prop_ro(
+         "cycles",
+         [](const Self &self)
+         {
+            nb::list all;
+            for (const CycleRecord &each : self.report.cycles)
+            {
+               all.append(nb::cast(Cycle{each, self.loads}));
+            }
+            return all;
+         },
+         nb::sig("def cycles(self) -> list[CycleRecord]"))
+      .def_prop_ro(
+         "changes",
+         [](const Self &self)
+         {
+            nb::list all;
+            for (const StateChange &each : self.report.changes)
+            {
+               all.append(nb::cast(StateChange(each)));
+            }
+            return all;
+         },
+         nb::sig("def changes(self) -> list[StateChange]"),
+         "stepping='exact': every change of state in the order of the path")
+      .def_prop_ro(
+         "event_time", [](const Self &self) { return self.report.event_time; },
+         "where the outcome is not 'converged': when it came about")
+      .def_prop_ro("event_multipliers",
+                   [](const Self &self) { return array(self.report.event_multipliers); })
+      .def_prop_ro(
+         "steady_cycle", [](const Self &self) { return self.report.steady_cycle; },
+         "0: not reached")
+      .def_prop_ro("steady_period", [](const Self &self) { return self.report.steady_period; })
+      .def_prop_ro(
+         "energy_imbalance", [](const Self &self) { return self.report.energy_imbalance; },
+         "what the increments miss of the path, relative")
+      .def_prop_ro("advance_error", [](const Self &self) { return self.report.advance_error; })
+      .def_prop_ro("largest_residual",
+                   [](const Self &self) { return self.report.largest_residual; })
+      .def_prop_ro(
+         "fallbacks", [](const Self &self) { return self.report.fallbacks; },
+         "increments taken because there was no exact path")
+      .def_prop_ro("seconds", [](const Self &self) { return self.report.seconds; })
+      .def_prop_ro("counters", [](const Self &self) { return self.report.counters; })
+      .def(
+         "plot",
+         [](nb::object self, nb::args positional, nb::kwargs named) {
+            return nb::module_::import_("cattaneo._plot")
+               .attr("march")(self, *positional, **named);
+         },
+         nb::sig("def plot(self, axes: typing.Any = None) -> typing.Any"),
+         "Tractions and slip at the end along the contact line, and the loop of each load that "
+         "varies; needs matplotlib. Returns its axes.")
+      .def("__repr__", &brief);
+
+   const FrictionSettings friction;
+   const MarchSettings settings;
+   m.def(
+      "march",
+      [](Of<ReducedProblem> problem, nb::object history, nb::object state, Whole increments,
+         Text stepping, Flag single_increment_if_exact, Whole max_halvings,
+         Flag stop_at_steady_state, Number steady_tolerance, Text method, Number tolerance,
+         Flag keep_states, nb::object observer, nb::object progress, nb::object stop)
+      {
+         MarchSettings settings;
+         settings.increments = static_cast<int>(
+            whole(increments, "increments", 1, std::numeric_limits<int>::max()));
+         settings.stepping =
+            chosen<Stepping>(stepping, "stepping", {"fixed", "advancing", "exact"});
+         settings.single_increment_if_exact =
+            flag(single_increment_if_exact, "single_increment_if_exact");
+         settings.max_halvings = static_cast<int>(whole(max_halvings, "max_halvings", 0, 1000));
+         settings.stop_at_steady_state = flag(stop_at_steady_state, "stop_at_steady_state");
+         settings.steady_tolerance = number(steady_tolerance, "steady_tolerance");
+         settings.friction.method =
+            chosen<FrictionMethod>(method, "method", {"automatic", "gauss_seidel"});
+         settings.friction.tolerance = number(tolerance, "tolerance");
+         settings.validate();
+         return march_from(problem.object, history, state, settings, keep_states, observer,
+                           progress, stop);
+      },
+      arg("problem"), arg("history"), arg("state") = nb::none(), nb::kw_only(),
+      arg("increments") = settings.increments, arg("stepping") = "advancing",
+      arg("single_increment_if_exact") = settings.single_increment_if_exact,
+      arg("max_halvings") = settings.max_halvings,
+      arg("stop_at_steady_state") = settings.stop_at_steady_state,
+      arg("steady_tolerance") = settings.steady_tolerance, arg("method") = "automatic",
+      arg("tolerance") = friction.tolerance, arg("keep_states") = false,
+      arg("observer") = nb::none(), arg("progress") = false, arg("stop") = nb::none(),
+      nb::sig(
+         "def march(problem: ReducedProblem, history: LoadHistory | "
+         "collections.abc.Sequence[collections.abc.Mapping[str, float]], state: None | "
+         "ContactState = None, *, increments: int = 20, stepping: str = 'advancing', "
+         "single_increment_if_exact: bool = True, max_halvings: int = 12, "
+         "stop_at_steady_state: "
+         "bool = True, steady_tolerance: float = 1e-10, method: str = 'automatic', tolerance: "
+         "float = 1e-12, keep_states: bool = False, observer: "
+         "None | collections.abc.Callable[[ContactState], object] = None, progress: bool | "
+         "collections.abc.Callable[[Progress], object] = False, stop: None | threading.Event = "
+         "None) -> MarchReport"),
+      "Marches a contact along a load history, from rest or from `state`, which stays as it "
+      "is.\n\n"
+      "history: a LoadHistory, or its points, [{}, {'P': 1}, {'P': 1, 'Q': 0.2}].\n"
+      "increments: of each piece of the history. stepping: 'advancing', 'fixed', or 'exact', "
+      "from one change of state to the next without increments.\n"
+      "keep_states: keeps the state of every increment. observer: is called with each.\n"
+      "progress: True shows a line on stderr; a function is called with Progress. Other "
+      "threads "
+      "run meanwhile; Ctrl-C raises KeyboardInterrupt, and `stop`, a threading.Event, ends the "
+      "march with status 'stopped' and what there is.\n\n"
+      "An outcome other than 'converged' is warned of (OutcomeWarning) and stands in the "
+      "report.");
+   m.def(
+      "conjugates",
+      [](Of<ReducedProblem> problem, Of<ContactState> state)
+      { return array(conjugates(given(problem, "problem"), given(state, "state"))); },
+      arg("problem"), arg("state"),
+      "What does work with each load's multiplier: displacement of a force, reaction of a "
+      "displacement.");
+}
+
+} // namespace cattaneo::python

@@ -1,0 +1,69 @@
+#include "module.hpp"
+
+#include "watch.hpp"
+#include <cattaneo/counters.hpp>
+
+namespace nb = nanobind;
+using namespace cattaneo;
+
+namespace
+{
+
+void bind_common(nb::module_ &m)
+{
+   nb::exception<InputError>(m, "InputError", PyExc_ValueError).attr("__doc__") =
+      "Bad input: one sentence with what, where, the value, and what is allowed.";
+   m.attr("OutcomeWarning") = nb::steal(PyErr_NewExceptionWithDoc(
+      "cattaneo._core.OutcomeWarning",
+      "An outcome that a script should not pass over: a march that did not converge, a limit "
+      "that is not proven. The report has the same in `status` and `message`.",
+      PyExc_RuntimeWarning, nullptr));
+
+   nb::class_<Progress>(m, "Progress", "How far long work has come.")
+      .def_ro("share", &Progress::share, "of it that is done, 0 to 1; nan: not known")
+      .def_ro("steps", &Progress::steps, "increments of a march, iterations of a limit")
+      .def_ro("time", &Progress::time, "of a march, in its load history")
+      .def_ro("seconds", &Progress::seconds, "since it began");
+   nb::class_<Counters> counters(m, "Counters",
+                                 "How often each expensive act was done: dict(counters).");
+   counters.def("keys",
+                [](const Counters &self)
+                {
+                   nb::list names;
+                   Counters::for_each(self,
+                                      [&](const char *name, long) { names.append(name); });
+                   return names;
+                });
+   counters.def("__getitem__",
+                [](const Counters &self, python::Text name)
+                {
+                   const std::string wanted = python::text(name, "counter");
+                   long found = -1;
+                   Counters::for_each(self, [&](const char *each, long value)
+                                      { found = each == wanted ? value : found; });
+                   if (found < 0) { throw nb::key_error(wanted.c_str()); }
+                   return found;
+                });
+   counters.def(
+      "__repr__", [](nb::handle self)
+      { return nb::repr(nb::handle(reinterpret_cast<PyObject *>(&PyDict_Type))(self)); });
+}
+
+} // namespace
+
+NB_MODULE(_core, m)
+{
+   // Module-level objects outlive the interpreter's last count of them.
+   nb::set_leak_warnings(false);
+   m.doc() = "Cattaneo::core as Python sees it; the package cattaneo has the names.";
+   bind_common(m);
+   python::bind_bodies(m);
+   python::bind_reduced_problems(m);
+   python::bind_half_planes(m);
+   python::bind_reductions(m);
+   python::bind_states(m);
+   python::bind_marches(m);
+   python::bind_readout(m);
+   python::bind_shakedown(m);
+   python::bind_fretting(m);
+}

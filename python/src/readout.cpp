@@ -1,0 +1,238 @@
+#include "arrays.hpp"
+#include "module.hpp"
+#include <cattaneo/readout/contact_edges.hpp>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+#include <sstream>
+
+// What a state says: zones, edges of contact, tractions.
+
+namespace cattaneo::python
+{
+
+namespace
+{
+
+/// A problem and a state of it, checked against each other.
+const ReducedProblem &problem_of(const Of<ReducedProblem> &problem,
+                                 const Of<ContactState> &state, const char *what = "state")
+{
+   const ReducedProblem &of = given(problem, "problem");
+   given(state, what).validate(of);
+   return of;
+}
+
+CrackedBody cracked_body(nb::handle word)
+{
+   return chosen<CrackedBody>(word, "cracked", {"first", "second"});
+}
+
+FitSettings fit_settings(nb::handle window, nb::handle skip)
+{
+   FitSettings settings;
+   if (!window.is_none())
+   {
+      const Eigen::VectorXd range = vector(window, "window", 2);
+      settings.window = {range[0], range[1]};
+   }
+   settings.skip = static_cast<int>(whole(skip, "skip", 0, 1 << 20));
+   settings.validate();
+   return settings;
+}
+
+CATTANEO_ARGUMENT(Window, "None | tuple[float, float]");
+
+std::string with_error(double value, double error)
+{
+   std::ostringstream text;
+   text << value << " ± " << error;
+   return text.str();
+}
+
+void bind_zones(nb::module_ &m)
+{
+   nb::class_<ZoneBorder>(m, "ZoneBorder", "A point on the contact line found between nodes.")
+      .def_ro("position", &ZoneBorder::position, "arc length")
+      .def_ro("error", &ZoneBorder::error, "bound of the distance to the finest mesh's")
+      .def("__float__", [](const ZoneBorder &self) { return self.position; })
+      .def("__repr__",
+           [](const ZoneBorder &self) { return with_error(self.position, self.error); });
+   nb::class_<Zone>(m, "Zone", "A run of contact nodes in one state.")
+      .def_ro("state", &Zone::state)
+      .def_ro("from_", &Zone::from)
+      .def_ro("to", &Zone::to)
+      .def_ro("first", &Zone::first)
+      .def_ro("last", &Zone::last)
+      .def_ro("chain", &Zone::chain)
+      .def_prop_ro(
+         "width", [](const Zone &self)
+         { return self.last < self.first ? 0.0 : self.to.position - self.from.position; })
+      .def("__repr__",
+           [](const Zone &self)
+           {
+              if (self.last < self.first) { return std::string("<Zone: none>"); }
+              return std::string("<Zone: ") + name(self.state) + " from " +
+                     with_error(self.from.position, self.from.error) + " to " +
+                     with_error(self.to.position, self.to.error) + ">";
+           });
+
+   m.def(
+      "zones",
+      [](Of<ReducedProblem> problem, Of<ContactState> state)
+      { return zones(problem_of(problem, state), given(state, "state")); },
+      arg("problem"), arg("state"),
+      "Zones of a state along the contact line, in the order of the nodes.");
+   m.def(
+      "contact_zones",
+      [](Of<ReducedProblem> problem, Of<ContactState> state)
+      { return contact_zones(zones(problem_of(problem, state), given(state, "state"))); },
+      arg("problem"), arg("state"), "Stretches of contact, whatever slips.");
+   m.def(
+      "contact_zone",
+      [](Of<ReducedProblem> problem, Of<ContactState> state)
+      { return contact_zone(problem_of(problem, state), given(state, "state")); },
+      arg("problem"), arg("state"), "The widest stretch of contact.");
+   m.def(
+      "stick_zone",
+      [](Of<ReducedProblem> problem, Of<ContactState> state)
+      { return stick_zone(problem_of(problem, state), given(state, "state")); },
+      arg("problem"), arg("state"), "The widest zone of stick.");
+   m.def(
+      "tractions",
+      [](Of<ReducedProblem> problem, Numbers nodal_forces)
+      {
+         const ReducedProblem &of = given(problem, "problem");
+         require(of.weights.size() == of.nodes(),
+                 "the problem has no weights, which tractions need");
+         return array(tractions(of, vector(nodal_forces, "nodal_forces", of.nodes())));
+      },
+      arg("problem"), arg("nodal_forces"),
+      "Forces over consistent weights, of one component: size n.");
+}
+
+void bind_edges(nb::module_ &m)
+{
+   nb::class_<FittedIntensity>(m, "FittedIntensity", "An intensity at an edge of contact.")
+      .def_ro("value", &FittedIntensity::value)
+      .def_ro("relative_error", &FittedIntensity::relative_error)
+      .def_ro("nodes", &FittedIntensity::nodes, "used by the fit")
+      .def_prop_ro(
+         "window",
+         [](const FittedIntensity &self)
+         { return nb::make_tuple(self.window.nearest, self.window.farthest); },
+         nb::sig("def window(self) -> tuple[float, float]"))
+      .def("__float__", [](const FittedIntensity &self) { return self.value; })
+      .def("__repr__", [](const FittedIntensity &self)
+           { return with_error(self.value, std::abs(self.relative_error * self.value)); });
+   nb::class_<EdgeTractions>(m, "EdgeTractions", "Tractions near an edge, from any solution.")
+      .def(
+         "__init__",
+         [](EdgeTractions *self, Number edge, Numbers position, Numbers pressure, Numbers shear)
+         {
+            const auto list = [](nb::handle values, const char *what)
+            {
+               const Eigen::VectorXd all = vector(values, what);
+               return std::vector<double>(all.data(), all.data() + all.size());
+            };
+            EdgeTractions made{number(edge, "edge"), list(position, "position"),
+                               list(pressure, "pressure"), list(shear, "shear")};
+            made.validate();
+            new (self) EdgeTractions(std::move(made));
+         },
+         arg("edge"), arg("position"), arg("pressure"), arg("shear"),
+         "shear: fully stuck, on the cracked body, positive in the direction of increasing "
+         "position.")
+      .def_ro("edge", &EdgeTractions::edge)
+      .def_ro("position", &EdgeTractions::position)
+      .def_ro("pressure", &EdgeTractions::pressure)
+      .def_ro("shear", &EdgeTractions::shear);
+   nb::class_<EdgeFit>(m, "EdgeFit")
+      .def_ro("k_n", &EdgeFit::k_n)
+      .def_ro("k_t", &EdgeFit::k_t)
+      .def("__repr__",
+           [](nb::handle self)
+           {
+              return "<EdgeFit: K_N " +
+                     nb::cast<std::string>(nb::repr(nb::object(self.attr("k_n")))) + ", K_T " +
+                     nb::cast<std::string>(nb::repr(nb::object(self.attr("k_t")))) + ">";
+           });
+   m.def(
+      "fit_edge",
+      [](Of<EdgeTractions> tractions, Window window, Whole skip)
+      { return fit_edge(given(tractions, "tractions"), fit_settings(window, skip)); },
+      arg("tractions"), arg("window") = nb::none(), arg("skip") = FitSettings().skip,
+      "K_N and K_T by least squares; window: distances from the edge, chosen unless given.");
+
+   nb::class_<ContactEdge>(m, "ContactEdge", "One end of a stretch of contact.")
+      .def_ro("position", &ContactEdge::position)
+      .def_ro("side", &ContactEdge::side, "+1: the contact lies at larger arc length")
+      .def_ro("half_width", &ContactEdge::half_width)
+      .def_ro("complete", &ContactEdge::complete)
+      .def_ro("why_not", &ContactEdge::why_not, "why there are no intensities, or empty")
+      .def_ro("k_n", &ContactEdge::k_n)
+      .def_ro("k_t", &ContactEdge::k_t)
+      .def_ro("friction", &ContactEdge::friction)
+      .def_ro("slip_zone", &ContactEdge::slip_zone)
+      .def_ro("slip_zone_error", &ContactEdge::slip_zone_error)
+      .def_ro("slides", &ContactEdge::slides)
+      .def("__repr__",
+           [](const ContactEdge &self)
+           {
+              std::ostringstream text;
+              text << "<ContactEdge at "
+                   << with_error(self.position.position, self.position.error) << ": ";
+              if (!self.why_not.empty()) { text << self.why_not << ">"; }
+              else
+              {
+                 text << "K_N " << self.k_n.value << ", K_T " << self.k_t.value
+                      << ", slip zone " << with_error(self.slip_zone, self.slip_zone_error)
+                      << ">";
+              }
+              return text.str();
+           });
+   m.def(
+      "contact_edges",
+      [](Of<ReducedProblem> problem, Of<ContactState> pressed, Of<ContactState> loaded,
+         Text cracked, Window window, Whole skip)
+      {
+         const ReducedProblem &of = problem_of(problem, pressed, "pressed");
+         problem_of(problem, loaded, "loaded");
+         return contact_edges(of, given(pressed, "pressed"), given(loaded, "loaded"),
+                              cracked_body(cracked), fit_settings(window, skip));
+      },
+      arg("problem"), arg("pressed"), arg("loaded"), arg("cracked") = "second",
+      arg("window") = nb::none(), arg("skip") = FitSettings().skip,
+      "K_N, K_T and the slip zone at each end of each stretch of contact.\n\npressed: after "
+      "the "
+      "normal load alone. loaded: at peak load. cracked: 'first' or 'second' body.");
+   m.def(
+      "edge_tractions",
+      [](Of<ReducedProblem> problem, Of<ContactState> state, Of<ContactEdge> edge, Text cracked)
+      {
+         return edge_tractions(problem_of(problem, state), given(state, "state"),
+                               given(edge, "edge"), cracked_body(cracked));
+      },
+      arg("problem"), arg("state"), arg("edge"), arg("cracked") = "second");
+   m.def(
+      "fully_stuck",
+      [](Of<ReducedProblem> problem, Of<ContactState> pressed, Of<ContactState> loaded)
+      {
+         const ReducedProblem &of = problem_of(problem, pressed, "pressed");
+         problem_of(problem, loaded, "loaded");
+         return fully_stuck(of, given(pressed, "pressed"), given(loaded, "loaded"));
+      },
+      arg("problem"), arg("pressed"), arg("loaded"),
+      "The state if nothing had slipped since `pressed`.");
+}
+
+} // namespace
+
+void bind_readout(nb::module_ &m)
+{
+   nb::module_ readout =
+      m.def_submodule("readout", "What a state says: zones and edges of contact, tractions.");
+   bind_zones(readout);
+   bind_edges(readout);
+}
+
+} // namespace cattaneo::python

@@ -1,0 +1,398 @@
+#include "arrays.hpp"
+#include "module.hpp"
+#include "watch.hpp"
+#include <cattaneo/exchange/write_stiffness.hpp>
+#include <cattaneo/friction/contact_state.hpp>
+#include <cattaneo/friction/critical_friction.hpp>
+#include <cattaneo/reduced/reduced_file.hpp>
+#include <nanobind/stl/string.h>
+#include <sstream>
+
+// The narrow waist: a contact problem as plain data.
+
+namespace cattaneo::python
+{
+
+namespace
+{
+
+CATTANEO_ARGUMENT(Patterns, "collections.abc.Sequence[LoadPattern]");
+CATTANEO_ARGUMENT(MaybeNumbers, "None | numpy.typing.ArrayLike");
+
+using Self = ReducedProblem;
+
+ReducedProblem made_by_hand(nb::handle A, nb::handle B, nb::handle C, nb::handle patterns,
+                            nb::handle gap, nb::handle friction, nb::handle weights,
+                            nb::handle arc_length, nb::handle position, nb::handle H)
+{
+   ReducedProblem problem;
+   const Eigen::MatrixXd normal = matrix(C, "C");
+   const Index n = normal.rows();
+   require(n > 0 && normal.cols() == n, "C has shape (", n, ", ", normal.cols(),
+           "), must be square with a row a node");
+   const Eigen::MatrixXd tangential = matrix(A, "A");
+   const Index slips = tangential.rows();
+   require(tangential.cols() == slips && slips <= 2 * n && slips % n == 0, "A has shape (",
+           slips, ", ", tangential.cols(), "), must be square with 0, 1 or 2 rows a node, of ",
+           n, " nodes");
+   for (const nb::object &each : sequence(patterns, "patterns"))
+   {
+      const std::string what = "patterns[" + std::to_string(problem.patterns.size()) + "]";
+      LoadPattern pattern = given<LoadPattern>(each, what);
+      require(pattern.q.size() == slips && pattern.p.size() == n, what, " has ",
+              pattern.q.size(), " tangential and ", pattern.p.size(),
+              " normal forces, must have ", slips, " and ", n);
+      problem.patterns.push_back(std::move(pattern));
+   }
+   problem.gap = vector_or_number(gap, "gap", n);
+   problem.friction = vector_or_number(friction, "friction", n);
+   if (!weights.is_none()) { problem.weights = vector_or_number(weights, "weights", n); }
+   if (!position.is_none()) { problem.position = matrix(position, "position", n, 2); }
+   if (!arc_length.is_none())
+   {
+      problem.arc_length = vector(arc_length, "arc_length", n);
+      for (Index i = 1; i < n; ++i)
+      {
+         require(problem.arc_length[i] > problem.arc_length[i - 1], "arc_length[", i, "] is ",
+                 problem.arc_length[i], ", must be larger than the one before, ",
+                 problem.arc_length[i - 1]);
+      }
+      problem.chains = one_chain(n);
+   }
+   if (!H.is_none())
+   {
+      const auto count = static_cast<Index>(problem.patterns.size());
+      problem.H = matrix(H, "H", count, count);
+   }
+   // By rows and columns, so that a matrix of one triangle is not taken for half of another.
+   for (const auto &[name, block] :
+        {std::pair<const char *, const Eigen::MatrixXd &>("A", tangential), {"C", normal}})
+   {
+      Index i = 0, j = 0;
+      if (block.size() == 0) { continue; }
+      const double skew = (block - block.transpose()).cwiseAbs().maxCoeff(&i, &j);
+      require(skew <= 1e-10 * block.cwiseAbs().maxCoeff(), name, "[", i, ", ", j, "] is ",
+              block(i, j), " and ", name, "[", j, ", ", i, "] is ", block(j, i),
+              ", must be equal");
+   }
+   problem.set_stiffness(tangential, matrix(B, "B", n, slips), normal);
+   problem.validate();
+   return problem;
+}
+
+nb::list chains(const Self &self)
+{
+   const char *const ends[] = {"unknown", "smooth", "corner", "symmetry"};
+   const auto both = [&](const std::array<LineEnd, 2> &of)
+   { return nb::make_tuple(ends[static_cast<int>(of[0])], ends[static_cast<int>(of[1])]); };
+   nb::list all;
+   for (const ContactChain &chain : self.chains)
+   {
+      nb::dict each;
+      each["interface"] = chain.interface;
+      each["first"] = chain.first;
+      each["nodes"] = chain.nodes;
+      each["loop"] = chain.loop;
+      each["ends"] = both(chain.ends);
+      each["other_ends"] = both(chain.other_ends);
+      each["bodies"] = nb::make_tuple(chain.bodies[0], chain.bodies[1]);
+      all.append(each);
+   }
+   return all;
+}
+
+std::string range(const Eigen::VectorXd &values)
+{
+   if (values.size() == 0) { return "not known"; }
+   const double least = values.minCoeff(), most = values.maxCoeff();
+   std::ostringstream text;
+   text << least;
+   if (most > least) { text << " to " << most; }
+   return text.str();
+}
+
+std::string brief(const Self &self)
+{
+   std::ostringstream text;
+   text << "<ReducedProblem: " << self.nodes() << " contact nodes";
+   if (self.components() != 1)
+   {
+      text << " with " << self.components() << " tangential components";
+   }
+   text << (self.coupled ? ", coupled" : ", uncoupled") << ", friction " << range(self.friction)
+        << ", gap " << range(self.gap);
+   if (self.rigid_motions.cols() > 0)
+   {
+      text << ", " << self.rigid_motions.cols() << " free rigid motions";
+   }
+   text << ", loads:";
+   for (const LoadPattern &each : self.patterns)
+   {
+      text << " " << each.name
+           << (each.control == Control::displacement ? " (displacement)" : "");
+   }
+   text << (self.patterns.empty() ? " none>" : ">");
+   return text.str();
+}
+
+/// Sets n numbers where they are, so that views of them stay right.
+void set_numbers(Eigen::VectorXd &to, nb::handle values, const char *what, Index n)
+{
+   const Eigen::VectorXd all = vector_or_number(values, what, n);
+   for (Index i = 0; i < n; ++i)
+   {
+      require(all[i] >= 0 || std::string(what) != "friction", what, "[", i, "] is ", all[i],
+              ", must not be negative");
+      require(all[i] > 0 || std::string(what) != "weights", what, "[", i, "] is ", all[i],
+              ", must be positive");
+   }
+   if (to.size() != n) { to.resize(n); }
+   to.noalias() = all;
+}
+
+} // namespace
+
+void bind_reduced_problems(nb::module_ &m)
+{
+   nb::class_<LoadPattern>(m, "LoadPattern",
+                           "Contact forces that a load would cause, per unit multiplier, if no "
+                           "contact node moved.")
+      .def(
+         "__init__",
+         [](LoadPattern *self, Text name, Numbers q, Numbers p, Text control)
+         {
+            LoadPattern pattern{text(name, "name"),
+                                chosen<Control>(control, "control", {"force", "displacement"}),
+                                vector(q, "q"), vector(p, "p")};
+            require(!pattern.name.empty(), "name is '', a load must have one");
+            new (self) LoadPattern(std::move(pattern));
+         },
+         arg("name"), arg("q"), arg("p"), arg("control") = "force",
+         "q: tangential forces of all nodes. p: normal ones, compression positive. control: "
+         "'force', or 'displacement' if the multiplier prescribes one.")
+      .def_ro("name", &LoadPattern::name)
+      .def_prop_ro("control", [](const LoadPattern &self)
+                   { return self.control == Control::force ? "force" : "displacement"; })
+      .def_prop_ro("q", viewed(&LoadPattern::q), "tangential, size c n")
+      .def_prop_ro("p", viewed(&LoadPattern::p), "normal, compression positive, size n")
+      .def("__repr__",
+           [](const LoadPattern &self)
+           {
+              std::ostringstream text;
+              text << "<LoadPattern '" << self.name << "': a "
+                   << (self.control == Control::force ? "force" : "displacement")
+                   << ", tangential sum " << self.q.sum() << ", normal sum " << self.p.sum()
+                   << ">";
+              return text.str();
+           });
+
+   nb::class_<Self>(
+      m, "ReducedProblem",
+      "A frictional contact problem reduced to its n contact nodes:\n\n"
+      "    q = A v + B^T w + sum of multiplier × q_k\n"
+      "    p = B v + C  w + sum of multiplier × p_k\n\n"
+      "v slip, w opening, q tangential and p normal nodal forces, compression positive. c "
+      "tangential components a node: 1 in the plane, 2 with torsion, 0 without friction.")
+      .def(
+         "__init__",
+         [](Self *self, Numbers A, Numbers B, Numbers C, Patterns patterns, Numbers gap,
+            Numbers friction, MaybeNumbers weights, MaybeNumbers arc_length,
+            MaybeNumbers position, MaybeNumbers H)
+         {
+            new (self) Self(made_by_hand(A, B, C, patterns, gap, friction, weights, arc_length,
+                                         position, H));
+         },
+         arg("A"), arg("B"), arg("C"), arg("patterns"), nb::kw_only(), arg("gap") = 0.0,
+         arg("friction") = 0.0, arg("weights") = nb::none(), arg("arc_length") = nb::none(),
+         arg("position") = nb::none(), arg("H") = nb::none(),
+         "Of a problem made by hand: A (c n, c n), B (n, c n), C (n, n); gap and friction of "
+         "each "
+         "node or one number; with arc_length, which increases, its nodes follow each other on "
+         "one line.")
+      .def_prop_ro("nodes", &Self::nodes, "n")
+      .def_prop_ro("components", &Self::components, "c")
+      .def_prop_ro("K", viewed(&Self::K), "(c n + n, c n + n), the whole stiffness; no copy")
+      .def_prop_ro(
+         "A",
+         [](nb::handle_t<Self> self)
+         { return view(std::as_const(given<Self>(self, "self")).A(), self); },
+         "(c n, c n); no copy")
+      .def_prop_ro(
+         "B",
+         [](nb::handle_t<Self> self)
+         { return view(std::as_const(given<Self>(self, "self")).B(), self); },
+         "(n, c n); no copy")
+      .def_prop_ro(
+         "C",
+         [](nb::handle_t<Self> self)
+         { return view(std::as_const(given<Self>(self, "self")).C(), self); },
+         "(n, n); no copy")
+      .def_ro("coupled", &Self::coupled, "is B not zero?")
+      .def_prop_ro(
+         "patterns",
+         [](const Self &self)
+         {
+            nb::list all;
+            for (const LoadPattern &each : self.patterns)
+            {
+               all.append(nb::cast(LoadPattern(each)));
+            }
+            return all;
+         },
+         nb::sig("def patterns(self) -> list[LoadPattern]"), "copies")
+      .def_prop_ro(
+         "loads",
+         [](const Self &self)
+         {
+            nb::list names;
+            for (const LoadPattern &each : self.patterns) { names.append(each.name); }
+            return names;
+         },
+         nb::sig("def loads(self) -> list[str]"), "names of the load patterns")
+      .def_prop_ro(
+         "H", [](const Self &self) { return array(self.H); },
+         "loads by loads with clamped contact; no rows: not known")
+      .def_prop_rw(
+         "gap",
+         [](nb::handle_t<Self> self)
+         { return view<double>(given<Self>(self, "self").gap, self); },
+         [](Self &self, Numbers gap) { set_numbers(self.gap, gap, "gap", self.nodes()); },
+         nb::for_setter(arg("gap")),
+         "of each node, closed where w + gap = 0; a number sets all of them")
+      .def_prop_rw(
+         "friction",
+         [](nb::handle_t<Self> self)
+         { return view<double>(given<Self>(self, "self").friction, self); },
+         [](Self &self, Numbers friction)
+         { set_numbers(self.friction, friction, "friction", self.nodes()); },
+         nb::for_setter(arg("friction")),
+         "Coulomb coefficient of each node; a number sets all of them")
+      .def_prop_ro(
+         "weights", [](const Self &self) { return array(self.weights); },
+         "traction = force / weight")
+      .def_prop_ro("arc_length", [](const Self &self) { return array(self.arc_length); })
+      .def_prop_ro(
+         "position", [](const Self &self) { return array(self.position); }, "(n, 2)")
+      .def_prop_ro(
+         "dofs", [](const Self &self) { return array<Integers>(self.dofs); },
+         "(n, 2 bodies), rows of each node in each body's stiffness, -1: none")
+      .def_prop_ro("chains", &chains,
+                   nb::sig("def chains(self) -> list[dict[str, typing.Any]]"),
+                   "lines that the nodes form")
+      .def_prop_ro(
+         "rigid_motions", [](const Self &self) { return array(self.rigid_motions); },
+         "{v; w} that nothing resists, a column each")
+      .def_prop_ro(
+         "held", [](const Self &self) { return array_of_indices(self.held); },
+         "rows of A at which v = 0")
+      .def(
+         "multipliers",
+         [](const Self &self, Loads loads)
+         { return array(self.multipliers(named_loads(loads, "loads"))); },
+         arg("loads"), "in the order of the patterns, zero for those that are not named")
+      .def(
+         "clamped_forces",
+         [](const Self &self, Loads loads)
+         { return array(self.clamped_forces(self.multipliers(named_loads(loads, "loads")))); },
+         arg("loads"), "{q; p} under loads if no node moved")
+      .def(
+         "copy", [](const Self &self) { return Self(self); },
+         "Another problem, whose friction and gap are its own.")
+      .def("__copy__", [](const Self &self) { return Self(self); })
+      .def(
+         "__deepcopy__", [](const Self &self, nb::dict) { return Self(self); }, arg("memo"))
+      .def("validate", &Self::validate)
+      .def("__repr__", &brief);
+
+   m.def(
+      "hold",
+      [](Of<Self> problem, Numbers rows)
+      {
+         Self &of = given(problem, "problem");
+         const std::vector<int> held =
+            indices(rows, "rows", 0, static_cast<long>(of.slips()) - 1);
+         hold(of, {held.begin(), held.end()});
+      },
+      arg("problem"), arg("rows"), "Holds rows of A: v = 0 there.");
+   m.def(
+      "set_friction",
+      [](Of<Self> problem, Number coefficient)
+      {
+         Self &of = given(problem, "problem");
+         const double same = number(coefficient, "coefficient");
+         set_numbers(of.friction, nb::cast(same), "friction", of.nodes());
+      },
+      arg("problem"), arg("coefficient"), "The same coefficient at every node.");
+   m.def(
+      "absorb_gap", [](Of<Self> problem) { return absorb_gap(given(problem, "problem")); },
+      arg("problem"),
+      "The equivalent problem without a gap, whose load 'gap' is to be held at 1.");
+
+   m.def(
+      "save",
+      [](nb::object of, File name)
+      {
+         if (nb::isinstance<Self>(of)) { save(given<Self>(of, "of"), file(name)); }
+         else if (nb::isinstance<ContactState>(of))
+         {
+            save(given<ContactState>(of, "of"), file(name));
+         }
+         else { refuse(of, "of", "of class ReducedProblem or ContactState"); }
+      },
+      arg("of"), arg("file"),
+      nb::sig(
+         "def save(of: ReducedProblem | ContactState, file: str | os.PathLike[str]) -> None"),
+      "Writes a reduced problem or a state as JSON, restored to the last bit.");
+   m.def(
+      "load_reduced_problem", [](File name) { return load_reduced_problem(file(name)); },
+      arg("file"), "Reads what save() wrote of a reduced problem.");
+   m.def(
+      "write_npz",
+      [](File name, nb::object of, MaybeNumbers M)
+      {
+         const Eigen::MatrixXd mass = M.is_none() ? Eigen::MatrixXd() : matrix(M, "M");
+         if (nb::isinstance<Self>(of)) { write_npz(file(name), given<Self>(of, "of"), mass); }
+         else if (nb::isinstance<NodalStiffness>(of))
+         {
+            write_npz(file(name), given<NodalStiffness>(of, "of"), mass);
+         }
+         else { refuse(of, "of", "of class ReducedProblem or NodalStiffness"); }
+      },
+      arg("file"), arg("of"), arg("M") = nb::none(),
+      nb::sig("def write_npz(file: str | os.PathLike[str], of: ReducedProblem | "
+              "NodalStiffness, M: None | "
+              "numpy.typing.ArrayLike = None) -> None"),
+      "Arrays for programs of joint dynamics: K, loads and what belongs to them.");
+
+   nb::class_<CriticalFriction>(m, "CriticalFriction",
+                                "Coefficients of friction at which a contact changes its "
+                                "character, whatever its loads.")
+      .def_ro("node", &CriticalFriction::node,
+              "above it the rate problem of the weakest node alone has no unique answer")
+      .def_ro("weakest_node", &CriticalFriction::weakest_node)
+      .def_ro("locking", &CriticalFriction::locking, "above it the contact can lock itself")
+      .def_ro("unique_below", &CriticalFriction::unique_below,
+              "below it there is at most one answer, proven")
+      .def("__repr__",
+           [](const CriticalFriction &self)
+           {
+              std::ostringstream text;
+              text << "<CriticalFriction: one answer below " << self.unique_below
+                   << " (proven), node " << self.weakest_node << " alone has several above "
+                   << self.node << ", locks itself above " << self.locking << ">";
+              return text.str();
+           });
+   m.def(
+      "critical_friction",
+      [](Of<Self> problem)
+      {
+         const Self copy = given(problem, "problem");
+         return unlocked([&] { return critical_friction(copy); });
+      },
+      arg("problem"));
+   m.def(
+      "can_lock", [](Of<Self> problem) { return can_lock(given(problem, "problem")); },
+      arg("problem"), "Can the contact lock itself with the friction it has?");
+}
+
+} // namespace cattaneo::python

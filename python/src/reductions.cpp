@@ -1,0 +1,283 @@
+#include "arrays.hpp"
+#include "module.hpp"
+#include <cattaneo/friction/contact_state.hpp>
+#include <cattaneo/halfplane/half_plane.hpp>
+#include <cattaneo/reduced/interfaces.hpp>
+#include <nanobind/stl/string.h>
+#include <sstream>
+
+// Condensed bodies meet: interfaces, reduce(), and the way back to the fields of the bodies.
+
+namespace cattaneo::python
+{
+
+namespace
+{
+
+CATTANEO_ARGUMENT(Side, "None | tuple[int, ContactLine]");
+CATTANEO_ARGUMENT(MaybePlace, "None | float | collections.abc.Callable[[float, float], float]");
+
+/// A number, or a function of (x, y).
+ScalarField place_function(nb::handle object, const std::string &what)
+{
+   if (PyCallable_Check(object.ptr()) == 0) { return number(object, what); }
+   return [function = nb::borrow(object), what](double x, double y)
+   { return number(function(x, y), what + "(" + exact_text(x) + ", " + exact_text(y) + ")"); };
+}
+
+InterfaceSide side(nb::handle object, const std::string &what)
+{
+   if (object.is_none()) { return {}; }
+   if (!nb::isinstance<nb::tuple>(object) || nb::len(object) != 2)
+   {
+      refuse(object, what, "(number of the body, its ContactLine)");
+   }
+   return {static_cast<int>(whole(object[0], what + "[0]", 0, 1 << 20)),
+           given<ContactLine>(nb::object(object[1]), what + "[1]")};
+}
+
+std::vector<CondensedBody> body_list(nb::handle bodies)
+{
+   std::vector<CondensedBody> all;
+   for (const nb::object &body : sequence(bodies, "bodies"))
+   {
+      all.push_back(given<CondensedBody>(body, "bodies[" + std::to_string(all.size()) + "]"));
+   }
+   return all;
+}
+
+std::vector<Interface> interface_list(nb::handle interfaces)
+{
+   std::vector<Interface> all;
+   for (const nb::object &each : sequence(interfaces, "interfaces"))
+   {
+      all.push_back(given<Interface>(each, "interfaces[" + std::to_string(all.size()) + "]"));
+   }
+   return all;
+}
+
+Reduction reduced(nb::handle first, nb::handle second, nb::handle pairing)
+{
+   if (nb::isinstance<nb::list>(first) || nb::isinstance<nb::tuple>(first))
+   {
+      return reduce(body_list(first), interface_list(second));
+   }
+   const CondensedBody &body = given<CondensedBody>(first, "the first argument");
+   if (nb::isinstance<HalfPlane>(second))
+   {
+      return reduce(body, given<HalfPlane>(second, "second"));
+   }
+   if (nb::isinstance<CondensedBody>(second))
+   {
+      const CondensedBody &other = given<CondensedBody>(second, "second");
+      return reduce(body, other,
+                    pairing.is_none() ? pair_lines(body.line, other.line)
+                                      : given<Pairing>(pairing, "pairing"));
+   }
+   return reduce(body, place_function(second, "gap"));
+}
+
+nb::list points(const std::vector<Eigen::Vector2d> &places)
+{
+   nb::list all;
+   for (const Eigen::Vector2d &place : places)
+   {
+      all.append(nb::make_tuple(place[0], place[1]));
+   }
+   return all;
+}
+
+} // namespace
+
+void bind_reductions(nb::module_ &m)
+{
+   nb::class_<Pairing>(m, "Pairing", "Nodes of two contact lines that face each other.")
+      .def_prop_ro(
+         "partner", [](const Pairing &self) { return array_of_indices(self.partner); },
+         "node of line 2 for each node of line 1")
+      .def_prop_ro("gap", viewed(&Pairing::gap), "from geometry, positive if apart");
+   m.def(
+      "pair_lines",
+      [](Of<ContactLine> line1, Of<ContactLine> line2, Number tolerance)
+      {
+         return pair_lines(given(line1, "line1"), given(line2, "line2"),
+                           number(tolerance, "tolerance"));
+      },
+      arg("line1"), arg("line2"), arg("tolerance") = 1e-6,
+      "Pairs nodes that match; tolerance: of the offset along the tangent, in edge lengths.");
+
+   nb::class_<Interface>(m, "Interface",
+                         "Where two bodies may touch, or a body and a rigid obstacle, or two "
+                         "parts of one body.")
+      .def(
+         "__init__",
+         [](Interface *self, Text name, Side first, Side second, Text slave, MaybePlace gap,
+            Number most_overlap)
+         {
+            if (first.is_none())
+            {
+               refuse(first, "first", "(number of the body, its ContactLine)");
+            }
+            Interface made{
+               text(name, "name"),
+               side(first, "first"),
+               side(second, "second"),
+               chosen<SlaveSide>(slave, "slave", {"coarser", "finer", "first", "second"}),
+               std::nullopt,
+               number(most_overlap, "most_overlap")};
+            if (!gap.is_none()) { made.gap = place_function(gap, "gap"); }
+            new (self) Interface(std::move(made));
+         },
+         arg("name"), arg("first"), arg("second") = nb::none(), nb::kw_only(),
+         arg("slave") = "coarser", arg("gap") = nb::none(), arg("most_overlap") = 0.1,
+         "first, second: (number of the body, its line); no second: a rigid obstacle.\n"
+         "slave: which side carries the nodes: 'coarser', 'finer', 'first' or 'second'.\n"
+         "gap: a function of (x, y) or a number instead of the geometry's.\n"
+         "most_overlap: of the geometry, in lengths of the slave's elements.")
+      .def_ro("name", &Interface::name)
+      .def("__repr__",
+           [](const Interface &self)
+           {
+              const auto called = [](const InterfaceSide &side)
+              {
+                 return side.body < 0 ? std::string("a rigid obstacle")
+                                      : "body " + std::to_string(side.body) + " (" +
+                                           std::to_string(side.line.size()) + " nodes)";
+              };
+              return "<Interface '" + self.name + "': " + called(self.first) + " on " +
+                     called(self.second) + ">";
+           });
+
+   nb::class_<InterfaceReport>(m, "InterfaceReport", "What an interface came to.")
+      .def_ro("name", &InterfaceReport::name)
+      .def_prop_ro(
+         "bodies",
+         [](const InterfaceReport &self)
+         { return nb::make_tuple(self.bodies[0], self.bodies[1]); },
+         nb::sig("def bodies(self) -> tuple[int, int]"),
+         "whose nodes it has, and whose face them; -1: a rigid obstacle")
+      .def_ro("first", &InterfaceReport::first)
+      .def_ro("nodes", &InterfaceReport::nodes)
+      .def_ro("matching", &InterfaceReport::matching)
+      .def_prop_ro(
+         "free_surface", [](const InterfaceReport &self) { return points(self.free_surface); },
+         nb::sig("def free_surface(self) -> list[tuple[float, float]]"),
+         "places of nodes that nothing faces")
+      .def_prop_ro(
+         "without_row", [](const InterfaceReport &self) { return points(self.without_row); },
+         nb::sig("def without_row(self) -> list[tuple[float, float]]"))
+      .def_ro("left_out", &InterfaceReport::left_out,
+              "length that is faced but that no node stands for")
+      .def_ro("arm", &InterfaceReport::arm, "moment left by a normal force of 1")
+      .def("__repr__",
+           [](const InterfaceReport &self)
+           {
+              std::ostringstream text;
+              text << "<InterfaceReport '" << self.name << "': nodes " << self.first << " to "
+                   << self.first + self.nodes - 1 << (self.matching ? ", matching" : "") << ", "
+                   << self.free_surface.size() << " nodes of free surface, left out "
+                   << self.left_out << ">";
+              return text.str();
+           });
+
+   using Self = Reduction;
+   nb::class_<Self>(m, "Reduction",
+                    "A reduced problem with the way back to the fields of its bodies.")
+      .def_prop_ro(
+         "problem", [](Self &self) -> ReducedProblem & { return self.problem; },
+         nb::rv_policy::reference_internal)
+      .def_prop_ro(
+         "bodies",
+         [](nb::handle_t<Self> self)
+         {
+            nb::list all;
+            for (CondensedBody &body : given<Self>(self, "self").bodies)
+            {
+               all.append(nb::cast(body, nb::rv_policy::reference_internal, self));
+            }
+            return all;
+         },
+         nb::sig("def bodies(self) -> list[CondensedBody]"))
+      .def_prop_ro(
+         "interfaces",
+         [](const Self &self)
+         {
+            nb::list all;
+            for (const InterfaceReport &each : self.interfaces)
+            {
+               all.append(nb::cast(InterfaceReport(each)));
+            }
+            return all;
+         },
+         nb::sig("def interfaces(self) -> list[InterfaceReport]"))
+      .def_ro("counters", &Self::counters)
+      .def(
+         "displacement",
+         [](Self &self, Whole body, Of<ContactState> state)
+         {
+            const ContactState &of = given(state, "state");
+            of.validate(self.problem);
+            const long last = static_cast<long>(self.bodies.size()) - 1;
+            return array(self.displacement(static_cast<int>(whole(body, "body", 0, last)), of.v,
+                                           of.w, of.multipliers));
+         },
+         arg("body"), arg("state"),
+         "Displacements of all rows of the stiffness of a body in a state; one solve.")
+      .def(
+         "add_obstacle_motion",
+         [](Self &self, Text name, Place ux, Place uy)
+         {
+            self.add_obstacle_motion(text(name, "name"), place_function(ux, "ux"),
+                                     place_function(uy, "uy"));
+         },
+         arg("name"), arg("ux"), arg("uy"),
+         "A load that moves the rigid obstacle of one body by (ux, uy) per unit multiplier, "
+         "numbers or functions of (x, y).")
+      .def("__repr__",
+           [](nb::handle_t<Self> self)
+           {
+              const Self &of = given<Self>(self, "self");
+              std::string names;
+              for (const CondensedBody &body : of.bodies) { names += " '" + body.name + "'"; }
+              return "<Reduction of" + names + ": " +
+                     nb::cast<std::string>(nb::repr(nb::object(self.attr("problem")))) + ">";
+           });
+
+   m.def("reduce", &reduced, arg("bodies"), arg("other") = 0.0, arg("pairing") = nb::none(),
+         nb::sig("def reduce(bodies: CondensedBody | collections.abc.Sequence[CondensedBody], "
+                 "other: float | collections.abc.Callable[[float, float], float] | HalfPlane | "
+                 "CondensedBody | collections.abc.Sequence[Interface] = 0.0, pairing: None | "
+                 "Pairing = None) -> Reduction"),
+         "Condensed bodies to a reduced problem.\n\n"
+         "reduce(body, gap=0.0): on a rigid obstacle, gap a number or a function of (x, y).\n"
+         "reduce(body, half_plane): pressed on a half-plane; the gap is the geometry's.\n"
+         "reduce(body1, body2[, pairing]): two bodies whose nodes match.\n"
+         "reduce([bodies], [interfaces]): any number of bodies, nodes that match or not.");
+
+   nb::class_<SeparateBodies>(m, "SeparateBodies",
+                              "Bodies that keep displacements of their own: K U + loads = "
+                              "L^T {q; p}, u = L U.")
+      .def_prop_ro("K", viewed(&SeparateBodies::K))
+      .def_prop_ro(
+         "L", [](const SeparateBodies &self) { return array(Eigen::MatrixXd(self.L)); },
+         "dense")
+      .def_prop_ro("loads", viewed(&SeparateBodies::loads), "a column a load")
+      .def_prop_ro(
+         "names",
+         [](const SeparateBodies &self)
+         {
+            nb::list all;
+            for (const LoadPattern &each : self.patterns) { all.append(each.name); }
+            return all;
+         },
+         nb::sig("def names(self) -> list[str]"), "of the loads");
+   m.def(
+      "separate",
+      [](nb::object bodies, nb::object interfaces)
+      { return separate(body_list(bodies), interface_list(interfaces)); },
+      arg("bodies"), arg("interfaces"),
+      nb::sig("def separate(bodies: collections.abc.Sequence[CondensedBody], interfaces: "
+              "collections.abc.Sequence[Interface]) -> SeparateBodies"));
+}
+
+} // namespace cattaneo::python

@@ -1,0 +1,397 @@
+#include "arrays.hpp"
+#include "module.hpp"
+#include "watch.hpp"
+#include <cattaneo/shakedown/closed_contact.hpp>
+#include <cattaneo/shakedown/estimates.hpp>
+#include <cattaneo/shakedown/limit_of_the_mesh.hpp>
+#include <cattaneo/shakedown/lower_limit.hpp>
+#include <cattaneo/shakedown/stay_closed.hpp>
+#include <cattaneo/shakedown/transient.hpp>
+#include <limits>
+#include <mutex>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+#include <sstream>
+
+// Shakedown limits and what belongs to them.
+
+namespace cattaneo::python
+{
+
+namespace
+{
+
+CATTANEO_ARGUMENT(Vertices, "collections.abc.Sequence[collections.abc.Mapping[str, float]]");
+CATTANEO_ARGUMENT(NodeNumbers, "numpy.typing.ArrayLike");
+CATTANEO_ARGUMENT(MaybeReport, "None | LimitReport");
+
+constexpr int most = std::numeric_limits<int>::max();
+
+/// Work with Ipopt, one at a time: the linear solver inside of it (MUMPS) is not safe for
+/// threads. The interpreter's lock is given up first.
+template <class Work>
+auto one_at_a_time(Work &&work)
+{
+   static std::mutex solver;
+   const nb::gil_scoped_release release;
+   const std::lock_guard<std::mutex> turn(solver);
+   return work();
+}
+
+LimitSettings limit_settings(nb::handle tolerance, nb::handle max_iterations,
+                             nb::handle largest_factor, nb::handle largest_friction)
+{
+   LimitSettings settings;
+   settings.tolerance = number(tolerance, "tolerance");
+   settings.max_iterations = static_cast<int>(whole(max_iterations, "max_iterations", 1, most));
+   settings.largest_factor = number(largest_factor, "largest_factor");
+   settings.largest_friction = number(largest_friction, "largest_friction");
+   settings.validate();
+   return settings;
+}
+
+void warn_of(const char *what, const LimitReport &report)
+{
+   const bool answered = report.status == LimitStatus::certified ||
+                         report.status == LimitStatus::unlimited ||
+                         report.status == LimitStatus::stopped;
+   if (!answered)
+   {
+      warn(std::string(what) + ": " + name(report.status) +
+           (report.message.empty() ? "" : ": " + report.message));
+   }
+}
+
+template <class Limit>
+LimitReport watched(const char *what, const Of<LimitProblem> &problem, LimitSettings settings,
+                    nb::handle start, nb::handle progress, nb::handle stop, Limit limit)
+{
+   const LimitProblem copy = given(problem, "problem");
+   LimitReport from;
+   if (!start.is_none())
+   {
+      from = given<LimitReport>(start, "start");
+      settings.start = &from;
+   }
+   Watch watch(progress, stop);
+   settings.monitor = watch.monitor();
+   LimitReport report = one_at_a_time([&] { return limit(copy, settings); });
+   warn_of(what, report);
+   return report;
+}
+
+NodeList node_list(const ReducedProblem &problem, nb::handle nodes)
+{
+   const std::vector<int> all =
+      indices(nodes, "nodes", 0, static_cast<long>(problem.nodes()) - 1);
+   return {all.begin(), all.end()};
+}
+
+void bind_cycle(nb::module_ &m)
+{
+   nb::class_<LoadCycle>(m, "LoadCycle",
+                         "A polygonal load cycle: constant + factor × varying at each vertex.")
+      .def_static(
+         "through",
+         [](Of<ReducedProblem> problem, Loads constant, Vertices vertices)
+         {
+            std::vector<NamedLoads> all;
+            for (const nb::object &vertex : sequence(vertices, "vertices"))
+            {
+               all.push_back(
+                  named_loads(vertex, "vertices[" + std::to_string(all.size()) + "]"));
+            }
+            require(!all.empty(), "vertices has no entries, must have one at least");
+            return LoadCycle::through(given(problem, "problem"),
+                                      named_loads(constant, "constant"), all);
+         },
+         arg("problem"), arg("constant"), arg("vertices"),
+         "through(problem, {'P': 1}, [{'Q': 1}, {'Q': -1}]) holds P and cycles Q to and fro.")
+      .def_prop_ro("constant", viewed(&LoadCycle::constant))
+      .def_prop_ro("varying", viewed(&LoadCycle::varying), "(loads, vertices)")
+      .def("__repr__", [](const LoadCycle &self)
+           { return "<LoadCycle of " + std::to_string(self.vertices()) + " vertices>"; });
+   m.def(
+      "held_and_cycled",
+      [](Of<ReducedProblem> problem, Text held, Number load, Text cycled, Number reversal)
+      {
+         return held_and_cycled(given(problem, "problem"), text(held, "held"),
+                                number(load, "load"), text(cycled, "cycled"),
+                                number(reversal, "reversal"));
+      },
+      arg("problem"), arg("held"), arg("load"), arg("cycled"), arg("reversal"),
+      "One load held, another cycled between factor and reversal × factor.");
+}
+
+void bind_limits(nb::module_ &m)
+{
+   nb::class_<LimitProblem>(m, "LimitProblem", "A contact and its load cycle.")
+      .def_prop_ro(
+         "reduced", [](LimitProblem &self) -> ReducedProblem & { return self.reduced; },
+         nb::rv_policy::reference_internal)
+      .def_ro("coupling", &LimitProblem::coupling, "degree of coupling, 0 to 1")
+      .def_prop_rw(
+         "cycle", [](const LimitProblem &self) { return self.cycle; },
+         [](LimitProblem &self, Of<LoadCycle> cycle)
+         {
+            const LoadCycle &other = given(cycle, "cycle");
+            other.validate(self.reduced);
+            self.cycle = other;
+         },
+         nb::for_setter(arg("cycle")), "may be changed for a sweep");
+   m.def(
+      "limit_problem",
+      [](Of<ReducedProblem> problem, Of<LoadCycle> cycle)
+      {
+         ReducedProblem of = given(problem, "problem");
+         const LoadCycle &loads = given(cycle, "cycle");
+         loads.validate(of);
+         return unlocked([&] { return limit_problem(std::move(of), LoadCycle(loads)); });
+      },
+      arg("problem"), arg("cycle"),
+      "The expensive part of a limit, once for a sweep over friction or cycles.");
+
+   using Self = LimitReport;
+   nb::class_<Self>(m, "LimitReport", "A shakedown limit between proven bounds.")
+      .def_prop_ro(
+         "status", [](const Self &self) { return name(self.status); },
+         "'certified', 'bracketed', 'unlimited', 'no solution', 'failed', 'stopped' or "
+         "'unavailable'")
+      .def_prop_ro("certified",
+                   [](const Self &self) { return self.status == LimitStatus::certified; })
+      .def_ro("message", &Self::message)
+      .def_ro("limit", &Self::limit, "the safe side")
+      .def_ro("lower", &Self::lower)
+      .def_ro("upper", &Self::upper)
+      .def_prop_ro("slip", viewed(&Self::slip), "with which the contact sticks throughout")
+      .def_prop_ro(
+         "mechanism_slip", [](const Self &self) { return array(self.mechanism.slip); },
+         "(c n, vertices), of the dual mechanism")
+      .def_prop_ro(
+         "mechanism_opening", [](const Self &self) { return array(self.mechanism.opening); },
+         "(n, vertices)")
+      .def_ro("coupling", &Self::coupling)
+      .def_ro("iterations", &Self::iterations)
+      .def_ro("seconds", &Self::seconds)
+      .def_ro("counters", &Self::counters)
+      .def("__repr__",
+           [](const Self &self)
+           {
+              std::ostringstream text;
+              text.precision(9);
+              text << "<LimitReport: " << name(self.status) << ", " << self.limit
+                   << ", proven between " << self.lower << " and " << self.upper;
+              if (!self.message.empty()) { text << ": " << self.message; }
+              text << ">";
+              return text.str();
+           });
+
+   const LimitSettings settings;
+   m.def(
+      "load_limit",
+      [](Of<LimitProblem> problem, Number tolerance, Whole max_iterations,
+         Number largest_factor, MaybeReport start, ProgressLike progress, StopLike stop)
+      {
+         const nb::object friction = nb::cast(LimitSettings().largest_friction);
+         return watched("load_limit", problem,
+                        limit_settings(tolerance, max_iterations, largest_factor, friction),
+                        start, progress, stop,
+                        [](const LimitProblem &of, const LimitSettings &with)
+                        { return load_limit(of, with); });
+      },
+      arg("problem"), nb::kw_only(), arg("tolerance") = settings.tolerance,
+      arg("max_iterations") = settings.max_iterations,
+      arg("largest_factor") = settings.largest_factor, arg("start") = nb::none(),
+      arg("progress") = false, arg("stop") = nb::none(),
+      "The largest load factor under which some slip keeps all nodes stuck and closed, for the "
+      "friction of the problem. start: an earlier report of a sweep.");
+   m.def(
+      "friction_limit",
+      [](Of<LimitProblem> problem, Number load_factor, Number tolerance, Whole max_iterations,
+         Number largest_friction, MaybeReport start, ProgressLike progress, StopLike stop)
+      {
+         const double factor = number(load_factor, "load_factor");
+         const nb::object most_factor = nb::cast(LimitSettings().largest_factor);
+         return watched(
+            "friction_limit", problem,
+            limit_settings(tolerance, max_iterations, most_factor, largest_friction), start,
+            progress, stop,
+            [factor](const LimitProblem &of, const LimitSettings &with)
+            { return friction_limit(of, factor, with); });
+      },
+      arg("problem"), arg("load_factor"), nb::kw_only(), arg("tolerance") = settings.tolerance,
+      arg("max_iterations") = settings.max_iterations,
+      arg("largest_friction") = settings.largest_friction, arg("start") = nb::none(),
+      arg("progress") = false, arg("stop") = nb::none(),
+      "The smallest coefficient, the same at all nodes, at which the contact shakes down.");
+
+   nb::class_<LowerLimitReport>(
+      m, "LowerLimitReport", "What is known of the limit below which every start shakes down.")
+      .def_prop_ro("kind",
+                   [](const LowerLimitReport &self)
+                   {
+                      const char *const kinds[] = {"uncoupled", "two nodes", "bound", "none"};
+                      return kinds[static_cast<int>(self.kind)];
+                   })
+      .def_ro("message", &LowerLimitReport::message)
+      .def_ro("value", &LowerLimitReport::value)
+      .def_prop_ro("slip", viewed(&LowerLimitReport::slip))
+      .def("__repr__", [](const LowerLimitReport &self)
+           { return "<LowerLimitReport: " + self.message + ">"; });
+   m.def(
+      "lower_limit",
+      [](Of<LimitProblem> problem, Of<LimitReport> upper)
+      {
+         const LimitProblem copy = given(problem, "problem");
+         const LimitReport limit = given(upper, "upper");
+         return one_at_a_time([&] { return lower_limit(copy, limit); });
+      },
+      arg("problem"), arg("upper"), "upper: the report of load_limit.");
+}
+
+void bind_closed(nb::module_ &m)
+{
+   nb::class_<ClosedContact>(m, "ClosedContact",
+                             "A receding contact whose nodes `closed` stay closed and whose "
+                             "others stay open.")
+      .def_prop_ro(
+         "reduced", [](ClosedContact &self) -> ReducedProblem & { return self.reduced; },
+         nb::rv_policy::reference_internal, "of the closed nodes")
+      .def_prop_ro("closed",
+                   [](const ClosedContact &self) { return array_of_indices(self.closed); })
+      .def_prop_ro("open",
+                   [](const ClosedContact &self) { return array_of_indices(self.open); })
+      .def(
+         "open_gaps",
+         [](const ClosedContact &self, Numbers slip, Loads loads)
+         {
+            return array(self.open_gaps(vector(slip, "slip", self.reduced.slips()),
+                                        self.reduced.multipliers(named_loads(loads, "loads"))));
+         },
+         arg("slip"), arg("loads"), "of the open nodes: negative where the assumption fails");
+   m.def(
+      "closed_contact",
+      [](Of<ReducedProblem> problem, NodeNumbers nodes)
+      {
+         const ReducedProblem &of = given(problem, "problem");
+         return closed_contact(of, node_list(of, nodes));
+      },
+      arg("problem"), arg("nodes"));
+   m.def(
+      "stay_closed",
+      [](Of<ReducedProblem> problem, Of<LoadCycle> cycle, Number load_factor, Whole cycles)
+      {
+         const ReducedProblem copy = given(problem, "problem");
+         const LoadCycle loads = given(cycle, "cycle");
+         const double factor = number(load_factor, "load_factor");
+         const int count = static_cast<int>(whole(cycles, "cycles", 1, 1 << 20));
+         Watch watch(nb::bool_(false), nb::none());
+         const StayedClosed result =
+            unlocked([&] { return stay_closed(copy, loads, factor, count, watch.monitor()); });
+         if (result.march.status != FrictionStatus::converged)
+         {
+            warn(std::string("stay_closed: the march ended with ") + name(result.march.status) +
+                 ", its nodes are not to be trusted: " + result.march.message);
+         }
+         return array_of_indices(result.nodes);
+      },
+      arg("problem"), arg("cycle"), arg("load_factor"), arg("cycles"),
+      "Nodes that are closed throughout some marched cycles.");
+}
+
+void bind_estimates(nb::module_ &m)
+{
+   nb::class_<PointwiseEstimate>(m, "PointwiseEstimate",
+                                 "An estimate that looks at one node at a time.")
+      .def_ro("value", &PointwiseEstimate::value)
+      .def_ro("node", &PointwiseEstimate::node)
+      .def("__float__", [](const PointwiseEstimate &self) { return self.value; })
+      .def("__repr__",
+           [](const PointwiseEstimate &self)
+           {
+              return "<PointwiseEstimate: " + exact_text(self.value) + " at node " +
+                     std::to_string(self.node) + ">";
+           });
+   m.def(
+      "method1_friction",
+      [](Of<ReducedProblem> problem, Of<LoadCycle> cycle, Number load_factor)
+      {
+         return method1_friction(given(problem, "problem"), given(cycle, "cycle"),
+                                 number(load_factor, "load_factor"));
+      },
+      arg("problem"), arg("cycle"), arg("load_factor"));
+   m.def(
+      "method1_load",
+      [](Of<ReducedProblem> problem, Of<LoadCycle> cycle)
+      { return method1_load(given(problem, "problem"), given(cycle, "cycle")); },
+      arg("problem"), arg("cycle"));
+   m.def(
+      "degree_of_coupling",
+      [](Of<ReducedProblem> problem) { return degree_of_coupling(given(problem, "problem")); },
+      arg("problem"), "0 to 1; for two half-planes Dundurs' constant.");
+
+   nb::class_<TransientReport>(m, "TransientReport",
+                               "A march of a load cycle from a given slip.")
+      .def_prop_ro("verdict", [](const TransientReport &self) { return name(self.verdict); })
+      .def_prop_ro("status", [](const TransientReport &self) { return name(self.status); })
+      .def_ro("message", &TransientReport::message)
+      .def_ro("load_factor", &TransientReport::load_factor)
+      .def_prop_ro(
+         "dissipation",
+         [](const TransientReport &self)
+         {
+            return array(Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(
+               self.dissipation.data(), self.dissipation.size())));
+         },
+         "of each cycle, until steady")
+      .def_ro("decay", &TransientReport::decay)
+      .def_prop_ro(
+         "opened", [](const TransientReport &self) { return array_of_indices(self.opened); },
+         "nodes that are open at some time of the last cycle")
+      .def_prop_ro("slip", viewed(&TransientReport::slip), "at the end")
+      .def("__repr__",
+           [](const TransientReport &self)
+           {
+              std::ostringstream text;
+              text << "<TransientReport: load factor " << self.load_factor << ", "
+                   << name(self.verdict) << " after " << self.dissipation.size() << " cycles>";
+              return text.str();
+           });
+   m.def(
+      "transient",
+      [](Of<LimitProblem> problem, Number load_factor, Numbers start, Whole cycles)
+      {
+         const LimitProblem copy = given(problem, "problem");
+         const double factor = number(load_factor, "load_factor");
+         const Eigen::VectorXd slip =
+            integer(nb::module_::import_("numpy").attr("ndim")(start)) == 0
+               ? vector_or_number(start, "start", copy.reduced.slips())
+               : vector(start, "start", copy.reduced.slips());
+         TransientSettings settings;
+         settings.cycles = static_cast<int>(whole(cycles, "cycles", 1, 1 << 24));
+         Watch watch(nb::bool_(false), nb::none());
+         settings.march.monitor = watch.monitor();
+         return unlocked(
+            [&]
+            {
+               FrictionSolver solver(copy.reduced);
+               return transient(solver, copy, factor, slip, settings);
+            });
+      },
+      arg("problem"), arg("load_factor"), arg("start") = 0.0,
+      arg("cycles") = TransientSettings().cycles,
+      "Marches the cycle from the slip `start`: does it shake down, and how fast?");
+}
+
+} // namespace
+
+void bind_shakedown(nb::module_ &m)
+{
+   nb::module_ shakedown = m.def_submodule("shakedown", "Shakedown limits and bounds.");
+   bind_cycle(shakedown);
+   bind_limits(shakedown);
+   bind_closed(shakedown);
+   bind_estimates(shakedown);
+}
+
+} // namespace cattaneo::python

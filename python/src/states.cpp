@@ -1,0 +1,91 @@
+#include "arrays.hpp"
+#include "module.hpp"
+#include <cattaneo/friction/settled_states.hpp>
+#include <nanobind/stl/string.h>
+#include <sstream>
+
+// States of a contact.
+
+namespace cattaneo::python
+{
+
+States state_numbers(const std::vector<NodeState> &states)
+{
+   return array<States>(Eigen::Matrix<signed char, Eigen::Dynamic, 1>(
+      Eigen::Map<const Eigen::Matrix<signed char, Eigen::Dynamic, 1>>(
+         reinterpret_cast<const signed char *>(states.data()),
+         static_cast<Index>(states.size()))));
+}
+
+void bind_states(nb::module_ &m)
+{
+   nb::enum_<NodeState>(m, "NodeState", nb::is_arithmetic(), "State of a contact node.")
+      .value("stick", NodeState::stick)
+      .value("separation", NodeState::separation)
+      .value("forward_slip", NodeState::forward_slip, "q = -f p")
+      .value("backward_slip", NodeState::backward_slip, "q = +f p")
+      .value("slip", NodeState::slip, "with two tangential components: q = -f p v'/|v'|");
+
+   using Self = ContactState;
+   nb::class_<Self>(m, "ContactState",
+                    "All that the future of a frictional contact depends on. Arrays are views "
+                    "that cannot be written to.")
+      .def_static(
+         "virgin",
+         [](Of<ReducedProblem> problem) { return Self::virgin(given(problem, "problem")); },
+         arg("problem"), "Before any load.")
+      .def_static(
+         "with_slip",
+         [](Of<ReducedProblem> problem, Numbers v)
+         {
+            const ReducedProblem &of = given(problem, "problem");
+            return Self::with_slip(of, vector(v, "v", of.slips()));
+         },
+         arg("problem"), arg("v"), "Virgin but for a given slip.")
+      .def_prop_ro("v", viewed(&Self::v), "slip, size c n")
+      .def_prop_ro("w", viewed(&Self::w), "opening, size n")
+      .def_prop_ro("q", viewed(&Self::q), "tangential nodal forces, size c n")
+      .def_prop_ro("p", viewed(&Self::p), "normal nodal forces, compression positive, size n")
+      .def_prop_ro("slip_origin", viewed(&Self::slip_origin),
+                   "slip at which each node last stuck, opened or turned round")
+      .def_prop_ro("multipliers", viewed(&Self::multipliers), "of the load patterns")
+      .def_prop_ro(
+         "status", [](const Self &self) { return state_numbers(self.status); },
+         "NodeState of each node, as the solver left it; see settled_states()")
+      .def_ro("time", &Self::time, "of the load history")
+      .def_ro("dissipation", &Self::dissipation, "frictional energy lost so far")
+      .def(
+         "validate",
+         [](const Self &self, Of<ReducedProblem> problem)
+         { self.validate(given(problem, "problem")); },
+         arg("problem"))
+      .def("copy", [](const Self &self) { return Self(self); })
+      .def("__copy__", [](const Self &self) { return Self(self); })
+      .def(
+         "__deepcopy__", [](const Self &self, nb::dict) { return Self(self); }, arg("memo"))
+      .def("__repr__",
+           [](const Self &self)
+           {
+              std::ostringstream text;
+              text << "<ContactState at time " << self.time << ": normal force " << self.p.sum()
+                   << ", tangential force " << self.q.sum() << ", dissipation "
+                   << self.dissipation << ", " << self.p.size() << " nodes>";
+              return text.str();
+           });
+   m.def(
+      "load_contact_state", [](File name) { return load_contact_state(file(name)); },
+      arg("file"), "Reads what save() wrote of a state.");
+   m.def(
+      "settled_states",
+      [](Of<ReducedProblem> problem, Of<Self> state)
+      {
+         const ReducedProblem &of = given(problem, "problem");
+         const Self &at = given(state, "state");
+         at.validate(of);
+         return state_numbers(settled_states(of, at));
+      },
+      arg("problem"), arg("state"),
+      "NodeState of each node as mechanics decides it, whatever round-off made of ties.");
+}
+
+} // namespace cattaneo::python

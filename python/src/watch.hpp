@@ -1,0 +1,42 @@
+#pragma once
+
+#include "arguments.hpp"
+#include <cattaneo/monitor.hpp>
+
+namespace cattaneo::python
+{
+
+CATTANEO_ARGUMENT(ProgressLike, "bool | collections.abc.Callable[[Progress], object]");
+CATTANEO_ARGUMENT(StopLike, "None | threading.Event");
+
+/** Long work without the interpreter's lock, which Ctrl-C ends with KeyboardInterrupt, and
+   which is stopped from elsewhere by an object with is_set(), as threading.Event: its status is
+   then 'stopped', and its result what it came to before. */
+class Watch
+{
+public:
+   /// @param progress True: a line on stderr; a function: called with Progress
+   Watch(nb::handle progress, nb::handle stop);
+
+   Monitor monitor();
+
+private:
+   void look(const Progress &progress);
+   void ask(); ///< the object with is_set()
+
+   nb::object progress_, stop_;
+   std::atomic<bool> stopped_{false};
+};
+
+/// Does what `work` says without the lock.
+template <class Work>
+auto unlocked(Work &&work)
+{
+   const nb::gil_scoped_release release;
+   return work();
+}
+
+/// Warns of an outcome that a script should not pass over, as cattaneo.OutcomeWarning.
+void warn(const std::string &sentence);
+
+} // namespace cattaneo::python

@@ -1,0 +1,26 @@
+import os
+import pathlib
+import warnings
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+os.environ.setdefault("MPLBACKEND", "Agg")
+
+import pytest
+
+import cattaneo
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture
+def root():
+    """The repository, whose problems, decks and pages tests read."""
+    return ROOT
+
+
+@pytest.fixture(autouse=True)
+def outcomes_are_errors():
+    """A march that does not converge fails a test, unless the test expects the warning."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", cattaneo.OutcomeWarning)
+        yield

@@ -1,0 +1,238 @@
+"""What does not fit is refused in one sentence that names the argument and the entry, and nothing ends the interpreter."""
+
+import inspect
+import subprocess
+import sys
+import threading
+
+import cattaneo
+import numpy as np
+import pytest
+import scipy.sparse as sparse
+from cattaneo import fretting, readout, shakedown
+
+
+def triangle():
+    """The stiffness of one triangle of plane strain, E = 1 and ν = 0, corners (0, 0), (1, 0), (0, 1)."""
+    B = np.array([[-1, 0, 1, 0, 0, 0], [0, -1, 0, 0, 0, 1], [-1, -1, 0, 1, 1, 0]])
+    return B.T @ np.diag([1, 1, 0.5]) @ B / 2
+
+
+PLACES = [[0, 0], [1, 0], [0, 1]]
+
+
+def body():
+    made = cattaneo.NodalStiffness(triangle(), PLACES, elements=[[0, 1, 2]])
+    made.add_forces("P", [2], "y", -1.0)
+    made.fix([2], "x")
+    return made
+
+
+def problem():
+    patterns = [cattaneo.LoadPattern("P", [0, 0], [1, 1]), cattaneo.LoadPattern("Q", [-1, -1], [0, 0])]
+    return cattaneo.ReducedProblem(
+        np.diag([2.0, 2.0]), np.zeros((2, 2)), np.eye(2), patterns, friction=0.5, weights=1.0, arc_length=[0, 1]
+    )
+
+
+def changed(matrix, i, j, value):
+    matrix = np.array(matrix, dtype=float)
+    matrix[i, j] = value
+    return matrix
+
+
+K = triangle()
+SAID = [
+    (lambda: cattaneo.NodalStiffness(None, PLACES), TypeError, "K is None, must be numbers in rows and columns"),
+    (lambda: cattaneo.NodalStiffness("K", PLACES), TypeError, "K is 'K', must be"),
+    (lambda: cattaneo.NodalStiffness(K[:4], PLACES), ValueError, r"K has shape \(4, 6\), must be square"),
+    (lambda: cattaneo.NodalStiffness(sparse.csr_array(K[:4]), PLACES), ValueError, r"K has shape \(4, 6\)"),
+    (lambda: cattaneo.NodalStiffness(changed(K, 1, 2, np.nan), PLACES), ValueError, r"K\[1, 2\] is nan, must be finite"),
+    (lambda: cattaneo.NodalStiffness(K * 1j, PLACES), TypeError, "K is of dtype complex128, must be"),
+    (lambda: cattaneo.NodalStiffness(K, PLACES[:2]), ValueError, "K has 6 rows and places 2 nodes"),
+    (lambda: cattaneo.NodalStiffness(K, [[0, 0, 0]] * 3), ValueError, r"places has shape \(3, 3\), must have \(any, 2\)"),
+    (lambda: cattaneo.NodalStiffness(K, [[0, 0], [1], [2, 2]]), ValueError, "places cannot be made an array"),
+    (lambda: cattaneo.NodalStiffness(K, PLACES, [[0, 1], [2, 3], [4, 4]]), ValueError, r"dofs\[2, 1\] is row 4, which is dofs\[2, 0\]"),
+    (lambda: cattaneo.NodalStiffness(K, PLACES, [[0, 1], [2, 3], [4, -1]]), ValueError, "row 5 of K is in no entry of dofs"),
+    (lambda: cattaneo.NodalStiffness(K, PLACES, [[0, 1], [2, 3], [4, 6]]), ValueError, r"dofs\[2, 1\] is 6, must be from -1 to 5"),
+    (lambda: cattaneo.NodalStiffness(K, PLACES, [[0.0, 1], [2, 3], [4, 5]]), TypeError, "dofs is of dtype float64, must be whole"),
+    (lambda: cattaneo.NodalStiffness(K, PLACES, elements=[[0, 1, 3]]), ValueError, r"elements\[0, 2\] is 3, must be from 0 to 2"),
+    (lambda: cattaneo.NodalStiffness(K, PLACES, elements=[[0, 1]]), ValueError, "element 0 has 2 nodes, must have 3"),
+    (lambda: cattaneo.NodalStiffness(K, PLACES, elements=[[0, 1, 2, 0, 1, 2]]), ValueError, "element 0: node 1 is not between its corners 1 and 2"),
+    (lambda: cattaneo.NodalStiffness(K, PLACES, fixed=[-1]), ValueError, r"fixed\[0\] is -1, must be from 0 to 5"),
+    (lambda: cattaneo.NodalStiffness(K, PLACES, fixed=[10**30]), TypeError, "fixed is a list of 1 entries, must be whole"),
+    (lambda: cattaneo.NodalStiffness(K, PLACES, fixed=[True] * 5), ValueError, r"fixed is a mask of shape \(5,\), must have 6"),
+    (lambda: cattaneo.NodalStiffness(K, PLACES, loads={"P": [1, 2]}), ValueError, r"loads\['P'\] has 2 entries, must have 6"),
+    (lambda: cattaneo.NodalStiffness(K, PLACES, formulation="torsion"), ValueError, "formulation is 'torsion', must be one of 'plane'"),
+    (lambda: cattaneo.condense(cattaneo.NodalStiffness(changed(K, 0, 1, 9), PLACES), body().contact_line([0, 1])), ValueError, "."),
+    (lambda: body().fix([0], "z"), ValueError, "direction is 'z', must be one of 'x', 'y', 'xy'"),
+    (lambda: body().fix([7], "x"), ValueError, "there is no node 7"),
+    (lambda: body().fix("TOP", "x"), ValueError, "there is no set 'TOP'"),
+    (lambda: body().contact_line([0, 1], order=9), ValueError, "order is 9, must be from 0 to 8"),
+    (lambda: body().contact_line([0]), ValueError, "no outer edge"),
+    (lambda: cattaneo.condense(body(), None), TypeError, "line is None, must be of class ContactLine"),
+    (lambda: cattaneo.condense(3, None), TypeError, "body is a int|an int, must be of class NodalStiffness or HalfPlane"),
+    (lambda: cattaneo.reduce([]), TypeError, "interfaces is a float, must be a list"),
+    (lambda: cattaneo.reduce([None], []), TypeError, r"bodies\[0\] is None, must be of class CondensedBody"),
+    (lambda: cattaneo.Interface("a", (0, None)), TypeError, r"first\[1\] is None, must be of class ContactLine"),
+    (lambda: cattaneo.Material(1.0, 0.5), ValueError, "."),
+    (lambda: cattaneo.ReducedProblem([[1.0]], [[0.0, 0]], [[1.0]], []), ValueError, r"B has shape \(1, 2\), must have \(1, 1\)"),
+    (lambda: cattaneo.ReducedProblem([[1, 2], [0, 1]], np.zeros((2, 2)), np.eye(2), []), ValueError, r"A\[.*\] is .*, must be equal"),
+    (lambda: setattr(problem(), "friction", [0.1, -0.1]), ValueError, r"friction\[1\] is -0.1, must not be negative"),
+    (lambda: setattr(problem(), "friction", None), TypeError, "friction is None"),
+    (lambda: setattr(problem(), "gap", [1, 2, 3]), ValueError, "gap has 3 entries, must have 2"),
+    (lambda: cattaneo.march(None, []), TypeError, "problem is None, must be of class ReducedProblem"),
+    (lambda: cattaneo.march(problem(), "P=1"), TypeError, "history is 'P=1', must be a LoadHistory or a list"),
+    (lambda: cattaneo.march(problem(), [{}]), ValueError, "points has 1 entries, must have two at least"),
+    (lambda: cattaneo.march(problem(), [{}, {"R": 1}]), ValueError, "'R'"),
+    (lambda: cattaneo.march(problem(), [{}, {"P": np.inf}]), ValueError, r"points\[1\]\['P'\] is inf, must be finite"),
+    (lambda: cattaneo.march(problem(), [{}, {"P": 1}], increments=0), ValueError, "increments is 0, must be from 1"),
+    (lambda: cattaneo.march(problem(), [{}, {"P": 1}], increments=2.5), TypeError, "increments is a float, must be a whole number"),
+    (lambda: cattaneo.march(problem(), [{}, {"P": 1}], stepping="euler"), ValueError, "stepping is 'euler', must be one of"),
+    (lambda: cattaneo.march(problem(), [{}, {"P": 1}], progress=3), TypeError, "progress is an int, must be True, False or a function"),
+    (lambda: cattaneo.march(problem(), [{}, {"P": 1}], stop=3), TypeError, "stop is an int, must be None or an object with is_set"),
+    (lambda: readout.tractions(problem(), [1, 2, 3]), ValueError, "nodal_forces has 3 entries, must have 2"),
+    (lambda: shakedown.LoadCycle.through(problem(), {}, []), ValueError, "vertices has no entries"),
+    (lambda: shakedown.closed_contact(problem(), [2]), ValueError, r"nodes\[0\] is 2, must be from 0 to 1"),
+    (lambda: fretting.pressure(fretting.Edge(1, 0, 0.5), [1, np.nan]), ValueError, r"t\[1\] is nan, must be finite"),
+    (lambda: fretting.hertz_slip_energy([1, 2], [1, 2, 3], 0.5, 1), ValueError, "do not fit each other, must broadcast"),
+    (lambda: cattaneo.load_reduced_problem(""), ValueError, "file is '', must be the name of a file"),
+    (lambda: cattaneo.save(None, "x.json"), TypeError, "of is None, must be of class ReducedProblem or ContactState"),
+]
+
+
+@pytest.mark.parametrize("k", range(len(SAID)))
+def test_what_is_said(k):
+    call, kind, sentence = SAID[k]
+    with pytest.raises(kind, match=sentence) as caught:
+        call()
+    text = str(caught.value)
+    assert "\n" not in text and "incompatible function arguments" not in text
+    assert kind is TypeError or isinstance(caught.value, cattaneo.InputError)
+
+
+def test_a_mask_is_not_numbers():
+    """[True, False, …] are the nodes where it is True, not nodes 1 and 0."""
+    made = body()
+    made.fix(made.places[:, 1] == 0, "y")
+    assert list(made.fixed) == [1, 3, 4]
+
+
+def test_numbers_of_numpy_are_numbers():
+    made = problem()
+    made.friction = np.float32(0.5)
+    assert cattaneo.march(made, [{}, {"P": np.int64(1)}], increments=np.int32(3), keep_states=np.bool_(True)).converged
+
+
+def callables():
+    """Every function, class and method of the package, with arguments that it takes."""
+    p = problem()
+    report = cattaneo.march(p, [{}, {"P": 1}, {"P": 1, "Q": 0.2}])
+    line = body().contact_line([0, 1])
+    condensed = cattaneo.condense(body(), line)
+    reduction = cattaneo.reduce(condensed)
+    cycle = shakedown.LoadCycle.through(p, {"P": 1}, [{"Q": 1}])
+    good = [
+        p, report, report.state, line, condensed, reduction, body(), cycle, cattaneo.Material(1, 0.3),
+        cattaneo.HalfPlane(cattaneo.Material(1, 0.3), depth=9), cattaneo.LoadHistory.through(p, [{}, {"P": 1}]),
+        shakedown.limit_problem(p, cycle), fretting.Edge(1, 0.1, 0.5), cattaneo.Interface("a", (0, line)),
+    ]  # fmt: skip
+    found = []
+    for room in (cattaneo, readout, shakedown, fretting):
+        for name in room.__all__:
+            thing = getattr(room, name)
+            # A figure takes long, and what writes files is not given names at random.
+            if callable(thing) and not name.startswith(("write", "save")) and not inspect.ismodule(thing):
+                found.append((f"{room.__name__}.{name}", thing))
+    for thing in good:
+        for name in dir(type(thing)):
+            if name.startswith("__") or name == "plot":
+                continue
+            attribute = getattr(thing, name)
+            if callable(attribute):
+                found.append((f"{type(thing).__name__}.{name}", attribute))
+            else:
+                found.append((f"{type(thing).__name__}.{name} =", lambda value, t=thing, n=name: setattr(t, n, value)))
+    return good, found
+
+
+def odd(random, good):
+    """An argument, most of which fit nowhere."""
+    n = int(random.integers(0, 5))
+    kinds = [
+        lambda: None,
+        lambda: random.choice(["", "P", "x", "plane", "exact", "\ud800", "a\0b", "P=1;Q=2", "T traction TOP 0 -1", "z" * 999]),
+        lambda: bool(random.integers(2)),
+        lambda: int(random.choice([0, 1, -1, 2, 7, 2**31 - 1, 2**31, -(2**63)])),
+        lambda: 10**40,
+        lambda: float(random.choice([0, 1, -1, 0.5, np.nan, np.inf, 1e308, 5e-324])),
+        lambda: 1j,
+        lambda: random.normal(size=n),
+        lambda: random.normal(size=(n, int(random.integers(0, 4)))),
+        lambda: random.normal(size=(2, 2, 2)),
+        lambda: np.eye(n),
+        lambda: random.integers(-2, 5, n),
+        lambda: random.integers(0, 2, n).astype(bool),
+        lambda: np.array([np.nan, 1.0]),
+        lambda: np.array(["a", "b"]),
+        lambda: np.array([None, 1], dtype=object),
+        lambda: np.ma.masked_array([1.0, 2.0], [0, 1]),
+        lambda: np.zeros((3, 0)),
+        lambda: np.array(1.5, dtype=np.float16),
+        lambda: np.eye(6)[::-1, ::2],
+        lambda: sparse.random(6, 6, 0.5, random_state=1),
+        lambda: sparse.csr_array((6, 6)),
+        lambda: sparse.eye(4, format="dia"),
+        lambda: {},
+        lambda: {"P": 1.0},
+        lambda: {"P": None, 3: 4},
+        lambda: [],
+        lambda: [{}, {"P": 1}],
+        lambda: [[0, 1], [2]],
+        lambda: (0, good[3]),
+        lambda: [good[4]],
+        lambda: b"bytes",
+        lambda: object(),
+        lambda: lambda *values: None,
+        lambda: lambda x, y: float("nan"),
+        lambda: threading.Event(),
+        lambda: good[int(random.integers(len(good)))],
+        lambda: good[int(random.integers(len(good)))],
+        lambda: type(good[0]).__new__(type(good[0])),  # never initialised
+    ]
+    return kinds[int(random.integers(len(kinds)))]()
+
+
+def fuzz(seed, calls):
+    """Calls everything with anything; what comes back is an answer or an exception of Python's."""
+    import warnings
+
+    warnings.simplefilter("ignore")
+    random = np.random.default_rng(seed)
+    good, found = callables()
+    answers, refusals = 0, 0
+    for _ in range(calls):
+        name, call = found[int(random.integers(len(found)))]
+        arguments = [odd(random, good) for _ in range(int(random.integers(1, 5)))]
+        try:
+            result = call(*arguments)
+            repr(result)
+            answers += 1
+        except (ValueError, TypeError, KeyError, AttributeError, ImportError, MemoryError) as error:
+            assert not isinstance(error, cattaneo.InputError) or "\n" not in str(error), (name, str(error))
+            refusals += 1
+    print(answers, refusals)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_fuzz(seed):
+    """In a process of its own, whose end would show a crash."""
+    words = [sys.executable, "-X", "faulthandler", __file__, str(seed), "1500"]
+    done = subprocess.run(words, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-4000:]
+    answers, refusals = map(int, done.stdout.split())
+    assert refusals > 500 and answers > 20  # neither all is refused nor all taken
+
+
+if __name__ == "__main__":
+    fuzz(int(sys.argv[1]), int(sys.argv[2]))

@@ -1,0 +1,175 @@
+"""Stiffness matrices of other programs: scikit-fem's, CalculiX's, and springs by hand."""
+
+import cattaneo
+import numpy as np
+import pytest
+import scipy.sparse as sparse
+from cattaneo import readout
+
+
+def strip(nodes=5, height=1.0, young=1.0, order=1):
+    """A strip of unit width of scikit-fem, on y from 0 to height, with its mesh's nodes; Poisson's ratio is zero."""
+    skfem = pytest.importorskip("skfem")
+    from skfem.models.elasticity import lame_parameters, linear_elasticity
+
+    mesh = skfem.MeshQuad.init_tensor(np.linspace(0, 1, nodes), np.linspace(0, height, 4))
+    element = skfem.ElementQuad1() if order == 1 else skfem.ElementQuad2()
+    basis = skfem.Basis(mesh, skfem.ElementVector(element))
+    K = linear_elasticity(*lame_parameters(young, 0.0)).assemble(basis)
+    places = basis.doflocs.T[::2]
+    elements = basis.element_dofs.T[:, ::2] // 2
+    return cattaneo.NodalStiffness(K, places, elements=elements)
+
+
+@pytest.mark.parametrize("order", [1, 2])
+def test_uniform_compression(order):
+    """With ν = 0 a column under pressure 1 shortens by height/E, and its contact pressure is 1 at every node."""
+    body = strip(height=2.0, young=8.0, order=order)
+    top, bottom = body.places[:, 1] == 2.0, body.places[:, 1] == 0
+    body.add_traction("P", top, (0, -1))
+    condensed = cattaneo.condense(body, body.contact_line(bottom))
+    assert condensed.rigid_modes == 3
+    reduction = cattaneo.reduce(condensed)
+    reduction.problem.friction = 0.2
+    report = cattaneo.march(reduction.problem, [{}, {"P": 1}])
+    assert readout.tractions(reduction.problem, report.state.p) == pytest.approx(np.ones(len(condensed.line)))
+    u = reduction.displacement(0, report.state)
+    assert u[body.dofs[top, 1]] == pytest.approx(-2.0 / 8.0)
+    assert report.conjugates["P"] == pytest.approx([2.0 / 8.0])  # of unit width
+
+
+def test_line_of_elements_and_of_ordered_nodes():
+    body = strip()
+    by_mask = body.contact_line(body.places[:, 1] == 0)
+    bottom = np.flatnonzero(body.places[:, 1] == 0)
+    ordered = bottom[np.argsort(body.places[bottom, 0])]
+    without = cattaneo.NodalStiffness(body.K, body.places)
+    by_order = without.contact_line(ordered, order=1)
+    assert np.array_equal(by_mask.positions, by_order.positions)
+    assert by_mask.normals == pytest.approx(np.tile([0, 1], (5, 1)))
+    assert by_mask.weights == pytest.approx([1 / 8, 1 / 4, 1 / 4, 1 / 4, 1 / 8])
+    assert by_mask.chains[0]["ends"] == ("corner", "corner")
+    assert by_order.chains[0]["ends"] == ("unknown", "unknown")
+    with pytest.raises(cattaneo.InputError, match="the other way round"):
+        without.contact_line(ordered[::-1], order=1)
+
+
+def test_two_bodies_whose_nodes_do_not_match():
+    """Pressure is 1 on both sides of a mortar interface, and each body shortens by its own."""
+    lower, upper = strip(5), strip(8)
+    for node_places in (lower.places,):
+        lower.fix(node_places[:, 1] == 0, "xy")
+    shifted = cattaneo.NodalStiffness(
+        upper.K, upper.places + (0, 1), elements=quads_of(upper, 8), name="upper"
+    )
+    shifted.add_traction("P", shifted.places[:, 1] == 2, (0, -1))
+    below = lower.contact_line(lower.places[:, 1] == 1)
+    above = shifted.contact_line(shifted.places[:, 1] == 1)
+    interface = cattaneo.Interface("joint", (0, below), (1, above))
+    reduction = cattaneo.reduce([cattaneo.condense(lower, below), cattaneo.condense(shifted, above)], [interface])
+    problem = reduction.problem
+    problem.friction = 0.5
+    state = cattaneo.march(problem, [{}, {"P": 1}]).state
+    assert readout.tractions(problem, state.p) == pytest.approx(np.ones(problem.nodes))
+    assert problem.nodes == 5  # the coarser side
+    top = shifted.places[:, 1] == 2
+    assert reduction.displacement(1, state)[shifted.dofs[top, 1]] == pytest.approx(-2.0)
+    assert reduction.interfaces[0].bodies == (0, 1) and reduction.interfaces[0].left_out == pytest.approx(0)
+
+
+def quads_of(body, across):
+    """Elements of strip(across) from its numbering: found by their places."""
+    at = {tuple(np.round(place, 9)): k for k, place in enumerate(body.places)}
+    x, y = np.unique(np.round(body.places[:, 0], 9)), np.unique(np.round(body.places[:, 1], 9))
+    return [
+        [at[x[i], y[j]], at[x[i + 1], y[j]], at[x[i + 1], y[j + 1]], at[x[i], y[j + 1]]]
+        for i in range(len(x) - 1)
+        for j in range(len(y) - 1)
+    ]
+
+
+def test_matching_bodies_are_paired():
+    lower, upper = strip(5), strip(5)
+    lower.fix(lower.places[:, 1] == 0, "xy")
+    upper = cattaneo.NodalStiffness(upper.K, upper.places + (0, 1), elements=quads_of(upper, 5))
+    upper.add_traction("P", upper.places[:, 1] == 2, (0, -1))
+    below = cattaneo.condense(lower, lower.contact_line(lower.places[:, 1] == 1))
+    above = cattaneo.condense(upper, upper.contact_line(upper.places[:, 1] == 1))
+    problem = cattaneo.reduce(above, below).problem
+    state = cattaneo.march(problem, [{}, {"P": 1}]).state
+    assert readout.tractions(problem, state.p) == pytest.approx(np.ones(5))
+
+
+def test_any_sparse_format_and_dense_are_one_matrix():
+    body = strip(3)
+    for K in (body.K, body.K.tocoo(), body.K.tocsc(), sparse.csr_matrix(body.K), body.K.toarray()):
+        assert abs(cattaneo.NodalStiffness(K, body.places).K - body.K).max() == 0
+    # Duplicates add up, as scipy means them.
+    coo = body.K.tocoo()
+    twice = sparse.coo_array(
+        (np.tile(coo.data / 2, 2), (np.tile(coo.row, 2), np.tile(coo.col, 2))), shape=coo.shape
+    )
+    assert abs(cattaneo.NodalStiffness(twice, body.places).K - body.K).max() < 1e-15
+
+
+def test_obstacle_that_moves():
+    """A held column with ν = 0 that is lifted by 0.1 from below bears E 0.1/height."""
+    body = strip(height=2.0, young=8.0)
+    body.fix(body.places[:, 1] == 2.0, "xy")
+    reduction = cattaneo.reduce(cattaneo.condense(body, body.contact_line(body.places[:, 1] == 0)))
+    reduction.add_obstacle_motion("lift", 0.0, 1.0)
+    report = cattaneo.march(reduction.problem, [{}, {"lift": 0.1}])
+    assert report.state.p.sum() == pytest.approx(8.0 * 0.1 / 2.0)
+    assert report.conjugates["lift"] == pytest.approx([8.0 * 0.1 / 2.0])
+
+
+def test_gap_as_a_function():
+    """A punch with the gap 0.05 + 0 x touches when it has come down by that."""
+    body = strip()
+    body.add_displacement("down", body.places[:, 1] == 1, "y", -1.0)
+    body.fix(body.places[:, 1] == 1, "x")
+    line = body.contact_line(body.places[:, 1] == 0)
+    problem = cattaneo.reduce(cattaneo.condense(body, line), lambda x, y: 0.05 + 0 * x + y).problem
+    assert problem.gap == pytest.approx(np.full(5, 0.05))
+    report = cattaneo.march(problem, [{}, {"down": 0.04}, {"down": 0.25}])
+    assert report.state.p.sum() == pytest.approx(0.2)  # E = 1, height = 1
+    with pytest.raises(ZeroDivisionError):
+        cattaneo.reduce(cattaneo.condense(body, line), lambda x, y: 1 / 0)
+    with pytest.raises(TypeError, match=r"gap\(0, 0\) is None, must be a number"):
+        cattaneo.reduce(cattaneo.condense(body, line), lambda x, y: None)
+
+
+def test_calculix_lap_joint(root):
+    """The shipped deck: the clamp is 10 N at each node of ABOVE, which is the normal force of the joint."""
+    laps = cattaneo.read_stiffness(root / "meshes" / "calculix" / "laps.sti")
+    lower, upper = laps.parts()
+    assert (lower.name, upper.name) == ("LOWER", "UPPER")
+    below, above = lower.contact_line("LOWER_FACE"), upper.contact_line("UPPER_FACE")
+    bodies = [cattaneo.condense(lower, below), cattaneo.condense(upper, above)]
+    problem = cattaneo.reduce(bodies, [cattaneo.Interface("lap", (0, below), (1, above))]).problem
+    problem.friction = 0.5
+    state = cattaneo.march(problem, [{}, {"CLOAD1": 1}]).state
+    assert state.p.sum() == pytest.approx(10 * len(upper.nodes_of("ABOVE")), rel=1e-9)
+
+
+def test_written_files_come_back(tmp_path):
+    body = strip(3)
+    body.add_traction("P", body.places[:, 1] == 1, (0, -1))
+    file = tmp_path / "strip.mtx"
+    cattaneo.write_matrix_market(file, body)
+    back = cattaneo.read_stiffness(file)
+    assert abs(back.K - body.K).max() == 0 and np.array_equal(back.places, body.places)
+    assert np.array_equal(back.loads["P"], body.loads["P"])
+    condensed = cattaneo.condense(body, body.contact_line(body.places[:, 1] == 0))
+    problem = cattaneo.reduce(condensed).problem
+    problem.friction = 0.1234567890123
+    cattaneo.save(problem, tmp_path / "problem.json")
+    again = cattaneo.load_reduced_problem(tmp_path / "problem.json")
+    assert np.array_equal(again.K, problem.K) and np.array_equal(again.friction, problem.friction)
+    cattaneo.write_npz(tmp_path / "problem.npz", problem)
+    assert np.array_equal(np.load(tmp_path / "problem.npz")["K"], problem.K)
+    state = cattaneo.march(problem, [{}, {"P": 1}]).state
+    cattaneo.save(state, tmp_path / "state.json")
+    assert np.array_equal(cattaneo.load_contact_state(tmp_path / "state.json").p, state.p)
+    with pytest.raises(cattaneo.InputError, match="nowhere"):
+        cattaneo.load_reduced_problem(tmp_path / "nowhere.json")

@@ -1,0 +1,140 @@
+"""Half-planes in contact against Hertz, Cattaneo and Mindlin, and single nodes by hand."""
+
+import cattaneo
+import numpy as np
+import pytest
+from cattaneo import fretting, readout, shakedown
+
+friction, a = 0.3, 1.0  # a: half-width of contact
+steel = cattaneo.Material(210.0, 0.3)
+modulus = 210.0 / (2 * (1 - 0.3**2))  # E* of two bodies of the same material
+pressed = np.pi * modulus * a**2 / 4  # on a relative radius of 1
+
+
+@pytest.fixture(scope="module")
+def hertz():
+    """Two half-planes with a parabolic gap, 50 nodes in contact."""
+    upper = cattaneo.HalfPlane(steel, depth=1e4, normal=(0, 1), forces={"P": (0, -1), "Q": (1, 0)})
+    body = cattaneo.condense(upper, np.linspace(-1.52, 1.52, 77))
+    problem = cattaneo.reduce(body, cattaneo.HalfPlane(steel, depth=1e4)).problem
+    problem.gap = problem.position[:, 0] ** 2 / 2
+    problem.friction = friction
+    return problem
+
+
+def test_hertz_pressure(hertz):
+    report = cattaneo.march(hertz, [{}, {"P": pressed}])
+    x = hertz.position[:, 0]
+    exact = 2 * pressed / (np.pi * a) * np.sqrt(np.maximum(1 - x**2, 0))
+    p = readout.tractions(hertz, report.state.p)
+    inside = abs(x) < 0.9
+    assert p[inside] == pytest.approx(exact[inside], abs=3e-3 * exact.max())
+    zone = readout.contact_zone(hertz, report.state)
+    assert zone.width / 2 == pytest.approx(a, abs=zone.from_.error)
+    assert report.state.p.sum() == pytest.approx(pressed, rel=1e-12)
+
+
+def test_cattaneo_mindlin_stick_and_loss(hertz):
+    """c = a √(1 - Q/fP); the loss of a cycle is in the book of Johnson, 7.4."""
+    Q = 0.6 * friction * pressed
+    points = [{}, {"P": pressed}] + [{"P": pressed, "Q": s * Q} for s in (1, -1, 1)]
+    history = cattaneo.LoadHistory.through(hertz, points, cycle_start=2, cycles=4)
+    report = cattaneo.march(hertz, history, stepping="exact")
+    stick = readout.stick_zone(hertz, cattaneo.march(hertz, points[:3], increments=40).state)
+    assert stick.width / 2 == pytest.approx(a * np.sqrt(1 - 0.6), abs=stick.from_.error)
+    x = 0.6
+    exact = 4 * (friction * pressed) ** 2 / (np.pi * modulus) * ((1 - x) * np.log(1 - x) + x - x**2 / 2)
+    loop = report.cycles[-1].loops["Q"]
+    assert loop.work == pytest.approx(exact, rel=5e-3)
+    assert report.cycles[-1].dissipation == pytest.approx(loop.work, rel=1e-9)
+    assert report.steady_cycle == 1
+    assert len(report.changes) > 20
+
+
+def test_gross_sliding_is_where_coulomb_says(hertz):
+    """Sliding begins at Q = f P; the march says so, and keeps the last equilibrium."""
+    with pytest.warns(cattaneo.OutcomeWarning, match="gross sliding"):
+        report = cattaneo.march(hertz, [{}, {"P": 1.0}, {"P": 1.0, "Q": 2 * friction}])
+    assert (report.status, report.converged) == ("gross sliding", False)
+    at = dict(zip(hertz.loads, report.event_multipliers))
+    assert at["Q"] == pytest.approx(friction, rel=1e-6)
+
+
+def slider(k=2.0, f=0.5):
+    """A mass-less slider on a spring k, pressed by P on a rigid plane, its spring's end moved by d: q = k (v - d),
+    p = P. H of the spring alone is k."""
+    return cattaneo.ReducedProblem(
+        [[k]],
+        [[0.0]],
+        [[1.0]],
+        [cattaneo.LoadPattern("P", [0.0], [1.0]), cattaneo.LoadPattern("d", [-k], [0.0], control="displacement")],
+        friction=f,
+        H=[[0, 0], [0, k]],
+    )
+
+
+def test_slider_by_hand():
+    """Slips when k d = f P, then v = d - f P/k; the reaction of the spring's end is f P; over a cycle ±d it loses
+    4 f P (d - f P/k)."""
+    k, f, P, d = 2.0, 0.5, 3.0, 2.0
+    problem = slider(k, f)
+    points = [{}, {"P": P}] + [{"P": P, "d": s * d} for s in (1, -1, 1)]
+    history = cattaneo.LoadHistory.through(problem, points, cycle_start=2)
+    report = cattaneo.march(problem, history, stepping="exact", keep_states=True)
+    assert report.state.v == pytest.approx([d - f * P / k], rel=1e-14)
+    assert report.state.q == pytest.approx([-f * P], rel=1e-14)
+    assert report.conjugates["d"][-1] == pytest.approx(f * P, rel=1e-14)
+    assert report.cycles[0].loops["d"].work == pytest.approx(4 * f * P * (d - f * P / k), rel=1e-12)
+    assert [s.time for s in report.states] == list(report.time)
+    assert cattaneo.settled_states(problem, report.state)[0] == cattaneo.NodeState.forward_slip
+    assert report.dissipation.sum() == pytest.approx(report.state.dissipation)
+
+
+def test_two_nodes_by_hand():
+    """Two nodes on springs of their own share P as 1 and 2; under Q = 0.4 on each of them the first, with f p = 0.3,
+    slips by 0.1/k, the second, with f p = 0.6, does not."""
+    k = 4.0
+    problem = cattaneo.ReducedProblem(
+        np.diag([k, k]),
+        np.zeros((2, 2)),
+        np.eye(2),
+        [cattaneo.LoadPattern("P", [0, 0], [1, 2]), cattaneo.LoadPattern("Q", [-1, -1], [0, 0])],
+        friction=0.3,
+    )
+    state = cattaneo.march(problem, [{}, {"P": 1}, {"P": 1, "Q": 0.4}]).state
+    assert state.v == pytest.approx([0.1 / k, 0], abs=1e-15)
+    assert state.q == pytest.approx([-0.3, -0.4], rel=1e-14)
+    assert list(state.status) == [cattaneo.NodeState.forward_slip, cattaneo.NodeState.stick]
+
+
+def test_shakedown_of_a_slider():
+    """It sticks from then on if the spring's end moves by less than 2 f P/k in all."""
+    k, f, P = 2.0, 0.5, 3.0
+    problem = slider(k, f)
+    cycle = shakedown.LoadCycle.through(problem, {"P": P}, [{"d": 1}, {"d": -1}])
+    limit = shakedown.load_limit(shakedown.limit_problem(problem, cycle))
+    if limit.status == "unavailable":
+        pytest.skip("built without Ipopt")
+    assert limit.certified
+    assert limit.lower <= f * P / k * (1 + 1e-12) and limit.upper >= f * P / k * (1 - 1e-12)
+    assert limit.limit == pytest.approx(f * P / k, rel=1e-5)
+    least = shakedown.friction_limit(shakedown.limit_problem(problem, cycle), 0.6)
+    assert least.limit == pytest.approx(k * 0.6 / P, rel=1e-5)
+    assert float(shakedown.method1_load(problem, cycle)) == pytest.approx(f * P / k)
+    assert shakedown.lower_limit(shakedown.limit_problem(problem, cycle), limit).kind == "uncoupled"
+
+
+def test_fretting_closed_forms():
+    """Formulas of the near-edge field, with arrays as NumPy's functions take them."""
+    edge = fretting.Edge(k_n=2.0, k_t=0.3, friction=0.5)
+    assert fretting.slip_zone(edge) == pytest.approx(2 * 0.3 / (0.5 * 2.0))
+    t = np.array([[0.1, 1.0, 4.0]])
+    assert fretting.pressure(edge, t) == pytest.approx(2.0 * np.sqrt(t))
+    d = fretting.slip_zone(edge)
+    assert fretting.shear_traction(edge, t) == pytest.approx(np.sqrt(t) - np.sqrt(np.maximum(t - d, 0)))
+    assert isinstance(fretting.pressure(edge, 1.0), float)
+    assert fretting.stress(edge, t, 0.2).shape == (1, 3, 3)
+    contact = fretting.hertz_contact(load=pressed, radius=1.0, modulus=modulus)
+    assert contact.half_width == pytest.approx(a)
+    assert fretting.corner_modes(np.pi / 2, np.pi).one.eigenvalue == pytest.approx(0.544483736782)
+    assert fretting.hertz_slip_energy(friction, pressed, [0.2, 0.6], modulus).shape == (2,)

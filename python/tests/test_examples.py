@@ -1,0 +1,102 @@
+"""The examples, and every example of docs/python.md, as a user runs them."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+
+import pytest
+from conftest import ROOT
+
+EXAMPLES = ROOT / "python" / "examples"
+
+
+def run(*words, cwd=ROOT):
+    """Its output; fails with all of it if it does not end well."""
+    done = subprocess.run([sys.executable, *map(str, words)], cwd=cwd, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+def numbers(text):
+    return [float(word) for word in re.findall(r"-?\d+\.?\d*(?:e[-+]\d+)?", text)]
+
+
+def test_hertz():
+    """Against Hertz's own figures, in the output; the block is forty half-widths wide, not a half-plane."""
+    pytest.importorskip("skfem")
+    out = run(EXAMPLES / "hertz.py")
+    for line in ("half-width", "peak pressure"):
+        computed, exact = numbers(next(each for each in out.splitlines() if each.startswith(line)).split(line)[1])
+        assert computed == pytest.approx(exact, rel=2e-3)
+
+
+def test_calculix_loop(tmp_path):
+    """The loss of a cycle is the area of the loop, from a matrix that was shipped; and from one that ccx writes now."""
+    shipped = run(EXAMPLES / "calculix_loop.py")
+    assert "converged" in shipped and "loss of a cycle" in shipped
+    if shutil.which("ccx") is None:
+        pytest.skip("there is no ccx (Debian: calculix-ccx) to write the matrix anew")
+    shutil.copy(ROOT / "meshes" / "calculix" / "laps.inp", tmp_path)
+    subprocess.run(["ccx", "laps"], cwd=tmp_path, check=True, capture_output=True, timeout=100)
+    figure = tmp_path / "loop.png"
+    again = run(EXAMPLES / "calculix_loop.py", tmp_path / "laps.sti", figure)
+    assert figure.stat().st_size > 10000
+
+    def loss(out):
+        return numbers(out[out.index("loss of a cycle") :])[0]
+
+    assert loss(again) == pytest.approx(loss(shipped), rel=1e-5)
+
+
+def test_monte_carlo():
+    out = run(EXAMPLES / "monte_carlo.py", ROOT / "problems" / "hertz.json", 40)
+    assert out.startswith("40 marches of 41 nodes") and "0 of them did not converge" in out
+    low, high = numbers(out[out.index("nine of ten") :])[:2]
+    # Spread of the friction, against the closed form's: with x = Q/fP the loss is f² ((1-x) ln(1-x) + x - x²/2).
+    assert 0 < low < high
+
+
+def test_shakedown_map():
+    """At f = 0.8 and R = -1 the limit is known from elsewhere (README): 0.8040 is that of f = 0.85; it falls with f."""
+    from cattaneo import load_reduced_problem, shakedown
+
+    problem = load_reduced_problem(ROOT / "problems" / "punch_on_half_plane.json")
+    cycle = shakedown.held_and_cycled(problem, "P", 1.0, "Q", -1.0)
+    if shakedown.load_limit(shakedown.limit_problem(problem, cycle)).status == "unavailable":
+        pytest.skip("built without Ipopt")
+    out = run(EXAMPLES / "shakedown_map.py")
+    rows = [numbers(line.split("=")[1]) for line in out.splitlines() if line.startswith("f =")]
+    assert len(rows) == 5
+    for _, fully_reversed, half, from_zero in rows:
+        assert fully_reversed <= half + 1e-6 <= from_zero + 2e-6  # a smaller range is borne at least as well
+
+
+BLOCKS = re.findall(r"```python\n(.*?)```", (ROOT / "docs" / "python.md").read_text(encoding="utf-8"), re.S)
+
+
+@pytest.mark.parametrize("k", range(len(BLOCKS)))
+def test_page(k, tmp_path):
+    """Each block of the page is a script of its own, run in the repository."""
+    if "skfem" in BLOCKS[k]:
+        pytest.importorskip("skfem")
+    script = tmp_path / f"block{k}.py"
+    script.write_text("import warnings, cattaneo\nwarnings.simplefilter('error', cattaneo.OutcomeWarning)\n" + BLOCKS[k])
+    run(script)
+
+
+def test_page_names_what_there_is():
+    """What the table of the page calls by name exists."""
+    import cattaneo
+
+    table = (ROOT / "docs" / "python.md").read_text(encoding="utf-8").split("## What there is")[1].split("`help(")[0]
+    for row in table.splitlines():
+        if not row.startswith("| `"):
+            continue
+        cell = row.split("|")[1]
+        inside = {"`cattaneo.readout`": cattaneo.readout, "`cattaneo.shakedown`": cattaneo.shakedown}
+        inside["`cattaneo.fretting`"] = cattaneo.fretting
+        room = inside.get(cell.strip())
+        for word in re.findall(r"`([A-Za-z_]+)[^`]*`", row.split("|")[2] if room else cell):
+            assert hasattr(room or cattaneo, word) or word == "cattaneo", word
