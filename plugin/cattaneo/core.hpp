@@ -30,5 +30,6 @@
 #include <cattaneo/shakedown/lower_limit.hpp>
 #include <cattaneo/shakedown/stay_closed.hpp>
 #include <cattaneo/shakedown/transient.hpp>
+#include <cattaneo/wear/worn_out.hpp>
 #include <cattaneo/whole_file.hpp>
 #include <cattaneo/words.hpp>

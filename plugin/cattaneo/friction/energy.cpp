@@ -13,39 +13,51 @@ double work(const LoadPattern &pattern, const ContactState &state)
    return pattern.q.dot(state.v) + pattern.p.dot(state.w);
 }
 
-VectorXd frictional_loss(const ReducedProblem &problem, const ContactState &before,
-                         const ContactState &after)
+Rubbing rubbing(const ReducedProblem &problem, const ContactState &before,
+                const ContactState &after)
 {
    const Index n = problem.nodes(), c = problem.components();
-   VectorXd lost = VectorXd::Zero(c > 0 ? n : 0);
-   for (Index i = 0; i < lost.size(); ++i)
+   Rubbing result{VectorXd::Zero(c > 0 ? n : 0), before.p.cwiseMax(0.0), after.p.cwiseMax(0.0)};
+   for (Index i = 0; i < result.way.size(); ++i)
    {
-      const FrictionBound bound(problem.friction[i]);
-      const double g1 = bound.at(after.p[i]);
-      double g0 = bound.at(before.p[i]), length = 0, along = 0;
+      double &way = result.way[i], along = 0;
       for (Index k = i; k < c * n; k += n)
       {
          const double step = after.v[k] - before.v[k];
-         length = k == i ? std::abs(step) : std::hypot(length, step);
+         way = k == i ? std::abs(step) : std::hypot(way, step);
          along += before.q[k] * after.q[k];
       }
-      if (length == 0) { continue; }
+      if (way == 0) { continue; }
       if (slips(before.status[i]) && slips(after.status[i]) && along < 0)
       {
          // |q0 + s (trial - q0)|² = (g0 + s (g1 - g0))², g the bounds: the root in 0…1 beyond
          // s = 0, where friction was exhausted the other way.
+         const FrictionBound bound(problem.friction[i]);
+         const double g0 = bound.at(before.p[i]), g1 = bound.at(after.p[i]);
          double a = -(g1 - g0) * (g1 - g0), b = -2 * g0 * (g1 - g0);
          for (Index k = i; k < c * n; k += n)
          {
             const double trial = after.q[k] - problem.A()(k, k) * (after.v[k] - before.v[k]);
-            const double way = trial - before.q[k];
-            a += way * way;
-            b += 2 * before.q[k] * way;
+            const double turning = trial - before.q[k];
+            a += turning * turning;
+            b += 2 * before.q[k] * turning;
          }
          const double turn = a > 0 ? std::clamp(-b / a, 0.0, 1.0) : 0.0;
-         g0 += turn * (g1 - g0);
+         result.p_from[i] += turn * (result.p_to[i] - result.p_from[i]);
       }
-      lost[i] = 0.5 * (g0 + g1) * length;
+   }
+   return result;
+}
+
+VectorXd frictional_loss(const ReducedProblem &problem, const ContactState &before,
+                         const ContactState &after)
+{
+   const Rubbing rub = rubbing(problem, before, after);
+   VectorXd lost = rub.way;
+   for (Index i = 0; i < lost.size(); ++i)
+   {
+      const FrictionBound bound(problem.friction[i]);
+      lost[i] *= 0.5 * (bound.at(rub.p_from[i]) + bound.at(rub.p_to[i]));
    }
    return lost;
 }

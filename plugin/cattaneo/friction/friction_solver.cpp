@@ -231,6 +231,16 @@ const ReducedProblem &FrictionSolver::problem() const
 {
    return system_->problem;
 }
+void FrictionSolver::set_gap(const VectorXd &gap)
+{
+   require(gap.size() == problem().nodes() && gap.allFinite(), "friction solver: a gap of ",
+           gap.size(), " entries for ", problem().nodes(),
+           " contact nodes, must be one finite number for each");
+   system_->problem.gap = gap;
+   // These have copies of the problem.
+   system_->smooth.reset();
+   system_->slippery.reset();
+}
 bool FrictionSolver::frictionless() const
 {
    return system_->frictionless;

@@ -73,6 +73,9 @@ public:
    IncrementReport solve(ContactState &state, const Eigen::VectorXd &multipliers);
 
    const ReducedProblem &problem() const;
+   /// Another initial gap of each node, size n, from the next increment on: a gap that wears
+   /// opens between two increments. InputError for another size or an entry that is not finite.
+   void set_gap(const Eigen::VectorXd &gap);
    bool frictionless() const;
    /// Is `after` the end of an increment from `before`? By the equations and the laws as they
    /// are given, however it was found: converged, or not_unique if a closed node has friction

@@ -8,11 +8,20 @@ namespace cattaneo
 /// Of the forces of a load pattern in the displacements of a state.
 double work(const LoadPattern &pattern, const ContactState &state);
 
-/** Frictional loss of each node (size n) over an increment: ½ f (p₀ + p₁)|Δv|, exact for a
-    linear path along which the node is in contact and slips one way. Where slip has turned
-    round since the last increment the node sticks first: p₀ is then the pressure at which
-    friction is exhausted again, if the forces of the node that does not slip yet change
-    linearly. Never negative. */
+/** How each node (size n) rubs over an increment: the way |Δv| that it slips, and its nodal
+    pressures at the beginning and the end of that way. Where slip has turned round since the
+    last increment the node sticks first: the way then begins at the pressure at which friction
+    is exhausted again, if the forces of the node that does not slip yet change linearly. */
+struct Rubbing
+{
+   Eigen::VectorXd way, p_from, p_to;
+};
+Rubbing rubbing(const ReducedProblem &problem, const ContactState &before,
+                const ContactState &after);
+
+/** Frictional loss of each node (size n) over an increment: ½ f (p₀ + p₁)|Δv| with the
+   pressures of its rubbing(), exact for a linear path along which the node is in contact and
+   slips one way. Never negative. */
 Eigen::VectorXd frictional_loss(const ReducedProblem &problem, const ContactState &before,
                                 const ContactState &after);
 

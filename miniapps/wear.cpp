@@ -1,0 +1,371 @@
+//  wear: fretting wear of a contact in partial slip, cycle by cycle and at its end
+//
+//  A parabola 1/R on a half-plane of the same material, pressed by P; Q swings between ±f P
+//  times
+//  --shear, and the surfaces wear by Archard's law, depth = k p |slip|, both together. Units:
+//  a (half-width of the unworn contact) = P = R = 1. Wear ends when what slips carries nothing:
+//  that state is also solved for directly, and compared with Ciavarella and Hills (1999). With
+//  --reduced any saved reduced problem, in its own units, through a history of your own. No
+//  debris, and depth must be small against the contact: docs/wear.md.
+//
+//  Sample runs:  wear
+//                wear --shear 0.2 --friction 0.3 --cycles 0
+//                wear --profile flat --cycles 2000
+//                wear --case problems/hertz_wear.case.json
+
+#include "common/hertz_scene.hpp"
+#include "common/run.hpp"
+#include "common/watch.hpp"
+
+#include <algorithm>
+#include <cattaneo/friction/history_statements.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cattaneo/reduced/reduced_file.hpp>
+#include <cattaneo/wear/worn_out.hpp>
+#include <cmath>
+
+using namespace cattaneo;
+using Eigen::Index;
+using Eigen::VectorXd;
+using miniapp::exact_text;
+using miniapp::text;
+
+namespace
+{
+
+/// How far a parabola wears in the end, over the half-width c of stick: ξ √(ξ² - 1) = (P/P*)
+/// arccosh ξ.
+double worn_extent(double P_over_held)
+{
+   double low = 1 + 1e-9, high = 1e3;
+   for (int k = 0; k < 200; ++k)
+   {
+      const double x = std::sqrt(low * high);
+      (x * std::sqrt(x * x - 1) > P_over_held * std::acosh(x) ? high : low) = x;
+   }
+   return low;
+}
+
+/// Grid of a contact line |x| < span of so many elements, finer toward ±c, where slip begins.
+std::vector<double> grid_about(double c, double span, int elements)
+{
+   const int outer = std::max(2, elements / 5), inner = elements / 2 - outer;
+   const auto toward_c = [](int k, int of)
+   { return std::pow(static_cast<double>(k) / of, 1.8); };
+   std::vector<double> half = {0}; // from 0 to span
+   for (int k = inner - 1; k >= 0; --k) { half.push_back(c - c * toward_c(k, inner)); }
+   for (int k = 1; k <= outer; ++k) { half.push_back(c + (span - c) * toward_c(k, outer)); }
+   std::vector<double> grid;
+   for (std::size_t k = half.size() - 1; k > 0; --k) { grid.push_back(-half[k]); }
+   grid.insert(grid.end(), half.begin(), half.end());
+   return grid;
+}
+
+struct Case
+{
+   ReducedProblem problem;
+   LoadHistory history;
+   double middle = 0; ///< of what is symmetric, arc length
+};
+
+/// A pad on a half-plane, P = 1, of a half-width a = 1 unworn if it is a parabola with R = 1.
+Case pad_on_half_plane(miniapp::Study &study, const std::string &profile, double flat,
+                       double shear, double friction, double poisson, int order, int nodes)
+{
+   require((nodes - 1) % (2 * order) == 0, "option --nodes is ", nodes,
+           ", must be one more than a multiple of twice the order ", order);
+   const bool parabola = profile == "parabola";
+   const double c = parabola ? std::sqrt(1 - shear) : 1.0,
+                span = parabola ? std::max(1.15, 1.1 * c * worn_extent(1 / (1 - shear)))
+                                : 1 + 2 * (1 - flat);
+   miniapp::HalfPlanes planes;
+   planes.order = order;
+   planes.nodes = nodes;
+   planes.material = Material{8 / M_PI * (1 - poisson * poisson), poisson, PlaneState::strain};
+   planes.grid = grid_about(c, span, (nodes - 1) / order);
+   miniapp::Scene scene = make_scene(planes);
+   Case result;
+   ReducedProblem &problem = result.problem = scene.problem();
+   problem.B().setZero(); // equal half-planes: what is there is round-off
+   join_coupling(problem);
+   set_friction(problem, friction);
+   const VectorXd x = problem.position.col(0);
+   problem.gap = parabola
+                    ? VectorXd(0.5 * x.cwiseAbs2())
+                    : VectorXd(0.5 * (x.cwiseAbs().array() - flat).cwiseMax(0.0).square());
+   study.condensed(problem, scene.dofs);
+   const double Q = shear * friction;
+   result.history = LoadHistory::through(
+      problem,
+      {{}, {{"P", 1}}, {{"P", 1}, {"Q", Q}}, {{"P", 1}, {"Q", -Q}}, {{"P", 1}, {"Q", Q}}});
+   result.history.cycle_start = 2;
+   result.middle = 0.5 * (problem.arc_length.minCoeff() + problem.arc_length.maxCoeff());
+   return result;
+}
+
+ReducedProblem with_gap(ReducedProblem problem, const VectorXd &depth)
+{
+   problem.gap += depth;
+   return problem;
+}
+
+/// Where a line of values crosses zero from positive to not, going outward from a node; the end
+/// of the chain if it does not.
+double crossing(const VectorXd &s, const VectorXd &value, Index from, int way)
+{
+   for (Index i = from; i + way >= 0 && i + way < s.size(); i += way)
+   {
+      if (value[i] > 0 && value[i + way] <= 0)
+      {
+         return s[i] + (s[i + way] - s[i]) * value[i] / (value[i] - value[i + way]);
+      }
+   }
+   return s[way > 0 ? s.size() - 1 : 0];
+}
+
+/// The state in which wear ends, solved for directly.
+void report_end(miniapp::Study &study, const Case &scene, const WornOut &end,
+                miniapp::Panel &profiles, miniapp::Panel &pressures)
+{
+   study.title("Worn out");
+   study.results["worn_out"] = name(end.status);
+   if (end.status != FrictionStatus::converged)
+   {
+      study.results["worn_out_message"] = end.message;
+      return study.say("   none: " + end.message);
+   }
+   const ReducedProblem &problem = scene.problem;
+   const VectorXd &s = problem.arc_length;
+   const Zone stick = stick_zone(problem, zones(problem, end.unworn, end.range));
+   study.value("final_stick", 0.5 * (stick.to.position - stick.from.position),
+               "half-width that sticks", std::max(stick.from.error, stick.to.error));
+   VectorXd overlap = end.overlap;
+   Index first = problem.nodes() - 1, last = 0;
+   for (Index i = 0; i < problem.nodes(); ++i)
+   {
+      if (!end.stick[i] && overlap[i] <= 0) { continue; }
+      first = std::min(first, i);
+      last = std::max(last, i);
+   }
+   study.value("final_extent",
+               0.5 * (crossing(s, overlap, last, 1) - crossing(s, overlap, first, -1)),
+               "half-width that is worn or sticks");
+   study.value("final_volume", worn_volume(problem, end.depth), "volume worn off");
+   study.value("final_depth", end.depth.maxCoeff(), "largest depth");
+   const VectorXd p = tractions(problem, end.contact.p);
+   Index centre = 0;
+   (s.array() - 0.5 * (stick.from.position + stick.to.position)).abs().minCoeff(&centre);
+   study.value("final_pressure_centre", p[centre], "pressure amid the stick zone");
+   study.value("final_loss", end.loss, "loss of a cycle, of the unworn one");
+   study.results["final_depths"] =
+      std::vector<double>(end.depth.data(), end.depth.data() + end.depth.size());
+   profiles.add("worn out", VectorXd(s.array() - scene.middle), end.depth, "dashed");
+   pressures.add("worn out", VectorXd(s.array() - scene.middle), p, "dashed");
+}
+
+/// One cycle more in many increments, for the loop of each load that varies.
+void draw_loop(miniapp::Panel &panel, const std::string &label, const Case &scene,
+               const WearState &state, MarchSettings settings)
+{
+   const ReducedProblem worn = with_gap(scene.problem, state.depth);
+   LoadHistory cycle = scene.history;
+   cycle.cycles = 1;
+   settings.increments = std::max(settings.increments, 20);
+   ContactState contact = state.contact;
+   contact.time = cycle.times[cycle.cycle_start];
+   const MarchReport report = march(worn, cycle, contact, settings);
+   for (std::size_t k = 0; k < worn.patterns.size(); ++k)
+   {
+      const auto row = scene.history.multipliers.row(static_cast<Index>(k));
+      const auto varying = row.tail(row.size() - scene.history.cycle_start);
+      if (varying.maxCoeff() == varying.minCoeff()) { continue; }
+      std::vector<double> force, displacement;
+      for (const IncrementRecord &record : report.increments)
+      {
+         force.push_back(record.multipliers[static_cast<Index>(k)]);
+         displacement.push_back(record.conjugates[static_cast<Index>(k)]);
+      }
+      const bool is_force = worn.patterns[k].control == Control::force;
+      panel.add(worn.patterns[k].name + ", " + label, is_force ? displacement : force,
+                is_force ? force : displacement);
+   }
+}
+
+void wear_contact(miniapp::Study &study)
+{
+   std::string profile = "parabola", file, history_text, update = "cycle",
+               stepping = "advancing", save_state, load_state;
+   double shear = 0.5, friction = 0.5, poisson = 0.3, flat = 0.5, coefficient = 1e-2,
+          threshold = 0;
+   bool of_energy = false;
+   int nodes = 201, order = 2, cycles = 1000, cycle_start = -1;
+   WearSettings settings;
+   settings.tolerance = 1e-3;
+   settings.march.increments = 1;
+   study.option(&profile, "profile", "parabola, or flat with rounded edges (a = 1, R = 1).",
+                {"parabola", "flat"});
+   study.option(&flat, "flat", "Half-width that is flat, in a.", miniapp::between(0, 1));
+   study.option(&shear, "shear", "Amplitude of Q/fP.", miniapp::between(0, 1));
+   study.option(&friction, "friction",
+                "Coefficient of friction; with --reduced default: the file's.",
+                miniapp::positive);
+   study.option(&poisson, "poisson", "Poisson's ratio.");
+   study.option(&nodes, "nodes", "Contact nodes.", miniapp::at_least(25));
+   study.option(&order, "order", "Order of the elements.", miniapp::within(1, 8));
+   study.option(&cycles, "cycles", "Cycles that wear.", miniapp::not_negative);
+   study.option(&coefficient, "wear", "Archard's k, of both bodies together, 1/pressure.",
+                miniapp::not_negative);
+   study.option(&threshold, "threshold", "Pressure below which nothing wears.",
+                miniapp::not_negative);
+   study.option(&of_energy, "energy", "k is of the energy that friction takes: f k wears.");
+   study.option(&settings.tolerance, "tolerance",
+                "Share of the largest depth that jumps over cycles may err by; 0: all are "
+                "marched.",
+                miniapp::within(0, 0.1));
+   study.option(&update, "update",
+                "The gap takes in what is worn each cycle or each piece of it.",
+                {"cycle", "piece"});
+   study.option(&settings.march.increments, "increments",
+                "Load increments between two points of the history.", miniapp::at_least(1));
+   study.option(&stepping, "stepping", miniapp::stepping_help, miniapp::stepping_choices);
+   study.option(&file, "reduced", "Reduced problem, in place of the pad.",
+                miniapp::Text::input);
+   study.option(&history_text, "history",
+                "With --reduced: load multipliers at times 0, 1, …, as 'P=0; P=1; Q=0.1'.",
+                miniapp::Text::statements);
+   study.option(&cycle_start, "cycle-start",
+                "With --reduced: point of the history (from 0) where its cycle starts.",
+                miniapp::at_least(-1));
+   study.option(&save_state, "save-state", "File for the last state.", miniapp::Text::output);
+   study.option(&load_state, "load-state", "State to go on from.", miniapp::Text::input);
+   study.options().leave_out_of_cases("load-state");
+   study.parse();
+   settings.march.stepping = miniapp::stepping(stepping);
+   settings.update = update == "piece" ? GapUpdate::piece : GapUpdate::cycle;
+
+   Case scene;
+   if (file.empty())
+   {
+      require(history_text.empty() && cycle_start < 0,
+              "option --history: the pad has its own, only --reduced takes one");
+      scene = pad_on_half_plane(study, profile, flat, shear, friction, poisson, order, nodes);
+   }
+   else
+   {
+      scene.problem = load_reduced_problem(file);
+      require(cycle_start >= 0, "option --cycle-start is ", cycle_start,
+              ", must be the point of --history where its cycle starts");
+      require(scene.problem.arc_length.size() > 0 && scene.problem.weights.size() > 0, "'",
+              file, "' has no arc_length or no weights, which wear needs");
+      scene.history = load_history("history", history_text, scene.problem);
+      scene.history.cycle_start = cycle_start;
+      scene.history.cycles = 1;
+      scene.history.validate(static_cast<int>(scene.problem.patterns.size()));
+      study.condensed(scene.problem, 0);
+   }
+   study.results["scene"] = file.empty() ? profile : "reduced";
+   const ReducedProblem &problem = scene.problem;
+   study.save(problem);
+   WearLaw law = WearLaw::uniform(problem, coefficient);
+   law.threshold = VectorXd::Constant(problem.nodes(), threshold);
+   law.of_energy = of_energy;
+
+   WearState state = WearState::virgin(problem);
+   if (!load_state.empty()) { state = load_wear_state(load_state); }
+   using Kind = miniapp::Panel::Kind;
+   const VectorXd x = problem.arc_length.array() - scene.middle;
+   miniapp::Panel &profiles = study.panel(Kind::lines, "profile", "Worn depth", "x", "depth");
+   miniapp::Panel &pressures = study.panel(Kind::lines, "pressure", "Pressure", "x", "p");
+   miniapp::Panel &borders = study.panel(Kind::lines, "stick", "Stick zone", "cycles", "x");
+   miniapp::Panel &loops = study.panel(Kind::lines, "loops", "Loads over their displacements",
+                                       "displacement", "force");
+   miniapp::Table &table = study.table("cycles", {{"cycle", "cycle", "%.0f"},
+                                                  {"volume", "volume", "%.6g"},
+                                                  {"depth", "depth", "%.6g"},
+                                                  {"dissipation", "energy lost", "%.6g"},
+                                                  {"loss", "of the cycle", "%.4g"},
+                                                  {"stick", "stick", "%.5g"}});
+   table.draw("Worn volume", "cycle", "cycles", {{"volume", "volume"}}, "volume");
+   std::vector<double> times, from, to;
+   double row_at = 0, drawn_at = 0;
+   const auto observe = [&](const WearState &now, const WearRecord &record)
+   {
+      if (record.cycles < row_at && record.cycles < cycles) { return; }
+      row_at = std::max(record.cycles + 1, 1.25 * record.cycles);
+      const ReducedProblem worn = with_gap(problem, now.depth);
+      const Zone stick = stick_zone(worn, now.contact);
+      const bool any = stick.last >= stick.first;
+      const double width = any ? 0.5 * (stick.to.position - stick.from.position) : 0.0;
+      study.row(table, {record.cycles, record.volume, record.depth, record.dissipation,
+                        record.loss, width});
+      if (any)
+      {
+         times.push_back(record.cycles);
+         from.push_back(stick.from.position - scene.middle);
+         to.push_back(stick.to.position - scene.middle);
+      }
+      if (record.cycles < drawn_at && record.cycles < cycles) { return; }
+      drawn_at = std::max(0.01 * cycles, 4 * record.cycles);
+      const std::string label = exact_text("cycle ", record.cycles);
+      profiles.add(label, x, now.depth);
+      pressures.add(label, x, tractions(worn, now.contact.p));
+      if (record.cycles == 0) { draw_loop(loops, label, scene, now, settings.march); }
+   };
+   WearReport report;
+   {
+      miniapp::Watch watch("wear");
+      settings.march.monitor = watch.monitor();
+      report = wear(problem, law, scene.history, cycles, state, settings, observe);
+      settings.march.monitor = {};
+   }
+   study.counters += report.counters;
+   study.results["cycles_worn"] = state.cycles;
+   study.results["cycles_marched"] = report.marched;
+   study.results["jumps"] = report.jumps;
+   study.results["steady_cycle"] = report.steady_cycle;
+   study.results["implicit_cycles"] = report.implicit_cycles;
+   study.value("volume", worn_volume(problem, state.depth), "worn volume", miniapp::none);
+   study.value("depth", state.depth.maxCoeff(), "largest depth", report.error);
+   study.value("energy", state.dissipation.sum(), "energy that friction took");
+   study.value("explicit_limit", report.explicit_limit,
+               "most cycles that may share an explicit update");
+   study.say(text("   %ld cycles marched, %ld jumps", report.marched, report.jumps));
+   if (report.implicit_cycles > 0)
+   {
+      miniapp::warn(
+         text("%ld cycles wore so much that pressures changed within them: k or the "
+              "amplitude is large, and the way there has an error of its first order",
+              report.implicit_cycles));
+   }
+   if (!save_state.empty() && miniapp::writes()) { save(state, save_state); }
+   if (report.status != FrictionStatus::converged)
+   {
+      study.code = 2;
+      miniapp::add_outcome(problem, report.last, study.results);
+      study.results["status"] = name(report.status);
+      study.results["message"] = report.message;
+      study.say(
+         text("Ended after %g cycles with status '%s': ", state.cycles, name(report.status)) +
+         report.message);
+      if (report.status != FrictionStatus::not_unique) { throw miniapp::Outcome(); }
+   }
+   draw_loop(loops, exact_text("cycle ", state.cycles), scene, state, settings.march);
+   borders.add("from", times, from);
+   borders.add("to", times, to);
+   const WornOut end =
+      worn_out(problem, scene.history, ContactState::virgin(problem), settings.march);
+   report_end(study, scene, end, profiles, pressures);
+   if (end.status == FrictionStatus::converged && end.depth.maxCoeff() > 0 && state.cycles > 0)
+   {
+      study.value("distance_to_end",
+                  (state.depth - end.depth).cwiseAbs().maxCoeff() / end.depth.maxCoeff(),
+                  "depth from there, of the largest");
+   }
+}
+
+} // namespace
+
+int main(int argc, char *argv[])
+{
+   return miniapp::Study::run("wear", argc, argv, wear_contact);
+}

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <cattaneo/friction/contact_state.hpp>
+#include <string>
+
+namespace cattaneo
+{
+
+/** Archard's law of wear at each contact node:
+
+       depth rate = k (p - p_th)₊ |slip rate|,
+
+    p the pressure (nodal force over consistent weight) and k of both bodies together: where
+   they wear in the ratio k₁ : k₂ the depth is shared so. With `of_energy` k belongs to the
+   energy that friction takes per area, and f k stands in the place of k. Material that has worn
+   off is gone: there is no debris. */
+struct WearLaw
+{
+   Eigen::VectorXd coefficient; ///< k of each node, size n, ≥ 0, in 1/pressure
+   Eigen::VectorXd threshold;   ///< p_th of each node, size n, ≥ 0; none if empty
+   bool of_energy = false;
+
+   /// The same k at every node, no threshold.
+   static WearLaw uniform(const ReducedProblem &problem, double coefficient);
+   /// Another k at the nodes of an interface. InputError if the problem has none of that name.
+   void set(const ReducedProblem &problem, const std::string &interface, double coefficient);
+
+   /// InputError if sizes do not fit the problem, a value is negative or not finite, or the
+   /// problem has no tangential displacements or no weights.
+   void validate(const ReducedProblem &problem) const;
+};
+
+/// Depth that each node (size n, ≥ 0) loses over an increment, with ½ (p₀ + p₁)|Δv| along its
+/// path, cut where slip turns; over a threshold the part of that line which is above it.
+Eigen::VectorXd worn_depth(const ReducedProblem &problem, const WearLaw &law,
+                           const ContactState &before, const ContactState &after);
+
+/// Volume that has worn off (per unit thickness; of the full circumference in axisymmetry).
+double worn_volume(const ReducedProblem &problem, const Eigen::VectorXd &depth);
+
+} // namespace cattaneo

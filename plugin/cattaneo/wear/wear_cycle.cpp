@@ -1,0 +1,162 @@
+#include <cattaneo/algebra/dense_algebra.hpp>
+#include <cattaneo/friction/energy.hpp>
+#include <cattaneo/wear/wear_cycle.hpp>
+#include <limits>
+
+namespace cattaneo
+{
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+VectorXd WearCycle::compliance() const
+{
+   VectorXd c = VectorXd::Zero(depth.size());
+   for (Index i = 0; i < c.size(); ++i)
+   {
+      if (depth[i] > 0) { c[i] = depth[i] / force[i]; }
+   }
+   return c;
+}
+
+WearCycles::WearCycles(const ReducedProblem &problem, const WearLaw &law,
+                       const LoadHistory &history, const MarchSettings &settings)
+   : problem_(problem), law_(law), solver_(problem, settings.friction), settings_(settings),
+     history_(history), start_(history.times[history.cycle_start])
+{
+   history_.cycles = 1;
+   settings_.monitor = {};
+   settings_.keep_increments = false;
+   counters += solver_.counters();
+}
+
+WearCycle WearCycles::none() const
+{
+   const VectorXd zero = VectorXd::Zero(problem_.nodes());
+   const double infinity = std::numeric_limits<double>::infinity();
+   return {zero, zero, zero, VectorXd::Constant(zero.size(), infinity), 0, SlipRange(problem_),
+           {}};
+}
+
+WearCycle WearCycles::march(const LoadHistory &part, ContactState &contact,
+                            const VectorXd &depth, WearCycle cycle)
+{
+   const Index n = problem_.nodes();
+   solver_.set_gap(problem_.gap + depth);
+   const ReducedProblem &worn = solver_.problem();
+   ContactState before = contact;
+   VectorXd way = VectorXd::Zero(n), along = way, in_time = way;
+   double duration = 0;
+   const auto note = [&](const ContactState &after, const IncrementRecord &)
+   {
+      const Rubbing rub = rubbing(worn, before, after);
+      const VectorXd p = 0.5 * (rub.p_from + rub.p_to);
+      cycle.depth += worn_depth(worn, law_, before, after);
+      cycle.loss += frictional_loss(worn, before, after);
+      cycle.opening = cycle.opening.cwiseMin((after.w + worn.gap).cwiseMax(0.0));
+      cycle.range.note(after);
+      way += rub.way;
+      along += p.cwiseProduct(rub.way);
+      in_time += (after.time - before.time) * p;
+      duration += after.time - before.time;
+      before = after;
+   };
+   cycle.report = cattaneo::march(solver_, part, contact, settings_, note);
+   for (Index i = 0; i < n; ++i)
+   {
+      cycle.force[i] = along[i] > 0   ? along[i] / way[i]
+                       : duration > 0 ? in_time[i] / duration
+                                      : 0;
+      if (cycle.force[i] > 0) { cycle.opening[i] = 0; }
+   }
+   const VectorXd pressure = contact.peak_force * problem_.weights.cwiseInverse();
+   cycle.negligible = 1e-12 * contact.v.cwiseAbs().maxCoeff() *
+                      law_.coefficient.cwiseProduct(pressure).maxCoeff();
+   counters += cycle.report.counters;
+   return cycle;
+}
+
+WearCycle WearCycles::opening(ContactState &contact, const VectorXd &depth)
+{
+   LoadHistory part = history_;
+   part.times.conservativeResize(part.cycle_start + 1);
+   part.multipliers.conservativeResize(Eigen::NoChange, part.cycle_start + 1);
+   part.cycle_start = -1;
+   return march(part, contact, depth, none());
+}
+
+WearCycle WearCycles::march(ContactState &contact, const VectorXd &depth, bool update)
+{
+   contact.time = start_;
+   ++marched;
+   if (!update) { return march(history_, contact, depth, none()); }
+   WearCycle all = none();
+   for (Index point = history_.cycle_start; point + 1 < history_.times.size(); ++point)
+   {
+      LoadHistory piece;
+      piece.times = history_.times.segment(point, 2);
+      piece.multipliers = history_.multipliers.middleCols(point, 2);
+      const VectorXd so_far = depth + all.depth;
+      all = march(piece, contact, so_far, std::move(all));
+      if (!all.found()) { break; }
+   }
+   return all;
+}
+
+WearCycle WearCycles::repeated(ContactState &contact, const VectorXd &depth, double share)
+{
+   WearCycle before = march(contact, depth, false);
+   for (int k = 0; k < 30 && before.found(); ++k)
+   {
+      WearCycle cycle = march(contact, depth, false);
+      if (!cycle.found()) { return cycle; }
+      const double most = cycle.depth.maxCoeff(),
+                   change = (cycle.depth - before.depth).cwiseAbs().maxCoeff();
+      if (change <= share * most || cycle.idle()) { return cycle; }
+      before = std::move(cycle);
+   }
+   if (before.found()) { before.report.status = FrictionStatus::stalled; }
+   return before;
+}
+
+VectorXd implicit_wear(const ReducedProblem &problem, const WearCycle &cycle, double cycles)
+{
+   // With the openings u of the worn surfaces, δw = u - c p' and p' = p + C δw, so that
+   // p' = (1 + C c)⁻¹ (p + C u): a contact without friction of another stiffness.
+   const Index n = problem.nodes();
+   const VectorXd c = cycles * cycle.compliance(), root = c.cwiseSqrt();
+   const MatrixXd half = root.asDiagonal() * problem.C();
+   MatrixXd inner = half * root.asDiagonal();
+   inner.diagonal().array() += 1;
+   const Eigen::LLT<MatrixXd> factor(inner);
+   const MatrixXd removed = half.transpose() * factor.solve(half);
+   ReducedProblem layered;
+   layered.K = problem.C() - 0.5 * (removed + removed.transpose());
+   layered.rigid_motions = rigid_openings(problem);
+   layered.gap = cycle.opening;
+   layered.friction = VectorXd::Zero(n);
+   layered.weights = problem.weights;
+   layered.chains = one_chain(n);
+   // (1 + C c)⁻¹ p = p - C √c (1 + √c C √c)⁻¹ √c p
+   const VectorXd p =
+      cycle.force - half.transpose() * factor.solve(root.cwiseProduct(cycle.force));
+   layered.patterns = {{"pressure", Control::force, VectorXd(), p}};
+   ContactState state = ContactState::virgin(layered);
+   FrictionSolver solver(layered);
+   if (solver.solve(state, VectorXd::Ones(1)).status != FrictionStatus::converged)
+   {
+      return {};
+   }
+   return c.cwiseProduct(state.p.cwiseMax(0.0));
+}
+
+double explicit_limit(const ReducedProblem &problem, const WearCycle &cycle)
+{
+   const VectorXd root = cycle.compliance().cwiseSqrt();
+   if (root.isZero(0)) { return std::numeric_limits<double>::infinity(); }
+   return 2 /
+          symmetric_eigenvalues(root.asDiagonal() * problem.C() * root.asDiagonal()).maxCoeff();
+}
+
+} // namespace cattaneo

@@ -1,0 +1,370 @@
+#include <algorithm>
+#include <cattaneo/friction/contact_state_json.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cattaneo/progress_report.hpp>
+#include <cattaneo/wear/wear_cycle.hpp>
+#include <cattaneo/whole_file.hpp>
+#include <cmath>
+#include <limits>
+
+namespace cattaneo
+{
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace
+{
+
+const char *const format_name = "cattaneo wear state 1";
+
+/// Cycles that a jump must cover to be worth those that it marches.
+constexpr double least_jump = 30;
+
+} // namespace
+
+WearState WearState::virgin(const ReducedProblem &problem)
+{
+   const VectorXd zero = VectorXd::Zero(problem.nodes());
+   return {ContactState::virgin(problem), zero, zero, 0};
+}
+
+void WearState::validate(const ReducedProblem &problem) const
+{
+   contact.validate(problem);
+   const auto check = [&](const char *what, const VectorXd &x)
+   {
+      require(x.size() == problem.nodes() && x.allFinite() && x.minCoeff() >= 0,
+              "wear state: its ", what, " must be ", problem.nodes(),
+              " numbers that are not negative");
+   };
+   check("depth", depth);
+   check("dissipation", dissipation);
+   require_at_least("wear state: cycles", cycles, 0);
+}
+
+void save(const WearState &state, const std::string &file)
+{
+   require(state.depth.allFinite() && state.dissipation.allFinite() &&
+              std::isfinite(state.cycles),
+           "wear state: a value is not finite");
+   write_whole(file, nlohmann::json{{"format", format_name},
+                                    {"cycles", state.cycles},
+                                    {"depth", json_list(state.depth)},
+                                    {"dissipation", json_list(state.dissipation)},
+                                    {"contact", to_json(state.contact)}}
+                           .dump(1) +
+                        '\n');
+}
+
+WearState load_wear_state(const std::string &file)
+{
+   WearState state;
+   read_state_file("wear state", file, format_name,
+                   [&](const nlohmann::json &j)
+                   {
+                      state.cycles = j.at("cycles");
+                      state.depth = json_vector(j.at("depth"));
+                      state.dissipation = json_vector(j.at("dissipation"));
+                      state.contact = contact_state(j.at("contact"), file);
+                   });
+   return state;
+}
+
+void WearSettings::validate() const
+{
+   march.validate();
+   require(tolerance == 0 || (tolerance >= 1e-8 && tolerance <= 0.1),
+           "wear settings: tolerance is ", tolerance, ", must be 0 or from 1e-8 to 0.1");
+   require_at_least("wear settings: final_share", final_share, 0);
+   require_at_least("wear settings: steady_tolerance", steady_tolerance, 0);
+}
+
+namespace
+{
+
+/// What some cycles take.
+struct Taken
+{
+   VectorXd depth, loss;
+};
+
+/// One wear() in progress.
+class WearMarch
+{
+public:
+   WearMarch(const ReducedProblem &problem, const WearLaw &law, const LoadHistory &history,
+             double cycles, WearState &state, const WearSettings &settings,
+             const WearObserver &observer)
+      : problem_(problem), state_(state), settings_(settings), observer_(observer),
+        cycles_(problem, law, history, settings.march), end_(cycles),
+        progress_(settings.march.monitor)
+   {
+      report_.explicit_limit = std::numeric_limits<double>::infinity();
+   }
+
+   WearReport run();
+
+private:
+   bool march_one();
+   bool jump();
+   bool land(const WearCycle &first, double cycles, int parts, Taken &taken,
+             ContactState &contact, std::vector<WearCycle> &looked_at);
+   void take(const Taken &taken, double cycles, double loss, double error);
+   bool fails(const WearCycle &cycle);
+   void notice(const WearCycle &cycle);
+   /// How closely a cycle is to repeat itself where a jump looks at it.
+   double repeats_to() const { return 0.05 * settings_.tolerance; }
+
+   const ReducedProblem &problem_;
+   WearState &state_;
+   const WearSettings &settings_;
+   const WearObserver &observer_;
+   WearCycles cycles_;
+   const double end_;
+   ProgressReport progress_;
+   WearReport report_;
+   double step_ = least_jump;     // cycles of the next jump
+   double rest_ = 0;              // no jump is tried before this cycle,
+   double patience_ = least_jump; // which is so many on
+   VectorXd mark_;                // depth of a cycle, a while ago
+   double marked_at_ = 0;
+};
+
+bool WearMarch::fails(const WearCycle &cycle)
+{
+   report_.last = cycle.report;
+   if (cycle.report.status != FrictionStatus::converged)
+   {
+      report_.status = cycle.report.status;
+      report_.message = cycle.report.message;
+   }
+   return !cycle.found();
+}
+
+/// Adds what some cycles have taken.
+void WearMarch::take(const Taken &taken, double cycles, double loss, double error)
+{
+   state_.depth += taken.depth;
+   state_.dissipation += taken.loss;
+   state_.cycles += cycles;
+   state_.contact.dissipation = state_.dissipation.sum();
+   report_.error += error;
+   WearRecord record;
+   record.cycles = state_.cycles;
+   record.covered = cycles;
+   record.volume = worn_volume(problem_, state_.depth);
+   record.depth = state_.depth.maxCoeff();
+   record.dissipation = state_.contact.dissipation;
+   record.loss = loss;
+   record.error = error;
+   if (observer_) { observer_(state_, record); }
+   progress_.note(state_.cycles / end_, cycles_.marched);
+}
+
+/// Steady and final states, and the limit of explicit updates.
+void WearMarch::notice(const WearCycle &cycle)
+{
+   const double most = cycle.depth.maxCoeff();
+   if (!report_.final_cycle && most <= settings_.final_share * state_.depth.maxCoeff() &&
+       settings_.final_share > 0)
+   {
+      report_.final_cycle = state_.cycles;
+   }
+   if (mark_.size() > 0 && state_.cycles < 1.25 * marked_at_) { return; }
+   report_.explicit_limit = std::min(report_.explicit_limit, explicit_limit(problem_, cycle));
+   const bool steady =
+      mark_.size() > 0 && most > 0 &&
+      (cycle.depth - mark_).cwiseAbs().maxCoeff() <= settings_.steady_tolerance * most;
+   if (!steady) { report_.steady_cycle = 0; }
+   else if (!report_.steady_cycle) { report_.steady_cycle = marked_at_; }
+   mark_ = cycle.depth;
+   marked_at_ = state_.cycles;
+}
+
+bool WearMarch::march_one()
+{
+   ContactState contact = state_.contact;
+   const WearCycle cycle =
+      cycles_.march(contact, state_.depth, settings_.update == GapUpdate::piece);
+   if (fails(cycle)) { return false; }
+   Taken taken{cycle.depth, cycle.loss};
+   notice(cycle);
+   if (report_.explicit_limit < 2 && explicit_limit(problem_, cycle) < 2)
+   {
+      taken.depth = implicit_wear(problem_, cycle, 1);
+      if (taken.depth.size() == 0)
+      {
+         report_.status = FrictionStatus::stalled;
+         report_.message = "the contact that a cycle wears was not found";
+         return false;
+      }
+      for (Index i = 0; i < taken.loss.size(); ++i)
+      {
+         if (cycle.depth[i] > 0) { taken.loss[i] *= taken.depth[i] / cycle.depth[i]; }
+      }
+      ++report_.implicit_cycles;
+   }
+   state_.contact = std::move(contact);
+   take(taken, 1, cycle.loss.sum(), 0);
+   return true;
+}
+
+/// Implicit jumps in equal parts. False if the contact is not found at the end of one of them.
+bool WearMarch::land(const WearCycle &first, double cycles, int parts, Taken &taken,
+                     ContactState &contact, std::vector<WearCycle> &looked_at)
+{
+   looked_at.clear();
+   const double part = cycles / parts;
+   taken = {VectorXd::Zero(problem_.nodes()), VectorXd::Zero(problem_.nodes())};
+   WearCycle cycle = first;
+   for (int k = 0; k < parts; ++k)
+   {
+      if (k > 0)
+      {
+         cycle = cycles_.repeated(contact, state_.depth + taken.depth, repeats_to());
+         if (!cycle.found()) { return false; }
+      }
+      const VectorXd depth = implicit_wear(problem_, cycle, part);
+      if (depth.size() == 0) { return false; }
+      for (Index i = 0; i < depth.size(); ++i)
+      {
+         if (depth[i] > 0) { taken.loss[i] += depth[i] * cycle.loss[i] / cycle.depth[i]; }
+      }
+      taken.depth += depth;
+      looked_at.push_back(cycle);
+   }
+   return true;
+}
+
+/// True if cycles were jumped over, or if the jump is to be tried again with fewer.
+bool WearMarch::jump()
+{
+   const double cycles = std::min(std::floor(step_), end_ - state_.cycles);
+   ContactState contact = state_.contact;
+   const auto give_up = [&]
+   {
+      step_ = std::max(least_jump, 0.3 * cycles);
+      rest_ = state_.cycles + patience_;
+      patience_ *= 2;
+      return false;
+   };
+   const WearCycle first = cycles_.repeated(contact, state_.depth, repeats_to());
+   if (!first.found()) { return give_up(); }
+   ContactState reached = contact;
+   Taken one, two, three;
+   std::vector<WearCycle> looked_at;
+   if (!land(first, cycles, 1, one, reached, looked_at) ||
+       !land(first, cycles, 2, two, reached, looked_at) ||
+       !land(first, cycles, 3, three, reached, looked_at))
+   {
+      return give_up();
+   }
+   // To parts of one explicit cycle (see wear()), through the results of one, two and three.
+   const auto extrapolated = [cycles](const std::vector<std::pair<int, const VectorXd *>> &of)
+   {
+      VectorXd sum = VectorXd::Zero(of[0].second->size());
+      for (const auto &[parts, x] : of)
+      {
+         double weight = 1;
+         for (const auto &[others, y] : of)
+         {
+            const double part = cycles / parts, other = cycles / others;
+            if (y != x) { weight *= (-1 - other) / (part - other); }
+         }
+         sum += weight * *x;
+      }
+      return sum;
+   };
+   Taken best{extrapolated({{1, &one.depth}, {2, &two.depth}, {3, &three.depth}}),
+              extrapolated({{1, &one.loss}, {2, &two.loss}, {3, &three.loss}})};
+   // Backwards the compliance c of a part, which is that of its beginning, is the one of the
+   // end of a cycle: Σ (change of c) p too much, from the cycles at 0, 1/3 and 2/3 of the jump.
+   const VectorXd too_much =
+      1.5 *
+      (looked_at[2].compliance() - looked_at[0].compliance()).cwiseProduct(looked_at[1].force);
+   for (Index i = 0; i < too_much.size(); ++i)
+   {
+      if (!(first.depth[i] > 0)) { continue; }
+      best.depth[i] -= too_much[i];
+      best.loss[i] -= too_much[i] * first.loss[i] / first.depth[i];
+   }
+   // What grows is not extrapolated to less than nothing.
+   for (Index i = 0; i < best.depth.size(); ++i)
+   {
+      if (best.depth[i] > 0 && best.loss[i] >= 0) { continue; }
+      best.depth[i] = three.depth[i];
+      best.loss[i] = three.loss[i];
+   }
+   const double error =
+      (best.depth + too_much - extrapolated({{2, &two.depth}, {3, &three.depth}}))
+         .cwiseAbs()
+         .maxCoeff() +
+      0.5 * too_much.cwiseAbs().maxCoeff();
+   const double most = best.depth.maxCoeff(), allowed = settings_.tolerance * most;
+   const double factor = error > 0 ? std::cbrt(0.5 * allowed / error) : 4.0;
+   if (error > allowed)
+   {
+      if (cycles <= least_jump) { return give_up(); }
+      step_ = std::max(least_jump, cycles * std::clamp(factor, 0.2, 0.7));
+      return true;
+   }
+   step_ = std::max(least_jump, cycles * std::clamp(factor, 0.5, 4.0));
+   state_.contact = std::move(reached);
+   state_.contact.time = cycles_.start();
+   notice(first);
+   take(best, cycles, first.loss.sum(), error);
+   ++report_.jumps;
+   patience_ = least_jump;
+   return true;
+}
+
+WearReport WearMarch::run()
+{
+   bool goes_on = true;
+   if (cycles_.begins(state_.contact))
+   {
+      const WearCycle opening = cycles_.opening(state_.contact, state_.depth);
+      goes_on = !fails(opening);
+      if (goes_on) { take({opening.depth, opening.loss}, 0, opening.loss.sum(), 0); }
+   }
+   rest_ = state_.cycles + 2;
+   while (goes_on && state_.cycles < end_ && !report_.final_cycle)
+   {
+      if (settings_.march.monitor.stopped())
+      {
+         report_.status = FrictionStatus::stopped;
+         report_.message = "the wear was asked to stop";
+         break;
+      }
+      const bool may_jump = settings_.tolerance > 0 && state_.cycles >= rest_ &&
+                            end_ - state_.cycles >= least_jump;
+      goes_on = (may_jump && jump()) || march_one();
+   }
+   report_.marched = cycles_.marched;
+   report_.counters = cycles_.counters;
+   report_.seconds = progress_.seconds();
+   progress_.end(std::min(1.0, state_.cycles / std::max(end_, 1.0)), cycles_.marched);
+   return report_;
+}
+
+} // namespace
+
+WearReport wear(const ReducedProblem &problem, const WearLaw &law, const LoadHistory &history,
+                double cycles, WearState &state, const WearSettings &settings,
+                const WearObserver &observer)
+{
+   settings.validate();
+   law.validate(problem);
+   state.validate(problem);
+   LoadHistory once = history;
+   once.cycles = 1;
+   once.validate(static_cast<int>(problem.patterns.size()));
+   require_at_least("wear: cycles", cycles, 0);
+   require(cycles == std::floor(cycles) && cycles <= 1e15, "wear: cycles is ", cycles,
+           ", must be a whole number up to 1e15");
+   require(history.cycle_start >= 0, "wear: the load history has no cycle");
+   return WearMarch(problem, law, once, cycles, state, settings, observer).run();
+}
+
+} // namespace cattaneo

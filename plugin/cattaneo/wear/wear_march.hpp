@@ -1,0 +1,118 @@
+#pragma once
+
+#include <cattaneo/friction/march.hpp>
+#include <cattaneo/wear/archard.hpp>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace cattaneo
+{
+
+/// All that the future of a wearing contact depends on.
+struct WearState
+{
+   ContactState contact;
+   Eigen::VectorXd depth;       ///< worn off at each node, size n, ≥ 0: the gap is g + depth
+   Eigen::VectorXd dissipation; ///< energy that friction took at each node so far, size n
+   double cycles = 0;           ///< so far, marched or jumped over
+
+   /// Unworn, before any load.
+   static WearState virgin(const ReducedProblem &problem);
+   /// InputError if it is none of the problem, or depth or dissipation is negative.
+   void validate(const ReducedProblem &problem) const;
+};
+
+/// As JSON, to the last bit; reads as a contact state too. InputError as for contact states.
+void save(const WearState &state, const std::string &file);
+WearState load_wear_state(const std::string &file);
+
+/// When the gap takes in what has worn off.
+enum class GapUpdate
+{
+   cycle, ///< at the end of each cycle
+   piece  ///< at the end of each linear piece of the cycle
+};
+
+struct WearSettings
+{
+   MarchSettings march; ///< of each cycle; its monitor watches all of them and is asked between
+                        ///< two; steady states of slip end nothing
+   GapUpdate update = GapUpdate::cycle;
+   /** Cycles are jumped over as long as a jump errs by less than this share of the largest
+      depth that it adds (so that at the end the depth errs by less than this share of the
+      largest one, were errors to add up: wear forgets them). 0: every cycle is marched.
+      Allowed: from 1e-8 to 0.1. */
+   double tolerance = 0;
+   /// Final: a cycle adds less than this share of the largest depth so far; the march ends.
+   /// 0: it goes on.
+   double final_share = 0;
+   /// Steady: depths of a cycle that differ, over a quarter of all cycles so far, by no more
+   /// than this share of the largest.
+   double steady_tolerance = 1e-6;
+
+   /// InputError naming the setting, its value and what is allowed.
+   void validate() const;
+};
+
+/// Of a cycle that was marched, or a jump over several.
+struct WearRecord
+{
+   double cycles = 0;      ///< so far, at its end
+   double covered = 1;     ///< how many it covers
+   double volume = 0;      ///< worn off so far
+   double depth = 0;       ///< largest so far
+   double dissipation = 0; ///< energy that friction took so far
+   double loss = 0;        ///< of it in its last cycle
+   double error = 0;       ///< estimate of the largest error of depth of a jump
+};
+
+struct WearReport
+{
+   FrictionStatus status = FrictionStatus::converged;
+   std::string message;
+   MarchReport last; ///< of the last cycle marched: where and why it ended, if it did
+   long marched = 0; ///< cycles marched, also those that only look where a jump leads
+   long jumps = 0;
+   double error = 0; ///< sum of the jumps' WearRecord::error
+   /** Largest number of cycles that may share one update of the gap: the explicit update
+       depth += cycles × (depth of a cycle) is stable below it. With the loss of pressure δp =
+      -C δdepth and the depth of a cycle c p (c a diagonal) it is 2/λ_max(c C). Jumps are
+      implicit, without such a limit. The least so far; infinite if nothing wears. */
+   double explicit_limit = 0;
+   /// Cycles so severe (explicit_limit below 2) that their own update was implicit: k is so
+   /// large that a cycle wears off what the contact gives way by.
+   long implicit_cycles = 0;
+   double steady_cycle = 0; ///< from which each cycle wears as the next does; 0: none
+   double final_cycle = 0;  ///< at which wear had come to its end; 0: it has not
+   Counters counters;
+   double seconds = 0;
+};
+
+using WearObserver = std::function<void(const WearState &, const WearRecord &)>;
+
+/** Wears a contact: marches the opening part of a history and then its cycle, `cycles` times
+    over all (history.cycles is not asked), and takes off what each cycle wears.
+
+    Every cycle that is marched is exact along its path, see worn_depth(), and the worn volume
+   is k/f times the energy that friction took, to round-off, at every moment where all of k and
+   f are uniform and there is no threshold; so it is where cycles are jumped over, whose energy
+   is that of the volume.
+
+    A jump over M cycles solves for the pressures at its end, p' = p - C (M c p' + openings) ≥
+   0, a contact problem with c a layer that gives way: it is stable for any M. Jumps of one, two
+    and three parts, each with a cycle of its own marched until it repeats itself, are
+    extrapolated to what updates after each cycle come to (parts of "minus one cycle": the error
+    of an explicit step is that of an implicit one backwards); the result without the single
+   jump gives the error.
+
+    Depth must be small against the contact: frames and weights stay those of the unworn bodies.
+
+    Stops early with the status of the cycle that has no equilibrium, or `stopped`. InputError
+   as march(), for a history without a cycle, and for a state that does not stand at its
+   beginning or between two cycles. */
+WearReport wear(const ReducedProblem &problem, const WearLaw &law, const LoadHistory &history,
+                double cycles, WearState &state, const WearSettings &settings = {},
+                const WearObserver &observer = {});
+
+} // namespace cattaneo

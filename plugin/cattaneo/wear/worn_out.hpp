@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cattaneo/friction/settled_states.hpp>
+#include <cattaneo/wear/wear_march.hpp>
+
+namespace cattaneo
+{
+
+/// The state in which a cycle wears off nothing more.
+struct WornOut
+{
+   FrictionStatus status = FrictionStatus::stalled;
+   std::string message;   ///< empty if found (converged)
+   Eigen::VectorXd depth; ///< worn off at each node, size n, ≥ 0
+   /// What is left beyond the contact, size n: how far the surfaces would overlap unworn; depth
+   /// is its positive part but for nodes that stick, where it is 0. It crosses zero where wear
+   /// ends.
+   Eigen::VectorXd overlap;
+   std::vector<bool> stick; ///< nodes that never slip in a cycle: they alone carry the loads
+   ContactState contact;    ///< at the end of a cycle
+   SlipRange range;         ///< of the unworn cycle that was found first
+   ContactState unworn;     ///< at its end
+   double loss = 0;         ///< energy of a cycle, over that of the unworn contact
+   int searches = 0;        ///< sets of sticking nodes that were tried
+};
+
+/** The fully worn state of partial slip, without the cycles that lead there: nodes that slip
+    carry nothing, nodes that stick stay where they are, which is one linear problem at each
+    point of the cycle; depth is what overlaps at any of them.
+
+    The nodes that stick are those of the unworn cycle. Where B = 0 and pressures do not vary in
+    the cycle they stay the same while the surfaces wear (Ciavarella and Hills 1999). Otherwise
+    the worn contact is marched: nodes that slip then under pressure, or open, are left out, and
+    the problem is solved again with the slip that is locked in now, until a cycle takes no more
+    than 1e-8 of the energy of the unworn one. That is a state in which wear ends; the one that
+   a march comes to may be another where nodes stick that it finds worn.
+
+    Wear is that of any law without a threshold: the final state does not depend on k, as long
+   as k > 0 wherever a node slips.
+
+    `contact`: a state at the beginning of the cycle (or before the opening part) of the unworn
+    problem. Status: converged; stalled if the cycle never repeats itself or the set is not
+    found; gross_sliding if no node is found that sticks, where wear has no end; or of a march
+   without equilibrium. InputError as wear(). */
+WornOut worn_out(const ReducedProblem &problem, const LoadHistory &history,
+                 const ContactState &contact, const MarchSettings &settings = {});
+
+} // namespace cattaneo

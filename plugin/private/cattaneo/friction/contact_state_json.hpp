@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cattaneo/friction/contact_state.hpp>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+namespace cattaneo
+{
+
+std::vector<double> json_list(const Eigen::VectorXd &x);
+Eigen::VectorXd json_vector(const nlohmann::json &j);
+
+/// All of a state, to the last bit. InputError if a value is not finite.
+nlohmann::json to_json(const ContactState &state);
+/// What to_json() made. @param file where it stands, for InputError
+ContactState contact_state(const nlohmann::json &j, const std::string &file);
+
+/// Reads a file whose "format" is this one. @param what the file is to be, for InputError,
+/// which also says what `read` found missing
+void read_state_file(const std::string &what, const std::string &file,
+                     const std::string &format,
+                     const std::function<void(const nlohmann::json &)> &read);
+
+} // namespace cattaneo

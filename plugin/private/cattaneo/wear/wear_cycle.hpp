@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cattaneo/friction/settled_states.hpp>
+#include <cattaneo/wear/wear_march.hpp>
+
+namespace cattaneo
+{
+
+/// What one cycle does to each node (all size n).
+struct WearCycle
+{
+   Eigen::VectorXd depth; ///< that it loses
+   Eigen::VectorXd loss;  ///< energy that friction takes
+   Eigen::VectorXd
+      force; ///< mean nodal pressure along its slip; of one that does not slip in time
+   Eigen::VectorXd opening; ///< least opening, 0 if it bears at all
+   double negligible = 0;   ///< depth that round-off may wear
+   SlipRange range;
+   MarchReport report;
+
+   bool found() const
+   {
+      return report.status == FrictionStatus::converged ||
+             report.status == FrictionStatus::not_unique;
+   }
+   bool idle() const { return depth.maxCoeff() <= negligible; }
+   /// Depth over nodal force of each node.
+   Eigen::VectorXd compliance() const;
+};
+
+/// Cycles of a history at a gap that wears.
+class WearCycles
+{
+public:
+   /// All must outlive this.
+   WearCycles(const ReducedProblem &problem, const WearLaw &law, const LoadHistory &history,
+              const MarchSettings &settings);
+
+   bool begins(const ContactState &contact) const { return contact.time < start_; }
+   double start() const { return start_; }
+   /// The opening part, or one cycle, with what has worn off so far. With `update` the gap
+   /// takes in the wear of each piece.
+   WearCycle opening(ContactState &contact, const Eigen::VectorXd &depth);
+   WearCycle march(ContactState &contact, const Eigen::VectorXd &depth, bool update);
+   /// Cycles at this depth, which wears no more, until one wears as the one before it, to a
+   /// share of the largest depth; not found if none does within 30.
+   WearCycle repeated(ContactState &contact, const Eigen::VectorXd &depth, double share);
+
+   long marched = 0;
+   Counters counters;
+
+private:
+   WearCycle march(const LoadHistory &part, ContactState &contact, const Eigen::VectorXd &depth,
+                   WearCycle cycle);
+   WearCycle none() const;
+
+   const ReducedProblem &problem_;
+   const WearLaw &law_;
+   FrictionSolver solver_;
+   MarchSettings settings_;
+   LoadHistory history_;
+   double start_;
+};
+
+/// What `cycles` cycles like this one take off when the pressures are those at their end, size
+/// n, ≥ 0; empty if they were not found.
+Eigen::VectorXd implicit_wear(const ReducedProblem &problem, const WearCycle &cycle,
+                              double cycles);
+
+/// See WearReport::explicit_limit.
+double explicit_limit(const ReducedProblem &problem, const WearCycle &cycle);
+
+} // namespace cattaneo

@@ -1,0 +1,408 @@
+#include "expect_input_error.hpp"
+#include "random_problem.hpp"
+#include "same_state.hpp"
+
+#include <cattaneo/halfplane/half_plane.hpp>
+#include <cattaneo/readout/zones.hpp>
+#include <cattaneo/wear/worn_out.hpp>
+#include <cmath>
+
+using namespace cattaneo;
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace
+{
+
+/// Grid of |x| < span, finer toward ±c.
+std::vector<double> grid_about(double c, double span, int inner, int outer)
+{
+   std::vector<double> half = {0};
+   const auto toward_c = [](int k, int of) { return std::pow(double(k) / of, 1.8); };
+   for (int k = inner - 1; k >= 0; --k) { half.push_back(c - c * toward_c(k, inner)); }
+   for (int k = 1; k <= outer; ++k) { half.push_back(c + (span - c) * toward_c(k, outer)); }
+   std::vector<double> grid;
+   for (std::size_t k = half.size() - 1; k > 0; --k) { grid.push_back(-half[k]); }
+   grid.insert(grid.end(), half.begin(), half.end());
+   return grid;
+}
+
+struct Pad
+{
+   ReducedProblem problem;
+   LoadHistory history;
+};
+
+/// A parabola on a half-plane, a = P = R = 1, f = 1/2, Q between ±shear f P. `unit` of length.
+Pad hertz_pad(const std::vector<double> &grid, double shear, double unit = 1)
+{
+   HalfPlane pad, plane;
+   pad.material = plane.material = Material{8 / M_PI * 0.91, 0.3};
+   pad.depth = plane.depth = 1e4 * unit;
+   pad.normal = {0, 1};
+   pad.forces = {{"P", {0, -unit}}, {"Q", {unit, 0}}};
+   std::vector<double> scaled;
+   for (double x : grid) { scaled.push_back(unit * x); }
+   Pad result;
+   ReducedProblem &problem = result.problem = reduce(condense(pad, scaled, 2), plane).problem;
+   problem.B().setZero(); // equal half-planes
+   join_coupling(problem);
+   set_friction(problem, 0.5);
+   problem.gap = problem.position.col(0).array().square() / (2 * unit);
+   const double Q = 0.5 * shear;
+   result.history = LoadHistory::through(
+      problem,
+      {{}, {{"P", 1}}, {{"P", 1}, {"Q", Q}}, {{"P", 1}, {"Q", -Q}}, {{"P", 1}, {"Q", Q}}});
+   result.history.cycle_start = 2;
+   result.history.cycles = 1;
+   return result;
+}
+
+Pad small_pad(double unit = 1)
+{
+   return hertz_pad(grid_about(std::sqrt(0.5), 1.3, 10, 8), 0.5, unit);
+}
+
+MarchSettings one_increment()
+{
+   MarchSettings settings;
+   settings.increments = 1; // exact: B = 0, P constant, Q monotone
+   return settings;
+}
+
+WearSettings settings_with(double tolerance)
+{
+   WearSettings settings;
+   settings.march = one_increment();
+   settings.tolerance = tolerance;
+   return settings;
+}
+
+double largest(const VectorXd &x)
+{
+   return x.cwiseAbs().maxCoeff();
+}
+
+/** n nodes on springs of their own, kt along and kn across, beneath a rigid block that moves up
+    and down, held by P = n, and is moved by d along: gaps decide who carries how much. */
+Pad springs(const VectorXd &gap, double kt, double kn, double friction, double amplitude)
+{
+   const Index n = gap.size();
+   Pad result;
+   ReducedProblem &problem = result.problem;
+   const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(n, n);
+   problem.set_stiffness(kt * I, 0 * I, kn * (I - Eigen::MatrixXd::Constant(n, n, 1.0 / n)));
+   const VectorXd none = VectorXd::Zero(n), ones = VectorXd::Ones(n);
+   problem.patterns = {{"P", Control::force, none, ones},
+                       {"d", Control::displacement, -kt * ones, none}};
+   problem.gap = gap;
+   problem.weights = ones;
+   problem.chains = one_chain(n);
+   set_friction(problem, friction);
+   const double d = amplitude;
+   result.history = LoadHistory::through(
+      problem,
+      {{}, {{"P", 1}}, {{"P", 1}, {"d", d}}, {{"P", 1}, {"d", -d}}, {{"P", 1}, {"d", d}}});
+   result.history.cycle_start = 2;
+   result.history.cycles = 1;
+   return result;
+}
+
+} // namespace
+
+TEST(Wear, TheWornOutParabolaIsThatOfCiavarellaAndHills)
+{
+   struct Expected
+   {
+      double shear, extent, volume, depth, pressure;
+   };
+   // Closed forms in units a = P = R = 1 (Ciavarella and Hills 1999).
+   for (const Expected &e : {Expected{0.5, 1.169186, 0.0726252, 0.1127331, 0.6752372},
+                             Expected{0.2, 1.055433, 0.0052070, 0.0232868, 0.6405863}})
+   {
+      const double c = std::sqrt(1 - e.shear);
+      const Pad pad = hertz_pad(grid_about(c, 1.1 * e.extent, 30, 20), e.shear);
+      const ReducedProblem &problem = pad.problem;
+      const WornOut end =
+         worn_out(problem, pad.history, ContactState::virgin(problem), one_increment());
+      ASSERT_EQ(end.status, FrictionStatus::converged) << end.message;
+      EXPECT_LT(end.loss, 1e-10); // what slips carries nothing
+      EXPECT_EQ(end.searches, 1); // the stick zone keeps its shape
+      const Zone stick = stick_zone(problem, zones(problem, end.unworn, end.range));
+      EXPECT_NEAR(0.5 * (stick.to.position - stick.from.position), c, 1e-3);
+      // The smallest element is 1/460 of c: an edge there is known to about that.
+      EXPECT_NEAR(worn_volume(problem, end.depth), e.volume, 0.01 * e.volume);
+      EXPECT_NEAR(end.depth.maxCoeff(), e.depth, 0.005 * e.depth);
+      const VectorXd x = problem.position.col(0), p = tractions(problem, end.contact.p);
+      for (Index i = 0; i < x.size(); ++i)
+      {
+         const double ratio = std::abs(x[i]) / c, held = 1 - e.shear;
+         const double depth =
+            ratio <= 1
+               ? 0.0
+               : 0.5 * e.shear * std::acosh(ratio) -
+                    0.5 * c * c * (ratio * std::sqrt(ratio * ratio - 1) - std::acosh(ratio));
+         EXPECT_NEAR(end.depth[i], std::max(0.0, depth), 0.01 * e.depth) << x[i];
+         if (ratio > 0.9) { continue; }
+         const double root = std::sqrt(c * c - x[i] * x[i]);
+         const double pressure = 2 / M_PI * root + (1 - held) / (M_PI * root);
+         EXPECT_NEAR(p[i], pressure, 0.01 * pressure) << x[i];
+         if (x[i] == 0) { EXPECT_NEAR(p[i], e.pressure, 2e-3); }
+      }
+   }
+}
+
+TEST(Wear, TheMarchApproachesTheWornOutStateAndItsVolumeIsThatOfItsEnergy)
+{
+   const Pad pad = small_pad();
+   const WornOut end =
+      worn_out(pad.problem, pad.history, ContactState::virgin(pad.problem), one_increment());
+   ASSERT_EQ(end.status, FrictionStatus::converged) << end.message;
+   for (GapUpdate update : {GapUpdate::cycle, GapUpdate::piece})
+   {
+      const double k = 0.02;
+      WearState state = WearState::virgin(pad.problem);
+      WearSettings settings = settings_with(0);
+      settings.update = update;
+      double away = 1;
+      VectorXd before = state.depth;
+      const WearReport report = wear(
+         pad.problem, WearLaw::uniform(pad.problem, k), pad.history, 600, state, settings,
+         [&](const WearState &now, const WearRecord &record)
+         {
+            EXPECT_NEAR(record.volume, k / 0.5 * record.dissipation, 1e-13 * record.volume);
+            EXPECT_GE((now.depth - before).minCoeff(), 0);
+            before = now.depth;
+            const double distance = largest(now.depth - end.depth);
+            EXPECT_LE(distance, away * (1 + 1e-12));
+            away = distance;
+         });
+      EXPECT_EQ(report.status, FrictionStatus::converged);
+      EXPECT_EQ(report.marched, 600);
+      EXPECT_LT(away, 1e-3 * largest(end.depth));
+   }
+}
+
+TEST(Wear, JumpsComeToWhatAllCyclesMarchedComeTo)
+{
+   const Pad pad = small_pad();
+   const WearLaw law = WearLaw::uniform(pad.problem, 5e-4);
+   WearState marched = WearState::virgin(pad.problem);
+   wear(pad.problem, law, pad.history, 4000, marched, settings_with(0));
+   for (double tolerance : {1e-1, 1e-2, 1e-3})
+   {
+      WearState state = WearState::virgin(pad.problem);
+      const WearReport report =
+         wear(pad.problem, law, pad.history, 4000, state, settings_with(tolerance));
+      EXPECT_EQ(report.status, FrictionStatus::converged);
+      EXPECT_EQ(state.cycles, 4000);
+      EXPECT_GT(report.jumps, 0);
+      EXPECT_LT(report.marched, 2500);
+      const double error = largest(state.depth - marched.depth);
+      EXPECT_LE(error, report.error) << tolerance;
+      EXPECT_LE(report.error, 1.5 * tolerance * largest(marched.depth)) << tolerance;
+      EXPECT_LE(error, tolerance * largest(marched.depth)) << tolerance;
+      EXPECT_NEAR(worn_volume(pad.problem, state.depth), 5e-4 / 0.5 * state.dissipation.sum(),
+                  1e-13);
+   }
+}
+
+TEST(Wear, ABlockThatSlidesOnSpringsWearsUntilItsPressureIsUniform)
+{
+   // Pressures p = 1 - kn (g - mean g) decay to 1: each cycle slips 4 (d - f p/kt) and takes
+   // off k p times that, of which small differences keep the share 1 - 4 k kn (d - 2 f/kt).
+   const double kt = 5, kn = 2, f = 0.5, d = 1, k = 1e-3;
+   VectorXd gap(4);
+   gap << 0, 1e-4, 3e-4, 2e-4;
+   const Pad pad = springs(gap, kt, kn, f, d);
+   WearState state = WearState::virgin(pad.problem);
+   std::vector<double> spread;
+   WearSettings settings = settings_with(0);
+   const auto note = [&](const WearState &now, const WearRecord &record)
+   {
+      const VectorXd p = now.contact.p;
+      if (record.cycles > 0) { spread.push_back(p.maxCoeff() - p.minCoeff()); }
+      EXPECT_NEAR(p.sum(), 4, 1e-12);
+   };
+   const WearLaw law = WearLaw::uniform(pad.problem, k);
+   WearReport report = wear(pad.problem, law, pad.history, 40, state, settings, note);
+   ASSERT_EQ(report.status, FrictionStatus::converged) << report.message;
+   const double share = 1 - 4 * k * kn * (d - 2 * f / kt);
+   // Gaps of 3e-4 change pressures by 6e-4: linear to that.
+   EXPECT_NEAR(std::pow(spread[39] / spread[19], 1.0 / 20), share, 1e-5);
+   EXPECT_NEAR(report.explicit_limit, 2 / (4 * k * kn * (d - f / kt)), 2);
+   // Then all wear alike, for good: jumps of any length have no error.
+   settings.tolerance = 1e-3;
+   report = wear(pad.problem, law, pad.history, 1e6, state, settings);
+   EXPECT_GT(report.steady_cycle, 0);
+   EXPECT_EQ(state.cycles, 1e6);
+   EXPECT_LT(largest(state.contact.p - VectorXd::Ones(4)), 1e-6);
+   const double whole = k * 4 * (d - f / kt) * 1e6;
+   EXPECT_LT(largest(state.depth / whole - VectorXd::Ones(4)), 1e-3);
+   // No node sticks: there is no end.
+   const WornOut end = worn_out(pad.problem, pad.history, ContactState::virgin(pad.problem));
+   EXPECT_EQ(end.status, FrictionStatus::gross_sliding);
+}
+
+TEST(Wear, WhereACycleWearsMoreThanTheContactGivesWayByItsUpdateIsImplicit)
+{
+   // 4 k kn (d - f/kt) = 7.2: the explicit update multiplies differences by -6.2 a cycle.
+   VectorXd gap(4);
+   gap << 0, 1e-4, 3e-4, 2e-4;
+   const Pad pad = springs(gap, 5, 2, 0.5, 1);
+   WearState state = WearState::virgin(pad.problem);
+   const WearReport report = wear(pad.problem, WearLaw::uniform(pad.problem, 1), pad.history,
+                                  40, state, settings_with(0));
+   ASSERT_EQ(report.status, FrictionStatus::converged) << report.message;
+   EXPECT_NEAR(report.explicit_limit, 2 / 7.2, 1e-3);
+   EXPECT_EQ(report.implicit_cycles, 40);
+   EXPECT_LT(largest(state.contact.p - VectorXd::Ones(4)), 1e-9);
+   EXPECT_LT(largest(state.depth - state.depth.mean() * VectorXd::Ones(4)), 4e-4);
+}
+
+TEST(Wear, OneIncrementWearsWhatThePressureAlongItsSlipSays)
+{
+   // One node, pressure from 3 to 1 over weight 2, slip 0.4: traction from 1.5 to 0.5.
+   ReducedProblem problem;
+   problem.set_stiffness(Eigen::MatrixXd::Ones(1, 1), Eigen::MatrixXd::Zero(1, 1),
+                         Eigen::MatrixXd::Ones(1, 1));
+   problem.weights = VectorXd::Constant(1, 2);
+   set_friction(problem, 0.5);
+   ContactState before = ContactState::virgin(problem), after = before;
+   before.p[0] = 3;
+   after.p[0] = 1;
+   after.v[0] = -0.4;
+   after.status[0] = NodeState::backward_slip;
+   WearLaw law = WearLaw::uniform(problem, 10);
+   EXPECT_NEAR(worn_depth(problem, law, before, after)[0], 10 * 1.0 * 0.4, 1e-14);
+   law.threshold = VectorXd::Constant(1, 0.25); // all above it
+   EXPECT_NEAR(worn_depth(problem, law, before, after)[0], 10 * 0.75 * 0.4, 1e-14);
+   law.threshold[0] = 1; // half of the way, 0.25 on the mean of it
+   EXPECT_NEAR(worn_depth(problem, law, before, after)[0], 10 * 0.125 * 0.4, 1e-14);
+   law.threshold[0] = 2;
+   EXPECT_EQ(worn_depth(problem, law, before, after)[0], 0);
+   law.threshold[0] = 0;
+   law.of_energy = true;
+   EXPECT_NEAR(worn_depth(problem, law, before, after)[0], 10 * 0.5 * 1.0 * 0.4, 1e-14);
+}
+
+TEST(Wear, DependsNeitherOnUnitsNorOnTheSide)
+{
+   const Pad pad = small_pad(), large = small_pad(1e3);
+   WearState state = WearState::virgin(pad.problem), scaled = WearState::virgin(large.problem);
+   for (double tolerance : {0.0, 1e-2})
+   {
+      wear(pad.problem, WearLaw::uniform(pad.problem, 1e-3), pad.history, 200, state,
+           settings_with(tolerance));
+      wear(large.problem, WearLaw::uniform(large.problem, 1e-3), large.history, 200, scaled,
+           settings_with(tolerance));
+      // Per unit thickness forces go with lengths: pressures stay.
+      EXPECT_LT(largest(scaled.depth / 1e3 - state.depth), 1e-9 * largest(state.depth));
+      EXPECT_LT(largest(state.depth - state.depth.reverse()), 1e-9 * largest(state.depth));
+   }
+}
+
+TEST(Wear, GoesOnFromASavedStateToTheSameBits)
+{
+   const Pad pad = small_pad();
+   const WearLaw law = WearLaw::uniform(pad.problem, 1e-2);
+   WearState whole = WearState::virgin(pad.problem), half = whole;
+   wear(pad.problem, law, pad.history, 20, whole, settings_with(0));
+   wear(pad.problem, law, pad.history, 7, half, settings_with(0));
+   save(half, "wear.json");
+   WearState again = load_wear_state("wear.json");
+   wear(pad.problem, law, pad.history, 20, again, settings_with(0));
+   EXPECT_EQ(again.depth, whole.depth);
+   EXPECT_EQ(again.dissipation, whole.dissipation);
+   EXPECT_EQ(again.contact.v, whole.contact.v);
+   EXPECT_EQ(again.cycles, 20);
+   expect_input_error([] { load_wear_state("nowhere.json"); }, "nowhere.json");
+   save(half.contact, "contact.json");
+   expect_input_error([] { load_wear_state("contact.json"); }, "wear state");
+}
+
+TEST(Wear, WithoutKNothingWears)
+{
+   const Pad pad = small_pad();
+   WearState state = WearState::virgin(pad.problem);
+   const WearReport report = wear(pad.problem, WearLaw::uniform(pad.problem, 0), pad.history,
+                                  100, state, settings_with(1e-3));
+   EXPECT_EQ(report.status, FrictionStatus::converged);
+   EXPECT_TRUE(state.depth.isZero(0));
+   EXPECT_GT(state.dissipation.sum(), 0);
+   EXPECT_TRUE(std::isinf(report.explicit_limit));
+}
+
+TEST(Wear, GrossSlidingEndsItWithItsStatus)
+{
+   const Pad pad = hertz_pad(grid_about(0.7, 1.3, 10, 8), 1.1);
+   WearState state = WearState::virgin(pad.problem);
+   const WearReport report = wear(pad.problem, WearLaw::uniform(pad.problem, 1e-3), pad.history,
+                                  10, state, settings_with(0));
+   EXPECT_EQ(report.status, FrictionStatus::gross_sliding);
+   EXPECT_EQ(state.cycles, 0);
+   EXPECT_EQ(worn_out(pad.problem, pad.history, ContactState::virgin(pad.problem)).status,
+             FrictionStatus::gross_sliding);
+}
+
+TEST(Wear, RandomContactsWearByTheirEnergyAndComeToAnEnd)
+{
+   std::mt19937 random(5);
+   int ends = 0;
+   for (int round = 0; round < 40; ++round)
+   {
+      const ReducedProblem problem =
+         cattaneo_test::random_problem(6, 0.4, round % 2 ? 0.2 : 0.0, random);
+      const double Q = 0.4;
+      LoadHistory history = LoadHistory::through(problem, {{},
+                                                           {{"press", 2}},
+                                                           {{"press", 2}, {"shear", Q}},
+                                                           {{"press", 2}, {"shear", -Q}},
+                                                           {{"press", 2}, {"shear", Q}}});
+      history.cycle_start = 2;
+      WearState state = WearState::virgin(problem);
+      const double k = 0.01;
+      const WearReport report = wear(problem, WearLaw::uniform(problem, k), history, 60, state);
+      ASSERT_EQ(report.status, FrictionStatus::converged) << round << report.message;
+      EXPECT_GE(state.depth.minCoeff(), 0);
+      if (report.implicit_cycles == 0)
+      {
+         EXPECT_NEAR(state.depth.sum(), k / 0.4 * state.dissipation.sum(),
+                     1e-12 * (1 + state.depth.sum()));
+      }
+      const WornOut end = worn_out(problem, history, ContactState::virgin(problem));
+      if (end.status != FrictionStatus::converged) { continue; }
+      ++ends;
+      EXPECT_GE(end.depth.minCoeff(), 0);
+      EXPECT_LT(end.loss, 1e-8) << round;
+   }
+   EXPECT_GT(ends, 20);
+}
+
+TEST(Wear, BadInputIsNamed)
+{
+   const Pad pad = small_pad();
+   const ReducedProblem &problem = pad.problem;
+   WearState state = WearState::virgin(problem);
+   WearLaw law = WearLaw::uniform(problem, 1);
+   const auto run = [&](double cycles, const WearSettings &settings = {})
+   { wear(problem, law, pad.history, cycles, state, settings); };
+   expect_input_error([&] { run(1.5); }, "cycles is 1.5");
+   expect_input_error([&] { run(-1); }, "cycles");
+   WearSettings settings;
+   settings.tolerance = 0.5;
+   expect_input_error([&] { run(1, settings); }, "tolerance is 0.5");
+   LoadHistory open = pad.history;
+   open.cycle_start = -1;
+   expect_input_error([&] { wear(problem, law, open, 1, state); }, "no cycle");
+   expect_input_error([&] { worn_out(problem, open, state.contact); }, "no cycle");
+   state.depth[3] = -1;
+   expect_input_error([&] { run(1); }, "depth");
+   state = WearState::virgin(problem);
+   law.coefficient[2] = -1;
+   expect_input_error([&] { run(1); }, "coefficient of node 2 is -1");
+   law = WearLaw::uniform(problem, 1);
+   law.threshold = VectorXd::Ones(3);
+   expect_input_error([&] { run(1); }, "threshold");
+   expect_input_error([&] { law.set(problem, "nowhere", 1); }, "nowhere");
+}
