@@ -83,6 +83,11 @@ void WearSettings::validate() const
 namespace
 {
 
+double largest(const Eigen::MatrixXd &x)
+{
+   return x.size() ? x.cwiseAbs().maxCoeff() : 0.0;
+}
+
 /// What some cycles take.
 struct Taken
 {
@@ -111,6 +116,7 @@ private:
    bool land(const WearCycle &first, double cycles, int parts, Taken &taken,
              ContactState &contact, std::vector<WearCycle> &looked_at);
    void take(const Taken &taken, double cycles, double loss, double error);
+   bool take(const WearCycle &part, double cycles);
    bool fails(const WearCycle &cycle);
    void notice(const WearCycle &cycle);
    /// How closely a cycle is to repeat itself where a jump looks at it.
@@ -182,15 +188,14 @@ void WearMarch::notice(const WearCycle &cycle)
    marked_at_ = state_.cycles;
 }
 
-bool WearMarch::march_one()
+/// What a part of the march wears becomes part of the state. False if it was not found.
+bool WearMarch::take(const WearCycle &cycle, double cycles)
 {
-   ContactState contact = state_.contact;
-   const WearCycle cycle =
-      cycles_.march(contact, state_.depth, settings_.update == GapUpdate::piece);
-   if (fails(cycle)) { return false; }
    Taken taken{cycle.depth, cycle.loss};
-   notice(cycle);
-   if (report_.explicit_limit < 2 && explicit_limit(problem_, cycle) < 2)
+   // No eigenvalue is larger than the largest sum of a row, which is cheap.
+   const VectorXd rows = problem_.C().cwiseAbs().rowwise().sum();
+   const double bound = cycle.compliance().cwiseProduct(rows).maxCoeff();
+   if (bound > 1 && explicit_limit(problem_, cycle) < 2)
    {
       taken.depth = implicit_wear(problem_, cycle, 1);
       if (taken.depth.size() == 0)
@@ -205,9 +210,19 @@ bool WearMarch::march_one()
       }
       ++report_.implicit_cycles;
    }
-   state_.contact = std::move(contact);
-   take(taken, 1, cycle.loss.sum(), 0);
+   take(taken, cycles, cycle.loss.sum(), 0);
    return true;
+}
+
+bool WearMarch::march_one()
+{
+   ContactState contact = state_.contact;
+   const WearCycle cycle =
+      cycles_.march(contact, state_.depth, settings_.update == GapUpdate::piece);
+   if (fails(cycle)) { return false; }
+   notice(cycle);
+   state_.contact = std::move(contact);
+   return take(cycle, 1);
 }
 
 /// Implicit jumps in equal parts. False if the contact is not found at the end of one of them.
@@ -325,8 +340,7 @@ WearReport WearMarch::run()
    if (cycles_.begins(state_.contact))
    {
       const WearCycle opening = cycles_.opening(state_.contact, state_.depth);
-      goes_on = !fails(opening);
-      if (goes_on) { take({opening.depth, opening.loss}, 0, opening.loss.sum(), 0); }
+      goes_on = !fails(opening) && take(opening, 0);
    }
    rest_ = state_.cycles + 2;
    while (goes_on && state_.cycles < end_ && !report_.final_cycle)
@@ -364,6 +378,14 @@ WearReport wear(const ReducedProblem &problem, const WearLaw &law, const LoadHis
    require(cycles == std::floor(cycles) && cycles <= 1e15, "wear: cycles is ", cycles,
            ", must be a whole number up to 1e15");
    require(history.cycle_start >= 0, "wear: the load history has no cycle");
+   require(state.cycles <= cycles, "wear: cycles is ", cycles, ", of which the state has seen ",
+           state.cycles);
+   const bool begins = state.contact.time < history.times[history.cycle_start];
+   const VectorXd loads = history.multipliers.col(begins ? 0 : history.cycle_start);
+   require(largest(state.contact.multipliers - loads) <= 1e-9 * largest(history.multipliers),
+           "wear: the state has the load multipliers (", state.contact.multipliers.transpose(),
+           "), the history begins ", begins ? "" : "its cycle ", "with (", loads.transpose(),
+           ")");
    return WearMarch(problem, law, once, cycles, state, settings, observer).run();
 }
 
