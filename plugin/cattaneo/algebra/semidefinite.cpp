@@ -2,6 +2,7 @@
 #include <cattaneo/algebra/semidefinite.hpp>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace cattaneo
 {
@@ -65,7 +66,7 @@ Eigen::MatrixXd null_space(const Eigen::MatrixXd &A)
    const Eigen::VectorXd scale = scale_of(A);
    const Eigen::MatrixXd scaled = scale.asDiagonal() * A * scale.asDiagonal();
    const Eigen::LDLT<Eigen::MatrixXd> ldlt(scaled);
-   Eigen::MatrixXd Z(n, 0);
+   Eigen::MatrixXd soft(n, 0);
    for (Eigen::Index k = 0; k < n; ++k)
    {
       // Candidates are motions of little energy; a pivot is the energy of the motion that is 1
@@ -73,12 +74,23 @@ Eigen::MatrixXd null_space(const Eigen::MatrixXd &A)
       if (ldlt.vectorD()[k] > 1e-5) { continue; }
       Eigen::VectorXd motion = Eigen::VectorXd::Unit(n, k);
       ldlt.matrixU().solveInPlace(motion);
-      motion = (ldlt.transpositionsP().transpose() * motion).eval();
-      if (!rests(scaled, motion)) { continue; }
-      Z.conservativeResize(Eigen::NoChange, Z.cols() + 1);
-      Z.rightCols(1) = scale.asDiagonal() * motion;
+      soft.conservativeResize(Eigen::NoChange, soft.cols() + 1);
+      soft.rightCols(1) = ldlt.transpositionsP().transpose() * motion.normalized();
    }
-   return Z.cols() > 0 ? thin_qr(Z).Q : Z;
+   if (soft.cols() == 0) { return soft; }
+   // They are as exact as what was eliminated before their pivots. A motion z that meets
+   // nothing has (A + Q Qᵀ) z = Q Qᵀ z: one solution leaves round-off of it.
+   Eigen::MatrixXd Q = thin_qr(soft).Q;
+   Q = thin_qr((scaled + Q * Q.transpose()).ldlt().solve(Q)).Q;
+   Q *=
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(Q.transpose() * scaled * Q).eigenvectors();
+   std::vector<Eigen::Index> resting;
+   for (Eigen::Index k = 0; k < Q.cols(); ++k)
+   {
+      if (rests(scaled, Q.col(k))) { resting.push_back(k); }
+   }
+   if (resting.empty()) { return Eigen::MatrixXd(n, 0); }
+   return thin_qr(scale.asDiagonal() * Q(Eigen::all, resting)).Q;
 }
 
 } // namespace cattaneo
