@@ -1,11 +1,13 @@
-//  contact2d: frictional contact of your own meshes: two bodies, or one on a line or half-plane
+//  contact2d: frictional contact of your own meshes: any number of bodies and interfaces
 //
-//  Reads one or two meshes (MFEM, or Gmsh in format 2.2), condenses them to the nodes of their
-//  contact attributes and marches a load history with Coulomb friction. Materials, supports,
-//  loads and history come from options, from a JSON case file, or from both: docs/contact2d.md
-//  describes them. Units are the user's: forces are per unit thickness.
+//  Reads meshes (MFEM, or Gmsh in format 2.2), condenses each to the nodes of its interfaces
+//  and marches a load history with Coulomb friction. A JSON case file names bodies, interfaces,
+//  bolts and loads; two bodies, or one on a line or half-plane, can be said by options as well:
+//  docs/contact2d.md describes both. Units are the user's: forces are per unit thickness.
 //
-//  Sample runs:  contact2d -case meshes/dovetail.json
+//  Sample runs:  contact2d -case meshes/bolted_joint.json
+//                contact2d -case meshes/pin.json
+//                contact2d -case meshes/dovetail.json
 //                contact2d -case meshes/rounded_punch.json --cycles 2 -edges "1 2 3"
 //                contact2d -case meshes/rounded_punch.json --check --plot check.png
 //                contact2d -case meshes/punch_on_half_plane.json
@@ -13,12 +15,14 @@
 //                contact2d -mesh1 meshes/rounded_punch.msh -contact1 3 -load1 "P pressure 2 .1"
 
 #include "common/contact_edges.hpp"
+#include "common/joint_report.hpp"
 #include "common/own_bodies.hpp"
 #include "common/own_history.hpp"
 
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/output/paraview.hpp>
+#include <deque>
 #include <optional>
 
 using namespace cattaneo;
@@ -54,8 +58,9 @@ struct Options
    int order = 2;
    bool plane_stress = false;
    double friction = 0, pairing = 1e-6;
-   std::string matrix, gap = "geometry", paraview;
+   std::string matrix, gap = "geometry", paraview, convert;
    std::vector<double> edges;
+   miniapp::JointKeys joint; ///< of a case file 2
 
    explicit Options(miniapp::Study &study)
    {
@@ -80,6 +85,36 @@ struct Options
                    "K_N, K_T and slip at the contact edges; a third time is the other end of "
                    "the cycle, for the energy.");
       study.option(&paraview, "paraview", "Folder for ParaView files.", miniapp::Text::folder);
+      study.option(&joint.analysis, "analysis", "plane strain, plane stress or axisymmetric.");
+      study.option(&joint.bodies, "bodies", "Bodies by their names (case file 2).",
+                   miniapp::Text::structure);
+      study.option(&joint.interfaces, "interfaces", "Where they touch, by names (case file 2).",
+                   miniapp::Text::structure);
+      study.option(&joint.bolts, "bolts", "Shanks that pull two parts together (case file 2).",
+                   miniapp::Text::structure);
+      study.option(&convert, "convert", "File for the same as a case file 2, and stop there.",
+                   miniapp::Text::output);
+      study.options().of_version(2, {"analysis", "bodies", "interfaces", "bolts"});
+      study.options().of_version(1, {"mesh1",
+                                     "mesh2",
+                                     "young1",
+                                     "young2",
+                                     "poisson1",
+                                     "poisson2",
+                                     "contact1",
+                                     "contact2",
+                                     "support1",
+                                     "support2",
+                                     "load1",
+                                     "load2",
+                                     "half-plane-young",
+                                     "half-plane-poisson",
+                                     "half-plane-depth",
+                                     "matrix",
+                                     "plane-stress",
+                                     "friction",
+                                     "gap",
+                                     "pairing"});
    }
 
    /// What a matrix has in itself, and what is not known of it.
@@ -98,16 +133,16 @@ struct Options
                              "known");
    }
 
-   void check()
+   /// Of file 1, or of no file.
+   void check_bodies() const
    {
       const miniapp::BodyOptions &second = bodies[1];
       if (!matrix.empty()) { check_matrix(); }
       require(!bodies[0].mesh.empty() || !matrix.empty(),
               "option mesh1 is empty, must name a mesh file (or matrix a stiffness)");
-      const bool alone = second.mesh.empty() && (matrix.empty() || second.contact.empty());
-      require(!alone || (second.contact + second.support + second.load).empty(),
+      require(!alone() || (second.contact + second.support + second.load).empty(),
               "options contact2, support2 or load2 are given without a mesh2");
-      require(alone || !half_plane.given(),
+      require(alone() || !half_plane.given(),
               "options mesh2 (or contact2) and half-plane-young are "
               "both given: body 1 stands on body 2 or on "
               "the half-plane");
@@ -118,7 +153,16 @@ struct Options
       require(paraview.empty() || !half_plane.given() || !std::isnan(half_plane.depth),
               "option paraview writes displacements, which on a half-plane are relative to a "
               "depth: option half-plane-depth must state it");
-      if (alone) { bodies.pop_back(); }
+      require(edges.empty() || friction > 0,
+              "option edges needs friction: without it nothing is stuck");
+   }
+   bool alone() const
+   {
+      return bodies[1].mesh.empty() && (matrix.empty() || bodies[1].contact.empty());
+   }
+
+   void check_edges() const
+   {
       require(edges.empty() || edges.size() == 2 || edges.size() == 3, "option edges has ",
               edges.size(),
               " times, must have two (pressed, peak) or three (the other end of the cycle)");
@@ -127,41 +171,77 @@ struct Options
          require(edges[k] > edges[0], "option edges: time ", edges[k],
                  " must be after the pressed state's, ", edges[0]);
       }
-      require(edges.empty() || friction > 0,
-              "option edges needs friction: without it nothing is stuck");
+   }
+
+   /// What they come to.
+   miniapp::JointCase all() const
+   {
+      check_edges();
+      if (joint.given()) { return miniapp::joint_case(joint, order); }
+      check_bodies();
+      miniapp::JointCase made;
+      made.numbered = true;
+      made.order = order;
+      made.plane_stress = plane_stress;
+      miniapp::JointCase::Face face;
+      face.name = "contact";
+      face.source = {"option ", ""};
+      face.friction = {{{0, friction}}};
+      if (gap == "closed") { face.gap = miniapp::JointCase::Profile{{{0, 0}}}; }
+      for (int k = 0; k < (alone() ? 1 : 2); ++k)
+      {
+         const miniapp::BodyOptions &body = bodies[k];
+         const std::string number = std::to_string(k + 1);
+         miniapp::JointCase::Body &added = made.bodies.emplace_back();
+         added.name = number;
+         added.source = {"option ", number};
+         added.mesh = body.mesh;
+         added.matrix = matrix;
+         added.young = body.young;
+         added.poisson = body.poisson;
+         added.support = body.support;
+         added.load = body.load;
+         face.sides[k] = {k, body.contact, "option contact" + number};
+      }
+      if (half_plane.given())
+      {
+         miniapp::JointCase::Body &below = made.bodies.emplace_back();
+         below.name = "half-plane";
+         below.source = {"option half-plane-", ""};
+         below.half_plane = true;
+         below.young = {half_plane.young};
+         below.poisson = {half_plane.poisson};
+         below.depth = half_plane.depth;
+         face.sides[1] = {1, "", ""};
+      }
+      if (!alone()) { face.pairing = pairing; }
+      made.faces = {face};
+      return made;
    }
 };
-
-/// The contact pushes body 1 by q along the tangents and p along the normals.
-Eigen::Vector2d contact_force(const ContactLine &line, const ContactState &state)
-{
-   return line.each(&LineNode::tangent).transpose() * state.q +
-          line.each(&LineNode::normal).transpose() * state.p;
-}
 
 void contact2d(miniapp::Study &study)
 {
    Options options(study);
    miniapp::OwnHistory history(study);
    study.parse();
-   options.check();
+   const miniapp::JointCase joint = options.all();
    history.check_options();
+   if (!options.convert.empty()) { miniapp::convert(study, joint, options.convert); }
    Snapshots snapshots{options.edges, {}};
    snapshots.states.resize(snapshots.times.size());
 
-   miniapp::OwnBodies own =
-      options.matrix.empty()
-         ? make_own_bodies(options.bodies, options.half_plane, options.order,
-                           options.plane_stress, options.pairing)
-         : own_bodies_of_matrix(options.matrix, options.bodies, options.half_plane,
-                                options.pairing);
-   require(options.paraview.empty() || !own.scene.bodies.empty(),
+   miniapp::OwnBodies own = make_own_bodies(joint);
+   require(options.paraview.empty() || own.known_elements,
            "option matrix goes without the option paraview: elements are not known");
-   const ContactLine &line = own.line();
+   if (!own.known_elements) { own.scene.bodies.clear(); } // of the others nothing is shown
    ReducedProblem &problem = own.scene.problem();
-   set_friction(problem, options.friction);
-   if (options.gap == "closed") { problem.gap.setZero(); }
-   require(!problem.patterns.empty(), "there is no load: option load1 or load2 must name one");
+   require(!problem.patterns.empty(),
+           joint.numbered ? "there is no load: option load1 or load2 must name one"
+                          : "there is no load: key 'load' of a body must name one");
+   require(options.edges.empty() || (joint.faces.size() == 1 && own.known_elements),
+           "option edges is for one interface of bodies with elements, the case has ",
+           joint.faces.size());
    history.begin(problem);
    history.check_times("edges", options.edges);
    study.condensed(own.scene);
@@ -169,16 +249,26 @@ void contact2d(miniapp::Study &study)
    study.say(text("   gap %g to %g; stiffness right to %.2g of itself", problem.gap.minCoeff(),
                   problem.gap.maxCoeff(), own.accuracy));
    miniapp::warn_of_accuracy(own.accuracy);
-   miniapp::warn_of_overlap(problem, line);
+   for (const InterfaceReport &face : own.scene.reduction.interfaces)
+   {
+      miniapp::warn_of_overlap(problem, face);
+   }
 
-   std::optional<miniapp::SidesThatBear> beyond_corners;
-   if (own.materials.size() == 1) { beyond_corners.emplace(line); }
+   std::deque<miniapp::SidesThatBear> beyond_corners;
+   for (const InterfaceReport &face : own.scene.reduction.interfaces)
+   {
+      if (face.bodies[1] < 0 && !face.tied) { beyond_corners.emplace_back(face); }
+   }
+   miniapp::JointReport joint_report(study, joint, own.scene.reduction);
    std::optional<ReductionFields> fields;
    if (!options.paraview.empty())
    {
-      for (const char *part : {"", "/contact", "/body1", "/body2"})
+      study.begins(options.paraview, true);
+      study.begins(options.paraview + "/contact", true);
+      for (std::size_t b = 0; b < own.scene.reduction.bodies.size(); ++b)
       {
-         study.begins(options.paraview + part, true);
+         study.begins(options.paraview + "/" + miniapp::body_name(own.scene.reduction, b),
+                      true);
       }
       fields.emplace(
          own.scene.fields(options.paraview, own.half_plane ? &*own.half_plane : nullptr));
@@ -189,7 +279,8 @@ void contact2d(miniapp::Study &study)
                  [&](const ContactState &reached, bool frame)
                  {
                     snapshots.note(reached);
-                    if (beyond_corners) { beyond_corners->note(reached); }
+                    for (auto &side : beyond_corners) { side.note(reached); }
+                    joint_report.note(reached);
                     if (!fields || !frame) { return; }
                     study.counters -= spent; // what the frame costs is added
                     fields->write(reached);
@@ -198,11 +289,10 @@ void contact2d(miniapp::Study &study)
                  });
    study.save(problem);
    if (fields) { study.say(text("%d frames in %s", frames, options.paraview.c_str())); }
-   if (beyond_corners) { beyond_corners->warn(); }
+   for (const auto &side : beyond_corners) { side.warn(); }
 
-   const Eigen::Vector2d force = contact_force(line, history.state);
-   study.results["contact_force"] = {force[0], force[1]};
-   history.report_state(problem, text("contact force on body 1 (%g, %g)", force[0], force[1]));
+   history.report_state(problem, joint_report.of_state(history.state));
+   joint_report.report(history.state, history.report);
    history.report_march(problem);
    if (!snapshots.times.empty() && snapshots.complete())
    {

@@ -11,9 +11,9 @@ namespace miniapp
 
 using cattaneo::InputError;
 using cattaneo::require;
-using nlohmann::json;
+using json = nlohmann::ordered_json;
 
-json read_case(const std::string &file)
+CaseFile read_case(const std::string &file, int newest)
 {
    const std::string where = "case file '" + file + "'";
    std::ifstream in(file);
@@ -42,11 +42,13 @@ json read_case(const std::string &file)
    }
    require(keys.is_object(), where, " holds a JSON ", keys.type_name(), ", must be an object");
    const json version = keys.value("version", json(1));
-   require(version == 1, where, ": key 'version' is ",
-           version.is_structured() ? version.type_name() : version.dump(),
-           ", must be 1, the only version that this program knows");
+   const std::string shown = version.is_structured() ? version.type_name() : version.dump();
+   require(version == 1 || (newest > 1 && version == newest), where, ": key 'version' is ",
+           shown, ", must be 1",
+           newest > 1 ? " or " + std::to_string(newest)
+                      : ", the only version that this program knows");
    for (const char *key : {"version", "$schema"}) { keys.erase(key); }
-   return keys;
+   return {keys, version.get<int>()};
 }
 
 } // namespace miniapp

@@ -6,10 +6,16 @@
 namespace miniapp
 {
 
-/** The keys of a case file that stand for options, with their values. The one place that knows
-    of versions: the key "version" says which one a file is written in, without it 1, the only
-    one there is (docs/contact2d.md). InputError if the file cannot be read, is no JSON object,
-    has a key twice or is of another version. */
-nlohmann::json read_case(const std::string &file);
+/// The keys of a case file that stand for options, with their values.
+struct CaseFile
+{
+   nlohmann::ordered_json keys;
+   int version = 1; ///< that the file is written in (docs/contact2d.md)
+};
+
+/** The key "version" says which version a file is written in, without it 1. InputError if the
+    file cannot be read, is no JSON object, has a key twice or is of a version beyond the newest
+    that is known. */
+CaseFile read_case(const std::string &file, int newest);
 
 } // namespace miniapp

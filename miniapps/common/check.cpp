@@ -82,9 +82,10 @@ std::vector<AtNode> supports(const ElasticBody &body)
    return at_nodes(body, held);
 }
 
-std::string body_name(std::size_t k)
+std::string body_name(const Reduction &reduction, std::size_t k)
 {
-   return "body " + std::to_string(k + 1);
+   const std::string &name = reduction.bodies[k].name;
+   return name.empty() ? "body " + std::to_string(k + 1) : name;
 }
 
 void list_bodies(Study &study, const Scene &scene)
@@ -98,6 +99,7 @@ void list_bodies(Study &study, const Scene &scene)
                                           {"y_to", "to", "%.5g"},
                                           {"held_x", "held in x"},
                                           {"held_y", "in y (nodes)"}});
+   const Reduction &reduction = scene.reduction;
    for (std::size_t k = 0; k < scene.bodies.size(); ++k)
    {
       const ElasticBody &body = *scene.bodies[k];
@@ -109,8 +111,9 @@ void list_bodies(Study &study, const Scene &scene)
       {
          for (int c : {0, 1}) { held[c] += support.value[c] != 0; }
       }
-      study.row(bodies, {body_name(k), scene.meshes[k]->GetNE(), body.dofs(), frame.low[0],
-                         frame.high[0], frame.low[1], frame.high[1], held[0], held[1]});
+      study.row(bodies,
+                {body_name(reduction, k), scene.meshes[k]->GetNE(), body.dofs(), frame.low[0],
+                 frame.high[0], frame.low[1], frame.high[1], held[0], held[1]});
    }
 }
 
@@ -127,7 +130,7 @@ void list_lines(Study &study, const Reduction &reduction)
       const ContactLine &line = reduction.bodies[k].line;
       const VectorXd spacing = line.each(&LineNode::spacing);
       double length = line.nodes.back().arc_length;
-      study.row(lines, {body_name(k), line.size(), line.chains.size(), length,
+      study.row(lines, {body_name(reduction, k), line.size(), line.chains.size(), length,
                         spacing.minCoeff(), spacing.maxCoeff()});
    }
    const VectorXd &gap = reduction.problem.gap;
@@ -150,6 +153,7 @@ void list_loads(Study &study, const Scene &scene)
                                         {"x", "sum x", "%.6g"},
                                         {"y", "sum y", "%.6g"},
                                         {"moment", "moment", "%.6g"}});
+   const Reduction &reduction = scene.reduction;
    for (std::size_t k = 0; k < scene.bodies.size(); ++k)
    {
       for (const BodyLoad &load : scene.bodies[k]->patterns())
@@ -166,10 +170,10 @@ void list_loads(Study &study, const Scene &scene)
             all += std::hypot(at.value[0], at.value[1]);
             far = std::max(far, at.position.norm());
          }
-         study.row(loads,
-                   {load.name, body_name(k), force ? "forces" : "displacement", nodes.size(),
-                    force ? settled(x, all) : none, force ? settled(y, all) : none,
-                    plane && force ? settled(moment, all * far) : none});
+         study.row(loads, {load.name, body_name(reduction, k),
+                           force ? "forces" : "displacement", nodes.size(),
+                           force ? settled(x, all) : none, force ? settled(y, all) : none,
+                           plane && force ? settled(moment, all * far) : none});
       }
    }
    for (std::size_t k = 0; k < scene.torsion.size(); ++k)
@@ -177,7 +181,7 @@ void list_loads(Study &study, const Scene &scene)
       for (const BodyLoad &load : scene.torsion[k]->patterns())
       {
          const bool force = load.control == Control::force;
-         study.row(loads, {load.name, body_name(k), force ? "torque" : "twist",
+         study.row(loads, {load.name, body_name(reduction, k), force ? "torque" : "twist",
                            at_nodes(*scene.torsion[k], load.values).size(), none, none,
                            force ? load.values.sum() : none});
       }
@@ -211,31 +215,33 @@ void draw_nodes(Panel &panel, const Reduction &reduction)
    {
       for (const LineNode &node : reduction.bodies[k].line.nodes)
       {
-         panel.item("contact of " + body_name(k), node.position, {0, 0});
+         panel.item("contact of " + body_name(reduction, k), node.position, {0, 0});
       }
    }
 }
 
 void draw_normals(Panel &panel, const Reduction &reduction, double arrow)
 {
-   const ContactLine &line = reduction.bodies[0].line;
-   const VectorXd &gap = reduction.problem.gap;
-   const Index stride = 1 + line.size() / most_arrows;
-   for (Index i = 0; i < line.size(); ++i)
+   for (const InterfaceReport &face : reduction.interfaces)
    {
-      const LineNode &node = line.nodes[i];
-      if (i % stride == 0) { panel.item("normal", node.position, arrow * node.normal()); }
-      // What the node faces: of a rigid obstacle the point on it, else the node of body 2
-      // there.
-      Vector2d partner = node.position - gap[i] * node.normal();
-      if (reduction.bodies.size() == 2)
+      const Index stride = 1 + face.nodes / most_arrows;
+      for (Index i = 0; i < face.nodes; ++i)
       {
-         const Eigen::MatrixX2d others = reduction.bodies[1].line.each(&LineNode::position);
-         Index nearest = 0;
-         (others.rowwise() - partner.transpose()).rowwise().squaredNorm().minCoeff(&nearest);
-         partner = others.row(nearest);
+         const Vector2d at = face.position.row(i), t = face.tangent.row(i), normal(-t[1], t[0]);
+         if (i % stride == 0) { panel.item("normal", at, arrow * normal); }
+         if (face.tied) { continue; }
+         // What the node faces: of nodes that match the other body's, else the point across the
+         // gap.
+         Vector2d partner = at - reduction.problem.gap[face.first + i] * normal;
+         if (face.matching && reduction.bodies.size() == 2)
+         {
+            const Eigen::MatrixX2d others = reduction.bodies[1].line.each(&LineNode::position);
+            Index nearest = 0;
+            (others.rowwise() - partner.transpose()).rowwise().squaredNorm().minCoeff(&nearest);
+            partner = others.row(nearest);
+         }
+         panel.item("gap", at, partner - at);
       }
-      panel.item("gap", node.position, partner - node.position);
    }
 }
 
@@ -273,9 +279,10 @@ Panel &draw(Study &study, const Scene &scene, const std::string &name, const std
    Panel &panel = study.panel(Panel::Kind::scene, name, title, about_axis ? "r" : "x",
                               about_axis ? "z" : "y");
    const double margin = 0.12 * frame.size();
+   const Reduction &reduction = scene.reduction;
    for (std::size_t k = 0; k < scene.bodies.size(); ++k)
    {
-      draw_boundary(panel, body_name(k), *scene.meshes[k]);
+      draw_boundary(panel, body_name(reduction, k), *scene.meshes[k]);
    }
    draw_nodes(panel, scene.reduction);
    for (const auto &body : scene.bodies) { draw_loads(panel, *body, 0.8 * margin); }
@@ -299,15 +306,25 @@ void show(Study &study, const Scene &scene)
       const mfem::DenseMatrix &place = body->node_coordinates();
       for (int i = 0; i < place.Width(); ++i) { all.hold({place(0, i), place(1, i)}); }
    }
-   for (const LineNode &node : scene.reduction.bodies[0].line.nodes)
+   for (const InterfaceReport &face : scene.reduction.interfaces)
    {
-      contact.hold(node.position);
+      for (Index i = 0; i < face.nodes; ++i) { contact.hold(face.position.row(i)); }
    }
    draw(study, scene, "scene", "Bodies, supports, loads", all);
-   Panel &panel = draw(study, scene, "contact", "Contact, normals into body 1", contact);
+   Panel &panel =
+      draw(study, scene, "contact",
+           scene.reduction.interfaces.size() == 1 ? "Contact, normals into body 1"
+                                                  : "Contact, normals into the slaves",
+           contact);
    draw_normals(panel, scene.reduction, 0.06 * contact.size());
-   study.panel(Panel::Kind::lines, "gap", "Initial gap", "arc length", "gap")
-      .add("", scene.problem().arc_length, scene.problem().gap);
+   Panel &gaps = study.panel(Panel::Kind::lines, "gap", "Initial gap", "arc length", "gap");
+   for (const InterfaceReport &face : scene.reduction.interfaces)
+   {
+      if (face.tied) { continue; }
+      gaps.add(scene.reduction.interfaces.size() == 1 ? "" : face.name,
+               VectorXd(scene.problem().arc_length.segment(face.first, face.nodes)),
+               VectorXd(scene.problem().gap.segment(face.first, face.nodes)));
+   }
 }
 
 } // namespace miniapp

@@ -20,7 +20,7 @@ namespace miniapp
 using cattaneo::exact_text;
 using cattaneo::InputError;
 using cattaneo::require;
-using nlohmann::json;
+using json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 const Check any{[](double) { return true; }, ""};
@@ -73,6 +73,42 @@ const char *const domain_help =
 
 namespace
 {
+
+/// A structure of a case file with the files that it names relative to the program's folder.
+nlohmann::ordered_json with_paths(nlohmann::ordered_json structure, const fs::path &folder)
+{
+   if (!structure.is_structured()) { return structure; }
+   for (auto item = structure.begin(); item != structure.end(); ++item)
+   {
+      const bool file = structure.is_object() && item->is_string() &&
+                        (item.key() == "mesh" || item.key() == "matrix");
+      *item = file ? nlohmann::ordered_json((folder / item->get<std::string>()).string())
+                   : with_paths(*item, folder);
+   }
+   return structure;
+}
+
+/// A structure with another value, a number if it is one, in the place NAME.KEY.KEY….
+std::string replaced_in(const std::string &structure, const std::string &key,
+                        const std::string &value)
+{
+   const std::vector<std::string> path = split(key, ".");
+   auto all = nlohmann::ordered_json::parse(structure.empty() ? "{}" : structure);
+   nlohmann::ordered_json *place = &all;
+   for (std::size_t k = 1; k < path.size(); ++k)
+   {
+      const bool member =
+         place->is_object() && (place->contains(path[k]) || k + 1 == path.size());
+      require(member, "option --sweep: '", key, "': there is no key '", path[k], "' in ",
+              listed(std::vector<std::string>(path.begin(), path.begin() + long(k)), "."));
+      place = &(*place)[path[k]];
+   }
+   char *end = nullptr;
+   const double x = std::strtod(value.c_str(), &end);
+   *place =
+      !value.empty() && *end == 0 ? nlohmann::ordered_json(x) : nlohmann::ordered_json(value);
+   return all.dump();
+}
 
 /// Entry k of a text of entries is another value; with a load's name, its part LOAD=value.
 std::string replaced(const std::string &text, const std::string &separators,
@@ -133,6 +169,17 @@ void Options::in_object(const std::string &name, const std::vector<std::string> 
    for (Option &option : options_)
    {
       if (option.names.name.find(name + "-") == 0) { option.object = name; }
+   }
+}
+
+void Options::of_version(int version, const std::vector<std::string> &names)
+{
+   for (Option &option : options_)
+   {
+      if (std::count(names.begin(), names.end(), option.names.name) > 0)
+      {
+         option.version = version;
+      }
    }
 }
 
@@ -357,6 +404,7 @@ void Options::parse()
    {
       const std::string text = option.text();
       const auto &on = option.names.on;
+      if (option.version != 0 && option.version != version_) { continue; }
       if (option.is_flag()) { std::printf("   %s\n", on[text == "true" ? 1 : 3].c_str()); }
       else if (!text.empty()) { std::printf("   %s %s\n", on[1].c_str(), text.c_str()); }
    }
@@ -380,6 +428,7 @@ const Options::Option &Options::changeable(const std::string &key) const
       if (!option.in_cases || option.is_of_sweep()) { continue; }
       known.push_back(option.names.name);
       if (option.names.name != name) { continue; }
+      if (option.kind == Text::structure) { return option; }
       const std::size_t most = option.is_list() ? 1 : option.kind == Text::statements ? 2 : 0;
       require(dots <= most, "option --sweep: '", key, "': option --", name,
               most == 0 ? " has no entries" : " has no entries of entries");
@@ -410,8 +459,9 @@ Options::command(const std::vector<std::pair<std::string, std::string>> &changes
       const nlohmann::ordered_json &now = values_.at(name);
       std::string &text =
          values.try_emplace(name, now.is_string() ? now.get<std::string>() : "").first->second;
-      text = key == name
-                ? value
+      text = key == name ? value
+             : option.kind == Text::structure
+                ? replaced_in(text, key, value)
                 : replaced(text, option.kind == Text::statements ? ";" : " ,", key, value);
       option.set("--" + name, text);
       option.validate();
@@ -428,17 +478,22 @@ Options::command(const std::vector<std::pair<std::string, std::string>> &changes
 
 void Options::read(const std::string &file)
 {
-   const json keys = read_case(file);
+   int newest = 1;
+   for (const Option &option : options_) { newest = std::max(newest, option.version); }
+   const auto [keys, version] = read_case(file, newest);
+   version_ = version;
    const std::string where = "case file '" + file + "': ";
    const auto set = [&](const Option &option, const json &value, const std::string &name)
    {
       std::string text = option.from_json(value, where + "key '" + name + "'");
-      if (option.kind == Text::input) { text = (fs::path(file).parent_path() / text).string(); }
+      const fs::path folder = fs::path(file).parent_path();
+      if (option.kind == Text::input) { text = (folder / text).string(); }
+      if (option.kind == Text::structure) { text = with_paths(value, folder).dump(); }
       option.set("--" + option.names.name, text);
    };
    for (const auto &[name, value] : keys.items())
    {
-      if (objects_.count(name) == 0)
+      if (objects_.count(name) == 0 || version_ > 1)
       {
          set(of_case("", name, where), value, name);
          continue;
@@ -463,13 +518,17 @@ const Options::Option &Options::of_case(const std::string &object, const std::st
    std::vector<std::string> known;
    for (const Option &option : options_)
    {
-      if (!option.in_cases || option.object != object) { continue; }
+      const bool other = option.version != 0 && option.version != version_;
+      if (!option.in_cases || option.object != object || other) { continue; }
       if (option.key() == key) { return option; }
       known.push_back(option.key());
    }
    if (object.empty())
    {
-      for (const auto &entry : objects_) { known.push_back(entry.first); }
+      for (const auto &entry : objects_)
+      {
+         if (version_ == 1) { known.push_back(entry.first); }
+      }
    }
    throw InputError(where + "unknown key '" + key + "', must be one of " + listed(known));
 }
@@ -505,6 +564,11 @@ std::string Options::Option::from_json(const json &x, const std::string &where) 
       expect(x.is_string() || is_attribute(x) || all(is_attribute),
              "boundary attributes: a string such as \"3,4\" or \"3[-1<x<1]\", a positive "
              "integer below 1e9, or an array of positive integers below 1e9");
+   }
+   else if (kind == Text::structure)
+   {
+      expect(x.is_object(), "an object");
+      return x.dump();
    }
    else if (kind == Text::statements)
    {

@@ -32,6 +32,7 @@ enum class Text
    word,
    attributes, ///< a string, a number or an array of numbers
    statements, ///< a string with statements between semicolons, or an array of them
+   structure,  ///< an object, here as JSON; files in it have the keys mesh and matrix
    input,      ///< a file that is read; a path in a case file is relative to its folder
    output,     ///< a file that is written
    prefix,     ///< the beginning of the names of files that are written
@@ -87,6 +88,10 @@ public:
 
    /// In a case file the options NAME-KEY are one object, NAME: {KEY: …}, which must have some.
    void in_object(const std::string &name, const std::vector<std::string> &required);
+   /// Names what case files of one version alone have; the others are of all.
+   void of_version(int version, const std::vector<std::string> &names);
+   /// Of the case file, 1 without one.
+   int version() const { return version_; }
    /// Names what is no part of a case: where results go, or which of them are shown.
    void leave_out_of_cases(const std::string &name);
 
@@ -114,6 +119,7 @@ private:
       Text kind = Text::word;
       std::vector<std::string> choices = {};
       bool in_cases = true;
+      int version = 0;         ///< of the case files that have it, 0: of all
       std::string object = {}; ///< of the case file that it is in; empty: it is in none
 
       /// In a case file.
@@ -132,7 +138,7 @@ private:
       std::string text() const;               ///< its value
       nlohmann::ordered_json as_json() const; ///< the same, a list as text
       /// A value of a case file as it would stand on the command line.
-      std::string from_json(const nlohmann::json &x, const std::string &where) const;
+      std::string from_json(const nlohmann::ordered_json &x, const std::string &where) const;
       /// @param as what the option is called in an error
       void set(const std::string &as, const std::string &text) const;
       void validate() const; ///< its value
@@ -159,6 +165,7 @@ private:
    std::vector<Given> given_;
    std::map<std::string, std::vector<std::string>> objects_; ///< with what they must have
    std::string case_file_;
+   int version_ = 1;
    nlohmann::ordered_json values_;
 };
 

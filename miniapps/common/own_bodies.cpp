@@ -10,6 +10,7 @@
 #include <cattaneo/mesh/mesh_file.hpp>
 #include <cattaneo/words.hpp>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 namespace miniapp
@@ -55,19 +56,18 @@ void add_options(Study &study, HalfPlaneOptions &half_plane)
 namespace
 {
 
-std::vector<Material> materials(const BodyOptions &options, const std::string &k,
-                                int attributes, bool plane_stress)
+std::vector<Material> materials(const JointCase::Body &body, int attributes, bool plane_stress)
 {
-   std::vector<double> young = options.young, poisson = options.poisson;
-   require(!young.empty() && !poisson.empty(), "options young", k, " and poisson", k,
-           " must not be empty");
+   std::vector<double> young = body.young, poisson = body.poisson;
+   const std::string both =
+      body.source.called("young") + " and " + body.source.called("poisson");
+   require(!young.empty() && !poisson.empty(), both, " must not be empty");
    const std::size_t count = std::max(young.size(), poisson.size());
    if (young.size() == 1) { young.resize(count, young[0]); }
    if (poisson.size() == 1) { poisson.resize(count, poisson[0]); }
-   require(young.size() == poisson.size(), "options young", k, " and poisson", k, " have ",
-           young.size(), " and ", poisson.size(), " values, must have as many (or one)");
-   require(count == 1 || count <= static_cast<std::size_t>(attributes), "options young", k,
-           " and poisson", k, " have ", count,
+   require(young.size() == poisson.size(), both, " have ", young.size(), " and ",
+           poisson.size(), " values, must have as many (or one)");
+   require(count == 1 || count <= static_cast<std::size_t>(attributes), both, " have ", count,
            " values, must have one, or one for each element attribute of the mesh, 1 to ",
            attributes);
    std::vector<Material> list;
@@ -79,34 +79,6 @@ std::vector<Material> materials(const BodyOptions &options, const std::string &k
    return list;
 }
 
-CondensedBody make_body(OwnBodies &own, const BodyOptions &options, const std::string &k,
-                        int order, bool plane_stress)
-{
-   try
-   {
-      require(!options.contact.empty(), "option contact", k,
-              " is empty, must name boundary attributes");
-      mfem::Mesh mesh = read_mesh(options.mesh);
-      for (const std::string &warning :
-           {unjoined_vertices(mesh, options.mesh), missed_curves(mesh, order, options.mesh)})
-      {
-         if (!warning.empty()) { warn(warning); }
-      }
-      const int attributes = mesh.attributes.Size() ? mesh.attributes.Max() : 1;
-      own.materials.push_back(materials(options, k, attributes, plane_stress));
-      ElasticBody &body = own.scene.add(std::move(mesh), order, own.materials.back());
-      add_supports(body, "support" + k, options.support);
-      add_loads(body, "load" + k, options.load);
-      const ContactLine line =
-         contact_line(body, boundary_part("contact" + k, options.contact));
-      return condense(body, line, condensation());
-   }
-   catch (const InputError &error)
-   {
-      throw InputError("body " + k + " ('" + options.mesh + "'): " + error.what());
-   }
-}
-
 Eigen::Vector2d mean_normal(const ContactLine &line)
 {
    return (line.each(&LineNode::normal).transpose() * line.each(&LineNode::weight))
@@ -115,13 +87,11 @@ Eigen::Vector2d mean_normal(const ContactLine &line)
 
 /// The rigid obstacle is the straight line that touches the contact nodes, across their mean
 /// normal.
-Reduction on_rigid_line(const CondensedBody &body)
+ScalarField distance_to_rigid_line(const ContactLine &line)
 {
-   const ContactLine &line = body.line;
    const Eigen::Vector2d normal = mean_normal(line);
    const double level = (line.each(&LineNode::position) * normal).minCoeff();
-   return reduce(body,
-                 [=](double x, double y) { return normal.dot(Eigen::Vector2d(x, y)) - level; });
+   return [=](double x, double y) { return normal.dot(Eigen::Vector2d(x, y)) - level; };
 }
 
 /// How much of the nodes' common displacement along an axis the body resists, of 1.
@@ -134,12 +104,12 @@ double held_share(const CondensedBody &body, const Eigen::Vector2d &axis)
 
 /// The half-plane touches the contact nodes as a rigid line does. Contact nodes that are held
 /// lie on a plane of symmetry, which it has as well.
-void stand_on_half_plane(OwnBodies &own, CondensedBody body, const HalfPlaneOptions &options,
+void stand_on_half_plane(OwnBodies &own, CondensedBody body, const JointCase::Body &plane,
                          bool plane_stress)
 {
    const ContactLine &line = body.line;
    HalfPlane below;
-   below.material = {options.young, options.poisson,
+   below.material = {plane.young[0], plane.poisson[0],
                      plane_stress ? PlaneState::stress : PlaneState::strain};
    Eigen::Vector2d normal = mean_normal(line), at = line.nodes.front().position;
    if (!body.held.empty())
@@ -152,18 +122,18 @@ void stand_on_half_plane(OwnBodies &own, CondensedBody body, const HalfPlaneOpti
    const double level = (line.each(&LineNode::position) * normal).minCoeff();
    below.normal = -normal;
    below.point = at + (level - normal.dot(at)) * normal;
-   const bool relative = std::isnan(options.depth); // to nothing: forces alone are known
+   const bool relative = std::isnan(plane.depth); // to nothing: forces alone are known
    if (relative)
    {
       const double most = below.symmetric ? held_share(body, normal)
                                           : std::max(held_share(body, Eigen::Vector2d(1, 0)),
                                                      held_share(body, Eigen::Vector2d(0, 1)));
-      require(most < 1e-7,
-              "half-plane: supports or prescribed displacements hold body 1 against "
-              "it, whose displacements are relative to a depth: option "
-              "half-plane-depth must state it, or forces alone act on body 1");
+      require(most < 1e-7, "half-plane: supports or prescribed displacements hold body ",
+              body.name.empty() ? "1" : body.name,
+              " against it, whose displacements are relative to a depth: ",
+              plane.source.called("depth"), " must state it, or forces alone act on the body");
    }
-   below.depth = relative ? 1e4 * line.nodes.back().arc_length : options.depth;
+   below.depth = relative ? 1e4 * line.nodes.back().arc_length : plane.depth;
    own.scene.reduction = reduce(std::move(body), below);
    if (relative) { own.scene.problem().H.resize(0, 0); }
    own.accuracy = std::max(own.accuracy, own.scene.reduction.bodies[1].error_estimate());
@@ -176,94 +146,275 @@ bool similar(const Material &a, const Material &b)
    return a.young == b.young && a.poisson == b.poisson;
 }
 
-/// On each other, on a half-plane, or on a rigid line.
-void put_together(OwnBodies &own, std::vector<CondensedBody> condensed,
-                  const HalfPlaneOptions &half_plane, bool plane_stress, double pairing)
+/// A body of a case before it is condensed: elements, or nodes of a matrix.
+class Part
 {
-   for (CondensedBody &body : condensed)
+public:
+   Part(OwnBodies &own, const JointCase &joint, int b) : joint_(joint), body_(joint.bodies[b])
    {
-      own.accuracy = std::max(own.accuracy, body.error_estimate());
+      if (!body_.mesh.empty()) { make_of_mesh(own); }
    }
-   if (half_plane.given())
+   /// The body of a matrix that has the sets of its contacts.
+   void make_of_matrix(NodalStiffness matrix)
    {
-      stand_on_half_plane(own, std::move(condensed[0]), half_plane, plane_stress);
-      return;
+      require(matrix.formulation == joint_.formulation, "its elements are ",
+              name(matrix.formulation), ", must be ", name(joint_.formulation));
+      nodal_ = std::move(matrix);
+      add_supports(*nodal_, body_.source.called("support"), body_.support);
+      add_loads(*nodal_, body_.source.called("load"), body_.load);
    }
-   if (condensed.size() == 1)
+   ContactLine line(const JointCase::Side &side) const
    {
-      own.scene.reduction = on_rigid_line(condensed[0]);
-      return;
+      require(!side.part.empty(), side.called, " is empty, must name boundary attributes");
+      return nodal_ ? nodal_->contact_line(nodal_->nodes_of(side.part))
+                    : contact_line(*elastic_, boundary_part(side.called, side.part, terms_));
    }
-   try
+   /// An end of a shank: forces that add up to F, spread evenly.
+   void pull(const std::string &load, const JointCase::Side &end, const Eigen::Vector2d &F)
    {
-      const Pairing pairs = pair_lines(condensed[0].line, condensed[1].line, pairing);
-      own.scene.reduction = reduce(condensed[0], condensed[1], pairs);
+      const Eigen::Vector2d t = F / line(end).each(&LineNode::weight).sum();
+      if (nodal_) { nodal_->add_traction(load, nodal_->nodes_of(end.part), t); }
+      else
+      {
+         elastic_->add_traction(load, boundary_part(end.called, end.part, terms_), t[0], t[1]);
+      }
    }
-   catch (const InputError &error)
+   CondensedBody condensed(const ContactLine &line, const CondensedBody *alike) const
    {
-      throw InputError(std::string("option ") + error.what());
+      CondensedBody made = nodal_ ? condense(nodal_->body(), line)
+                                  : condense(*elastic_, line, condensation(), alike);
+      if (!joint_.numbered) { made.name = body_.name; }
+      return made;
+   }
+   /// In a sentence.
+   std::string called() const
+   {
+      const std::string file =
+         body_.mesh.empty() ? nodal_ ? nodal_->name : body_.matrix : body_.mesh;
+      return "body " + body_.name + " ('" + file + "')";
+   }
+   template <class Action>
+   auto named(Action action) const
+   {
+      try
+      {
+         return action();
+      }
+      catch (const InputError &error)
+      {
+         throw InputError(called() + ": " + error.what());
+      }
+   }
+
+private:
+   void make_of_mesh(OwnBodies &own)
+   {
+      named(
+         [&]
+         {
+            mfem::Mesh mesh = read_mesh(body_.mesh);
+            for (const std::string &warning : {unjoined_vertices(mesh, body_.mesh),
+                                               missed_curves(mesh, joint_.order, body_.mesh)})
+            {
+               if (!warning.empty()) { warn(warning); }
+            }
+            terms_ = {group_names(body_.mesh).boundary, body_.expansion};
+            const int attributes = mesh.attributes.Size() ? mesh.attributes.Max() : 1;
+            own.materials.push_back(materials(body_, attributes, joint_.plane_stress));
+            elastic_ = &own.scene.add(std::move(mesh), joint_.order, own.materials.back(),
+                                      joint_.formulation);
+            add_supports(*elastic_, body_.source.called("support"), body_.support, terms_);
+            add_loads(*elastic_, body_.source.called("load"), body_.load, terms_);
+         });
+   }
+
+   const JointCase &joint_;
+   const JointCase::Body &body_;
+   ElasticBody *elastic_ = nullptr;
+   std::optional<NodalStiffness> nodal_;
+   BodyTerms terms_;
+};
+
+/// Of bodies that are matrices each takes the part of its file that has the sets which its
+/// contacts name.
+void find_matrices(OwnBodies &own, const JointCase &joint, std::vector<Part> &parts)
+{
+   std::map<std::string, std::vector<NodalStiffness>> files;
+   std::map<std::string, int> asked;
+   for (const JointCase::Body &body : joint.bodies)
+   {
+      if (body.matrix.empty()) { continue; }
+      ++asked[body.matrix];
+      if (files.count(body.matrix) == 0)
+      {
+         files[body.matrix] = read_stiffness(body.matrix).parts();
+      }
+   }
+   for (const auto &[file, bodies] : files)
+   {
+      std::vector<std::string> names;
+      for (const NodalStiffness &part : bodies) { names.push_back(part.name); }
+      require(static_cast<int>(bodies.size()) == asked[file], "matrix '", file, "' has ",
+              bodies.size(), " bodies (", listed(names),
+              joint.numbered ? "), options contact1 and contact2 name the contact of "
+                             : "), the case has ",
+              asked[file]);
+   }
+   for (std::size_t b = 0; b < parts.size(); ++b)
+   {
+      const std::string &file = joint.bodies[b].matrix;
+      if (file.empty()) { continue; }
+      std::vector<NodalStiffness> &left = files[file];
+      auto found = left.end();
+      for (const JointCase::Face &face : joint.faces)
+      {
+         for (const JointCase::Side &side : face.sides)
+         {
+            if (side.body != static_cast<int>(b) || found != left.end()) { continue; }
+            found = std::find_if(left.begin(), left.end(),
+                                 [&](const NodalStiffness &part)
+                                 { return part.has_set(side.part); });
+            require(found != left.end(), "matrix '", file, "': ", side.called,
+                    " names the set '", side.part, "', there is no other body that has it");
+         }
+      }
+      require(found != left.end(), "matrix '", file, "': body ", joint.bodies[b].name,
+              " is at no interface, must be at one");
+      own.known_elements = false;
+      own.scene.dofs += static_cast<int>(found->dofs.size());
+      own.materials.emplace_back(); // not known
+      Part &part = parts[b];
+      part.named([&] { part.make_of_matrix(std::move(*found)); });
+      left.erase(found);
    }
 }
 
-CondensedBody make_body(NodalStiffness body, const BodyOptions &options, const std::string &k)
+/// The only interface of two bodies, whose nodes are paired one to one.
+Reduction paired(std::vector<CondensedBody> bodies, const JointCase::Face &face, bool numbered)
 {
    try
    {
-      require(body.formulation == Formulation::plane, "its elements are ",
-              name(body.formulation), ", must be plane");
-      add_supports(body, "support" + k, options.support);
-      add_loads(body, "load" + k, options.load);
-      return condense(body.body(), body.contact_line(body.nodes_of(options.contact)));
+      const Pairing pairs = pair_lines(bodies[0].line, bodies[1].line, face.pairing);
+      return reduce(std::move(bodies[0]), std::move(bodies[1]), pairs);
    }
    catch (const InputError &error)
    {
-      throw InputError("body " + k + " ('" + body.name + "'): " + error.what());
+      throw InputError((numbered ? "option " : "interface '" + face.name + "': ") +
+                       std::string(error.what()));
    }
+}
+
+/// What the case says of the interfaces' friction and gaps, and of shanks.
+void complete(Reduction &reduction, const JointCase &joint)
+{
+   ReducedProblem &problem = reduction.problem;
+   for (std::size_t k = 0; k < joint.faces.size(); ++k)
+   {
+      const JointCase::Face &face = joint.faces[k];
+      InterfaceReport &report = reduction.interfaces[k];
+      report.name = face.name;
+      for (Eigen::Index i = report.first; i < report.first + report.nodes && !face.tied; ++i)
+      {
+         problem.friction[i] = face.friction.at(problem.arc_length[i]);
+         if (face.gap) { problem.gap[i] = face.gap->at(problem.arc_length[i]); }
+      }
+   }
+   for (const JointCase::Bolt &bolt : joint.bolts)
+   {
+      reduction.add_shank(bolt.name, bolt.stiffness / (bolt.pretension * bolt.pretension));
+   }
+}
+
+Reduction united(const JointCase &joint, std::vector<CondensedBody> condensed,
+                 const std::vector<std::array<ContactLine, 2>> &lines)
+{
+   const JointCase::Face &one = joint.faces[0];
+   if (!std::isnan(one.pairing))
+   {
+      require(joint.faces.size() == 1 && condensed.size() == 2 && one.sides[1].body >= 0,
+              one.source.called("pairing"),
+              " is for two bodies at one interface: others need none, their nodes need not "
+              "match");
+      return paired(std::move(condensed), one, joint.numbered);
+   }
+   std::vector<Interface> interfaces;
+   for (std::size_t k = 0; k < joint.faces.size(); ++k)
+   {
+      const JointCase::Face &face = joint.faces[k];
+      Interface made{face.name, {face.sides[0].body, lines[k][0]}, {}, face.slave};
+      made.most_overlap = face.most_overlap;
+      made.tied = face.tied;
+      if (face.sides[1].body >= 0) { made.second = {face.sides[1].body, lines[k][1]}; }
+      else { made.gap = distance_to_rigid_line(lines[k][0]); }
+      if (face.gap) { made.gap = 0.0; } // by the arc length, which is not known yet
+      interfaces.push_back(std::move(made));
+   }
+   return reduce(std::move(condensed), interfaces);
 }
 
 } // namespace
 
-OwnBodies make_own_bodies(const std::vector<BodyOptions> &options,
-                          const HalfPlaneOptions &half_plane, int order, bool plane_stress,
-                          double pairing)
+OwnBodies make_own_bodies(const JointCase &joint)
 {
    OwnBodies own;
-   std::vector<CondensedBody> condensed;
-   for (const BodyOptions &body : options)
+   std::vector<Part> parts;
+   int half_planes = 0;
+   for (std::size_t b = 0; b < joint.bodies.size(); ++b)
    {
-      const std::string k = std::to_string(condensed.size() + 1);
-      condensed.push_back(make_body(own, body, k, order, plane_stress));
+      parts.emplace_back(own, joint, static_cast<int>(b));
+      half_planes += joint.bodies[b].half_plane;
    }
-   put_together(own, std::move(condensed), half_plane, plane_stress, pairing);
-   return own;
-}
-
-OwnBodies own_bodies_of_matrix(const std::string &matrix,
-                               const std::vector<BodyOptions> &options,
-                               const HalfPlaneOptions &half_plane, double pairing)
-{
-   OwnBodies own;
-   std::vector<CondensedBody> condensed;
-   std::vector<NodalStiffness> parts = read_stiffness(matrix).parts();
-   std::vector<std::string> names;
-   for (const NodalStiffness &part : parts) { names.push_back(part.name); }
-   require(parts.size() == options.size(), "matrix '", matrix, "' has ", parts.size(),
-           " bodies (", listed(names), "), options contact1 and contact2 name the contact of ",
-           options.size());
-   for (const BodyOptions &body : options)
+   find_matrices(own, joint, parts);
+   for (const JointCase::Bolt &bolt : joint.bolts)
    {
-      const std::string k = std::to_string(condensed.size() + 1);
-      const auto found =
-         std::find_if(parts.begin(), parts.end(),
-                      [&](const NodalStiffness &part) { return part.has_set(body.contact); });
-      require(found != parts.end(), "matrix '", matrix, "': option contact", k,
-              " names the set '", body.contact, "', there is no other body that has it");
-      own.scene.dofs += static_cast<int>(found->dofs.size());
-      own.materials.emplace_back(); // not known
-      condensed.push_back(make_body(std::move(*found), body, k));
-      parts.erase(found);
+      for (int k : {0, 1})
+      {
+         const Eigen::Vector2d along(bolt.direction[0], bolt.direction[1]);
+         Part &part = parts[bolt.ends[k].body];
+         // The shank pulls the ends together.
+         const double pull = k == 0 ? -bolt.pretension : bolt.pretension;
+         part.named([&] { part.pull(bolt.name, bolt.ends[k], pull * along); });
+      }
    }
-   put_together(own, std::move(condensed), half_plane, false, pairing);
+   std::vector<std::array<ContactLine, 2>> lines(joint.faces.size());
+   std::vector<std::vector<ContactLine>> of_body(parts.size());
+   for (std::size_t k = 0; k < joint.faces.size(); ++k)
+   {
+      for (int s : {0, 1})
+      {
+         const JointCase::Side &side = joint.faces[k].sides[s];
+         if (side.body < 0 || joint.bodies[side.body].half_plane) { continue; }
+         const Part &part = parts[side.body];
+         lines[k][s] = part.named([&] { return part.line(side); });
+         of_body[side.body].push_back(lines[k][s]);
+      }
+   }
+   std::vector<CondensedBody> condensed;
+   for (std::size_t b = 0; b < parts.size(); ++b)
+   {
+      if (joint.bodies[b].half_plane) { continue; }
+      require(!of_body[b].empty(), "body ", joint.bodies[b].name,
+              " is at no interface, nothing touches it: it must be at one, or be left out");
+      const ContactLine line = of_body[b].size() == 1 ? of_body[b][0] : joined(of_body[b]);
+      // The last with a factor that this one's could be.
+      const CondensedBody *alike = nullptr;
+      for (const CondensedBody &before : condensed)
+      {
+         if (before.line.size() == line.size()) { alike = &before; }
+      }
+      condensed.push_back(parts[b].named([&] { return parts[b].condensed(line, alike); }));
+      own.accuracy = std::max(own.accuracy, condensed.back().error_estimate());
+   }
+   if (half_planes > 0)
+   {
+      require(joint.bodies.size() == 2 && joint.faces.size() == 1 &&
+                 joint.bodies[1].half_plane && !joint.faces[0].tied && joint.bolts.empty(),
+              "a half-plane is for one body that stands on it, at one interface and the second "
+              "of both: others must have meshes");
+      stand_on_half_plane(own, std::move(condensed[0]), joint.bodies[1], joint.plane_stress);
+   }
+   else { own.scene.reduction = united(joint, std::move(condensed), lines); }
+   complete(own.scene.reduction, joint);
    return own;
 }
 
@@ -327,15 +478,16 @@ void warn_of_accuracy(double accuracy)
 
 /// An interference fit moves nodes by less than their distance; more is a body in a wrong
 /// place, or in other units.
-void warn_of_overlap(const ReducedProblem &problem, const ContactLine &line)
+void warn_of_overlap(const ReducedProblem &problem, const InterfaceReport &interface)
 {
+   if (interface.tied) { return; }
    Eigen::Index deepest = 0;
-   const double overlap =
-      -problem.gap.cwiseQuotient(line.each(&LineNode::spacing)).minCoeff(&deepest);
+   const auto gap = problem.gap.segment(interface.first, interface.nodes);
+   const double overlap = -gap.cwiseQuotient(interface.spacing).minCoeff(&deepest);
    if (overlap <= 1) { return; }
    std::ostringstream text;
-   text << "the bodies overlap by " << -problem.gap[deepest] << " at ("
-        << line.nodes[deepest].position[0] << ", " << line.nodes[deepest].position[1]
+   text << "the bodies overlap by " << -gap[deepest] << " at ("
+        << interface.position(deepest, 0) << ", " << interface.position(deepest, 1)
         << "), which is " << overlap
         << " distances of nodes: small displacements do not open that, see that both meshes "
            "are in "
@@ -349,10 +501,13 @@ static double angle_of(double cosine)
    return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::acos(-1.0);
 }
 
-SidesThatBear::SidesThatBear(const ContactLine &line) : line_(line)
+SidesThatBear::SidesThatBear(const InterfaceReport &interface) : face_(interface)
 {
-   const Eigen::VectorXd cosine = line.each(&LineNode::normal) * mean_normal(line);
-   for (Eigen::Index i = 0; i < line.size(); ++i)
+   Eigen::MatrixX2d normals(interface.nodes, 2);
+   normals << -interface.tangent.col(1), interface.tangent.col(0);
+   const Eigen::Vector2d mean = (normals.transpose() * interface.weights).normalized();
+   const Eigen::VectorXd cosine = normals * mean;
+   for (Eigen::Index i = 0; i < interface.nodes; ++i)
    {
       if (angle_of(cosine[i]) > 15) { sides_.push_back({i, angle_of(cosine[i])}); }
    }
@@ -362,7 +517,8 @@ void SidesThatBear::note(const ContactState &state)
 {
    for (const Node &side : sides_)
    {
-      if (closed(state.status[side.index]) && state.p[side.index] > 1e-9 * state.p.maxCoeff() &&
+      const Eigen::Index i = face_.first + side.index;
+      if (closed(state.status[i]) && state.p[i] > 1e-9 * state.p.maxCoeff() &&
           side.angle > worst_.angle)
       {
          worst_ = side;
@@ -374,8 +530,8 @@ void SidesThatBear::warn() const
 {
    if (worst_.index < 0) { return; }
    std::ostringstream text;
-   text << "node " << worst_.index << " at (" << line_.nodes[worst_.index].position[0] << ", "
-        << line_.nodes[worst_.index].position[1] << ") bears although its normal is "
+   text << "node " << worst_.index << " at (" << face_.position(worst_.index, 0) << ", "
+        << face_.position(worst_.index, 1) << ") bears although its normal is "
         << std::lround(worst_.angle)
         << " degrees off that of the rigid line: forces and zones are wrong there, name no "
            "boundary around a corner as contact";

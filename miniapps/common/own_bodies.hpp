@@ -1,5 +1,6 @@
 #pragma once
 
+#include "common/joint_case.hpp"
 #include "common/study.hpp"
 
 #include <cattaneo/fretting/corner.hpp>
@@ -12,7 +13,7 @@
 namespace miniapp
 {
 
-/// What the options say of one body of a user's own.
+/// What the options of file 1 say of one body of a user's own.
 struct BodyOptions
 {
    std::string mesh, contact, support, load;
@@ -31,14 +32,15 @@ void add_options(Study &study, HalfPlaneOptions &half_plane);
 /// The options of body k: mesh1, young1, poisson1, contact1, support1 and load1 for k = "1".
 void add_options(Study &study, BodyOptions &body, const std::string &k, const char *mesh_help);
 
-/// One body on the rigid line that touches it or on such a half-plane, or two.
+/// What a case is reduced to.
 struct OwnBodies
 {
    Scene scene;
-   std::optional<cattaneo::HalfPlane> half_plane;
+   std::optional<cattaneo::HalfPlane> half_plane;          ///< the last body
    std::vector<std::vector<cattaneo::Material>> materials; ///< of each body
-   /// Estimated relative error of the stiffness; of two in series no more than the worse.
+   /// Estimated relative error of the stiffness; of bodies in series no more than the worst.
    double accuracy = 0;
+   bool known_elements = true; ///< false: of a body that is a matrix they are not
 
    const cattaneo::ContactLine &line(int body = 0) const
    {
@@ -51,22 +53,12 @@ struct OwnBodies
    cattaneo::fretting::CornerModes corner(int end) const;
 };
 
-/// InputError naming body and option. @param pairing of nodes along the contact
-OwnBodies make_own_bodies(const std::vector<BodyOptions> &options,
-                          const HalfPlaneOptions &half_plane, int order, bool plane_stress,
-                          double pairing);
+/// InputError naming body and key or option.
+OwnBodies make_own_bodies(const JointCase &joint);
 
-/** The same of a stiffness that another program wrote (read_stiffness()), which has as many
-   bodies as there are options. Body 1 is the one with a set of nodes that contact1 names;
-   supports and loads are on sets, "FLOOR:xy", "P traction TOP 0 -1", and the file has its own.
-   Their materials are not known. */
-OwnBodies own_bodies_of_matrix(const std::string &matrix,
-                               const std::vector<BodyOptions> &options,
-                               const HalfPlaneOptions &half_plane, double pairing);
-
-/// Warns of bodies that overlap by more than the distance of their nodes.
+/// Warns of bodies that overlap by more than the length of a node's part of the line.
 void warn_of_overlap(const cattaneo::ReducedProblem &problem,
-                     const cattaneo::ContactLine &line);
+                     const cattaneo::InterfaceReport &interface);
 /// Warns of a stiffness with few right digits.
 void warn_of_accuracy(double accuracy);
 
@@ -76,7 +68,7 @@ void warn_of_accuracy(double accuracy);
 class SidesThatBear
 {
 public:
-   explicit SidesThatBear(const cattaneo::ContactLine &line);
+   explicit SidesThatBear(const cattaneo::InterfaceReport &interface);
    /// A state that the march has reached.
    void note(const cattaneo::ContactState &state);
    void warn() const;
@@ -87,7 +79,7 @@ private:
       Eigen::Index index = -1;
       double angle = 0; ///< degrees between its normal and the line's
    };
-   const cattaneo::ContactLine &line_;
+   const cattaneo::InterfaceReport &face_; ///< must outlive it
    std::vector<Node> sides_;
    Node worst_;
 };

@@ -48,6 +48,20 @@ void check_energies(std::initializer_list<double> energies)
    }
 }
 
+/// Names of the interfaces of a problem, in the order of its nodes.
+std::vector<std::string> interfaces(const ReducedProblem &problem)
+{
+   std::vector<std::string> names;
+   for (const ContactChain &chain : problem.chains)
+   {
+      if (names.empty() || names.back() != chain.interface)
+      {
+         names.push_back(chain.interface);
+      }
+   }
+   return names;
+}
+
 /// As much of a march as a picture can show, whatever its length.
 constexpr std::size_t most_drawn = 4096;
 
@@ -64,15 +78,28 @@ public:
       drawn_.resize(drawn_.size() / 2);
       stride_ *= 2;
    }
-   /// With the last state.
-   void draw(Panel &panel, const ReducedProblem &problem, const ContactState &last)
+   /// With the last state: one panel an interface.
+   void draw(const std::vector<Panel *> &panels, const ReducedProblem &problem,
+             const ContactState &last)
    {
       if (drawn_.empty()) { return; }
       if (drawn_.back().first != last.time)
       {
          drawn_.emplace_back(last.time, drawn_zones(problem, last));
       }
-      for (const auto &[time, zones] : drawn_) { panel.add(time, zones); }
+      const std::vector<std::string> names = interfaces(problem);
+      for (const auto &[time, zones] : drawn_)
+      {
+         for (std::size_t k = 0; k < names.size(); ++k)
+         {
+            std::vector<Zone> own;
+            for (const Zone &zone : zones)
+            {
+               if (problem.chains[zone.chain].interface == names[k]) { own.push_back(zone); }
+            }
+            panels[k]->add(time, own);
+         }
+      }
    }
 
 private:
@@ -171,8 +198,15 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
       study_.begins(save_state_);
       saver.emplace(save_state_);
    }
-   Panel &diagram =
-      study_.panel(Panel::Kind::zones, "zones_in_time", "Zones in time", "time", "arc length");
+   std::vector<Panel *> diagrams;
+   const std::vector<std::string> names = interfaces(problem);
+   for (const std::string &name : names)
+   {
+      const bool one = names.size() == 1;
+      diagrams.push_back(&study_.panel(
+         Panel::Kind::zones, one ? "zones_in_time" : "zones_in_time_" + name,
+         one ? "Zones in time" : "Zones in time of " + name, "time", "arc length"));
+   }
    Film *film = study_.film(problem);
    ZonesInTime zones_in_time;
    std::deque<IncrementRecord> last_increments;
@@ -199,7 +233,7 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
    report = cattaneo::march(problem, history_, state, settings, note);
    check_energies({report.energy_imbalance, state.dissipation});
    report.increments.assign(last_increments.begin(), last_increments.end());
-   zones_in_time.draw(diagram, problem, state);
+   zones_in_time.draw(diagrams, problem, state);
    study_.counters += report.counters;
    study_.code = exit_code(problem, report);
    add_outcome(problem, report, study_.results);
@@ -221,18 +255,20 @@ void OwnHistory::report_state(const ReducedProblem &problem, const std::string &
    study_.value("peak_pressure", tractions(problem, state.p).maxCoeff(), "peak pressure");
    const std::vector<Zone> zones = cattaneo::zones(problem, state);
    const bool one_line = zones.back().chain == 0;
+   const std::vector<std::string> names = interfaces(problem);
    Table &table = study_.table("zones", {{"state", "state"},
                                          {"from", "from", "%.5g"},
                                          {"to", "to (arc length)", "%.5g"},
                                          {"", "±"},
                                          {"from_error"},
                                          {"to_error"},
-                                         {"piece", one_line ? "" : "piece of the line"}});
+                                         {"piece", one_line ? "" : "piece of the line"},
+                                         {"interface", names.size() > 1 ? "interface" : ""}});
    for (const Zone &zone : zones)
    {
       study_.row(table, {name(zone.state), zone.from.position, zone.to.position,
                          error_text(std::max(zone.from.error, zone.to.error)), zone.from.error,
-                         zone.to.error, zone.chain + 1});
+                         zone.to.error, zone.chain + 1, problem.chains[zone.chain].interface});
    }
    const Eigen::Index touching = touching_nodes(problem, state);
    study_.results["touching_nodes"] = touching;
@@ -242,10 +278,20 @@ void OwnHistory::report_state(const ReducedProblem &problem, const std::string &
                       "separated",
                       static_cast<long>(touching)));
    }
-   study_
-      .panel(Panel::Kind::lines, "tractions", "Pressure, and shear over f (dashed)",
-             "arc length", "p, q/f")
-      .add_tractions(text("time %g", state.time), problem.arc_length, problem, state);
+   Panel &drawn = study_.panel(Panel::Kind::lines, "tractions",
+                               "Pressure, and shear over f (dashed)", "arc length", "p, q/f");
+   for (const std::string &interface : names)
+   {
+      Eigen::Index first = problem.nodes(), end = 0;
+      for (const ContactChain &chain : problem.chains)
+      {
+         if (chain.interface != interface) { continue; }
+         first = std::min(first, chain.first);
+         end = std::max(end, chain.first + chain.nodes);
+      }
+      drawn.add_tractions(names.size() > 1 ? interface : text("time %g", state.time),
+                          problem.arc_length, problem, state, first, end - first);
+   }
 }
 
 void OwnHistory::report_march(const ReducedProblem &problem)

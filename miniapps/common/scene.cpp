@@ -19,15 +19,17 @@ ElasticBody &Scene::add(mfem::Mesh mesh, int order, const Material &material,
    return *bodies.back();
 }
 
-ElasticBody &Scene::add(mfem::Mesh mesh, int order, const std::vector<Material> &materials)
+ElasticBody &Scene::add(mfem::Mesh mesh, int order, const std::vector<Material> &materials,
+                        Formulation formulation)
 {
-   if (materials.size() == 1) { return add(std::move(mesh), order, materials[0]); }
+   if (materials.size() == 1) { return add(std::move(mesh), order, materials[0], formulation); }
    for (const Material &material : materials)
    {
       if (warn_of_locking(order, material)) { break; }
    }
    meshes.push_back(distribute(std::move(mesh), order));
-   bodies.push_back(std::make_unique<ElasticBody>(*meshes.back(), order, materials));
+   bodies.push_back(
+      std::make_unique<ElasticBody>(*meshes.back(), order, materials, formulation));
    dofs += bodies.back()->dofs();
    return *bodies.back();
 }

@@ -30,7 +30,8 @@ struct Scene
                               cattaneo::Formulation formulation = cattaneo::Formulation::plane);
    /// The same of one material, or one for each element attribute.
    cattaneo::ElasticBody &add(mfem::Mesh mesh, int order,
-                              const std::vector<cattaneo::Material> &materials);
+                              const std::vector<cattaneo::Material> &materials,
+                              cattaneo::Formulation formulation = cattaneo::Formulation::plane);
    /// The torsion of all bodies, to be condensed with them.
    void add_torsion(int order, const cattaneo::Material &material);
    /// Series of it for ParaView in a folder; the scene must outlive them.

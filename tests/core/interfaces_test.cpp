@@ -640,4 +640,143 @@ TEST_F(Interfaces, RefuseWhatDoesNotFit)
       "the bodies can move without resistance even where every contact node is closed");
 }
 
+/// A body that is cut in two along a line and tied there is the whole body.
+TEST_F(Interfaces, ThatAreTiedMakeOneBody)
+{
+   Truss lower({side({0, 0}, {2, 0}, 4, 2), side({2, 1}, {0, 1}, 3, 2)}, {1, 0.5}),
+      upper({side({0, 1}, {2, 1}, 3, 2)}, {1, 2});
+   lower.load("P");
+   upper.hold().load("Q").lift("D");
+   // The whole: points of both, those of the cut once.
+   Truss whole = lower;
+   std::vector<int> own;
+   for (std::size_t p = 0; p < upper.points.size(); ++p)
+   {
+      std::size_t found = 0;
+      while (found < whole.points.size() &&
+             (whole.points[found] - upper.points[p]).norm() > 1e-9)
+      {
+         ++found;
+      }
+      if (found == whole.points.size()) { whole.points.push_back(upper.points[p]); }
+      own.push_back(2 * static_cast<int>(found));
+      own.push_back(2 * static_cast<int>(found) + 1);
+   }
+   const auto size = static_cast<Index>(2 * whole.points.size());
+   whole.K.conservativeResizeLike(MatrixXd::Zero(size, size));
+   whole.K(own, own) += upper.K;
+   for (int dof : upper.fixed) { whole.fixed.push_back(own[dof]); }
+   whole.loads[0].values.conservativeResizeLike(VectorXd::Zero(size));
+   for (const BodyLoad &load : upper.loads)
+   {
+      whole.loads.push_back({load.name, load.control, VectorXd::Zero(size)});
+      whole.loads.back().values(own) = load.values;
+   }
+   Truss block({side({2, 0}, {0, 0}, 7)}, {1, -1});
+   block.hold();
+   std::vector<Interface> faces{
+      {"floor", {0, lower.lines[0]}, {2, block.lines[0]}, SlaveSide::first},
+      {"cut", {1, upper.lines[0]}, {0, lower.lines[1]}}};
+   faces[1].tied = true;
+   Reduction cut =
+      reduce({lower.condensed("lower"), upper.condensed("upper"), block.condensed()}, faces);
+   whole.lines.pop_back(); // is no line of it
+   Reduction one =
+      reduce({whole.condensed(), block.condensed()},
+             {{"floor", {0, lower.lines[0]}, {1, block.lines[0]}, SlaveSide::first}});
+   cut.problem.validate();
+   ASSERT_EQ(cut.problem.nodes(), one.problem.nodes());
+   EXPECT_LT(difference(cut.problem.K, one.problem.K), 1e-11);
+   EXPECT_LT(difference(cut.problem.H, one.problem.H), 1e-11);
+   for (const LoadPattern &load : one.problem.patterns)
+   {
+      const LoadPattern &same = cut.problem.patterns[cut.problem.pattern(load.name)];
+      EXPECT_LT(difference(same.q, load.q), 1e-11);
+      EXPECT_LT(difference(same.p, load.p), 1e-11);
+   }
+   VectorXd v(one.problem.nodes()), w = v, loads(3);
+   for (VectorXd *some : {&v, &w, &loads})
+   {
+      for (double &value : *some) { value = number(); }
+   }
+   const VectorXd field = one.displacement(0, v, w, loads);
+   EXPECT_LT(difference(cut.displacement(0, v, w, loads), field.head(lower.size())), 1e-11);
+   EXPECT_LT(difference(cut.displacement(1, v, w, loads), field(own)), 1e-11);
+   // What the cut transfers holds the upper part: forces of its bars and loads.
+   ASSERT_TRUE(cut.interfaces[1].tied);
+   const VectorXd f = cut.tied_forces(v, w, loads);
+   const Index t = cut.interfaces[1].nodes;
+   ASSERT_EQ(f.size(), 2 * t);
+   VectorXd residual = upper.K * field(own);
+   for (std::size_t k = 0; k < upper.loads.size(); ++k)
+   {
+      if (upper.loads[k].control == Control::force)
+      {
+         residual -= loads[cut.problem.pattern(upper.loads[k].name)] * upper.loads[k].values;
+      }
+   }
+   const InterfaceReport &report = cut.interfaces[1];
+   ASSERT_EQ(report.bodies[0], 1);
+   for (Index i = 0; i < t; ++i)
+   {
+      const Vector2d along = report.tangent.row(i), into(-along[1], along[0]);
+      const Vector2d force = f[i] * along + f[t + i] * into;
+      Index p = 0;
+      while ((upper.points[p] - Vector2d(report.position.row(i))).norm() > 1e-9) { ++p; }
+      EXPECT_NEAR(residual[2 * p], force[0], 1e-10);
+      EXPECT_NEAR(residual[2 * p + 1], force[1], 1e-10);
+   }
+}
+
+/// A shank between two parts of a body is a spring of its stiffness matrix.
+TEST_F(Interfaces, ShanksAreSprings)
+{
+   Truss body({side({0, 0}, {2, 0}, 4, 2)}, {1, 1});
+   body.hold().load("P").load("T").lift("D").load("S");
+   Truss stiff = body;
+   const VectorXd first = body.loads[1].values, second = body.loads[3].values;
+   stiff.K += 3 * first * first.transpose() + 0.2 * second * second.transpose();
+   Reduction shanks = reduce(body.condensed()), springs = reduce(stiff.condensed());
+   shanks.add_shank("T", 3);
+   shanks.add_shank("S", 0.2);
+   shanks.problem.validate();
+   EXPECT_LT(difference(shanks.problem.K, springs.problem.K), 1e-11);
+   EXPECT_LT(difference(shanks.problem.H, springs.problem.H), 1e-11);
+   for (std::size_t k = 0; k < 4; ++k)
+   {
+      const LoadPattern &one = shanks.problem.patterns[k], &other = springs.problem.patterns[k];
+      EXPECT_LT(difference(one.q, other.q), 1e-11);
+      EXPECT_LT(difference(one.p, other.p), 1e-11);
+   }
+   VectorXd v(shanks.problem.nodes()), w = v, loads(4);
+   for (VectorXd *some : {&v, &w, &loads})
+   {
+      for (double &value : *some) { value = number(); }
+   }
+   EXPECT_LT(
+      difference(shanks.displacement(0, v, w, loads), springs.displacement(0, v, w, loads)),
+      1e-11);
+   expect_input_error([&] { shanks.add_shank("D", 1); }, "prescribes displacements");
+   expect_input_error([&] { shanks.add_shank("P", -1); }, "its stiffness is -1");
+}
+
+/// A shank that pulls a free body down leaves it two motions of three.
+TEST_F(Interfaces, ShanksResistWhatTheyPull)
+{
+   Truss upper({side({0, 0}, {2, 0}, 3)}, {1, 1}), lower({side({2, 0}, {0, 0}, 4)}, {1, -1});
+   lower.hold();
+   for (Truss *body : {&upper, &lower})
+   {
+      body->loads.push_back({"bolt", Control::force, VectorXd::Zero(body->size())});
+      body->loads[0].values[1] = body == &upper ? -1 : 1; // of the first node, in y
+   }
+   lower.loads[0].values.setZero();
+   Reduction reduction = reduce({upper.condensed(), lower.condensed()},
+                                {between(1, lower.lines[0], 0, upper.lines[0])});
+   ASSERT_EQ(reduction.problem.rigid_motions.cols(), 3);
+   reduction.add_shank("bolt", 2.5);
+   EXPECT_EQ(reduction.problem.rigid_motions.cols(), 2);
+   reduction.problem.validate();
+}
+
 } // namespace

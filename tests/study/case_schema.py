@@ -1,8 +1,8 @@
-"""case_schema.py CONTACT2D SCHEMA CASE...: the schema of case files says what contact2d accepts, no more and no less.
+"""case_schema.py CONTACT2D SCHEMA SCHEMA2 CASE...: the schema of case files says what contact2d accepts, no more and no less.
 
 Every key that the program or the schema knows is tried with values of all kinds, and so are case files with a random
 choice of keys: both must agree. What no schema can say (a sweep of no option, loads of a pattern that is not there, …)
-is the program's own.
+is the program's own. SCHEMA2 is that of files of version 2, whose objects are tried key by key with values of a wrong kind.
 """
 
 import json
@@ -21,7 +21,7 @@ VALUES = [None, True, False, 0, -1, 1, 2, 3, 8, 9, -2, 2.0, 1.5, 0.25, 0.5, 0.49
           {"young": 2, "poisson": 0.3, "width": 1}]
 # How a schema may say things here: a keyword that is not read would be taken for granted.
 KEYWORDS = {"description", "$ref", "type", "enum", "const", "oneOf", "items", "minimum", "maximum", "exclusiveMinimum",
-            "exclusiveMaximum", "properties", "required", "additionalProperties"}
+            "exclusiveMaximum", "properties", "required", "additionalProperties", "minItems", "maxItems", "minProperties"}
 
 
 def is_number(value):
@@ -45,12 +45,13 @@ def fits(schema, value, definitions):
     if not TYPES[schema["type"]](value):
         return False
     if schema["type"] == "object":
-        inner = schema["properties"]
-        assert schema["additionalProperties"] is False, schema
-        return set(schema["required"]) <= set(value) and all(
-            key in inner and fits(inner[key], item, definitions) for key, item in value.items())
+        inner, others = schema.get("properties", {}), schema["additionalProperties"]
+        return set(schema.get("required", ())) <= set(value) and len(value) >= schema.get("minProperties", 0) and all(
+            fits(inner[key], item, definitions) if key in inner else others and fits(others, item, definitions)
+            for key, item in value.items())
     if schema["type"] == "array":
-        return all(fits(schema["items"], item, definitions) for item in value)
+        return schema.get("minItems", 0) <= len(value) <= schema.get("maxItems", len(value)) and all(
+            fits(schema["items"], item, definitions) for item in value)
     return all(holds(schema[word], value) for word, holds in (
         ("minimum", lambda bound, x: x >= bound), ("maximum", lambda bound, x: x <= bound),
         ("exclusiveMinimum", lambda bound, x: x > bound), ("exclusiveMaximum", lambda bound, x: x < bound))
@@ -79,8 +80,42 @@ class Program:
         return set(self.says({"nonsense": 1}).split("must be one of ")[1].strip().split(", "))
 
 
+def of_version_2(asked, schema, definitions):
+    """Objects of version 2: each key, missing and of all kinds of values."""
+    sound = {"version": 2,
+             "bodies": {"pad": {"mesh": "no.mesh", "young": 1, "poisson": 0.3, "support": "1:x", "load": "P pressure 3 1", "expansion": 1e-5},
+                        "base": {"mesh": "no.mesh", "young": [1, 2], "poisson": 0.3},
+                        "ground": {"half-plane": {"young": 1, "poisson": 0.3, "depth": 100}},
+                        "other": {"matrix": "no.sti", "support": ["A:x"], "load": ["P force A 0 1"]}},
+             "interfaces": {"flat": {"between": ["pad:1", "base:3"], "friction": 0.3, "gap": "geometry", "slave": "first", "overlap": 1},
+                            "cut": {"between": ["pad:2", "base:2"], "tied": True},
+                            "pairs": {"between": "pad:3", "pairing": 0.1}},
+             "bolts": {"bolt": {"between": ["pad:1", "base:3"], "direction": [0, 1], "stiffness": 1, "pretension": 1}}}
+    wrong = []
+    places = [(kind, name) for kind in ("bodies", "interfaces", "bolts") for name in sound[kind]] + [("bodies", "ground", "half-plane")]
+    for place in places:
+        keys = sound
+        for step in place:
+            keys = keys[step]
+        for key in [*keys, "nonsense"]:
+            for value in VALUES:
+                case = json.loads(json.dumps(sound))
+                inner = case
+                for step in place:
+                    inner = inner[step]
+                inner[key] = value
+                said = asked.says(case)
+                # What no schema says: what goes with what, names that are not there, numbers of Poisson.
+                if re.search(r"which do not go together|there is no body|must be the name|a body and a part|goes without|has \d of the keys", said):
+                    continue
+                refuses = re.match(r"error: key '", said) is not None
+                if refuses == fits(schema, case, definitions):
+                    wrong.append(f"version 2, {'.'.join(place)}.{key}: {json.dumps(value)} is accepted by one alone: {said}")
+    return wrong
+
+
 def main():
-    program, schema_file, *cases = sys.argv[1:]
+    program, schema_file, schema2_file, *cases = sys.argv[1:]
     schema = json.loads(pathlib.Path(schema_file).read_text(encoding="utf-8"))
     keys, definitions = schema["properties"], schema["$defs"]
     wrong = []
@@ -94,6 +129,8 @@ def main():
             wrong.append(f"'{key}' is a key of one alone, of the program or of the schema")
         for key in keys:
             values = VALUES if key != "$schema" else ["case.schema.json"]
+            if key == "version":  # 2 has a schema of its own
+                values = [value for value in VALUES if value != 2]
             for value in values:
                 if bool(asked.refuses({key: value})) != bool(refused({key: value})):
                     wrong.append(f"'{key}': {json.dumps(value)} is accepted by one alone: {asked.says({key: value})}")
@@ -101,12 +138,23 @@ def main():
         for _ in range(150):
             case = {key: draw.choice(VALUES) for key in draw.sample(sorted(set(keys) - {"$schema"}), 3)}
             case.update({key: value for key, value in (("version", 1), ("order", 2.0)) if draw.random() < 0.5})
+            if case.get("version") == 2:
+                continue
             found, expected = asked.refuses(case), refused(case)
             if found not in (expected or {None}):
                 wrong.append(f"{json.dumps(case)}: the program refuses {found}, the schema {expected}")
+    schema2 = json.loads(pathlib.Path(schema2_file).read_text(encoding="utf-8"))
+    for key in ("$schema", "title"):
+        del schema2[key]
+    definitions2 = schema2.pop("$defs")
+    with tempfile.TemporaryDirectory() as folder:
+        wrong += of_version_2(Program(program, folder), schema2, definitions2)
     for case in cases:
         data = json.loads(pathlib.Path(case).read_text(encoding="utf-8"))
-        if refused(data) or not set(schema["required"]) <= set(data):
+        if data.get("version") == 2:
+            if not fits(schema2, data, definitions2):
+                wrong.append(f"{case} does not fit the schema of version 2")
+        elif refused(data) or not set(schema["required"]) <= set(data):
             wrong.append(f"{case} does not fit the schema")
     print("\n".join(wrong))
     sys.exit(bool(wrong) or not cases)

@@ -28,6 +28,7 @@ struct BoundaryInterface
    SlaveSide slave = SlaveSide::coarser;
    std::optional<ScalarField> gap = std::nullopt;
    double most_overlap = Interface().most_overlap;
+   bool tied = false;
 };
 
 /** Any number of MFEM bodies over any number of interfaces, whose meshes need not match: each

@@ -57,17 +57,33 @@ void check_point(const ElasticBody &body, const std::string &where, double x, do
            ", ", box[1], ") to (", box[2], ", ", box[3], ")");
 }
 
-std::vector<int> components(const std::string &where, const std::string &text)
+std::vector<int> components(const std::string &where, const std::string &text, bool plane)
 {
-   if (text == "x") { return {0}; }
-   if (text == "y") { return {1}; }
-   require(text == "xy", where, ": component '", text, "', must be x, y or xy");
+   if (text == "x" || (!plane && text == "r")) { return {0}; }
+   if (text == "y" || (!plane && text == "z")) { return {1}; }
+   require(text == "xy" || (!plane && text == "rz"), where, ": component '", text,
+           "', must be ", plane ? "x, y or xy" : "r, z or rz");
    return {0, 1};
+}
+
+/// An attribute by its number or by its name.
+int attribute(const std::string &word, const BodyTerms &terms, const std::string &error)
+{
+   const auto named = terms.boundary.find(word);
+   if (named != terms.boundary.end()) { return named->second; }
+   char *end = nullptr;
+   const long number = std::strtol(word.c_str(), &end, 10);
+   std::vector<std::string> names;
+   for (const auto &[name, its] : terms.boundary) { names.push_back(name); }
+   require(*end == 0 && number > 0 && number < 1000000000, error,
+           names.empty() ? "" : "; names are " + listed(names));
+   return static_cast<int>(number);
 }
 
 } // namespace
 
-BoundaryPart boundary_part(const std::string &called, const std::string &text)
+BoundaryPart boundary_part(const std::string &called, const std::string &text,
+                           const BodyTerms &terms)
 {
    const std::string form = "', must be boundary attributes such as 3 or 3,4, perhaps with an "
                             "interval such as 3[-1<x<1]";
@@ -75,10 +91,7 @@ BoundaryPart boundary_part(const std::string &called, const std::string &text)
    std::vector<int> attributes;
    for (const std::string &word : split(text.substr(0, bracket), ","))
    {
-      char *end = nullptr;
-      const long attribute = std::strtol(word.c_str(), &end, 10);
-      require(*end == 0 && attribute > 0 && attribute < 1000000000, called, ": '", text, form);
-      attributes.push_back(static_cast<int>(attribute));
+      attributes.push_back(attribute(word, terms, called + ": '" + text + form));
    }
    require(!attributes.empty(), called, ": '", text, form);
    if (bracket == text.size()) { return attributes; }
@@ -129,8 +142,10 @@ ScalarField linear_field(const std::string &called, const std::string &text)
    return [=](double x, double y) { return c + cx * x + cy * y; };
 }
 
-void add_supports(ElasticBody &body, const std::string &called, const std::string &text)
+void add_supports(ElasticBody &body, const std::string &called, const std::string &text,
+                  const BodyTerms &terms)
 {
+   const bool plane = body.formulation() == Formulation::plane;
    for (const std::string &statement : split(text, " ;\t\n"))
    {
       const std::string where = called + " '" + statement + "'";
@@ -138,7 +153,7 @@ void add_supports(ElasticBody &body, const std::string &called, const std::strin
       require(colon != std::string::npos, where,
               ": must be attributes:components such as 1:xy, or @x,y:components for one node");
       const std::string place = statement.substr(0, colon);
-      const std::vector<int> fixed = components(where, statement.substr(colon + 1));
+      const std::vector<int> fixed = components(where, statement.substr(colon + 1), plane);
       if (place[0] == '@')
       {
          const std::vector<std::string> point = split(place.substr(1), ",");
@@ -148,12 +163,13 @@ void add_supports(ElasticBody &body, const std::string &called, const std::strin
          for (int component : fixed) { body.fix_node(x, y, component); }
          continue;
       }
-      const BoundaryPart part = boundary_part(where, place);
+      const BoundaryPart part = boundary_part(where, place, terms);
       for (int component : fixed) { body.fix(part, component); }
    }
 }
 
-void add_loads(ElasticBody &body, const std::string &called, const std::string &text)
+void add_loads(ElasticBody &body, const std::string &called, const std::string &text,
+               const BodyTerms &terms)
 {
    struct Kind
    {
@@ -165,7 +181,12 @@ void add_loads(ElasticBody &body, const std::string &called, const std::string &
                                 {"traction", 5, "PATTERN traction WHERE tx ty"},
                                 {"body-force", 4, "PATTERN body-force bx by"},
                                 {"displacement-x", 4, "PATTERN displacement-x WHERE u"},
-                                {"displacement-y", 4, "PATTERN displacement-y WHERE u"}};
+                                {"displacement-y", 4, "PATTERN displacement-y WHERE u"},
+                                {"displacement-r", 4, "PATTERN displacement-r WHERE u"},
+                                {"displacement-z", 4, "PATTERN displacement-z WHERE u"},
+                                {"temperature", 3, "PATTERN temperature T"},
+                                {"initial-strain", 3, "PATTERN initial-strain e"}};
+   const bool plane = body.formulation() == Formulation::plane;
    for (const std::string &statement : split(text, ";\n"))
    {
       const std::string where = called + " '" + statement + "'";
@@ -179,8 +200,12 @@ void add_loads(ElasticBody &body, const std::string &called, const std::string &
       std::vector<std::string> known;
       for (const Kind &k : kinds)
       {
-         if (words[1] == k.name) { kind = &k; }
-         known.emplace_back(k.name);
+         const std::string name = k.name;
+         const bool other = plane ? name == "displacement-r" || name == "displacement-z"
+                                  : name == "displacement-x" || name == "displacement-y";
+         if (other) { continue; }
+         if (words[1] == name) { kind = &k; }
+         known.push_back(name);
       }
       require(kind, where, ": kind '", words[1], "' is not one of ", listed(known));
       require(words.size() == kind->words, where, ": has ", words.size(), " words, must be ",
@@ -188,14 +213,24 @@ void add_loads(ElasticBody &body, const std::string &called, const std::string &
       const auto field = [&](std::size_t k) { return linear_field(where, words[k]); };
       const std::string name = kind->name;
       if (name == "body-force") { body.add_body_force(pattern, field(2), field(3)); }
+      else if (name == "initial-strain") { body.add_initial_strain(pattern, field(2)); }
+      else if (name == "temperature")
+      {
+         require(!std::isnan(terms.expansion), where,
+                 ": the body's coefficient of thermal expansion is not given");
+         const double expansion = terms.expansion;
+         body.add_initial_strain(pattern, [expansion, T = field(2)](double x, double y)
+                                 { return expansion * T(x, y); });
+      }
       else
       {
-         const BoundaryPart part = boundary_part(where, words[2]);
+         const BoundaryPart part = boundary_part(where, words[2], terms);
          if (name == "pressure") { body.add_pressure(pattern, part, field(3)); }
          else if (name == "traction") { body.add_traction(pattern, part, field(3), field(4)); }
          else
          {
-            body.add_displacement(pattern, part, name == "displacement-x" ? 0 : 1, field(3));
+            const bool first = name.back() == 'x' || name.back() == 'r';
+            body.add_displacement(pattern, part, first ? 0 : 1, field(3));
          }
       }
    }

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cattaneo/elastic/body.hpp>
+#include <limits>
+#include <map>
 #include <string>
 
 namespace cattaneo
@@ -10,20 +12,32 @@ namespace cattaneo
 // (docs/contact2d.md). `called` is what the text is called in an error, the name of an option
 // for instance; every function throws an InputError that says it and quotes the statement.
 
-/// Boundary attributes, perhaps with an interval: "3", "3,4", "3[-1<x<1]".
-BoundaryPart boundary_part(const std::string &called, const std::string &text);
+/// What a statement may ask of the body that it is about.
+struct BodyTerms
+{
+   std::map<std::string, int> boundary; ///< attributes by the names of their groups
+   /// Coefficient of thermal expansion, of all of the body; not known: no temperatures.
+   double expansion = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Boundary attributes or names of them, perhaps with an interval: "3", "3,4", "flank",
+/// "3[-1<x<1]".
+BoundaryPart boundary_part(const std::string &called, const std::string &text,
+                           const BodyTerms &terms = {});
 
 /// A constant or a linear function of the coordinates: "0.5", "-3*x", "1+2*x-y".
 ScalarField linear_field(const std::string &called, const std::string &text);
 
-/// Supports of a plane body, separated by spaces: "1:x 2,4:xy" fixes components on boundary
-/// attributes, "@0,-1:x" at the node nearest to a point, which must not lie outside of the
-/// body.
-void add_supports(ElasticBody &body, const std::string &called, const std::string &text);
+/// Supports, separated by spaces: "1:x 2,4:xy" fixes components on boundary attributes,
+/// "@0,-1:x" at the node nearest to a point, which must not lie outside of the body. About an
+/// axis components are r and z, x and y mean the same.
+void add_supports(ElasticBody &body, const std::string &called, const std::string &text,
+                  const BodyTerms &terms = {});
 
-/// Loads of a plane body, separated by semicolons, each "PATTERN KIND WHERE VALUES": "P
-/// pressure 3 100", "Q traction 3 0.5 0", "G body-force 0 -9.81", "D displacement-x 3[0<y<1]
-/// 0.01". Names of patterns are UTF-8, without = , and ".
-void add_loads(ElasticBody &body, const std::string &called, const std::string &text);
+/// Loads, separated by semicolons, each "PATTERN KIND WHERE VALUES": "P pressure 3 100", "Q
+/// traction 3 0.5 0", "G body-force 0 -9.81", "D displacement-x 3[0<y<1] 0.01", "H temperature
+/// 20+3*y", "E initial-strain 1e-4". Names of patterns are UTF-8, without = , and ".
+void add_loads(ElasticBody &body, const std::string &called, const std::string &text,
+               const BodyTerms &terms = {});
 
 } // namespace cattaneo

@@ -380,6 +380,34 @@ mfem::Mesh read_mesh(const std::string &file)
    return mesh;
 }
 
+GroupNames group_names(const std::string &file)
+{
+   GroupNames names;
+   std::ifstream in(file, std::ios::binary);
+   std::string line;
+   while (std::getline(in, line) && line.rfind("$PhysicalNames", 0) != 0)
+   {
+      if (line.rfind("$Nodes", 0) == 0) { return names; }
+   }
+   long expected = 0;
+   in >> expected;
+   for (long k = 0; k < expected; ++k)
+   {
+      int dimension = 0, number = 0;
+      in >> dimension >> number;
+      std::getline(in, line);
+      const std::size_t from = line.find('"'), to = line.rfind('"');
+      require(in.good() && from != std::string::npos && to > from,
+              "mesh file: physical group ", k + 1, " of ", expected,
+              " has no name, must be DIMENSION NUMBER \"NAME\"");
+      std::string name = line.substr(from + 1, to - from - 1);
+      std::replace(name.begin(), name.end(), ' ', '_');
+      if (dimension == 1) { names.boundary[name] = number; }
+      if (dimension == 2) { names.elements[name] = number; }
+   }
+   return names;
+}
+
 std::string unjoined_vertices(const mfem::Mesh &mesh, const std::string &name)
 {
    struct Vertex

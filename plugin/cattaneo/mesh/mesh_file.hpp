@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <mfem.hpp>
 #include <string>
 
@@ -12,6 +13,14 @@ namespace cattaneo
     MFEM's reader trusts its file: a node number that is out of range reads foreign memory. The
     file is therefore checked first, section by section. InputError saying what is wrong. */
 mfem::Mesh read_mesh(const std::string &file);
+
+/// Attributes by the names of their groups ($PhysicalNames of Gmsh; spaces as underscores).
+struct GroupNames
+{
+   std::map<std::string, int> boundary, elements;
+};
+/// Of a mesh file that read_mesh() takes; none if it has no names.
+GroupNames group_names(const std::string &file);
 
 /// A sentence if vertices lie on one another, where the body is cut and its faces may pass
 /// through each other; else nothing. `name` is what the mesh is called in it.

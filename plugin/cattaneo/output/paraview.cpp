@@ -202,6 +202,19 @@ void ContactLineFields::write(const ContactState &state)
        << offsets.str();
    vtp << "</DataArray>\n</Lines>\n<PointData>\n";
    array("arc_length", problem_.arc_length);
+   if (!problem_.chains.empty() &&
+       problem_.chains.front().interface != problem_.chains.back().interface)
+   {
+      Eigen::VectorXd which = none; // numbers of interfaces, in the order of the nodes
+      double number = 0;
+      for (std::size_t k = 0; k < problem_.chains.size(); ++k)
+      {
+         const ContactChain &chain = problem_.chains[k];
+         number += k > 0 && chain.interface != problem_.chains[k - 1].interface ? 1 : 0;
+         which.segment(chain.first, chain.nodes).setConstant(number);
+      }
+      array("interface", which);
+   }
    array("gap", problem_.gap);
    array("state", status);
    array("p", tractions(problem_, state.p));
@@ -238,7 +251,11 @@ ReductionFields::ReductionFields(Reduction &reduction,
    const std::size_t given = bodies.size() + (half_plane ? 1 : 0);
    require(given == reduction.bodies.size(), "ParaView output: ", given,
            " bodies for a reduction of ", reduction.bodies.size());
-   const auto name = [](std::size_t k) { return "body" + std::to_string(k + 1); };
+   const auto name = [&](std::size_t k)
+   {
+      const std::string &own = reduction.bodies[k].name;
+      return own.empty() ? "body" + std::to_string(k + 1) : own;
+   };
    for (std::size_t k = 0; k < bodies.size(); ++k)
    {
       fields_.push_back(std::make_unique<BodyFields>(*bodies[k], directory, name(k)));

@@ -51,7 +51,7 @@ private:
    One polyline a chain of nodes, at the reference position of body 1, with the point data
    arc_length, gap (initial), state (0 stick, 1 separation, 2 forward slip, 3 backward slip; see
    settled_states()), p and q (tractions: nodal forces over consistent weights), slip (v) and
-   opening (w + g). Plane problems.
+   opening (w + g), and of several interfaces the number of each node's, from 0. Plane problems.
 
     The problem must outlive this. */
 class ContactLineFields
@@ -70,9 +70,10 @@ private:
    std::vector<double> times_;
 };
 
-/** All series of a reduction in a folder, contact.pvd and body1.pvd (and body2.pvd), a time
-    after the other: made to be called from a MarchObserver, since it holds no state. Plane
-    problems, and axisymmetric ones without torsion.
+/** All series of a reduction in a folder, contact.pvd and one of each body by its name
+   (body1.pvd and so on of those without), a time after the other: made to be called from a
+   MarchObserver, since it holds no state. Plane problems, and axisymmetric ones without
+   torsion.
 
     All must outlive this. */
 class ReductionFields

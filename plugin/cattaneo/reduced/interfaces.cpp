@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cattaneo/algebra/dense_algebra.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/bodies_union.hpp>
 #include <cattaneo/reduced/interfaces.hpp>
@@ -12,7 +13,9 @@ namespace cattaneo
 {
 
 using Eigen::Index;
+using Eigen::MatrixXd;
 using Eigen::Vector2d;
+using Eigen::VectorXd;
 
 namespace
 {
@@ -48,7 +51,11 @@ public:
    /// Adds its rows; `taken` are slaves already, with the nodes that they depend on.
    void add_rows(std::vector<ContactRow> &rows,
                  std::map<NodeOfBody, std::vector<NodeOfBody>> &taken);
-   void add_facts(ReducedProblem &problem, std::vector<InterfaceReport> &reports) const;
+   InterfaceReport report() const;
+   /// Of an interface that is not tied, whose nodes begin at `first`.
+   void add_facts(ReducedProblem &problem, Index first, bool matching) const;
+   bool tied() const { return given_.tied; }
+   Index nodes() const { return static_cast<Index>(mortar_.nodes.size()); }
    const Side &slave() const { return slave_; }
    const Side &master() const { return master_; }
 
@@ -63,6 +70,7 @@ private:
    const std::vector<CondensedBody> &bodies_;
    std::string what_;
    Side slave_, master_;
+   bool of_second_ = false;
    Mortar mortar_;
    std::vector<bool> slides_;
    std::vector<int> without_row_; ///< nodes of the slave
@@ -93,6 +101,7 @@ Facing::Facing(const Interface &given, const std::vector<CondensedBody> &bodies)
        (given.slave == SlaveSide::finer && coarser < -same))
    {
       std::swap(slave_, master_);
+      of_second_ = true;
    }
 }
 
@@ -133,7 +142,7 @@ void Facing::meet(const std::vector<int> &without)
    if (master_.body >= 0)
    {
       mortar_ = mortar(slave_.line, master_.line, without, what_);
-      for (Index i = 0; i < mortar_.gap.size() && !given_.gap; ++i)
+      for (Index i = 0; i < mortar_.gap.size() && !given_.gap && !given_.tied; ++i)
       {
          const double most = given_.most_overlap * mortar_.size[i];
          require(mortar_.gap[i] >= -most, what_, ": the sides overlap by ", -mortar_.gap[i],
@@ -317,18 +326,35 @@ LineEnd Facing::other_end(Index i, bool last) const
    return LineEnd::smooth;
 }
 
-void Facing::add_facts(ReducedProblem &problem, std::vector<InterfaceReport> &reports) const
+InterfaceReport Facing::report() const
 {
    const ContactLine &line = slave_.line;
-   const auto n = static_cast<Index>(mortar_.nodes.size());
-   InterfaceReport report{given_.name, {slave_.body, master_.body}, 0, n};
-   report.first = reports.empty() ? 0 : reports.back().first + reports.back().nodes;
-   const Index first = report.first;
+   InterfaceReport report;
+   report.name = given_.name;
+   report.bodies = {slave_.body, master_.body};
+   report.nodes = static_cast<Index>(mortar_.nodes.size());
+   report.tied = given_.tied;
+   report.of_second = of_second_;
+   report.position = line.each(&LineNode::position)(mortar_.nodes, Eigen::all);
+   report.tangent = mortar_.tangent;
+   for (Index i = 0; i < report.nodes; ++i)
+   {
+      if (!slides_[i]) { report.tangent.row(i) = line.nodes[mortar_.nodes[i]].tangent; }
+   }
+   report.weights = mortar_.weights;
+   report.spacing = line.each(&LineNode::spacing)(mortar_.nodes);
    report.left_out = mortar_.left_out;
-   report.arm = n ? mortar_.arm.cwiseAbs().maxCoeff() : 0;
+   report.arm = report.nodes ? mortar_.arm.cwiseAbs().maxCoeff() : 0;
    report.matching = master_.body >= 0 && matching_nodes(slave_.line, master_.line).has_value();
    for (int k : mortar_.free_surface) { report.free_surface.push_back(line.nodes[k].position); }
    for (int k : without_row_) { report.without_row.push_back(line.nodes[k].position); }
+   return report;
+}
+
+void Facing::add_facts(ReducedProblem &problem, Index first, bool matching) const
+{
+   const ContactLine &line = slave_.line;
+   const auto n = static_cast<Index>(mortar_.nodes.size());
    for (Index i = 0; i < n; ++i)
    {
       const LineNode &node = line.nodes[mortar_.nodes[i]];
@@ -341,7 +367,7 @@ void Facing::add_facts(ReducedProblem &problem, std::vector<InterfaceReport> &re
       problem.arc_length[first + i] = node.arc_length;
       problem.position.row(first + i) = node.position;
       problem.dofs.block(first + i, 2 * slave_.body, 1, 2) << node.dofs[0], node.dofs[1];
-      if (report.matching)
+      if (matching)
       {
          Index facing = 0;
          for (Mortar::Matrix::InnerIterator e(mortar_.other[1], i); e; ++e)
@@ -381,8 +407,70 @@ void Facing::add_facts(ReducedProblem &problem, std::vector<InterfaceReport> &re
       problem.chains.push_back(made);
       begin = end;
    }
-   reports.push_back(std::move(report));
 }
+
+/// A union of which some nodes are tied.
+class TiedUnion : public Reduction::Union
+{
+public:
+   std::shared_ptr<const Reduction::Union> all;
+   std::vector<int> free;     ///< rows {v; w} of those that are not
+   MatrixXd stiffness, loads; ///< forces on the tied ones
+
+   VectorXd own(int b, const VectorXd &relative, const VectorXd &multipliers) const override
+   {
+      VectorXd u = VectorXd::Zero(relative.size() + stiffness.rows());
+      u(free) = relative;
+      return all->own(b, u, multipliers);
+   }
+   VectorXd tied(const VectorXd &relative, const VectorXd &multipliers) const override
+   {
+      return stiffness * relative + loads * multipliers;
+   }
+};
+
+/// Rows {v; w} of all contact nodes, by whether their interface is tied.
+struct TiedRows
+{
+   std::vector<int> free, tied;
+
+   TiedRows(const std::vector<Facing> &facings, Index nodes)
+   {
+      for (int component : {0, 1})
+      {
+         auto row = static_cast<int>(component * nodes);
+         for (const Facing &facing : facings)
+         {
+            for (Index i = 0; i < facing.nodes(); ++i)
+            {
+               (facing.tied() ? tied : free).push_back(row++);
+            }
+         }
+      }
+   }
+   void take_from(Block &block) const
+   {
+      auto way_back = std::make_shared<TiedUnion>();
+      way_back->all = block.way_back;
+      way_back->free = free;
+      way_back->stiffness = block.S(tied, free);
+      way_back->loads = block.f(tied, Eigen::all);
+      block.way_back = std::move(way_back);
+      block.S = block.S(free, free).eval();
+      block.f = block.f(free, Eigen::all).eval();
+      const MatrixXd motions = at_rest(block.motions, block.motions(tied, Eigen::all));
+      block.motions = motions(free, Eigen::all);
+      std::vector<int> held;
+      for (std::size_t k = 0; k < free.size(); ++k)
+      {
+         if (std::count(block.held.begin(), block.held.end(), free[k]) > 0)
+         {
+            held.push_back(static_cast<int>(k));
+         }
+      }
+      block.held = held;
+   }
+};
 
 /// Numbers of the bodies that interfaces join, without those that touch an obstacle.
 std::vector<std::vector<int>> groups_of(std::size_t bodies, const std::vector<Facing> &facings)
@@ -506,12 +594,10 @@ Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface>
    const auto named = [&](Reduction reduction)
    {
       for (ContactChain &chain : reduction.problem.chains) { chain.interface = one.name; }
-      InterfaceReport report{one.name, {0, one.second.body}, 0, reduction.problem.nodes()};
-      report.matching = one.second.body >= 0;
-      reduction.interfaces.push_back(report);
+      reduction.interfaces[0].name = one.name;
       return reduction;
    };
-   if (interfaces.size() == 1 && is_all(one.first, 0))
+   if (interfaces.size() == 1 && !one.tied && is_all(one.first, 0))
    {
       if (bodies.size() == 1 && one.second.body < 0)
       {
@@ -538,11 +624,14 @@ Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface>
    std::vector<Facing> facings;
    const std::vector<ContactRow> rows = rows_of(interfaces, result.bodies, facings);
    const auto count = static_cast<int>(result.bodies.size());
-   const auto n = static_cast<Index>(rows.size());
    ReducedProblem &problem = result.problem;
    result.pattern_ = join(result.bodies, problem.patterns);
-   const Block block = united(result.bodies, rows, groups_of(result.bodies.size(), facings),
-                              result.pattern_, problem.patterns);
+   Block block = united(result.bodies, rows, groups_of(result.bodies.size(), facings),
+                        result.pattern_, problem.patterns);
+   const TiedRows tied(facings, static_cast<Index>(rows.size()));
+   const auto n = static_cast<Index>(tied.free.size() / 2);
+   require(n > 0, "reduce: all contact nodes are of tied interfaces, one at least must not be");
+   if (n < static_cast<Index>(rows.size())) { tied.take_from(block); }
    result.union_ = block.way_back;
    problem.K = block.S;
    problem.H = block.H;
@@ -562,7 +651,15 @@ Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface>
       Eigen::VectorXd::Zero(n);
    problem.position.resize(n, 2);
    problem.dofs = Eigen::MatrixXi::Constant(n, 2 * count, -1);
-   for (const Facing &facing : facings) { facing.add_facts(problem, result.interfaces); }
+   std::array<Index, 2> next{0, 0}; // of nodes that are not tied, and of those that are
+   for (const Facing &facing : facings)
+   {
+      InterfaceReport report = facing.report();
+      report.first = next[report.tied];
+      next[report.tied] += report.nodes;
+      if (!report.tied) { facing.add_facts(problem, report.first, report.matching); }
+      result.interfaces.push_back(std::move(report));
+   }
    join_coupling(problem);
    return result;
 }
@@ -571,6 +668,11 @@ SeparateBodies separate(const std::vector<CondensedBody> &bodies,
                         const std::vector<Interface> &interfaces)
 {
    require_some(bodies, interfaces);
+   for (const Interface &interface : interfaces)
+   {
+      require(!interface.tied, "interface '", interface.name,
+              "': it is tied, its bodies have no displacements of their own there");
+   }
    std::vector<Facing> facings;
    const RelativeDisplacement map(bodies, rows_of(interfaces, bodies, facings));
    SeparateBodies result;

@@ -40,6 +40,9 @@ struct Interface
    /// Largest overlap of the geometry that is taken for what it is, in lengths of the slave's
    /// elements.
    double most_overlap = 0.1;
+   /// The sides are joined, u = 0 on all nodes, whatever the gap: glued, welded, or one body
+   /// meshed in two. The nodes are none of the reduced problem.
+   bool tied = false;
 };
 
 /** The trace of a body with several interfaces, to be condensed to at once: the nodes of all
@@ -64,6 +67,9 @@ ContactLine joined(const std::vector<ContactLine> &lines);
     tips of a body that touches itself, interfaces that meet at one point). Relative
     displacements of the nodes are in the common frame of both sides, (own frames where a
     component is held).
+
+    Nodes of tied interfaces have u = 0: their rows and columns are left out, and
+    Reduction::tied_forces() says what they transfer.
 
     Rigid motions that supports leave free are known from the bodies: those that bodies which
     touch have in common are at rest in the mean over their traces, which takes nothing from

@@ -8,10 +8,17 @@ namespace cattaneo
 namespace
 {
 
-void fill(ReducedProblem &problem, const Block &block, const ContactLine &line)
+InterfaceReport fill(ReducedProblem &problem, const Block &block, const ContactLine &line)
 {
    const Eigen::MatrixXd &S = block.S, &f = block.f;
    const Eigen::Index n = line.size();
+   InterfaceReport report;
+   report.name = "contact";
+   report.nodes = n;
+   report.position = line.each(&LineNode::position);
+   report.tangent = line.each(&LineNode::tangent);
+   report.weights = line.each(&LineNode::weight);
+   report.spacing = line.each(&LineNode::spacing);
    problem.gap = Eigen::VectorXd::Zero(n);
    problem.K = S;
    join_coupling(problem);
@@ -46,6 +53,7 @@ void fill(ReducedProblem &problem, const Block &block, const ContactLine &line)
                                 chain.ends,
                                 {LineEnd::smooth, LineEnd::smooth}});
    }
+   return report;
 }
 
 /// How the boundary goes on at a node of a line: within the line it does so smoothly.
@@ -76,7 +84,7 @@ Reduction reduce(CondensedBody body, const ScalarField &gap)
    ReducedProblem &problem = result.problem;
    result.pattern_ = join(result.bodies, problem.patterns);
    const auto count = static_cast<Eigen::Index>(problem.patterns.size());
-   fill(problem, alone(only, result.pattern_[0], count), only.line);
+   result.interfaces = {fill(problem, alone(only, result.pattern_[0], count), only.line)};
    const Eigen::Index n = only.line.size();
    problem.gap.resize(n);
    problem.dofs.resize(n, 2);
@@ -122,7 +130,9 @@ Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairin
       united(first, second, pairing.partner, result.pattern_, problem.patterns);
    result.union_ = block.way_back;
    result.partner_ = pairing.partner;
-   fill(problem, block, first.line);
+   result.interfaces = {fill(problem, block, first.line)};
+   result.interfaces[0].bodies = {0, 1};
+   result.interfaces[0].matching = true;
    for (ContactChain &chain : problem.chains)
    {
       chain.other_ends = {
@@ -168,15 +178,23 @@ Eigen::VectorXd Reduction::displacement(int b, const Eigen::VectorXd &v,
    require(multipliers.size() == static_cast<Eigen::Index>(problem.patterns.size()),
            "displacement: ", multipliers.size(), " load multipliers, must be ",
            problem.patterns.size());
-   Eigen::VectorXd u(2 * n);
-   u << v.head(n), w;
-   if (obstacle_.size() > 0)
-   {
-      u.head(n) += (obstacle_ * multipliers).head(n);
-      u.tail(n) += (obstacle_ * multipliers).tail(n);
-   }
-   if (union_) { u = union_->own(b, u, multipliers); }
-   return recover(bodies[b], u, pattern_[b], multipliers);
+   Eigen::VectorXd moved(tangential + n), u(2 * n);
+   moved << v, w;
+   if (obstacle_.size() > 0) { moved += obstacle_ * multipliers; }
+   u << moved.head(n), moved.tail(n);
+   const Eigen::VectorXd loads = acting(moved, multipliers);
+   if (union_) { u = union_->own(b, u, loads); }
+   return recover(bodies[b], u, pattern_[b], loads);
+}
+
+Eigen::VectorXd Reduction::tied_forces(const Eigen::VectorXd &v, const Eigen::VectorXd &w,
+                                       const Eigen::VectorXd &multipliers) const
+{
+   if (!union_) { return {}; }
+   Eigen::VectorXd u(v.size() + w.size());
+   u << v, w;
+   if (obstacle_.size() > 0) { u += obstacle_ * multipliers; }
+   return union_->tied(u, acting(u, multipliers));
 }
 
 Eigen::VectorXd Reduction::twist(int b, const Eigen::VectorXd &v,
@@ -190,6 +208,7 @@ Eigen::VectorXd Reduction::twist(int b, const Eigen::VectorXd &v,
    require(multipliers.size() == static_cast<Eigen::Index>(problem.patterns.size()),
            "twist: ", multipliers.size(), " load multipliers, must be ",
            problem.patterns.size());
+   require(shanks_.empty(), "twist: of a reduction with shanks, must be without");
    Eigen::VectorXd u = v.tail(n);
    if (obstacle_.size() > 0) { u += (obstacle_ * multipliers).segment(n, n); }
    if (torsion_union_) { u = torsion_union_->own(b, u, multipliers); }

@@ -15,8 +15,13 @@ struct InterfaceReport
 {
    std::string name;
    std::array<int, 2> bodies{0, -1};  ///< whose nodes it has, and whose face them
-   Eigen::Index first = 0, nodes = 0; ///< its nodes of the problem
-   bool matching = false;             ///< its nodes are also the other body's
+   Eigen::Index first = 0, nodes = 0; ///< its nodes of the problem; tied: among the tied ones
+   bool tied = false;                 ///< its nodes are none of the problem
+   /// The nodes are those of Interface::second: forces on the first body are the opposite.
+   bool of_second = false;
+   Eigen::MatrixX2d position, tangent; ///< of the nodes, where forces act and their frames
+   Eigen::VectorXd weights, spacing;   ///< of the nodes, LineNode's
+   bool matching = false;              ///< its nodes are also the other body's
    /// Places of nodes of the slave that nothing faces, and of those that are faced but carry no
    /// row: tips, nodes that are another interface's, those that close a ring of interfaces.
    std::vector<Eigen::Vector2d> free_surface = {}, without_row = {};
@@ -36,9 +41,9 @@ class Reduction
 public:
    ReducedProblem problem;
    std::vector<CondensedBody> bodies;
-   std::vector<InterfaceReport> interfaces; ///< of a union over interfaces
-   std::vector<CondensedBody> torsion;      ///< as many again if something twists, or none
-   Counters counters;                       ///< sum over the bodies and all later recoveries
+   std::vector<InterfaceReport> interfaces;
+   std::vector<CondensedBody> torsion; ///< as many again if something twists, or none
+   Counters counters;                  ///< sum over the bodies and all later recoveries
 
    /// Adds the circumferential components of one axisymmetric body (its torsion body, condensed
    /// to the same nodes): v_θ = u_θ and q_θ the force on the body, positive with the twist.
@@ -59,6 +64,25 @@ public:
    void add_obstacle_motion(const std::string &name, const ScalarField &ux,
                             const ScalarField &uy, const ScalarField &u_theta = 0.0);
 
+   /** A shank, or another spring that pulls two parts of the bodies together: `pattern` is a
+       load of forces on both that are each other's opposite, and becomes the pretension. With
+       N the multiplier of the forces that act, T that of the pretension and g the pattern's
+       conjugate (for forces that pull, how far the parts have come together),
+
+          N = T - stiffness · g.
+
+       The conjugate of the pretension is g. Stiffness: force over displacement, of a pattern
+       whose forces add up to 1 on either part; of F in their place stiffness / F². InputError
+       unless the pattern is there and of forces, the stiffness positive and H known, or if an
+       obstacle moves already. */
+   void add_shank(const std::string &pattern, double stiffness);
+
+   /** The nodal forces {q; p} that tied interfaces transfer, all tangential ones first, of
+      their nodes in the order of the reports; displacements and multipliers as of
+      displacement(). */
+   Eigen::VectorXd tied_forces(const Eigen::VectorXd &v, const Eigen::VectorXd &w,
+                               const Eigen::VectorXd &multipliers) const;
+
    /// Displacement of all true dofs of body `b`, for relative displacements v (of all
    /// tangential components) and w of the contact nodes and multipliers of problem.patterns.
    /// One solve with that body's factor. If two free bodies move together unresisted, the
@@ -76,6 +100,11 @@ public:
       /// Contact displacements of body `b` in its own order and frames.
       virtual Eigen::VectorXd own(int b, const Eigen::VectorXd &relative,
                                   const Eigen::VectorXd &multipliers) const = 0;
+      /// Forces {q; p} of tied nodes.
+      virtual Eigen::VectorXd tied(const Eigen::VectorXd &, const Eigen::VectorXd &) const
+      {
+         return {};
+      }
    };
    /// Indices in problem.patterns of a body's patterns.
    using PatternIndex = std::vector<std::vector<int>>;
@@ -86,6 +115,9 @@ private:
    friend Reduction reduce(std::vector<CondensedBody> bodies,
                            const std::vector<Interface> &interfaces);
    void add_torsion(std::vector<CondensedBody> twisting);
+   /// With the forces of shanks in the place of their pretensions, for displacements {v; w} of
+   /// which the obstacle's are a part.
+   Eigen::VectorXd acting(const Eigen::VectorXd &u, Eigen::VectorXd multipliers) const;
    Eigen::VectorXd recover(CondensedBody &body, const Eigen::VectorXd &u,
                            const std::vector<int> &patterns,
                            const Eigen::VectorXd &multipliers);
@@ -96,6 +128,13 @@ private:
    /// Displacements {v; w} of a rigid obstacle, one column a pattern of the problem; empty if
    /// it rests.
    Eigen::MatrixXd obstacle_;
+   /// The force of a shank is at_rest·multipliers + at_once·{v; w}.
+   struct Shank
+   {
+      Eigen::Index pattern;
+      Eigen::VectorXd at_rest, at_once;
+   };
+   std::vector<Shank> shanks_; ///< each of the problem with those before it
 };
 
 /// One body against a rigid obstacle; gap as a function of the contact nodes' coordinates.

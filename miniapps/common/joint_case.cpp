@@ -1,0 +1,412 @@
+#include "common/joint_case.hpp"
+
+#include <cattaneo/input_error.hpp>
+#include <cmath>
+#include <set>
+
+namespace miniapp
+{
+
+using namespace cattaneo;
+using nlohmann::ordered_json;
+
+namespace
+{
+
+const std::vector<std::string> analyses = {"plane strain", "plane stress", "axisymmetric"};
+const std::vector<std::string> slaves = {"coarser", "finer", "first", "second"};
+
+/// A JSON value with its place in the case file, for errors.
+class Key
+{
+public:
+   Key(const ordered_json &value, std::string path) : value_(value), path_(std::move(path)) {}
+
+   std::string called() const { return "key '" + path_ + "'"; }
+   const std::string &path() const { return path_; }
+   const ordered_json &value() const { return value_; }
+   [[noreturn]] void refuse(const std::string &allowed) const
+   {
+      // Nothing nested is shown: it may be too deep to be written.
+      throw InputError(called() + " is " +
+                       (value_.is_structured() ? value_.type_name() : value_.dump()) +
+                       ", must be " + allowed);
+   }
+   bool has(const std::string &name) const { return value_.contains(name); }
+   Key operator[](const std::string &name) const
+   {
+      require(has(name), called(), " has no '", name, "', must have one");
+      return {value_.at(name), path_ + "." + name};
+   }
+   /// InputError unless it is an object of no other keys.
+   void must_be_of(const std::vector<std::string> &keys) const
+   {
+      if (!value_.is_object()) { refuse("an object"); }
+      for (const auto &item : value_.items())
+      {
+         require(std::find(keys.begin(), keys.end(), item.key()) != keys.end(), called(),
+                 ": unknown key '", item.key(), "', must be one of ", listed(keys));
+      }
+   }
+   std::string text() const
+   {
+      if (!value_.is_string()) { refuse("a string"); }
+      return value_.get<std::string>();
+   }
+   double number(const Check &check = any) const
+   {
+      if (!value_.is_number()) { refuse("a number"); }
+      const double x = value_.get<double>();
+      require(check.holds(x), called(), " is ", x, ", ", check.must);
+      return x;
+   }
+   bool flag() const
+   {
+      if (!value_.is_boolean()) { refuse("true or false"); }
+      return value_.get<bool>();
+   }
+   /// A list, or one value for a list of one.
+   std::vector<Key> list() const
+   {
+      std::vector<Key> keys;
+      if (!value_.is_array()) { return {*this}; }
+      for (std::size_t k = 0; k < value_.size(); ++k)
+      {
+         keys.emplace_back(value_[k], path_ + "." + std::to_string(k));
+      }
+      return keys;
+   }
+   std::vector<double> numbers(const Check &check) const
+   {
+      std::vector<double> all;
+      for (const Key &key : list()) { all.push_back(key.number(check)); }
+      require(!all.empty(), called(), " is empty, must have a number");
+      return all;
+   }
+   std::string statements() const
+   {
+      std::vector<std::string> all;
+      for (const Key &key : list()) { all.push_back(key.text()); }
+      return listed(all, "; ");
+   }
+   std::string choice(const std::vector<std::string> &choices) const
+   {
+      const std::string word = text();
+      require(std::find(choices.begin(), choices.end(), word) != choices.end(), called(), ": '",
+              word, "' is not one of ", listed(choices));
+      return word;
+   }
+   std::array<double, 2> pair() const
+   {
+      if (!value_.is_array() || value_.size() != 2) { refuse("two numbers"); }
+      const std::vector<double> both = numbers(any);
+      return {both[0], both[1]};
+   }
+   JointCase::Profile profile(const Check &check) const
+   {
+      JointCase::Profile made;
+      if (value_.is_number()) { made.points = {{0, number(check)}}; }
+      else
+      {
+         if (!value_.is_array() || value_.size() < 2)
+         {
+            refuse("a number, or a table [[arc length, value], …] of two points or more");
+         }
+         for (const Key &point : list())
+         {
+            made.points.push_back(point.pair());
+            require(check.holds(made.points.back()[1]), point.called(), ": ",
+                    made.points.back()[1], " ", check.must);
+            const std::size_t k = made.points.size() - 1;
+            require(k == 0 || made.points[k][0] > made.points[k - 1][0], point.called(),
+                    ": arc length ", made.points[k][0], " follows ",
+                    k ? made.points[k - 1][0] : 0.0, ", must increase");
+         }
+      }
+      return made;
+   }
+
+private:
+   const ordered_json &value_;
+   std::string path_;
+};
+
+JointCase::Source source(const Key &key)
+{
+   return {"key '" + key.path() + ".", "'"};
+}
+
+/// Names stand in statements and in the names of files.
+void check_name(const Key &key, const std::string &name)
+{
+   require(!name.empty() && name.find_first_of(" :=,;\"/\\\t\n") == std::string::npos,
+           key.called(),
+           ": a name must not be empty nor hold a space, a slash or any of : = , "
+           "; \"");
+}
+
+JointCase::Body body(const Key &key, const std::string &name)
+{
+   check_name(key, name);
+   JointCase::Body made;
+   made.name = name;
+   made.source = source(key);
+   key.must_be_of(
+      {"mesh", "matrix", "half-plane", "young", "poisson", "expansion", "support", "load"});
+   const int kinds = key.has("mesh") + key.has("matrix") + key.has("half-plane");
+   require(kinds == 1, key.called(), " has ", kinds,
+           " of the keys mesh, matrix and half-plane, must have one");
+   const auto goes_without = [&](const char *what, const std::vector<std::string> &keys)
+   {
+      for (const std::string &other : keys)
+      {
+         require(!key.has(other), key.called(), " has the keys ", what, " and ", other,
+                 ", which do not go together");
+      }
+   };
+   if (key.has("half-plane"))
+   {
+      goes_without("half-plane", {"young", "poisson", "expansion", "support", "load"});
+      const Key plane = key["half-plane"];
+      plane.must_be_of({"young", "poisson", "depth"});
+      made.half_plane = true;
+      made.young = {plane["young"].number(positive)};
+      made.poisson = {plane["poisson"].number(between(-1, 0.5))};
+      if (plane.has("depth")) { made.depth = plane["depth"].number(positive); }
+      return made;
+   }
+   if (key.has("matrix"))
+   {
+      goes_without("matrix", {"young", "poisson", "expansion"});
+      made.matrix = key["matrix"].text();
+   }
+   else
+   {
+      made.mesh = key["mesh"].text();
+      made.young = key["young"].numbers(positive);
+      made.poisson = key["poisson"].numbers(any);
+   }
+   if (key.has("expansion")) { made.expansion = key["expansion"].number(); }
+   if (key.has("support")) { made.support = key["support"].statements(); }
+   if (key.has("load")) { made.load = key["load"].statements(); }
+   return made;
+}
+
+/// "pad:flank_left", or "ground" of a half-plane.
+JointCase::Side side(const Key &key, const JointCase &joint)
+{
+   const std::string word = key.text();
+   const std::size_t colon = std::min(word.find(':'), word.size());
+   const JointCase::Side made{joint.body(word.substr(0, colon)),
+                              word.substr(std::min(colon + 1, word.size())), key.called()};
+   std::vector<std::string> names;
+   for (const JointCase::Body &each : joint.bodies) { names.push_back(each.name); }
+   require(made.body >= 0, key.called(), ": '", word, "': there is no body '",
+           word.substr(0, colon), "', must be one of ", listed(names));
+   require(joint.bodies[made.body].half_plane == made.part.empty(), key.called(), ": '", word,
+           "' must be ",
+           made.part.empty() ? "a body and a part of its boundary, BODY:PART"
+                             : "the name of the half-plane alone");
+   return made;
+}
+
+JointCase::Face face(const Key &key, const std::string &name, const JointCase &joint)
+{
+   check_name(key, name);
+   key.must_be_of({"between", "friction", "gap", "slave", "tied", "overlap", "pairing"});
+   JointCase::Face made;
+   made.name = name;
+   made.source = source(key);
+   const Key between_ = key["between"];
+   const std::vector<Key> sides = between_.list();
+   require(sides.size() == 1 || sides.size() == 2, between_.called(), " has ", sides.size(),
+           " sides, must have two, or one that stands on a rigid line");
+   for (std::size_t k = 0; k < sides.size(); ++k) { made.sides[k] = side(sides[k], joint); }
+   require(!joint.bodies[made.sides[0].body].half_plane, between_.called(),
+           ": a half-plane must be the second side");
+   if (key.has("tied")) { made.tied = key["tied"].flag(); }
+   for (const char *other : {"friction", "gap", "overlap", "pairing"})
+   {
+      require(!made.tied || !key.has(other), key.called(), " is tied, it goes without the key ",
+              other);
+   }
+   if (key.has("friction")) { made.friction = key["friction"].profile(not_negative); }
+   if (key.has("gap"))
+   {
+      const Key gap = key["gap"];
+      if (!gap.value().is_string()) { made.gap = gap.profile(any); }
+      else if (gap.choice({"geometry", "closed"}) == "closed")
+      {
+         made.gap = JointCase::Profile{{{0, 0}}};
+      }
+   }
+   if (key.has("slave"))
+   {
+      const std::string word = key["slave"].choice(slaves);
+      made.slave =
+         static_cast<SlaveSide>(std::find(slaves.begin(), slaves.end(), word) - slaves.begin());
+   }
+   if (key.has("overlap")) { made.most_overlap = key["overlap"].number(not_negative); }
+   if (key.has("pairing")) { made.pairing = key["pairing"].number(between(0, 0.5)); }
+   return made;
+}
+
+JointCase::Bolt bolt(const Key &key, const std::string &name, const JointCase &joint)
+{
+   check_name(key, name);
+   key.must_be_of({"between", "direction", "stiffness", "pretension"});
+   JointCase::Bolt made;
+   made.name = name;
+   made.source = source(key);
+   const Key between_ = key["between"];
+   const std::vector<Key> ends = between_.list();
+   require(ends.size() == 2, between_.called(), " has ", ends.size(), " ends, must have two");
+   for (int k : {0, 1})
+   {
+      made.ends[k] = side(ends[k], joint);
+      require(!joint.bodies[made.ends[k].body].half_plane, ends[k].called(),
+              ": a shank cannot end in a half-plane");
+   }
+   if (key.has("direction")) { made.direction = key["direction"].pair(); }
+   const double length = std::hypot(made.direction[0], made.direction[1]);
+   require(length > 0, key.called(), ": its direction is (0, 0), must have a length");
+   for (double &x : made.direction) { x /= length; }
+   made.stiffness = key["stiffness"].number(positive);
+   made.pretension = key["pretension"].number(positive);
+   return made;
+}
+
+/// The members of an object that was a key.
+template <class Add>
+void each(const std::string &text, const std::string &name, Add add)
+{
+   if (text.empty()) { return; }
+   ordered_json all;
+   try
+   {
+      all = ordered_json::parse(text);
+   }
+   catch (const ordered_json::exception &error)
+   {
+      throw InputError("key '" + name + "' is not JSON: " + error.what());
+   }
+   const Key key(all, name);
+   if (!all.is_object() || all.empty()) { key.refuse("an object with at least one key"); }
+   for (const auto &item : all.items()) { add(key[item.key()], item.key()); }
+}
+
+ordered_json to_json(const JointCase::Profile &profile)
+{
+   if (profile.points.size() == 1) { return profile.points[0][1]; }
+   return profile.points;
+}
+
+ordered_json one_or_list(const std::vector<double> &values)
+{
+   return values.size() == 1 ? ordered_json(values[0]) : ordered_json(values);
+}
+
+} // namespace
+
+double JointCase::Profile::at(double s) const
+{
+   const auto after = std::find_if(points.begin(), points.end(),
+                                   [&](const auto &point) { return point[0] >= s; });
+   if (after == points.begin()) { return after->at(1); }
+   if (after == points.end()) { return points.back()[1]; }
+   const auto &[s1, f1] = *after;
+   const auto &[s0, f0] = *(after - 1);
+   return f0 + (f1 - f0) * (s - s0) / (s1 - s0);
+}
+
+int JointCase::body(const std::string &name) const
+{
+   for (std::size_t b = 0; b < bodies.size(); ++b)
+   {
+      if (bodies[b].name == name) { return static_cast<int>(b); }
+   }
+   return -1;
+}
+
+JointCase joint_case(const JointKeys &keys, int order)
+{
+   JointCase joint;
+   joint.order = order;
+   const ordered_json analysis = keys.analysis.empty() ? "plane strain" : keys.analysis;
+   const std::string word = Key(analysis, "analysis").choice(analyses);
+   joint.plane_stress = word == "plane stress";
+   if (word == "axisymmetric") { joint.formulation = Formulation::axisymmetric; }
+   require(!keys.bodies.empty(), "key 'bodies' is missing, must name the bodies");
+   require(!keys.interfaces.empty(), "key 'interfaces' is missing, must name where they touch");
+   each(keys.bodies, "bodies",
+        [&](const Key &key, const std::string &name)
+        { joint.bodies.push_back(body(key, name)); });
+   std::set<std::string> names;
+   each(keys.interfaces, "interfaces",
+        [&](const Key &key, const std::string &name)
+        { joint.faces.push_back(face(key, name, joint)); });
+   each(keys.bolts, "bolts",
+        [&](const Key &key, const std::string &name)
+        { joint.bolts.push_back(bolt(key, name, joint)); });
+   return joint;
+}
+
+ordered_json to_json(const JointCase &joint)
+{
+   ordered_json keys{{"version", 2}};
+   keys["analysis"] = joint.formulation != Formulation::plane ? analyses[2]
+                      : joint.plane_stress                    ? analyses[1]
+                                                              : analyses[0];
+   keys["order"] = joint.order;
+   for (const JointCase::Body &body : joint.bodies)
+   {
+      ordered_json &made = keys["bodies"][body.name];
+      const ordered_json young = one_or_list(body.young), poisson = one_or_list(body.poisson);
+      if (body.half_plane)
+      {
+         made["half-plane"] = {{"young", young}, {"poisson", poisson}};
+         if (!std::isnan(body.depth)) { made["half-plane"]["depth"] = body.depth; }
+         continue;
+      }
+      if (!body.matrix.empty()) { made["matrix"] = body.matrix; }
+      else { made = {{"mesh", body.mesh}, {"young", young}, {"poisson", poisson}}; }
+      if (!std::isnan(body.expansion)) { made["expansion"] = body.expansion; }
+      if (!body.support.empty()) { made["support"] = body.support; }
+      if (!body.load.empty()) { made["load"] = split(body.load, ";"); }
+   }
+   const auto word = [&](const JointCase::Side &side)
+   {
+      const std::string &name = joint.bodies[side.body].name;
+      return side.part.empty() ? name : name + ":" + side.part;
+   };
+   for (const JointCase::Face &face : joint.faces)
+   {
+      ordered_json &made = keys["interfaces"][face.name];
+      for (const JointCase::Side &side : face.sides)
+      {
+         if (side.body >= 0) { made["between"].push_back(word(side)); }
+      }
+      if (face.tied) { made["tied"] = true; }
+      else { made["friction"] = to_json(face.friction); }
+      if (face.gap) { made["gap"] = to_json(*face.gap); }
+      if (face.slave != SlaveSide::coarser)
+      {
+         made["slave"] = slaves[static_cast<std::size_t>(face.slave)];
+      }
+      if (face.most_overlap != Interface().most_overlap)
+      {
+         made["overlap"] = face.most_overlap;
+      }
+      if (!std::isnan(face.pairing)) { made["pairing"] = face.pairing; }
+   }
+   for (const JointCase::Bolt &bolt : joint.bolts)
+   {
+      keys["bolts"][bolt.name] = {{"between", {word(bolt.ends[0]), word(bolt.ends[1])}},
+                                  {"direction", bolt.direction},
+                                  {"stiffness", bolt.stiffness},
+                                  {"pretension", bolt.pretension}};
+   }
+   return keys;
+}
+
+} // namespace miniapp

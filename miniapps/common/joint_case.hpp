@@ -1,0 +1,98 @@
+#pragma once
+
+#include "common/study.hpp"
+
+#include <cattaneo/reduced/interfaces.hpp>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace miniapp
+{
+
+/** What a case of contact2d says of bodies and of where they touch: a case file 2, or what the
+    options of file 1 come to. Texts are in the language of docs/contact2d.md. */
+struct JointCase
+{
+   /// What is called in an error what this was read from: "key 'bodies.pad.load'", or of file 1
+   /// "option load1".
+   struct Source
+   {
+      std::string before, after;
+      std::string called(const std::string &key) const { return before + key + after; }
+   };
+   struct Body
+   {
+      std::string name;
+      Source source;
+      std::string mesh, matrix;                         ///< one of them, or a half-plane
+      std::vector<double> young = {1}, poisson = {0.3}; ///< one, or one for each attribute
+      double expansion = none;                          ///< for temperature loads
+      std::string support, load;
+      double depth = none; ///< of a half-plane
+      bool half_plane = false;
+   };
+   /// A number, or a table over the arc length with straight lines between its points.
+   struct Profile
+   {
+      std::vector<std::array<double, 2>> points; ///< one: a number, whatever its arc length
+      double at(double arc_length) const;
+   };
+   struct Side
+   {
+      int body = -1; ///< -1: a rigid line
+      std::string part;
+      std::string called; ///< in an error
+   };
+   struct Face
+   {
+      std::string name;
+      Source source;
+      std::array<Side, 2> sides;
+      Profile friction{{{0, 0}}};
+      std::optional<Profile> gap; ///< not given: the geometry's
+      cattaneo::SlaveSide slave = cattaneo::SlaveSide::coarser;
+      double most_overlap = cattaneo::Interface().most_overlap;
+      bool tied = false;
+      /// Nodes are paired one to one if none is farther off along the contact than this, in
+      /// distances of nodes.
+      double pairing = none;
+   };
+   /// A shank between two parts of boundaries. Its name is that of the load that tightens it.
+   struct Bolt
+   {
+      std::string name;
+      Source source;
+      std::array<Side, 2> ends;
+      std::array<double, 2> direction{0, 1}; ///< from the second end to the first
+      double stiffness = 1, pretension = 1;
+   };
+
+   cattaneo::Formulation formulation = cattaneo::Formulation::plane;
+   bool plane_stress = false;
+   int order = 2;
+   bool numbered = false; ///< of file 1, whose bodies have no names
+   std::vector<Body> bodies;
+   std::vector<Face> faces;
+   std::vector<Bolt> bolts;
+
+   int body(const std::string &name) const; ///< its number, -1: none
+};
+
+/// Texts of a case file 2, each the JSON of a key, empty if it is not there.
+struct JointKeys
+{
+   std::string analysis, bodies, interfaces, bolts;
+
+   bool given() const { return !(analysis + bodies + interfaces + bolts).empty(); }
+};
+
+/// InputError naming the key.
+JointCase joint_case(const JointKeys &keys, int order);
+
+/// The keys of a case file 2 that say the same.
+nlohmann::ordered_json to_json(const JointCase &joint);
+
+} // namespace miniapp

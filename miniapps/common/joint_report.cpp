@@ -1,0 +1,235 @@
+#include "common/joint_report.hpp"
+
+#include <cattaneo/friction/loop.hpp>
+#include <cattaneo/whole_file.hpp>
+#include <cmath>
+#include <filesystem>
+
+namespace miniapp
+{
+
+using namespace cattaneo;
+using Eigen::Index;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+using nlohmann::ordered_json;
+
+namespace
+{
+
+/// Without what is round-off of values of this size.
+double settled(double x, double size)
+{
+   return std::abs(x) < 1e-12 * size ? 0 : x;
+}
+
+} // namespace
+
+JointReport::JointReport(Study &study, const JointCase &joint, const Reduction &reduction)
+   : study_(study), joint_(joint), reduction_(reduction), courses_(reduction.interfaces.size()),
+     range_(joint.bolts.size(), {1e300, -1e300})
+{
+}
+
+std::string JointReport::body(int b) const
+{
+   return b < 0 ? "rigid line" : body_name(reduction_, static_cast<std::size_t>(b));
+}
+
+Vector2d JointReport::middle(const InterfaceReport &face) const
+{
+   const Vector2d mean = face.position.transpose() * face.weights / face.weights.sum();
+   const double size = face.position.cwiseAbs().maxCoeff();
+   return {settled(mean[0], size), settled(mean[1], size)};
+}
+
+JointReport::Resultant JointReport::resultant(const InterfaceReport &face,
+                                              const ContactState &state) const
+{
+   VectorXd q = VectorXd::Zero(face.nodes), p = q;
+   if (face.tied)
+   {
+      const VectorXd f = reduction_.tied_forces(state.v, state.w, state.multipliers);
+      q = f.segment(face.first, face.nodes);
+      p = f.segment(f.size() / 2 + face.first, face.nodes);
+   }
+   else
+   {
+      if (state.q.size() > 0) { q = state.q.segment(face.first, face.nodes); }
+      p = state.p.segment(face.first, face.nodes);
+   }
+   Resultant made;
+   made.normal = p.sum();
+   made.tangential = q.sum();
+   const Vector2d about = middle(face);
+   double size = 0, lever = 0;
+   for (Index i = 0; i < face.nodes; ++i)
+   {
+      const Vector2d t = face.tangent.row(i), n(-t[1], t[0]);
+      const Vector2d force = (face.of_second ? -1 : 1) * (q[i] * t + p[i] * n);
+      const Vector2d arm = face.position.row(i).transpose() - about;
+      made.force += force;
+      made.moment += arm[0] * force[1] - arm[1] * force[0];
+      size += force.norm();
+      lever += arm.norm() * force.norm();
+   }
+   for (double *x : {&made.normal, &made.tangential, &made.force[0], &made.force[1]})
+   {
+      *x = settled(*x, size);
+   }
+   made.moment = settled(made.moment, lever);
+   return made;
+}
+
+std::vector<double> JointReport::shanks(const ContactState &state) const
+{
+   std::vector<double> forces;
+   if (joint_.bolts.empty()) { return forces; }
+   const VectorXd approach = conjugates(reduction_.problem, state);
+   for (const JointCase::Bolt &bolt : joint_.bolts)
+   {
+      const int k = reduction_.problem.pattern(bolt.name);
+      // The pattern's forces are the pretension: so is what its conjugate is multiplied by.
+      forces.push_back(bolt.pretension * state.multipliers[k] -
+                       bolt.stiffness * approach[k] / bolt.pretension);
+   }
+   return forces;
+}
+
+void JointReport::note(const ContactState &state)
+{
+   const std::vector<double> now = shanks(state);
+   for (std::size_t k = 0; k < now.size(); ++k)
+   {
+      range_[k] = {std::min(range_[k][0], now[k]), std::max(range_[k][1], now[k])};
+   }
+   if (state.q.size() == 0 || state.q.size() > state.p.size()) { return; }
+   for (std::size_t k = 0; k < courses_.size(); ++k)
+   {
+      const InterfaceReport &face = reduction_.interfaces[k];
+      if (face.tied) { continue; }
+      const auto slip = state.v.segment(face.first, face.nodes);
+      courses_[k].slip.push_back(slip.dot(face.weights) / face.weights.sum());
+      courses_[k].shear.push_back(-state.q.segment(face.first, face.nodes).sum());
+   }
+}
+
+std::string JointReport::of_state(const ContactState &state)
+{
+   if (reduction_.interfaces.size() > 1)
+   {
+      return text("%zu interfaces of %zu bodies", reduction_.interfaces.size(),
+                  reduction_.bodies.size());
+   }
+   const InterfaceReport &face = reduction_.interfaces[0];
+   const Vector2d force = resultant(face, state).force;
+   study_.results["contact_force"] = {force[0], force[1]};
+   return "contact force on " +
+          (joint_.numbered ? "body 1" : body(face.bodies[face.of_second])) +
+          text(" (%g, %g)", force[0], force[1]);
+}
+
+void JointReport::report(const ContactState &state, const MarchReport &march)
+{
+   if (joint_.numbered) { return; }
+   report_interfaces(state, march);
+   if (!joint_.bolts.empty()) { report_bolts(state); }
+   draw_loops();
+}
+
+void JointReport::report_interfaces(const ContactState &state, const MarchReport &march)
+{
+   const bool plane = joint_.formulation == Formulation::plane;
+   Table &table = study_.table("interfaces", {{"interface", "interface"},
+                                              {"on", "forces on"},
+                                              {"normal", "N (pressing)", "%.6g"},
+                                              {"tangential", "T", "%.6g"},
+                                              {"force_x", plane ? "x" : "", "%.6g"},
+                                              {"force_y", plane ? "y" : "axial", "%.6g"},
+                                              {"moment", plane ? "moment" : "", "%.4g"},
+                                              {"about_x", plane ? "about x" : "", "%.5g"},
+                                              {"about_y", plane ? "y" : "", "%.5g"},
+                                              {"dissipation", "lost a cycle", "%.4e"},
+                                              {"tied"},
+                                              {"nodes"},
+                                              {"free_surface"},
+                                              {"arm"}});
+   const CycleRecord *cycle = march.cycles.empty() ? nullptr : &march.cycles.back();
+   for (const InterfaceReport &face : reduction_.interfaces)
+   {
+      const Resultant sum = resultant(face, state);
+      const Vector2d about = middle(face);
+      const bool known = cycle && cycle->whole && !face.tied;
+      const double lost =
+         known ? cycle->node_dissipation.segment(face.first, face.nodes).sum() : none;
+      study_.row(table, {face.name, body(face.bodies[face.of_second]), sum.normal,
+                         sum.tangential, plane ? sum.force[0] : none, sum.force[1],
+                         plane ? sum.moment : none, about[0], about[1], lost, face.tied,
+                         face.nodes, face.free_surface.size(), face.arm});
+   }
+}
+
+void JointReport::report_bolts(const ContactState &state)
+{
+   Table &table = study_.table("bolts", {{"bolt", "bolt"},
+                                         {"force", "force", "%.6g"},
+                                         {"least", "least", "%.6g"},
+                                         {"most", "most of the march", "%.6g"}});
+   const std::vector<double> now = shanks(state);
+   for (std::size_t k = 0; k < now.size(); ++k)
+   {
+      study_.row(table, {joint_.bolts[k].name, now[k], range_[k][0], range_[k][1]});
+   }
+}
+
+void JointReport::draw_loops()
+{
+   Panel &panel =
+      study_.panel(Panel::Kind::lines, "interface_loops",
+                   "Shear force of each interface over its mean slip", "mean slip", "-T");
+   for (std::size_t k = 0; k < courses_.size(); ++k)
+   {
+      panel.add(reduction_.interfaces[k].name, courses_[k].slip, courses_[k].shear);
+   }
+}
+
+std::string body_name(const Reduction &reduction, std::size_t body)
+{
+   const std::string &name = reduction.bodies[body].name;
+   return name.empty() ? "body" + std::to_string(body + 1) : name;
+}
+
+void convert(Study &study, const JointCase &joint, const std::string &file)
+{
+   JointCase moved = joint;
+   const auto folder = std::filesystem::absolute(file).parent_path();
+   for (JointCase::Body &body : moved.bodies)
+   {
+      for (std::string *path : {&body.mesh, &body.matrix})
+      {
+         if (!path->empty())
+         {
+            *path = std::filesystem::relative(*path, folder).generic_string();
+         }
+      }
+   }
+   ordered_json keys = to_json(moved);
+   const ordered_json &values = study.options().values();
+   for (const char *name : {"history", "edges"})
+   {
+      const auto said = values.at(name).get<std::string>();
+      if (said.empty()) { continue; }
+      if (std::string(name) == "history") { keys[name] = split(said, ";"); }
+      else { keys[name] = numbers(name, said); }
+   }
+   for (const char *name : {"cycle-start", "cycles", "increments", "stepping"})
+   {
+      keys[name] = values.at(name);
+   }
+   if (writes()) { write_whole(file, keys.dump(3) + "\n"); }
+   study.say("The case is in " + file);
+   study.results["status"] = "converted";
+   throw Done();
+}
+
+} // namespace miniapp

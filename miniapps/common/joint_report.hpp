@@ -1,0 +1,63 @@
+#pragma once
+
+#include "common/joint_case.hpp"
+#include "common/study.hpp"
+
+#include <cattaneo/friction/march.hpp>
+#include <string>
+#include <vector>
+
+namespace miniapp
+{
+
+/// What is said of a case's interfaces and bolts: resultants, losses, loops, forces.
+class JointReport
+{
+public:
+   /// All must outlive it.
+   JointReport(Study &study, const JointCase &joint, const cattaneo::Reduction &reduction);
+   /// A state that the march has reached.
+   void note(const cattaneo::ContactState &state);
+   /// Forces of the contact on the first body, of a case with one interface; also in the
+   /// results.
+   std::string of_state(const cattaneo::ContactState &state);
+   /// Tables and loops, at the end.
+   void report(const cattaneo::ContactState &state, const cattaneo::MarchReport &march);
+
+private:
+   /// Of an interface: pressure and shear as they press on its first body, and their moment
+   /// about its middle.
+   struct Resultant
+   {
+      double normal = 0, tangential = 0, moment = 0;
+      Eigen::Vector2d force{0, 0};
+   };
+   Resultant resultant(const cattaneo::InterfaceReport &face,
+                       const cattaneo::ContactState &state) const;
+   Eigen::Vector2d middle(const cattaneo::InterfaceReport &face) const;
+   std::string body(int b) const;
+   /// Forces of the shanks.
+   std::vector<double> shanks(const cattaneo::ContactState &state) const;
+   void report_interfaces(const cattaneo::ContactState &state,
+                          const cattaneo::MarchReport &march);
+   void report_bolts(const cattaneo::ContactState &state);
+   void draw_loops();
+
+   Study &study_;
+   const JointCase &joint_;
+   const cattaneo::Reduction &reduction_;
+   struct Course
+   {
+      std::vector<double> slip, shear; ///< of an interface, mean and sum
+   };
+   std::vector<Course> courses_;
+   std::vector<std::array<double, 2>> range_; ///< of each bolt's force
+};
+
+/// What a body is called in output: its name, or "body1", ….
+std::string body_name(const cattaneo::Reduction &reduction, std::size_t body);
+
+/// Writes the case as a case file 2, with the study's other options, and leaves the study.
+[[noreturn]] void convert(Study &study, const JointCase &joint, const std::string &file);
+
+} // namespace miniapp

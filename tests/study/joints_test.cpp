@@ -1,0 +1,417 @@
+#include "study/run_miniapp.hpp"
+
+#include <cattaneo/mesh/graded_mesh.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+/// contact2d with case files 2: any number of bodies, interfaces and bolts.
+
+namespace
+{
+
+using Result = cattaneo_test::Run; // Run is hidden inside of tests by testing::Test::Run
+using cattaneo_test::run_miniapp;
+using json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+class Joints : public testing::Test
+{
+protected:
+   void SetUp() override
+   {
+      folder = testing::TempDir() + "joints";
+      fs::remove_all(folder);
+      fs::create_directories(folder);
+   }
+   void TearDown() override { fs::remove_all(folder); }
+
+   /// A rectangle of boundary attributes 1 (bottom), 2 (right), 3 (top) and 4 (left).
+   std::string block(const std::string &name, double x0, double x1, int nx, double y0,
+                     double y1, int ny, double turned = 0) const
+   {
+      std::vector<double> x, y;
+      for (int k = 0; k <= nx; ++k) { x.push_back(x0 + (x1 - x0) * k / nx); }
+      for (int k = 0; k <= ny; ++k) { y.push_back(y0 + (y1 - y0) * k / ny); }
+      mfem::Mesh mesh = cattaneo::rectangle_mesh(x, y);
+      for (int v = 0; v < mesh.GetNV(); ++v)
+      {
+         double *at = mesh.GetVertex(v);
+         const double old[] = {at[0], at[1]};
+         at[0] = std::cos(turned) * old[0] - std::sin(turned) * old[1];
+         at[1] = std::sin(turned) * old[0] + std::cos(turned) * old[1];
+      }
+      std::ofstream out(folder + "/" + name);
+      out.precision(17);
+      mesh.Print(out);
+      return name;
+   }
+   Result run(const json &keys, const std::string &options = "") const
+   {
+      json all{{"version", 2}};
+      all.update(keys);
+      std::ofstream(folder + "/case.json") << all.dump();
+      return run_miniapp("contact2d", "--case '" + folder + "/case.json' " + options);
+   }
+   /// The message of a case that is refused.
+   std::string refused(const json &keys) const
+   {
+      const Result got = run(keys);
+      EXPECT_EQ(got.code, 1) << got.output;
+      return got.output.substr(std::min(got.output.find("error: "), got.output.size()));
+   }
+   /// A column of a CSV table, numbers alone.
+   std::vector<double> column(const std::string &file, const std::string &name) const
+   {
+      std::ifstream in(folder + "/" + file);
+      EXPECT_TRUE(in.good()) << file;
+      std::string line, word;
+      std::getline(in, line);
+      std::istringstream header(line);
+      int number = 0;
+      while (std::getline(header, word, ',') && word != name) { ++number; }
+      std::vector<double> values;
+      while (std::getline(in, line))
+      {
+         std::istringstream row(line);
+         for (int k = 0; k <= number; ++k) { std::getline(row, word, ','); }
+         values.push_back(std::stod(word));
+      }
+      return values;
+   }
+
+   std::string folder;
+};
+
+json body(const std::string &mesh, const std::string &support = "",
+          const std::vector<std::string> &load = {}, double young = 1000, double poisson = 0)
+{
+   json made{{"mesh", mesh}, {"young", young}, {"poisson", poisson}};
+   if (!support.empty()) { made["support"] = support; }
+   if (!load.empty()) { made["load"] = load; }
+   return made;
+}
+
+json face(const std::string &one, const std::string &other, double friction = 0.5)
+{
+   return {{"between", {one, other}}, {"friction", friction}};
+}
+
+json interface(const Result &run, const std::string &name)
+{
+   for (const auto &row : run.results["interfaces"])
+   {
+      if (row["interface"] == name) { return json::parse(row.dump()); }
+   }
+   throw std::runtime_error("no interface " + name + "\n" + run.output);
+}
+
+/// Three plates whose nodes do not match carry a pressure and a shear uniformly.
+TEST_F(Joints, OfThreeBodiesPassThePatchTest)
+{
+   block("low.mesh", 0, 2, 8, 0, 1, 2);
+   block("middle.mesh", 0, 2, 11, 1, 2, 2);
+   block("high.mesh", 0, 2, 3, 2, 3, 2);
+   for (const char *analysis : {"plane strain", "plane stress"})
+   {
+      for (int order : {1, 2, 3})
+      {
+         json keys{{"analysis", analysis}, {"order", order}};
+         const std::vector<std::string> ends{"Q traction 2 0 0.4", "Q traction 4 0 -0.4"};
+         keys["bodies"] = {{"low", body("low.mesh", "1:xy", ends)},
+                           {"middle", body("middle.mesh", "", ends)},
+                           {"high", body("high.mesh", "", ends)}};
+         keys["bodies"]["high"]["load"].push_back("Q traction 3 0.4 0");
+         keys["bodies"]["high"]["load"].push_back("P pressure 3 0.9");
+         keys["interfaces"] = {{"lower", face("middle:1", "low:3")},
+                               {"upper", face("high:1", "middle:3")}};
+         keys["history"] = {"P=0", "P=1", "Q=1"};
+         const Result got = run(keys, "--csv '" + folder + "/out'");
+         ASSERT_EQ(got.code, 0) << got.output;
+         for (double p : column("out_nodes.csv", "p")) { EXPECT_NEAR(p, 0.9, 1e-10) << order; }
+         for (double q : column("out_nodes.csv", "q"))
+         {
+            EXPECT_NEAR(std::abs(q), 0.4, 1e-10) << order;
+         }
+         for (const char *name : {"lower", "upper"})
+         {
+            const json found = interface(got, name);
+            EXPECT_NEAR(found["force_x"], -0.8, 1e-10);
+            EXPECT_NEAR(found["force_y"], 1.8, 1e-10);
+            EXPECT_NEAR(found["moment"], 0, 1e-10);
+            EXPECT_NEAR(found["about_x"], 1, 1e-12);
+         }
+      }
+   }
+}
+
+/// About an axis: a stack of discs under a uniform pressure, the force on the whole face.
+TEST_F(Joints, AboutAnAxisCarryAUniformPressure)
+{
+   block("low.mesh", 0, 2, 8, 0, 1, 2);
+   block("middle.mesh", 0, 2, 5, 1, 2, 2);
+   block("high.mesh", 0, 2, 7, 2, 3, 2);
+   json keys{{"analysis", "axisymmetric"}};
+   keys["bodies"] = {{"low", body("low.mesh", "1:z")},
+                     {"middle", body("middle.mesh")},
+                     {"high", body("high.mesh", "", {"P pressure 3 0.9"})}};
+   keys["interfaces"] = {{"lower", face("middle:1", "low:3")},
+                         {"upper", face("high:1", "middle:3")}};
+   const Result got = run(keys, "--csv '" + folder + "/out'");
+   ASSERT_EQ(got.code, 0) << got.output;
+   for (double p : column("out_nodes.csv", "p")) { EXPECT_NEAR(p, 0.9, 1e-9); }
+   EXPECT_NEAR(interface(got, "upper")["normal"], 0.9 * std::acos(-1.0) * 4, 1e-10);
+   EXPECT_NEAR(interface(got, "lower")["force_y"], 0.9 * std::acos(-1.0) * 4, 1e-10);
+}
+
+/// A pad that is cut in two and tied is the pad.
+TEST_F(Joints, ThatAreTiedAreOneBody)
+{
+   block("pad.mesh", -1, 1, 12, 0, 2, 4);
+   block("lower.mesh", -1, 1, 12, 0, 1, 2);
+   block("upper.mesh", -1, 1, 12, 1, 2, 2);
+   block("base.mesh", -3, 3, 18, -2, 0, 4);
+   const std::vector<std::string> load{"P pressure 3 1", "Q traction 3 1 0"};
+   json keys;
+   keys["history"] = {"P=0", "P=1", "Q=0.2", "Q=-0.2"};
+   keys["bodies"] = {{"pad", body("pad.mesh", "", load, 1000, 0.3)},
+                     {"base", body("base.mesh", "1:xy", {}, 1000, 0.3)}};
+   keys["interfaces"] = {{"flat", face("pad:1", "base:3", 0.4)}};
+   const Result whole = run(keys, "--csv '" + folder + "/whole'");
+   keys["bodies"] = {{"upper", body("upper.mesh", "", load, 1000, 0.3)},
+                     {"lower", body("lower.mesh", "", {}, 1000, 0.3)},
+                     {"base", body("base.mesh", "1:xy", {}, 1000, 0.3)}};
+   keys["interfaces"] = {{"flat", face("lower:1", "base:3", 0.4)},
+                         {"cut", {{"between", {"upper:1", "lower:3"}}, {"tied", true}}}};
+   const Result cut = run(keys, "--csv '" + folder + "/cut'");
+   ASSERT_EQ(whole.code, 0) << whole.output;
+   ASSERT_EQ(cut.code, 0) << cut.output;
+   for (const char *name : {"p", "q", "slip", "opening"})
+   {
+      const auto one = column("whole_nodes.csv", name), other = column("cut_nodes.csv", name);
+      ASSERT_EQ(one.size(), other.size());
+      double most = 0;
+      for (double x : one) { most = std::max(most, std::abs(x)); }
+      for (std::size_t i = 0; i < one.size(); ++i)
+      {
+         EXPECT_NEAR(one[i], other[i], 1e-9 * most) << name;
+      }
+   }
+   // The cut carries what the contact does, and both what is loaded.
+   EXPECT_NEAR(interface(cut, "cut")["force_y"], 2, 1e-10);
+   EXPECT_NEAR(interface(cut, "cut")["force_x"], 0.4, 1e-10);
+   EXPECT_NEAR(interface(cut, "flat")["force_x"], 0.4, 1e-10);
+}
+
+/// Neither the order of bodies and interfaces nor that of the sides changes an answer.
+TEST_F(Joints, DoNotDependOnTheOrderOfTheirParts)
+{
+   block("low.mesh", -3, 3, 17, -1, 0, 3);
+   block("middle.mesh", -2, 2, 16, 0, 1, 3);
+   block("high.mesh", -1, 1, 10, 1, 2, 3);
+   const json low = body("low.mesh", "1:xy", {}, 1000, 0.3),
+              middle = body("middle.mesh", "", {"Q traction 2 1 0"}, 2000, 0.3),
+              high = body("high.mesh", "", {"P pressure 3 1"}, 1000, 0.2);
+   json keys{{"history", {"P=0", "P=1", "Q=0.3", "Q=-0.3"}}};
+   keys["bodies"] = {{"low", low}, {"middle", middle}, {"high", high}};
+   keys["interfaces"] = {{"below", face("middle:1", "low:3", 0.5)},
+                         {"above", face("high:1", "middle:3[-1.5<x<1.5]", 0.3)}};
+   const Result one = run(keys);
+   keys["bodies"] = {{"high", high}, {"low", low}, {"middle", middle}};
+   keys["interfaces"] = {{"above", face("middle:3[-1.5<x<1.5]", "high:1", 0.3)},
+                         {"below", face("middle:1", "low:3", 0.5)}};
+   const Result other = run(keys);
+   ASSERT_EQ(one.code, 0) << one.output;
+   ASSERT_EQ(other.code, 0) << other.output;
+   EXPECT_NEAR(one.results["total_dissipation"].get<double>() /
+                  other.results["total_dissipation"].get<double>(),
+               1, 1e-8);
+   for (const char *name : {"above", "below"})
+   {
+      const json first = interface(one, name), second = interface(other, name);
+      const double sign = name == std::string("above") ? -1 : 1; // forces on the first side
+      EXPECT_NEAR(first["force_y"], sign * second["force_y"].get<double>(), 1e-9);
+      EXPECT_NEAR(first["force_x"], sign * second["force_x"].get<double>(), 1e-9);
+      EXPECT_NEAR(first["moment"], sign * second["moment"].get<double>(), 1e-8);
+   }
+   EXPECT_NEAR(interface(one, "above")["force_y"], 2, 1e-10);
+   EXPECT_NEAR(interface(one, "below")["force_y"], 2, 1e-10);
+}
+
+/// A shank through two columns, ν = 0: N = T / (1 + s c), c the columns' compliance.
+TEST_F(Joints, BoltsLoseWhatTheColumnsGive)
+{
+   block("low.mesh", 0, 1, 4, 0, 2, 4);
+   block("high.mesh", 0, 1, 6, 2, 5, 4);
+   json keys;
+   keys["bodies"] = {{"low", body("low.mesh", "4:x 1:y")},
+                     {"high", body("high.mesh", "4:x", {"F traction 3 0 1"}, 500)}};
+   keys["interfaces"] = {{"joint", face("high:1", "low:3")}};
+   const double stiffness = 300, pretension = 40;
+   keys["bolts"] = {{"bolt",
+                     {{"between", {"high:3", "low:1"}},
+                      {"stiffness", stiffness},
+                      {"pretension", pretension}}}};
+   keys["history"] = {"bolt=0", "bolt=1", "F=10"};
+   const Result got = run(keys);
+   ASSERT_EQ(got.code, 0) << got.output;
+   // The lower end does not move: y is held there. The working load of 10 pulls at the upper.
+   const double compliance = 2.0 / 1000 + 3.0 / 500;
+   const double tightened = pretension / (1 + stiffness * compliance);
+   const double loaded = tightened + 10 * stiffness * compliance / (1 + stiffness * compliance);
+   const json bolt = json::parse(got.results["bolts"][0].dump());
+   EXPECT_EQ(bolt["bolt"], "bolt");
+   EXPECT_NEAR(bolt["force"], loaded, 1e-10 * loaded);
+   EXPECT_NEAR(interface(got, "joint")["normal"], loaded - 10, 1e-10 * loaded);
+}
+
+/// A column between two walls that is heated: E α ΔT.
+TEST_F(Joints, HeatedColumnsPress)
+{
+   block("low.mesh", 0, 1, 4, 0, 2, 4);
+   block("high.mesh", 0, 1, 6, 2, 5, 4);
+   json keys{{"analysis", "plane stress"}};
+   keys["bodies"] = {{"low", body("low.mesh", "4:x 1:y", {"H temperature 50"}, 1000, 0.3)},
+                     {"high", body("high.mesh", "4:x 3:y", {}, 1000, 0.3)}};
+   keys["bodies"]["low"]["expansion"] = 1e-4;
+   keys["interfaces"] = {{"joint", face("high:1", "low:3", 0)}};
+   const Result got = run(keys);
+   ASSERT_EQ(got.code, 0) << got.output;
+   EXPECT_NEAR(interface(got, "joint")["normal"], 1000 * 1e-4 * 50 * 2 / 5, 1e-10);
+   keys["bodies"]["low"].erase("expansion");
+   EXPECT_NE(refused(keys).find("coefficient of thermal expansion is not given"),
+             std::string::npos);
+}
+
+/// Friction and gap may vary along an interface.
+TEST_F(Joints, TablesAreOverTheArcLength)
+{
+   block("pad.mesh", 0, 2, 8, 0, 1, 2);
+   block("base.mesh", 0, 2, 8, -1, 0, 2);
+   json keys;
+   keys["bodies"] = {
+      {"pad", body("pad.mesh", "", {"D displacement-y 3 -0.01", "D displacement-x 3 0"})},
+      {"base", body("base.mesh", "1:xy")}};
+   keys["interfaces"] = {{"flat", face("pad:1", "base:3")}};
+   keys["interfaces"]["flat"]["gap"] = json::array({{0, 0.004}, {2, 0.004}});
+   keys["interfaces"]["flat"]["friction"] = json::array({{0, 0.1}, {2, 0.5}});
+   keys["interfaces"]["flat"]["slave"] = "first";
+   const Result got =
+      run(keys, "--csv '" + folder + "/out' --save '" + folder + "/saved.json'");
+   ASSERT_EQ(got.code, 0) << got.output;
+   // Two columns of height 1 in series, each of E = 1000.
+   for (double p : column("out_nodes.csv", "p")) { EXPECT_NEAR(p, 3, 1e-10); }
+   std::ifstream in(folder + "/saved.json");
+   const json saved = json::parse(in);
+   const auto s = column("out_nodes.csv", "arc_length");
+   for (std::size_t i = 0; i < s.size(); ++i)
+   {
+      EXPECT_NEAR(saved["friction"]["values"][i].get<double>(), 0.1 + 0.2 * s[i], 1e-14);
+   }
+}
+
+/// A case file 1 as a case file 2 is the same case.
+TEST_F(Joints, CaseFilesOfVersion1AreThoseOfVersion2)
+{
+   for (const std::string name : {"dovetail", "punch_on_half_plane", "calculix/laps"})
+   {
+      const std::string converted = folder + "/two.json", file = "meshes/" + name + ".json";
+      const Result written =
+         run_miniapp("contact2d", "--case " + file + " --convert '" + converted + "'");
+      ASSERT_EQ(written.code, 0) << written.output;
+      const Result one = run_miniapp("contact2d", "--case " + file),
+                   two = run_miniapp("contact2d", "--case '" + converted + "'");
+      ASSERT_EQ(one.code, 0) << one.output;
+      ASSERT_EQ(two.code, 0) << two.output;
+      for (const char *key : {"contact_force", "dissipation", "total_dissipation",
+                              "peak_pressure", "steady_cycle", "contact_nodes", "dofs"})
+      {
+         EXPECT_EQ(one.results[key], two.results[key]) << name << " " << key;
+      }
+      ASSERT_EQ(one.results["zones"].size(), two.results["zones"].size());
+   }
+}
+
+/// The dovetail without its pairing: what order 4 finds on paired nodes, to the error of
+/// order 2.
+TEST_F(Joints, OfMeshesThatMatchNeedNoPairing)
+{
+   const std::string converted = folder + "/two.json";
+   run_miniapp("contact2d", "--case meshes/dovetail.json --convert '" + converted + "'");
+   json keys;
+   std::ifstream(converted) >> keys;
+   const Result paired = run_miniapp("contact2d", "--order 4 --case '" + converted + "'");
+   keys["interfaces"]["contact"].erase("pairing");
+   std::ofstream(converted) << keys.dump();
+   const Result mortar = run_miniapp("contact2d", "--case '" + converted + "'");
+   ASSERT_EQ(paired.code, 0) << paired.output;
+   ASSERT_EQ(mortar.code, 0) << mortar.output;
+   const double one = paired.results["total_dissipation"],
+                other = mortar.results["total_dissipation"];
+   EXPECT_NEAR(other / one, 1, 0.01);
+   for (int c : {0, 1})
+   {
+      EXPECT_NEAR(mortar.results["contact_force"][c].get<double>() /
+                     paired.results["contact_force"][c].get<double>(),
+                  1, 1e-3);
+   }
+}
+
+TEST_F(Joints, RefuseWhatIsWrongInOneSentence)
+{
+   block("pad.mesh", 0, 2, 8, 0, 1, 2);
+   block("base.mesh", 0, 2, 8, -1, 0, 2);
+   json keys;
+   keys["bodies"] = {{"pad", body("pad.mesh", "", {"P pressure 3 1"})},
+                     {"base", body("base.mesh", "1:xy")}};
+   keys["interfaces"] = {{"flat", face("pad:1", "base:3")}};
+   ASSERT_EQ(run(keys).code, 0);
+   const auto says = [&](const std::string &place, const json &value, const std::string &part)
+   {
+      json changed = keys;
+      changed[json::json_pointer(place)] = value;
+      const std::string message = refused(changed);
+      EXPECT_NE(message.find(part), std::string::npos) << place << "\n" << message;
+      EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 1) << message;
+   };
+   says("/nonsense", 1, "unknown key 'nonsense', must be one of ");
+   says("/mesh1", "pad.mesh", "unknown key 'mesh1'");
+   says("/analysis", "plane", "key 'analysis': 'plane' is not one of plane strain");
+   says("/bodies/pad/youngs", 1, "key 'bodies.pad': unknown key 'youngs'");
+   says("/bodies/pad/young", -1, "key 'bodies.pad.young' is -1, must be positive");
+   says("/bodies/pad/support", "7:x", "body pad (");
+   says("/bodies/pad/load", 3, "key 'bodies.pad.load' is 3, must be a string");
+   says("/bodies/pad/load", "P push 3 1", "bodies.pad.load' 'P push 3 1'");
+   says("/interfaces/flat/between", {"pad:1", "bass:3"},
+        "there is no body 'bass', must be one of pad, base");
+   says("/interfaces/flat/between", {"pad:1"}, "body base is at no interface");
+   says("/interfaces/flat/between", {"pad:1", "base:9"}, "attribute 9");
+   says("/interfaces/flat/between", {"pad:face", "base:3"}, "'face'");
+   says("/interfaces/flat/friction", -0.1, "key 'interfaces.flat.friction' is -0.1");
+   says("/interfaces/flat/friction", {{1, 0.1}, {0, 0.2}}, "must increase");
+   says("/interfaces/flat/gap", "open", "'open' is not one of geometry, closed");
+   says("/interfaces/flat/tied", true, "is tied, it goes without the key friction");
+   says("/interfaces/flat/between", {"pad:1", "base:2"}, "interface 'flat'");
+   says("/bolts", {{"b", {{"between", {"pad:3", "base:1"}}}}}, "has no 'stiffness'");
+   says("/bolts", {{"b", {{"between", {"pad:3"}}, {"stiffness", 1}, {"pretension", 1}}}},
+        "has 1 ends, must have two");
+   says("/version", 3, "must be 1 or 2");
+}
+
+/// A key of a structure may be swept.
+TEST_F(Joints, AreSweptByTheirKeys)
+{
+   block("pad.mesh", 0, 2, 8, 0, 1, 2);
+   block("base.mesh", 0, 2, 8, -1, 0, 2);
+   json keys;
+   keys["bodies"] = {{"pad", body("pad.mesh", "", {"P pressure 3 1"})},
+                     {"base", body("base.mesh", "1:xy")}};
+   keys["interfaces"] = {{"flat", face("pad:1", "base:3")}};
+   const Result got =
+      run(keys, "--sweep 'interfaces.flat.friction=0.1 0.2' --csv '" + folder + "/out'");
+   ASSERT_EQ(got.code, 0) << got.output;
+   EXPECT_EQ(got.results["sweep"].size(), 2u) << got.output;
+}
+
+} // namespace
