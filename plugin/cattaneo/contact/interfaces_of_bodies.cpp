@@ -23,7 +23,8 @@ Reduction reduce(const std::vector<NamedBody> &bodies,
    for (const BoundaryInterface &each : interfaces)
    {
       const InterfaceSide first = side(each, each.first), second = side(each, each.second);
-      all.push_back({each.name, first, second, each.slave, each.gap, each.most_overlap, each.tied});
+      all.push_back(
+         {each.name, first, second, each.slave, each.gap, each.most_overlap, each.tied});
    }
    std::vector<CondensedBody> condensed;
    for (int b = 0; b < count; ++b)

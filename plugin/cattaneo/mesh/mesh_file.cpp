@@ -397,9 +397,8 @@ GroupNames group_names(const std::string &file)
       in >> dimension >> number;
       std::getline(in, line);
       const std::size_t from = line.find('"'), to = line.rfind('"');
-      require(in.good() && from != std::string::npos && to > from,
-              "mesh file: physical group ", k + 1, " of ", expected,
-              " has no name, must be DIMENSION NUMBER \"NAME\"");
+      require(in.good() && from != std::string::npos && to > from, "mesh file: physical group ",
+              k + 1, " of ", expected, " has no name, must be DIMENSION NUMBER \"NAME\"");
       std::string name = line.substr(from + 1, to - from - 1);
       std::replace(name.begin(), name.end(), ' ', '_');
       if (dimension == 1) { names.boundary[name] = number; }
