@@ -1,21 +1,19 @@
 """What a state says: zones and edges of contact, tractions."""
 
 from ._core.readout import (
-    ContactEdge,
-    EdgeFit,
-    EdgeTractions,
-    FittedIntensity,
-    Zone,
-    ZoneBorder,
-    contact_edges,
-    contact_zone,
-    contact_zones,
-    edge_tractions,
-    fit_edge,
-    fully_stuck,
-    stick_zone,
-    tractions,
-    zones,
+    ContactEdge as ContactEdge,
+    EdgeFit as EdgeFit,
+    EdgeTractions as EdgeTractions,
+    FittedIntensity as FittedIntensity,
+    Zone as Zone,
+    ZoneBorder as ZoneBorder,
+    contact_edges as contact_edges,
+    contact_zone as contact_zone,
+    contact_zones as contact_zones,
+    edge_tractions as edge_tractions,
+    fit_edge as fit_edge,
+    fully_stuck as fully_stuck,
+    stick_zone as stick_zone,
+    tractions as tractions,
+    zones as zones,
 )
-
-__all__ = [name for name in dir() if not name.startswith("_")]

@@ -22,7 +22,7 @@ print(reduction)
 
 clamped = {"CLOAD1": 1}
 pulled = [clamped | {"T": t} for t in (0.3, -0.3, 0.3)]
-history = cattaneo.LoadHistory.through(problem, [{}, clamped] + pulled, cycle_start=2, cycles=3)
+history = cattaneo.LoadHistory.through(problem, [{}, clamped, *pulled], cycle_start=2, cycles=3)
 report = cattaneo.march(problem, history, stepping="exact")
 print(report)
 loop = report.cycles[-1].loops["T"]

@@ -332,6 +332,7 @@ void bind_stiffness(nb::module_ &m)
             }
             return all;
          },
+         nb::sig("def sets(self) -> dict[str, numpy.typing.NDArray[numpy.intc]]"),
          "numbers of nodes by the name of the set, in capitals")
       .def_prop_ro(
          "fixed", [](const Self &self) { return array_of_indices(self.fixed); },
@@ -347,6 +348,7 @@ void bind_stiffness(nb::module_ &m)
             }
             return all;
          },
+         nb::sig("def loads(self) -> dict[str, numpy.typing.NDArray[numpy.float64]]"),
          "values on all rows by the name of the load: forces, or prescribed displacements")
       .def(
          "nodes_of",

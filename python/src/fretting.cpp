@@ -351,8 +351,11 @@ void bind_criteria(nb::module_ &m)
       .def_ro("young", &Self::young)
       .def_ro("poisson", &Self::poisson)
       .def_ro("threshold", &Self::threshold, "ΔK_th, MPa√mm")
-      .def_prop_ro("fatigue_limit", [](const Self &self)
-                   { return nb::make_tuple(self.fatigue_limit.low, self.fatigue_limit.high); })
+      .def_prop_ro(
+         "fatigue_limit",
+         [](const Self &self)
+         { return nb::make_tuple(self.fatigue_limit.low, self.fatigue_limit.high); },
+         nb::sig("def fatigue_limit(self) -> tuple[float, float]"))
       .def_prop_ro("critical_length", &critical_length, "a0, mm")
       .def("__repr__",
            [](const Self &self) { return "<FatigueMaterial '" + self.name + "'>"; });

@@ -80,14 +80,31 @@ LoadHistory history_through(const ReducedProblem &problem, nb::handle points,
    return history;
 }
 
-LoadHistory any_history(const ReducedProblem &problem, nb::handle history)
+/// The history of a march that begins at `state`. A list of points goes on from where the state
+/// stands; a history has times of its own.
+LoadHistory history_from(const ReducedProblem &problem, nb::handle history,
+                         const ContactState &state, bool at_rest)
 {
-   if (nb::isinstance<LoadHistory>(history)) { return given<LoadHistory>(history, "history"); }
-   if (!nb::isinstance<nb::list>(history) && !nb::isinstance<nb::tuple>(history))
+   const bool listed = nb::isinstance<nb::list>(history) || nb::isinstance<nb::tuple>(history);
+   if (!listed && !nb::isinstance<LoadHistory>(history))
    {
       refuse(history, "history", "a LoadHistory or a list of loads by names");
    }
-   return history_through(problem, history, nb::none(), nb::cast(1), nb::none());
+   LoadHistory loads =
+      listed ? history_through(problem, history, nb::none(), nb::cast(1), nb::none())
+             : given<LoadHistory>(history, "history");
+   loads.validate(static_cast<int>(problem.patterns.size()));
+   if (listed) { loads.times.array() += state.time; }
+   for (Index l = 0; (listed || at_rest) && l < state.multipliers.size(); ++l)
+   {
+      const double first = loads.multipliers(l, 0), stands = state.multipliers[l];
+      require(std::abs(first - stands) <= 1e-12 * std::abs(stands), "history: load '",
+              problem.patterns[l].name, "' is ", first, " at its first point, and ", stands,
+              at_rest ? " before any load; begin with {}"
+                      : " in the state that it goes on from; begin with what that has "
+                        "(MarchReport.loads)");
+   }
+   return loads;
 }
 
 void warn_of(const MarchReport &report)
@@ -110,10 +127,10 @@ nb::object march_from(nb::handle problem, nb::handle history, nb::handle state,
    MarchSettings settings = given_settings;
    March march{nb::borrow(problem), {}, {}, {}, {}};
    for (const LoadPattern &each : of.patterns) { march.loads.push_back(each.name); }
-   const LoadHistory loads = any_history(of, history);
-   loads.validate(static_cast<int>(of.patterns.size()));
    march.state =
       state.is_none() ? ContactState::virgin(of) : given<ContactState>(state, "state");
+   march.state.validate(of);
+   const LoadHistory loads = history_from(of, history, march.state, state.is_none());
    const bool keep = flag(keep_states, "keep_states");
    if (!observer.is_none() && PyCallable_Check(observer.ptr()) == 0)
    {
@@ -133,7 +150,13 @@ nb::object march_from(nb::handle problem, nb::handle history, nb::handle state,
    march.report =
       unlocked([&] { return cattaneo::march(copy, loads, march.state, settings, watched); });
    nb::object result = nb::cast(std::move(march));
-   warn_of(nb::inst_ptr<March>(result)->report);
+   const MarchReport &report = nb::inst_ptr<March>(result)->report;
+   warn_of(report);
+   if (report.status == FrictionStatus::converged && report.counters.increments == 0)
+   {
+      warn("march: nothing was marched, the state stands at time " + exact_text(report.time) +
+           ", at the end of the history or beyond it");
+   }
    return result;
 }
 
@@ -292,7 +315,7 @@ void bind_marches(nb::module_ &m)
            });
 
    using Self = March;
-   const auto number_of = [](auto member)
+   const auto number_of = [](auto member) // of each increment
    { return [member](const Self &self) { return array(self.each(member)); }; };
    nb::class_<Self>(
       m, "MarchReport",
@@ -311,6 +334,18 @@ void bind_marches(nb::module_ &m)
       .def_prop_ro(
          "state", [](Self &self) -> ContactState & { return self.state; },
          nb::rv_policy::reference_internal, "at the end")
+      .def_prop_ro(
+         "loads",
+         [](const Self &self)
+         {
+            nb::dict all;
+            for (std::size_t l = 0; l < self.loads.size(); ++l)
+            {
+               all[self.loads[l].c_str()] = self.state.multipliers[static_cast<Index>(l)];
+            }
+            return all;
+         },
+         nb::sig("def loads(self) -> dict[str, float]"), "multipliers at the end, by name")
       .def_prop_ro(
          "states",
          [](nb::handle_t<Self> self)
@@ -448,7 +483,10 @@ void bind_marches(nb::module_ &m)
          "None) -> MarchReport"),
       "Marches a contact along a load history, from rest or from `state`, which stays as it "
       "is.\n\n"
-      "history: a LoadHistory, or its points, [{}, {'P': 1}, {'P': 1, 'Q': 0.2}].\n"
+      "history: points, [{}, {'P': 1}, {'P': 1, 'Q': 0.2}], the first of which is where the "
+      "state stands; or a LoadHistory, whose times are its own: a march that was stopped is "
+      "taken "
+      "up with the same history and the state it came to.\n"
       "increments: of each piece of the history. stepping: 'advancing', 'fixed', or 'exact', "
       "from one change of state to the next without increments.\n"
       "keep_states: keeps the state of every increment. observer: is called with each.\n"

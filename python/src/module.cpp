@@ -26,14 +26,15 @@ void bind_common(nb::module_ &m)
       .def_ro("seconds", &Progress::seconds, "since it began");
    nb::class_<Counters> counters(m, "Counters",
                                  "How often each expensive act was done: dict(counters).");
-   counters.def("keys",
-                [](const Counters &self)
-                {
-                   nb::list names;
-                   Counters::for_each(self,
-                                      [&](const char *name, long) { names.append(name); });
-                   return names;
-                });
+   counters.def(
+      "keys",
+      [](const Counters &self)
+      {
+         nb::list names;
+         Counters::for_each(self, [&](const char *name, long) { names.append(name); });
+         return names;
+      },
+      nb::sig("def keys(self) -> list[str]"));
    counters.def("__getitem__",
                 [](const Counters &self, python::Text name)
                 {

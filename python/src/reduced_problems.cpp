@@ -300,7 +300,7 @@ void bind_reduced_problems(nb::module_ &m)
          "Another problem, whose friction and gap are its own.")
       .def("__copy__", [](const Self &self) { return Self(self); })
       .def(
-         "__deepcopy__", [](const Self &self, nb::dict) { return Self(self); }, arg("memo"))
+         "__deepcopy__", [](const Self &self, nb::object) { return Self(self); }, arg("memo"))
       .def("validate", &Self::validate)
       .def("__repr__", &brief);
 

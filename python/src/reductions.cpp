@@ -238,9 +238,14 @@ void bind_reductions(nb::module_ &m)
            {
               const Self &of = given<Self>(self, "self");
               std::string names;
-              for (const CondensedBody &body : of.bodies) { names += " '" + body.name + "'"; }
-              return "<Reduction of" + names + ": " +
-                     nb::cast<std::string>(nb::repr(nb::object(self.attr("problem")))) + ">";
+              for (const CondensedBody &body : of.bodies)
+              {
+                 if (!body.name.empty()) { names += " '" + body.name + "'"; }
+              }
+              const nb::object problem = self.attr("problem");
+              return "<Reduction of " + std::to_string(of.bodies.size()) +
+                     (of.bodies.size() == 1 ? " body" : " bodies") + names + ": " +
+                     nb::repr(problem).c_str() + ">";
            });
 
    m.def("reduce", &reduced, arg("bodies"), arg("other") = 0.0, arg("pairing") = nb::none(),

@@ -62,7 +62,7 @@ void bind_states(nb::module_ &m)
       .def("copy", [](const Self &self) { return Self(self); })
       .def("__copy__", [](const Self &self) { return Self(self); })
       .def(
-         "__deepcopy__", [](const Self &self, nb::dict) { return Self(self); }, arg("memo"))
+         "__deepcopy__", [](const Self &self, nb::object) { return Self(self); }, arg("memo"))
       .def("__repr__",
            [](const Self &self)
            {

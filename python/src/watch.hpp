@@ -6,7 +6,8 @@
 namespace cattaneo::python
 {
 
-CATTANEO_ARGUMENT(ProgressLike, "bool | collections.abc.Callable[[Progress], object]");
+CATTANEO_ARGUMENT(ProgressLike,
+                  "bool | collections.abc.Callable[[cattaneo._core.Progress], object]");
 CATTANEO_ARGUMENT(StopLike, "None | threading.Event");
 
 /** Long work without the interpreter's lock, which Ctrl-C ends with KeyboardInterrupt, and

@@ -21,7 +21,7 @@ def main():
     shutil.rmtree(folder, ignore_errors=True)
     python = folder / "venv" / "bin" / "python"
     pip = [python, "-m", "pip", "--disable-pip-version-check"]
-    tools = ["scikit-build-core", "nanobind", "numpy", "scipy", "scikit-fem", "matplotlib", "pytest"]
+    tools = ["scikit-build-core", "nanobind", "numpy", "scipy", "scikit-fem", "matplotlib", "pytest", "mypy"]
     if run(sys.executable, "-m", "venv", folder / "venv") or run(*pip, "install", "-q", *tools):
         print("skipped: Python's packages cannot be had")
         return 77

@@ -139,8 +139,10 @@ def callables():
     ]  # fmt: skip
     found = []
     for room in (cattaneo, readout, shakedown, fretting):
-        for name in room.__all__:
+        for name in dir(room):
             thing = getattr(room, name)
+            if name.startswith("_"):
+                continue
             # A figure takes long, and what writes files is not given names at random.
             if callable(thing) and not name.startswith(("write", "save")) and not inspect.ismodule(thing):
                 found.append((f"{room.__name__}.{name}", thing))

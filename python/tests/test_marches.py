@@ -1,8 +1,10 @@
 """Marches of the public problems, and what a script can do with one: resume, watch, stop, interrupt, run in threads."""
 
 import concurrent.futures
+import copy
 import json
 import os
+import pickle
 import signal
 import threading
 import time
@@ -54,11 +56,36 @@ def test_a_march_is_resumed_to_the_last_bit(hertz, tmp_path):
     half = cattaneo.march(hertz, points[:2])
     cattaneo.save(half.state, tmp_path / "state.json")
     state = cattaneo.load_contact_state(tmp_path / "state.json")
-    rest = cattaneo.march(hertz, points, state)
+    rest = cattaneo.march(hertz, cattaneo.LoadHistory.through(hertz, points), state)
     assert state.time == 1 and rest.state.time == 2
     for key in "vwqp":
         assert np.array_equal(getattr(whole.state, key), getattr(rest.state, key))
     assert np.array_equal(np.concatenate([half.time, rest.time]), whole.time)
+
+
+def test_points_go_on_from_where_the_state_stands(hertz):
+    """And from nowhere else: loads that jump would be another path."""
+    points = [{}, {"P": 1}, {"P": 1, "Q": 0.2}]
+    half = cattaneo.march(hertz, points[:2])
+    rest = cattaneo.march(hertz, [half.loads, points[2]], half.state)
+    assert rest.loads == points[2] and rest.state.time == 2
+    assert np.array_equal(rest.state.v, cattaneo.march(hertz, points).state.v)
+    with pytest.raises(cattaneo.InputError, match="load 'P' is 0 at its first point, and 1 in the state"):
+        cattaneo.march(hertz, points, half.state)
+    for history in ([{"P": 1}, {"P": 2}], cattaneo.LoadHistory.through(hertz, [{"P": 1}, {"P": 2}])):
+        with pytest.raises(cattaneo.InputError, match="load 'P' is 1 at its first point, and 0 before any load"):
+            cattaneo.march(hertz, history)
+    with pytest.warns(cattaneo.OutcomeWarning, match="nothing was marched"):
+        cattaneo.march(hertz, cattaneo.LoadHistory.through(hertz, points[:2]), half.state)
+
+
+def test_problems_and_states_are_pickled_and_copied(hertz):
+    """As multiprocessing does; to the last bit."""
+    report = cattaneo.march(hertz, [{}, {"P": 1}])
+    for again in (pickle.loads(pickle.dumps(hertz)), copy.deepcopy(hertz), copy.copy(hertz)):
+        assert np.array_equal(again.K, hertz.K) and again.loads == hertz.loads
+    for again in (pickle.loads(pickle.dumps(report.state)), copy.deepcopy(report.state)):
+        assert np.array_equal(again.p, report.state.p)
 
 
 def test_views_cost_no_copy_and_stay_alive(hertz):

@@ -1,0 +1,32 @@
+"""Type stubs: mypy in strict mode has nothing to say of the package and of scripts that use it."""
+
+import pathlib
+import subprocess
+import sys
+
+import cattaneo
+import pytest
+from conftest import ROOT
+
+
+def test_scripts_are_typed(tmp_path):
+    pytest.importorskip("mypy")
+    words = ["--strict", "--allow-untyped-defs", "--allow-untyped-calls", "--ignore-missing-imports"]
+    scripts = [ROOT / "python" / "examples" / f"{name}.py" for name in ("calculix_loop", "monte_carlo", "shakedown_map")]
+    package = pathlib.Path(cattaneo.__file__).parent
+    done = subprocess.run(
+        [sys.executable, "-m", "mypy", "--cache-dir", tmp_path, *words, *scripts],
+        cwd=tmp_path, env={"MYPYPATH": str(package.parent), "PATH": ""}, capture_output=True, text=True, timeout=300,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_stubs_say_what_may_be_none():
+    """And of nothing else that it may: nanobind would append it to every argument."""
+    stubs = sorted((pathlib.Path(cattaneo.__file__).parent / "_core").glob("*.pyi"))
+    assert [stub.stem for stub in stubs] == ["__init__", "fretting", "readout", "shakedown"]
+    for stub in stubs:
+        text = stub.read_text(encoding="utf-8")
+        compile(text, stub, "exec")
+        assert "| None" not in text
+    assert "state: None | ContactState = None" in stubs[0].read_text(encoding="utf-8")
