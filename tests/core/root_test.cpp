@@ -111,7 +111,7 @@ TEST(WholeFile, IsWrittenWholeOrNotAtAll)
    std::filesystem::create_directories(folder);
    const std::string file = folder + "table.csv";
    expect_input_error([&] { write_whole(folder + "none/table.csv", "1"); },
-                      "none/table.csv': No such file or directory");
+                      "none/table.csv': there is no folder");
    // A full disk, played by a limit on the size of files: what is short enough to wait in the
    // stream's buffer is refused by the system when the file is closed.
    rlimit before;
