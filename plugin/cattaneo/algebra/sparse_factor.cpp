@@ -302,7 +302,6 @@ public:
       A.itype = CHOLMOD_INT;
       A.xtype = CHOLMOD_REAL;
       A.dtype = CHOLMOD_DOUBLE;
-      A.sorted = 0;
       A.packed = 1;
 
       std::vector<int> order(K.size), group(K.size, 0);

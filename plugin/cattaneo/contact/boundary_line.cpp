@@ -122,11 +122,11 @@ std::vector<WayOn> ways_on(const ElasticBody &body, const std::vector<Segment> &
    };
    for (int face = 0; face < mesh.GetNumFaces(); ++face)
    {
-      int element = 0, other = 0, info = 0, other_info = 0, hanging = 0;
-      mesh.GetFaceElements(face, &element, &other);
+      int element = 0, none = 0, info = 0, other_info = 0, hanging = 0;
+      mesh.GetFaceElements(face, &element, &none);
       mesh.GetFaceInfos(face, &info, &other_info, &hanging);
       // A neighbour here, on another rank, or of another size.
-      if (other >= 0 || other_info >= 0 || hanging >= 0) { continue; }
+      if (other_info >= 0 || hanging >= 0) { continue; }
       mesh.GetElementVertices(element, vertices);
       const int *at = mesh.GetElement(element)->GetEdgeVertices(info / 64);
       const int nodes[] = {node_of(vertices[at[0]]), node_of(vertices[at[1]])};
