@@ -28,12 +28,13 @@ struct WornOut
     carry nothing, nodes that stick stay where they are, which is one linear problem at each
     point of the cycle; depth is what overlaps at any of them.
 
-    The nodes that stick are those of the unworn cycle. Where B = 0 and pressures do not vary in
-    the cycle they stay the same while the surfaces wear (Ciavarella and Hills 1999). Otherwise
-    the worn contact is marched: nodes that slip then under pressure, or open, are left out, and
-    the problem is solved again with the slip that is locked in now, until a cycle takes no more
-    than 1e-8 of the energy of the unworn one. That is a state in which wear ends; the one that
-   a march comes to may be another where nodes stick that it finds worn.
+    The nodes that stick are those of the unworn cycle. Where A = C and B = 0 (half-planes of
+   one material) and pressures do not vary in the cycle they stay the same while the surfaces
+   wear (Ciavarella and Hills 1999). Otherwise the worn contact is marched: nodes that slip then
+   under pressure, or open, are left out, and the problem is solved again with the slip that is
+   locked in now, until a cycle takes no more than 1e-8 of the energy of the unworn one. That is
+   a state in which wear ends; the one that a march comes to may be another where nodes stick
+   that it finds worn.
 
     Wear is that of any law without a threshold: the final state does not depend on k, as long
    as k > 0 wherever a node slips.
