@@ -200,7 +200,7 @@ TEST(Wear, JumpsComeToWhatAllCyclesMarchedComeTo)
       EXPECT_LT(report.marched, 2500);
       const double error = largest(state.depth - marched.depth);
       EXPECT_LE(error, report.error) << tolerance;
-      EXPECT_LE(report.error, 1.5 * tolerance * largest(marched.depth)) << tolerance;
+      EXPECT_LE(report.error, tolerance * largest(marched.depth)) << tolerance;
       EXPECT_LE(error, tolerance * largest(marched.depth)) << tolerance;
       EXPECT_NEAR(worn_volume(pad.problem, state.depth), 5e-4 / 0.5 * state.dissipation.sum(),
                   1e-13);

@@ -104,14 +104,15 @@ WearCycle WearCycles::march(ContactState &contact, const VectorXd &depth, bool u
    return all;
 }
 
-WearCycle WearCycles::repeated(ContactState &contact, const VectorXd &depth, double share)
+WearCycle WearCycles::repeated(ContactState &contact, const VectorXd &depth, double share,
+                               double least)
 {
    WearCycle before = march(contact, depth, false);
    for (int k = 0; k < 30 && before.found(); ++k)
    {
       WearCycle cycle = march(contact, depth, false);
       if (!cycle.found()) { return cycle; }
-      const double most = cycle.depth.maxCoeff(),
+      const double most = std::max(cycle.depth.maxCoeff(), least),
                    change = (cycle.depth - before.depth).cwiseAbs().maxCoeff();
       if (change <= share * most || cycle.idle()) { return cycle; }
       before = std::move(cycle);

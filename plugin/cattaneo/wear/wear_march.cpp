@@ -121,6 +121,8 @@ private:
    void notice(const WearCycle &cycle);
    /// How closely a cycle is to repeat itself where a jump looks at it.
    double repeats_to() const { return 0.05 * settings_.tolerance; }
+   /// Depth of a cycle that makes no difference to the whole.
+   double slow() const { return state_.depth.maxCoeff() / end_; }
 
    const ReducedProblem &problem_;
    WearState &state_;
@@ -237,7 +239,7 @@ bool WearMarch::land(const WearCycle &first, double cycles, int parts, Taken &ta
    {
       if (k > 0)
       {
-         cycle = cycles_.repeated(contact, state_.depth + taken.depth, repeats_to());
+         cycle = cycles_.repeated(contact, state_.depth + taken.depth, repeats_to(), slow());
          if (!cycle.found()) { return false; }
       }
       const VectorXd depth = implicit_wear(problem_, cycle, part);
@@ -264,7 +266,7 @@ bool WearMarch::jump()
       patience_ *= 2;
       return false;
    };
-   const WearCycle first = cycles_.repeated(contact, state_.depth, repeats_to());
+   const WearCycle first = cycles_.repeated(contact, state_.depth, repeats_to(), slow());
    if (!first.found()) { return give_up(); }
    ContactState reached = contact;
    Taken one, two, three;
@@ -316,7 +318,8 @@ bool WearMarch::jump()
          .cwiseAbs()
          .maxCoeff() +
       0.5 * too_much.cwiseAbs().maxCoeff();
-   const double most = best.depth.maxCoeff(), allowed = settings_.tolerance * most;
+   // Half by what the jump adds, half by its share of all cycles.
+   const double allowed = 0.5 * settings_.tolerance * (best.depth.maxCoeff() + slow() * cycles);
    const double factor = error > 0 ? std::cbrt(0.5 * allowed / error) : 4.0;
    if (error > allowed)
    {

@@ -39,10 +39,10 @@ struct WearSettings
    MarchSettings march; ///< of each cycle; its monitor watches all of them and is asked between
                         ///< two; steady states of slip end nothing
    GapUpdate update = GapUpdate::cycle;
-   /** Cycles are jumped over as long as a jump errs by less than this share of the largest
-      depth that it adds (so that at the end the depth errs by less than this share of the
-      largest one, were errors to add up: wear forgets them). 0: every cycle is marched.
-      Allowed: from 1e-8 to 0.1. */
+   /** Cycles are jumped over as long as a jump errs by less than half this share of the depth
+       that it adds, and half of its part of all cycles times the largest depth so far: together
+       less than this share of the largest depth at the end, were errors to add up (wear forgets
+       them). 0: every cycle is marched. Allowed: from 1e-8 to 0.1. */
    double tolerance = 0;
    /// Final: a cycle adds less than this share of the largest depth so far; the march ends.
    /// 0: it goes on.

@@ -43,8 +43,10 @@ public:
    WearCycle opening(ContactState &contact, const Eigen::VectorXd &depth);
    WearCycle march(ContactState &contact, const Eigen::VectorXd &depth, bool update);
    /// Cycles at this depth, which wears no more, until one wears as the one before it, to a
-   /// share of the largest depth; not found if none does within 30.
-   WearCycle repeated(ContactState &contact, const Eigen::VectorXd &depth, double share);
+   /// share of the largest depth, or of `least` if that is more; not found if none does within
+   /// 30.
+   WearCycle repeated(ContactState &contact, const Eigen::VectorXd &depth, double share,
+                      double least = 0);
 
    long marched = 0;
    Counters counters;
