@@ -195,23 +195,25 @@ void wear_contact(miniapp::Study &study)
 {
    std::string profile = "parabola", file, history_text, update = "cycle",
                stepping = "advancing", save_state, load_state;
-   double shear = 0.5, friction = 0.5, poisson = 0.3, flat = 0.5, coefficient = 1e-2,
-          threshold = 0;
+   double shear = miniapp::none, friction = miniapp::none, poisson = 0.3, flat = 0.5,
+          coefficient = 1e-2, threshold = 0;
    bool of_energy = false;
    int nodes = 201, order = 2, cycles = 1000, cycle_start = -1;
    WearSettings settings;
    settings.tolerance = 1e-3;
    settings.march.increments = 1;
-   study.option(&profile, "profile", "parabola, or flat with rounded edges (a = 1, R = 1).",
+   study.option(&profile, "profile",
+                "Pad: parabola, or flat with rounded edges (a = 1, R = 1).",
                 {"parabola", "flat"});
-   study.option(&flat, "flat", "Half-width that is flat, in a.", miniapp::between(0, 1));
-   study.option(&shear, "shear", "Amplitude of Q/fP.", miniapp::between(0, 1));
+   study.option(&flat, "flat", "Pad: half-width that is flat, in a.", miniapp::between(0, 1));
+   study.option(&shear, "shear", "Pad: amplitude of Q/fP; default: 0.5.",
+                miniapp::between(0, 1));
    study.option(&friction, "friction",
-                "Coefficient of friction; with --reduced default: the file's.",
+                "Coefficient of friction; default: 0.5, of --reduced the file's.",
                 miniapp::positive);
-   study.option(&poisson, "poisson", "Poisson's ratio.");
-   study.option(&nodes, "nodes", "Contact nodes.", miniapp::at_least(25));
-   study.option(&order, "order", "Order of the elements.", miniapp::within(1, 8));
+   study.option(&poisson, "poisson", "Pad: Poisson's ratio.");
+   study.option(&nodes, "nodes", "Pad: contact nodes.", miniapp::at_least(25));
+   study.option(&order, "order", "Pad: order of the elements.", miniapp::within(1, 8));
    study.option(&cycles, "cycles", "Cycles that wear.", miniapp::not_negative);
    study.option(&coefficient, "wear", "Archard's k, of both bodies together, 1/pressure.",
                 miniapp::not_negative);
@@ -248,11 +250,17 @@ void wear_contact(miniapp::Study &study)
    {
       require(history_text.empty() && cycle_start < 0,
               "option --history: the pad has its own, only --reduced takes one");
+      shear = std::isnan(shear) ? 0.5 : shear;
+      study.results["shear"] = shear;
+      friction = std::isnan(friction) ? 0.5 : friction;
       scene = pad_on_half_plane(study, profile, flat, shear, friction, poisson, order, nodes);
    }
    else
    {
+      require(std::isnan(shear),
+              "option --shear is of the pad, --history says it of --reduced");
       scene.problem = load_reduced_problem(file);
+      if (!std::isnan(friction)) { set_friction(scene.problem, friction); }
       require(cycle_start >= 0, "option --cycle-start is ", cycle_start,
               ", must be the point of --history where its cycle starts");
       require(scene.problem.arc_length.size() > 0 && scene.problem.weights.size() > 0, "'",
