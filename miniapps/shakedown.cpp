@@ -25,7 +25,7 @@
 
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/reduced_file.hpp>
-#include <cattaneo/shakedown/stay_closed.hpp>
+#include <cattaneo/shakedown/closed_contact.hpp>
 #include <cmath>
 
 namespace miniapp

@@ -28,7 +28,6 @@
 #include <cattaneo/shakedown/estimates.hpp>
 #include <cattaneo/shakedown/limit_of_the_mesh.hpp>
 #include <cattaneo/shakedown/lower_limit.hpp>
-#include <cattaneo/shakedown/stay_closed.hpp>
 #include <cattaneo/shakedown/transient.hpp>
 #include <cattaneo/wear/worn_out.hpp>
 #include <cattaneo/whole_file.hpp>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cattaneo/input_error.hpp>
 #include <functional>
 
 namespace cattaneo
@@ -33,9 +34,11 @@ struct Monitor
        must set it between the same two increments. */
    const std::atomic<bool> *stop = nullptr;
 
+   static_assert(std::atomic<bool>::is_always_lock_free); // a signal handler may set one
+
    bool stopped() const { return stop && stop->load(std::memory_order_relaxed); }
    /// InputError naming the setting, its value and what is allowed.
-   void validate() const;
+   void validate() const { require_at_least("monitor: interval", interval, 0); }
 };
 
 } // namespace cattaneo

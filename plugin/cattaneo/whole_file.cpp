@@ -53,6 +53,13 @@ void require_writable(const std::string &file)
            folder, " may not be written to");
 }
 
+std::string read_whole(const std::string &file, const std::string &what)
+{
+   std::ifstream in(file, std::ios::binary);
+   require(in.good() && !fs::is_directory(file), what, "cannot read file '", file, "'");
+   return {std::istreambuf_iterator<char>(in), {}};
+}
+
 void write_whole(const std::string &file, const std::string &text)
 {
    require_writable(file);

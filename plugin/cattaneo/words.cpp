@@ -3,6 +3,7 @@
 #include <cattaneo/words.hpp>
 #include <cmath>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 
 namespace cattaneo
 {
@@ -37,6 +38,20 @@ double number(const std::string &where, const std::string &word)
    require(!word.empty() && *end == 0 && std::isfinite(value), where, ": '", word,
            "' is not a number");
    return value;
+}
+
+bool is_utf8(const std::string &text)
+{
+   using nlohmann::json;
+   const std::string kept = json(text).dump(-1, ' ', false, json::error_handler_t::ignore);
+   return json::parse(kept) == json(text);
+}
+
+void require_pattern_name(const std::string &where, const std::string &pattern)
+{
+   require(pattern.find_first_of("=,\"") == std::string::npos, where, ": pattern name '",
+           pattern, "' must not hold =, a comma or a quote");
+   require(is_utf8(pattern), where, ": the pattern name is not UTF-8");
 }
 
 } // namespace cattaneo

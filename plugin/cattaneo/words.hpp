@@ -15,4 +15,10 @@ std::string listed(const std::vector<std::string> &pieces, const std::string &be
 /// A word that is a finite number and nothing else; InputError "WHERE: 'WORD' is not a number".
 double number(const std::string &where, const std::string &word);
 
+/// Text that JSON can hold.
+bool is_utf8(const std::string &text);
+
+/// InputError, which begins with `where`, for a name of a load that statements cannot hold.
+void require_pattern_name(const std::string &where, const std::string &pattern);
+
 } // namespace cattaneo

@@ -5,7 +5,6 @@
 #include <cattaneo/shakedown/estimates.hpp>
 #include <cattaneo/shakedown/limit_of_the_mesh.hpp>
 #include <cattaneo/shakedown/lower_limit.hpp>
-#include <cattaneo/shakedown/stay_closed.hpp>
 #include <cattaneo/shakedown/transient.hpp>
 #include <limits>
 #include <mutex>

@@ -1,8 +1,8 @@
 #include "expect_input_error.hpp"
 
 #include <atomic>
+#include <cattaneo/shakedown/closed_contact.hpp>
 #include <cattaneo/shakedown/limit_of_the_mesh.hpp>
-#include <cattaneo/shakedown/stay_closed.hpp>
 #include <cmath>
 #include <gtest/gtest.h>
 

@@ -99,7 +99,7 @@ TEST(Axisymmetric, PassesThePatchTests)
                                              { return c == 0 ? r : 0.5 * z; })),
                    1e-11)
             << kind << order;
-         const Stress s = stress(material, 1.0, 0.5, 1.0, 0.0);
+         const Stress s = stress(material, Strain{1.0, 0.5, 1.0, 0.0});
          EXPECT_NEAR(s.xx, radial, 1e-14);
          EXPECT_NEAR(s.yy, axial, 1e-14);
          EXPECT_NEAR(s.zz, radial, 1e-14);

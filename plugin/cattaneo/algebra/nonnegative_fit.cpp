@@ -43,7 +43,7 @@ NonnegativeFit fit_nonnegative(const MatrixXd &G, const VectorXd &g)
          const VectorXd trial = active.completeOrthogonalDecomposition().solve(g);
          if (trial.minCoeff() > 0)
          {
-            for (std::size_t k = 0; k < used.size(); ++k) { x[used[k]] = trial[k]; }
+            x(used) = trial;
             break;
          }
          double fraction = 1;

@@ -8,12 +8,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-namespace
-{
-
-constexpr double eps = std::numeric_limits<double>::epsilon();
-
-} // namespace
+static constexpr double eps = std::numeric_limits<double>::epsilon();
 
 RoundOff::RoundOff(const Eigen::Ref<const MatrixXd> &K) : K_(K)
 {

@@ -2,7 +2,6 @@
 #include <cattaneo/algebra/dense_algebra.hpp>
 #include <cattaneo/condense/rigid_motion.hpp>
 #include <cmath>
-#include <limits>
 
 namespace cattaneo
 {
@@ -23,82 +22,52 @@ Eigen::MatrixXd free_rigid_motions(const DofPlaces &places, const std::vector<in
       }
       return motion;
    }
-   // Centre and half width of a bounding box, of all dofs or of the held ones.
-   struct Box
+   Eigen::AlignedBox2d whole, patch; // of all dofs, of the held ones
+   std::vector<std::size_t> resting;
+   for (std::size_t k = 0; k < dofs.size(); ++k)
    {
-      double x = 0.0, y = 0.0, size = 0.0;
-   };
-   const auto box_of = [&](bool held_only)
+      const Eigen::Vector2d place(places.x[dofs[k]], places.y[dofs[k]]);
+      whole.extend(place);
+      if (!held[dofs[k]]) { continue; }
+      patch.extend(place);
+      resting.push_back(k);
+   }
+   const auto half_width = [](const Eigen::AlignedBox2d &box)
+   { return 0.5 * box.sizes().maxCoeff(); };
+   const Eigen::Vector2d centre = (resting.empty() ? whole : patch).center();
+   double scale = half_width(resting.empty() ? whole : patch);
+   // One held node: turning about it is free, whatever round-off says of its spread.
+   if (scale <= 1e-14 * (centre.lpNorm<1>() + half_width(whole))) { scale = half_width(whole); }
+   if (scale <= 0) { scale = 1; }
+   // x, y and the rotation about the centre, of size one at the scale.
+   Eigen::MatrixXd rigid(dofs.size(), 3);
+   for (std::size_t k = 0; k < dofs.size(); ++k)
    {
-      const double inf = std::numeric_limits<double>::infinity();
-      double lo[2] = {inf, inf}, hi[2] = {-inf, -inf};
-      for (int dof : dofs)
-      {
-         if (held_only && !held[dof]) { continue; }
-         const double point[2] = {places.x[dof], places.y[dof]};
-         for (int c = 0; c < 2; ++c)
-         {
-            lo[c] = std::min(lo[c], point[c]);
-            hi[c] = std::max(hi[c], point[c]);
-         }
-      }
-      return Box{0.5 * (lo[0] + hi[0]), 0.5 * (lo[1] + hi[1]),
-                 0.5 * std::max(hi[0] - lo[0], hi[1] - lo[1])};
-   };
-   const auto count =
-      std::count_if(dofs.begin(), dofs.end(), [&](int dof) { return held[dof]; });
-   const Box whole = box_of(false);
+      const double dx = (places.x[dofs[k]] - centre[0]) / scale,
+                   dy = (places.y[dofs[k]] - centre[1]) / scale;
+      if (places.component[dofs[k]] == 0) { rigid.row(k) << 1, 0, -dy; }
+      else { rigid.row(k) << 0, 1, dx; }
+   }
    Eigen::Matrix3d motions = Eigen::Matrix3d::Identity();
-   Box patch = whole;
    int rank = 0;
-   if (count > 0)
+   if (!resting.empty())
    {
-      patch = box_of(true);
-      // One held node: turning about it is free, whatever round-off says of its spread.
-      if (patch.size <= 1e-14 * (std::abs(patch.x) + std::abs(patch.y) + whole.size))
-      {
-         patch.size = whole.size;
-      }
-      const double scale = patch.size > 0 ? patch.size : 1.0;
-      Eigen::MatrixXd rows(count, 3);
-      Eigen::Index k = 0;
-      for (int dof : dofs)
-      {
-         if (!held[dof]) { continue; }
-         if (places.component[dof] == 0)
-         {
-            rows.row(k++) << 1, 0, -(places.y[dof] - patch.y) / scale;
-         }
-         else { rows.row(k++) << 0, 1, (places.x[dof] - patch.x) / scale; }
-      }
       // Singular values of the rows are those of their triangular factor.
+      const Eigen::MatrixXd rows = rigid(resting, Eigen::all);
       const Eigen::MatrixXd R = Eigen::HouseholderQR<Eigen::MatrixXd>(rows).matrixQR().topRows(
-         std::min<Eigen::Index>(count, 3));
+         std::min<Eigen::Index>(rows.rows(), 3));
       const Eigen::MatrixXd upper = R.triangularView<Eigen::Upper>();
       const Eigen::JacobiSVD<Eigen::MatrixXd> svd(upper, Eigen::ComputeFullV);
-      for (Eigen::Index i = 0; i < svd.singularValues().size(); ++i)
-      {
-         if (svd.singularValues()[i] > 1e-9 * svd.singularValues()[0]) { ++rank; }
-      }
+      const auto &values = svd.singularValues();
+      rank = static_cast<int>((values.array() > 1e-9 * values[0]).count());
       motions = svd.matrixV();
-      motions.row(2) /= scale;
    }
-   else { motions(2, 2) = whole.size > 0 ? 1 / whole.size : 1.0; }
-
-   Eigen::MatrixXd free(dofs.size(), 3 - rank);
-   for (int m = 0; m < free.cols(); ++m)
+   Eigen::MatrixXd free = rigid * motions.rightCols(3 - rank);
+   for (const std::size_t k : resting) { free.row(k).setZero(); }
+   for (auto motion : free.colwise())
    {
-      const Eigen::Vector3d motion = motions.col(rank + m);
-      for (std::size_t k = 0; k < dofs.size(); ++k)
-      {
-         const int dof = dofs[k];
-         const bool along_x = places.component[dof] == 0;
-         free(k, m) = along_x ? motion[0] - motion[2] * (places.y[dof] - patch.y)
-                              : motion[1] + motion[2] * (places.x[dof] - patch.x);
-         if (held[dof]) { free(k, m) = 0.0; }
-      }
-      const double largest = free.col(m).cwiseAbs().maxCoeff();
-      if (largest > 0) { free.col(m) /= largest; }
+      const double largest = motion.cwiseAbs().maxCoeff();
+      if (largest > 0) { motion /= largest; }
    }
    // Of a set without any y, or of one node, motions are the same or none at all.
    if (free.cols() == 0) { return free; }

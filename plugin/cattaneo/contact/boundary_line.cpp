@@ -25,8 +25,8 @@ double length(BoundaryEdge &edge, double from, double to)
    double sum = 0.0;
    for (int k = 0; k < rule.GetNPoints(); ++k)
    {
-      const auto d = edge.derivative(from + (to - from) * rule.IntPoint(k).x);
-      sum += rule.IntPoint(k).weight * std::hypot(d[0], d[1]);
+      sum += rule.IntPoint(k).weight *
+             edge.derivative(from + (to - from) * rule.IntPoint(k).x).norm();
    }
    return sum * (to - from);
 }
@@ -51,11 +51,11 @@ Segment segment(const ElasticBody &body, int boundary_element, BoundaryEdge &edg
    for (int k = 0; k < rule.GetNPoints(); ++k)
    {
       const mfem::IntegrationPoint &ip = rule.IntPoint(k);
-      const auto d = edge.derivative(ip.x);
+      const double ds = ip.weight * edge.derivative(ip.x).norm();
       element.CalcShape(ip, shape);
       for (int a = 0; a < dofs.Size(); ++a)
       {
-         const double share = ip.weight * std::hypot(d[0], d[1]) * shape(a);
+         const double share = ds * shape(a);
          shares[a] += share;
          weights[a] += share * measure(body.formulation(), edge.point(ip.x)[0]);
       }
@@ -67,12 +67,11 @@ Segment segment(const ElasticBody &body, int boundary_element, BoundaryEdge &edg
    {
       const int a = order[k], dof = dofs[a];
       if (k > 0) { distance += std::abs(length(edge, nodes[order[k - 1]].x, nodes[a].x)); }
-      const auto tangent = edge.tangent(nodes[a].x);
       const int second = body.components() == 2 ? body.global_dof(dof, 1) : -1;
       result.push_back({number(body, dof),
                         {{body.global_dof(dof, 0), second},
                          {x(0, dof), x(1, dof)},
-                         {tangent[0], tangent[1]},
+                         edge.tangent(nodes[a].x),
                          weights[a],
                          distance},
                         shares[a],

@@ -58,17 +58,7 @@ FreeMotions free_motions_on_ranks(const ElasticBody &body, const ContactLine &li
    const mfem::Array<int> essential = body.essential_dofs();
    const auto size = static_cast<int>(own.component.size());
    std::vector<double> supports;
-   double box[4] = {-1e300, -1e300, -1e300, -1e300}; // -lo, hi
-   for (int dof = 0; dof < size; ++dof)
-   {
-      const double at[2] = {own.x[dof], own.y[dof]};
-      for (int c = 0; c < 2; ++c)
-      {
-         box[c] = std::max(box[c], -at[c]);
-         box[2 + c] = std::max(box[2 + c], at[c]);
-      }
-   }
-   for (double &side : box) { side = ranks.max(side); }
+   const Eigen::AlignedBox2d box = body.box();
    for (int dof : essential)
    {
       supports.insert(supports.end(),
@@ -99,8 +89,8 @@ FreeMotions free_motions_on_ranks(const ElasticBody &body, const ContactLine &li
    const int contact = static_cast<int>(x.size()) - held;
    for (int c = 0; c < body.components(); ++c)
    {
-      add(-box[0], -box[1], c);
-      add(box[2], box[3], c);
+      add(box.min()[0], box.min()[1], c);
+      add(box.max()[0], box.max()[1], c);
    }
    for (int dof = 0; dof < size; ++dof) { add(own.x[dof], own.y[dof], own.component[dof]); }
    places.x = Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));

@@ -15,47 +15,28 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Which nodes share an element: columns of node i are column[start[i] … start[i+1]), sorted.
-struct NodeGraph
+/// Which nodes share an element, sorted.
+mfem::Table neighbours(const mfem::FiniteElementSpace &space)
 {
-   std::vector<int> start, column;
-
-   explicit NodeGraph(const mfem::FiniteElementSpace &space)
+   mfem::Array<int> dofs;
+   mfem::Table elements, of_node, graph;
+   elements.MakeI(space.GetNE());
+   for (int e = 0; e < space.GetNE(); ++e)
    {
-      const int nodes = space.GetNDofs(), elements = space.GetNE();
-      std::vector<int> first(elements + 1, 0), list, of_node(nodes + 1, 0);
-      mfem::Array<int> dofs;
-      for (int e = 0; e < elements; ++e)
-      {
-         space.GetElementDofs(e, dofs);
-         list.insert(list.end(), dofs.begin(), dofs.end());
-         first[e + 1] = static_cast<int>(list.size());
-      }
-      for (int node : list) { ++of_node[node + 1]; }
-      for (int i = 0; i < nodes; ++i) { of_node[i + 1] += of_node[i]; }
-      std::vector<int> element(list.size()), next(of_node.begin(), of_node.end() - 1);
-      for (int e = 0; e < elements; ++e)
-      {
-         for (int k = first[e]; k < first[e + 1]; ++k) { element[next[list[k]]++] = e; }
-      }
-      start.assign(nodes + 1, 0);
-      std::vector<int> seen(nodes, -1);
-      for (int i = 0; i < nodes; ++i)
-      {
-         for (int k = of_node[i]; k < of_node[i + 1]; ++k)
-         {
-            for (int m = first[element[k]]; m < first[element[k] + 1]; ++m)
-            {
-               if (seen[list[m]] == i) { continue; }
-               seen[list[m]] = i;
-               column.push_back(list[m]);
-            }
-         }
-         start[i + 1] = static_cast<int>(column.size());
-         std::sort(column.begin() + start[i], column.end());
-      }
+      elements.AddColumnsInRow(e, space.GetFE(e)->GetDof());
    }
-};
+   elements.MakeJ();
+   for (int e = 0; e < space.GetNE(); ++e)
+   {
+      space.GetElementDofs(e, dofs);
+      elements.AddConnections(e, dofs, dofs.Size());
+   }
+   elements.ShiftUpI();
+   mfem::Transpose(elements, of_node, space.GetNDofs());
+   mfem::Mult(of_node, elements, graph);
+   graph.SortRows();
+   return graph;
+}
 
 /// Shape functions of the space and of the element's geometry at the points of a rule, one
 /// column a point, and the integrals that affine elements share.
@@ -250,28 +231,23 @@ private:
    void integrate(const ReferenceElement &reference, const Eigen::Map<const MatrixXd> &corners,
                   const VectorXd &weights)
    {
-      const Eigen::Index points = reference.weight.size();
-      gx_.resizeLike(reference.by_xi);
-      gy_.resizeLike(reference.by_xi);
-      VectorXd weight(points), radius;
+      const auto a = by_xi_.row(0).array(), b = by_eta_.row(0).array(),
+                 c = by_xi_.row(1).array(), d = by_eta_.row(1).array();
+      const Eigen::RowVectorXd area = a * d - b * c;
+      const auto times = [&](const MatrixXd &by, const auto &x)
+      { return (by.array().rowwise() * (x / area.array()).eval()).matrix().eval(); };
+      gx_ = times(reference.by_xi, d) - times(reference.by_eta, c);
+      gy_ = times(reference.by_eta, a) - times(reference.by_xi, b);
+      VectorXd weight = weights.cwiseProduct(area.transpose());
       if (formulation_ != Formulation::plane)
       {
-         radius = (corners.row(0) * reference.place).transpose();
-         h_.resizeLike(reference.shape);
-      }
-      for (Eigen::Index k = 0; k < points; ++k)
-      {
-         const double a = by_xi_(0, k), b = by_eta_(0, k), c = by_xi_(1, k), d = by_eta_(1, k);
-         const double area = a * d - b * c;
-         gx_.col(k) =
-            (d / area) * reference.by_xi.col(k) - (c / area) * reference.by_eta.col(k);
-         gy_.col(k) =
-            (a / area) * reference.by_eta.col(k) - (b / area) * reference.by_xi.col(k);
-         weight[k] = weights[k] * area;
-         if (formulation_ == Formulation::plane) { continue; }
-         const double r = radius[k], arm = lever(formulation_, r);
-         weight[k] *= measure(formulation_, r) * arm * arm;
-         h_.col(k) = reference.shape.col(k) / r;
+         const VectorXd radius = (corners.row(0) * reference.place).transpose();
+         h_ = reference.shape.array().rowwise() / radius.transpose().array();
+         for (Eigen::Index k = 0; k < weight.size(); ++k)
+         {
+            const double arm = lever(formulation_, radius[k]);
+            weight[k] *= measure(formulation_, radius[k]) * arm * arm;
+         }
       }
       weighted_.noalias() = gx_ * weight.asDiagonal();
       xx_.noalias() = weighted_ * gx_.transpose();
@@ -294,10 +270,11 @@ private:
 std::unique_ptr<mfem::SparseMatrix> assembled(const mfem::FiniteElementSpace &space,
                                               Elements elements, Formulation formulation)
 {
-   const NodeGraph graph(space);
+   const mfem::Table graph = neighbours(space);
    const int nodes = space.GetNDofs(), components = cattaneo::components(formulation);
    const int size = components * nodes;
-   const std::size_t entries = graph.column.size() * components * components;
+   const std::size_t entries =
+      static_cast<std::size_t>(graph.Size_of_connections()) * components * components;
    const int most = std::numeric_limits<int>::max();
    require(entries <= static_cast<std::size_t>(most), "elastic body: the stiffness of ", nodes,
            " nodes has ", entries, " entries, must have at most ", most,
@@ -312,9 +289,12 @@ std::unique_ptr<mfem::SparseMatrix> assembled(const mfem::FiniteElementSpace &sp
       for (int c = 0; c < components; ++c)
       {
          int at = I[components * i + c];
-         for (int k = graph.start[i]; k < graph.start[i + 1]; ++k)
+         for (int k = 0; k < graph.RowSize(i); ++k)
          {
-            for (int d = 0; d < components; ++d) { J[at++] = components * graph.column[k] + d; }
+            for (int d = 0; d < components; ++d)
+            {
+               J[at++] = components * graph.GetRow(i)[k] + d;
+            }
          }
          I[components * i + c + 1] = at;
       }
@@ -329,8 +309,7 @@ std::unique_ptr<mfem::SparseMatrix> assembled(const mfem::FiniteElementSpace &sp
       for (int a = 0; a < dofs.Size(); ++a)
       {
          const int i = dofs[a];
-         const int *row = graph.column.data() + graph.start[i],
-                   *end = graph.column.data() + graph.start[i + 1];
+         const int *row = graph.GetRow(i), *end = row + graph.RowSize(i);
          for (int b = 0; b < dofs.Size(); ++b)
          {
             const auto at = components * (std::lower_bound(row, end, dofs[b]) - row);

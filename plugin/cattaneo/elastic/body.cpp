@@ -17,13 +17,18 @@ static_assert(std::is_same_v<decltype(std::declval<mfem::Vector &>().GetData()),
 namespace
 {
 
-mfem::Mesh &checked(mfem::Mesh &mesh)
+void check_mesh(mfem::Mesh &mesh)
 {
    require(Ranks(mesh).any(mesh.GetNE() > 0), "elastic body: the mesh has no elements");
    require(Ranks(mesh).size() == 1 || !mesh.ncmesh,
            "elastic body: the mesh is distributed and nonconforming, must be conforming");
    check_elements(mesh);
-   return mesh;
+}
+
+/// 1 if there is none.
+int largest_attribute(const mfem::Mesh &mesh)
+{
+   return std::max(1, mesh.attributes.Size() ? mesh.attributes.Max() : 1);
 }
 
 /// InputError if an entry is not finite.
@@ -51,9 +56,7 @@ void check_symmetric(double largest, double skew)
 
 ElasticBody::ElasticBody(mfem::Mesh &mesh, int order, const Material &material,
                          Formulation formulation)
-   : ElasticBody(mesh, order,
-                 std::vector<Material>(
-                    std::max(1, mesh.attributes.Size() ? mesh.attributes.Max() : 1), material),
+   : ElasticBody(mesh, order, std::vector<Material>(largest_attribute(mesh), material),
                  formulation)
 {
 }
@@ -62,7 +65,7 @@ ElasticBody::ElasticBody(mfem::Mesh &mesh, int order, const std::vector<Material
                          Formulation formulation)
    : formulation_(formulation), materials_(materials)
 {
-   checked(mesh);
+   check_mesh(mesh);
    require_at_least("elastic body: element order", order, 1);
    ranks_ = Ranks(mesh);
    require(!materials_.empty(), "elastic body: there is no material");
@@ -78,7 +81,7 @@ ElasticBody::ElasticBody(mfem::Mesh &mesh, int order, const std::vector<Material
               "elastic body: element attribute ", attribute, " has no material, there are ",
               materials_.size(), " (for the attributes from 1)");
    }
-   const int attributes = mesh.attributes.Size() ? mesh.attributes.Max() : 1;
+   const int attributes = largest_attribute(mesh);
    require(static_cast<int>(materials_.size()) <= attributes, "elastic body: there are ",
            materials_.size(), " materials, the largest element attribute is ", attributes,
            ", there must be one for each from 1 to it");
@@ -91,7 +94,7 @@ ElasticBody::ElasticBody(mfem::Mesh &mesh, int order, Field young, Field poisson
    : formulation_(formulation),
      varying_(VaryingMaterial{std::move(young), std::move(poisson), state})
 {
-   checked(mesh);
+   check_mesh(mesh);
    require_at_least("elastic body: element order", order, 1);
    ranks_ = Ranks(mesh);
    require(formulation == Formulation::plane || state == PlaneState::strain,
@@ -141,7 +144,7 @@ ElasticBody::ElasticBody(mfem::FiniteElementSpace &space, const mfem::SparseMatr
                          Formulation formulation)
    : space_(&space), formulation_(formulation)
 {
-   checked(*space.GetMesh());
+   check_mesh(*space.GetMesh());
    require(Ranks(*space.GetMesh()).size() == 1,
            "elastic body: the mesh is distributed, an operator of one's own on it must be a "
            "HypreParMatrix");
@@ -162,7 +165,7 @@ ElasticBody::ElasticBody(mfem::ParFiniteElementSpace &space,
                          const mfem::HypreParMatrix &stiffness, Formulation formulation)
    : space_(&space), formulation_(formulation)
 {
-   checked(*space.GetMesh());
+   check_mesh(*space.GetMesh());
    ranks_ = Ranks(*space.GetMesh());
    check_space();
    const int size = space.GetTrueVSize();
@@ -272,6 +275,17 @@ void ElasticBody::hold_axis()
               " of the mesh is at r = ", coordinates_(0, node), ", z = ", coordinates_(1, node),
               ", a body of revolution must have r >= 0");
    }
+}
+
+Eigen::AlignedBox2d ElasticBody::box() const
+{
+   const Eigen::Map<const Eigen::Matrix2Xd> nodes(coordinates_.GetData(), 2,
+                                                  coordinates_.Width());
+   const double none = -std::numeric_limits<double>::infinity();
+   Eigen::Vector4d sides(none, none, none, none); // -low, high
+   if (nodes.cols() > 0) { sides << -nodes.rowwise().minCoeff(), nodes.rowwise().maxCoeff(); }
+   for (double &side : sides) { side = ranks_.max(side); }
+   return {-sides.head(2), sides.tail(2)};
 }
 
 bool ElasticBody::on_axis(int scalar_dof) const

@@ -4,8 +4,8 @@
 #include <cattaneo/condense/assembled_body.hpp>
 #include <cattaneo/counters.hpp>
 #include <cattaneo/elastic/boundary_part.hpp>
+#include <cattaneo/elastic/field.hpp>
 #include <cattaneo/elastic/stress.hpp>
-#include <cattaneo/elastic/varying_material.hpp>
 #include <cattaneo/formulation.hpp>
 #include <cattaneo/mesh/ranks.hpp>
 #include <cattaneo/scalar_field.hpp>
@@ -159,6 +159,8 @@ public:
    int first_global_dof() const { return first_global_dof_; }
    /// Coordinates of every scalar node, size 2 × nodes.
    const mfem::DenseMatrix &node_coordinates() const { return coordinates_; }
+   /// Around all nodes, of all ranks.
+   Eigen::AlignedBox2d box() const;
    /// True if a scalar node lies on the axis of revolution; always false in the plane.
    bool on_axis(int scalar_dof) const;
 

@@ -97,7 +97,7 @@ void ElasticBody::add_boundary_load(const std::string &pattern, const BoundaryPa
             const double r = edge.point(ip.x)[0];
             const double weight =
                (to - from) * rule.IntPoint(k).weight * measure(formulation_, r);
-            const std::array<double, 2> force = density(edge, ip.x, where);
+            const Eigen::Vector2d force = density(edge, ip.x, where);
             element.CalcShape(ip, shape);
             for (int a = 0; a < dofs.Size(); ++a)
             {
@@ -120,11 +120,11 @@ void ElasticBody::add_pressure(const std::string &pattern, const BoundaryPart &p
    add_boundary_load(pattern, part, "pressure",
                      [&p](BoundaryEdge &edge, double s, const std::string &where)
                      {
-                        const auto d = edge.derivative(s);
+                        const Eigen::Vector2d d = edge.derivative(s);
                         // Left of the direction with the body on the left, of length ds.
                         const double value =
                            (edge.body_on_left() ? 1.0 : -1.0) * p.at(edge.at(s), where);
-                        return std::array<double, 2>{-d[1] * value, d[0] * value};
+                        return Eigen::Vector2d(-d[1] * value, d[0] * value);
                      });
 }
 
@@ -132,15 +132,14 @@ void ElasticBody::add_traction(const std::string &pattern, const BoundaryPart &p
                                const Field &tx, const Field &ty)
 {
    check_component("traction '" + pattern + "'", 1);
-   add_boundary_load(
-      pattern, part, "traction",
-      [&tx, &ty](BoundaryEdge &edge, double s, const std::string &where)
-      {
-         const auto d = edge.derivative(s);
-         const double ds = std::hypot(d[0], d[1]);
-         mfem::ElementTransformation &place = edge.at(s);
-         return std::array<double, 2>{ds * tx.at(place, where), ds * ty.at(place, where)};
-      });
+   add_boundary_load(pattern, part, "traction",
+                     [&tx, &ty](BoundaryEdge &edge, double s, const std::string &where)
+                     {
+                        const double ds = edge.derivative(s).norm();
+                        mfem::ElementTransformation &place = edge.at(s);
+                        return Eigen::Vector2d(ds * tx.at(place, where),
+                                               ds * ty.at(place, where));
+                     });
 }
 
 void ElasticBody::add_traction(const std::string &pattern, const BoundaryPart &part,
@@ -151,11 +150,9 @@ void ElasticBody::add_traction(const std::string &pattern, const BoundaryPart &p
    add_boundary_load(pattern, part, "traction",
                      [&t](BoundaryEdge &edge, double s, const std::string &where)
                      {
-                        const auto x = edge.point(s), d = edge.derivative(s);
-                        return std::array<double, 2>{std::hypot(d[0], d[1]) *
-                                                        lever(Formulation::torsion, x[0]) *
-                                                        t.at(edge.at(s), where),
-                                                     0.0};
+                        const double ds = edge.derivative(s).norm();
+                        const double arm = lever(Formulation::torsion, edge.point(s)[0]);
+                        return Eigen::Vector2d(ds * arm * t.at(edge.at(s), where), 0.0);
                      });
 }
 
@@ -282,11 +279,7 @@ Strain ElasticBody::initial_strain(mfem::ElementTransformation &at,
       const auto load = loads.find(one.pattern);
       require(load != loads.end(), "stress: the multiplier of the initial strain '",
               one.pattern, "' is not given, it must be ({{\"", one.pattern, "\", 1}})");
-      const Strain e = one.at(at);
-      sum.xx += load->second * e.xx;
-      sum.yy += load->second * e.yy;
-      sum.zz += load->second * e.zz;
-      sum.xy += load->second * e.xy;
+      sum.add(load->second, one.at(at));
    }
    return sum;
 }

@@ -2,18 +2,17 @@
 #include <cattaneo/algebra/root.hpp>
 #include <cattaneo/elastic/boundary_edge.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/words.hpp>
 #include <cmath>
 #include <sstream>
 
 namespace cattaneo
 {
 
-BoundaryEdge::BoundaryEdge(mfem::Mesh &mesh, int boundary_element) : position_(2)
+BoundaryEdge::BoundaryEdge(mfem::Mesh &mesh, int boundary_element)
 {
    mesh.GetBdrElementTransformation(boundary_element, &transformation_);
-   const auto start = point(0.0), middle = point(0.5), end = point(1.0);
-   size_ = std::hypot(middle[0] - start[0], middle[1] - start[1]) +
-           std::hypot(end[0] - middle[0], end[1] - middle[1]);
+   size_ = (point(0.5) - point(0.0)).norm() + (point(1.0) - point(0.5)).norm();
 
    // A direction that points into the reference element, mapped to the plane, points to the
    // body's side of the tangent also where element and edge are curved.
@@ -36,12 +35,13 @@ BoundaryEdge::BoundaryEdge(mfem::Mesh &mesh, int boundary_element) : position_(2
    body_on_left_ = along[0] * inward[1] - along[1] * inward[0] > 0;
 }
 
-std::array<double, 2> BoundaryEdge::point(double s)
+Eigen::Vector2d BoundaryEdge::point(double s)
 {
+   mfem::Vector x(2);
    mfem::IntegrationPoint ip;
    ip.Set1w(s, 0.0);
-   transformation_.Transform(ip, position_);
-   return {position_(0), position_(1)};
+   transformation_.Transform(ip, x);
+   return {x(0), x(1)};
 }
 
 mfem::ElementTransformation &BoundaryEdge::at(double s)
@@ -51,20 +51,15 @@ mfem::ElementTransformation &BoundaryEdge::at(double s)
    return transformation_;
 }
 
-std::array<double, 2> BoundaryEdge::derivative(double s)
+Eigen::Vector2d BoundaryEdge::derivative(double s)
 {
-   mfem::IntegrationPoint ip;
-   ip.Set1w(s, 0.0);
-   transformation_.SetIntPoint(&ip);
-   const mfem::DenseMatrix &J = transformation_.Jacobian();
+   const mfem::DenseMatrix &J = at(s).Jacobian();
    return {J(0, 0), J(1, 0)};
 }
 
-std::array<double, 2> BoundaryEdge::tangent(double s)
+Eigen::Vector2d BoundaryEdge::tangent(double s)
 {
-   const auto d = derivative(s);
-   const double length = std::hypot(d[0], d[1]) * (body_on_left_ ? 1.0 : -1.0);
-   return {d[0] / length, d[1] / length};
+   return (body_on_left_ ? 1.0 : -1.0) * derivative(s).normalized();
 }
 
 const mfem::IntegrationRule &BoundaryEdge::rule(int order) const
@@ -111,12 +106,11 @@ std::vector<std::array<double, 2>> BoundaryEdge::pieces(const BoundaryPart &part
 
 std::string describe(const BoundaryPart &part)
 {
+   std::vector<std::string> attributes;
+   for (int a : part.attributes) { attributes.push_back(std::to_string(a)); }
    std::ostringstream text;
-   text << "boundary part with attribute";
-   for (std::size_t k = 0; k < part.attributes.size(); ++k)
-   {
-      text << (k ? ", " : part.attributes.size() > 1 ? "s " : " ") << part.attributes[k];
-   }
+   text << "boundary part with attribute" << (attributes.size() > 1 ? "s " : " ")
+        << listed(attributes);
    const char *name = part.axis == 0 ? "x" : "y";
    if (std::isfinite(part.lo) || std::isfinite(part.hi))
    {
@@ -133,15 +127,12 @@ std::vector<int> boundary_elements(const mfem::Mesh &mesh, const BoundaryPart &p
    require(part.lo <= part.hi, where, ": interval from ", part.lo, " to ", part.hi,
            ", must not be empty");
    require(!part.attributes.empty(), where, ": no boundary attribute is named");
-   std::string known;
-   for (int a : mesh.bdr_attributes)
-   {
-      known += (known.empty() ? "" : ", ") + std::to_string(a);
-   }
+   std::vector<std::string> known;
+   for (int a : mesh.bdr_attributes) { known.push_back(std::to_string(a)); }
    for (int a : part.attributes)
    {
       require(mesh.bdr_attributes.Find(a) >= 0, where, ": the mesh has no boundary attribute ",
-              a, "; it has: ", known.empty() ? "none" : known);
+              a, "; it has: ", known.empty() ? "none" : listed(known));
    }
    const int largest = mesh.bdr_attributes.Max();
    require(part.marked == 0 || part.marked == largest, where, ": the boundary marker has ",

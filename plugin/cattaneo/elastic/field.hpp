@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cattaneo/material.hpp>
 #include <functional>
 #include <mfem.hpp>
 #include <string>
@@ -40,6 +41,17 @@ public:
 
 private:
    std::function<double(mfem::ElementTransformation &)> f_;
+};
+
+/// Isotropic elasticity whose constants vary over a body.
+struct VaryingMaterial
+{
+   Field young, poisson;
+   PlaneState state = PlaneState::strain;
+
+   /// At the point that is set in the transformation; InputError that names it if the material
+   /// is not sound there.
+   Material at(mfem::ElementTransformation &place) const;
 };
 
 } // namespace cattaneo

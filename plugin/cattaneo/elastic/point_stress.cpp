@@ -21,9 +21,8 @@ Stress stress_at(const ElasticBody &body, const mfem::GridFunction &displacement
       const double size = std::sqrt(std::abs(transformation.Weight()));
       strain.zz = x(0) > 1e-9 * size ? u(0) / x(0) : gradient(0, 0);
    }
-   const Strain free = body.initial_strain(transformation, loads);
-   return stress(material, Strain{strain.xx - free.xx, strain.yy - free.yy, strain.zz - free.zz,
-                                  strain.xy - free.xy});
+   strain.add(-1, body.initial_strain(transformation, loads));
+   return stress(material, strain);
 }
 
 TorsionStress torsion_stress_at(const ElasticBody &body, const mfem::GridFunction &twist,
@@ -32,7 +31,8 @@ TorsionStress torsion_stress_at(const ElasticBody &body, const mfem::GridFunctio
    mfem::Vector x(2), gradient(2);
    transformation.Transform(transformation.GetIntPoint(), x);
    twist.GetGradient(transformation, gradient);
-   return torsion_stress(body.material(transformation), x(0), gradient(0), gradient(1));
+   const double factor = body.material(transformation).mu() * x(0);
+   return {factor * gradient(0), factor * gradient(1)};
 }
 
 } // namespace cattaneo

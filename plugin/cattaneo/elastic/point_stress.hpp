@@ -12,7 +12,7 @@ namespace cattaneo
 Stress stress_at(const ElasticBody &body, const mfem::GridFunction &displacement,
                  mfem::ElementTransformation &transformation, const NamedLoads &loads = {});
 
-/// The same of a torsion body, from its twist.
+/// The same of a torsion body, from its twist ψ = u_θ/r: τ_rθ = G r ∂ψ/∂r, τ_θz = G r ∂ψ/∂z.
 TorsionStress torsion_stress_at(const ElasticBody &body, const mfem::GridFunction &twist,
                                 mfem::ElementTransformation &transformation);
 

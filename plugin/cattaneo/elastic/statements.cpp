@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 namespace cattaneo
 {
@@ -14,47 +13,15 @@ namespace cattaneo
 namespace
 {
 
-/// Text that JSON can hold.
-bool is_utf8(const std::string &text)
-{
-   try
-   {
-      return !nlohmann::json(text).dump().empty();
-   }
-   catch (const nlohmann::json::exception &)
-   {
-      return false;
-   }
-}
-
 /// The node nearest to a point far off is none that was meant.
 void check_point(const ElasticBody &body, const std::string &where, double x, double y)
 {
-   const mfem::DenseMatrix &nodes = body.node_coordinates();
-   constexpr double far = std::numeric_limits<double>::max();
-   std::vector<double> box = {far, far, -far, -far}; // low x, low y, high x, high y
-   for (int node = 0; node < nodes.Width(); ++node)
-   {
-      for (int c : {0, 1})
-      {
-         box[c] = std::min(box[c], nodes(c, node));
-         box[2 + c] = std::max(box[2 + c], nodes(c, node));
-      }
-   }
-   const std::vector<double> all = body.ranks().gather(box);
-   for (std::size_t k = 0; k < all.size(); k += 4)
-   {
-      for (int c : {0, 1})
-      {
-         box[c] = std::min(box[c], all[k + c]);
-         box[2 + c] = std::max(box[2 + c], all[k + 2 + c]);
-      }
-   }
-   const double slack = 0.01 * std::hypot(box[2] - box[0], box[3] - box[1]);
-   require(x >= box[0] - slack && x <= box[2] + slack && y >= box[1] - slack &&
-              y <= box[3] + slack,
-           where, ": (", x, ", ", y, ") is outside of the body, which reaches from (", box[0],
-           ", ", box[1], ") to (", box[2], ", ", box[3], ")");
+   const Eigen::AlignedBox2d box = body.box();
+   const double slack = 0.01 * box.sizes().norm();
+   const Eigen::Vector2d point(x, y), &low = box.min(), &high = box.max();
+   require(box.exteriorDistance(point) <= slack, where, ": (", x, ", ", y,
+           ") is outside of the body, which reaches from (", low[0], ", ", low[1], ") to (",
+           high[0], ", ", high[1], ")");
 }
 
 std::vector<int> components(const std::string &where, const std::string &text, bool plane)
@@ -193,9 +160,7 @@ void add_loads(ElasticBody &body, const std::string &called, const std::string &
       const std::vector<std::string> words = split(statement, " \t");
       require(words.size() >= 2, where, ": must be PATTERN KIND WHERE VALUES");
       const std::string &pattern = words[0];
-      require(pattern.find_first_of("=,\"") == std::string::npos, where, ": pattern name '",
-              pattern, "' must not hold =, a comma or a quote");
-      require(is_utf8(pattern), where, ": the pattern name is not UTF-8");
+      require_pattern_name(where, pattern);
       const Kind *kind = nullptr;
       std::vector<std::string> known;
       for (const Kind &k : kinds)

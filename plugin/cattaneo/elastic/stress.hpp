@@ -22,28 +22,25 @@ struct Stress
 struct Strain
 {
    double xx = 0, yy = 0, zz = 0, xy = 0;
+
+   /// Adds another one, times a factor.
+   void add(double factor, const Strain &other)
+   {
+      xx += factor * other.xx;
+      yy += factor * other.yy;
+      zz += factor * other.zz;
+      xy += factor * other.xy;
+   }
 };
 
 /// Stress of an isotropic material that is kept from straining freely; zz is not asked for in
 /// plane stress.
 Stress stress(const Material &material, const Strain &strain);
 
-/// Stress of an isotropic material for the strains ε_xx, ε_yy and the shear angle γ_xy = 2
-/// ε_xy.
-Stress stress(const Material &material, double strain_xx, double strain_yy, double shear_angle);
-
-/// The same of a body of revolution: strains ε_rr, ε_zz, ε_θθ and the shear angle γ_rz.
-Stress stress(const Material &material, double strain_rr, double strain_zz, double strain_hoop,
-              double shear_angle);
-
 /// Circumferential shear stresses of a body that twists.
 struct TorsionStress
 {
    double r_theta = 0, theta_z = 0;
 };
-
-/// τ_rθ = G r ∂ψ/∂r and τ_θz = G r ∂ψ/∂z of the twist ψ = u_θ/r.
-TorsionStress torsion_stress(const Material &material, double r, double dtwist_dr,
-                             double dtwist_dz);
 
 } // namespace cattaneo

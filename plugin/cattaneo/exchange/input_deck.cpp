@@ -2,7 +2,6 @@
 #include <cattaneo/exchange/input_deck.hpp>
 #include <cattaneo/exchange/line_reader.hpp>
 #include <cattaneo/exchange/outer_edges.hpp>
-#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -46,13 +45,13 @@ struct PlaneElement
 class DeckReader
 {
 public:
-   InputDeck deck;
+   explicit DeckReader(NodalStiffness &body) : body_(body) {}
+   std::vector<Card> cards;
    std::vector<NodalStiffness::Nodes> elements; ///< that have edges
 
    void read(const std::string &file, int depth);
 
 private:
-   InputDeck::Card &new_card(Control control, const char *name);
    void begin(LineReader &in, int depth);
    void data(LineReader &in);
    void node(const LineReader &in, const std::vector<std::string_view> &fields);
@@ -63,9 +62,10 @@ private:
    NodalStiffness::Nodes nodes_of(const LineReader &in, std::string_view name) const;
    void put(const std::string &set, int node)
    {
-      if (!set.empty()) { deck.sets[set].push_back(node); }
+      if (!set.empty()) { body_.sets[set].push_back(node); }
    }
 
+   NodalStiffness &body_;
    Keyword keyword_;
    int parts_ = 0, loads_ = 0, displacements_ = 0;
    std::optional<Formulation> formulation_;
@@ -146,11 +146,11 @@ void DeckReader::begin(LineReader &in, int depth)
                           "are not told apart");
    if (name == "CLOAD")
    {
-      deck.cards.push_back({"CLOAD" + std::to_string(++loads_), Control::force, {}});
+      cards.push_back({"CLOAD" + std::to_string(++loads_), Control::force, {}});
    }
    if (name == "BOUNDARY")
    {
-      deck.cards.push_back(
+      cards.push_back(
          {"BOUNDARY" + std::to_string(++displacements_), Control::displacement, {}});
    }
 }
@@ -188,7 +188,7 @@ void DeckReader::node(const LineReader &in, const std::vector<std::string_view> 
    const double z =
       fields.size() > 3 && !fields[3].empty() ? in.number(fields[3], "z of a node") : 0;
    in.require(z == 0, "node ", number, " is at z = ", z, ", must be in the plane z = 0");
-   in.require(deck.places.emplace(number, place).second, "node ", number,
+   in.require(body_.places.emplace(number, place).second, "node ", number,
               " is there a second time, must be there once");
    put(keyword_.parameter("NSET"), number);
 }
@@ -211,10 +211,10 @@ void DeckReader::element(LineReader &in)
               " nodes, must have ", shape->nodes);
    in.require(!formulation_ || *formulation_ == shape->formulation,
               "there are plane and axisymmetric elements, must be of one kind");
-   formulation_ = deck.formulation = shape->formulation;
+   formulation_ = body_.formulation = shape->formulation;
    for (int node : nodes)
    {
-      in.require(deck.places.count(node) == 1, "an element has node ", node,
+      in.require(body_.places.count(node) == 1, "an element has node ", node,
                  ", which *NODE does not name, it must be there before");
    }
    elements.push_back(nodes);
@@ -227,8 +227,8 @@ NodalStiffness::Nodes DeckReader::nodes_of(const LineReader &in, std::string_vie
       return {in.integer(name, "a node")};
    }
    const std::string_view plain = name.substr(std::min(name.rfind('.') + 1, name.size()));
-   const auto found = deck.sets.find(upper_case(plain)); // "instance.set"
-   in.require(found != deck.sets.end(), "there is no set '", name, "' before this line");
+   const auto found = body_.sets.find(upper_case(plain)); // "instance.set"
+   in.require(found != body_.sets.end(), "there is no set '", name, "' before this line");
    return found->second;
 }
 
@@ -250,7 +250,7 @@ void DeckReader::members(const LineReader &in, const std::vector<std::string_vie
              last = in.integer(fields[1], "the last node"),
              step = fields.size() > 2 ? in.integer(fields[2], "the step") : 1;
    in.require(step > 0 && first > 0 && last >= first &&
-                 deck.places.count(first) + deck.places.count(last) == 2,
+                 body_.places.count(first) + body_.places.count(last) == 2,
               "GENERATE from node ", first, " to ", last, " by ", step,
               ", must be between nodes that are there, upwards");
    for (long node = first; node <= last; node += step) { put(set, static_cast<int>(node)); }
@@ -264,7 +264,7 @@ void DeckReader::load(const LineReader &in, const std::vector<std::string_view> 
    const double force = in.number(fields[2], "a force");
    for (int node : nodes_of(in, fields[0]))
    {
-      deck.cards.back().values.push_back({{node, direction}, force});
+      cards.back().values.push_back({{node, direction}, force});
    }
 }
 
@@ -294,22 +294,21 @@ void DeckReader::support(const LineReader &in, const std::vector<std::string_vie
       // Across the plane nothing moves.
       for (int d = directions[0]; d <= std::min(directions[1], 2); ++d)
       {
-         deck.cards.back().values.push_back({{node, d}, value});
+         cards.back().values.push_back({{node, d}, value});
       }
    }
 }
 
 } // namespace
 
-InputDeck read_input_deck(const std::string &file)
+std::vector<Card> read_input_deck(const std::string &file, NodalStiffness &body)
 {
-   DeckReader reader;
-   reader.deck.file = file;
+   DeckReader reader(body);
    reader.read(file, 0);
-   require(!reader.deck.places.empty(), "file '", file, "': there is no *NODE, must be");
-   reader.deck.edges = outer_edges(reader.elements, reader.deck.places);
-   for (auto &[name, nodes] : reader.deck.sets) { drop_repeated(nodes); }
-   return std::move(reader.deck);
+   require(!body.places.empty(), "file '", file, "': there is no *NODE, must be");
+   body.edges = outer_edges(reader.elements, body.places);
+   for (auto &[name, nodes] : body.sets) { drop_repeated(nodes); }
+   return std::move(reader.cards);
 }
 
 } // namespace cattaneo

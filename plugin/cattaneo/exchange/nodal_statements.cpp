@@ -34,8 +34,7 @@ void add_loads(NodalStiffness &body, const std::string &called, const std::strin
               ": must be PATTERN force SET fx fy, PATTERN traction SET tx ty, PATTERN "
               "displacement-x SET u or displacement-y");
       const std::string &pattern = words[0];
-      require(pattern.find_first_of("=,\"") == std::string::npos, where, ": pattern name '",
-              pattern, "' must not hold =, a comma or a quote");
+      require_pattern_name(where, pattern);
       const NodalStiffness::Nodes &nodes = body.nodes_of(words[2]);
       const double first = number(where, words[3]);
       if (moves) { body.add_displacement(pattern, nodes, kind.back() == 'x' ? 1 : 2, first); }

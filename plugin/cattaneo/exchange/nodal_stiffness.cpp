@@ -5,6 +5,7 @@
 #include <cattaneo/condense/local_frame.hpp>
 #include <cattaneo/exchange/line_reader.hpp>
 #include <cattaneo/exchange/nodal_stiffness.hpp>
+#include <cattaneo/words.hpp>
 #include <cmath>
 #include <set>
 
@@ -117,10 +118,10 @@ const NodalStiffness::Nodes &NodalStiffness::nodes_of(const std::string &set) co
 {
    const auto found = sets.find(upper_case(set));
    if (found != sets.end()) { return found->second; }
-   std::string known;
-   for (const auto &[each, nodes] : sets) { known += (known.empty() ? "" : ", ") + each; }
+   std::vector<std::string> known;
+   for (const auto &[each, nodes] : sets) { known.push_back(each); }
    throw InputError("stiffness '" + name + "': there is no set '" + set + "', there are " +
-                    (known.empty() ? "none" : known));
+                    (known.empty() ? "none" : listed(known)));
 }
 
 std::vector<int> NodalStiffness::rows_of(const Nodes &nodes, int direction,

@@ -95,11 +95,13 @@ public:
     */
    ContactLine contact_line(const Nodes &nodes, int order = 0) const;
 
+   /// Number of each dof's row; InputError for a direction that is none, a second row of a dof,
+   /// or a node without a place.
+   std::map<NodeDof, int> rows() const;
    /// InputError unless rows, places, fixed rows and loads fit each other.
    void validate() const;
 
 private:
-   std::map<NodeDof, int> rows() const;
    /// One for each node, -1 if there is none and that is allowed.
    std::vector<int> rows_of(const Nodes &nodes, int direction, bool missing_allowed) const;
    double axis() const; ///< nodes at smaller r are on it

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 
 namespace cattaneo
 {
@@ -104,13 +102,6 @@ constexpr std::uint32_t local_mark = 0x04034b50, central_mark = 0x02014b50,
                         end_mark = 0x06054b50;
 
 } // namespace
-
-std::string whole_content(const std::string &file)
-{
-   std::ifstream in(file, std::ios::binary);
-   require(in.good() && !std::filesystem::is_directory(file), "cannot read file '", file, "'");
-   return {std::istreambuf_iterator<char>(in), {}};
-}
 
 Eigen::MatrixXd NumpyArray::matrix(const std::string &name) const
 {

@@ -4,9 +4,9 @@
 #include <cattaneo/exchange/numpy_file.hpp>
 #include <cattaneo/exchange/read_stiffness.hpp>
 #include <cattaneo/exchange/symmetric_entries.hpp>
+#include <cattaneo/whole_file.hpp>
 #include <cmath>
 #include <filesystem>
-#include <set>
 
 namespace cattaneo
 {
@@ -15,14 +15,6 @@ namespace
 {
 
 using Matrix = NodalStiffness::Matrix;
-
-/// A matrix and what its rows are called; directions as the file has them.
-struct Rows
-{
-   Matrix K;
-   std::vector<NodeDof> dofs;
-   bool supports_left_out = false;
-};
 
 std::string dof_name(const NodeDof &dof)
 {
@@ -42,9 +34,8 @@ void require_plane(const LineReader &in, const NodeDof &dof)
 
 // --- CalculiX ------------------------------------------------------------------------------
 
-Rows read_calculix(const std::string &file)
+void read_calculix(const std::string &file, NodalStiffness &rows)
 {
-   Rows rows;
    LineReader dofs(std::filesystem::path(file).replace_extension(".dof").string());
    while (dofs.next())
    {
@@ -72,14 +63,13 @@ Rows read_calculix(const std::string &file)
       entries.add(row - 1, column - 1, in.number(fields[2], "an entry"));
    }
    rows.K = entries.matrix(size, file, [&](int row) { return dof_name(rows.dofs[row]); });
-   return rows;
 }
 
 // --- ABAQUS --------------------------------------------------------------------------------
 
 /// Without rows that are `gone`: those of supports are left out, internal ones eliminated, K_bb
 /// - K_bi K_ii⁻¹ K_ib.
-void drop(Rows &rows, const std::vector<bool> &supported, const std::string &file)
+void drop(NodalStiffness &rows, const std::vector<bool> &supported, const std::string &file)
 {
    std::vector<int> number(rows.dofs.size(), -1);
    std::array<int, 2> count{};
@@ -124,9 +114,8 @@ void drop(Rows &rows, const std::vector<bool> &supported, const std::string &fil
    rows.dofs = kept;
 }
 
-Rows read_abaqus_sparse(const std::string &file)
+void read_abaqus_sparse(const std::string &file, NodalStiffness &rows)
 {
-   Rows rows;
    SymmetricEntries entries;
    std::map<NodeDof, int> number;
    std::vector<bool> supported;
@@ -166,12 +155,11 @@ Rows read_abaqus_sparse(const std::string &file)
       size, file, [&](int row) { return dof_name(rows.dofs[row]); },
       [&](int row) { return rows.dofs[row].node > 0; });
    drop(rows, supported, file);
-   return rows;
 }
 
 /// *USER ELEMENT: nodes in a comment, directions of the first node and of those from which on
 /// they change, then the triangle of the stiffness.
-Rows read_user_element(const std::string &file)
+void read_user_element(const std::string &file, NodalStiffness &rows)
 {
    LineReader in(file);
    std::vector<int> nodes;
@@ -236,7 +224,6 @@ Rows read_user_element(const std::string &file)
          directions[numbers[0]].assign(numbers.begin() + 1, numbers.end());
       }
    }
-   Rows rows;
    require(
       count > 0 && static_cast<int>(nodes.size()) == count && !directions.empty(), "file '",
       file, "': a user element of ", count, " nodes lists ", nodes.size(),
@@ -257,7 +244,6 @@ Rows read_user_element(const std::string &file)
    }
    rows.K = entries.matrix(size, file, [&](int row) { return dof_name(rows.dofs[row]); });
    rows.supports_left_out = true; // those of its inside, if it has any
-   return rows;
 }
 
 // --- MatrixMarket, NumPy ---------------------------------------------------------------------
@@ -327,7 +313,7 @@ Matrix read_numpy(const std::string &file, bool archive)
 {
    SymmetricEntries entries;
    Eigen::Index size = 0;
-   const std::string content = whole_content(file);
+   const std::string content = read_whole(file);
    const auto files =
       archive ? stored_files(content, file) : std::map<std::string, std::string>();
    const auto array = [&](const std::string &name)
@@ -391,12 +377,8 @@ Matrix read_numpy(const std::string &file, bool archive)
 class Entries
 {
 public:
-   Entries(NodalStiffness &stiffness) : stiffness_(stiffness)
+   explicit Entries(NodalStiffness &stiffness) : stiffness_(stiffness), rows_(stiffness.rows())
    {
-      for (std::size_t row = 0; row < stiffness.dofs.size(); ++row)
-      {
-         rows_.emplace(stiffness.dofs[row], static_cast<int>(row));
-      }
    }
    bool has_row(const NodeDof &dof) const { return rows_.count(dof) == 1; }
    void fix(const NodeDof &dof)
@@ -414,22 +396,14 @@ public:
 
 private:
    NodalStiffness &stiffness_;
-   std::map<NodeDof, int> rows_;
+   const std::map<NodeDof, int> rows_;
 };
 
-/// Rows of a matrix as they are called by nodes of a deck, with all that the deck says.
-NodalStiffness with_deck(Rows rows, InputDeck deck)
+/// What the cards of a deck say of the rows of its matrix.
+void add_cards(const std::vector<Card> &cards, const std::string &file, NodalStiffness &result)
 {
-   NodalStiffness result;
-   result.formulation = deck.formulation;
-   result.places = std::move(deck.places);
-   result.sets = std::move(deck.sets);
-   result.edges = std::move(deck.edges);
-   result.K = std::move(rows.K);
-   result.dofs = std::move(rows.dofs);
-   result.supports_left_out = rows.supports_left_out;
    Entries entries(result);
-   for (const InputDeck::Card &card : deck.cards)
+   for (const Card &card : cards)
    {
       const bool moves = card.control == Control::displacement;
       for (const auto &[at, value] : card.values)
@@ -437,8 +411,8 @@ NodalStiffness with_deck(Rows rows, InputDeck deck)
          const bool there = entries.has_row(at);
          result.supports_left_out = result.supports_left_out || (moves && !there);
          require(
-            there || (moves ? value == 0 : result.supports_left_out), "file '", deck.file,
-            "': '", card.name, moves ? "' moves " : "' loads ", dof_name(at),
+            there || (moves ? value == 0 : result.supports_left_out), "file '", file, "': '",
+            card.name, moves ? "' moves " : "' loads ", dof_name(at),
             ", which the matrix has no row of, it must be free in the step that writes the "
             "matrix");
          if (!there) { continue; } // held by what is no part of the matrix
@@ -446,14 +420,11 @@ NodalStiffness with_deck(Rows rows, InputDeck deck)
          else { entries.add(card.name, card.control, at, value); }
       }
    }
-   return result;
 }
 
 /// Of a matrix whose rows a `.dofs` file names.
-NodalStiffness with_dofs(Matrix K, const std::string &file)
+void read_dofs(const std::string &file, NodalStiffness &result)
 {
-   NodalStiffness result;
-   result.K = std::move(K);
    const auto each_line = [&](const auto &visit)
    {
       LineReader in(file);
@@ -533,7 +504,6 @@ NodalStiffness with_dofs(Matrix K, const std::string &file)
                        "direction, force or displacement LOAD node direction value");
          }
       });
-   return result;
 }
 
 /// The first line that is no comment of ABAQUS tells what an .mtx is.
@@ -570,28 +540,25 @@ NodalStiffness read_stiffness(const std::string &matrix, const std::string &plac
    { return places.empty() ? fs::path(matrix).replace_extension(of).string() : places; };
    const MtxForm form = ending == ".mtx" ? form_of(matrix) : MtxForm::matrix_market;
    NodalStiffness result;
-   if (ending == ".sti")
+   result.name = matrix;
+   if (form == MtxForm::matrix_market && ending != ".sti")
    {
-      InputDeck deck = read_input_deck(beside(".inp"));
-      Rows rows = read_calculix(matrix);
-      // Forces are those of the whole circumference already.
-      if (deck.formulation == Formulation::axisymmetric) { rows.K *= 180.0; }
-      result = with_deck(std::move(rows), std::move(deck));
-   }
-   else if (form == MtxForm::matrix_market)
-   {
-      result = with_dofs(ending == ".mtx" ? read_matrix_market(matrix)
-                                          : read_numpy(matrix, ending == ".npz"),
-                         beside(".dofs"));
+      result.K =
+         ending == ".mtx" ? read_matrix_market(matrix) : read_numpy(matrix, ending == ".npz");
+      read_dofs(beside(".dofs"), result);
    }
    else
    {
-      InputDeck deck = read_input_deck(beside(".inp"));
-      result = with_deck(form == MtxForm::sparse ? read_abaqus_sparse(matrix)
-                                                 : read_user_element(matrix),
-                         std::move(deck));
+      const std::string deck = beside(".inp");
+      const std::vector<Card> cards = read_input_deck(deck, result);
+      (ending == ".sti"          ? read_calculix
+       : form == MtxForm::sparse ? read_abaqus_sparse
+                                 : read_user_element)(matrix, result);
+      // Forces are those of the whole circumference already.
+      const bool wedge = ending == ".sti" && result.formulation == Formulation::axisymmetric;
+      if (wedge) { result.K *= 180.0; }
+      add_cards(cards, deck, result);
    }
-   result.name = matrix;
    result.validate();
    return result;
 }

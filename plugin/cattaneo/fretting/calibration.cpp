@@ -8,8 +8,6 @@ namespace cattaneo::fretting
 namespace
 {
 
-const double pi = std::acos(-1.0);
-
 /** a² arccos(b/a) - b√(a²-b²) at a = b + s. */
 double load_integral(double b, double s)
 {
@@ -42,8 +40,8 @@ HertzContact hertz_contact(double load, double radius, double modulus)
    require_positive("the radius", radius);
    require_positive("the contact modulus E*", modulus);
    HertzContact contact;
-   contact.half_width = std::sqrt(4 * load * radius / (pi * modulus));
-   contact.peak_pressure = 2 * load / (pi * contact.half_width);
+   contact.half_width = std::sqrt(4 * load * radius / (M_PI * modulus));
+   contact.peak_pressure = 2 * load / (M_PI * contact.half_width);
    contact.k_n = hertz_k_n(load, contact.half_width);
    return contact;
 }
@@ -52,7 +50,7 @@ double hertz_k_n(double load, double half_width)
 {
    require_positive("the normal force", load);
    require_positive("the half width", half_width);
-   return load / (pi * half_width) * std::sqrt(8 / half_width);
+   return load / (M_PI * half_width) * std::sqrt(8 / half_width);
 }
 
 FlatRoundedContact flat_rounded_contact(double load, double radius, double flat, double modulus)
@@ -73,7 +71,7 @@ FlatRoundedContact flat_rounded_contact(double load, double radius, double flat,
    }
    FlatRoundedContact contact{flat, radius, modulus, flat + s, 0};
    const double angle = std::atan2(std::sqrt(s * (s + 2 * flat)), flat);
-   contact.k_n = modulus / (pi * radius) * std::sqrt(2 * contact.half_width) * angle;
+   contact.k_n = modulus / (M_PI * radius) * std::sqrt(2 * contact.half_width) * angle;
    return contact;
 }
 
@@ -87,7 +85,7 @@ double FlatRoundedContact::pressure(double x) const
    const double shared = x == b ? 0.0 : 0.5 * (b - x) * std::log(std::abs((b - x) * (b + x)));
    const double first = b > 0 ? -b * std::log(A + B) : 0.0;
    const double second = x > 0 ? x * std::log((b * A + x * B) / a) : 0.0;
-   return modulus / (pi * radius) * (A * std::atan2(B, b) + first + second + shared);
+   return modulus / (M_PI * radius) * (A * std::atan2(B, b) + first + second + shared);
 }
 
 RoundedEdge rounded_edge(double k_p, double radius, double modulus)
@@ -96,7 +94,7 @@ RoundedEdge rounded_edge(double k_p, double radius, double modulus)
    require_positive("the edge radius", radius);
    require_positive("the contact modulus E*", modulus);
    RoundedEdge edge;
-   edge.rounded_width = std::pow(3 * pi * radius * k_p / (2 * modulus), 2.0 / 3.0);
+   edge.rounded_width = std::pow(3 * M_PI * radius * k_p / (2 * modulus), 2.0 / 3.0);
    edge.k_p = k_p;
    edge.k_n = 3 * k_p / edge.rounded_width;
    return edge;
@@ -114,7 +112,7 @@ double symmetric_k_n(double half_width, double load_rate)
 {
    require_positive("the half width", half_width);
    require_positive("the growth dP/da of the load with the half width", load_rate);
-   return std::sqrt(2 / half_width) / pi * load_rate;
+   return std::sqrt(2 / half_width) / M_PI * load_rate;
 }
 
 double edge_gradient(double radius, double modulus)
@@ -129,7 +127,7 @@ ShearIntensities shear_intensities(double half_width, double shear, double bulk_
    require_positive("the half width", half_width);
    require(std::isfinite(shear) && std::isfinite(bulk_difference), "the shear force ", shear,
            " and the difference in bulk stress ", bulk_difference, " must be finite.");
-   const double from_shear = shear / (pi * std::sqrt(2 * half_width));
+   const double from_shear = shear / (M_PI * std::sqrt(2 * half_width));
    const double from_bulk = 0.25 * bulk_difference * std::sqrt(half_width / 2);
    return {from_bulk + from_shear, from_bulk - from_shear};
 }

@@ -12,8 +12,6 @@ namespace cattaneo::fretting
 namespace
 {
 
-const double pi = std::acos(-1.0);
-
 /// Stress on the ray at `angle` from the bisector, over the stress on the bisector that
 /// normalises the mode; both per r^{λ-1}. From Airy's function r^{λ+1} [A cos (λ+1)θ +
 /// B cos (λ-1)θ], or sin for mode II, with σ_θθ = 0 on the free faces θ = ± half.
@@ -86,14 +84,14 @@ Solution fit(const std::vector<EdgeSample> &samples, std::size_t first, std::siz
 CornerModes corner_modes(const Corner &corner)
 {
    const double sum = corner.pad_angle + corner.body_angle;
-   require(corner.pad_angle > 0 && corner.body_angle > 0 && sum > pi && sum <= 2 * pi,
+   require(corner.pad_angle > 0 && corner.body_angle > 0 && sum > M_PI && sum <= 2 * M_PI,
            "the pad fills ", corner.pad_angle, " and the body ", corner.body_angle,
            " radians at the corner; both must be positive, and their sum above π, where the "
            "stress becomes singular, and at most 2π.");
    CornerMode one, two;
    const double half = 0.5 * sum;
-   one.eigenvalue =
-      find_root([&](double l) { return std::sin(l * sum) + l * std::sin(sum); }, 0.5, pi / sum);
+   one.eigenvalue = find_root([&](double l) { return std::sin(l * sum) + l * std::sin(sum); },
+                              0.5, M_PI / sum);
    // λ = 1, a rotation of the whole corner, is divided out.
    const auto remainder = [&](double l)
    {
@@ -104,7 +102,7 @@ CornerModes corner_modes(const Corner &corner)
       }
       return (std::sin(l * sum) - l * std::sin(sum)) / step;
    };
-   two.eigenvalue = sum == 2 * pi ? 0.5 : find_root(remainder, pi / sum, 2 * pi / sum);
+   two.eigenvalue = sum == 2 * M_PI ? 0.5 : find_root(remainder, M_PI / sum, 2 * M_PI / sum);
 
    // From the body's free face over the interface to the pad's: the bisector is at
    // (pad - body)/2 from the interface.
@@ -121,7 +119,7 @@ CornerModes corner_modes(const Corner &corner)
 CornerModes corner_modes(const RigidCorner &corner)
 {
    const double angle = corner.pad_angle, nu = corner.poisson;
-   require(angle > 0 && angle < pi, "the pad fills ", angle,
+   require(angle > 0 && angle < M_PI, "the pad fills ", angle,
            " radians at the corner on the rigid body; it must be above 0 and below π.");
    require(nu >= 0 && nu < 0.5, "Poisson's ratio is ", nu, "; it must be in [0, 0.5).");
    const double kappa = corner.plane_stress ? (3 - nu) / (1 + nu) : 3 - 4 * nu;
@@ -134,7 +132,7 @@ CornerModes corner_modes(const RigidCorner &corner)
    const auto slope = [&](double l)
    { return kappa * angle * std::sin(2 * l * angle) + 2 * l * sine * sine; };
    // Negative at 0, the residual rises to at most one maximum below 1, beyond λ = π/2α.
-   const double top = slope(1) < 0 ? find_root(slope, 0.5 * pi / angle, 1) : 1.0;
+   const double top = slope(1) < 0 ? find_root(slope, 0.5 * M_PI / angle, 1) : 1.0;
    require(residual(top) > 0, "the corner of ", angle,
            " radians on a rigid body, Poisson's ratio ", nu,
            top < 1

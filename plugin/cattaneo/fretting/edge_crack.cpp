@@ -9,8 +9,6 @@ namespace
 {
 
 using Complex = std::complex<double>;
-const double pi = std::acos(-1.0);
-
 // The trapezoidal rule converges as exp(-2π δ/step), δ being the distance of the nearest pole
 // to the line of integration, here at least 1/4: this step is far below round-off.
 constexpr double step = 0.04;
@@ -23,7 +21,7 @@ Complex log_gamma(Complex z)
    const Complex r = 1.0 / (z * z);
    const Complex series =
       (1.0 / 12 + r * (-1.0 / 360 + r * (1.0 / 1260 + r * (-1.0 / 1680 + r / 1188.0)))) / z;
-   return (z - 0.5) * std::log(z) - z + 0.5 * std::log(2 * pi) + series - shift;
+   return (z - 0.5) * std::log(z) - z + 0.5 * std::log(2 * M_PI) + series - shift;
 }
 
 /// ln(1 - u²/sinh²(πu/2)) at u = 0, step, 2 step, …; the first is halved for the rule.
@@ -31,10 +29,10 @@ const std::vector<double> &kernel()
 {
    static const std::vector<double> values = []
    {
-      std::vector<double> v{0.5 * std::log1p(-4 / (pi * pi))};
+      std::vector<double> v{0.5 * std::log1p(-4 / (M_PI * M_PI))};
       for (double u = step; u < 13; u = step * v.size())
       {
-         v.push_back(std::log1p(-std::pow(u / std::sinh(0.5 * pi * u), 2)));
+         v.push_back(std::log1p(-std::pow(u / std::sinh(0.5 * M_PI * u), 2)));
       }
       return v;
    }();
@@ -51,8 +49,8 @@ Complex mellin_factor(Complex exponent)
       const double u = step * k;
       sum += kernel()[k] / (square + u * u);
    }
-   return std::exp(log_gamma(0.5 * s) - log_gamma(0.5 * s + 0.5) - s / pi * step * sum) /
-          std::sqrt(pi);
+   return std::exp(log_gamma(0.5 * s) - log_gamma(0.5 * s + 0.5) - s / M_PI * step * sum) /
+          std::sqrt(M_PI);
 }
 
 /** Transform ∫ S(y) y^{z-1} dy of the line stress of the shear part,
@@ -63,8 +61,8 @@ Complex mellin_factor(Complex exponent)
     cos(πz/2) Γ(z) Γ(½-z) (1 - z/2)/(√π (½ + z)). */
 Complex line_stress_transform(Complex z)
 {
-   return std::cos(0.5 * pi * z) * std::exp(log_gamma(z) + log_gamma(0.5 - z)) *
-          (1.0 - 0.5 * z) / (std::sqrt(pi) * (0.5 + z));
+   return std::cos(0.5 * M_PI * z) * std::exp(log_gamma(z) + log_gamma(0.5 - z)) *
+          (1.0 - 0.5 * z) / (std::sqrt(M_PI) * (0.5 + z));
 }
 
 /// (1/2πi) ∫ S̃(z) h(-z) c^{-z} (½-z)^m dz along Re z = const.
@@ -77,7 +75,7 @@ public:
       for (double tau = 0; tau < 26; tau = step * weights_.size())
       {
          const Complex z(abscissa, tau);
-         weights_.push_back((tau > 0 ? 1.0 : 0.5) * step / pi * line_stress_transform(z) *
+         weights_.push_back((tau > 0 ? 1.0 : 0.5) * step / M_PI * line_stress_transform(z) *
                             mellin_factor(-z));
       }
    }
@@ -121,10 +119,10 @@ double crack_integral(double c, int m)
       static const InverseMellin rest(-1.25);
       static const double root_term = 2.5 / std::sqrt(2.0) * power_law_factor(0.5);
       const double uniform = (m ? 0.5 : 1.0) * short_crack();
-      return std::sqrt(pi * c) * (uniform - root_term * std::sqrt(c) + rest(c, m));
+      return std::sqrt(M_PI * c) * (uniform - root_term * std::sqrt(c) + rest(c, m));
    }
    static const InverseMellin rest(0.75);
-   return std::sqrt(pi) * ((m ? 0.0 : long_crack()) + std::sqrt(c) * rest(c, m));
+   return std::sqrt(M_PI) * ((m ? 0.0 : long_crack()) + std::sqrt(c) * rest(c, m));
 }
 
 } // namespace
@@ -141,7 +139,7 @@ double crack_factor(double ratio)
    require(ratio >= 0, "the crack depth over the slip zone is ", ratio,
            "; it must not be negative.");
    if (ratio == 0) { return 0.0; }
-   return std::isinf(ratio) ? std::sqrt(pi) * long_crack() : crack_integral(ratio, 0);
+   return std::isinf(ratio) ? std::sqrt(M_PI) * long_crack() : crack_integral(ratio, 0);
 }
 
 double crack_factor_slope(double ratio)
@@ -152,7 +150,7 @@ double crack_factor_slope(double ratio)
 
 double crack_closing_factor()
 {
-   static const double value = 1.5 * std::sqrt(pi / 2) * power_law_factor(0.5);
+   static const double value = 1.5 * std::sqrt(M_PI / 2) * power_law_factor(0.5);
    return value;
 }
 

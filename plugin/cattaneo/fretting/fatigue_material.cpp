@@ -92,7 +92,7 @@ void FatigueMaterial::validate() const
 double critical_length(const FatigueMaterial &material)
 {
    material.validate();
-   return std::pow(material.threshold / material.fatigue_limit.low, 2) / std::acos(-1.0);
+   return std::pow(material.threshold / material.fatigue_limit.low, 2) / M_PI;
 }
 
 std::vector<FatigueMaterial> read_materials(const std::string &file)

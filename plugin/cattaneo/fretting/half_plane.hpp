@@ -1,6 +1,6 @@
 #pragma once
 
-#include <complex>
+#include <Eigen/Core>
 
 namespace cattaneo::fretting
 {
@@ -14,12 +14,8 @@ struct InPlaneStress
 };
 
 /** Complex extension of a surface traction: a function analytic in the body Im z > 0 whose real
-    part on the surface is the traction, with its derivative. */
-struct Traction
-{
-   std::complex<double> value;
-   std::complex<double> slope;
-};
+    part on the surface is the traction, {its value, its derivative}. */
+using Traction = Eigen::Vector2cd;
 
 /** Stress in the half-plane y >= 0 under a pressure p (> 0 presses) and a shear traction q (> 0
     pulls the body in +x), at depth y.

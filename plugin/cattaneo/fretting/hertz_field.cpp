@@ -51,15 +51,8 @@ InPlaneStress hertz_stress(double friction, double load_ratio, double x, double 
    const Traction pressure = semi_ellipse(1, z);
    Traction shear = pressure;
    const double c = std::sqrt(std::max(0.0, 1 - load_ratio));
-   if (c > 0)
-   {
-      const Traction stick = semi_ellipse(c, z);
-      shear.value -= stick.value;
-      shear.slope -= stick.slope;
-   }
-   shear.value *= friction;
-   shear.slope *= friction;
-   return half_plane_stress(pressure, shear, y);
+   if (c > 0) { shear -= semi_ellipse(c, z); }
+   return half_plane_stress(pressure, friction * shear, y);
 }
 
 double hertz_transition_friction(double constraint, double load_ratio)

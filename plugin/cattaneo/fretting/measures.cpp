@@ -4,13 +4,6 @@
 
 namespace cattaneo::fretting
 {
-namespace
-{
-
-const double pi = std::acos(-1.0);
-
-} // namespace
-
 double reversed_slip_zone(const Edge &edge, double k_t_range)
 {
    edge.validate();
@@ -26,7 +19,7 @@ double edge_stress_range(const Edge &edge, double k_t_range)
 double mode_two_range(double k_t_range)
 {
    require_at_least("the range of K_T", k_t_range, 0);
-   return std::sqrt(2 * pi) * k_t_range;
+   return std::sqrt(2 * M_PI) * k_t_range;
 }
 
 double slip_energy_density(const Edge &edge, double k_t_range, double modulus, double t)
@@ -48,7 +41,7 @@ double slip_energy_max(double k_t_range, double modulus)
 double slip_energy_total(const Edge &edge, double k_t_range, double modulus)
 {
    require_positive("the contact modulus E*", modulus);
-   return pi / 3 * k_t_range * k_t_range * reversed_slip_zone(edge, k_t_range) / modulus;
+   return M_PI / 3 * k_t_range * k_t_range * reversed_slip_zone(edge, k_t_range) / modulus;
 }
 
 double hertz_slip_energy(double friction, double load, double load_ratio, double modulus)
@@ -67,7 +60,7 @@ double hertz_slip_energy(double friction, double load, double load_ratio, double
       sum *= x * x * x;
    }
    else if (x < 1) { sum = (1 - x) * std::log1p(-x) + x - 0.5 * x * x; }
-   return 4 * std::pow(friction * load, 2) / (pi * modulus) * sum;
+   return 4 * std::pow(friction * load, 2) / (M_PI * modulus) * sum;
 }
 
 } // namespace cattaneo::fretting

@@ -54,9 +54,7 @@ InPlaneStress stress(const Edge &edge, double t, double y)
            ") must be finite and in the body, y >= 0.");
    const Traction near = root(t, y), far = root(t - d, y);
    const double limit = std::copysign(edge.friction * edge.k_n, edge.k_t);
-   return half_plane_stress(
-      {edge.k_n * near.value, edge.k_n * near.slope},
-      {limit * (near.value - far.value), limit * (near.slope - far.slope)}, y);
+   return half_plane_stress(edge.k_n * near, limit * (near - far), y);
 }
 
 double edge_stress(const Edge &edge)

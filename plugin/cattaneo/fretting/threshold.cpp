@@ -37,16 +37,8 @@ double invert_factor(double value)
 
 double CrackCycle::drive(Criterion criterion) const
 {
-   switch (criterion)
-   {
-   case Criterion::range:
-      return max - min;
-   case Criterion::half_range:
-      return 0.5 * (max - min);
-   case Criterion::open:
-      break;
-   }
-   return std::max(max, 0.0) - std::max(min, 0.0);
+   if (criterion == Criterion::open) { return std::max(max, 0.0) - std::max(min, 0.0); }
+   return (criterion == Criterion::range ? 1.0 : 0.5) * (max - min);
 }
 
 void CrackedEdge::validate() const
@@ -60,7 +52,7 @@ void CrackedEdge::validate() const
 CrackCycle crack_cycle(const CrackedEdge &crack, double depth)
 {
    crack.validate();
-   const double root = std::sqrt(std::acos(-1.0) * depth);
+   const double root = std::sqrt(M_PI * depth);
    const double bulk = crack.bulk_stress * power_law_factor(0) * root;
    const double peak = crack_intensity(crack.edge, depth) + bulk +
                        crack.stress_gradient * depth * power_law_factor(1) * root;
@@ -73,16 +65,8 @@ CrackCycle crack_cycle(const CrackedEdge &crack, double depth)
 
 std::string to_string(CrackVerdict verdict)
 {
-   switch (verdict)
-   {
-   case CrackVerdict::propagates:
-      return "propagates";
-   case CrackVerdict::arrests_beyond_a0:
-      return "arrests beyond a0";
-   case CrackVerdict::arrests:
-      break;
-   }
-   return "arrests";
+   const char *const names[] = {"arrests", "propagates", "arrests beyond a0"};
+   return names[static_cast<int>(verdict)];
 }
 
 ThresholdReport assess_threshold(const CrackedEdge &crack, double threshold, double critical,

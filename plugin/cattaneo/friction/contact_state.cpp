@@ -7,20 +7,8 @@ namespace cattaneo
 
 const char *name(NodeState state)
 {
-   switch (state)
-   {
-   case NodeState::stick:
-      return "stick";
-   case NodeState::separation:
-      return "separation";
-   case NodeState::forward_slip:
-      return "forward slip";
-   case NodeState::backward_slip:
-      return "backward slip";
-   case NodeState::slip:
-      return "slip";
-   }
-   return "";
+   const char *const names[] = {"stick", "separation", "forward slip", "backward slip", "slip"};
+   return names[static_cast<int>(state)];
 }
 
 Eigen::VectorXd ContactState::displacements() const

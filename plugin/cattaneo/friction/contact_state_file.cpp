@@ -1,18 +1,27 @@
 #include <cattaneo/friction/contact_state_json.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/whole_file.hpp>
-#include <filesystem>
-#include <fstream>
+
+namespace nlohmann
+{
+
+/// A list of numbers.
+template <>
+struct adl_serializer<Eigen::VectorXd>
+{
+   static void to_json(json &j, const Eigen::VectorXd &x) { j = cattaneo::json_list(x); }
+   static void from_json(const json &j, Eigen::VectorXd &x) { x = cattaneo::json_vector(j); }
+};
+
+} // namespace nlohmann
 
 namespace cattaneo
 {
 
-namespace
-{
+static const char *const format_name = "cattaneo contact state 1";
 
-const char *const format_name = "cattaneo contact state 1";
-
-} // namespace
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ContactState, time, step, peak_force, dissipation,
+                                   multipliers, status, cycle_slip, slip_origin, v, w, q, p)
 
 std::vector<double> json_list(const Eigen::VectorXd &x)
 {
@@ -28,61 +37,28 @@ Eigen::VectorXd json_vector(const nlohmann::json &j)
 nlohmann::json to_json(const ContactState &state)
 {
    state.require_finite(); // else it would be written as null
-   std::vector<int> status;
-   for (NodeState s : state.status) { status.push_back(static_cast<int>(s)); }
-   std::vector<std::vector<double>> cycle_slip;
-   for (const Eigen::VectorXd &v : state.cycle_slip) { cycle_slip.push_back(json_list(v)); }
-   return {{"format", format_name},
-           {"time", state.time},
-           {"step", state.step},
-           {"peak_force", state.peak_force},
-           {"dissipation", state.dissipation},
-           {"multipliers", json_list(state.multipliers)},
-           {"status", status},
-           {"cycle_slip", cycle_slip},
-           {"slip_origin", json_list(state.slip_origin)},
-           {"v", json_list(state.v)},
-           {"w", json_list(state.w)},
-           {"q", json_list(state.q)},
-           {"p", json_list(state.p)}};
+   nlohmann::json j = state;
+   j["format"] = format_name;
+   return j;
 }
 
 ContactState contact_state(const nlohmann::json &j, const std::string &file)
 {
-   ContactState state;
-   state.time = j.at("time");
-   state.step = j.at("step");
-   state.peak_force = j.at("peak_force");
-   state.dissipation = j.at("dissipation");
-   state.multipliers = json_vector(j.at("multipliers"));
    for (int s : j.at("status").get<std::vector<int>>())
    {
       require(s >= 0 && s <= 4, "contact state: status ", s, " in file '", file,
               "', must be 0 to 4");
-      state.status.push_back(static_cast<NodeState>(s));
    }
-   for (const nlohmann::json &v : j.at("cycle_slip"))
-   {
-      state.cycle_slip.push_back(json_vector(v));
-   }
-   state.slip_origin = json_vector(j.at("slip_origin"));
-   state.v = json_vector(j.at("v"));
-   state.w = json_vector(j.at("w"));
-   state.q = json_vector(j.at("q"));
-   state.p = json_vector(j.at("p"));
-   return state;
+   return j.get<ContactState>();
 }
 
 void read_state_file(const std::string &what, const std::string &file,
                      const std::string &format,
                      const std::function<void(const nlohmann::json &)> &read)
 {
-   std::ifstream in(file);
-   require(in.good() && !std::filesystem::is_directory(file), what, ": cannot read file '",
-           file, "'");
    try
    {
-      const nlohmann::json j = nlohmann::json::parse(in);
+      const nlohmann::json j = nlohmann::json::parse(read_whole(file, what + ": "));
       require(j.at("format") == format, what, ": file '", file, "' has format ",
               j.at("format").dump(), ", must be \"", format, "\"");
       read(j);

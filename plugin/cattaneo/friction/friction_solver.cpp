@@ -12,22 +12,9 @@ using Eigen::VectorXd;
 
 const char *name(FrictionStatus status)
 {
-   switch (status)
-   {
-   case FrictionStatus::converged:
-      return "converged";
-   case FrictionStatus::gross_sliding:
-      return "gross sliding";
-   case FrictionStatus::not_unique:
-      return "not unique";
-   case FrictionStatus::no_solution:
-      return "no solution";
-   case FrictionStatus::stalled:
-      return "stalled";
-   case FrictionStatus::stopped:
-      return "stopped";
-   }
-   return "";
+   const char *const names[] = {"converged",   "gross sliding", "not unique",
+                                "no solution", "stalled",       "stopped"};
+   return names[static_cast<int>(status)];
 }
 
 void FrictionSettings::validate() const

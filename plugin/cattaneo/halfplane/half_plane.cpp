@@ -8,7 +8,6 @@
 #include <cattaneo/input_error.hpp>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace cattaneo
 {
@@ -122,29 +121,6 @@ void set_weights(ContactLine &line, const SurfaceTrace &trace)
       weights[innermost[1]] += weights[innermost[0]];
    }
    for (Index i = 0; i < line.size(); ++i) { line.nodes[i].weight = weights[i]; }
-}
-
-/// The mass matrix of each component, of the unknowns that are kept.
-Eigen::SparseMatrix<double> blocks(const Eigen::SparseMatrix<double> &mass,
-                                   const std::vector<int> &kept)
-{
-   std::vector<Index> position(2 * mass.rows(), -1);
-   for (std::size_t a = 0; a < kept.size(); ++a) { position[kept[a]] = static_cast<Index>(a); }
-   std::vector<Eigen::Triplet<double>> entries;
-   for (const int unknown : kept)
-   {
-      const Index first = unknown / mass.rows() * mass.rows();
-      for (Eigen::SparseMatrix<double>::InnerIterator entry(mass, unknown % mass.rows()); entry;
-           ++entry)
-      {
-         const Index row = position[first + entry.row()];
-         if (row >= 0) { entries.emplace_back(row, position[unknown], entry.value()); }
-      }
-   }
-   const auto size = static_cast<Index>(kept.size());
-   Eigen::SparseMatrix<double> M(size, size);
-   M.setFromTriplets(entries.begin(), entries.end());
-   return M;
 }
 
 /// It has no dofs but those of its contact nodes.
@@ -305,7 +281,7 @@ CondensedBody condense(const HalfPlane &body, const ContactLine &other)
            "half-plane: its flexibility is not positive definite, the depth ", body.depth,
            " that displacements are relative to must be larger, or Poisson's ratio ",
            body.material.poisson, " further from its limits");
-   const Eigen::SparseMatrix<double> M = blocks(mass, kept);
+   const Eigen::SparseMatrix<double> M = kept_of(mass, kept);
    MatrixXd S = M * (factor.inverse() * M);
    S.triangularView<Eigen::StrictlyUpper>() = S.transpose();
    if (axis) // it moves as no force asks it to

@@ -1,5 +1,4 @@
 #include <Eigen/SparseCholesky>
-#include <array>
 #include <cattaneo/algebra/quadrature.hpp>
 #include <cattaneo/halfplane/half_plane_field.hpp>
 #include <cattaneo/halfplane/surface.hpp>
@@ -26,23 +25,9 @@ struct Sums
 
 /// Coefficients of functions whose moments with the functions are the forces.
 VectorXd tractions(const Eigen::SparseMatrix<double> &mass, const VectorXd &forces,
-                   const std::vector<Index> &kept)
+                   const std::vector<int> &kept)
 {
-   const auto size = static_cast<Index>(kept.size());
-   std::vector<Index> position(forces.size(), -1);
-   for (Index a = 0; a < size; ++a) { position[kept[a]] = a; }
-   std::vector<Eigen::Triplet<double>> entries;
-   for (Index column = 0; column < mass.cols(); ++column)
-   {
-      for (Eigen::SparseMatrix<double>::InnerIterator entry(mass, column); entry; ++entry)
-      {
-         const Index a = position[entry.row()], b = position[column];
-         if (a >= 0 && b >= 0) { entries.emplace_back(a, b, entry.value()); }
-      }
-   }
-   Eigen::SparseMatrix<double> own(size, size);
-   own.setFromTriplets(entries.begin(), entries.end());
-   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(own);
+   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(kept_of(mass, kept));
    VectorXd result = VectorXd::Zero(forces.size());
    const VectorXd solved = factor.solve(VectorXd(forces(kept)));
    result(kept) = solved;
@@ -64,8 +49,8 @@ struct HalfPlaneField::Tractions
    {
       const Index n = line.size();
       const Eigen::SparseMatrix<double> mass = trace.mass([](double) { return 1.0; });
-      std::vector<Index> all, sliding;
-      for (Index i = 0; i < n; ++i)
+      std::vector<int> all, sliding;
+      for (int i = 0; i < n; ++i)
       {
          all.push_back(i);
          const bool on_plane = body.symmetric && surface.along(line.nodes[i].position) == 0;

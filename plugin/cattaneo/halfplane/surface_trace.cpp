@@ -127,11 +127,7 @@ MatrixXd SurfaceTrace::ordered_integral(const Weight &f, const Weight &g) const
       const QuadratureRule &rule = product_rule(element);
       const SurfacePoints outer = points(element, rule.points);
       const VectorXd fw = weighted(element, outer, f, rule.weights);
-      const VectorXd whole = outer.phi * fw;
-      for (std::size_t a = 0; a < element.unknowns.size(); ++a)
-      {
-         result.row(element.unknowns[a]) += whole[static_cast<Index>(a)] * before.transpose();
-      }
+      result(element.unknowns, Eigen::all) += (outer.phi * fw) * before.transpose();
       for (Index k = 0; k < fw.size(); ++k)
       {
          const double t = rule.points[k];
@@ -143,6 +139,28 @@ MatrixXd SurfaceTrace::ordered_integral(const Weight &f, const Weight &g) const
       before(element.unknowns) += outer.phi * weighted(element, outer, g, rule.weights);
    }
    return result;
+}
+
+Eigen::SparseMatrix<double> kept_of(const Eigen::SparseMatrix<double> &mass,
+                                    const std::vector<int> &kept)
+{
+   std::vector<Index> position(2 * mass.rows(), -1);
+   for (std::size_t a = 0; a < kept.size(); ++a) { position[kept[a]] = static_cast<Index>(a); }
+   std::vector<Eigen::Triplet<double>> entries;
+   for (const int unknown : kept)
+   {
+      const Index first = unknown / mass.rows() * mass.rows();
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(mass, unknown % mass.rows()); entry;
+           ++entry)
+      {
+         const Index row = position[first + entry.row()];
+         if (row >= 0) { entries.emplace_back(row, position[unknown], entry.value()); }
+      }
+   }
+   const auto size = static_cast<Index>(kept.size());
+   Eigen::SparseMatrix<double> M(size, size);
+   M.setFromTriplets(entries.begin(), entries.end());
+   return M;
 }
 
 } // namespace cattaneo

@@ -115,39 +115,6 @@ void check_grid(const char *mesh, const char *name, const std::vector<double> &g
    }
 }
 
-} // namespace
-
-mfem::Mesh rectangle_mesh(const std::vector<double> &x, const std::vector<double> &y)
-{
-   check_grid("rectangle mesh", "x", x);
-   check_grid("rectangle mesh", "y", y);
-   require(static_cast<double>(x.size()) * y.size() < std::numeric_limits<int>::max() / 4,
-           "rectangle mesh: ", x.size(), " × ", y.size(), " grid lines are too many");
-   const int nx = static_cast<int>(x.size()) - 1, ny = static_cast<int>(y.size()) - 1;
-   mfem::Mesh mesh(2, (nx + 1) * (ny + 1), nx * ny, 2 * (nx + ny));
-   for (int j = 0; j <= ny; ++j)
-   {
-      for (int i = 0; i <= nx; ++i) { mesh.AddVertex(x[i], y[j]); }
-   }
-   const auto vertex = [nx](int i, int j) { return i + j * (nx + 1); };
-   for (int j = 0; j < ny; ++j)
-   {
-      for (int i = 0; i < nx; ++i)
-      {
-         mesh.AddQuad(vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1));
-      }
-   }
-   for (int i = 0; i < nx; ++i) { mesh.AddBdrSegment(vertex(i, 0), vertex(i + 1, 0), 1); }
-   for (int j = 0; j < ny; ++j) { mesh.AddBdrSegment(vertex(nx, j), vertex(nx, j + 1), 2); }
-   for (int i = nx; i > 0; --i) { mesh.AddBdrSegment(vertex(i, ny), vertex(i - 1, ny), 3); }
-   for (int j = ny; j > 0; --j) { mesh.AddBdrSegment(vertex(0, j), vertex(0, j - 1), 4); }
-   mesh.FinalizeQuadMesh(1, 0, false);
-   return mesh;
-}
-
-namespace
-{
-
 /// Box of quads below `contact` and rings around it; `half`: the left side of the box is an
 /// axis that the rings end at.
 mfem::Mesh ringed_box(const char *name, const std::vector<double> &contact,
@@ -216,6 +183,34 @@ mfem::Mesh ringed_box(const char *name, const std::vector<double> &contact,
 }
 
 } // namespace
+
+mfem::Mesh rectangle_mesh(const std::vector<double> &x, const std::vector<double> &y)
+{
+   check_grid("rectangle mesh", "x", x);
+   check_grid("rectangle mesh", "y", y);
+   require(static_cast<double>(x.size()) * y.size() < std::numeric_limits<int>::max() / 4,
+           "rectangle mesh: ", x.size(), " × ", y.size(), " grid lines are too many");
+   const int nx = static_cast<int>(x.size()) - 1, ny = static_cast<int>(y.size()) - 1;
+   mfem::Mesh mesh(2, (nx + 1) * (ny + 1), nx * ny, 2 * (nx + ny));
+   for (int j = 0; j <= ny; ++j)
+   {
+      for (int i = 0; i <= nx; ++i) { mesh.AddVertex(x[i], y[j]); }
+   }
+   const auto vertex = [nx](int i, int j) { return i + j * (nx + 1); };
+   for (int j = 0; j < ny; ++j)
+   {
+      for (int i = 0; i < nx; ++i)
+      {
+         mesh.AddQuad(vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1));
+      }
+   }
+   for (int i = 0; i < nx; ++i) { mesh.AddBdrSegment(vertex(i, 0), vertex(i + 1, 0), 1); }
+   for (int j = 0; j < ny; ++j) { mesh.AddBdrSegment(vertex(nx, j), vertex(nx, j + 1), 2); }
+   for (int i = nx; i > 0; --i) { mesh.AddBdrSegment(vertex(i, ny), vertex(i - 1, ny), 3); }
+   for (int j = ny; j > 0; --j) { mesh.AddBdrSegment(vertex(0, j), vertex(0, j - 1), 4); }
+   mesh.FinalizeQuadMesh(1, 0, false);
+   return mesh;
+}
 
 mfem::Mesh half_plane_mesh(const std::vector<double> &contact, const std::vector<double> &depth,
                            const std::vector<double> &scale)

@@ -7,6 +7,23 @@
 namespace cattaneo
 {
 
+bool Ranks::any(bool here) const
+{
+   return max(here ? 1.0 : 0.0) > 0;
+}
+
+long Ranks::sum(long here) const
+{
+   const std::vector<double> all = gather({static_cast<double>(here)});
+   return static_cast<long>(std::accumulate(all.begin(), all.end(), 0.0));
+}
+
+double Ranks::max(double here) const
+{
+   const std::vector<double> all = gather({here});
+   return *std::max_element(all.begin(), all.end());
+}
+
 #ifdef MFEM_USE_MPI
 
 Ranks::Ranks(const mfem::Mesh &mesh)
@@ -20,35 +37,9 @@ Ranks::Ranks(const mfem::Mesh &mesh)
    }
 }
 
-namespace
-{
-
-template <class T>
-T reduced(MPI_Comm comm, int size, T here, MPI_Datatype type, MPI_Op op)
-{
-   T all = here;
-   if (size > 1) { MPI_Allreduce(&here, &all, 1, type, op, comm); }
-   return all;
-}
-
-} // namespace
-
 bool Ranks::first_of_all()
 {
    return !mfem::Mpi::IsInitialized() || mfem::Mpi::Root();
-}
-
-bool Ranks::any(bool here) const
-{
-   return reduced(comm_, size_, here ? 1 : 0, MPI_INT, MPI_MAX) != 0;
-}
-long Ranks::sum(long here) const
-{
-   return reduced(comm_, size_, here, MPI_LONG, MPI_SUM);
-}
-double Ranks::max(double here) const
-{
-   return reduced(comm_, size_, here, MPI_DOUBLE, MPI_MAX);
 }
 
 void Ranks::sum(Eigen::MatrixXd &here) const
@@ -170,19 +161,7 @@ bool Ranks::first_of_all()
 }
 
 Ranks::Ranks(const mfem::Mesh &) {}
-bool Ranks::any(bool here) const
-{
-   return here;
-}
-long Ranks::sum(long here) const
-{
-   return here;
-}
 void Ranks::sum(Eigen::MatrixXd &) const {}
-double Ranks::max(double here) const
-{
-   return here;
-}
 std::vector<double> Ranks::gather(const std::vector<double> &here) const
 {
    return here;

@@ -6,7 +6,6 @@
 #include <cattaneo/output/paraview.hpp>
 #include <cattaneo/readout/zones.hpp>
 #include <cattaneo/whole_file.hpp>
-#include <filesystem>
 #include <sstream>
 
 namespace cattaneo
@@ -15,30 +14,37 @@ namespace cattaneo
 namespace
 {
 
-void make_folder(const std::string &folder)
-{
-   std::error_code error;
-   std::filesystem::create_directories(folder, error);
-   require(!error, "ParaView output: cannot make the folder '", folder, "': ", error.message());
-}
-
 std::vector<std::string> stress_names(Formulation formulation)
 {
-   switch (formulation)
+   if (formulation == Formulation::torsion) { return {"tau_rt", "tau_tz"}; }
+   if (formulation == Formulation::plane)
    {
-   case Formulation::plane:
-      break;
-   case Formulation::axisymmetric:
-      return {"sigma_rr", "sigma_zz", "sigma_tt", "tau_rz", "von_mises"};
-   case Formulation::torsion:
-      return {"tau_rt", "tau_tz"};
+      return {"sigma_xx", "sigma_yy", "sigma_zz", "tau_xy", "von_mises"};
    }
-   return {"sigma_xx", "sigma_yy", "sigma_zz", "tau_xy", "von_mises"};
+   return {"sigma_rr", "sigma_zz", "sigma_tt", "tau_rz", "von_mises"};
 }
 
 const char *unknown(Formulation formulation)
 {
    return formulation == Formulation::torsion ? "twist" : "displacement";
+}
+
+/// What the contact does to the second body, whose nodes run against those of the first.
+Eigen::VectorXd forces_below(const Reduction &reduction, const ContactState &state)
+{
+   const std::vector<LineNode> &above = reduction.bodies.front().line.nodes,
+                               &below = reduction.bodies.back().line.nodes;
+   const auto n = static_cast<Eigen::Index>(above.size());
+   Eigen::VectorXd forces(2 * n);
+   for (Eigen::Index i = 0; i < n; ++i)
+   {
+      const LineNode &node = above[i], &facing = below[n - 1 - i];
+      const double q = state.q.size() > 0 ? state.q[i] : 0.0;
+      const Eigen::Vector2d force = -q * node.tangent - state.p[i] * node.normal();
+      forces[n - 1 - i] = force.dot(facing.tangent);
+      forces[2 * n - 1 - i] = force.dot(facing.normal());
+   }
+   return forces;
 }
 
 } // namespace
@@ -89,12 +95,7 @@ void BodyFields::write(const mfem::Vector &displacement, double time, const Name
    }
    else { field = displacement; }
    if (stress_space_) { evaluate_stress(loads); }
-   make_folder(directory_);
-   series_.SetCycle(series_.GetCycle() + 1);
-   series_.SetTime(time);
-   series_.Save();
-   require(series_.Error() == 0, "ParaView output: cannot write into the folder '", directory_,
-           "'");
+   save(series_, directory_, time);
 }
 
 /// The nodes of the stress elements are points of the body's elements: the stress is
@@ -266,29 +267,6 @@ ReductionFields::ReductionFields(Reduction &reduction,
                                                  directory, name(bodies.size()));
    }
 }
-
-namespace
-{
-
-/// What the contact does to the second body, whose nodes run against those of the first.
-Eigen::VectorXd forces_below(const Reduction &reduction, const ContactState &state)
-{
-   const std::vector<LineNode> &above = reduction.bodies.front().line.nodes,
-                               &below = reduction.bodies.back().line.nodes;
-   const auto n = static_cast<Eigen::Index>(above.size());
-   Eigen::VectorXd forces(2 * n);
-   for (Eigen::Index i = 0; i < n; ++i)
-   {
-      const LineNode &node = above[i], &facing = below[n - 1 - i];
-      const double q = state.q.size() > 0 ? state.q[i] : 0.0;
-      const Eigen::Vector2d force = -q * node.tangent - state.p[i] * node.normal();
-      forces[n - 1 - i] = force.dot(facing.tangent);
-      forces[2 * n - 1 - i] = force.dot(facing.normal());
-   }
-   return forces;
-}
-
-} // namespace
 
 void ReductionFields::write(const ContactState &state)
 {

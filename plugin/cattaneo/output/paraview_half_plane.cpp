@@ -3,7 +3,6 @@
 #include <cattaneo/mesh/graded_mesh.hpp>
 #include <cattaneo/output/paraview_half_plane.hpp>
 #include <filesystem>
-#include <map>
 
 namespace cattaneo
 {
@@ -59,6 +58,22 @@ mfem::Mesh window(const HalfPlane &body, const ContactLine &line)
 
 } // namespace
 
+void make_folder(const std::string &folder)
+{
+   std::error_code error;
+   std::filesystem::create_directories(folder, error);
+   require(!error, "ParaView output: cannot make the folder '", folder, "': ", error.message());
+}
+
+void save(mfem::ParaViewDataCollection &series, const std::string &folder, double time)
+{
+   make_folder(folder);
+   series.SetCycle(series.GetCycle() + 1);
+   series.SetTime(time);
+   series.Save();
+   require(series.Error() == 0, "ParaView output: cannot write into the folder '", folder, "'");
+}
+
 HalfPlaneFields::HalfPlaneFields(const HalfPlane &body, const ContactLine &line,
                                  const std::string &directory, const std::string &name)
    : body_(body), line_(line), directory_(directory), mesh_(window(body, line)),
@@ -109,15 +124,7 @@ void HalfPlaneFields::write(const Eigen::VectorXd &forces, double time)
          for (int c = 0; c < 5; ++c) { (*fields_[c + 1])(dofs[k]) = values[c]; }
       }
    }
-   std::error_code error;
-   std::filesystem::create_directories(directory_, error);
-   require(!error, "ParaView output: cannot make the folder '", directory_,
-           "': ", error.message());
-   series_.SetCycle(series_.GetCycle() + 1);
-   series_.SetTime(time);
-   series_.Save();
-   require(series_.Error() == 0, "ParaView output: cannot write into the folder '", directory_,
-           "'");
+   save(series_, directory_, time);
 }
 
 } // namespace cattaneo

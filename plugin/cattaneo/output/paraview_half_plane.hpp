@@ -9,6 +9,11 @@
 namespace cattaneo
 {
 
+/// Writes one more time of a series. InputError if the folder cannot be made or written.
+void save(mfem::ParaViewDataCollection &series, const std::string &folder, double time);
+/// InputError if it cannot be made.
+void make_folder(const std::string &folder);
+
 /** Series of the fields below the surface of a half-plane for ParaView, as BodyFields writes
     them of a meshed body, on a mesh that is made for it alone: a window below the contact line,
     one and a half of its lengths deep and wide beyond its ends. Values at its nodes are those

@@ -29,27 +29,22 @@ void release(const ReducedProblem &problem, const std::vector<bool> &tied,
              const std::vector<bool> &shut, const VectorXd &clamped, ContactState &state)
 {
    const Index n = problem.nodes();
-   VectorXd u(2 * n);
-   u << state.v, state.w;
+   VectorXd u = state.displacements();
    std::vector<Index> free;
-   for (Index i = 0; i < n; i++)
+   for (Index row = 0; row < 2 * n; row++)
    {
-      if (!tied[i]) { free.push_back(i); }
-   }
-   for (Index i = 0; i < n; i++)
-   {
-      if (!shut[i]) { free.push_back(n + i); }
+      if (!(row < n ? tied[row] : shut[row - n])) { free.push_back(row); }
    }
    const Eigen::MatrixXd &K = problem.K;
-   for (const Index i : free) { u[i] = 0; }
+   u(free).setZero();
+   VectorXd forces = K * u + clamped;
    if (!free.empty())
    {
-      const VectorXd forces = K * u + clamped;
       const VectorXd x = Eigen::MatrixXd(K(free, free)).ldlt().solve(-forces(free));
-      for (std::size_t i = 0; i < free.size(); i++) { u[free[i]] = x[i]; }
+      u(free) = x;
+      forces = K * u + clamped;
+      forces(free).setZero();
    }
-   VectorXd forces = K * u + clamped;
-   for (const Index i : free) { forces[i] = 0; }
    state.v = u.head(n);
    state.w = u.tail(n);
    state.q = forces.head(n);
@@ -224,11 +219,6 @@ std::vector<Zero> singular_positions(const ReducedProblem &problem, const Contac
    std::vector<Zero> positions;
    for (const ContactEdge &edge : edges)
    {
-      if (!edge.why_not.empty())
-      {
-         positions.push_back({});
-         continue;
-      }
       const int side = edge.side;
       Index end = side > 0 ? edge.first : edge.last;
       if (tied[end - side]) { end -= side; }
@@ -375,26 +365,23 @@ std::vector<StuckPair> stuck_pairs(const ReducedProblem &problem, const ContactS
    for (std::size_t e = 0; e < edges.size(); e++)
    {
       StuckPair pair{from[e], {}, base};
-      if (edges[e].why_not.empty())
+      const int side = edges[e].side;
+      const Index end = side > 0 ? edges[e].first : edges[e].last;
+      pair.tied[end - side] = true;
+      pair.to = singular_positions(problem, loaded, contact, edges, pair.tied)[e];
+      // One node more moves the singularity by about a spacing. Where it was not found so,
+      // both are the middles beyond the last tied nodes.
+      const double h = std::abs(s[end - side] - s[end]),
+                   moved = side * (pair.from.position - pair.to.position);
+      if (std::max(pair.from.error, pair.to.error) >= 0.5 * h || moved < 0.5 * h ||
+          moved > 1.5 * h)
       {
-         const int side = edges[e].side;
-         const Index end = side > 0 ? edges[e].first : edges[e].last;
-         pair.tied[end - side] = true;
-         pair.to = singular_positions(problem, loaded, contact, edges, pair.tied)[e];
-         // One node more moves the singularity by about a spacing. Where it was not found so,
-         // both are the middles beyond the last tied nodes.
-         const double h = std::abs(s[end - side] - s[end]),
-                      moved = side * (pair.from.position - pair.to.position);
-         if (std::max(pair.from.error, pair.to.error) >= 0.5 * h || moved < 0.5 * h ||
-             moved > 1.5 * h)
-         {
-            pair.from = {s[end] - 0.5 * side * h, 0.5 * h};
-            pair.to = {s[end] - 1.5 * side * h, 0.5 * h};
-         }
-         // The spread of a fit is no bound: as zones() has it, a quarter of a spacing at least.
-         pair.from.error = std::max(pair.from.error, 0.25 * h);
-         pair.to.error = std::max(pair.to.error, 0.25 * h);
+         pair.from = {s[end] - 0.5 * side * h, 0.5 * h};
+         pair.to = {s[end] - 1.5 * side * h, 0.5 * h};
       }
+      // The spread of a fit is no bound: as zones() has it, a quarter of a spacing at least.
+      pair.from.error = std::max(pair.from.error, 0.25 * h);
+      pair.to.error = std::max(pair.to.error, 0.25 * h);
       pairs.push_back(pair);
    }
    return pairs;
@@ -415,19 +402,15 @@ void read_k_t(const ReducedProblem &problem, const ContactState &pressed,
       std::fill(tractions.pressure.begin(), tractions.pressure.end(), 1.0);
       return fit_edge(tractions, settings).k_t;
    };
-   std::vector<std::size_t> read;
-   for (std::size_t e = 0; e < edges.size(); e++)
-   {
-      if (edges[e].why_not.empty()) { read.push_back(e); }
-   }
+   const std::size_t count = edges.size();
    const ContactState base_state = fully_stuck(problem, pressed, loaded, base);
-   for (const std::size_t e : read)
+   std::vector<double> value(count), doubtful(count, 0.0);
+   for (std::size_t e = 0; e < count; e++)
    {
       edges[e].k_t = fitted(base_state, e, pairs[e].from.position);
+      value[e] = edges[e].k_t.value;
    }
-   std::vector<double> value(edges.size()), doubtful(edges.size(), 0.0);
-   for (const std::size_t e : read) { value[e] = edges[e].k_t.value; }
-   for (const std::size_t e : read)
+   for (std::size_t e = 0; e < count; e++)
    {
       const ContactState stuck = fully_stuck(problem, pressed, loaded, pairs[e].tied);
       const Zero &from = pairs[e].from, &to = pairs[e].to;
@@ -435,7 +418,7 @@ void read_k_t(const ReducedProblem &problem, const ContactState &pressed,
       const double fraction = (edges[e].position.position - from.position) / step;
       const double doubt = edges[e].position.error + std::abs(1 - fraction) * from.error +
                            std::abs(fraction) * to.error;
-      for (const std::size_t other : read)
+      for (std::size_t other = 0; other < count; other++)
       {
          const double position = other == e ? to.position : pairs[other].from.position;
          const double change = fitted(stuck, other, position).value - edges[other].k_t.value;
@@ -443,7 +426,7 @@ void read_k_t(const ReducedProblem &problem, const ContactState &pressed,
          doubtful[other] += std::abs(change / step) * doubt;
       }
    }
-   for (const std::size_t e : read)
+   for (std::size_t e = 0; e < count; e++)
    {
       FittedIntensity &k_t = edges[e].k_t;
       const double error = k_t.relative_error * std::abs(k_t.value) + doubtful[e];
@@ -469,8 +452,7 @@ ContactState fully_stuck(const ReducedProblem &problem, const ContactState &pres
    {
       stuck.status[i] = shut[i] ? NodeState::stick : NodeState::separation;
    }
-   release(problem, tied, closed_nodes(problem, loaded),
-           problem.clamped_forces(loaded.multipliers), stuck);
+   release(problem, tied, shut, problem.clamped_forces(loaded.multipliers), stuck);
    return stuck;
 }
 
@@ -529,11 +511,17 @@ std::vector<ContactEdge> contact_edges(const ReducedProblem &problem,
          edges.push_back(edge);
       }
    }
+   // Those that have intensities, which then take their places again.
+   const auto has_some = [](const ContactEdge &edge) { return edge.why_not.empty(); };
+   std::vector<ContactEdge> read;
+   std::copy_if(edges.begin(), edges.end(), std::back_inserter(read), has_some);
+   for (ContactEdge &edge : read) { read_k_n(problem, loaded, cracked, settings, edge); }
+   read_k_t(problem, pressed, loaded, cracked, settings, read);
+   auto next = read.begin();
    for (ContactEdge &edge : edges)
    {
-      if (edge.why_not.empty()) { read_k_n(problem, loaded, cracked, settings, edge); }
+      if (has_some(edge)) { edge = *next++; }
    }
-   read_k_t(problem, pressed, loaded, cracked, settings, edges);
    return edges;
 }
 

@@ -15,12 +15,8 @@ VectorXd tractions(const ReducedProblem &problem, const VectorXd &nodal_forces)
 {
    require(problem.weights.size() == nodal_forces.size(), "tractions: ", nodal_forces.size(),
            " nodal forces for ", problem.weights.size(), " weights");
-   VectorXd t(nodal_forces.size());
-   for (Index i = 0; i < t.size(); ++i)
-   {
-      t[i] = problem.weights[i] > 0 ? nodal_forces[i] / problem.weights[i] : 0.0;
-   }
-   return t;
+   return (problem.weights.array() > 0)
+      .select(nodal_forces.cwiseQuotient(problem.weights), VectorXd::Zero(nodal_forces.size()));
 }
 
 namespace

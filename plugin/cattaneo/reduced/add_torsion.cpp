@@ -4,23 +4,11 @@
 namespace cattaneo
 {
 
-void Reduction::add_torsion(CondensedBody body)
+void Reduction::add_torsion(CondensedBody body1, std::optional<CondensedBody> body2)
 {
-   std::vector<CondensedBody> one;
-   one.push_back(std::move(body));
-   add_torsion(std::move(one));
-}
-
-void Reduction::add_torsion(CondensedBody body1, CondensedBody body2)
-{
-   std::vector<CondensedBody> two;
-   two.push_back(std::move(body1));
-   two.push_back(std::move(body2));
-   add_torsion(std::move(two));
-}
-
-void Reduction::add_torsion(std::vector<CondensedBody> twisting)
-{
+   std::vector<CondensedBody> twisting;
+   twisting.push_back(std::move(body1));
+   if (body2) { twisting.push_back(std::move(*body2)); }
    const Eigen::Index n = problem.nodes();
    require(obstacle_.size() == 0,
            "add torsion: the obstacle already moves, torsion must be added before");

@@ -3,8 +3,7 @@
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/reduced_file.hpp>
 #include <cattaneo/whole_file.hpp>
-#include <filesystem>
-#include <fstream>
+#include <cattaneo/words.hpp>
 #include <nlohmann/json.hpp>
 
 namespace cattaneo
@@ -39,18 +38,10 @@ std::array<LineEnd, 2> ends_from_json(const nlohmann::json &j)
    return ends;
 }
 
-/// JSON is UTF-8, and throws its own exception of what is not.
 const std::string &writable(const char *what, const std::string &name)
 {
-   try
-   {
-      nlohmann::json(name).dump();
-   }
-   catch (const nlohmann::json::type_error &)
-   {
-      require(false, "reduced problem: the name of ", what, " '", name,
-              "' is not UTF-8, must be for a file");
-   }
+   require(is_utf8(name), "reduced problem: the name of ", what, " '", name,
+           "' is not UTF-8, must be for a file");
    return name;
 }
 
@@ -160,13 +151,10 @@ void save(const ReducedProblem &problem, const std::string &file)
 
 ReducedProblem load_reduced_problem(const std::string &file)
 {
-   std::ifstream in(file);
-   require(in.good() && !std::filesystem::is_directory(file),
-           "reduced problem: cannot read file '", file, "'");
    ReducedProblem problem;
    try
    {
-      const nlohmann::json j = nlohmann::json::parse(in);
+      const nlohmann::json j = nlohmann::json::parse(read_whole(file, "reduced problem: "));
       require(j.at("format") == format_name || j.at("format") == format_1,
               "reduced problem: file '", file, "' is not a '", format_name, "' (or 1)");
       Eigen::MatrixXd A, B, C;

@@ -4,6 +4,7 @@
 #include <cattaneo/reduced/pairing.hpp>
 #include <cattaneo/reduced/reduced_problem.hpp>
 #include <cattaneo/scalar_field.hpp>
+#include <optional>
 
 namespace cattaneo
 {
@@ -48,10 +49,9 @@ public:
    /// Adds the circumferential components of one axisymmetric body (its torsion body, condensed
    /// to the same nodes): v_θ = u_θ and q_θ the force on the body, positive with the twist.
    /// Load patterns of the same name are one pattern. InputError unless the reduction is of one
-   /// axisymmetric body without torsion, or if the nodes differ.
-   void add_torsion(CondensedBody body);
-   /// The same of two bodies: v_θ = u_θ1 - u_θ2, q_θ the force on body 1.
-   void add_torsion(CondensedBody body1, CondensedBody body2);
+   /// axisymmetric body without torsion, or if the nodes differ. Of two bodies v_θ = u_θ1 -
+   /// u_θ2, q_θ the force on body 1.
+   void add_torsion(CondensedBody body1, std::optional<CondensedBody> body2 = std::nullopt);
 
    /** A load pattern that moves the rigid obstacle of one body (or deforms it) by (ux, uy) per
        unit multiplier, functions of the contact nodes' places, in axisymmetry (ur, uz); with
@@ -114,7 +114,6 @@ private:
    friend Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairing);
    friend Reduction reduce(std::vector<CondensedBody> bodies,
                            const std::vector<Interface> &interfaces);
-   void add_torsion(std::vector<CondensedBody> twisting);
    /// With the forces of shanks in the place of their pretensions, for displacements {v; w} of
    /// which the obstacle's are a part.
    Eigen::VectorXd acting(const Eigen::VectorXd &u, Eigen::VectorXd multipliers) const;

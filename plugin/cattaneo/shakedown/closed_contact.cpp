@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cattaneo/algebra/dense_algebra.hpp>
+#include <cattaneo/friction/settled_states.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/shakedown/closed_contact.hpp>
 
@@ -140,6 +141,31 @@ Eigen::VectorXd ClosedContact::open_gaps(const Eigen::VectorXd &slip,
                                          const Eigen::VectorXd &multipliers) const
 {
    return open_gap + open_by_slip * slip + open_by_load * multipliers;
+}
+
+StayedClosed stay_closed(const ReducedProblem &problem, const LoadCycle &cycle,
+                         double load_factor, int cycles, const Monitor &monitor)
+{
+   cycle.validate(problem);
+   require(cycles >= 1, "stay_closed: there are ", cycles, " cycles, must be at least 1");
+   const Eigen::VectorXd rest = Eigen::VectorXd::Zero(cycle.constant.size());
+   const LoadHistory history =
+      cycle.history(load_factor, {rest, cycle.constant}, false, cycles);
+   SlipRange slip(problem);
+   const auto observe = [&](const ContactState &now, const IncrementRecord &record)
+   {
+      if (record.time >= 1) { slip.note(now); }
+   };
+   MarchSettings settings;
+   settings.monitor = monitor;
+   ContactState state = ContactState::virgin(problem);
+   StayedClosed stayed;
+   stayed.march = march(problem, history, state, settings, observe);
+   for (std::size_t i = 0; i < slip.always_closed().size(); ++i)
+   {
+      if (slip.always_closed()[i]) { stayed.nodes.push_back(static_cast<Eigen::Index>(i)); }
+   }
+   return stayed;
 }
 
 } // namespace cattaneo

@@ -7,158 +7,210 @@
 namespace cattaneo
 {
 
+namespace
+{
+
+constexpr double smallest_friction = 1e-7; // below it, counts as zero
+
+/// A search for the smallest friction.
+class FrictionLimit : private LimitSearch
+{
+public:
+   FrictionLimit(const LimitProblem &problem, double load_factor, const LimitSettings &settings)
+      : LimitSearch(problem.reduced, problem.residual,
+                    stuck_forces(problem.reduced, problem.cycle), settings),
+        load_factor_(load_factor), q_(loads_.q(load_factor)), p_(loads_.p(load_factor)),
+        force_scale_(typical_forces(q_, p_))
+   {
+      report_.coupling = problem.coupling;
+      report_.upper = report_.limit = std::numeric_limits<double>::infinity();
+   }
+   LimitReport find();
+
+private:
+   /// What a trial of a friction coefficient came to.
+   struct Trial
+   {
+      ConeSolution solution;
+      bool better = false;   ///< a slip was found that less friction holds than any before
+      bool excluded = false; ///< no slip does with this friction (proven)
+   };
+
+   void forget_best();
+   void take(const Eigen::VectorXd &slip);
+   void start_from_settings();
+   void take_wedged(ConeProgramme programme);
+   Trial attempt(double friction);
+   bool closed() const;
+   double next_friction(const Trial &trial);
+   LimitReport conclude(const std::string &message);
+
+   ConeProgramme clearance(double friction) const
+   {
+      return clearance_programme(q_, p_, Eigen::VectorXd::Constant(reduced_.nodes(), friction),
+                                 weight_, force_scale_);
+   }
+   double highest() const { return std::min(settings_.largest_friction, report_.upper); }
+
+   const double load_factor_;
+   const Eigen::MatrixXd q_, p_; // of the loads at that factor
+   const Eigen::VectorXd force_scale_;
+   Eigen::MatrixXd weight_; // of the clearances
+   ConeStart start_;
+   int undecided_ = 0; // trials since one moved a bound
+};
+
+/// From the stuck state, by typical forces.
+void FrictionLimit::forget_best()
+{
+   start_ = {0, no_slip_, {}};
+   weight_ = force_scale_.replicate(1, loads_.vertices());
+}
+
+/// Takes a slip over if it is the best: its largest |q| / p, if all nodes press.
+void FrictionLimit::take(const Eigen::VectorXd &slip)
+{
+   const auto [shear, least] =
+      slipped_forces(reduced_, loads_, load_factor_, slip, Rounding::against);
+   if (least.minCoeff() <= 0) { return; }
+   const double worst = shear.cwiseQuotient(least).maxCoeff();
+   if (!(worst < report_.upper)) { return; }
+   report_.upper = report_.limit = worst;
+   report_.slip = slip;
+   // Clearance per normal force makes Dinkelbach's iteration superlinear.
+   weight_ = slipped_forces(reduced_, loads_, load_factor_, slip, Rounding::ignored)
+                .p.cwiseMax(1e-3 * force_scale_.replicate(1, loads_.vertices()));
+}
+
+void FrictionLimit::start_from_settings()
+{
+   if (!settings_.start || settings_.start->slip.size() != no_slip_.size()) { return; }
+   take(settings_.start->slip);
+   start_.r = reduced_.A() * settings_.start->slip;
+}
+
+/// A slip that this friction wedges without any load holds all loads when it is large.
+void FrictionLimit::take_wedged(ConeProgramme programme)
+{
+   programme.loads.q0.setZero();
+   programme.loads.p0.setZero();
+   programme.reach = 1e3;
+   const ConeSolution wedged = solve(programme, {0, no_slip_, {}});
+   for (double size = 1; size <= 1e9 && usable(wedged); size *= 10)
+   {
+      take(size * (residual_.flexibility * wedged.r));
+   }
+}
+
+FrictionLimit::Trial FrictionLimit::attempt(double friction)
+{
+   ConeProgramme programme = clearance(friction);
+   programme.theta_scale = friction; // clearances are compared with f p
+   Trial trial{solve(programme, start_)};
+   if (!usable(trial.solution)) { return trial; }
+   const Eigen::VectorXd slip = residual_.flexibility * trial.solution.r;
+   CollapseMechanism mechanism = trial.solution.mechanism;
+   const double bound = weak_duality_bound(programme, reduced_, mechanism, slip_size(slip));
+   const double before = report_.upper;
+   take(slip);
+   trial.excluded = bound < 0;
+   if (bound >= 0 && !(report_.upper < before)) { take_wedged(programme); }
+   trial.better = report_.upper < before;
+   if (trial.excluded)
+   {
+      report_.lower = friction;
+      report_.mechanism = std::move(mechanism);
+   }
+   return trial;
+}
+
+bool FrictionLimit::closed() const
+{
+   return highest() - report_.lower <= settings_.tolerance * highest();
+}
+
+double FrictionLimit::next_friction(const Trial &trial)
+{
+   if (trial.excluded || trial.solution.outcome == ConeOutcome::ceiling || undecided_ > 0)
+   {
+      // Where so much friction wedges the contact, any residual state is held and there is no
+      // best one. Halve the interval until there is one; where the solver does not say, ask
+      // elsewhere in it.
+      constexpr double share[] = {0.5, 0.5, 0.25, 0.75, 0.1};
+      forget_best();
+      return report_.lower + share[undecided_] * (highest() - report_.lower);
+   }
+   start_ = {0, trial.solution.r, trial.solution.mechanism};
+   return report_.upper * (1 - 0.5 * settings_.tolerance);
+}
+
+LimitReport FrictionLimit::conclude(const std::string &message)
+{
+   if (report_.upper <= smallest_friction)
+   {
+      return ended(LimitStatus::certified, "no friction is needed");
+   }
+   if (report_.slip.size())
+   {
+      report_.violation = worst_violation(clearance(report_.upper), reduced_, 0, report_.slip);
+   }
+   if (report_.lower >= settings_.largest_friction)
+   {
+      return ended(LimitStatus::no_solution,
+                   "no slip keeps the contact stuck and closed with any friction coefficient "
+                   "searched (proven by the mechanism)");
+   }
+   if (!std::isfinite(report_.upper))
+   {
+      return ended(LimitStatus::failed, "no admissible slip was found. " + message);
+   }
+   if (report_.upper - report_.lower <= settings_.tolerance * report_.upper)
+   {
+      return ended(LimitStatus::certified, "");
+   }
+   return ended(LimitStatus::bracketed, "the gap between the bounds is not closed. " + message);
+}
+
+LimitReport FrictionLimit::find()
+{
+   if (q_.isZero(0) && p_.isZero(0))
+   {
+      report_.limit = report_.upper = 0;
+      report_.slip = no_slip_;
+      return ended(LimitStatus::certified, "there is no load: no friction is needed");
+   }
+   forget_best();
+   take(no_slip_);
+   start_from_settings();
+   constexpr int max_programmes = 40;
+   std::string message;
+   double f =
+      std::min(settings_.largest_friction, report_.upper * (1 - 0.5 * settings_.tolerance));
+   for (int k = 0; k < max_programmes && report_.upper > smallest_friction; ++k)
+   {
+      const Trial trial = attempt(f);
+      message = trial.solution.message;
+      if (trial.solution.outcome == ConeOutcome::unavailable)
+      {
+         return ended(LimitStatus::unavailable, message);
+      }
+      if (!usable(trial.solution)) { return ended(LimitStatus::failed, message); }
+      if (settings_.monitor.stopped() || closed()) { break; }
+      undecided_ = trial.better || trial.excluded ? 0 : undecided_ + 1;
+      if (undecided_ == 5) { break; }
+      f = next_friction(trial);
+   }
+   return conclude(message);
+}
+
+} // namespace
+
 LimitReport friction_limit(const LimitProblem &problem, double load_factor,
                            const LimitSettings &settings)
 {
-   ProgressReport progress(settings.monitor);
-   check_limit(problem.reduced, problem.residual, settings);
    require(std::isfinite(load_factor), "shakedown: the load factor is not finite");
-   const ReducedProblem &reduced = problem.reduced;
-   const Eigen::Index n = reduced.nodes(), m = reduced.slips();
-   const StuckForces loads = stuck_forces(reduced, problem.cycle);
-   const Eigen::MatrixXd q = loads.q(load_factor), p = loads.p(load_factor);
-
-   LimitReport report;
-   report.coupling = problem.coupling;
-   report.upper = report.limit = std::numeric_limits<double>::infinity();
-   const auto finish = [&](LimitStatus status, const std::string &message)
-   {
-      report.status = unless_stopped(status, settings.monitor);
-      report.message = message;
-      report.seconds = progress.seconds();
-      progress.end(1.0, report.iterations);
-      return report;
-   };
-   if (q.isZero(0) && p.isZero(0))
-   {
-      report.limit = report.upper = 0;
-      report.slip = Eigen::VectorXd::Zero(m);
-      return finish(LimitStatus::certified, "there is no load: no friction is needed");
-   }
-
-   const Eigen::VectorXd force_scale = typical_forces(q, p);
-   Eigen::MatrixXd weight = force_scale.replicate(1, loads.vertices());
-
-   /// Largest |q| / p with slip v; infinite if a node has p ≤ 0. Takes v over if it is the
-   /// best.
-   const auto take = [&](const Eigen::VectorXd &v)
-   {
-      const auto [shear, least] =
-         slipped_forces(reduced, loads, load_factor, v, Rounding::against);
-      if (least.minCoeff() <= 0) { return; }
-      const double worst = shear.cwiseQuotient(least).maxCoeff();
-      if (worst < report.upper)
-      {
-         report.upper = report.limit = worst;
-         report.slip = v;
-         // Clearance per normal force makes Dinkelbach's iteration superlinear.
-         weight = slipped_forces(reduced, loads, load_factor, v, Rounding::ignored)
-                     .p.cwiseMax(1e-3 * force_scale.replicate(1, loads.vertices()));
-      }
-   };
-
-   ConeStart start;
-   start.r = Eigen::VectorXd::Zero(m);
-   take(start.r);
-   if (settings.start && settings.start->slip.size() == m)
-   {
-      take(settings.start->slip);
-      start.r = reduced.A() * settings.start->slip;
-   }
-
-   constexpr int max_programmes = 40;
-   constexpr double smallest_friction = 1e-7; // below it, counts as zero
-   ConeSolution solution;
-   int undecided = 0; // trials since one moved a bound
-   double f =
-      std::min(settings.largest_friction, report.upper * (1 - 0.5 * settings.tolerance));
-   for (int k = 0; k < max_programmes && report.upper > smallest_friction; ++k)
-   {
-      ConeProgramme programme =
-         clearance_programme(problem.residual, loads, load_factor,
-                             Eigen::VectorXd::Constant(n, f), weight, force_scale);
-      // Clearances are compared with f p.
-      programme.theta_scale = f;
-      solution = solve_counted(programme, settings, start, report, progress);
-      if (solution.outcome == ConeOutcome::unavailable)
-      {
-         return finish(LimitStatus::unavailable, solution.message);
-      }
-      if (!usable(solution)) { return finish(LimitStatus::failed, solution.message); }
-      const Eigen::VectorXd slip = problem.residual.flexibility * solution.r;
-      CollapseMechanism mechanism = solution.mechanism;
-      const double clearance =
-         weak_duality_bound(programme, reduced, mechanism, slip_size(slip));
-      const double before = report.upper;
-      take(slip);
-      if (clearance >= 0 && !(report.upper < before))
-      {
-         // A slip that friction f wedges without any load holds all loads when it is large.
-         ConeProgramme wedge = programme;
-         wedge.loads.q0.setZero();
-         wedge.loads.p0.setZero();
-         wedge.reach = 1e3;
-         const ConeSolution wedged =
-            solve_counted(wedge, settings, {0, Eigen::VectorXd::Zero(m), {}}, report, progress);
-         for (double size = 1; size <= 1e9 && usable(wedged); size *= 10)
-         {
-            take(size * (problem.residual.flexibility * wedged.r));
-         }
-      }
-      if (clearance < 0)
-      {
-         report.lower = f;
-         report.mechanism = std::move(mechanism);
-      }
-      if (settings.monitor.stopped()) { break; }
-      const double highest = std::min(settings.largest_friction, report.upper);
-      if (highest - report.lower <= settings.tolerance * highest) { break; }
-      const bool better = report.upper < before;
-      if (better || clearance < 0) { undecided = 0; }
-      else if (++undecided == 5) { break; }
-      if (clearance < 0 || solution.outcome == ConeOutcome::ceiling || undecided > 0)
-      {
-         // Where so much friction wedges the contact, any residual state is held and there is
-         // no best one. Halve the interval until there is one; where the solver does not say,
-         // ask elsewhere in it.
-         constexpr double share[] = {0.5, 0.5, 0.25, 0.75, 0.1};
-         f = report.lower + share[undecided] * (highest - report.lower);
-         start = {0, Eigen::VectorXd::Zero(m), {}};
-         weight = force_scale.replicate(1, loads.vertices());
-      }
-      else
-      {
-         f = report.upper * (1 - 0.5 * settings.tolerance);
-         start = {0, solution.r, solution.mechanism};
-      }
-   }
-   if (report.upper <= smallest_friction)
-   {
-      return finish(LimitStatus::certified, "no friction is needed");
-   }
-   if (report.slip.size())
-   {
-      ConeProgramme programme =
-         clearance_programme(problem.residual, loads, load_factor,
-                             Eigen::VectorXd::Constant(n, report.upper), weight, force_scale);
-      report.violation = worst_violation(programme, reduced, 0, report.slip);
-   }
-   if (report.lower >= settings.largest_friction)
-   {
-      return finish(LimitStatus::no_solution,
-                    "no slip keeps the contact stuck and closed with any friction coefficient "
-                    "searched (proven by the mechanism)");
-   }
-   if (!std::isfinite(report.upper))
-   {
-      return finish(LimitStatus::failed, "no admissible slip was found. " + solution.message);
-   }
-   if (report.upper - report.lower <= settings.tolerance * report.upper)
-   {
-      return finish(LimitStatus::certified, "");
-   }
-   return finish(LimitStatus::bracketed,
-                 "the gap between the bounds is not closed. " + solution.message);
+   problem.reduced.validate();
+   return FrictionLimit(problem, load_factor, settings).find();
 }
 
 } // namespace cattaneo

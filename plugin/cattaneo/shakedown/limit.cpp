@@ -14,24 +14,9 @@ LimitProblem limit_problem(ReducedProblem reduced, LoadCycle cycle)
 
 const char *name(LimitStatus status)
 {
-   switch (status)
-   {
-   case LimitStatus::certified:
-      return "certified";
-   case LimitStatus::bracketed:
-      return "bracketed";
-   case LimitStatus::unlimited:
-      return "unlimited";
-   case LimitStatus::no_solution:
-      return "no solution";
-   case LimitStatus::failed:
-      return "failed";
-   case LimitStatus::stopped:
-      return "stopped";
-   case LimitStatus::unavailable:
-      return "unavailable";
-   }
-   return "";
+   const char *const names[] = {"certified", "bracketed", "unlimited",  "no solution",
+                                "failed",    "stopped",   "unavailable"};
+   return names[static_cast<int>(status)];
 }
 
 void LimitSettings::validate() const

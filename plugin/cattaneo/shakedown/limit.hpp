@@ -2,7 +2,6 @@
 
 #include <cattaneo/counters.hpp>
 #include <cattaneo/monitor.hpp>
-#include <cattaneo/shakedown/collapse_mechanism.hpp>
 #include <cattaneo/shakedown/load_cycle.hpp>
 #include <cattaneo/shakedown/residual_forces.hpp>
 
@@ -43,6 +42,14 @@ enum class LimitStatus
 };
 
 const char *name(LimitStatus status);
+
+/** Motions dual to the limit: at load vertex j node i slips by `slip` and opens by `opening`,
+   with opening ≥ f |slip| (the flow rule associated with the friction cone). */
+struct CollapseMechanism
+{
+   Eigen::MatrixXd slip;    ///< c·n × vertices
+   Eigen::MatrixXd opening; ///< n × vertices
+};
 
 struct LimitReport;
 

@@ -6,8 +6,10 @@
 namespace cattaneo
 {
 
-void check_limit(const ReducedProblem &reduced, const ResidualForces &residual,
-                 const LimitSettings &settings)
+LimitSearch::LimitSearch(const ReducedProblem &reduced, const ResidualForces &residual,
+                         StuckForces loads, const LimitSettings &settings)
+   : reduced_(reduced), residual_(residual), loads_(std::move(loads)), settings_(settings),
+     no_slip_(Eigen::VectorXd::Zero(reduced.slips())), progress_(settings.monitor)
 {
    settings.validate();
    reduced.validate();
@@ -17,40 +19,43 @@ void check_limit(const ReducedProblem &reduced, const ResidualForces &residual,
            residual.flexibility.rows(), " tangential unknowns instead of ", m);
 }
 
+LimitReport LimitSearch::ended(LimitStatus status, const std::string &message)
+{
+   const bool open = status == LimitStatus::bracketed || status == LimitStatus::failed;
+   report_.status = open && settings_.monitor.stopped() ? LimitStatus::stopped : status;
+   report_.message = message;
+   report_.seconds = progress_.seconds();
+   progress_.end(1.0, report_.iterations);
+   return report_;
+}
+
 Eigen::VectorXd typical_forces(const Eigen::MatrixXd &q, const Eigen::MatrixXd &p)
 {
    const Eigen::Index n = p.rows();
    Eigen::VectorXd scale = p.cwiseAbs().rowwise().maxCoeff();
-   for (Eigen::Index k = 0; k < q.rows(); ++k)
+   const Eigen::VectorXd shear = q.cwiseAbs().rowwise().maxCoeff();
+   for (Eigen::Index k = 0; k < q.rows(); k += n)
    {
-      scale[k % n] = std::max(scale[k % n], q.row(k).cwiseAbs().maxCoeff());
+      scale = scale.cwiseMax(shear.segment(k, n));
    }
    Eigen::VectorXd sorted = scale;
    std::nth_element(sorted.data(), sorted.data() + n / 2, sorted.data() + n);
    return scale.cwiseMax(1e-3 * std::max(sorted[n / 2], 1e-3 * scale.maxCoeff()));
 }
 
-ConeSolution solve_counted(const ConeProgramme &programme, const LimitSettings &settings,
-                           const ConeStart &start, LimitReport &report,
-                           ProgressReport &progress)
+ConeSolution LimitSearch::solve(const ConeProgramme &programme, const ConeStart &start)
 {
    ConeSettings cone;
    cone.goes_on = [&](int iteration)
    {
-      progress.note(std::nan(""), report.iterations + iteration);
-      return !settings.monitor.stopped();
+      progress_.note(std::nan(""), report_.iterations + iteration);
+      return !settings_.monitor.stopped();
    };
-   cone.max_iterations = settings.max_iterations;
-   ConeSolution solution = solve(programme, cone, start);
-   report.iterations += solution.iterations;
-   ++report.counters.limit_solves;
+   cone.max_iterations = settings_.max_iterations;
+   ConeSolution solution = cattaneo::solve(programme, cone, start);
+   report_.iterations += solution.iterations;
+   ++report_.counters.limit_solves;
    return solution;
-}
-
-LimitStatus unless_stopped(LimitStatus status, const Monitor &monitor)
-{
-   const bool open = status == LimitStatus::bracketed || status == LimitStatus::failed;
-   return open && monitor.stopped() ? LimitStatus::stopped : status;
 }
 
 bool usable(const ConeSolution &solution)
@@ -63,16 +68,17 @@ double slip_size(const Eigen::VectorXd &slip)
    return 10 * slip.cwiseAbs().maxCoeff();
 }
 
-ConeProgramme clearance_programme(const ResidualForces &residual, const StuckForces &loads,
-                                  double load_factor, Eigen::VectorXd friction,
-                                  const Eigen::MatrixXd &weight,
-                                  const Eigen::VectorXd &force_scale)
+ConeProgramme LimitSearch::clearance_programme(const Eigen::MatrixXd &q,
+                                               const Eigen::MatrixXd &p,
+                                               Eigen::VectorXd friction,
+                                               const Eigen::MatrixXd &weight,
+                                               const Eigen::VectorXd &force_scale) const
 {
    ConeProgramme programme;
-   programme.residual = &residual;
-   programme.loads.q0 = loads.q(load_factor);
-   programme.loads.p0 = loads.p(load_factor);
-   programme.loads.q1 = Eigen::MatrixXd::Zero(loads.q0.rows(), loads.vertices());
+   programme.residual = &residual_;
+   programme.loads.q0 = q;
+   programme.loads.p0 = p;
+   programme.loads.q1 = Eigen::MatrixXd::Zero(q.rows(), q.cols());
    programme.loads.p1 = -(friction.cwiseInverse().asDiagonal() * weight);
    programme.friction = std::move(friction);
    programme.force_scale = force_scale;

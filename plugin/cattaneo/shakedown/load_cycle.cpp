@@ -21,6 +21,19 @@ Eigen::MatrixXd LoadCycle::multipliers(double load_factor) const
    return (load_factor * varying).colwise() + constant;
 }
 
+LoadHistory LoadCycle::history(double load_factor, std::vector<Eigen::VectorXd> opening,
+                               bool from_opening, int cycles) const
+{
+   const Eigen::MatrixXd at = multipliers(load_factor);
+   const std::size_t first = opening.size() - (from_opening ? 1 : 0);
+   for (const auto vertex : at.colwise()) { opening.emplace_back(vertex); }
+   opening.push_back(opening[first]);
+   LoadHistory history = LoadHistory::through(opening);
+   history.cycle_start = static_cast<int>(first);
+   history.cycles = cycles;
+   return history;
+}
+
 void LoadCycle::validate(const ReducedProblem &problem) const
 {
    const auto patterns = static_cast<Eigen::Index>(problem.patterns.size());

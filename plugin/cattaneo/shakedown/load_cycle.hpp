@@ -1,7 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <cattaneo/reduced/reduced_problem.hpp>
+#include <cattaneo/friction/load_history.hpp>
 
 namespace cattaneo
 {
@@ -29,6 +29,11 @@ struct LoadCycle
 
    /// The multipliers at every vertex, patterns × vertices.
    Eigen::MatrixXd multipliers(double load_factor) const;
+
+   /// A march through points, then through the vertices and back to the first of them, or to
+   /// the point before them if the cycle starts there: so many cycles.
+   LoadHistory history(double load_factor, std::vector<Eigen::VectorXd> opening,
+                       bool from_opening, int cycles) const;
 
    /// InputError unless the cycle fits the patterns of @a problem, is finite and has a vertex.
    void validate(const ReducedProblem &problem) const;

@@ -26,26 +26,6 @@ struct Clearance
    double bound = infinity;    ///< of all states, proven by the mechanism of the solution
 };
 
-Clearance largest_clearance(const ReducedProblem &reduced, const ResidualForces &residual,
-                            const StuckForces &loads, const Eigen::VectorXd &force_scale,
-                            const LimitSettings &settings, LimitReport &report,
-                            ProgressReport &progress)
-{
-   const ConeProgramme programme =
-      clearance_programme(residual, loads, 0, reduced.friction,
-                          force_scale.replicate(1, loads.vertices()), force_scale);
-   ConeStart stuck;
-   stuck.r = Eigen::VectorXd::Zero(loads.q0.rows());
-   Clearance largest;
-   largest.solution = solve_counted(programme, settings, stuck, report, progress);
-   if (!usable(largest.solution)) { return largest; }
-   largest.slip = residual.flexibility * largest.solution.r;
-   largest.reached = -worst_violation(programme, reduced, 0, largest.slip, Rounding::against);
-   largest.bound = weak_duality_bound(programme, reduced, largest.solution.mechanism,
-                                      slip_size(largest.slip));
-   return largest;
-}
-
 /// A load factor and the slip that holds it; -infinity if none does.
 struct Held
 {
@@ -99,7 +79,7 @@ Held largest_held(const ConeProgramme &programme, const ReducedProblem &problem,
 }
 
 /// A search for the largest load factor.
-class LoadLimit
+class LoadLimit : private LimitSearch
 {
 public:
    LoadLimit(const ReducedProblem &reduced, const ResidualForces &residual,
@@ -108,6 +88,9 @@ public:
 
 private:
    LimitReport finish(LimitStatus status, const std::string &message);
+   /// Of the loads {q; p} alone.
+   Clearance largest_clearance(const Eigen::MatrixXd &q, const Eigen::MatrixXd &p,
+                               const Eigen::VectorXd &force_scale);
    /// A slip in proportion to the load factor that holds the varying loads by itself holds them
    /// however large they are: this one does, proven up to a load factor.
    LimitReport unlimited(const Eigen::VectorXd &ray, double proven, const std::string &message);
@@ -123,27 +106,20 @@ private:
    /// what was found shows that the bounds meet.
    std::optional<LimitReport> try_ray();
 
-   const ReducedProblem &reduced_;
-   const ResidualForces &residual_;
-   const StuckForces &loads_;
-   const LimitSettings &settings_;
-   ProgressReport progress_;
    const bool nothing_constant_, nothing_varies_;
-   const Eigen::VectorXd no_slip_, varying_scale_;
+   const Eigen::VectorXd varying_scale_;
    ConeProgramme programme_, alone_; // alone: of the varying loads
    double sliding_ = 0;              // the load factor of gross sliding, its size
    ConeStart start_;
    bool held_ = false; // the constant loads are, to round-off, by
    Eigen::VectorXd first_slip_;
-   LimitReport report_;
 };
 
 LoadLimit::LoadLimit(const ReducedProblem &reduced, const ResidualForces &residual,
                      const StuckForces &loads, const LimitSettings &settings)
-   : reduced_(reduced), residual_(residual), loads_(loads), settings_(settings),
-     progress_(settings.monitor), nothing_constant_(loads.q0.isZero(0) && loads.p0.isZero(0)),
+   : LimitSearch(reduced, residual, loads, settings),
+     nothing_constant_(loads.q0.isZero(0) && loads.p0.isZero(0)),
      nothing_varies_(loads.q1.isZero(0) && loads.p1.isZero(0)),
-     no_slip_(Eigen::VectorXd::Zero(reduced.slips())),
      varying_scale_(typical_forces(loads.q1, loads.p1))
 {
    programme_.residual = &residual;
@@ -168,12 +144,23 @@ LoadLimit::LoadLimit(const ReducedProblem &reduced, const ResidualForces &residu
 
 LimitReport LoadLimit::finish(LimitStatus status, const std::string &message)
 {
-   report_.status = unless_stopped(status, settings_.monitor);
-   report_.message = message;
    report_.limit = report_.lower;
-   report_.seconds = progress_.seconds();
-   progress_.end(1.0, report_.iterations);
-   return report_;
+   return ended(status, message);
+}
+
+Clearance LoadLimit::largest_clearance(const Eigen::MatrixXd &q, const Eigen::MatrixXd &p,
+                                       const Eigen::VectorXd &force_scale)
+{
+   const ConeProgramme programme = clearance_programme(
+      q, p, reduced_.friction, force_scale.replicate(1, q.cols()), force_scale);
+   Clearance largest;
+   largest.solution = solve(programme, {0, no_slip_, {}});
+   if (!usable(largest.solution)) { return largest; }
+   largest.slip = residual_.flexibility * largest.solution.r;
+   largest.reached = -worst_violation(programme, reduced_, 0, largest.slip, Rounding::against);
+   largest.bound = weak_duality_bound(programme, reduced_, largest.solution.mechanism,
+                                      slip_size(largest.slip));
+   return largest;
 }
 
 LimitReport LoadLimit::unlimited(const Eigen::VectorXd &ray, double proven,
@@ -202,8 +189,7 @@ std::optional<LimitReport> LoadLimit::hold_constant_loads()
    {
       const Eigen::VectorXd relief = -(residual_.flexibility * loads_.q0.col(0));
       take(relief, reduced_.A() * relief);
-      Clearance constant = largest_clearance(
-         reduced_, residual_, loads_, programme_.force_scale, settings_, report_, progress_);
+      Clearance constant = largest_clearance(loads_.q0, loads_.p0, programme_.force_scale);
       if (constant.solution.outcome == ConeOutcome::unavailable)
       {
          return finish(LimitStatus::unavailable, constant.solution.message);
@@ -270,8 +256,7 @@ bool LoadLimit::closed() const
 
 std::optional<LimitReport> LoadLimit::try_ray()
 {
-   Clearance ray = largest_clearance(reduced_, residual_, alone_.loads, varying_scale_,
-                                     settings_, report_, progress_);
+   Clearance ray = largest_clearance(loads_.q1, loads_.p1, varying_scale_);
    if (held_ && ray.reached > 0)
    {
       report_.slip = first_slip_;
@@ -311,6 +296,12 @@ std::optional<LimitReport> LoadLimit::try_ray()
 
 LimitReport LoadLimit::find()
 {
+   for (Eigen::Index i = 0; i < reduced_.nodes(); ++i)
+   {
+      require(reduced_.friction[i] > 0, "shakedown: friction coefficient ",
+              reduced_.friction[i], " at node ", i,
+              ", must be positive: a node without friction never sticks");
+   }
    if (nothing_constant_ && nothing_varies_)
    {
       report_.slip = no_slip_;
@@ -329,7 +320,7 @@ LimitReport LoadLimit::find()
    constexpr int max_ceilings = 3;
    for (int k = 0; k < max_ceilings; ++k)
    {
-      ConeSolution solution = solve_counted(programme_, settings_, start_, report_, progress_);
+      ConeSolution solution = solve(programme_, start_);
       if (solution.outcome == ConeOutcome::unavailable)
       {
          return finish(LimitStatus::unavailable, solution.message);
@@ -367,12 +358,6 @@ LimitReport load_limit(const LimitProblem &problem, const LimitSettings &setting
 LimitReport load_limit(const ReducedProblem &reduced, const ResidualForces &residual,
                        const StuckForces &loads, const LimitSettings &settings)
 {
-   check_limit(reduced, residual, settings);
-   for (Eigen::Index i = 0; i < reduced.nodes(); ++i)
-   {
-      require(reduced.friction[i] > 0, "shakedown: friction coefficient ", reduced.friction[i],
-              " at node ", i, ", must be positive: a node without friction never sticks");
-   }
    return LoadLimit(reduced, residual, loads, settings).find();
 }
 

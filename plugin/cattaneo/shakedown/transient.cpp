@@ -19,26 +19,20 @@ bool starts_at_constant(const LoadCycle &cycle)
    return size == 0 || a.dot(b) <= -(1 - 1e-12) * size;
 }
 
+/// Was a solution found?
+bool solved(FrictionStatus status)
+{
+   return status == FrictionStatus::converged || status == FrictionStatus::not_unique;
+}
+
 } // namespace
 
 const char *name(TransientVerdict verdict)
 {
-   switch (verdict)
-   {
-   case TransientVerdict::shaken_down:
-      return "shaken down";
-   case TransientVerdict::slips_and_opens:
-      return "shaken down but at nodes that open";
-   case TransientVerdict::cyclic_slip:
-      return "cyclic slip";
-   case TransientVerdict::still_slipping:
-      return "still slipping";
-   case TransientVerdict::no_equilibrium:
-      return "no equilibrium";
-   case TransientVerdict::stopped:
-      return "stopped";
-   }
-   return "";
+   const char *const names[] = {"shaken down",    "shaken down but at nodes that open",
+                                "cyclic slip",    "still slipping",
+                                "no equilibrium", "stopped"};
+   return names[static_cast<int>(verdict)];
 }
 
 void TransientSettings::validate() const
@@ -65,11 +59,8 @@ TransientReport transient(FrictionSolver &solver, const LimitProblem &problem,
    TransientReport report;
    report.load_factor = load_factor;
    const Eigen::MatrixXd q = stuck_forces(reduced, cycle).q(load_factor);
-   for (Eigen::Index j = 0; j < q.cols(); ++j)
-   {
-      report.energy =
-         std::max(report.energy, 0.5 * q.col(j).dot(problem.residual.flexibility * q.col(j)));
-   }
+   report.energy =
+      0.5 * q.cwiseProduct(problem.residual.flexibility * q).colwise().sum().maxCoeff();
 
    ContactState state = ContactState::with_slip(reduced, start);
    const Counters before = solver.counters();
@@ -79,40 +70,21 @@ TransientReport transient(FrictionSolver &solver, const LimitProblem &problem,
    report.status = pressed.status;
    report.message = pressed.message;
    report.slip = state.v;
-   if (pressed.status != FrictionStatus::converged &&
-       pressed.status != FrictionStatus::not_unique)
-   {
-      return report;
-   }
+   if (!solved(pressed.status)) { return report; }
 
-   const Eigen::MatrixXd vertices = cycle.multipliers(load_factor);
-   std::vector<Eigen::VectorXd> points = {cycle.constant};
-   for (Eigen::Index j = 0; j < vertices.cols(); ++j) { points.push_back(vertices.col(j)); }
-   const bool from_constant = starts_at_constant(cycle);
-   points.push_back(from_constant ? points[0] : points[1]);
-   LoadHistory history = LoadHistory::through(points);
-   history.cycle_start = from_constant ? 0 : 1;
-   history.cycles = settings.cycles;
+   const LoadHistory history =
+      cycle.history(load_factor, {cycle.constant}, starts_at_constant(cycle), settings.cycles);
    state.time = 0;
    state.cycle_slip.clear();
-   // Nodes open at some time of the cycle at hand.
-   const auto n = static_cast<std::size_t>(reduced.nodes());
-   std::vector<bool> opens(n, false);
+   SlipRange slip(reduced); // of the cycle at hand
    int cycle_now = 0;
-   const MarchReport marched = march(solver, history, state, settings.march,
-                                     [&](const ContactState &now, const IncrementRecord &record)
-                                     {
-                                        if (record.cycle != cycle_now)
-                                        {
-                                           opens.assign(n, false);
-                                        }
-                                        cycle_now = record.cycle;
-                                        const auto states = settled_states(reduced, now);
-                                        for (std::size_t i = 0; i < n; ++i)
-                                        {
-                                           opens[i] = opens[i] || !closed(states[i]);
-                                        }
-                                     });
+   const auto observe = [&](const ContactState &now, const IncrementRecord &record)
+   {
+      if (record.cycle != cycle_now) { slip.start(now); }
+      else { slip.note(now); }
+      cycle_now = record.cycle;
+   };
+   const MarchReport marched = march(solver, history, state, settings.march, observe);
    report.status = marched.status;
    report.message = marched.message;
    report.steady_cycle = marched.steady_cycle;
@@ -120,9 +92,9 @@ TransientReport transient(FrictionSolver &solver, const LimitProblem &problem,
    report.cut_off = marched.cut_off;
    report.counters += marched.counters;
    report.slip = state.v;
-   for (std::size_t i = 0; i < n; ++i)
+   for (std::size_t i = 0; i < slip.always_closed().size(); ++i)
    {
-      if (opens[i]) { report.opened.push_back(static_cast<Eigen::Index>(i)); }
+      if (!slip.always_closed()[i]) { report.opened.push_back(static_cast<Eigen::Index>(i)); }
    }
    std::vector<double> loss; // at the nodes that stay closed
    for (const CycleRecord &record : marched.cycles)
@@ -147,8 +119,7 @@ TransientReport transient(FrictionSolver &solver, const LimitProblem &problem,
    const std::size_t back = std::min<std::size_t>(10, cycles / 2);
    const bool decays = last <= none || last <= loss[cycles - 1 - back] * std::pow(0.999, back);
    const bool steady = marched.steady_cycle > 0;
-   if (marched.status == FrictionStatus::converged ||
-       marched.status == FrictionStatus::not_unique)
+   if (solved(marched.status))
    {
       if (steady ? last > none : last > little || !decays)
       {

@@ -25,7 +25,6 @@ public:
    /// `max_iterations`.
    DistributedSolver(const ElasticBody &body, const std::vector<int> &contact,
                      int max_iterations);
-   ~DistributedSolver();
 
    /// Schur complement of the contact dofs, the same bits on every rank.
    Eigen::MatrixXd schur(Counters &counters) const;
@@ -36,13 +35,36 @@ public:
                            const Eigen::VectorXd &prescribed, Counters &counters) const;
    /// Forces at the contact dofs of a field on this rank's true dofs, on all ranks.
    Eigen::VectorXd forces(const Eigen::VectorXd &field) const;
-   int size() const; ///< true dofs of this rank
+   /// True dofs of this rank.
+   int size() const { return static_cast<int>(held_.size()); }
    /// True on every rank if the other stands for an equal operator, supports and contact.
    bool equals(const DistributedSolver &other) const;
 
 private:
-   struct Implementation;
-   std::unique_ptr<Implementation> impl_;
+   /// K_II x = b; entries of b at held dofs are ignored, those of x zero.
+   mfem::Vector solve(mfem::Vector b, double to, Counters &counters) const;
+   mfem::Vector times(const mfem::Vector &x) const
+   {
+      mfem::Vector y(x.Size());
+      K_->Mult(x, y);
+      return y;
+   }
+   void clear_held(mfem::Vector &x) const
+   {
+      for (int k = 0; k < x.Size(); ++k)
+      {
+         if (held_[k]) { x(k) = 0; }
+      }
+   }
+
+   Ranks ranks_;
+   std::shared_ptr<const mfem::HypreParMatrix> K_;
+   std::unique_ptr<mfem::HypreParMatrix> interior_; ///< K with unit rows at the other dofs
+   std::unique_ptr<mfem::HypreBoomerAMG> preconditioner_;
+   mfem::Array<int> essential_; ///< true dofs of this rank
+   std::vector<int> contact_;   ///< true dof of this rank of each contact dof, -1 elsewhere
+   std::vector<bool> held_;     ///< essential or contact, by true dof of this rank
+   int max_iterations_;
 };
 
 #endif

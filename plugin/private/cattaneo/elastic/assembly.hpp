@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cattaneo/elastic/varying_material.hpp>
+#include <cattaneo/elastic/field.hpp>
 #include <cattaneo/formulation.hpp>
 #include <memory>
 #include <mfem.hpp>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cattaneo/elastic/boundary_part.hpp>
 #include <mfem.hpp>
@@ -17,13 +18,13 @@ class BoundaryEdge
 public:
    BoundaryEdge(mfem::Mesh &mesh, int boundary_element);
 
-   std::array<double, 2> point(double s);
+   Eigen::Vector2d point(double s);
    /// With the point set, for what is evaluated there.
    mfem::ElementTransformation &at(double s);
    /// dx/ds; its length is the Jacobian of the curve.
-   std::array<double, 2> derivative(double s);
+   Eigen::Vector2d derivative(double s);
    /// Unit tangent with the body on the left.
-   std::array<double, 2> tangent(double s);
+   Eigen::Vector2d tangent(double s);
 
    /// True if the body is on the left for growing s.
    bool body_on_left() const { return body_on_left_; }
@@ -41,7 +42,6 @@ public:
 private:
    mfem::IsoparametricTransformation transformation_;
    mfem::IntegrationPoint point_;
-   mfem::Vector position_;
    bool body_on_left_ = true;
    double size_ = 0.0;
 };

@@ -28,7 +28,4 @@ NumpyArray numpy_array(const std::string &content, const std::string &name);
 std::map<std::string, std::string> stored_files(const std::string &archive,
                                                 const std::string &name);
 
-/// All of a file; InputError if it cannot be read.
-std::string whole_content(const std::string &file);
-
 } // namespace cattaneo

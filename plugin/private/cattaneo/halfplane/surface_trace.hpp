@@ -3,7 +3,6 @@
 #include <Eigen/Dense>
 #include <Eigen/Sparse>
 #include <functional>
-#include <map>
 #include <vector>
 
 namespace cattaneo
@@ -58,5 +57,10 @@ private:
    Eigen::Index unknowns_;
    std::vector<SurfaceElement> elements_;
 };
+
+/// Rows and columns of a mass matrix, as numbers of several components, which it does not
+/// couple: k times its size + i is row i of component k.
+Eigen::SparseMatrix<double> kept_of(const Eigen::SparseMatrix<double> &mass,
+                                    const std::vector<int> &kept);
 
 } // namespace cattaneo

@@ -1,9 +1,6 @@
 #pragma once
 
-#include <Eigen/Dense>
-#include <cattaneo/shakedown/collapse_mechanism.hpp>
-#include <cattaneo/shakedown/load_cycle.hpp>
-#include <cattaneo/shakedown/residual_forces.hpp>
+#include <cattaneo/shakedown/limit.hpp>
 #include <functional>
 #include <string>
 
