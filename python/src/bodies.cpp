@@ -160,6 +160,8 @@ void fill(NodalStiffness &body, nb::handle places, nb::handle dofs, nb::handle e
       require(body.dofs[row].node >= 0, "row ", row,
               " of K is in no entry of dofs, must be a direction of a node");
    }
+   // Whatever is fixed: a matrix whose rows are in another order resists rigid motions.
+   body.body();
    if (!elements.is_none())
    {
       body.edges = outer_edges(element_list(elements, nodes - 1), body.places);
@@ -263,19 +265,22 @@ void bind_stiffness(nb::module_ &m)
       .def(
          "__init__",
          [](Self *self, Matrix K, Numbers places, Rows dofs, Elements elements,
-            Text formulation, Rows fixed, LoadVectors loads, NodeSets sets, Text name)
+            Text formulation, Rows fixed, LoadVectors loads, NodeSets sets,
+            Flag supports_left_out, Text name)
          {
             Self body;
             body.name = text(name, "name");
             body.formulation =
                chosen<Formulation>(formulation, "formulation", {"plane", "axisymmetric"});
+            body.supports_left_out = flag(supports_left_out, "supports_left_out");
             body.K = stiffness(K);
             fill(body, places, dofs, elements, fixed, loads, sets);
             new (self) Self(std::move(body));
          },
          arg("K"), arg("places"), arg("dofs") = nb::none(), arg("elements") = nb::none(),
          nb::kw_only(), arg("formulation") = "plane", arg("fixed") = nb::none(),
-         arg("loads") = nb::none(), arg("sets") = nb::none(), arg("name") = "body",
+         arg("loads") = nb::none(), arg("sets") = nb::none(), arg("supports_left_out") = false,
+         arg("name") = "body",
          "K: symmetric, of all rows, supported ones among them, not eliminated (n rows).\n"
          "places: (nodes, 2), x and y (r and z) of node 0, 1, ….\n"
          "dofs: (nodes, 2), rows of K of each node's two directions, -1: none. Left out: rows "
@@ -283,7 +288,9 @@ void bind_stiffness(nb::module_ &m)
          "elements: (elements, 3, 4, 6, 7, 8 or 9) nodes, corners in order around it, then the "
          "middles of the sides; a list of such arrays if there are several kinds. They tell "
          "outer edges, so that contact_line() takes nodes in any order.\n"
-         "fixed: rows that are held. loads: forces on all rows by name. sets: nodes by name.")
+         "fixed: rows that are held. loads: forces on all rows by name. sets: nodes by name.\n"
+         "supports_left_out: K resists motions that nothing here holds (springs to the ground, "
+         "supports whose rows are gone).")
       .def_prop_rw(
          "name", [](const Self &self) { return self.name; },
          [](Self &self, Text name) { self.name = text(name, "name"); },

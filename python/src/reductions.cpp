@@ -248,16 +248,18 @@ void bind_reductions(nb::module_ &m)
                      nb::repr(problem).c_str() + ">";
            });
 
-   m.def("reduce", &reduced, arg("bodies"), arg("other") = 0.0, arg("pairing") = nb::none(),
-         nb::sig("def reduce(bodies: CondensedBody | collections.abc.Sequence[CondensedBody], "
-                 "other: float | collections.abc.Callable[[float, float], float] | HalfPlane | "
-                 "CondensedBody | collections.abc.Sequence[Interface] = 0.0, pairing: None | "
-                 "Pairing = None) -> Reduction"),
-         "Condensed bodies to a reduced problem.\n\n"
-         "reduce(body, gap=0.0): on a rigid obstacle, gap a number or a function of (x, y).\n"
-         "reduce(body, half_plane): pressed on a half-plane; the gap is the geometry's.\n"
-         "reduce(body1, body2[, pairing]): two bodies whose nodes match.\n"
-         "reduce([bodies], [interfaces]): any number of bodies, nodes that match or not.");
+   m.def(
+      "reduce", &reduced, arg("bodies"), arg("other") = 0.0, arg("pairing") = nb::none(),
+      nb::sig("def reduce(bodies: CondensedBody | collections.abc.Sequence[CondensedBody], "
+              "other: float | collections.abc.Callable[[float, float], float] | HalfPlane | "
+              "CondensedBody | collections.abc.Sequence[Interface] = 0.0, pairing: None | "
+              "Pairing = None) -> Reduction"),
+      "Condensed bodies to a reduced problem.\n\n"
+      "reduce(body, gap=0.0): on a rigid obstacle; gap, a number or a function of (x, y), says "
+      "how far it is from the body; 0.0: of the shape that the body has.\n"
+      "reduce(body, half_plane): pressed on a half-plane; the gap is the geometry's.\n"
+      "reduce(body1, body2[, pairing]): two bodies whose nodes match.\n"
+      "reduce([bodies], [interfaces]): any number of bodies, nodes that match or not.");
 
    nb::class_<SeparateBodies>(m, "SeparateBodies",
                               "Bodies that keep displacements of their own: K U + loads = "

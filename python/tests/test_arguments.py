@@ -205,6 +205,52 @@ def odd(random, good):
     return kinds[int(random.integers(len(kinds)))]()
 
 
+def nearly_right():
+    """Calls that are right, of which one argument is then replaced."""
+    p = problem()
+    at = cattaneo.LoadHistory.through(p, [{}, {"P": 1}, {"P": 1, "Q": 0.2}])
+    state = cattaneo.march(p, at).state
+    line = body().contact_line([0, 1])
+    condensed = cattaneo.condense(body(), line)
+    reduction = cattaneo.reduce(condensed)
+    cycle = shakedown.LoadCycle.through(p, {"P": 1}, [{"Q": 1}, {"Q": -1}])
+    limit = shakedown.limit_problem(p, cycle)
+    half_plane = cattaneo.HalfPlane(cattaneo.Material(1, 0.3), depth=9)
+    edge = fretting.Edge(1, 0.1, 0.5)
+    return [
+        (cattaneo.NodalStiffness, [triangle(), PLACES, [[0, 1], [2, 3], [4, 5]], [[0, 1, 2]]], {"fixed": [4], "loads": {"P": np.ones(6)}, "sets": {"A": [0, 1]}, "name": "b"}),
+        (lambda *a: body().fix(*a), [[0], "x"], {}),
+        (lambda *a: body().add_forces(*a), ["P", [0], "y", 1.0], {}),
+        (lambda *a: body().add_displacement(*a), ["D", [0], "y", 1.0], {}),
+        (lambda *a: body().add_traction(*a), ["T", [0, 1], (0, 1)], {}),
+        (lambda *a: body().contact_line(*a), [[0, 1], 1], {}),
+        (cattaneo.condense, [body(), line], {"order": 1, "formulation": "plane"}),
+        (cattaneo.condense, [half_plane, [0, 1, 2]], {"order": 2, "formulation": "plane"}),
+        (cattaneo.reduce, [condensed, 0.1], {}),
+        (cattaneo.reduce, [[condensed], [cattaneo.Interface("a", (0, line))]], {}),
+        (cattaneo.Interface, ["a", (0, line), (0, line)], {"slave": "finer", "gap": 0.0, "most_overlap": 0.1}),
+        (cattaneo.ReducedProblem, [np.eye(2), np.zeros((2, 2)), np.eye(2), p.patterns], {"gap": [0, 1], "friction": 0.3, "weights": [1, 1], "arc_length": [0, 1], "position": np.eye(2), "H": np.zeros((2, 2))}),
+        (cattaneo.LoadHistory.through, [p, [{}, {"P": 1}, {"P": 1}]], {"cycle_start": 1, "cycles": 2, "times": [0, 1, 2]}),
+        (cattaneo.march, [p, [{}, {"P": 1}, {"P": 1, "Q": 0.2}]], {"increments": 2, "stepping": "exact", "tolerance": 1e-12, "max_halvings": 3, "steady_tolerance": 1e-9, "keep_states": True, "observer": None, "stop": None}),
+        (cattaneo.march, [p, at, state], {}),
+        (cattaneo.ContactState.with_slip, [p, [0.1, 0.2]], {}),
+        (reduction.displacement, [0, cattaneo.ContactState.virgin(reduction.problem)], {}),
+        (reduction.problem.copy().clamped_forces, [{"P": 1.0}], {}),
+        (condensed.recover, [np.ones(4), np.ones(1)], {}),
+        (cattaneo.hold, [problem(), [0]], {}),
+        (readout.zones, [p, state], {}),
+        (readout.tractions, [p, state.p], {}),
+        (shakedown.load_limit, [limit], {"tolerance": 1e-4, "max_iterations": 50, "start": None}),
+        (shakedown.friction_limit, [limit, 0.3], {"largest_friction": 3.0}),
+        (shakedown.closed_contact, [p, [0, 1]], {}),
+        (shakedown.stay_closed, [p, cycle, 0.2, 2], {}),
+        (shakedown.transient, [limit, 0.2], {"start": [0.0, 0.1], "cycles": 3}),
+        (fretting.stress, [edge, [0.1, 0.2], 0.3], {}),
+        (fretting.hertz_slip_energy, [0.3, 1.0, [0.2, 0.5], 1.0], {}),
+        (cattaneo.HalfPlaneField, [half_plane, cattaneo.condense(half_plane, [0.0, 1.0, 2.0]).line, np.zeros(6)], {}),
+    ]  # fmt: skip
+
+
 def fuzz(seed, calls):
     """Calls everything with anything; what comes back is an answer or an exception of Python's."""
     import warnings
@@ -212,12 +258,25 @@ def fuzz(seed, calls):
     warnings.simplefilter("ignore")
     random = np.random.default_rng(seed)
     good, found = callables()
+    nearly = nearly_right()
+    for call, arguments, named in nearly:
+        call(*arguments, **named)
     answers, refusals = 0, 0
-    for _ in range(calls):
-        name, call = found[int(random.integers(len(found)))]
-        arguments = [odd(random, good) for _ in range(int(random.integers(1, 5)))]
+    for k in range(calls):
+        named = {}
+        if k % 2:
+            name, call = found[int(random.integers(len(found)))]
+            arguments = [odd(random, good) for _ in range(int(random.integers(1, 5)))]
+        else:
+            call, arguments, named = nearly[int(random.integers(len(nearly)))]
+            arguments, named, name = list(arguments), dict(named), str(call)
+            place = int(random.integers(len(arguments) + len(named)))
+            if place < len(arguments):
+                arguments[place] = odd(random, good)
+            else:
+                named[list(named)[place - len(arguments)]] = odd(random, good)
         try:
-            result = call(*arguments)
+            result = call(*arguments, **named)
             repr(result)
             answers += 1
         except (ValueError, TypeError, KeyError, AttributeError, ImportError, MemoryError) as error:

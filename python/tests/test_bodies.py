@@ -112,6 +112,25 @@ def test_any_sparse_format_and_dense_are_one_matrix():
     assert abs(cattaneo.NodalStiffness(twice, body.places).K - body.K).max() < 1e-15
 
 
+def test_rows_in_another_order_are_noticed():
+    """Such a matrix resists rigid motions, supports or not; so does one that was eliminated; springs to the ground may."""
+    body = strip(4)
+    first_x = np.concatenate([np.arange(0, 32, 2), np.arange(1, 32, 2)])
+    blocks = body.K.toarray()[np.ix_(first_x, first_x)]
+    dofs = np.column_stack([np.arange(16), 16 + np.arange(16)])
+    right = cattaneo.NodalStiffness(blocks, body.places, dofs)
+    assert np.array_equal(right.dofs, dofs)
+    with pytest.raises(cattaneo.InputError, match="resists a translation along x .* in another order"):
+        cattaneo.NodalStiffness(blocks, body.places, fixed=[0, 1])
+    eliminated = body.K.toarray()
+    eliminated[0], eliminated[:, 0], eliminated[0, 0] = 0, 0, 1
+    with pytest.raises(cattaneo.InputError, match="was it eliminated"):
+        cattaneo.NodalStiffness(eliminated, body.places)
+    grounded = body.K + 0.1 * sparse.eye(32)
+    top = cattaneo.NodalStiffness(grounded, body.places, supports_left_out=True).places[:, 1] == 1
+    assert top.sum() == 4
+
+
 def test_obstacle_that_moves():
     """A held column with ν = 0 that is lifted by 0.1 from below bears E 0.1/height."""
     body = strip(height=2.0, young=8.0)

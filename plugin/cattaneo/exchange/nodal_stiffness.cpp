@@ -228,10 +228,12 @@ void NodalStiffness::require_free(const DofPlaces &at) const
       const double energy = u.dot(K * u), size = u.cwiseAbs().dot(K.cwiseAbs() * u.cwiseAbs());
       constexpr const char *called[] = {"a translation along x", "a translation along y",
                                         "a rotation"};
-      require(std::abs(energy) <= 1e-12 * size, "stiffness '", name, "': it resists ",
-              called[motion], " by ", std::abs(energy) / size,
-              " of its entries, without supports at most 1e-12 is allowed: has it less than 13 "
-              "digits, or were supports left out of it (supports_left_out)?");
+      require(
+         std::abs(energy) <= 1e-12 * size, "stiffness '", name, "': it resists ",
+         called[motion], " by ", std::abs(energy) / size,
+         " of its entries, without supports at most 1e-12 is allowed: are its rows in another "
+         "order than its dofs, was it eliminated, has it less than 13 digits, or were "
+         "supports left out of it (supports_left_out)?");
    }
 }
 
