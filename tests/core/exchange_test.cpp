@@ -478,7 +478,7 @@ TEST_F(Exchange, ADeckMayNameTheThirdCoordinateOrEndItsLinesWithAComma)
    write_whole("m.dof", "1.1\n1.2\n2.1\n2.2\n");
    for (const char *nodes :
         {"*NODE\n1, 0., 2.\n2, 1., 2.\n", "*NODE\n1, 0., 2., 0.\n2, 1., 2.,\n",
-         "*NODE\n1, 0., 2., \n2, 1., 2., 0\n"})
+         "*NODE\n1, 0., 2., \n2, 1., 2., 0\n", "*NODE\n1, 0., 2., , 0.\n2, 1., 2., ,\n"})
    {
       write_whole("m.inp", nodes);
       EXPECT_EQ(read_stiffness("m.sti").places.at(2), Eigen::Vector2d(1, 2)) << nodes;

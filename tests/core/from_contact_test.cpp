@@ -714,6 +714,7 @@ TEST(EdgeReport, OfAHertzContactHasTheClosedFormsOfItsCycle)
    for (const SolvedEdge &one : read_edges(states).edges) // of two states there is no energy
    {
       EXPECT_FALSE(one.energy || one.corner);
+      EXPECT_EQ(one.k_t_range, 0);
       EXPECT_TRUE(one.notes.empty()) << one.notes[0];
    }
    states.opposite = &opposite;
