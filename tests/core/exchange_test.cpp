@@ -472,6 +472,31 @@ TEST_F(Exchange, EntriesOfNumpysMatricesAreCountedByRowsOrByColumns)
    }
 }
 
+TEST_F(Exchange, WhatAContactLineOfAListNeedsIsNamed)
+{
+   write_whole("m.mtx",
+               "%%MatrixMarket matrix array real general\n3 3\n2\n0\n0\n0\n2\n0\n0\n0\n2\n");
+   write_whole("m.dofs", "1 1 0 0\n1 2 0 0\n2 1 1 0\n");
+   const NodalStiffness body = read_stiffness("m.mtx");
+   EXPECT_FALSE(body.supports_left_out);
+   expect_input_error(
+      [&] {
+         body.contact_line({1, 2});
+      },
+      "no elements are known, nodes must be given in order");
+   expect_input_error(
+      [&] {
+         body.contact_line({1, 2}, 1);
+      },
+      "direction 2 of node 2 has no row");
+   expect_input_error([&] { body.contact_line({1, 3}, 1); }, "there is no node 3");
+   write_whole("m.sti", "1 1 1.\n2 2 1.\n2 3 1.\n");
+   write_whole("m.dof", "1.1\n1.2\n");
+   write_whole("m.inp", "*NODE\n1, 0., 2.\n");
+   expect_input_error([&] { read_stiffness("m.sti"); },
+                      "entry (2, 3), must be within 2×2, which 'm.dof' has");
+}
+
 TEST_F(Exchange, ADeckMayNameTheThirdCoordinateOrEndItsLinesWithAComma)
 {
    write_whole("m.sti", "1 1 1.\n2 2 1.\n3 3 1.\n4 4 1.\n");

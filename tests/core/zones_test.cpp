@@ -277,6 +277,14 @@ TEST(Zones, EndWhereAChainEnds)
       const Zone contact = contact_zone(s.problem, s.state);
       EXPECT_NEAR(contact.to.position - contact.from.position, 1, 1e-14);
       EXPECT_EQ(contact_zones(all).size(), 2u);
+      // In the second foot a border lies between nodes, halfway where nothing tells where.
+      s.state.p.tail(2).setZero();
+      s.state.status[10] = s.state.status[11] = NodeState::separation;
+      const std::vector<Zone> open = zones(s.problem, s.state);
+      ASSERT_EQ(open.size(), 3u);
+      EXPECT_EQ(open[1].to.position, open[2].from.position);
+      EXPECT_GT(open[1].to.position, s.problem.arc_length[9]);
+      EXPECT_LT(open[1].to.position, s.problem.arc_length[10]);
       s.problem.chains.clear();
       expect_input_error([&] { zones(s.problem, s.state); },
                          "does not say which nodes follow each other");

@@ -225,7 +225,8 @@ TEST(Condensation, RefusesWhatNothingHolds)
    ContactLine one = contact_line(body, 1);
    one.nodes.resize(1);
    one.chains = {{0, 1}};
-   expect_input_error([&] { condense(body, one); }, "leave 1 rigid motion(s) free");
+   expect_input_error([&] { condense(body, one); },
+                      "leave 1 rigid motion(s) free of the body with the node (");
    body.fix_node(2.0, 1.0, 1);
    EXPECT_EQ(condense(body, one).counters.factorisations, 1);
 

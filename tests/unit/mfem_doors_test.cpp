@@ -312,6 +312,15 @@ TEST(MfemDoors, MaterialsOfAPointAreChecked)
    expect_input_error([&] { body.material(1); }, "its material varies");
 }
 
+TEST(MfemDoors, AMaterialThatIsNoneSaysWhere)
+{
+   mfem::Mesh mesh = rectangle_mesh({2, 3}, {4, 5});
+   mfem::FunctionCoefficient young([](const mfem::Vector &x) { return x(1) - x(0); });
+   mfem::ConstantCoefficient poisson(0.7);
+   expect_input_error([&] { ElasticBody(mesh, 1, young, poisson); }, "found at (2.");
+   expect_input_error([&] { ElasticBody(mesh, 1, young, poisson); }, ", 4.");
+}
+
 TEST(MfemDoors, LoadsOfCoefficientsAreThoseOfFunctions)
 {
    mfem::Mesh mesh = block("triangles");

@@ -50,6 +50,10 @@ TEST(CutOff, AsksForCompressionAndForBothBodies)
       message.find("last node of piece 1 of the line 'seat' (node 1 at (1, 6), time 0.25)"),
       std::string::npos)
       << message;
+   problem.position.resize(0, 2);
+   EXPECT_EQ(found()[1].x, 0);
+   EXPECT_EQ(found()[1].y, 0);
+   problem = three_nodes();
    // A node that is closed but carries nothing, or the round-off of it.
    state.p << 1e-17, 2, 0;
    ASSERT_EQ(found().size(), 1u);

@@ -84,9 +84,12 @@ std::vector<int> align(ContactLine &line, const std::vector<int> &held)
       rows.push_back(tangential ? i : n + i);
       for (LineChain &chain : line.chains)
       {
-         if (!tangential || chain.loop) { continue; }
-         if (i == chain.first) { chain.ends[0] = LineEnd::symmetry; }
-         if (i == chain.first + chain.nodes - 1) { chain.ends[1] = LineEnd::symmetry; }
+         const bool may_end = tangential && !chain.loop;
+         if (may_end && i == chain.first) { chain.ends[0] = LineEnd::symmetry; }
+         if (may_end && i == chain.first + chain.nodes - 1)
+         {
+            chain.ends[1] = LineEnd::symmetry;
+         }
       }
    }
    std::sort(rows.begin(), rows.end());
