@@ -1,3 +1,4 @@
+#include "disc_problems.hpp"
 #include "expect_input_error.hpp"
 #include "random_problem.hpp"
 #include "same_state.hpp"
@@ -377,6 +378,76 @@ TEST(Wear, RandomContactsWearByTheirEnergyAndComeToAnEnd)
       EXPECT_LT(end.loss, 1e-8) << round;
    }
    EXPECT_GT(ends, 20);
+}
+
+namespace
+{
+
+/// `pattern` between ±amplitude, after "press" to 2.
+LoadHistory pressed(const ReducedProblem &problem, const std::string &pattern, double amplitude)
+{
+   LoadHistory history = LoadHistory::through(problem, {{},
+                                                        {{"press", 2}},
+                                                        {{"press", 2}, {pattern, amplitude}},
+                                                        {{"press", 2}, {pattern, -amplitude}},
+                                                        {{"press", 2}, {pattern, amplitude}}});
+   history.cycle_start = 2;
+   return history;
+}
+
+} // namespace
+
+TEST(Wear, UpdatesAfterEachCycleAreOfFirstOrder)
+{
+   // Half of k for twice the cycles is the same wear with half the error.
+   std::mt19937 random(3);
+   cattaneo_test::random_problem(6, 0.4, 0.1, random); // nothing slips in the first
+   for (int round = 0; round < 5; ++round)
+   {
+      const ReducedProblem problem = cattaneo_test::random_problem(6, 0.4, 0.1, random);
+      const LoadHistory history = pressed(problem, "shear", 0.4);
+      std::vector<VectorXd> depths;
+      for (int halves = 0; halves < 4; ++halves)
+      {
+         WearState state = WearState::virgin(problem);
+         wear(problem, WearLaw::uniform(problem, 0.04 / (1 << halves)), history, 20 << halves,
+              state);
+         depths.push_back(state.depth);
+      }
+      for (int halves = 0; halves < 2; ++halves)
+      {
+         const double change = largest(depths[halves] - depths[halves + 1]),
+                      next = largest(depths[halves + 1] - depths[halves + 2]);
+         EXPECT_NEAR(change / next, 2, 0.2) << round;
+      }
+   }
+}
+
+TEST(Wear, SlipOfTwoComponentsWearsByItsEnergyToo)
+{
+   std::mt19937 random(11);
+   double worn = 0;
+   for (int round = 0; round < 20; ++round)
+   {
+      const ReducedProblem problem =
+         cattaneo_test::random_disc_problem(5, 0.4, round % 2 ? 0.2 : 0.0, random);
+      const LoadHistory history = pressed(problem, "twist", 0.8);
+      WearState state = WearState::virgin(problem);
+      WearSettings settings;
+      settings.march.increments = 8;
+      const double k = 2e-3;
+      const WearReport report =
+         wear(problem, WearLaw::uniform(problem, k), history, 20, state, settings);
+      if (report.status != FrictionStatus::converged || report.implicit_cycles > 0)
+      {
+         continue;
+      }
+      EXPECT_GE(state.depth.minCoeff(), 0);
+      const double volume = worn_volume(problem, state.depth);
+      EXPECT_NEAR(volume, k / 0.4 * state.dissipation.sum(), 1e-13 * volume);
+      worn += volume;
+   }
+   EXPECT_GT(worn, 0);
 }
 
 TEST(Wear, BadInputIsNamed)

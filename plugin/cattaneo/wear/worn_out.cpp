@@ -107,7 +107,8 @@ WornOut worn_out(const ReducedProblem &problem, const LoadHistory &history,
           std::count(result.stick.begin(), result.stick.end(), true) == 0)
       {
          result.status = FrictionStatus::gross_sliding;
-         result.message = "no node was found that sticks throughout the cycle: wear has no end";
+         result.message =
+            "no node was found that sticks throughout the cycle: wear may have no end";
          return result;
       }
       result.depth = result.overlap.cwiseMax(0.0);
