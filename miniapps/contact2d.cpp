@@ -1,6 +1,6 @@
 //  contact2d: frictional contact of your own meshes: any number of bodies and interfaces
 //
-//  Reads meshes (MFEM, or Gmsh in format 2.2), condenses each to the nodes of its interfaces
+//  Reads meshes (MFEM or Gmsh), condenses each to the nodes of its interfaces
 //  and marches a load history with Coulomb friction. A JSON case file names bodies, interfaces,
 //  bolts and loads; two bodies, or one on a line or half-plane, can be said by options as well:
 //  docs/contact2d.md describes both. Units are the user's: forces are per unit thickness.
@@ -64,7 +64,7 @@ struct Options
 
    explicit Options(miniapp::Study &study)
    {
-      add_options(study, bodies[0], "1", "Mesh of body 1 (MFEM, or Gmsh 2.2).");
+      add_options(study, bodies[0], "1", "Mesh of body 1 (MFEM or Gmsh).");
       add_options(study, bodies[1], "2",
                   "Mesh of body 2; without it body 1 is on a rigid line or a half-plane.");
       add_options(study, half_plane);

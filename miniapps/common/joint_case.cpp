@@ -145,14 +145,65 @@ void check_name(const Key &key, const std::string &name)
            "; \"");
 }
 
+/// "held", "free", {"force": "Q", "value": 10} or {"displacement": "D"}; about the centre
+/// {"moment": …} or {"angle": …}.
+Guide::Along along(const Key &key, bool turns)
+{
+   Guide::Along made;
+   if (key.value().is_string())
+   {
+      made.motion =
+         key.choice({"held", "free"}) == "held" ? Guide::Motion::held : Guide::Motion::free;
+      return made;
+   }
+   const std::string force = turns ? "moment" : "force",
+                     moves = turns ? "angle" : "displacement";
+   key.must_be_of({force, moves, "value"});
+   require(key.has(force) != key.has(moves), key.called(), " must have one of the keys ", force,
+           " and ", moves);
+   made.motion = key.has(force) ? Guide::Motion::force : Guide::Motion::displacement;
+   const Key load = key[key.has(force) ? force : moves];
+   made.load = load.text();
+   check_name(load, made.load);
+   if (key.has("value")) { made.value = key["value"].number(); }
+   return made;
+}
+
+ordered_json to_json(const Guide::Along &along, bool turns)
+{
+   switch (along.motion)
+   {
+   case Guide::Motion::held:
+      return "held";
+   case Guide::Motion::free:
+      return "free";
+   case Guide::Motion::force:
+      return {{turns ? "moment" : "force", along.load}, {"value", along.value}};
+   case Guide::Motion::displacement:
+      break;
+   }
+   return {{turns ? "angle" : "displacement", along.load}, {"value", along.value}};
+}
+
+JointCase::Body::Guided guided(const Key &key)
+{
+   key.must_be_of({"on", "x", "y", "rotation", "centre"});
+   JointCase::Body::Guided made{key["on"].text(), {}, source(key)};
+   if (key.has("x")) { made.guide.x = along(key["x"], false); }
+   if (key.has("y")) { made.guide.y = along(key["y"], false); }
+   if (key.has("rotation")) { made.guide.rotation = along(key["rotation"], true); }
+   if (key.has("centre")) { made.guide.centre = key["centre"].pair(); }
+   return made;
+}
+
 JointCase::Body body(const Key &key, const std::string &name)
 {
    check_name(key, name);
    JointCase::Body made;
    made.name = name;
    made.source = source(key);
-   key.must_be_of(
-      {"mesh", "matrix", "half-plane", "young", "poisson", "expansion", "support", "load"});
+   key.must_be_of({"mesh", "matrix", "half-plane", "young", "poisson", "expansion", "support",
+                   "load", "guides"});
    const int kinds = key.has("mesh") + key.has("matrix") + key.has("half-plane");
    require(kinds == 1, key.called(), " has ", kinds,
            " of the keys mesh, matrix and half-plane, must have one");
@@ -166,7 +217,8 @@ JointCase::Body body(const Key &key, const std::string &name)
    };
    if (key.has("half-plane"))
    {
-      goes_without("half-plane", {"young", "poisson", "expansion", "support", "load"});
+      goes_without("half-plane",
+                   {"young", "poisson", "expansion", "support", "load", "guides"});
       const Key plane = key["half-plane"];
       plane.must_be_of({"young", "poisson", "depth"});
       made.half_plane = true;
@@ -177,7 +229,7 @@ JointCase::Body body(const Key &key, const std::string &name)
    }
    if (key.has("matrix"))
    {
-      goes_without("matrix", {"young", "poisson", "expansion"});
+      goes_without("matrix", {"young", "poisson", "expansion", "guides"});
       made.matrix = key["matrix"].text();
    }
    else
@@ -189,6 +241,10 @@ JointCase::Body body(const Key &key, const std::string &name)
    if (key.has("expansion")) { made.expansion = key["expansion"].number(); }
    if (key.has("support")) { made.support = key["support"].statements(); }
    if (key.has("load")) { made.load = key["load"].statements(); }
+   if (key.has("guides"))
+   {
+      for (const Key &each : key["guides"].list()) { made.guides.push_back(guided(each)); }
+   }
    return made;
 }
 
@@ -210,10 +266,35 @@ JointCase::Side side(const Key &key, const JointCase &joint)
    return made;
 }
 
+/// {"line": [[x, y], [x, y], …]} or {"circle": {"centre": [x, y], "radius": r}}.
+void add_obstacle(JointCase::Face &face, const Key &key)
+{
+   key.must_be_of({"line", "circle"});
+   require(key.has("line") != key.has("circle"), key.called(),
+           " must have one of the keys line and circle");
+   if (key.has("circle"))
+   {
+      const Key circle = key["circle"];
+      circle.must_be_of({"centre", "radius"});
+      const std::array<double, 2> centre = circle["centre"].pair();
+      face.centre = {centre[0], centre[1]};
+      face.radius = circle["radius"].number();
+      return;
+   }
+   const Key line = key["line"];
+   if (!line.value().is_array() || line.value().size() < 2) { line.refuse("a list of points"); }
+   for (const Key &point : line.list())
+   {
+      const std::array<double, 2> at = point.pair();
+      face.obstacle.emplace_back(at[0], at[1]);
+   }
+}
+
 JointCase::Face face(const Key &key, const std::string &name, const JointCase &joint)
 {
    check_name(key, name);
-   key.must_be_of({"between", "friction", "gap", "slave", "tied", "overlap", "pairing"});
+   key.must_be_of(
+      {"between", "friction", "gap", "slave", "tied", "overlap", "pairing", "obstacle"});
    JointCase::Face made;
    made.name = name;
    made.source = source(key);
@@ -225,7 +306,13 @@ JointCase::Face face(const Key &key, const std::string &name, const JointCase &j
    require(!joint.bodies[made.sides[0].body].half_plane, between_.called(),
            ": a half-plane must be the second side");
    if (key.has("tied")) { made.tied = key["tied"].flag(); }
-   for (const char *other : {"friction", "gap", "overlap", "pairing"})
+   if (key.has("obstacle"))
+   {
+      require(sides.size() == 1 && !key.has("gap"), key.called(),
+              ": an obstacle is for one side alone, and goes without the key gap");
+      add_obstacle(made, key["obstacle"]);
+   }
+   for (const char *other : {"friction", "gap", "overlap", "pairing", "obstacle"})
    {
       require(!made.tied || !key.has(other), key.called(), " is tied, it goes without the key ",
               other);
@@ -373,6 +460,15 @@ ordered_json to_json(const JointCase &joint)
       if (!std::isnan(body.expansion)) { made["expansion"] = body.expansion; }
       if (!body.support.empty()) { made["support"] = body.support; }
       if (!body.load.empty()) { made["load"] = split(body.load, ";"); }
+      for (const JointCase::Body::Guided &each : body.guides)
+      {
+         ordered_json guide{{"on", each.on},
+                            {"x", to_json(each.guide.x, false)},
+                            {"y", to_json(each.guide.y, false)},
+                            {"rotation", to_json(each.guide.rotation, true)}};
+         if (each.guide.centre) { guide["centre"] = *each.guide.centre; }
+         made["guides"].push_back(guide);
+      }
    }
    const auto word = [&](const JointCase::Side &side)
    {
@@ -398,6 +494,15 @@ ordered_json to_json(const JointCase &joint)
          made["overlap"] = face.most_overlap;
       }
       if (!std::isnan(face.pairing)) { made["pairing"] = face.pairing; }
+      for (const Eigen::Vector2d &x : face.obstacle)
+      {
+         made["obstacle"]["line"].push_back({x[0], x[1]});
+      }
+      if (!std::isnan(face.radius))
+      {
+         made["obstacle"]["circle"] = {{"centre", {face.centre[0], face.centre[1]}},
+                                       {"radius", face.radius}};
+      }
    }
    for (const JointCase::Bolt &bolt : joint.bolts)
    {

@@ -2,6 +2,7 @@
 
 #include "common/study.hpp"
 
+#include <cattaneo/elastic/guide.hpp>
 #include <cattaneo/reduced/interfaces.hpp>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -31,6 +32,13 @@ struct JointCase
       std::vector<double> young = {1}, poisson = {0.3}; ///< one, or one for each attribute
       double expansion = none;                          ///< for temperature loads
       std::string support, load;
+      struct Guided
+      {
+         std::string on; ///< part of the boundary
+         cattaneo::Guide guide;
+         Source source;
+      };
+      std::vector<Guided> guides;
       double depth = none; ///< of a half-plane
       bool half_plane = false;
    };
@@ -56,6 +64,11 @@ struct JointCase
       cattaneo::SlaveSide slave = cattaneo::SlaveSide::coarser;
       double most_overlap = cattaneo::Interface().most_overlap;
       bool tied = false;
+      /// Of a rigid obstacle: a polyline, or a disc (a hole: negative radius); none: the line
+      /// that touches the side.
+      std::vector<Eigen::Vector2d> obstacle;
+      Eigen::Vector2d centre{0, 0};
+      double radius = none;
       /// Nodes are paired one to one if none is farther off along the contact than this, in
       /// distances of nodes.
       double pairing = none;

@@ -8,6 +8,7 @@
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/mesh/filled_corner.hpp>
 #include <cattaneo/mesh/mesh_file.hpp>
+#include <cattaneo/reduced/obstacle_shape.hpp>
 #include <cattaneo/words.hpp>
 #include <cmath>
 #include <map>
@@ -224,6 +225,11 @@ private:
             elastic_ = &own.scene.add(std::move(mesh), joint_.order, own.materials.back(),
                                       joint_.formulation);
             add_supports(*elastic_, body_.source.called("support"), body_.support, terms_);
+            for (const JointCase::Body::Guided &each : body_.guides)
+            {
+               elastic_->guide(boundary_part(each.source.called("on"), each.on, terms_),
+                               each.guide);
+            }
             add_loads(*elastic_, body_.source.called("load"), body_.load, terms_);
          });
    }
@@ -304,6 +310,11 @@ Reduction paired(std::vector<CondensedBody> bodies, const JointCase::Face &face,
    }
 }
 
+bool has_shape(const JointCase::Face &face)
+{
+   return !face.obstacle.empty() || !std::isnan(face.radius);
+}
+
 /// What the case says of the interfaces' friction and gaps, and of shanks.
 void complete(Reduction &reduction, const JointCase &joint)
 {
@@ -317,6 +328,12 @@ void complete(Reduction &reduction, const JointCase &joint)
       {
          problem.friction[i] = face.friction.at(problem.arc_length[i]);
          if (face.gap) { problem.gap[i] = face.gap->at(problem.arc_length[i]); }
+      }
+      if (has_shape(face))
+      {
+         problem.gap.segment(report.first, report.nodes) =
+            face.obstacle.empty() ? gaps_to_circle(report, face.centre, face.radius)
+                                  : gaps_to_polyline(report, face.obstacle);
       }
    }
    for (const JointCase::Bolt &bolt : joint.bolts)
@@ -346,7 +363,8 @@ Reduction united(const JointCase &joint, std::vector<CondensedBody> condensed,
       made.tied = face.tied;
       if (face.sides[1].body >= 0) { made.second = {face.sides[1].body, lines[k][1]}; }
       else { made.gap = distance_to_rigid_line(lines[k][0]); }
-      if (face.gap) { made.gap = 0.0; } // by the arc length, which is not known yet
+      // By the arc length or the normals, which are not known yet.
+      if (face.gap || has_shape(face)) { made.gap = 0.0; }
       interfaces.push_back(std::move(made));
    }
    return reduce(std::move(condensed), interfaces);

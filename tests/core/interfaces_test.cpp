@@ -728,6 +728,115 @@ TEST_F(Interfaces, ThatAreTiedMakeOneBody)
    }
 }
 
+/// Blocks are their points on a rigid motion: the energy's minimum over it, by dense algebra.
+TEST_F(Interfaces, OfBodiesWithBlocksMinimiseOverTheirMotions)
+{
+   for (int moving = 1; moving <= 3; ++moving)
+   {
+      Truss truss({side({0, 0}, {2, 0}, 4, 2)}, {1, 1});
+      truss.hold().load("P").load("Q").lift("D");
+      truss.loads[2].values.setZero();
+      const int size = truss.size();
+      const std::vector<int> contact = [&]
+      {
+         std::vector<int> dofs;
+         for (const LineNode &node : truss.lines[0].nodes)
+         {
+            dofs.insert(dofs.end(), node.dofs.begin(), node.dofs.end());
+         }
+         return dofs;
+      }();
+      // The two points that are held become a block: x, y, rotation; the rest of it is lifted.
+      MatrixXd motions = MatrixXd::Zero(size, 3);
+      for (int dof : truss.fixed)
+      {
+         const Vector2d &x = truss.points[dof / 2];
+         motions(dof, dof % 2) = 1;
+         motions(dof, 2) = dof % 2 ? x[0] - 1 : 1 - x[1];
+      }
+      if (moving < 3) { truss.loads[2].values = motions.col(2); }
+      AssembledBody body;
+      body.K = SharedMatrix(Eigen::SparseMatrix<double, Eigen::RowMajor>(truss.K.sparseView()));
+      body.places = {VectorXd(size), VectorXd(size), {}, Formulation::plane};
+      for (int dof = 0; dof < size; ++dof)
+      {
+         body.places.x[dof] = truss.points[dof / 2][0];
+         body.places.y[dof] = truss.points[dof / 2][1];
+         body.places.component.push_back(dof % 2);
+      }
+      body.fixed = truss.fixed;
+      body.loads = truss.loads;
+      if (moving == 3) { body.loads.pop_back(); }
+      const auto loads = static_cast<Index>(body.loads.size());
+      VectorXd force = VectorXd::Zero(moving);
+      for (int k = 0; k < moving; ++k)
+      {
+         body.blocks.push_back({motions.col(k), k == 1 ? "Q" : "", k == 1 ? 3.5 : 0});
+         if (k == 1) { force[k] = 3.5; }
+      }
+      CondensedBody found = condense(body, truss.lines[0]);
+      EXPECT_EQ(found.rigid_modes, moving == 1 ? 1 : moving == 2 ? 2 : 3);
+      // Unknowns: inner dofs, and the block's motions.
+      std::vector<int> inner;
+      for (int dof = 0; dof < size; ++dof)
+      {
+         if (!std::count(truss.fixed.begin(), truss.fixed.end(), dof) &&
+             !std::count(contact.begin(), contact.end(), dof))
+         {
+            inner.push_back(dof);
+         }
+      }
+      const auto inside = static_cast<Index>(inner.size());
+      MatrixXd T = MatrixXd::Zero(size, inside + moving);
+      for (Index k = 0; k < inside; ++k) { T(inner[k], k) = 1; }
+      T.rightCols(moving) = motions.leftCols(moving);
+      const Eigen::LDLT<MatrixXd> factor(T.transpose() * truss.K * T);
+      // Of contact displacements and multipliers at random.
+      VectorXd u(contact.size()), lambda(loads), U = VectorXd::Zero(size);
+      for (double &x : u) { x = number(); }
+      for (double &x : lambda) { x = number(); }
+      VectorXd F = VectorXd::Zero(size);
+      for (Index k = 0; k < loads; ++k)
+      {
+         const BodyLoad &load = body.loads[k];
+         (load.control == Control::force ? F : U) += lambda[k] * load.values;
+      }
+      for (std::size_t k = 0; k < contact.size(); ++k) { U[contact[k]] = u[k]; }
+      VectorXd rhs = T.transpose() * (F - truss.K * U);
+      rhs.tail(moving) += lambda[1] * force;
+      U += T * factor.solve(rhs);
+      // The line is along x: frames are the axes.
+      const Index n = found.line.size();
+      VectorXd local(2 * n);
+      for (Index i = 0; i < n; ++i)
+      {
+         local[i] = u[2 * i];
+         local[n + i] = u[2 * i + 1];
+      }
+      EXPECT_LT(difference(found.recover(local, lambda), U), 1e-10) << moving;
+      const VectorXd residual = truss.K * U - F;
+      VectorXd f = found.S * local;
+      for (Index k = 0; k < loads; ++k)
+      {
+         VectorXd own(2 * n);
+         own << found.patterns[k].q, found.patterns[k].p;
+         f += lambda[k] * own;
+      }
+      for (Index i = 0; i < n; ++i)
+      {
+         EXPECT_NEAR(f[i], residual[2 * truss.lines[0].nodes[i].dofs[0] / 2], 1e-9);
+         EXPECT_NEAR(f[n + i], residual[truss.lines[0].nodes[i].dofs[1]], 1e-9);
+      }
+      // The conjugate of the force on the block: how far it and its other forces moved.
+      VectorXd g = found.H * lambda;
+      const LoadPattern &Q = found.patterns[1];
+      const double conjugate = g[1] - local.head(n).dot(Q.q) - local.tail(n).dot(Q.p);
+      const double block = moving > 1 ? factor.solve(rhs)[inside + 1] : 0;
+      EXPECT_NEAR(conjugate, truss.loads[1].values.dot(U) + 3.5 * block * (moving > 1), 1e-9);
+      if (moving == 3) { EXPECT_GT(found.error_estimate(), 0); }
+   }
+}
+
 /// A shank between two parts of a body is a spring of its stiffness matrix.
 TEST_F(Interfaces, ShanksAreSprings)
 {

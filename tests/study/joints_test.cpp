@@ -284,6 +284,93 @@ TEST_F(Joints, HeatedColumnsPress)
              std::string::npos);
 }
 
+/// A lap joint whose end is gripped: under a force, and by the displacements that it made.
+TEST_F(Joints, GuidesAreForcesOrDisplacements)
+{
+   block("low.mesh", 0, 4, 16, 0, 1, 4);
+   block("high.mesh", 1, 6, 22, 1, 2, 4);
+   json keys;
+   keys["bodies"] = {{"low", body("low.mesh", "4:xy", {}, 1000, 0.3)},
+                     {"high", body("high.mesh", "", {"P pressure 3[1.1<x<4] 20"}, 1000, 0.3)}};
+   keys["interfaces"] = {{"flat", face("high:1[0<x<5]", "low:3", 0.4)}};
+   keys["history"] = {"P=0", "P=1", "Q=1", "Q=-0.5"};
+   json &guide = keys["bodies"]["high"]["guides"];
+   guide = {{"on", "2"}, {"x", {{"force", "Q"}, {"value", 7}}}, {"rotation", "free"}};
+   const Result force = run(keys, "--csv '" + folder + "/force'");
+   ASSERT_EQ(force.code, 0) << force.output;
+   EXPECT_NEAR(interface(force, "flat")["force_x"], 3.5, 1e-9);
+   EXPECT_NEAR(interface(force, "flat")["force_y"], 20 * 2.9, 1e-8);
+   // The conjugate of 7 Q is 7 times the displacement. From each increment to the next.
+   const std::vector<double> moved = column("force_history.csv", "displacement Q"),
+                             pressed = column("force_history.csv", "load P");
+   std::vector<std::string> history{"P=0"};
+   for (std::size_t k = 0; k < moved.size(); ++k)
+   {
+      std::ostringstream point;
+      point.precision(17);
+      point << "P=" << pressed[k] << " Q=" << moved[k] / 7;
+      history.push_back(point.str());
+   }
+   guide = {{"on", "2"}, {"x", {{"displacement", "Q"}}}, {"rotation", "free"}};
+   keys["history"] = history;
+   keys["increments"] = 1;
+   const Result displacement = run(keys, "--csv '" + folder + "/moved'");
+   ASSERT_EQ(displacement.code, 0) << displacement.output;
+   EXPECT_NEAR(column("moved_history.csv", "reaction Q").back(), -3.5, 1e-3);
+   EXPECT_NEAR(interface(displacement, "flat")["force_x"], 3.5, 1e-3);
+}
+
+TEST_F(Joints, GuidedBarsGiveByTheirCompliance)
+{
+   block("low.mesh", 0, 2, 8, 0, 3, 6);
+   block("high.mesh", 0, 2, 11, 3, 7, 6);
+   json keys;
+   keys["bodies"] = {{"low", body("low.mesh", "1:xy")},
+                     {"high", body("high.mesh", "", {}, 500)}};
+   keys["bodies"]["high"]["guides"] = {
+      {{"on", "3"}, {"y", {{"force", "P"}, {"value", -10}}}, {"rotation", {{"moment", "M"}}}}};
+   keys["interfaces"] = {{"joint", face("high:1", "low:3")}};
+   keys["history"] = {"P=0", "P=1"};
+   const Result got = run(keys, "--csv '" + folder + "/out'");
+   ASSERT_EQ(got.code, 0) << got.output;
+   EXPECT_NEAR(column("out_history.csv", "displacement P").back(),
+               100 * (3.0 / 1000 + 4.0 / 500) / 2, 1e-10);
+   EXPECT_NEAR(interface(got, "joint")["normal"], 10, 1e-10);
+   for (double p : column("out_nodes.csv", "p")) { EXPECT_NEAR(p, 5, 1e-9); }
+   keys["bodies"]["high"]["support"] = "2:x";
+   EXPECT_NE(refused(keys).find("is held, moved or guided already"), std::string::npos);
+}
+
+/// A column above a rigid line, a disc whose top and a hole whose bottom are there.
+TEST_F(Joints, ObstaclesHaveShapes)
+{
+   block("column.mesh", -0.5, 0.5, 4, 0.01, 1.01, 4);
+   json keys;
+   keys["bodies"] = {{"column", body("column.mesh", "3:x", {"D displacement-y 3 -0.03"})}};
+   keys["interfaces"] = {{"floor", {{"between", {"column:1"}}}}};
+   json &face = keys["interfaces"]["floor"];
+   face["obstacle"] = {{"line", {{-1, 0}, {0, 0}, {3, 0}}}};
+   const Result line = run(keys);
+   ASSERT_EQ(line.code, 0) << line.output;
+   EXPECT_NEAR(interface(line, "floor")["normal"], 20, 1e-10); // 1000 (0.03 - 0.01)
+   for (double side : {1.0, -1.0})
+   {
+      face["obstacle"] = {{"circle", {{"centre", {0, -100 * side}}, {"radius", 100 * side}}}};
+      const Result circle = run(keys, "--csv '" + folder + "/out' --history 'D=0; D=0.1'");
+      ASSERT_EQ(circle.code, 0) << circle.output;
+      // Not reached yet by what is moved by 0.003; opening is the gap there.
+      const std::vector<double> x = column("out_nodes.csv", "x"),
+                                gap = column("out_nodes.csv", "opening");
+      for (std::size_t i = 0; i < x.size(); ++i)
+      {
+         const double sag = 100 - std::sqrt(1e4 - x[i] * x[i]);
+         EXPECT_NEAR(gap[i], 0.01 - 0.003 + side * sag, 1e-12);
+      }
+   }
+   face["obstacle"] = {{"circle", {{"centre", {0, -0.1}}, {"radius", 0.1}}}};
+   EXPECT_NE(refused(keys).find("does not face the obstacle"), std::string::npos);
+}
+
 /// Friction and gap may vary along an interface.
 TEST_F(Joints, TablesAreOverTheArcLength)
 {
@@ -412,6 +499,113 @@ TEST_F(Joints, AreSweptByTheirKeys)
       run(keys, "--sweep 'interfaces.flat.friction=0.1 0.2' --csv '" + folder + "/out'");
    ASSERT_EQ(got.code, 0) << got.output;
    EXPECT_EQ(got.results["sweep"].size(), 2u) << got.output;
+}
+
+/// Cases of Code_Aster's validation manual, under their names there.
+class CodeAster : public Joints
+{
+};
+
+/// SSNV128, a plate that is pushed along a rigid plane (GRECO; Raous 1988): mm, MPa, f = 1.
+TEST_F(CodeAster, SSNV128)
+{
+   block("plate.mesh", 0, 40, 64, 0, 40, 64);
+   json keys{{"order", 1}};
+   keys["bodies"] = {{"plate", body("plate.mesh", "2:x",
+                                    {"P pressure 4 150", "P pressure 3 50"}, 130e3, 0.2)}};
+   keys["interfaces"] = {{"plane", {{"between", {"plate:1"}}, {"friction", 1}}}};
+   const Result got = run(keys, "--csv '" + folder + "/out'");
+   ASSERT_EQ(got.code, 0) << got.output;
+   const std::vector<double> x = column("out_nodes.csv", "x"),
+                             u = column("out_nodes.csv", "slip");
+   // The manual's values in µm, ±5 %, and those of another exact solver on these elements.
+   const double published[][3] = {{0, 28.6, 28.60},
+                                  {1.25, 27.2, 27.23},
+                                  {5, 22.8, 22.87},
+                                  {7.5, 19.8, 19.81},
+                                  {11.25, 15.0, 15.41}};
+   for (const auto &[at, value, exact] : published)
+   {
+      for (std::size_t i = 0; i < x.size(); ++i)
+      {
+         if (std::abs(x[i] - at) > 1e-9) { continue; }
+         EXPECT_NEAR(1e3 * u[i], value, 0.05 * value);
+         EXPECT_NEAR(1e3 * u[i], exact, 0.005);
+      }
+   }
+}
+
+/// SSNP121, two blocks meshed differently, ν = 0, that are pressed by 5 %.
+TEST_F(CodeAster, SSNP121)
+{
+   block("low.mesh", 0, 1, 3, 0, 1, 2);
+   block("high.mesh", 0, 1, 4, 1, 2, 3);
+   json keys;
+   keys["bodies"] = {{"low", body("low.mesh", "1:y 4:x", {}, 2e6)},
+                     {"high", body("high.mesh", "4:x", {"D displacement-y 3 -0.1"}, 2e6)}};
+   keys["interfaces"] = {{"joint", face("high:1", "low:3", 0)}};
+   const Result got = run(keys, "--csv '" + folder + "/out'");
+   ASSERT_EQ(got.code, 0) << got.output;
+   for (double p : column("out_nodes.csv", "p")) { EXPECT_NEAR(p, 1e5, 1e-5); }
+}
+
+/// SSNP170, incompatible meshes under a pressure of 25.
+TEST_F(CodeAster, SSNP170)
+{
+   block("low.mesh", 0, 3, 7, 0, 1, 3);
+   block("high.mesh", 0, 3, 11, 1, 2, 3);
+   for (int order : {1, 2})
+   {
+      json keys{{"order", order}};
+      keys["bodies"] = {{"low", body("low.mesh", "1:y 4:x", {}, 2000, 0.3)},
+                        {"high", body("high.mesh", "4:x", {"P pressure 3 25"}, 2000, 0.3)}};
+      keys["interfaces"] = {{"joint", face("high:1", "low:3", 0)}};
+      const Result got = run(keys, "--csv '" + folder + "/out'");
+      ASSERT_EQ(got.code, 0) << got.output;
+      for (double p : column("out_nodes.csv", "p")) { EXPECT_NEAR(p, 25, 1e-8); }
+   }
+}
+
+/// SSNP152, rings of 1, 0.6 and 0.2 m about an axis, under a pressure of 1e6 outside: Lamé.
+TEST_F(CodeAster, SSNP152)
+{
+   block("inner.mesh", 0.2, 0.6, 8, 0, 0.3, 5);
+   block("outer.mesh", 0.6, 1, 8, 0, 0.3, 7);
+   json keys{{"analysis", "axisymmetric"}, {"order", 3}};
+   keys["bodies"] = {{"inner", body("inner.mesh", "1:z 3:z", {}, 1e9, 0.2)},
+                     {"outer", body("outer.mesh", "1:z 3:z", {"P pressure 2 1e6"}, 1e9, 0.2)}};
+   keys["interfaces"] = {{"joint", face("inner:2", "outer:4", 0)}};
+   const Result got = run(keys, "--csv '" + folder + "/out'");
+   ASSERT_EQ(got.code, 0) << got.output;
+   for (double p : column("out_nodes.csv", "p")) { EXPECT_NEAR(p, 925925.926, 5); }
+}
+
+/// SSNV503, a pad on a base, f = 0.3: forces in the ratio 0.297 stick, 0.303 slide; turned by
+/// 30° as a whole too.
+TEST_F(CodeAster, SSNV503)
+{
+   for (double degrees : {0.0, 30.0})
+   {
+      const double turn = degrees * std::acos(-1.0) / 180;
+      block("pad.mesh", -20, 20, 16, 0, 20, 8, turn);
+      block("base.mesh", -40, 40, 21, -20, 0, 6, turn);
+      for (double push : {178.2, 181.8})
+      {
+         json keys;
+         std::ostringstream shear;
+         shear << "Q pressure 4 " << push;
+         keys["bodies"] = {
+            {"pad", body("pad.mesh", "", {"P pressure 3 300", shear.str()}, 2.1e5)},
+            {"base", body("base.mesh", "1:xy", {}, 1e5)}};
+         keys["interfaces"] = {{"joint", face("pad:1", "base:3", 0.3)}};
+         keys["history"] = {"P=0", "P=1", "Q=1"};
+         const Result got = run(keys);
+         EXPECT_EQ(got.code, push < 180 ? 0 : 2) << got.output;
+         if (push < 180) { continue; }
+         EXPECT_EQ(got.results["status"], "gross sliding");
+         EXPECT_NEAR(got.results["event_loads"]["Q"].get<double>() * push, 180, 1e-3);
+      }
+   }
 }
 
 } // namespace

@@ -84,6 +84,23 @@ void AssembledBody::validate() const
       }
       require(!moves || felt, "assembled body: load '", load.name, "' ", feels_nothing);
    }
+   for (const BlockMotion &block : blocks)
+   {
+      require(block.motion.size() == size && block.motion.allFinite() &&
+                 !block.motion.isZero(0) && std::isfinite(block.force),
+              "assembled body: a block's motion has ", block.motion.size(), " values, must be ",
+              size, ", all finite and not all zero, and its force be finite");
+      for (int dof = 0; dof < size; ++dof)
+      {
+         require(held[dof] || block.motion[dof] == 0, "assembled body: a block moves dof ", dof,
+                 ", which is not fixed, it must be");
+      }
+      const auto same = [&](const BodyLoad &load)
+      { return load.name == block.load && load.control == Control::force; };
+      require(block.load.empty() || std::any_of(loads.begin(), loads.end(), same),
+              "assembled body: the load '", block.load,
+              "' of a block is not there, must be one of forces (which may be zero)");
+   }
 }
 
 } // namespace cattaneo

@@ -16,12 +16,22 @@ struct BodyLoad
    Eigen::VectorXd values; ///< force control: forces; displacement: prescribed values
 };
 
+/// A motion of fixed dofs that is free after all, of all of them together: that of a part that
+/// moves as a rigid block.
+struct BlockMotion
+{
+   Eigen::VectorXd motion; ///< of all dofs, zero where they are not fixed
+   std::string load;       ///< that is the force on it, empty: none
+   double force = 0;       ///< per unit multiplier of that load, work over motion
+};
+
 /// A body as any program assembles it: what a condensation by a factor starts from.
 struct AssembledBody
 {
    /// Symmetric, of all dofs, supported ones among them; each entry once.
    SharedMatrix K;
-   std::vector<int> fixed; ///< sorted: fixed, or prescribed by a load of displacements
+   std::vector<int>
+      fixed; ///< sorted: fixed, prescribed by a load of displacements, or a block's
    DofPlaces places;
    std::vector<BodyLoad> loads;
    /// True if K may resist rigid motions (elastic foundations, springs that do not connect x
@@ -29,11 +39,13 @@ struct AssembledBody
    /// the supports leave are free, and a body is refused if contact nodes and supports together
    /// leave one.
    bool grounded = false;
+   /// Independent of each other. Rigid motions are free where they are combinations of these.
+   std::vector<BlockMotion> blocks = {};
 
-   /// InputError that names what does not fit: sizes, columns, an entry that is there twice,
-   /// the order of the fixed dofs, loads that are not finite, have no name of their own or
-   /// displace what is not fixed or what nothing hangs on (a matrix that was eliminated), a
-   /// stiffness that is not symmetric (one triangle of it).
+   /// InputError that names what does not fit: blocks whose dofs are not fixed, sizes, columns,
+   /// an entry that is there twice, the order of the fixed dofs, loads that are not finite,
+   /// have no name of their own or displace what is not fixed or what nothing hangs on (a
+   /// matrix that was eliminated), a stiffness that is not symmetric (one triangle of it).
    void validate() const;
    /// What is said of a load whose displacements nothing hangs on.
    static constexpr const char *feels_nothing =

@@ -12,36 +12,6 @@ namespace cattaneo
 namespace
 {
 
-/// ReducedProblem::H, signs and symmetry, from the energies of clamped loads.
-Eigen::MatrixXd load_by_load(const std::vector<BodyLoad> &loads, const ClampedLoads &clamped)
-{
-   const auto count = static_cast<Eigen::Index>(loads.size());
-   const Eigen::MatrixXd &response = clamped.response, &reaction = clamped.reaction;
-   Eigen::MatrixXd H(count, count);
-   for (Eigen::Index k = 0; k < count; ++k)
-   {
-      for (Eigen::Index j = 0; j < count; ++j)
-      {
-         const bool force = loads[k].control == Control::force;
-         double &h = H(k, j);
-         if (loads[j].control == loads[k].control)
-         {
-            // Flexibility of forces, or stiffness of prescribed displacements.
-            h = 0.5 * (response(k, j) + response(j, k));
-            if (!force) { h = 0.5 * (reaction(j, k) + reaction(k, j)) - h; }
-         }
-         else
-         {
-            // Displacement of force f by motion d; the support's reaction is its opposite.
-            const Eigen::Index f = force ? k : j, d = force ? j : k;
-            h = reaction(f, d) + response(f, d);
-            if (!force) { h = -h; }
-         }
-      }
-   }
-   return H;
-}
-
 /// Puts rows at their positions among so many, and zeros elsewhere.
 void spread(Eigen::MatrixXd &M, const std::vector<int> &positions, Eigen::Index rows)
 {
@@ -97,6 +67,35 @@ std::vector<int> align(ContactLine &line, const std::vector<int> &held)
 }
 
 } // namespace
+
+Eigen::MatrixXd load_by_load(const std::vector<BodyLoad> &loads, const ClampedLoads &clamped)
+{
+   const auto count = static_cast<Eigen::Index>(loads.size());
+   const Eigen::MatrixXd &response = clamped.response, &reaction = clamped.reaction;
+   Eigen::MatrixXd H(count, count);
+   for (Eigen::Index k = 0; k < count; ++k)
+   {
+      for (Eigen::Index j = 0; j < count; ++j)
+      {
+         const bool force = loads[k].control == Control::force;
+         double &h = H(k, j);
+         if (loads[j].control == loads[k].control)
+         {
+            // Flexibility of forces, or stiffness of prescribed displacements.
+            h = 0.5 * (response(k, j) + response(j, k));
+            if (!force) { h = 0.5 * (reaction(j, k) + reaction(k, j)) - h; }
+         }
+         else
+         {
+            // Displacement of force f by motion d; the support's reaction is its opposite.
+            const Eigen::Index f = force ? k : j, d = force ? j : k;
+            h = reaction(f, d) + response(f, d);
+            if (!force) { h = -h; }
+         }
+      }
+   }
+   return H;
+}
 
 std::vector<int> others(const std::vector<int> &held, Eigen::Index count)
 {
@@ -173,7 +172,8 @@ CondensedBody in_local_frames(const ContactLine &line, const std::vector<BodyLoa
    result.counters = found.counters;
    result.solver = std::move(found.solver);
    result.rigid_modes = found.free.count;
-   result.H = load_by_load(loads, found.clamped);
+   result.H = found.H.size() > 0 || loads.empty() ? std::move(found.H)
+                                                  : load_by_load(loads, found.clamped);
    const Equilibrium equilibrium(found.free);
    equilibrium.impose_on_stiffness(found.S);
    equilibrium.impose_on_forces(found.clamped.forces);

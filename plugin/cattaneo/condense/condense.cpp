@@ -169,11 +169,42 @@ void require_in_place(const ContactLine &line, const DofPlaces &places)
    }
 }
 
+/** A body whose blocks move: those of its solver are held, at d. With the forces of clamped
+    loads F of all, the blocks' motions among them, and H by the same,
+
+       d = H_dd⁻¹ (V λ - F_dᵀ u - H_dl λ),
+
+    V the force of each load on each block. */
+class BlockSolver : public BodySolver
+{
+public:
+   std::shared_ptr<const BodySolver> held;
+   Eigen::MatrixXd S, motions;          ///< of the body whose blocks are held
+   Eigen::MatrixXd by_contact, by_load; ///< d = by_contact u + by_load λ
+
+   Eigen::VectorXd recover(const Eigen::VectorXd &contact, const Eigen::VectorXd &multipliers,
+                           Counters &counters) const override
+   {
+      Eigen::VectorXd all(multipliers.size() + by_load.rows());
+      all << multipliers, by_contact * contact + by_load * multipliers;
+      return held->recover(contact, all, counters);
+   }
+   double error(const Eigen::MatrixXd &, const Eigen::MatrixXd &,
+                Counters &counters) const override
+   {
+      return held->error(S, motions, counters);
+   }
+};
+
+Condensation with_blocks_held(AssembledBody body, const std::vector<int> &contact,
+                              SparseFactor::Backend backend, const BodySolver *alike);
+
 } // namespace
 
 Condensation condense_by_factor(const AssembledBody &body, const std::vector<int> &contact,
                                 SparseFactor::Backend backend, const BodySolver *alike)
 {
+   if (!body.blocks.empty()) { return with_blocks_held(body, contact, backend, alike); }
    Condensation found;
    found.free = find_free_motions(body, contact);
    auto solver = std::make_shared<FactorSolver>();
@@ -193,6 +224,56 @@ Condensation condense_by_factor(const AssembledBody &body, const std::vector<int
    return found;
 }
 
+namespace
+{
+
+Condensation with_blocks_held(AssembledBody body, const std::vector<int> &contact,
+                              SparseFactor::Backend backend, const BodySolver *alike)
+{
+   const FreeMotions free = find_free_motions(body, contact);
+   const std::vector<BlockMotion> blocks = std::move(body.blocks);
+   body.blocks.clear();
+   const auto count = static_cast<Eigen::Index>(body.loads.size()),
+              moved = static_cast<Eigen::Index>(blocks.size());
+   Eigen::MatrixXd V = Eigen::MatrixXd::Zero(moved, count);
+   Eigen::VectorXd sign(count);
+   for (Eigen::Index k = 0; k < count; ++k)
+   {
+      sign[k] = body.loads[k].control == Control::force ? -1 : 1;
+      for (Eigen::Index b = 0; b < moved; ++b)
+      {
+         if (blocks[b].load == body.loads[k].name) { V(b, k) = blocks[b].force; }
+      }
+   }
+   for (const BlockMotion &block : blocks)
+   {
+      body.loads.push_back({"", Control::displacement, block.motion});
+   }
+   Condensation found = condense_by_factor(body, contact, backend, alike);
+   auto solver = std::make_shared<BlockSolver>();
+   solver->S = found.S;
+   solver->motions = Equilibrium(found.free).motions();
+   const Eigen::MatrixXd H = load_by_load(body.loads, found.clamped);
+   const Eigen::MatrixXd F = found.clamped.forces, F_d = F.rightCols(moved),
+                         stiffness = H.bottomRightCorner(moved, moved),
+                         felt = H.bottomLeftCorner(moved, count) - V;
+   const Eigen::LDLT<Eigen::MatrixXd> factor(stiffness);
+   solver->by_contact = -factor.solve(F_d.transpose());
+   solver->by_load = -factor.solve(felt);
+   // What the minimum over d leaves of the energy.
+   found.S += F_d * solver->by_contact;
+   found.S = (0.5 * (found.S + found.S.transpose())).eval();
+   found.clamped.forces = F.leftCols(count) + F_d * solver->by_load;
+   found.H =
+      H.topLeftCorner(count, count) + sign.asDiagonal() * felt.transpose() * solver->by_load;
+   found.free = free;
+   solver->held = std::move(found.solver);
+   found.solver = std::move(solver);
+   return found;
+}
+
+} // namespace
+
 CondensedBody condense(const AssembledBody &body, const ContactLine &line,
                        SparseFactor::Backend backend, const CondensedBody *alike)
 {
@@ -211,6 +292,13 @@ CondensedBody condense(const AssembledBody &body, const ContactLine &line,
          if (load.control == Control::displacement && load.values[contact.all[a]] != 0)
          {
             require_unmoved(line, load.name, {static_cast<int>(a)});
+         }
+      }
+      for (const BlockMotion &block : body.blocks)
+      {
+         if (block.motion[contact.all[a]] != 0)
+         {
+            require_unmoved(line, block.load, {static_cast<int>(a)});
          }
       }
    }

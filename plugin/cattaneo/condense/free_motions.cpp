@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cattaneo/algebra/dense_algebra.hpp>
 #include <cattaneo/condense/free_motions.hpp>
 #include <cattaneo/input_error.hpp>
@@ -5,12 +6,75 @@
 namespace cattaneo
 {
 
+namespace
+{
+
+/// Of blocks what they do to the dofs of a part.
+class BlocksOfPart
+{
+public:
+   BlocksOfPart(const AssembledBody &body, const std::vector<int> &part)
+   {
+      std::vector<int> rows;
+      for (std::size_t k = 0; k < part.size(); ++k)
+      {
+         const auto moves = [&](const BlockMotion &block)
+         { return block.motion[part[k]] != 0; };
+         if (std::any_of(body.blocks.begin(), body.blocks.end(), moves))
+         {
+            rows_.push_back(static_cast<int>(k));
+            rows.push_back(part[k]);
+         }
+      }
+      for (std::size_t b = 0; b < body.blocks.size() && !rows_.empty(); ++b)
+      {
+         const Eigen::VectorXd motion = body.blocks[b].motion(rows);
+         if (motion.isZero(0)) { continue; }
+         numbers_.push_back(b);
+         motions_.conservativeResize(motion.size(), motions_.cols() + 1);
+         motions_.rightCols(1) = motion;
+      }
+   }
+   /// Of rigid motions of the part, as columns, those that its blocks can do.
+   Eigen::MatrixXd allowed(const Eigen::MatrixXd &rigid) const
+   {
+      if (rows_.empty() || rigid.cols() == 0) { return rigid; }
+      const Eigen::MatrixXd Q = thin_qr(rigid).Q, here = Q(rows_, Eigen::all),
+                            M = thin_qr(motions_).Q;
+      const Eigen::MatrixXd rest = here - M * (M.transpose() * here);
+      return at_rest(Q, rest / here.norm());
+   }
+   /// How far a motion of the part that they can do moves each block, by numbers of blocks.
+   std::vector<std::pair<std::size_t, double>> amplitudes(const Eigen::VectorXd &motion) const
+   {
+      std::vector<std::pair<std::size_t, double>> all;
+      if (rows_.empty()) { return all; }
+      const Eigen::VectorXd a = least_squares(motions_, motion(rows_));
+      for (std::size_t k = 0; k < numbers_.size(); ++k)
+      {
+         all.emplace_back(numbers_[k], a[static_cast<Eigen::Index>(k)]);
+      }
+      return all;
+   }
+
+private:
+   std::vector<int> rows_; ///< of the part
+   Eigen::MatrixXd motions_;
+   std::vector<std::size_t> numbers_;
+};
+
+} // namespace
+
 FreeMotions find_free_motions(const AssembledBody &body, const std::vector<int> &contact)
 {
    const SparseView K = body.K.view();
    const DofPlaces &places = body.places;
    std::vector<bool> supported(K.rows(), false);
    for (int dof : body.fixed) { supported[dof] = true; }
+   for (const BlockMotion &block : body.blocks)
+   {
+      for (int dof : body.fixed) { supported[dof] = supported[dof] && block.motion[dof] == 0; }
+   }
    std::vector<bool> held = supported;
    for (int dof : contact) { held[dof] = true; }
    const auto count = static_cast<Eigen::Index>(body.loads.size());
@@ -20,9 +84,11 @@ FreeMotions find_free_motions(const AssembledBody &body, const std::vector<int> 
    const std::vector<std::vector<int>> parts = body.K.connected_parts();
    for (const std::vector<int> &part : parts)
    {
+      const BlocksOfPart blocks(body, part);
       const auto motions = [&](const std::vector<bool> &holding)
       {
-         const Eigen::MatrixXd rigid = free_rigid_motions(places, part, holding);
+         const Eigen::MatrixXd rigid =
+            blocks.allowed(free_rigid_motions(places, part, holding));
          return body.grounded ? unresisted(K, part, rigid) : rigid;
       };
       const Eigen::MatrixXd still = motions(held);
@@ -55,6 +121,11 @@ FreeMotions find_free_motions(const AssembledBody &body, const std::vector<int> 
             const BodyLoad &load = body.loads[k];
             free.resultant(free.resultant.rows() - 1, k) =
                load.control == Control::force ? whole.dot(load.values) : 0.0;
+            for (const auto &[b, amplitude] : blocks.amplitudes(rigid.col(m)))
+            {
+               if (body.blocks[b].load != load.name) { continue; }
+               free.resultant(free.resultant.rows() - 1, k) += body.blocks[b].force * amplitude;
+            }
          }
       }
    }

@@ -82,7 +82,8 @@ AssembledBody assembled(const ElasticBody &body)
                      {essential.begin(), essential.end()},
                      places_of(body),
                      body.patterns(),
-                     !body.has_material()};
+                     !body.has_material(),
+                     body.blocks()};
    const Ranks &ranks = body.ranks();
    if (!ranks.distributed()) { all.K = body.shared_stiffness(); }
 #ifdef MFEM_USE_MPI
@@ -101,6 +102,7 @@ AssembledBody assembled(const ElasticBody &body)
    collect(all.places.y);
    all.places.component = ranks.collect(all.places.component);
    for (BodyLoad &load : all.loads) { collect(load.values); }
+   for (BlockMotion &block : all.blocks) { collect(block.motion); }
 #endif
    return all;
 }

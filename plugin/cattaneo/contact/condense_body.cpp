@@ -135,6 +135,11 @@ ContactDofs contact_dofs(const ElasticBody &body, const ContactLine &line)
       require_unmoved(line, load.name,
                       known_by_owner([&](int dof) { return load.values[dof] != 0; }));
    }
+   for (const BlockMotion &block : body.blocks())
+   {
+      require_unmoved(line, block.load.empty() ? "(guide)" : block.load,
+                      known_by_owner([&](int dof) { return block.motion[dof] != 0; }));
+   }
    return contact;
 }
 
@@ -157,6 +162,10 @@ CondensedBody condense(const ElasticBody &body, const ContactLine &line,
 #ifdef MFEM_USE_MPI
    if (body.ranks().distributed() && body.dofs() > settings.direct_dofs)
    {
+      require(body.blocks().empty(),
+              "condense: the body has guides, which only a factor knows: "
+              "CondenseSettings::direct_dofs must be above its ",
+              body.dofs(), " dofs");
       found = condense_by_iterations(body, line, dofs, settings.max_iterations, other);
    }
    else

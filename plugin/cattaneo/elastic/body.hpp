@@ -5,6 +5,7 @@
 #include <cattaneo/counters.hpp>
 #include <cattaneo/elastic/boundary_part.hpp>
 #include <cattaneo/elastic/field.hpp>
+#include <cattaneo/elastic/guide.hpp>
 #include <cattaneo/elastic/stress.hpp>
 #include <cattaneo/formulation.hpp>
 #include <cattaneo/mesh/ranks.hpp>
@@ -119,6 +120,14 @@ public:
    void add_displacement(const std::string &pattern, const BoundaryPart &part,
                          const mfem::GridFunction &u);
 
+   /** A part that moves as a rigid block. Its loads are patterns like all others, which may
+       have more than this. InputError if a node of the part is held, moved or guided already,
+       for a load without a name, of torsion, and about an axis for anything but free or given
+       motion along it. Not of a body on several ranks. */
+   void guide(const BoundaryPart &part, const Guide &guide);
+   /// Motions of guides that are free or under forces.
+   const std::vector<BlockMotion> &blocks() const { return blocks_; }
+
    /// How stress_at and the output of fields find stresses, of a user's operator above all. Not
    /// of torsion (InputError).
    void set_stress(StressLaw law);
@@ -205,6 +214,7 @@ private:
    };
    std::vector<InitialStrain> initial_strains_;
    std::vector<BodyLoad> patterns_;
+   std::vector<BlockMotion> blocks_;
    std::vector<std::vector<bool>>
       prescribed_;               ///< by pattern and true dof (empty: force control)
    std::vector<bool> essential_; ///< by true dof

@@ -4,6 +4,7 @@
 #include <cattaneo/elastic/views.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
+#include <limits>
 
 namespace cattaneo
 {
@@ -313,6 +314,85 @@ void ElasticBody::prescribe(const std::string &pattern, int node, int component,
            " but was already prescribed as ", other, " by the same pattern");
    values(dof) = value;
    prescribed_[k][dof] = essential_[dof] = true;
+}
+
+void ElasticBody::guide(const BoundaryPart &part, const Guide &guide)
+{
+   require(components() == 2, "guide: of a body of torsion, must be of one in the plane");
+   const std::vector<int> nodes = nodes_on(part, "guide");
+   constexpr double far = std::numeric_limits<double>::max();
+   std::array<double, 2> low{far, far}, high{-far, -far};
+   for (int node : nodes)
+   {
+      for (int c : {0, 1})
+      {
+         const double x = coordinates_(c, node);
+         low[c] = std::min(low[c], x);
+         high[c] = std::max(high[c], x);
+         const int dof = true_dof(node, c);
+         require(dof < 0 || !essential_[dof] || (c == 0 && on_axis(node)), "guide: the node (",
+                 coordinates_(0, node), ", ", coordinates_(1, node),
+                 ") is held, moved or guided already, a guide must be all that says how its "
+                 "part moves");
+      }
+   }
+   const std::array<double, 2> middle{0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])},
+      centre = guide.centre.value_or(middle);
+   const bool plane = formulation_ == Formulation::plane;
+   const auto along_axis = [&](const Guide::Along &other)
+   { return other.motion == Guide::Motion::free || other.motion == Guide::Motion::held; };
+   require(plane || (along_axis(guide.x) && along_axis(guide.rotation)),
+           "guide: about an axis a block moves along it alone, x and rotation must not be "
+           "given");
+   const std::array<const Guide::Along *, 3> all{&guide.x, &guide.y, &guide.rotation};
+   for (int k = 0; k < 3; ++k)
+   {
+      const Guide::Along &along = *all[k];
+      const bool held = along.motion == Guide::Motion::held || (!plane && k != 1);
+      const bool given =
+         along.motion == Guide::Motion::force || along.motion == Guide::Motion::displacement;
+      require(!given || !along.load.empty(), "guide: a load has no name, must have one");
+      require(std::isfinite(along.value), "guide: the value of load '", along.load, "' is ",
+              along.value, ", must be finite");
+      BlockMotion block{Eigen::VectorXd::Zero(space_->GetTrueVSize()), "", along.value};
+      if (along.motion == Guide::Motion::displacement)
+      {
+         load(along.load, Control::displacement);
+      }
+      if (along.motion == Guide::Motion::force)
+      {
+         load(along.load, Control::force);
+         block.load = along.load;
+      }
+      for (int node : nodes)
+      {
+         for (int c : {0, 1})
+         {
+            const int dof = true_dof(node, c);
+            if (dof < 0 || held || (k < 2 && c != k)) { continue; }
+            const double arm =
+               c == 0 ? centre[1] - coordinates_(1, node) : coordinates_(0, node) - centre[0];
+            const double motion = k < 2 ? 1 : arm;
+            if (along.motion == Guide::Motion::displacement)
+            {
+               prescribe(along.load, node, c, along.value * motion);
+            }
+            else { block.motion[dof] = motion; }
+         }
+      }
+      if (!held && along.motion != Guide::Motion::displacement)
+      {
+         blocks_.push_back(std::move(block));
+      }
+   }
+   for (int node : nodes)
+   {
+      for (int c : {0, 1})
+      {
+         const int dof = true_dof(node, c);
+         if (dof >= 0) { essential_[dof] = true; }
+      }
+   }
 }
 
 void ElasticBody::add_displacement(const std::string &pattern, const BoundaryPart &part,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/mesh/gmsh_file.hpp>
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
@@ -196,8 +197,8 @@ const std::map<long, GmshType> gmsh_types = {
    {21, {10, 3, 3}}, {23, {15, 3, 4}}, {25, {21, 3, 5}}, {3, {4, 4, 1}},
    {10, {9, 4, 2}},  {36, {16, 4, 3}}, {37, {25, 4, 4}}, {38, {36, 4, 5}}};
 
-const char *const save_as_msh22 =
-   ": save it anew (gmsh -2 NAME.geo -format msh22, or File > Export as 'Version 2 ASCII')";
+const char *const save_anew =
+   ": save it anew (gmsh -2 NAME.geo, or File > Export as 'Version 4 ASCII')";
 
 /// Why an element of Gmsh is not one of these.
 std::string why_not(long type)
@@ -242,10 +243,12 @@ void check_gmsh(std::istream &in, long size)
 {
    std::string version;
    in >> version;
-   require(version == "2.2", "Gmsh file is of format ", version, ", must be 2.2, ASCII",
-           save_as_msh22);
-   require(integer(in, "the file type") == 0, "Gmsh file is binary, must be ASCII",
-           save_as_msh22);
+   require(version == "2.2", "Gmsh file is of format ", version, ", must be 4.1 or 2.2",
+           save_anew);
+   require(integer(in, "the file type") == 0,
+           "Gmsh file has a file type that is neither 0 "
+           "(ASCII) nor 1 (binary)",
+           save_anew);
    std::map<long, double> nodes; // and their z
    double extent = 0, level = 0; // largest coordinate, z of the first node
    Edges edges;
@@ -348,22 +351,29 @@ mfem::Mesh read_mesh(const std::string &file)
    std::ifstream in(file);
    require(in.good() && std::filesystem::is_regular_file(file), "mesh file cannot be read");
    const long size = static_cast<long>(std::filesystem::file_size(file));
-   std::string line;
+   std::string line, converted;
    std::getline(in, line);
-   if (line.rfind("$MeshFormat", 0) == 0) { check_gmsh(in, size); }
+   const bool gmsh = line.rfind("$MeshFormat", 0) == 0;
+   if (gmsh && needs_gmsh_22(file))
+   {
+      converted = as_gmsh_22(file, size);
+      std::istringstream text(converted);
+      std::getline(text, line);
+      check_gmsh(text, static_cast<long>(converted.size()));
+   }
+   else if (gmsh) { check_gmsh(in, size); }
    else
    {
       require(size > 0, "mesh file is empty");
-      require(line.rfind("$NOD", 0) != 0, "Gmsh file is of format 1, must be 2.2, ASCII",
-              save_as_msh22);
+      require(line.rfind("$NOD", 0) != 0, "Gmsh file is of format 1, must be 4.1 or 2.2",
+              save_anew);
       const bool geometry = std::filesystem::path(file).extension() == ".geo";
       require(line.rfind("MFEM mesh v1.", 0) == 0,
               "mesh file must begin with 'MFEM mesh v1.' or '$MeshFormat' (Gmsh), not with '",
               line.substr(0, 20), "'",
-              geometry
-                 ? ": this is a geometry, which gmsh -2 NAME.geo -format msh22 makes a mesh "
-                   "of"
-                 : "");
+              geometry ? ": this is a geometry, which gmsh -2 NAME.geo makes a mesh "
+                         "of"
+                       : "");
       check_mfem(in, size);
    }
    in.close();
@@ -371,7 +381,8 @@ mfem::Mesh read_mesh(const std::string &file)
    mfem::Mesh mesh;
    try
    {
-      mesh = mfem::Mesh(file.c_str(), 1, 1);
+      std::istringstream text(converted);
+      mesh = converted.empty() ? mfem::Mesh(file.c_str(), 1, 1) : mfem::Mesh(text, 1, 1);
    }
    catch (const std::exception &error)
    {

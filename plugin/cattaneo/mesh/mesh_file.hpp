@@ -7,8 +7,8 @@
 namespace cattaneo
 {
 
-/** The plane mesh in a user's file: MFEM's format ("MFEM mesh v1.…", conforming), or Gmsh's 2.2
-    in ASCII, of triangles and quadrilaterals.
+/** The plane mesh in a user's file: MFEM's format ("MFEM mesh v1.…", conforming), or Gmsh's
+    4.1 or 2.2, ASCII or binary, of triangles and quadrilaterals.
 
     MFEM's reader trusts its file: a node number that is out of range reads foreign memory. The
     file is therefore checked first, section by section. InputError saying what is wrong. */

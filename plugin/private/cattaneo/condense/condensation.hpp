@@ -25,7 +25,11 @@ struct Condensation
    ClampedLoads clamped;
    Counters counters;
    std::shared_ptr<const BodySolver> solver;
+   Eigen::MatrixXd H = {}; ///< of a body with blocks; else it is that of the clamped loads
 };
+
+/// ReducedProblem::H, signs and symmetry, from the energies of clamped loads.
+Eigen::MatrixXd load_by_load(const std::vector<BodyLoad> &loads, const ClampedLoads &clamped);
 
 /// Positions that are not held, of so many.
 std::vector<int> others(const std::vector<int> &held, Eigen::Index count);

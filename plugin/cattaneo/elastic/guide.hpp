@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+namespace cattaneo
+{
+
+/** How a part of a boundary moves that is a rigid block: a grip, a stiff plate, a bearing. Its
+    motions are along x, along y and about its centre; about an axis of revolution the one along
+    it alone is left. What is not given is what the conjugate of the load says: the displacement
+    of a force, the reaction of a displacement. */
+struct Guide
+{
+   enum class Motion
+   {
+      held,
+      free,
+      force,       ///< its load is the force on the block, about the centre a moment
+      displacement ///< its load is how far it moves, about the centre an angle
+   };
+   struct Along
+   {
+      Motion motion = Motion::free;
+      std::string load = {}; ///< name of the pattern, of force or displacement
+      double value = 1;      ///< per unit multiplier
+   };
+
+   Along x, y, rotation{Motion::held};
+   /// Not given: the middle of the box around the part.
+   std::optional<std::array<double, 2>> centre = std::nullopt;
+};
+
+} // namespace cattaneo

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <cattaneo/reduced/reduction.hpp>
+#include <vector>
+
+namespace cattaneo
+{
+
+// Gaps of contact nodes on a rigid obstacle of a shape: how far it is from each node against
+// the node's normal, negative where the body overlaps it. InputError that names a node that
+// faces nothing, and points or a radius that are none.
+
+/// A polyline through two points or more, of which the first and the last side go on without
+/// end: of two points a straight line.
+Eigen::VectorXd gaps_to_polyline(const InterfaceReport &nodes,
+                                 const std::vector<Eigen::Vector2d> &points);
+
+/// A disc, or with a negative radius a hole of that radius.
+Eigen::VectorXd gaps_to_circle(const InterfaceReport &nodes, const Eigen::Vector2d &centre,
+                               double radius);
+
+} // namespace cattaneo
