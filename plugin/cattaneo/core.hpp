@@ -21,8 +21,8 @@
 #include <cattaneo/halfplane/half_plane_field.hpp>
 #include <cattaneo/output/history.hpp>
 #include <cattaneo/reduced/interfaces.hpp>
-#include <cattaneo/reduced/obstacle_shape.hpp>
 #include <cattaneo/reduced/mortar.hpp>
+#include <cattaneo/reduced/obstacle_shape.hpp>
 #include <cattaneo/reduced/reduced_file.hpp>
 #include <cattaneo/reduced/reduction.hpp>
 #include <cattaneo/shakedown/closed_contact.hpp>
