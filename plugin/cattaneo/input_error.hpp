@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -27,6 +28,10 @@ const Part &as_text(const Part &part)
 inline std::string as_text(double value)
 {
    return exact_text(value);
+}
+inline std::string as_text(const Eigen::Vector2d &place)
+{
+   return "(" + exact_text(place[0]) + ", " + exact_text(place[1]) + ")";
 }
 
 /// Throws InputError with the concatenation of @a parts unless @a condition holds.

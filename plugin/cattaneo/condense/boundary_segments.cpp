@@ -33,12 +33,6 @@ LineEnd goes_on(const std::vector<WayOn> &ways, int node, const Eigen::Vector2d 
    return straightest >= std::cos(turn) ? LineEnd::smooth : LineEnd::corner;
 }
 
-std::string coordinates(const LineNode &node)
-{
-   return "(" + std::to_string(node.position[0]) + ", " + std::to_string(node.position[1]) +
-          ")";
-}
-
 /// Nodes of elements that lie on one another without being joined would bear side by side, and
 /// have two partners each.
 void check_joined(const ContactLine &line, const std::string &where)
@@ -61,7 +55,7 @@ void check_joined(const ContactLine &line, const std::string &where)
       {
          require((node.position - other->second->position).norm() >
                     near * std::min(node.spacing, other->second->spacing),
-                 where, ": two nodes lie on one another at ", coordinates(node),
+                 where, ": two nodes lie on one another at ", node.position,
                  ", the elements there are not joined: make them one node (in Gmsh: Coherence "
                  "Mesh)");
       }
@@ -82,7 +76,7 @@ std::vector<std::vector<const Segment *>> chained(const std::vector<Segment> &se
       {
          require(end == &s.front() ? starting.emplace(end->id, &s).second
                                    : ending.insert(end->id).second,
-                 where, ": more than two boundary elements meet at ", coordinates(end->node),
+                 where, ": more than two boundary elements meet at ", end->node.position,
                  ", or one is there twice");
       }
    }
@@ -202,7 +196,7 @@ void give_weights_of_axis(std::vector<SegmentNode> &nodes, const std::string &wh
          next = i;
          continue;
       }
-      require(next < nodes.size() || i > 0, where, ": the node at ", coordinates(nodes[i].node),
+      require(next < nodes.size() || i > 0, where, ": the node at ", nodes[i].node.position,
               " is alone on the axis");
       nodes[next < nodes.size() ? next : i - 1].node.weight += nodes[i].node.weight;
    }
@@ -222,7 +216,7 @@ void append(JoinedSegments joined, LineChain chain, ContactLine &line, const std
       const double size = std::hypot(node.tangent[0], node.tangent[1]);
       // Exactly opposite tangents cancel to round-off.
       require(size > 1e-9 * each.share, where, ": the line turns back on itself at ",
-              coordinates(node));
+              node.position);
       node.tangent /= size;
       line.nodes.push_back(node);
    }

@@ -43,10 +43,9 @@ std::vector<int> align(ContactLine &line, const std::vector<int> &held)
       const bool tangential = std::abs(along) >= std::abs(across);
       const double turn = degrees * std::asin(std::min(std::abs(along), std::abs(across)));
       require(turn <= LineChain::smooth_turn, "condense: component ",
-              component_name(line.formulation, c), " of the contact node at (",
-              node.position[0], ", ", node.position[1], ") is fixed, and the line meets it at ",
-              tangential ? turn : 90 - turn, " degrees, must be 0 or 90, to ",
-              LineChain::smooth_turn);
+              component_name(line.formulation, c), " of the contact node at ", node.position,
+              " is fixed, and the line meets it at ", tangential ? turn : 90 - turn,
+              " degrees, must be 0 or 90, to ", LineChain::smooth_turn);
       node.tangent.setZero();
       node.tangent[tangential ? c : 1 - c] = std::copysign(1.0, tangential ? along
                                                                 : c == 0   ? -across
@@ -149,8 +148,8 @@ void require_unmoved(const ContactLine &line, const std::string &pattern,
    const Eigen::Index a = *std::min_element(moved.begin(), moved.end()), i = a % n;
    require(
       false, "condense: component ", component_name(line.formulation, static_cast<int>(a / n)),
-      " of the contact node at (", line.nodes[i].position[0], ", ", line.nodes[i].position[1],
-      ") is displaced by load pattern '", pattern, "', contact nodes must be free or fixed");
+      " of the contact node at ", line.nodes[i].position, " is displaced by load pattern '",
+      pattern, "', contact nodes must be free or fixed");
 }
 
 CondensedBody in_local_frames(const ContactLine &line, const std::vector<BodyLoad> &loads,

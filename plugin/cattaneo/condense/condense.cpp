@@ -162,9 +162,9 @@ void require_in_place(const ContactLine &line, const DofPlaces &places)
          const Eigen::Vector2d place(places.x[dof], places.y[dof]);
          require(places.component[dof] == c && (place - node.position).norm() <= allowed,
                  "condense: dof ", dof, " of component ", component_name(line.formulation, c),
-                 " of node ", i, " of the line, at (", node.position[0], ", ", node.position[1],
-                 "), is component ", component_name(line.formulation, places.component[dof]),
-                 " of the node (", place[0], ", ", place[1], ") of the body, must be the same");
+                 " of node ", i, " of the line, at ", node.position, ", is component ",
+                 component_name(line.formulation, places.component[dof]), " of the node ",
+                 place, " of the body, must be the same");
       }
    }
 }

@@ -51,17 +51,16 @@ void check_spacing(const ContactLine &line, const LineChain &chain)
    for (Eigen::Index k = 0; k + 1 < chain.nodes; ++k)
    {
       const Eigen::Vector2d at = place(k);
-      require(place(k + 1) != at, "contact line: two neighbours are at (", at[0], ", ", at[1],
-              "), must be at different places: merge the nodes that were to be one");
+      require(place(k + 1) != at, "contact line: two neighbours are at ", at,
+              ", must be at different places: merge the nodes that were to be one");
    }
    for (Eigen::Index k = 0; k < count && chain.nodes > 2; ++k)
    {
       const Eigen::Vector2d at = place(k + 1);
       const double before = (at - place(k)).norm(), after = (place(k + 2) - at).norm();
       require(std::min(before, after) >= ContactLine::least_ratio * std::max(before, after),
-              "contact line: the node at (", at[0], ", ", at[1], ") is ", before,
-              " behind its neighbour and ", after,
-              " before the next, the ratio must be at least ", ContactLine::least_ratio,
+              "contact line: the node at ", at, " is ", before, " behind its neighbour and ",
+              after, " before the next, the ratio must be at least ", ContactLine::least_ratio,
               ": merge the nodes that were to be one");
    }
 }
@@ -81,19 +80,19 @@ void ContactLine::validate() const
    for (Eigen::Index i = 0; i < size(); ++i)
    {
       const LineNode &node = nodes[i];
-      const double x = node.position[0], y = node.position[1];
-      require(node.position.allFinite() && (formulation == Formulation::plane || x > 0),
-              "contact line: node ", i, " is at (", x, ", ", y,
-              "), must be finite, and beyond the axis x = 0 if there is one");
-      require(std::abs(node.tangent.norm() - 1) <= 1e-9, "contact line: the tangent at (", x,
-              ", ", y, ") has the length ", node.tangent.norm(), ", must be 1");
+      const Eigen::Vector2d &at = node.position;
+      require(at.allFinite() && (formulation == Formulation::plane || at[0] > 0),
+              "contact line: node ", i, " is at ", at,
+              ", must be finite, and beyond the axis x = 0 if there is one");
+      require(std::abs(node.tangent.norm() - 1) <= 1e-9, "contact line: the tangent at ", at,
+              " has the length ", node.tangent.norm(), ", must be 1");
       require(node.weight > 0 && std::isfinite(node.weight),
-              "contact line: the weight of the node at (", x, ", ", y, ") is ", node.weight,
+              "contact line: the weight of the node at ", at, " is ", node.weight,
               ", must be positive");
-      require(node.spacing > 0, "contact line: the spacing at (", x, ", ", y, ") is ",
-              node.spacing, ", must be positive");
-      require(std::isfinite(node.arc_length), "contact line: the arc length of the node at (",
-              x, ", ", y, ") is ", node.arc_length, ", must be finite");
+      require(node.spacing > 0, "contact line: the spacing at ", at, " is ", node.spacing,
+              ", must be positive");
+      require(std::isfinite(node.arc_length), "contact line: the arc length of the node at ",
+              at, " is ", node.arc_length, ", must be finite");
    }
    Eigen::Index next = 0;
    for (const LineChain &chain : chains)

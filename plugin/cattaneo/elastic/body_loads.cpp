@@ -300,17 +300,17 @@ void ElasticBody::prescribe(const std::string &pattern, int node, int component,
    while (patterns_[k].name != pattern) { ++k; }
    const int dof = true_dof(node, component);
    if (dof < 0) { return; }
-   const double x = coordinates_(0, node), y = coordinates_(1, node);
-   require(std::isfinite(value), where, ": the value at (", x, ", ", y, ") is ", value,
+   const Eigen::Vector2d place(coordinates_(0, node), coordinates_(1, node));
+   require(std::isfinite(value), where, ": the value at ", place, " is ", value,
            ", must be finite");
    require(value == 0 || formulation_ != Formulation::axisymmetric || component != 0 ||
               !on_axis(node),
-           where, ": component r at (", x, ", ", y, ") is to be ", value,
+           where, ": component r at ", place, " is to be ", value,
            ", must be zero on the axis");
    const double other = values(dof);
    require(!prescribed_[k][dof] ||
               std::abs(value - other) <= 1e-9 * (std::abs(value) + std::abs(other)),
-           where, ": component ", component, " at (", x, ", ", y, ") is to be ", value,
+           where, ": component ", component, " at ", place, " is to be ", value,
            " but was already prescribed as ", other, " by the same pattern");
    values(dof) = value;
    prescribed_[k][dof] = essential_[dof] = true;

@@ -11,9 +11,9 @@ double Field::at(mfem::ElementTransformation &place, const std::string &where) c
    if (std::isfinite(value)) { return value; }
    mfem::Vector x(2);
    place.Transform(place.GetIntPoint(), x);
-   throw InputError(where + ": the value at (" + std::to_string(x(0)) + ", " +
-                    std::to_string(x(1)) + ") is " + std::to_string(value) +
-                    ", must be finite");
+   require(false, where, ": the value at ", Eigen::Vector2d(x(0), x(1)), " is ", value,
+           ", must be finite");
+   return value;
 }
 
 Material VaryingMaterial::at(mfem::ElementTransformation &place) const
@@ -28,7 +28,7 @@ Material VaryingMaterial::at(mfem::ElementTransformation &place) const
    {
       mfem::Vector x(2);
       place.Transform(place.GetIntPoint(), x);
-      require(false, error.what(), ", found at (", x(0), ", ", x(1), ")");
+      require(false, error.what(), ", found at ", Eigen::Vector2d(x(0), x(1)));
    }
    return material;
 }

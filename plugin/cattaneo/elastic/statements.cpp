@@ -18,10 +18,9 @@ void check_point(const ElasticBody &body, const std::string &where, double x, do
 {
    const Eigen::AlignedBox2d box = body.box();
    const double slack = 0.01 * box.sizes().norm();
-   const Eigen::Vector2d point(x, y), &low = box.min(), &high = box.max();
-   require(box.exteriorDistance(point) <= slack, where, ": (", x, ", ", y,
-           ") is outside of the body, which reaches from (", low[0], ", ", low[1], ") to (",
-           high[0], ", ", high[1], ")");
+   const Eigen::Vector2d point(x, y);
+   require(box.exteriorDistance(point) <= slack, where, ": ", point,
+           " is outside of the body, which reaches from ", box.min(), " to ", box.max());
 }
 
 std::vector<int> components(const std::string &where, const std::string &text, bool plane)

@@ -452,8 +452,8 @@ void read_dofs(const std::string &file, NodalStiffness &result)
          const NodeDof dof = dof_at(in, fields[0], fields[1]);
          const Eigen::Vector2d place(in.number(fields[2], "x"), in.number(fields[3], "y"));
          const Eigen::Vector2d &known = result.places.emplace(dof.node, place).first->second;
-         in.require(known == place, "node ", dof.node, " is at (", place[0], ", ", place[1],
-                    "), and was at (", known[0], ", ", known[1], ") before");
+         in.require(known == place, "node ", dof.node, " is at ", place, ", and was at ", known,
+                    " before");
          result.dofs.push_back(dof);
       });
    require(static_cast<Eigen::Index>(result.dofs.size()) == result.K.rows(), "file '", file,

@@ -1,8 +1,7 @@
-#include <algorithm>
 #include <cattaneo/exchange/symmetric_entries.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
-#include <tuple>
+#include <set>
 
 namespace cattaneo
 {
@@ -12,59 +11,42 @@ SymmetricEntries::matrix(int size, const std::string &file,
                          const std::function<std::string(int)> &row_name,
                          const std::function<bool(int)> &is_elastic) const
 {
-   const auto place = [&](const Entry &e) {
-      return "file '" + file + "': entry (" + row_name(e.row) + ", " + row_name(e.column) + ")";
-   };
-   const auto triangle = [](const Entry &e)
-   { return std::make_tuple(std::min(e.row, e.column), std::max(e.row, e.column), e.row); };
-   std::vector<Entry> sorted = entries_;
-   std::sort(sorted.begin(), sorted.end(),
-             [&](const Entry &a, const Entry &b) { return triangle(a) < triangle(b); });
-   double largest = 0;
+   const auto place = [&](int row, int column)
+   { return "file '" + file + "': entry (" + row_name(row) + ", " + row_name(column) + ")"; };
+   Matrix K(size, size);
+   K.setFromTriplets(entries_.begin(), entries_.end());
+   const auto known = static_cast<Eigen::Index>(entries_.size());
+   std::set<std::pair<int, int>> seen;
    bool upper = false, lower = false;
-   for (const Entry &e : sorted)
+   for (const Eigen::Triplet<double> &e : entries_)
    {
-      largest = std::max(largest, std::abs(e.value));
-      upper = upper || e.row < e.column;
-      lower = lower || e.row > e.column;
+      upper = upper || e.row() < e.col();
+      lower = lower || e.row() > e.col();
+      if (K.nonZeros() == known || seen.insert({e.row(), e.col()}).second) { continue; }
+      require(false, place(e.row(), e.col()), " is there twice, must be there once");
    }
-   const auto twice = std::adjacent_find(sorted.begin(), sorted.end(),
-                                         [](const Entry &a, const Entry &b)
-                                         { return a.row == b.row && a.column == b.column; });
-   if (twice != sorted.end())
+   const double allowed = known > 0 ? 1e-10 * K.coeffs().cwiseAbs().maxCoeff() : 0.0;
+   const Matrix skew = upper && lower ? Matrix(K - Matrix(K.transpose())) : Matrix(size, size);
+   for (int row = 0; row < size; ++row)
    {
-      require(false, place(*twice), " is there twice, must be there once");
-   }
-   std::vector<Eigen::Triplet<double>> all;
-   std::vector<double> diagonal(size, 0.0);
-   for (std::size_t k = 0; k < sorted.size(); ++k)
-   {
-      const Entry &e = sorted[k];
-      all.emplace_back(e.row, e.column, e.value);
-      if (e.row == e.column)
+      for (Matrix::InnerIterator e(skew, row); e; ++e)
       {
-         diagonal[e.row] = e.value;
-         continue;
-      }
-      const bool paired = k + 1 < sorted.size() && sorted[k + 1].row == e.column &&
-                          sorted[k + 1].column == e.row;
-      const double mirrored = paired ? sorted[++k].value : upper && lower ? 0.0 : e.value;
-      if (std::abs(mirrored - e.value) > 1e-10 * largest)
-      {
-         require(false, place(e), " is ", e.value, " and its mirror image ", mirrored,
+         const auto column = static_cast<int>(e.col());
+         if (std::abs(e.value()) <= allowed) { continue; }
+         require(false, place(row, column), " is ", K.coeff(row, column),
+                 " and its mirror image ", K.coeff(column, row),
                  ", the stiffness must be symmetric (one triangle of it, or both)");
       }
-      all.emplace_back(e.column, e.row, e.value);
    }
    for (int row = 0; row < size; ++row)
    {
-      if (diagonal[row] > 0 || !is_elastic(row)) { continue; }
-      require(false, place({row, row, 0}), " is ", diagonal[row],
+      if (K.coeff(row, row) > 0 || !is_elastic(row)) { continue; }
+      require(false, place(row, row), " is ", K.coeff(row, row),
               ", the diagonal of a stiffness must be positive");
    }
-   Matrix K(size, size);
-   K.setFromTriplets(all.begin(), all.end());
-   return K;
+   if (upper && lower) { return K; }
+   return upper ? Matrix(K.selfadjointView<Eigen::Upper>())
+                : Matrix(K.selfadjointView<Eigen::Lower>());
 }
 
 } // namespace cattaneo

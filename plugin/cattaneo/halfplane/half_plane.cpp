@@ -209,12 +209,12 @@ void HalfPlane::validate(Formulation formulation) const
    require(
       plane || material.state == PlaneState::strain,
       "half-plane: its material is one of plane stress, must be of plane strain about an axis");
-   require(point.allFinite(), "half-plane: the point of its surface is (", point[0], ", ",
-           point[1], "), must be finite");
+   require(point.allFinite(), "half-plane: the point of its surface is ", point,
+           ", must be finite");
    require(std::abs(normal.norm() - 1) <= 1e-9 &&
               (plane ? !symmetric || normal[0] == 0 || normal[1] == 0 : normal[0] == 0),
-           "half-plane: the normal of its surface is (", normal[0], ", ", normal[1],
-           "), must be of length 1", plane ? "" : " and along the axis",
+           "half-plane: the normal of its surface is ", normal, ", must be of length 1",
+           plane ? "" : " and along the axis",
            plane && symmetric ? ", and horizontal or vertical beside a plane of symmetry" : "");
    require(plane || !symmetric, "half-plane: a plane of symmetry is said of a half-space about "
                                 "an axis, is for the plane alone");
@@ -223,8 +223,8 @@ void HalfPlane::validate(Formulation formulation) const
       const Eigen::Vector2d &F = load.force;
       require(!load.pattern.empty(), "half-plane: a far force has no pattern, must name one");
       require(F.allFinite() && ((plane && !symmetric) || F.dot(tangent(*this)) == 0),
-              "half-plane: the far force of the pattern '", load.pattern, "' is (", F[0], ", ",
-              F[1], "), must be finite",
+              "half-plane: the far force of the pattern '", load.pattern, "' is ", F,
+              ", must be finite",
               plane && !symmetric ? "" : " and along the normal of the surface");
       require(std::count_if(forces.begin(), forces.end(),
                             [&](const FarForce &other)

@@ -136,8 +136,8 @@ HalfPlaneField::Point HalfPlaneField::at(const Vector2d &position) const
    const Vector2d t = tangent(body), &n = body.normal, from = position - body.point;
    const double surface = 1e-9 * tractions_->length, x = from.dot(t),
                 y = std::max(from.dot(n), surface);
-   require(from.dot(n) >= -surface, "field of a half-plane: the point (", position[0], ", ",
-           position[1], ") is above its surface, must be on or below it");
+   require(from.dot(n) >= -surface, "field of a half-plane: the point ", position,
+           " is above its surface, must be on or below it");
    Sums s = tractions_->sums(x, y);
    if (body.symmetric) // its mirror image
    {

@@ -38,13 +38,12 @@ FilledCorner filled_corner(mfem::Mesh &mesh, const Eigen::Vector2d &point)
          const int attribute = mesh.GetAttribute(element);
          require(corner.attribute == 0 || corner.attribute == attribute,
                  "elements of the attributes ", corner.attribute, " and ", attribute,
-                 " meet at the corner (", point[0], ", ", point[1],
-                 "): the exponents of three materials are not known here");
+                 " meet at the corner ", point,
+                 ": the exponents of three materials are not known here");
          corner.attribute = attribute;
       }
    }
-   require(corner.attribute > 0, "the point (", point[0], ", ", point[1],
-           ") is no vertex of the mesh");
+   require(corner.attribute > 0, "the point ", point, " is no vertex of the mesh");
    return corner;
 }
 

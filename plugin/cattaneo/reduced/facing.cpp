@@ -3,6 +3,7 @@
 #include <cattaneo/algebra/root.hpp>
 #include <cattaneo/reduced/facing.hpp>
 #include <cmath>
+#include <sstream>
 
 namespace cattaneo
 {
@@ -44,14 +45,25 @@ double ElementCurve::length() const
       .sum();
 }
 
+std::string extent(const ContactLine &line)
+{
+   const auto position = line.each(&LineNode::position);
+   const Eigen::RowVector2d low = position.colwise().minCoeff(),
+                            high = position.colwise().maxCoeff();
+   std::ostringstream text;
+   text << "from (" << low[0] << ", " << low[1] << ") to (" << high[0] << ", " << high[1]
+        << ")";
+   return text.str();
+}
+
 std::vector<ElementCurve> curves(const ContactLine &line, const std::string &what)
 {
    std::vector<ElementCurve> all;
    for (const LineChain &chain : line.chains)
    {
-      require(!chain.elements.empty(), what, ": the contact line from (",
-              line.nodes[chain.first].position[0], ", ", line.nodes[chain.first].position[1],
-              ") has no elements, nodes that do not match need them");
+      require(!chain.elements.empty(), what, ": the contact line from ",
+              line.nodes[chain.first].position,
+              " has no elements, nodes that do not match need them");
       for (const LineElement &element : chain.elements)
       {
          const Index order = element.order();

@@ -37,11 +37,6 @@ bool holds(const CondensedBody &body, int node, int component)
    return std::binary_search(body.held.begin(), body.held.end(), row);
 }
 
-std::string at(const Vector2d &x)
-{
-   return "(" + exact_text(x[0]) + ", " + exact_text(x[1]) + ")";
-}
-
 /// One interface as it is worked on.
 class Facing
 {
@@ -122,7 +117,7 @@ Side Facing::side(const InterfaceSide &given) const
       const bool same = found != number.end() &&
                         (body.line.nodes[found->second].position - node.position).norm() <=
                            1e-9 * node.spacing;
-      require(same, what_, ": the node ", at(node.position), " is none that ",
+      require(same, what_, ": the node ", node.position, " is none that ",
               called(bodies_, given.body),
               " was condensed to, it must be condensed to the nodes of all of its interfaces "
               "(joined())");
@@ -146,7 +141,7 @@ void Facing::meet(const std::vector<int> &without)
       {
          const double most = given_.most_overlap * mortar_.size[i];
          require(mortar_.gap[i] >= -most, what_, ": the sides overlap by ", -mortar_.gap[i],
-                 " at ", at(slave_.line.nodes[mortar_.nodes[i]].position), ", at most ", most,
+                 " at ", slave_.line.nodes[mortar_.nodes[i]].position, ", at most ", most,
                  " is allowed (", given_.most_overlap,
                  " of the element's length, Interface::most_overlap); for a gap that is "
                  "meant otherwise give it");
@@ -207,7 +202,7 @@ ContactRow Facing::row(Index i) const
 void Facing::check_row(const ContactRow &row, Index i) const
 {
    const Vector2d &place = slave_.line.nodes[mortar_.nodes[i]].position;
-   require(!holds(bodies_[row.body], row.node, 1), what_, ": the contact node at ", at(place),
+   require(!holds(bodies_[row.body], row.node, 1), what_, ": the contact node at ", place,
            " is fixed normal to the line, it must be able to open: the contact line must end "
            "before it, or the other side be the slave");
    if (row.slides || master_.body < 0) { return; }
@@ -226,7 +221,7 @@ void Facing::check_row(const ContactRow &row, Index i) const
          number = master_.nodes[m];
       }
    }
-   require(nearest && holds(other, number, 0), what_, ": the contact node at ", at(place),
+   require(nearest && holds(other, number, 0), what_, ": the contact node at ", place,
            " is fixed along the line, and what it faces is not: the other side must be the "
            "slave, or be fixed there as well");
 }
@@ -360,7 +355,7 @@ void Facing::add_facts(ReducedProblem &problem, Index first, bool matching) cons
       const LineNode &node = line.nodes[mortar_.nodes[i]];
       const double x = node.position[0], y = node.position[1];
       const double gap = given_.gap ? (*given_.gap)(x, y) : mortar_.gap[i];
-      require(std::isfinite(gap), what_, ": the gap at ", at(node.position), " is ", gap,
+      require(std::isfinite(gap), what_, ": the gap at ", node.position, " is ", gap,
               ", must be finite");
       problem.gap[first + i] = gap;
       problem.weights[first + i] = mortar_.weights[i];
@@ -633,22 +628,8 @@ Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface>
    require(n > 0, "reduce: all contact nodes are of tied interfaces, one at least must not be");
    if (n < static_cast<Index>(rows.size())) { tied.take_from(block); }
    result.union_ = block.way_back;
-   problem.K = block.S;
-   problem.H = block.H;
-   problem.rigid_motions = block.motions;
-   for (int row : block.held)
-   {
-      problem.K(row, row) = problem.K(n + row, n + row); // any stiffness would do
-      problem.held.push_back(row);
-   }
-   for (std::size_t k = 0; k < problem.patterns.size(); ++k)
-   {
-      const auto column = static_cast<Index>(k);
-      problem.patterns[k].q = block.f.col(column).head(n);
-      problem.patterns[k].p = block.f.col(column).tail(n);
-   }
-   problem.gap = problem.friction = problem.weights = problem.arc_length =
-      Eigen::VectorXd::Zero(n);
+   take(block, problem);
+   problem.weights = problem.arc_length = Eigen::VectorXd::Zero(n);
    problem.position.resize(n, 2);
    problem.dofs = Eigen::MatrixXi::Constant(n, 2 * count, -1);
    std::array<Index, 2> next{0, 0}; // of nodes that are not tied, and of those that are
@@ -660,7 +641,6 @@ Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface>
       if (!report.tied) { facing.add_facts(problem, report.first, report.matching); }
       result.interfaces.push_back(std::move(report));
    }
-   join_coupling(problem);
    return result;
 }
 

@@ -5,7 +5,6 @@
 #include <cattaneo/reduced/mortar.hpp>
 #include <cmath>
 #include <map>
-#include <sstream>
 
 namespace cattaneo
 {
@@ -24,6 +23,9 @@ constexpr double least_share = 0.25;
 /// Of what a dual function sees of all nodes on an element that is faced in part: what must be
 /// of its own.
 constexpr double least_own = 0.1;
+
+/// In parameters of an element: round-off of roots.
+constexpr double near = 1e-9;
 
 /** The functions of an element's contact nodes for a component: its own ones, with that of a
     node on the axis added to the others by what they make of its displacement. Along the axis
@@ -115,14 +117,14 @@ public:
 
 private:
    void add(std::size_t element);
+   double covered(std::size_t element) const;
+   bool is_faced(std::size_t element, double s) const;
    std::vector<Point> points_of(std::size_t element) const;
    double weight_at(const ElementCurve &curve, double s) const;
    DualFunctions dual(const Trace &trace, const std::vector<Point> &points, int component,
                       std::vector<int> nodes) const;
    std::vector<int> functions_of(const Trace &trace, std::size_t element,
                                  const std::vector<Point> &points);
-   std::string place(Index node) const;
-   void require_facing() const;
 
    const ContactLine &slave_, &master_;
    const std::string &what_;
@@ -155,30 +157,24 @@ Assembly::Assembly(const ContactLine &slave, const ContactLine &master,
    {
       master_traces_.emplace_back(*curve.element);
    }
-   require_facing();
+   require(!lines_.parts.empty(), what_, ": the lines face each other nowhere (one reaches ",
+           extent(slave_), ", the other ", extent(master_),
+           "), one must lie over the other, with outward normals that are opposite");
    for (std::size_t e = 0; e < lines_.first.size(); ++e) { add(e); }
 }
 
-std::string Assembly::place(Index node) const
+double Assembly::covered(std::size_t element) const
 {
-   const Vector2d &x = slave_.nodes[node].position;
-   return "(" + as_text(std::to_string(x[0])) + ", " + std::to_string(x[1]) + ")";
+   double sum = 0;
+   for (const FacingPart &part : parts_[element]) { sum += part.to - part.from; }
+   return sum;
 }
 
-void Assembly::require_facing() const
+bool Assembly::is_faced(std::size_t element, double s) const
 {
-   if (!lines_.parts.empty()) { return; }
-   std::ostringstream text;
-   for (const ContactLine *line : {&slave_, &master_})
-   {
-      const auto position = line->each(&LineNode::position);
-      const Eigen::RowVector2d low = position.colwise().minCoeff(),
-                               high = position.colwise().maxCoeff();
-      text << (line == &slave_ ? "one reaches" : ", the other") << " from (" << low[0] << ", "
-           << low[1] << ") to (" << high[0] << ", " << high[1] << ")";
-   }
-   require(false, what_, ": the lines face each other nowhere (", text.str(),
-           "), one must lie over the other, with outward normals that are opposite");
+   return std::any_of(parts_[element].begin(), parts_[element].end(),
+                      [s](const FacingPart &part)
+                      { return s >= part.from - near && s <= part.to + near; });
 }
 
 double Assembly::weight_at(const ElementCurve &curve, double s) const
@@ -237,11 +233,7 @@ DualFunctions Assembly::dual(const Trace &trace, const std::vector<Point> &point
 std::vector<int> Assembly::functions_of(const Trace &trace, std::size_t element,
                                         const std::vector<Point> &points)
 {
-   const std::vector<FacingPart> &parts = parts_[element];
    const ElementCurve &curve = lines_.first[element];
-   const double near = 1e-9; // in parameters of an element: round-off of roots
-   double covered = 0;
-   for (const FacingPart &part : parts) { covered += part.to - part.from; }
    const auto whole_weight = [&](int component, Index j)
    {
       const QuadratureRule &rule = gauss_rule(static_cast<int>(2 * curve.order() + 3));
@@ -263,7 +255,8 @@ std::vector<int> Assembly::functions_of(const Trace &trace, std::size_t element,
       for (int component : {0, 1})
       {
          const double whole = whole_weight(component, j);
-         require(whole > 0, what_, ": the weight of the node at ", place(node), " is ", whole,
+         require(whole > 0, what_, ": the weight of the node at ", slave_.nodes[node].position,
+                 " is ", whole,
                  " on an element of the slave, must be positive: is the element turned over?");
          double faced = 0;
          for (const Point &point : points)
@@ -274,16 +267,14 @@ std::vector<int> Assembly::functions_of(const Trace &trace, std::size_t element,
       }
       if (without_[node]) { continue; }
       free.push_back(j);
-      if (std::any_of(parts.begin(), parts.end(),
-                      [&](const FacingPart &part)
-                      { return s >= part.from - near && s <= part.to + near; }))
+      if (is_faced(element, s))
       {
          inside.push_back(j);
          if (s == 0 || s == 1) { ends.push_back(j); }
       }
    }
    std::vector<std::vector<int>> choices{inside, ends};
-   if (share || covered > 1 - near) { choices.insert(choices.begin(), free); }
+   if (share || covered(element) > 1 - near) { choices.insert(choices.begin(), free); }
    for (int end : ends) { choices.push_back({end}); }
    for (const std::vector<int> &nodes : choices)
    {
@@ -298,18 +289,11 @@ std::vector<int> Assembly::functions_of(const Trace &trace, std::size_t element,
 
 void Assembly::add(std::size_t element)
 {
-   double covered = 0;
-   for (const FacingPart &part : parts_[element]) { covered += part.to - part.from; }
-   if (covered < 1e-9) { return; } // round-off
+   if (covered(element) < near) { return; }
    const Trace trace(*lines_.first[element].element);
-   const double near = 1e-9;
    for (std::size_t j = 0; j < trace.nodes.size(); ++j)
    {
-      const double s = trace.places[static_cast<Index>(j)];
-      for (const FacingPart &part : parts_[element])
-      {
-         if (s >= part.from - near && s <= part.to + near) { faced_[trace.nodes[j]] = true; }
-      }
+      if (is_faced(element, trace.places[Index(j)])) { faced_[trace.nodes[j]] = true; }
    }
    const std::vector<Point> points = points_of(element);
    const std::vector<int> nodes = functions_of(trace, element, points);

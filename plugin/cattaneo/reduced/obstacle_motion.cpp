@@ -21,15 +21,15 @@ void Reduction::add_obstacle_motion(const std::string &name, const ScalarField &
    Eigen::VectorXd u(2 * n), theta(n);
    for (Eigen::Index i = 0; i < n; ++i)
    {
-      const double x = problem.position(i, 0), y = problem.position(i, 1);
-      u[i] = ux(x, y);
-      u[n + i] = uy(x, y);
-      theta[i] = u_theta(x, y);
+      const Eigen::Vector2d x = problem.position.row(i);
+      u[i] = ux(x[0], x[1]);
+      u[n + i] = uy(x[0], x[1]);
+      theta[i] = u_theta(x[0], x[1]);
       require(std::isfinite(u[i]) && std::isfinite(u[n + i]) && std::isfinite(theta[i]), where,
-              ": the displacement at (", x, ", ", y, ") is (", u[i], ", ", u[n + i], ", ",
-              theta[i], "), must be finite");
-      require(!torsion.empty() || theta[i] == 0, where, ": at (", x, ", ", y, ") it is ",
-              theta[i], " along the circumference, must be 0 in a reduction without torsion");
+              ": the displacement at ", x, " is (", u[i], ", ", u[n + i], ", ", theta[i],
+              "), must be finite");
+      require(!torsion.empty() || theta[i] == 0, where, ": at ", x, " it is ", theta[i],
+              " along the circumference, must be 0 in a reduction without torsion");
    }
    u = FrameChange::of(bodies[0].line).rows(u).col(0);
    Eigen::VectorXd d(m + n);
@@ -38,8 +38,8 @@ void Reduction::add_obstacle_motion(const std::string &name, const ScalarField &
    {
       const Eigen::Index i = row % n;
       require(std::abs(d[row]) <= 1e-12 * d.cwiseAbs().maxCoeff(), where, ": it moves by ",
-              d[row], " along the component that is fixed at the node (",
-              problem.position(i, 0), ", ", problem.position(i, 1), "), must not");
+              d[row], " along the component that is fixed at the node ",
+              Eigen::Vector2d(problem.position.row(i)), ", must not");
       d[row] = 0;
    }
    // The body moves by u + λ d: f = K (u + λ d) + …, and the reaction is dᵀ f.

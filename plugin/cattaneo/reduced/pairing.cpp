@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/reduced/facing.hpp>
 #include <cattaneo/reduced/pairing.hpp>
 #include <cmath>
 #include <limits>
@@ -73,18 +74,6 @@ Matches match(const ContactLine &line1, const ContactLine &line2, double toleran
       found.offset = std::max(found.offset, offset_of_nearest);
    }
    return found;
-}
-
-/// The box around a line.
-std::string extent(const ContactLine &line)
-{
-   const auto position = line.each(&LineNode::position);
-   const Eigen::RowVector2d low = position.colwise().minCoeff(),
-                            high = position.colwise().maxCoeff();
-   std::ostringstream text;
-   text << "from (" << low[0] << ", " << low[1] << ") to (" << high[0] << ", " << high[1]
-        << ")";
-   return text.str();
 }
 
 /// What would pair the lines, and where they are.

@@ -10,7 +10,6 @@ namespace
 
 InterfaceReport fill(ReducedProblem &problem, const Block &block, const ContactLine &line)
 {
-   const Eigen::MatrixXd &S = block.S, &f = block.f;
    const Eigen::Index n = line.size();
    InterfaceReport report;
    report.name = "contact";
@@ -19,30 +18,16 @@ InterfaceReport fill(ReducedProblem &problem, const Block &block, const ContactL
    report.tangent = line.each(&LineNode::tangent);
    report.weights = line.each(&LineNode::weight);
    report.spacing = line.each(&LineNode::spacing);
-   problem.gap = Eigen::VectorXd::Zero(n);
-   problem.K = S;
-   join_coupling(problem);
-   for (std::size_t k = 0; k < problem.patterns.size(); ++k)
-   {
-      const auto column = static_cast<Eigen::Index>(k);
-      problem.patterns[k].q = f.col(column).head(n);
-      problem.patterns[k].p = f.col(column).tail(n);
-   }
-   problem.H = block.H;
-   problem.friction = Eigen::VectorXd::Zero(n);
    problem.weights = line.each(&LineNode::weight);
    problem.arc_length = line.each(&LineNode::arc_length);
    problem.position = line.each(&LineNode::position);
-   problem.rigid_motions = block.motions;
    for (int row : block.held)
    {
-      require(row < n, "reduce: the contact node at (", problem.position(row % n, 0), ", ",
-              problem.position(row % n, 1),
-              ") is fixed normal to the line, it must be able to open: the contact line must "
+      require(row < n, "reduce: the contact node at ", line.nodes[row % n].position,
+              " is fixed normal to the line, it must be able to open: the contact line must "
               "end before it");
-      problem.K(row, row) = problem.K(n + row, n + row); // any stiffness would do
-      problem.held.push_back(row);
    }
+   take(block, problem);
    // A rigid obstacle is known where the line is, and taken to go on.
    for (const LineChain &chain : line.chains)
    {
@@ -90,12 +75,11 @@ Reduction reduce(CondensedBody body, const ScalarField &gap)
    problem.dofs.resize(n, 2);
    for (Eigen::Index i = 0; i < n; ++i)
    {
-      const double x = problem.position(i, 0), y = problem.position(i, 1);
-      const auto &dofs = only.line.nodes[i].dofs;
-      problem.gap[i] = gap(x, y);
-      require(std::isfinite(problem.gap[i]), "reduce: the gap at (", x, ", ", y, ") is ",
+      const LineNode &node = only.line.nodes[i];
+      problem.gap[i] = gap(node.position[0], node.position[1]);
+      require(std::isfinite(problem.gap[i]), "reduce: the gap at ", node.position, " is ",
               problem.gap[i], ", must be finite");
-      problem.dofs.row(i) << dofs[0], dofs[1];
+      problem.dofs.row(i) << node.dofs[0], node.dofs[1];
    }
    return result;
 }

@@ -169,9 +169,9 @@ std::vector<int> held_by_second(const CondensedBody &first, const CondensedBody 
       const Eigen::Index i = row % n;
       const auto other = static_cast<int>(row < n ? row + n : i);
       if (frames.b.size() == 0 || holds(other)) { continue; }
-      require(std::abs(frames.b[i]) <= 1e-12, "reduce: body 2 is fixed at the contact node (",
-              first.line.nodes[i].position[0], ", ", first.line.nodes[i].position[1],
-              ") in a direction that is not one of body 1's frame there (off by ",
+      require(std::abs(frames.b[i]) <= 1e-12, "reduce: body 2 is fixed at the contact node ",
+              first.line.nodes[i].position,
+              " in a direction that is not one of body 1's frame there (off by ",
               std::abs(frames.b[i]), "), it must be body 1, or body 1 be fixed there too");
       frames.a[i] = frames.d[i] = 1;
       frames.b[i] = frames.c[i] = 0;
@@ -191,6 +191,27 @@ Block alone(const CondensedBody &body, const std::vector<int> &index, Eigen::Ind
                nullptr};
    add_response(body, index, block.H);
    return block;
+}
+
+void take(const Block &block, ReducedProblem &problem)
+{
+   const Eigen::Index n = block.S.rows() / 2;
+   problem.gap = problem.friction = Eigen::VectorXd::Zero(n);
+   problem.K = block.S;
+   problem.H = block.H;
+   problem.rigid_motions = block.motions;
+   for (int row : block.held)
+   {
+      problem.K(row, row) = problem.K(n + row, n + row); // any stiffness would do
+      problem.held.push_back(row);
+   }
+   for (std::size_t k = 0; k < problem.patterns.size(); ++k)
+   {
+      const auto column = static_cast<Eigen::Index>(k);
+      problem.patterns[k].q = block.f.col(column).head(n);
+      problem.patterns[k].p = block.f.col(column).tail(n);
+   }
+   join_coupling(problem);
 }
 
 Block united(const CondensedBody &first, const CondensedBody &second,
@@ -213,9 +234,8 @@ Block united(const CondensedBody &first, const CondensedBody &second,
       frames.b[i] = -node.tangent.dot(other.normal());
       frames.c[i] = -node.normal().dot(other.tangent);
       frames.d[i] = -node.normal().dot(other.normal());
-      require(frames.d[i] > 0,
-              "reduce: the bodies do not face each other at the contact node (",
-              node.position[0], ", ", node.position[1], ")");
+      require(frames.d[i] > 0, "reduce: the bodies do not face each other at the contact node ",
+              node.position);
    }
    const std::vector<int> order = shared->order(size), &held1 = first.held;
    const std::vector<int> &held2 = shared->held2 = held_by_second(first, second, order, frames);

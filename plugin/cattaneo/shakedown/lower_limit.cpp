@@ -24,22 +24,20 @@ struct Condition
 double two_node_limit(const ReducedProblem &problem, const StuckForces &loads,
                       Eigen::VectorXd &corner)
 {
-   Condition conditions[2][2];
-   for (int i = 0; i < 2; ++i)
+   Condition conditions[4]; // 2 i + side
+   for (int k = 0; k < 4; ++k)
    {
-      for (int side = 0; side < 2; ++side)
-      {
-         const double f = problem.friction[i], sign = side == 0 ? 1 : -1;
-         conditions[i][side] = {f * problem.B().row(i) + sign * problem.A().row(i),
-                                f * loads.p0.row(i) + sign * loads.q0.row(i),
-                                f * loads.p1.row(i) + sign * loads.q1.row(i)};
-      }
+      const int i = k / 2;
+      const double f = problem.friction[i], sign = k % 2 == 0 ? 1 : -1;
+      conditions[k] = {f * problem.B().row(i) + sign * problem.A().row(i),
+                       f * loads.p0.row(i) + sign * loads.q0.row(i),
+                       f * loads.p1.row(i) + sign * loads.q1.row(i)};
    }
    double lowest = infinity;
    const Eigen::Index vertices = loads.vertices();
    for (int i = 0; i < 2; ++i)
    {
-      const Condition &plus = conditions[i][0], &minus = conditions[i][1];
+      const Condition &plus = conditions[2 * i], &minus = conditions[2 * i + 1];
       Eigen::Matrix2d lines;
       lines << plus.normal.transpose(), minus.normal.transpose();
       // Parallel lines (an uncoupled node) meet nowhere.
@@ -59,21 +57,18 @@ double two_node_limit(const ReducedProblem &problem, const StuckForces &loads,
             const Eigen::Vector2d move =
                -(inverse * Eigen::Vector2d(plus.slope[a], minus.slope[b]));
             double from = 0, to = infinity;
-            for (int k = 0; k < 2; ++k)
+            for (int k = 0; k < 4; ++k)
             {
-               for (int side = 0; side < 2; ++side)
+               const Condition &c = conditions[k];
+               for (Eigen::Index j = 0; j < vertices; ++j)
                {
-                  const Condition &c = conditions[k][side];
-                  for (Eigen::Index j = 0; j < vertices; ++j)
-                  {
-                     if (k == i && j == (side == 0 ? a : b)) { continue; }
-                     const double room = c.normal.dot(at) + c.offset[j];
-                     const double rate = c.normal.dot(move) + c.slope[j];
-                     const double zero = 1e-13 * (std::abs(c.offset[j]) + std::abs(room));
-                     if (rate > 0) { from = std::max(from, -room / rate); }
-                     else if (rate < 0) { to = std::min(to, -room / rate); }
-                     else if (room < -zero) { to = -infinity; }
-                  }
+                  if (k / 2 == i && j == (k % 2 == 0 ? a : b)) { continue; }
+                  const double room = c.normal.dot(at) + c.offset[j];
+                  const double rate = c.normal.dot(move) + c.slope[j];
+                  const double zero = 1e-13 * (std::abs(c.offset[j]) + std::abs(room));
+                  if (rate > 0) { from = std::max(from, -room / rate); }
+                  else if (rate < 0) { to = std::min(to, -room / rate); }
+                  else if (room < -zero) { to = -infinity; }
                }
             }
             if (from <= to && from < lowest)

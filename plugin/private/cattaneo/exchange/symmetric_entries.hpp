@@ -14,7 +14,7 @@ class SymmetricEntries
 public:
    using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-   void add(int row, int column, double value) { entries_.push_back({row, column, value}); }
+   void add(int row, int column, double value) { entries_.emplace_back(row, column, value); }
 
    /** All of the matrix. InputError if an entry is there twice, if an entry and its mirror
        image are both there and differ by more than 1e-10 of the largest, or if a row (one that
@@ -25,12 +25,7 @@ public:
       const std::function<bool(int)> &is_elastic = [](int) { return true; }) const;
 
 private:
-   struct Entry
-   {
-      int row, column;
-      double value;
-   };
-   std::vector<Entry> entries_;
+   std::vector<Eigen::Triplet<double>> entries_;
 };
 
 } // namespace cattaneo

@@ -20,6 +20,9 @@ struct ElementCurve
    double length() const;
 };
 
+/// The box around a line, in a sentence.
+std::string extent(const ContactLine &line);
+
 /// All elements of a line. InputError if it has none, or of an order beyond 1 to 8.
 std::vector<ElementCurve> curves(const ContactLine &line, const std::string &what);
 

@@ -51,6 +51,10 @@ void add_response(const CondensedBody &body, const std::vector<int> &index, Eige
 void balance(const Eigen::MatrixXd &motions, Eigen::MatrixXd &forces,
              const Eigen::VectorXd &scale, const std::vector<LoadPattern> &patterns);
 
+/// Stiffness, loads, motions and held components of a reduced problem of two components a node,
+/// without gaps and friction.
+void take(const Block &block, ReducedProblem &problem);
+
 /// Two bodies, by the formulas of reduce().
 Block united(const CondensedBody &first, const CondensedBody &second,
              const std::vector<int> &partner, const Reduction::PatternIndex &index,
