@@ -3,10 +3,12 @@
 // All of Cattaneo::core, which knows no MFEM.
 #include <cattaneo/condense/condense.hpp>
 #include <cattaneo/condense/straight_line.hpp>
+#include <cattaneo/design/design.hpp>
 #include <cattaneo/exchange/nodal_statements.hpp>
 #include <cattaneo/exchange/outer_edges.hpp>
 #include <cattaneo/exchange/read_stiffness.hpp>
 #include <cattaneo/exchange/write_stiffness.hpp>
+#include <cattaneo/expression.hpp>
 #include <cattaneo/fretting/assessment.hpp>
 #include <cattaneo/fretting/calibration.hpp>
 #include <cattaneo/fretting/corner.hpp>
@@ -20,6 +22,7 @@
 #include <cattaneo/halfplane/half_plane.hpp>
 #include <cattaneo/halfplane/half_plane_field.hpp>
 #include <cattaneo/output/history.hpp>
+#include <cattaneo/readout/small_displacements.hpp>
 #include <cattaneo/reduced/interfaces.hpp>
 #include <cattaneo/reduced/mortar.hpp>
 #include <cattaneo/reduced/obstacle_shape.hpp>

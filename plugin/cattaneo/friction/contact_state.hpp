@@ -18,12 +18,15 @@ enum class NodeState : signed char
    slip ///< two tangential components: w + g = 0, q = -f p v̇/|v̇|, so that q tells its direction
 };
 
+/// As it is printed.
 const char *name(NodeState state);
 
+/// Does the node touch?
 inline bool closed(NodeState state)
 {
    return state != NodeState::separation;
 }
+/// Does the node slip, in whatever direction?
 inline bool slips(NodeState state)
 {
    return closed(state) && state != NodeState::stick;
@@ -87,10 +90,11 @@ ContactState load_contact_state(const std::string &file);
 /// A node changes its state on the exact path.
 struct StateChange
 {
-   double time = 0;
-   Eigen::VectorXd multipliers; ///< of the load patterns
-   Eigen::Index node = 0;
-   NodeState from = NodeState::stick, to = NodeState::stick;
+   double time = 0;                   ///< of the load history
+   Eigen::VectorXd multipliers;       ///< of the load patterns
+   Eigen::Index node = 0;             ///< number in the problem
+   NodeState from = NodeState::stick; ///< state before
+   NodeState to = NodeState::stick;   ///< state after
 };
 
 } // namespace cattaneo

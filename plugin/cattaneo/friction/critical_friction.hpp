@@ -13,7 +13,7 @@ struct CriticalFriction
    /// A over |b|), and the node: above it the rate problem of that node alone has no unique
    /// answer, or none. Infinite without coupling.
    double node = 0;
-   Eigen::Index weakest_node = 0;
+   Eigen::Index weakest_node = 0; ///< at which `node` is decided
 
    /** The contact can lock itself: above it there are contact forces inside the friction cones,
        not all zero, that balance each other on the bodies without any load (a wedge that stays

@@ -15,7 +15,8 @@ struct CutOffContact
    Eigen::Index chain = 0; ///< in the problem's list
    Eigen::Index node = 0;  ///< the last of the chain at that end
    bool at_first = false;  ///< it is the first node of the chain, else the last
-   double x = 0, y = 0;    ///< of the node, 0 if the problem has no positions
+   double x = 0;           ///< of the node, 0 if the problem has no positions
+   double y = 0;           ///< likewise
    double time = 0;        ///< of the state
 
    /// What is wrong and what to do, without a full stop.

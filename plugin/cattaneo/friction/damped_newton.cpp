@@ -59,7 +59,7 @@ MatrixXd natural_map_derivative(const Increment &at)
 bool descend(Increment &at)
 {
    FrictionSystem &s = at.system;
-   at.F = at.f + s.K * at.u;
+   at.F = at.f + (*s.times_K)(at.u);
    VectorXd R = natural_map(at);
    for (int k = 0; k < 2 * s.settings.max_newton; ++k)
    {
@@ -79,7 +79,7 @@ bool descend(Increment &at)
          share *= 0.5;
          if (share < 1e-6) { return false; }
          at.u = from - share * step;
-         at.F = at.f + s.K * at.u;
+         at.F = at.f + (*s.times_K)(at.u);
          next = natural_map(at);
       } while (!(next.norm() < (1 - 1e-4 * share) * size));
       R = next;

@@ -62,6 +62,58 @@ VectorXd frictional_loss(const ReducedProblem &problem, const ContactState &befo
    return lost;
 }
 
+LossDerivative loss_derivative(const ReducedProblem &problem, const ContactState &before,
+                               const ContactState &after, Index node)
+{
+   const Index n = problem.nodes(), c = problem.components();
+   const double f = problem.friction[node], p0 = std::max(before.p[node], 0.0),
+                p1 = std::max(after.p[node], 0.0), dp = p1 - p0;
+   const NodeVector none = NodeVector::Zero(c);
+   LossDerivative by{none, none, none, none};
+   NodeVector q0(c), q1(c), slip(c), own(c);
+   for (Index k = 0; k < c; ++k)
+   {
+      const Index row = k * n + node;
+      q0[k] = before.q[row];
+      q1[k] = after.q[row];
+      slip[k] = after.v[row] - before.v[row];
+      own[k] = problem.A()(row, row);
+   }
+   const double way = magnitude(slip);
+   if (way == 0) { return by; }
+   // The loss is ½ f way (p0 + turn dp + p1), with the share `turn` = -b/a of rubbing().
+   double turn = 0;
+   const NodeVector turning = q1 - own.cwiseProduct(slip) - q0;
+   const double a = turning.squaredNorm() - f * f * dp * dp,
+                b = 2 * q0.dot(turning) - 2 * f * f * p0 * dp;
+   if (slips(before.status[node]) && slips(after.status[node]) && q0.dot(q1) < 0 && a > 0)
+   {
+      turn = std::clamp(-b / a, 0.0, 1.0);
+   }
+   const double sum = p0 + turn * dp + p1;
+   by.slip = 0.5 * f * sum / way * slip;
+   by.friction = 0.5 * way * sum;
+   by.p0 = 0.5 * f * way * (1 - turn);
+   by.p1 = 0.5 * f * way * (1 + turn);
+   if (turn > 0 && turn < 1)
+   {
+      // d turn = -(db + turn da)/a
+      const double by_both = -0.5 * f * way * dp / a;
+      const NodeVector by_turning = 2 * by_both * (q0 + turn * turning);
+      by.q1 = by_turning;
+      by.q0 = 2 * by_both * turning - by_turning;
+      by.slip -= own.cwiseProduct(by_turning);
+      by.stiffness = -slip.cwiseProduct(by_turning);
+      by.friction -= 2 * by_both * f * dp * (2 * p0 + turn * dp);
+      by.p0 += 2 * by_both * f * f * (p0 - (1 - turn) * dp);
+      by.p1 -= 2 * by_both * f * f * (p0 + turn * dp);
+   }
+   // Nothing is borne in tension.
+   if (before.p[node] <= 0) { by.p0 = 0; }
+   if (after.p[node] <= 0) { by.p1 = 0; }
+   return by;
+}
+
 double elastic_energy(const ReducedProblem &problem, const ContactState &state)
 {
    const VectorXd u = state.displacements();

@@ -100,15 +100,22 @@ bool ExactPath::find_rates(const ContactState &state, const VectorXd &multiplier
 
 /// Fraction of the rest of the piece until a node reaches a boundary of its state; 1: none
 /// does.
-double ExactPath::way_to_event() const
+double ExactPath::way_to_event()
 {
    const Index n = problem_.nodes();
    double way = 1;
+   event_ = -1;
    // What is met at the very end, to round-off, is not an event of this piece: a node that
    // comes back to its friction limit where the load turns has not slipped.
    auto meet = [&](Index i, double value, double rate)
    {
-      if (value + rate < -noise_[i]) { way = std::min(way, std::max(value, 0.0) / -rate); }
+      if (value + rate >= -noise_[i]) { return; }
+      const double to = std::max(value, 0.0) / -rate;
+      if (to < way)
+      {
+         way = to;
+         event_ = i;
+      }
    };
    for (Index i = 0; i < n; ++i)
    {

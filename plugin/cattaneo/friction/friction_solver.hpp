@@ -24,8 +24,10 @@ enum class FrictionStatus
    stopped        ///< a march was asked to stop (Monitor::stop)
 };
 
+/// As it is printed, in words.
 const char *name(FrictionStatus status);
 
+/// How an increment is solved.
 enum class FrictionMethod
 {
    automatic,   ///< a few Gauss–Seidel sweeps, active-set finish; if both fail a path, then
@@ -33,9 +35,10 @@ enum class FrictionMethod
    gauss_seidel ///< node by node only (thesis 3.5, appendix D)
 };
 
+/// The defaults need no tuning.
 struct FrictionSettings
 {
-   FrictionMethod method = FrictionMethod::automatic;
+   FrictionMethod method = FrictionMethod::automatic; ///< the other one is for comparison
    /// Largest violation of an equation or a law over the largest nodal force so far (of the
    /// loads with the contact clamped, of initial slip or interference).
    /// Where round-off is larger than this, round-off is the limit (reported).
@@ -49,15 +52,18 @@ struct FrictionSettings
    void validate() const;
 };
 
+/// What an increment came to.
 struct IncrementReport
 {
-   FrictionStatus status = FrictionStatus::stalled;
-   std::string message; ///< empty if converged
+   FrictionStatus status =
+      FrictionStatus::stalled; ///< a solution was found if converged or not_unique
+   std::string message;        ///< empty if converged
    /// Largest violation of the equations as given and of the laws by the state that is
    /// returned, over the largest force so far.
-   double residual_normal = 0, residual_tangential = 0;
-   double round_off = 0;      ///< estimate of what arithmetic can reach, relative
-   const char *found_by = ""; ///< the method that found the solution, if one was found
+   double residual_normal = 0;     ///< of normal displacements and forces
+   double residual_tangential = 0; ///< of slip and friction forces
+   double round_off = 0;           ///< estimate of what arithmetic can reach, relative
+   const char *found_by = "";      ///< the method that found the solution, if one was found
 };
 
 /** Solves increments of the frictional contact of a reduced problem: given the state at the
@@ -80,6 +86,7 @@ public:
    /// the tangential unknowns once and for all.
    FrictionSolver(const ReducedProblem &problem, const FrictionSettings &settings = {});
    ~FrictionSolver();
+   /// Solvers can be moved, not copied.
    FrictionSolver(FrictionSolver &&) noexcept;
 
    /// Advances `state` to the loads `multipliers`. Unless a solution was found (converged,
@@ -87,16 +94,19 @@ public:
    /// (ContactState::validate), or if a multiplier is missing or not finite.
    IncrementReport solve(ContactState &state, const Eigen::VectorXd &multipliers);
 
+   /// What it solves, with the gap that holds now.
    const ReducedProblem &problem() const;
    /// Another initial gap of each node, size n, from the next increment on: a gap that wears
    /// opens between two increments. InputError for another size or an entry that is not finite.
    void set_gap(const Eigen::VectorXd &gap);
+   /// Is friction zero at all nodes?
    bool frictionless() const;
    /// Is `after` the end of an increment from `before`? By the equations and the laws as they
    /// are given, however it was found: converged, or not_unique if a closed node has friction
    /// above its critical value (see CriticalFriction), with its residuals; or stalled with what
    /// it breaks. InputError as solve().
    IncrementReport judge(const ContactState &before, const ContactState &after);
+   /// What was done since it was made.
    const Counters &counters() const;
 
 private:

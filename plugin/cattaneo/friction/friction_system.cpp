@@ -52,12 +52,17 @@ FrictionSystem::FrictionSystem(const ReducedProblem &given, const FrictionSettin
          critical[i] = critical_friction(node);
       }
       arithmetic = std::make_unique<RoundOff>(K);
+      times_K = times_whole_K = std::make_shared<SymmetricProduct>(K);
       return;
    }
    normal = problem.C();
    // What little is left of K where a body is free to slide away up a slope is round-off of C.
    arithmetic = std::make_unique<RoundOff>(problem.C());
-   if (problem.components() == 0) { return; }
+   if (problem.components() == 0)
+   {
+      times_K = times_whole_K = std::make_shared<SymmetricProduct>(K);
+      return;
+   }
    slides_freely = rigid_slips(problem);
    tangential = std::make_unique<SemidefiniteSolver>(problem.A(), slides_freely);
    if (slides_freely.cols() > 0)
@@ -72,6 +77,8 @@ FrictionSystem::FrictionSystem(const ReducedProblem &given, const FrictionSettin
    normal -= problem.B() * tangential->solve(problem.B().transpose());
    normal = (0.5 * (normal + normal.transpose())).eval();
    knn = K.diagonal();
+   times_K = std::make_shared<SymmetricProduct>(K);
+   times_whole_K = std::make_shared<SymmetricProduct>(problem.K);
 }
 
 Index FrictionSystem::above_critical(const std::vector<NodeState> *states) const
@@ -90,7 +97,7 @@ bool FrictionSystem::obeys_laws(const VectorXd &v_old, const ContactState &next,
    // friction may go far, and bears on the pressure.
    const VectorXd all = next.displacements();
    const VectorXd clamped = problem.clamped_forces(next.multipliers);
-   const VectorXd forces = clamped + (tangential ? problem.K : K) * all;
+   const VectorXd forces = clamped + (*times_whole_K)(all);
    const VectorXd rows =
       (tangential ? whole_arithmetic : arithmetic)->rows(all.cwiseAbs(), clamped);
    report.round_off = std::max(report.round_off, rows.maxCoeff() / scale);

@@ -51,10 +51,10 @@ Search gauss_seidel(Increment &at)
    {
       sweep(at);
       // The forces are updated by columns; now and then they are formed anew, against drift.
-      if (k % 64 == 63) { at.F = at.f + at.system.K * at.u; }
+      if (k % 64 == 63) { at.F = at.f + (*at.system.times_K)(at.u); }
       if (!at.u.allFinite()) { break; }
       if (!at.residuals()) { continue; }
-      at.F = at.f + at.system.K * at.u;
+      at.F = at.f + (*at.system.times_K)(at.u);
       if (at.residuals()) { return at.solved() ? Search::found : Search::not_here; }
    }
    return Search::not_here;

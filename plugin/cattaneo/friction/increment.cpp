@@ -39,7 +39,7 @@ Increment::Increment(FrictionSystem &s, const ContactState &state, const VectorX
       // The state of an increment before: where sweeps begin; what is accepted is formed anew.
       F = state.forces() - s.problem.clamped_forces(state.multipliers);
    }
-   else { F = s.K * u; }
+   else { F = (*s.times_K)(u); }
    // So does initial slip; slip that displacements elsewhere follow does not.
    reference = std::max(reference, F.cwiseAbs().maxCoeff());
    F += f;
@@ -81,7 +81,7 @@ double Increment::round_off_along(const VectorXd &rows, Index i) const
 void Increment::take(const VectorXd &displacements, const std::vector<NodeState> &states)
 {
    u = displacements;
-   F = f + system.K * u;
+   F = f + (*system.times_K)(u);
    status = states;
 }
 

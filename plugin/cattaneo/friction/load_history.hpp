@@ -17,10 +17,14 @@ struct LoadPiece
 {
    int point = 0; ///< of the history, where it starts: the same in every repeated cycle
    int cycle = 0; ///< that it belongs to: 0 for the opening part, then 1, 2, …
-   bool begins_cycle = false, ends_cycle = false;
-   double start = 0, end = 0; ///< times, which go on through repeated cycles
-   Eigen::VectorXd from, to;  ///< multipliers there
+   bool begins_cycle = false; ///< it starts where the cycle does
+   bool ends_cycle = false;   ///< it ends where the cycle does
+   double start = 0;          ///< time, which goes on through repeated cycles
+   double end = 0;            ///< likewise
+   Eigen::VectorXd from;      ///< multipliers at its start
+   Eigen::VectorXd to;        ///< multipliers at its end
 
+   /// In the history's time.
    double duration() const { return end - start; }
    /// The multipliers at a share of its duration.
    Eigen::VectorXd at(double share) const { return from + share * (to - from); }
@@ -46,6 +50,7 @@ struct LoadHistory
 
    /// Number of linear pieces, repeated cycles counted.
    int pieces() const;
+   /// Number k of them, from 0, in the order in which they are marched.
    LoadPiece piece(int k) const;
 
    /// InputError if sizes, order of times or the closing of the cycle are wrong.

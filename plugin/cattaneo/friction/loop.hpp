@@ -34,6 +34,7 @@ public:
    /// Begins at a multiplier and its conjugate, see conjugates(). `whole`: false if that is the
    /// contact's part alone (ReducedProblem::knows_loads).
    Loop(Control control, double multiplier, double conjugate, bool whole = true);
+   /// The next point of the way, straight from the one before.
    void add(double multiplier, double conjugate);
 
    /// ∫ F dd by trapezoids, exact for a way of straight pieces. Where the loop closes it is the
@@ -42,6 +43,7 @@ public:
    double work() const { return work_; }
    /// Largest less smallest.
    double force_range() const { return most_.force - least_.force; }
+   /// Largest less smallest.
    double displacement_range() const { return most_.displacement - least_.displacement; }
    /// Secant stiffness ΔF/Δd between the extremes, which F and d reach together unless another
    /// load moves while this one is held there. NaN if this load did not vary, or not `whole`.
@@ -49,8 +51,7 @@ public:
    /** Loss factor η = D/(2π U), with D = work() of a cycle and U = ½ (ΔF/2)(Δd/2) the largest
        energy of a spring of the secant stiffness that swings between the same extremes, thus
        η = 4D/(π ΔF Δd). Twice the equivalent viscous damping ratio D/(4π U). NaN as
-       stiffness(), and where d did not move. The energy definition of B. J. Lazan, Damping of
-       Materials and Members in Structural Mechanics, 1968. */
+       stiffness(), and where d did not move. The energy definition of [Lazan 1968]. */
    double loss_factor() const;
 
 private:

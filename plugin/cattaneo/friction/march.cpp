@@ -37,6 +37,7 @@ struct Trial
 {
    ContactState state; ///< at its end
    IncrementReport increment;
+   Eigen::Index event = -1; ///< IncrementRecord's
 
    bool solved() const
    {
@@ -131,7 +132,7 @@ VectorXd March::loads(double time) const
 
 Trial March::attempt(double time)
 {
-   Trial trial{state_, {}};
+   Trial trial{state_, {}, -1};
    trial.state.time = time;
    trial.increment = solver_.solve(trial.state, loads(time));
    return trial;
@@ -141,7 +142,7 @@ void March::accept(Trial &&trial, bool exact)
 {
    const bool resumes =
       settings_.stepping == Stepping::exact ? !path_ : trial.state.time >= path_end_;
-   record_.accept(std::move(trial.state), piece_, trial.increment, exact, resumes);
+   record_.accept(std::move(trial.state), piece_, trial.increment, exact, resumes, trial.event);
    progress_.note(share(), record_.report.counters.increments, state_.time);
 }
 
@@ -325,13 +326,14 @@ bool March::march_exactly(double until)
                                     : "states change back and forth at one load";
       if (settled && halted < patience)
       {
-         Trial event{state_, {}};
+         Trial event{state_, {}, -1};
          event.state.step = 0;
          const std::size_t listed = changes.size();
          if (path_->advance(event.state, until, loads_then, changes))
          {
             // However a state was found, it is judged like any other.
             event.increment = solver_.judge(state_, event.state);
+            event.event = path_->event();
             if (event.solved())
             {
                halted = event.state.time > state_.time ? 0 : halted + 1;
@@ -372,7 +374,7 @@ bool March::march_piece()
    if (piece_.from == piece_.to)
    {
       // Nothing happens to an equilibrium: what slips goes on to when the loads do.
-      Trial same{state_, {}};
+      Trial same{state_, {}, -1};
       same.state.time = piece_.end;
       same.state.multipliers = piece_.to;
       same.increment = solver_.judge(state_, same.state);

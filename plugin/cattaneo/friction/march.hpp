@@ -32,15 +32,16 @@ enum class Stepping
    exact
 };
 
+/// How a history is marched. The defaults need no tuning.
 struct MarchSettings
 {
-   FrictionSettings friction;
-   int increments = 20;                  ///< increments of each piece of the history
-   std::vector<int> increments_of_piece; ///< overrides `increments` for the points' pieces
-   Stepping stepping = Stepping::advancing;
-   bool single_increment_if_exact = true; ///< false: cut even where one increment is exact
-   int max_halvings = 12;                 ///< of an increment, for advancing contact or failure
-   bool stop_at_steady_state = true;
+   FrictionSettings friction;               ///< of every increment
+   int increments = 20;                     ///< increments of each piece of the history
+   std::vector<int> increments_of_piece;    ///< overrides `increments` for the points' pieces
+   Stepping stepping = Stepping::advancing; ///< what the increments are
+   bool single_increment_if_exact = true;   ///< false: cut even where one increment is exact
+   int max_halvings = 12;            ///< of an increment, for advancing contact or failure
+   bool stop_at_steady_state = true; ///< the cycles that are left would be the same
    /// Steady: slip at the end of a cycle differs from that one or two cycles before by less
    /// than this times the largest slip of the history.
    double steady_tolerance = 1e-10;
@@ -56,21 +57,28 @@ struct MarchSettings
 /// One accepted increment.
 struct IncrementRecord
 {
-   double time = 0;
+   double time = 0;             ///< at its end
    int cycle = 0;               ///< 0: opening part
    Eigen::VectorXd multipliers; ///< of the load patterns, at its end
    Eigen::VectorXd conjugates;  ///< of these: displacement or reaction, see conjugates()
-   int stick = 0, separation = 0, forward_slip = 0,
-       backward_slip = 0; ///< numbers of settled_states()
+   int stick = 0;               ///< number of nodes that stick, of settled_states()
+   int separation = 0;          ///< … that are apart
+   int forward_slip = 0;        ///< … that slip forward
+   int backward_slip = 0;       ///< … that slip backward
    int slip = 0; ///< with two tangential components: nodes that slip in whatever direction
    double dissipation = 0; ///< lost by friction, summed over nodes; never negative
    /// Work of the loads, trapezoidal (exact for linear increments); of the contact's part of
    /// the conjugates alone where H is not known.
    double external_work = 0;
-   double residual_normal = 0, residual_tangential = 0, round_off = 0; ///< see IncrementReport
+   double residual_normal = 0;     ///< see IncrementReport
+   double residual_tangential = 0; ///< see IncrementReport
+   double round_off = 0;           ///< see IncrementReport
    /// A march taken up from the state here goes on to the last bit. False amid an exact path:
    /// to round-off.
    bool resumes = true;
+   /// Node at whose change of state, on the exact path, the increment ends before the loads
+   /// that the path leads to: its loads are the answer's. -1: they are those of the history.
+   Eigen::Index event = -1;
 };
 
 /// One marched cycle.
@@ -79,11 +87,11 @@ struct CycleRecord
    int cycle = 0; ///< its number, from 1
    /// False if the march was taken up within the cycle: then all here is of the rest of it.
    bool whole = false;
-   std::vector<Loop> loops; ///< of each load pattern; their work() adds up to external_work
-   double dissipation = 0;
-   double external_work = 0;
-   double normal_work = 0;           ///< -½(p_old + p_new)·Δw: vanishes as increments shrink
-   double slip_change = 0;           ///< largest |v - v one cycle before|
+   std::vector<Loop> loops;  ///< of each load pattern; their work() adds up to external_work
+   double dissipation = 0;   ///< lost by friction in the cycle
+   double external_work = 0; ///< of all loads in the cycle
+   double normal_work = 0;   ///< -½(p_old + p_new)·Δw: vanishes as increments shrink
+   double slip_change = 0;   ///< largest |v - v one cycle before|
    Eigen::VectorXd node_dissipation; ///< size n
 };
 
@@ -91,25 +99,26 @@ struct CycleRecord
 /// several.
 struct NotUnique
 {
-   double time = 0;
-   Eigen::VectorXd multipliers;
-   std::string message; ///< the node and its friction
+   double time = 0;             ///< of the load history
+   Eigen::VectorXd multipliers; ///< of the load patterns
+   std::string message;         ///< the node and its friction
 };
 
+/// What a march came to.
 struct MarchReport
 {
-   FrictionStatus status = FrictionStatus::converged;
-   std::string message;
-   double time = 0; ///< reached
+   FrictionStatus status = FrictionStatus::converged; ///< of the whole march
+   std::string message;                               ///< one sentence, empty if converged
+   double time = 0;                                   ///< reached
    /// Where the outcome is not `converged`: time and load multipliers at which it came about,
    /// the last equilibrium found, by bisection. The state is the last one whose forces are
    /// known to 1e-9. `not_unique` does not end a march: these are then the ones of
    /// `not_unique`. `stopped`: time and multipliers of the state.
    double event_time = 0;
-   Eigen::VectorXd event_multipliers;
+   Eigen::VectorXd event_multipliers;   ///< in the order of the patterns
    std::optional<NotUnique> not_unique; ///< also where the march ended later for another reason
    std::vector<IncrementRecord> increments; ///< see MarchSettings::keep_increments
-   std::vector<CycleRecord> cycles;
+   std::vector<CycleRecord> cycles;         ///< of those that were marched
    /// Stepping::exact: every change of state, in the order of the path. A piece that took one
    /// increment lists its changes at its start.
    std::vector<StateChange> changes;
@@ -133,9 +142,9 @@ struct MarchReport
    /// Ends of lines at which contact was cut off, each with the first accepted state in which
    /// it was so: the results are those of a line that was named too short.
    std::vector<CutOffContact> cut_off;
-   double largest_residual = 0;
-   Counters counters; ///< of this march (what making the solver took is in the solver's own)
-   double seconds = 0;
+   double largest_residual = 0; ///< of all increments, relative
+   Counters counters;  ///< of this march (what making the solver took is in the solver's own)
+   double seconds = 0; ///< wall time
 };
 
 /// Called after every accepted increment.

@@ -74,13 +74,15 @@ double MarchRecord::external_work(const IncrementRecord &record) const
 }
 
 void MarchRecord::accept(ContactState &&next, const LoadPiece &piece,
-                         const IncrementReport &increment, bool exact, bool resumes)
+                         const IncrementReport &increment, bool exact, bool resumes,
+                         Index event)
 {
    find_slip_origin(state_, next);
    IncrementRecord record;
    record.time = next.time;
    record.cycle = piece.cycle;
    record.resumes = resumes;
+   record.event = event;
    record.multipliers = next.multipliers;
    record.conjugates = conjugates(problem_, next);
    record.residual_normal = increment.residual_normal;

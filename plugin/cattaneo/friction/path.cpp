@@ -21,7 +21,7 @@ Search path(Increment &at)
       forces.head(n) = at.start.q;
    }
    ComplementarityProblem increment;
-   increment.b = at.f + s.K * stuck;
+   increment.b = at.f + (*s.times_K)(stuck);
    increment.choice.assign(n, Choice::any);
    VectorXd x = VectorXd::Zero(s.K.rows());
    x.tail(n) = at.start.w + s.problem.gap;

@@ -20,7 +20,7 @@ constexpr double least_corner = 1e-9;
 
 StateEquations::StateEquations(const Eigen::Ref<const MatrixXd> &K,
                                std::vector<FrictionBound> bound)
-   : K_(K), bound_(std::move(bound)), n_(static_cast<Index>(bound_.size())),
+   : K_(K), times_K_(K), bound_(std::move(bound)), n_(static_cast<Index>(bound_.size())),
      tangential_(K.rows() > n_), diagonal_(K.diagonal()), arithmetic_(K),
      states_(n_, NodeState::stick), held_(n_, false), constant_(VectorXd::Zero(K.rows())),
      slot_of_(K.rows(), -1), border_of_(K.rows(), -1)
@@ -291,6 +291,68 @@ void StateEquations::step(const VectorXd &F, VectorXd &x) const
    for (Index k = 0; k < m; ++k) { x[slots_[k].row] -= y[k]; }
 }
 
+/// The transpose of step(), statement by statement from its end: adds to y, of the equations,
+/// what the unknowns' g amount to.
+void StateEquations::step_transposed(const VectorXd &g, VectorXd &y) const
+{
+   const auto m = static_cast<Index>(slots_.size()), count = static_cast<Index>(active_.size());
+   VectorXd of_slots(m), z(count);
+   for (Index k = 0; k < m; ++k) { of_slots[k] = g[slots_[k].row]; }
+   for (Index a = 0; a < count; ++a)
+   {
+      const Border &border = borders_[active_[a]];
+      const Index row = border.now.row;
+      if (border.in_factor && !border.present) { of_slots[slot_of_[row]] = 0; }
+      z[a] = border.in_factor ? 0.0 : g[row];
+   }
+   for (Index a = 0; a < count; ++a) { z[a] -= W_.col(active_[a]).dot(of_slots); }
+   corner_.solve_transposed(z);
+   for (Index a = 0; a < count; ++a)
+   {
+      const Border &border = borders_[active_[a]];
+      const Index row = border.now.row;
+      if (border.present)
+      {
+         y[row] += z[a] / diagonal_[row];
+         of_slots -= z[a] * Q_.col(active_[a]);
+      }
+      else { of_slots[slot_of_[row]] -= z[a]; }
+   }
+   lu_.solve_transposed(of_slots);
+   for (Index a = 0; a < count; ++a)
+   {
+      const Border &border = borders_[active_[a]];
+      if (border.in_factor) { of_slots[slot_of_[border.now.row]] = 0; }
+   }
+   for (Index k = 0; k < m; ++k) { y[slots_[k].row] += of_slots[k]; }
+}
+
+void StateEquations::solve_transposed(const VectorXd &g, VectorXd &y, VectorXd &z) const
+{
+   const auto visit_all = [&](auto visit)
+   {
+      for (Index i = 0; i < n_; ++i) { for_each_equation(i, visit); }
+   };
+   const auto step = [&](const VectorXd &left)
+   {
+      step_transposed(left, y);
+      z.setZero(K_.rows());
+      visit_all(
+         [&](const Equation &e)
+         {
+            z[e.row] += y[e.row];
+            z[e.other] += e.factor * y[e.row];
+         });
+   };
+   y.setZero(K_.rows());
+   step(g);
+   // Once more, with what round-off has left.
+   const VectorXd through = times_K_(z);
+   VectorXd left = VectorXd::Zero(K_.rows());
+   visit_all([&](const Equation &e) { left[e.row] = g[e.row] - through[e.row]; });
+   step(left);
+}
+
 bool StateEquations::solve(const VectorXd &b, VectorXd &x, VectorXd &F)
 {
    x.setZero(b.size());
@@ -329,7 +391,7 @@ bool StateEquations::solve(const VectorXd &b, VectorXd &x, VectorXd &F)
       }
       before = largest;
       step(F, x);
-      if (2 * static_cast<Index>(equations.size()) > K_.rows()) { F = b + K_ * x; }
+      if (2 * static_cast<Index>(equations.size()) > K_.rows()) { F = b + times_K_(x); }
       else
       {
          F = b;

@@ -146,13 +146,11 @@ bool eliminate_open(FrictionSystem &s, const std::vector<NodeState> &status)
    eliminated.K = s.K(eliminated.kept, eliminated.kept);
    eliminated.singular = false;
    if (eliminated.open.empty()) { return true; }
-   eliminated.factor.compute(s.K(eliminated.open, eliminated.open));
-   eliminated.singular = eliminated.factor.info() != Eigen::Success;
+   eliminated.singular = !eliminated.factor.compute(s.K(eliminated.open, eliminated.open));
    if (eliminated.singular) { return false; }
    eliminated.X = s.K(eliminated.open, eliminated.kept);
-   eliminated.factor.matrixL().solveInPlace(eliminated.X);
-   eliminated.K.selfadjointView<Eigen::Lower>().rankUpdate(eliminated.X.transpose(), -1);
-   eliminated.K.triangularView<Eigen::StrictlyUpper>() = eliminated.K.transpose();
+   eliminated.factor.solve_half(eliminated.X);
+   eliminated.K = minus_square(std::move(eliminated.K), eliminated.X);
    return true;
 }
 
@@ -206,11 +204,12 @@ bool solve_disc(Increment &at, bool from_here)
    for (bool again = false;; again = true)
    {
       const VectorXd from = at.u;
-      VectorXd base = at.f + s.K * at.u, lift;
+      VectorXd base = at.f + (*s.times_K)(at.u);
+      MatrixXd lift;
       if (!open.empty())
       {
          lift = base(open);
-         eliminated.factor.matrixL().solveInPlace(lift);
+         eliminated.factor.solve_half(lift);
          base(eliminated.kept) -= eliminated.X.transpose() * lift;
       }
       VectorXd x(2 * count);
@@ -234,12 +233,12 @@ bool solve_disc(Increment &at, bool from_here)
       }
       if (!open.empty())
       {
-         eliminated.factor.matrixU().solveInPlace(lift);
+         eliminated.factor.solve_other_half(lift);
          at.u(open) -= lift;
       }
       if (again || !cancels(stiffness, from, at.u)) { break; }
    }
-   at.F = at.f + s.K * at.u;
+   at.F = at.f + (*s.times_K)(at.u);
    return true;
 }
 

@@ -87,7 +87,7 @@ NodeState natural_state(const ContactNode &node);
 struct NodeResidual
 {
    double normal; ///< the smaller of k gap and p
-   /// q less the trial force brought into the bound. Alart and Curnier, with own stiffness.
+   /// q less the trial force brought into the bound. [Alart 1991], with own stiffness.
    NodeVector tangential;
 };
 

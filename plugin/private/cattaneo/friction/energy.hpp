@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cattaneo/friction/contact_state.hpp>
+#include <cattaneo/friction/contact_law.hpp>
 
 namespace cattaneo
 {
@@ -24,6 +24,16 @@ Rubbing rubbing(const ReducedProblem &problem, const ContactState &before,
    slips one way. Never negative. */
 Eigen::VectorXd frictional_loss(const ReducedProblem &problem, const ContactState &before,
                                 const ContactState &after);
+
+/// Derivatives of the frictional_loss() of one node, as it is cut where slip turns: by its
+/// forces before (0) and after (1), its slip Δv, its friction and its own tangential stiffness.
+struct LossDerivative
+{
+   NodeVector q0, q1, slip, stiffness;
+   double p0 = 0, p1 = 0, friction = 0;
+};
+LossDerivative loss_derivative(const ReducedProblem &problem, const ContactState &before,
+                               const ContactState &after, Eigen::Index node);
 
 /// Elastic energy stored by the contact displacements and loads of a state (both bodies); what
 /// the loads store in the clamped bodies only if it is known (H).

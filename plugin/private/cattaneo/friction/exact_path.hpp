@@ -40,13 +40,15 @@ public:
    bool advance(ContactState &state, double time, const Eigen::VectorXd &multipliers,
                 std::vector<StateChange> &changes);
 
+   /// Node that met the boundary of its state where the last advance() ended; -1: none did.
+   Eigen::Index event() const { return event_; }
    const std::string &failure() const { return failure_; }
    const Counters &counters() const { return counters_; }
 
 private:
    void find_choices(const ContactState &state);
    bool find_rates(const ContactState &state, const Eigen::VectorXd &multipliers);
-   double way_to_event() const;
+   double way_to_event();
 
    const ReducedProblem &problem_;
    const Eigen::MatrixXd &K_; // the problem's
@@ -57,6 +59,7 @@ private:
    Eigen::VectorXd reached_, target_;
    ComplementarityProblem rates_;
    Eigen::VectorXd noise_; // of each node: forces below this are round-off
+   Eigen::Index event_ = -1;
    std::string failure_;
    Counters counters_;
 };

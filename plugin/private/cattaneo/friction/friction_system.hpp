@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cattaneo/algebra/dense_cholesky.hpp>
 #include <cattaneo/algebra/round_off.hpp>
 #include <cattaneo/algebra/semidefinite.hpp>
+#include <cattaneo/algebra/symmetric_product.hpp>
 #include <cattaneo/friction/contact_law.hpp>
 #include <cattaneo/friction/friction_solver.hpp>
 #include <cattaneo/friction/state_equations.hpp>
@@ -32,7 +34,7 @@ struct FrictionSystem
       std::vector<signed char> key;
       std::vector<Index> open, kept; // rows of K: all components of the open, closed nodes
       std::vector<Index> place;      // of a closed node's first component among `kept`
-      Eigen::LLT<MatrixXd> factor;   // L Lᵀ of the open ones
+      DenseCholesky factor;          // L Lᵀ of the open ones
       MatrixXd X;                    // L⁻¹ K(open, kept)
       MatrixXd K;                    // K(kept, kept) - Xᵀ X
       bool singular = false;
@@ -55,6 +57,7 @@ struct FrictionSystem
    MatrixXd normal;                      // frictionless: the normal stiffness, slip eliminated
    const MatrixXd &K;                    // the problem's, or `normal` if frictionless
    std::unique_ptr<RoundOff> arithmetic; // of sums K u + f
+   std::shared_ptr<SymmetricProduct> times_K, times_whole_K; // the latter of the problem's
 
    // Frictionless: tangential displacements follow by A⁻¹; motions along the contact that
    // nothing resists, and how much of each is in some displacements, by the length of the

@@ -18,9 +18,9 @@ public:
    /// The state stands where a cycle begins, or, not `whole`, within it.
    void begin_cycle(int number, bool whole);
    /// The end of an increment of a piece becomes the state. `exact`: by the exact path, or by
-   /// one increment where that is exact. `resumes`: see IncrementRecord.
+   /// one increment where that is exact. `resumes`, `event`: see IncrementRecord.
    void accept(ContactState &&next, const LoadPiece &piece, const IncrementReport &increment,
-               bool exact, bool resumes);
+               bool exact, bool resumes, Eigen::Index event);
    /// The state stands at the last load with an equilibrium.
    void stop(const IncrementReport &failure);
    /// The balance of energy, and how far the march came.

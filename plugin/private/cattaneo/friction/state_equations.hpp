@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <cattaneo/algebra/dense_lu.hpp>
 #include <cattaneo/algebra/round_off.hpp>
+#include <cattaneo/algebra/symmetric_product.hpp>
 #include <cattaneo/friction/contact_law.hpp>
 #include <vector>
 
@@ -59,6 +60,13 @@ public:
    /// finite.
    bool solve(const Eigen::VectorXd &b, Eigen::VectorXd &x, Eigen::VectorXd &F);
 
+   /** The adjoint of solve(): of a value with derivatives g by x, size of K, the derivatives
+       -z by b, which is what z forces do on its way through the equations, and those -y by what
+       is added to the equation of each row, zero in rows without one: z = Eᵀ y where the
+       equations are E F = 0. Where a row has an equation g - K z is zero, to round-off. */
+   void solve_transposed(const Eigen::VectorXd &g, Eigen::VectorXd &y,
+                         Eigen::VectorXd &z) const;
+
    /// What round-off leaves of forces b + K x, row by row.
    Eigen::VectorXd round_off(const Eigen::VectorXd &b, const Eigen::VectorXd &x) const
    {
@@ -98,8 +106,10 @@ private:
    bool adopt();
    void add_columns(const std::vector<Eigen::Index> &rows);
    void step(const Eigen::VectorXd &F, Eigen::VectorXd &x) const;
+   void step_transposed(const Eigen::VectorXd &g, Eigen::VectorXd &y) const;
 
    const Eigen::Ref<const Eigen::MatrixXd> K_;
+   const SymmetricProduct times_K_;
    const std::vector<FrictionBound> bound_;
    const Eigen::Index n_;
    const bool tangential_;

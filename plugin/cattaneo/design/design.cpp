@@ -1,0 +1,606 @@
+#include <cattaneo/algebra/smooth_programme.hpp>
+#include <cattaneo/design/design.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cattaneo/progress_report.hpp>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace cattaneo
+{
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace
+{
+
+/// Pressures of all nodes that have a weight, at all states.
+std::vector<Response> pressures(const ReducedProblem &problem, const Responses &of,
+                                const std::vector<std::size_t> &states)
+{
+   std::vector<Response> all;
+   for (std::size_t k : states)
+   {
+      for (Index i = 0; i < problem.nodes(); ++i)
+      {
+         if (problem.weights[i] > 0) { all.push_back(of.pressure(k, i)); }
+      }
+   }
+   return all;
+}
+
+/// Times of the points of a history that a case is asked for.
+std::vector<double> times(const DesignCase &load_case)
+{
+   const LoadHistory &history = load_case.history;
+   const double end = history.piece(history.pieces() - 1).end,
+                from = std::isnan(load_case.from) ? end : load_case.from;
+   std::vector<double> all;
+   if (history.times[0] >= from) { all.push_back(history.times[0]); }
+   for (int k = 0; k < history.pieces(); ++k)
+   {
+      if (history.piece(k).end >= from) { all.push_back(history.piece(k).end); }
+   }
+   return all;
+}
+
+void add(VectorXd &sum, double factor, const VectorXd &x)
+{
+   if (x.size() > 0) { sum += factor * x; }
+}
+
+/// All that a choice of variables comes to.
+struct Trial
+{
+   VectorXd x;
+   bool known = false;
+   std::string message;
+   ReducedProblem problem;
+   std::vector<MarchTrace> traces;
+   std::vector<std::vector<Response>> responses; ///< of each case
+   VectorXd values;                              ///< of all, times the weights
+   MatrixXd by;                                  ///< by each variable; empty: not known yet
+};
+
+class Design
+{
+public:
+   Design(const DesignProblem &given, const DesignSettings &settings)
+      : given_(given), settings_(settings), march_(settings.march),
+        progress_(settings.march.monitor), variables_(given.low.size())
+   {
+      march_.stop_at_steady_state = false;
+      march_.monitor = {};
+   }
+
+   DesignReport run(const VectorXd &start);
+
+private:
+   Trial &at(const VectorXd &x);
+   void differentiate(Trial &trial);
+   double objective(const Trial &trial) const
+   {
+      return largest() ? trial.values.maxCoeff() : trial.values.sum();
+   }
+   bool largest() const { return given_.goal == DesignGoal::least_largest; }
+   bool allowed(const VectorXd &x) const;
+   void find_scales(const Trial &trial);
+   SmoothProgramme programme(const Trial *about = nullptr, double radius = 0);
+   SmoothSolution descend();
+   VectorXd y_of(const Trial &trial) const;
+   VectorXd x_of(const VectorXd &y) const { return scale_.cwiseProduct(y.head(variables_)); }
+   void take(const SmoothSolution &solution);
+   void check_optimality(const SmoothSolution &solution);
+
+   const DesignProblem &given_;
+   const DesignSettings &settings_;
+   MarchSettings march_;
+   ProgressReport progress_;
+   const Index variables_;
+   std::optional<Trial> trial_, best_;
+   double unit_ = 1;           // of the objective
+   VectorXd scale_, row_unit_; // of each variable, and of each limit
+   DesignReport report_;
+};
+
+Trial &Design::at(const VectorXd &x)
+{
+   if (trial_ && trial_->x == x) { return *trial_; }
+   trial_.emplace();
+   Trial &trial = *trial_;
+   trial.x = x;
+   trial.problem = given_.with(x);
+   std::vector<double> values;
+   for (const DesignCase &load_case : given_.cases)
+   {
+      LoadHistory history = load_case.history;
+      for (Index j = 0; j < variables_; ++j)
+      {
+         const MatrixXd &change = given_.variables[j].multipliers;
+         if (change.size() > 0) { history.multipliers += x[j] * change; }
+      }
+      ++report_.marches;
+      trial.traces.push_back(trace_march(trial.problem, history, march_));
+      const MarchTrace &trace = trial.traces.back();
+      const FrictionStatus status = trace.report.status;
+      if (status != FrictionStatus::converged && status != FrictionStatus::not_unique)
+      {
+         trial.message = "case '" + load_case.name + "': " + trace.report.message;
+         return trial;
+      }
+      std::vector<std::size_t> states;
+      for (double time : times(load_case)) { states.push_back(trace.at(time)); }
+      const Responses of(trial.problem, trace);
+      trial.responses.push_back(given_.objective ? given_.objective(of, states)
+                                                 : pressures(trial.problem, of, states));
+      for (const Response &response : trial.responses.back())
+      {
+         values.push_back(load_case.weight * response.value);
+      }
+   }
+   trial.values = Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
+   require(trial.values.size() > 0, "design: the objective has no response");
+   require(!best_ || best_->values.size() == trial.values.size(), "design: the objective has ",
+           trial.values.size(), " responses, and had ", best_ ? best_->values.size() : 0,
+           " for other variables");
+   trial.known = trial.values.allFinite();
+   if (trial.known && allowed(x) && (!best_ || objective(trial) < objective(*best_)))
+   {
+      best_ = trial;
+   }
+   return trial;
+}
+
+void Design::differentiate(Trial &trial)
+{
+   if (trial.by.size() > 0 || !trial.known) { return; }
+   MatrixXd by(trial.values.size(), variables_);
+   Index first = 0;
+   for (std::size_t c = 0; c < given_.cases.size() && trial.known; ++c)
+   {
+      ++report_.gradients;
+      Sensitivity sensitivity(trial.problem, trial.traces[c]);
+      const std::vector<Response> &responses = trial.responses[c];
+      const auto count = static_cast<Index>(responses.size());
+      const auto not_found = [&](const std::string &message)
+      {
+         trial.known = false;
+         trial.message = "case '" + given_.cases[c].name + "': " + message;
+      };
+      // Whichever are fewer, marched forward or backward.
+      for (Index j = 0; count >= variables_ && j < variables_ && trial.known; ++j)
+      {
+         const TraceChange change = sensitivity.along(given_.variables[j]);
+         if (!change.found) { not_found(change.message); }
+         for (Index i = 0; i < count && trial.known; ++i)
+         {
+            by(first + i, j) = change.of(responses[i]);
+         }
+      }
+      for (Index i = 0; count < variables_ && i < count && trial.known; ++i)
+      {
+         const Gradient gradient = sensitivity.gradient(responses[i]);
+         if (!gradient.found) { not_found(gradient.message); }
+         for (Index j = 0; j < variables_; ++j)
+         {
+            by(first + i, j) = gradient.by.dot(given_.variables[j]);
+         }
+      }
+      by.middleRows(first, count) *= given_.cases[c].weight;
+      first += count;
+   }
+   trial.known = trial.known && by.allFinite();
+   trial.by = std::move(by);
+}
+
+bool Design::allowed(const VectorXd &x) const
+{
+   const VectorXd limits = given_.limits * x;
+   bool inside = (x - given_.low).minCoeff() >= 0 && (given_.high - x).minCoeff() >= 0;
+   for (Index r = 0; r < limits.size(); ++r)
+   {
+      const double leave =
+         settings_.tolerance * given_.limits.row(r).cwiseAbs().dot(x.cwiseAbs());
+      inside =
+         inside && limits[r] >= given_.least[r] - leave && limits[r] <= given_.most[r] + leave;
+   }
+   return inside;
+}
+
+/// Variables in units in which the objective at the start changes by itself.
+void Design::find_scales(const Trial &trial)
+{
+   unit_ = trial.values.cwiseAbs().maxCoeff();
+   if (!(unit_ > 0)) { unit_ = 1; }
+   scale_ = given_.high - given_.low;
+   for (Index j = 0; j < variables_; ++j)
+   {
+      const double steepest = trial.by.col(j).cwiseAbs().maxCoeff();
+      if (steepest > 0) { scale_[j] = std::min(scale_[j], unit_ / steepest); }
+      if (!(scale_[j] > 0)) { scale_[j] = 1; }
+   }
+   row_unit_ = (given_.limits * scale_.asDiagonal()).cwiseAbs().rowwise().maxCoeff();
+   for (double &unit : row_unit_) { unit = unit > 0 ? unit : 1.0; }
+}
+
+/// The programme in scaled variables and, for the largest response, a bound on all of them: as
+/// it is, or with what is linear in place of it, within a radius about a trial.
+SmoothProgramme Design::programme(const Trial *about, double radius)
+{
+   constexpr double none = 2e19; // what Ipopt takes for infinite
+   const auto bounded = [none](const VectorXd &x)
+   { return VectorXd(x.cwiseMax(-none).cwiseMin(none)); };
+   const Index limits = given_.limits.rows(), extra = largest() ? 1 : 0,
+               count = largest() ? best_->values.size() : 0;
+   SmoothProgramme p;
+   p.linear = about != nullptr;
+   p.low = VectorXd::Constant(variables_ + extra, -none);
+   p.high = VectorXd::Constant(variables_ + extra, none);
+   p.low.head(variables_) = given_.low.cwiseQuotient(scale_);
+   p.high.head(variables_) = given_.high.cwiseQuotient(scale_);
+   if (about)
+   {
+      const VectorXd middle = about->x.cwiseQuotient(scale_);
+      p.low.head(variables_) =
+         p.low.head(variables_).cwiseMax((middle.array() - radius).matrix());
+      p.high.head(variables_) =
+         p.high.head(variables_).cwiseMin((middle.array() + radius).matrix());
+   }
+   p.least = VectorXd::Constant(count + limits, -none);
+   p.most = VectorXd::Zero(count + limits);
+   p.least.tail(limits) = bounded(given_.least.cwiseQuotient(row_unit_));
+   p.most.tail(limits) = bounded(given_.most.cwiseQuotient(row_unit_));
+   p.values = [this, about, count, limits](const VectorXd &y, double &f, VectorXd &c)
+   {
+      const VectorXd x = x_of(y);
+      const Trial &trial = about ? *about : at(x);
+      if (!trial.known) { return false; }
+      VectorXd values = trial.values;
+      if (about) { values += trial.by * (x - trial.x); }
+      f = largest() ? y[variables_] : values.sum() / unit_;
+      c.resize(count + limits);
+      if (largest()) { c.head(count) = values.array() / unit_ - y[variables_]; }
+      c.tail(limits) = (given_.limits * x).cwiseQuotient(row_unit_);
+      return true;
+   };
+   p.derivatives = [this, about, count, limits](const VectorXd &y, VectorXd &f, MatrixXd &c)
+   {
+      if (!about) { differentiate(at(x_of(y))); }
+      const Trial &trial = about ? *about : *trial_;
+      if (!trial.known) { return false; }
+      const MatrixXd by = trial.by * scale_.asDiagonal() / unit_;
+      f = VectorXd::Zero(y.size());
+      c = MatrixXd::Zero(count + limits, y.size());
+      if (largest())
+      {
+         f[variables_] = 1;
+         c.topLeftCorner(count, variables_) = by;
+         c.topRightCorner(count, 1).setConstant(-1);
+      }
+      else { f = by.colwise().sum().transpose(); }
+      c.bottomLeftCorner(limits, variables_) =
+         row_unit_.cwiseInverse().asDiagonal() * given_.limits * scale_.asDiagonal();
+      return true;
+   };
+   p.goes_on = [this, about](int iteration)
+   {
+      if (!about) { progress_.note(std::nan(""), iteration); }
+      return !settings_.march.monitor.stopped();
+   };
+   return p;
+}
+
+VectorXd Design::y_of(const Trial &trial) const
+{
+   VectorXd y(variables_ + (largest() ? 1 : 0));
+   y.head(variables_) = trial.x.cwiseQuotient(scale_);
+   if (largest()) { y[variables_] = trial.values.maxCoeff() / unit_; }
+   return y;
+}
+
+/// Linear programmes within a radius that shrinks where they promise too much: between changes
+/// of states pressures are linear in gaps and loads, and the last of them is exact.
+SmoothSolution Design::descend()
+{
+   SmoothSolution last;
+   Trial now = *best_;
+   double radius = 0.3;
+   for (int k = 0; k < settings_.max_iterations && radius > 1e-12; ++k)
+   {
+      progress_.note(std::nan(""), k);
+      differentiate(now);
+      if (!now.known)
+      {
+         last.outcome = SmoothOutcome::failed;
+         last.message = now.message;
+         return last;
+      }
+      last = solve(programme(&now, radius), y_of(now), 1e-3 * settings_.tolerance, 300);
+      last.iterations = k + 1;
+      if (last.outcome != SmoothOutcome::solved) { return last; }
+      const VectorXd next = x_of(last.y);
+      const double promised = objective(now) - unit_ * last.y[variables_];
+      if (promised <= settings_.tolerance * unit_)
+      {
+         last.y = y_of(now);
+         return last;
+      }
+      const Trial &trial = at(next);
+      const double kept = trial.known ? (objective(now) - objective(trial)) / promised : -1;
+      const bool far =
+         (next - now.x).cwiseQuotient(scale_).cwiseAbs().maxCoeff() > 0.9 * radius;
+      if (kept < 0.25) { radius *= 0.25; }
+      else if (kept > 0.75 && far) { radius *= 3; }
+      if (kept > 0.01) { now = trial; }
+   }
+   last.outcome = SmoothOutcome::failed;
+   last.message = radius > 1e-12 ? "not done after all iterations"
+                                 : "nodes change their states there, and derivatives jump";
+   return last;
+}
+
+/// The conditions of optimality with the multipliers that were found, at the x of the report.
+void Design::check_optimality(const SmoothSolution &solution)
+{
+   Trial &trial = at(report_.x);
+   differentiate(trial);
+   const Index limits = given_.limits.rows(), count = solution.lambda.size() - limits;
+   report_.bound_multipliers = unit_ * solution.z.head(variables_).cwiseQuotient(scale_);
+   report_.limit_multipliers = unit_ * solution.lambda.tail(limits).cwiseQuotient(row_unit_);
+   const VectorXd shares = largest() ? VectorXd(solution.lambda.head(count))
+                                     : VectorXd(VectorXd::Ones(trial.values.size()));
+   const VectorXd gradient = trial.by.transpose() * shares + report_.bound_multipliers +
+                             given_.limits.transpose() * report_.limit_multipliers;
+   report_.stationarity = gradient.cwiseProduct(scale_).cwiseAbs().maxCoeff() / unit_;
+   if (largest())
+   {
+      report_.stationarity = std::max(report_.stationarity, std::abs(shares.sum() - 1));
+   }
+   const auto note = [&](double multiplier, double below, double above)
+   {
+      const double away = multiplier > 0 ? above : below;
+      if (multiplier != 0)
+      {
+         report_.complementarity =
+            std::max(report_.complementarity, std::abs(multiplier * away) / unit_);
+      }
+   };
+   for (Index j = 0; j < variables_; ++j)
+   {
+      note(report_.bound_multipliers[j], report_.x[j] - given_.low[j],
+           given_.high[j] - report_.x[j]);
+   }
+   const VectorXd at_limits = given_.limits * report_.x;
+   for (Index r = 0; r < limits; ++r)
+   {
+      const double below = at_limits[r] - given_.least[r],
+                   above = given_.most[r] - at_limits[r];
+      note(report_.limit_multipliers[r], below, above);
+      report_.violation =
+         std::max({report_.violation, -below / row_unit_[r], -above / row_unit_[r]});
+   }
+   std::size_t c = 0, index = 0;
+   for (Index i = 0; i < count; ++i, ++index)
+   {
+      while (index == trial.responses[c].size())
+      {
+         ++c;
+         index = 0;
+      }
+      // One that is below the largest has none; none is negative.
+      note(shares[i], 0, report_.objective - trial.values[i]);
+      report_.stationarity = std::max(report_.stationarity, -shares[i]);
+      if (shares[i] > 1e-6)
+      {
+         report_.active.push_back({c, index, trial.values[i], shares[i]});
+      }
+   }
+}
+
+void Design::take(const SmoothSolution &solution)
+{
+   const bool solved = solution.outcome == SmoothOutcome::solved;
+   const VectorXd last = solved ? x_of(solution.y) : best_->x;
+   const Trial &trial = at(last);
+   // What violates a limit by less than the tolerance may be better than all that does not.
+   const bool kept =
+      trial.known && objective(trial) <= objective(*best_) + settings_.tolerance * unit_;
+   report_.x = kept ? last : best_->x;
+   report_.objective = objective(at(report_.x));
+   report_.iterations = solution.iterations;
+   if (solved && kept) { check_optimality(solution); }
+   const double most = 10 * settings_.tolerance;
+   if (solution.outcome == SmoothOutcome::stopped) { report_.status = DesignStatus::stopped; }
+   else if (solved && kept && report_.stationarity <= most && report_.complementarity <= most &&
+            report_.violation <= most)
+   {
+      report_.status = DesignStatus::optimal;
+   }
+   else
+   {
+      report_.status = DesignStatus::improved;
+      report_.message = solution.message.empty()
+                           ? "the conditions of optimality do not hold to the tolerance"
+                           : solution.message;
+   }
+   const Trial &found = at(report_.x);
+   report_.traces = found.traces;
+   for (const MarchTrace &trace : found.traces)
+   {
+      const std::vector<Tie> more = ties(found.problem, trace);
+      report_.ties.insert(report_.ties.end(), more.begin(), more.end());
+   }
+}
+
+DesignReport Design::run(const VectorXd &start)
+{
+   report_.x = start;
+   Trial &first = at(start);
+   differentiate(first);
+   if (!first.known)
+   {
+      report_.status = DesignStatus::no_equilibrium;
+      report_.message = first.message;
+      report_.seconds = progress_.seconds();
+      return report_;
+   }
+   report_.objective_at_start = objective(first);
+   best_ = first;
+   find_scales(first);
+   const SmoothSolution solution =
+      largest() && !given_.objective
+         ? descend()
+         : solve(programme(), y_of(first), settings_.tolerance, settings_.max_iterations);
+   if (solution.outcome == SmoothOutcome::unavailable)
+   {
+      report_.status = DesignStatus::unavailable;
+      report_.message = solution.message;
+      report_.objective = report_.objective_at_start;
+   }
+   else { take(solution); }
+   report_.seconds = progress_.seconds();
+   progress_.end(1.0, report_.iterations);
+   return report_;
+}
+
+} // namespace
+
+std::vector<Parameters> gap_variables(const MatrixXd &G)
+{
+   std::vector<Parameters> all(G.cols());
+   for (Index j = 0; j < G.cols(); ++j) { all[j].gap = G.col(j); }
+   return all;
+}
+
+void limit_curvature(DesignProblem &problem, double least, double most)
+{
+   require(least <= most, "curvature limits: at least ", least, " and at most ", most);
+   const ReducedProblem &of = problem.problem;
+   const auto count = static_cast<Index>(problem.variables.size());
+   require(count > 0, "curvature limits: the design has no variables yet");
+   require(of.arc_length.size() == of.nodes(), "curvature limits: ", of.arc_length.size(),
+           " positions along the line for ", of.nodes(), " nodes");
+   for (const ContactChain &chain : of.chains)
+   {
+      for (Index k = 1; k + 1 < chain.nodes; ++k)
+      {
+         const Index i = chain.first + k;
+         const double before = std::abs(of.arc_length[i] - of.arc_length[i - 1]),
+                      after = std::abs(of.arc_length[i + 1] - of.arc_length[i]);
+         const auto curvature = [&](const VectorXd &gap)
+         {
+            return 2 * ((gap[i + 1] - gap[i]) / after - (gap[i] - gap[i - 1]) / before) /
+                   (before + after);
+         };
+         const Index row = problem.limits.rows();
+         problem.limits.conservativeResize(row + 1, count);
+         problem.least.conservativeResize(row + 1);
+         problem.most.conservativeResize(row + 1);
+         for (Index j = 0; j < count; ++j)
+         {
+            const VectorXd &gap = problem.variables[j].gap;
+            problem.limits(row, j) = gap.size() ? curvature(gap) : 0.0;
+         }
+         problem.least[row] = least - curvature(of.gap);
+         problem.most[row] = most - curvature(of.gap);
+      }
+   }
+}
+
+const char *name(DesignStatus status)
+{
+   const char *const names[] = {"optimal", "improved", "no equilibrium", "unavailable",
+                                "stopped"};
+   return names[static_cast<int>(status)];
+}
+
+void DesignSettings::validate() const
+{
+   march.validate();
+   require_between("design settings: tolerance", tolerance, 0, 1);
+   require_at_least("design settings: max_iterations", max_iterations, 1);
+}
+
+ReducedProblem DesignProblem::with(const VectorXd &x) const
+{
+   require(x.size() == static_cast<Index>(variables.size()), "design: ", x.size(),
+           " values for ", variables.size(), " variables");
+   ReducedProblem result = problem;
+   for (Index j = 0; j < x.size(); ++j)
+   {
+      add(result.gap, x[j], variables[j].gap);
+      add(result.friction, x[j], variables[j].friction);
+   }
+   return result;
+}
+
+void DesignProblem::validate() const
+{
+   problem.validate();
+   const Index n = problem.nodes();
+   const auto count = static_cast<Index>(variables.size());
+   require(!cases.empty(), "design: there is no load case");
+   require(count > 0, "design: there is no variable");
+   require(low.size() == count && high.size() == count, "design: ", low.size(), " lower and ",
+           high.size(), " upper bounds for ", count, " variables");
+   require(objective || problem.weights.size() == n,
+           "design: the problem has no weights of its nodes, and so no pressure");
+   require(least.size() == limits.rows() && most.size() == limits.rows() &&
+              (limits.rows() == 0 || limits.cols() == count),
+           "design: ", limits.rows(), " × ", limits.cols(), " limits of ", count,
+           " variables with ", least.size(), " lower and ", most.size(), " upper values");
+   require(limits.allFinite(), "design: an entry of the limits is not finite");
+   for (Index r = 0; r < limits.rows(); ++r)
+   {
+      require(least[r] <= most[r], "design: limit ", r, " is at least ", least[r],
+              " and at most ", most[r]);
+   }
+   for (const DesignCase &load_case : cases)
+   {
+      load_case.history.validate(static_cast<int>(problem.patterns.size()));
+      require(std::isfinite(load_case.weight), "design: the weight of case '", load_case.name,
+              "' is ", load_case.weight, ", must be finite");
+      require(!times(load_case).empty(), "design: case '", load_case.name,
+              "' has no point from time ", load_case.from, " on");
+   }
+   for (Index j = 0; j < count; ++j)
+   {
+      require(std::isfinite(low[j]) && std::isfinite(high[j]) && low[j] <= high[j],
+              "design: variable ", j, " is bounded by ", low[j], " and ", high[j],
+              ", must be two finite numbers in their order");
+      const Parameters &by = variables[j];
+      require((by.gap.size() == 0 || by.gap.size() == n) &&
+                 (by.friction.size() == 0 || by.friction.size() == n),
+              "design: variable ", j, " has ", by.gap.size(), " gaps and ", by.friction.size(),
+              " frictions for ", n, " nodes");
+      require(by.stiffness.size() == 0, "design: variable ", j,
+              " changes the stiffness, which is no choice here");
+      for (const DesignCase &load_case : cases)
+      {
+         const MatrixXd &of = load_case.history.multipliers, &change = by.multipliers;
+         require(change.size() == 0 ||
+                    (change.rows() == of.rows() && change.cols() == of.cols()),
+                 "design: variable ", j, " has ", change.rows(), " × ", change.cols(),
+                 " multipliers, case '", load_case.name, "' has ", of.rows(), " × ", of.cols());
+      }
+   }
+}
+
+DesignReport design(const DesignProblem &problem, const VectorXd &start,
+                    const DesignSettings &settings)
+{
+   settings.validate();
+   problem.validate();
+   problem.with(start);
+   for (Index j = 0; j < start.size(); ++j)
+   {
+      require(start[j] >= problem.low[j] && start[j] <= problem.high[j], "design: variable ", j,
+              " starts at ", start[j], ", must lie between ", problem.low[j], " and ",
+              problem.high[j]);
+   }
+   return Design(problem, settings).run(start);
+}
+
+} // namespace cattaneo

@@ -1,0 +1,142 @@
+#pragma once
+
+#include <cattaneo/design/sensitivity.hpp>
+#include <functional>
+
+namespace cattaneo
+{
+
+/// Loads that a design has to do with: a march from before any load.
+struct DesignCase
+{
+   std::string name;    ///< in messages
+   LoadHistory history; ///< of the problem's patterns
+   double weight = 1;   ///< of what is asked of it; negative: as much of it as possible
+   /// States at the points of the history are asked, from this time on; NaN: the last alone.
+   double from = std::nan("");
+};
+
+/// What a case is asked, as many numbers whatever the variables: `states` are those at the
+/// points of its history that count.
+using DesignObjective = std::function<std::vector<Response>(
+   const Responses &of, const std::vector<std::size_t> &states)>;
+
+/// What is made as small as possible.
+enum class DesignGoal
+{
+   least_largest, ///< of all responses of all cases, each times its case's weight
+   least_sum      ///< of these
+};
+
+/** What may be chosen, and what for: variables x_j that add x_j times a change of parameters
+    (gap, friction, load multipliers) to those of the problem and its cases:
+
+        gap = G0 + Σ x_j g_j     for instance,
+
+    between bounds, and with linear limits L x of which each has its own. */
+struct DesignProblem
+{
+   ReducedProblem problem;        ///< of x = 0
+   std::vector<DesignCase> cases; ///< at least one
+   /// Of each variable, per unit of it. No stiffness; multipliers of the histories of all cases
+   /// alike.
+   std::vector<Parameters> variables;
+   Eigen::VectorXd low;                         ///< lower bound of each, finite
+   Eigen::VectorXd high;                        ///< upper bound of each, finite
+   Eigen::MatrixXd limits;                      ///< L, a row a limit
+   Eigen::VectorXd least;                       ///< of L x; -infinity: none
+   Eigen::VectorXd most;                        ///< of L x; infinity: none
+   DesignGoal goal = DesignGoal::least_largest; ///< of the objective's responses
+   /// None: pressures of all nodes, so that the goal is the least peak pressure.
+   DesignObjective objective;
+
+   /// Of values x of the variables. InputError of another size.
+   ReducedProblem with(const Eigen::VectorXd &x) const;
+   /// InputError if sizes do not fit, a bound is not finite or above the other.
+   void validate() const;
+};
+
+/// Variables that are the columns of G (n × number of variables), added to the gap.
+std::vector<Parameters> gap_variables(const Eigen::MatrixXd &G);
+
+/** Adds limits of the second differences of the gap along each chain of nodes: its curvature at
+    each node that has two neighbours, positive where it opens to both sides, is to lie between
+    `least` and `most`. InputError if variables or positions along the line are missing. */
+void limit_curvature(DesignProblem &problem, double least, double most);
+
+/// What a search came to.
+enum class DesignStatus
+{
+   optimal,        ///< conditions of optimality hold to the tolerance
+   improved,       ///< the best that was found, but they do not: see the message
+   no_equilibrium, ///< no march at the start comes to its end
+   unavailable,    ///< built without Ipopt
+   stopped         ///< the monitor asked for it: the best so far
+};
+
+/// As it is printed, in words.
+const char *name(DesignStatus status);
+
+/// How a design is searched. The defaults need no tuning.
+struct DesignSettings
+{
+   MarchSettings march; ///< steady states end no cycle; its monitor watches the whole search
+   /// Of the conditions of optimality in units of the objective at the start, and of limits.
+   double tolerance = 1e-8;
+   int max_iterations = 300; ///< of Ipopt
+
+   /// InputError naming the setting, its value and what is allowed.
+   void validate() const;
+};
+
+/// One response that an optimum depends on.
+struct ActiveResponse
+{
+   std::size_t load_case = 0; ///< in DesignProblem::cases
+   std::size_t index = 0;     ///< place in the list of the objective's responses
+   double value = 0;          ///< times the case's weight
+   double multiplier = 0;     ///< share of it in the optimum, they add up to 1
+};
+
+/// The best design that was found, and how far it is an optimum.
+struct DesignReport
+{
+   DesignStatus status = DesignStatus::improved; ///< what is known of x
+   std::string message;                          ///< what was found, in one sentence
+   Eigen::VectorXd x;                            ///< variables
+   double objective = 0;                         ///< of them
+   double objective_at_start = 0;                ///< of the variables at the start
+   std::vector<MarchTrace> traces;               ///< of each case there
+   /// The conditions of optimality (Karush, Kuhn and Tucker), as they hold there, formed anew
+   /// from the derivatives. Largest entry of the gradient of the Lagrangian, over the largest
+   /// derivative of a response by that variable at the start; product of a multiplier with the
+   /// distance from what it belongs to, over the objective at the start; violation of a limit,
+   /// over what a variable of that change of the objective does to it.
+   double stationarity = 0;
+   double complementarity = 0; ///< see above
+   double violation = 0;       ///< see above
+   /// Least-largest goal: the responses with multipliers above 1e-6.
+   std::vector<ActiveResponse> active;
+   Eigen::VectorXd bound_multipliers; ///< of each variable; positive: of the upper bound
+   Eigen::VectorXd limit_multipliers; ///< of each limit; positive: of the upper one
+   std::vector<Tie> ties; ///< of the optimum, all cases: derivatives there are one-sided
+   int iterations = 0;    ///< of Ipopt
+   long marches = 0;      ///< cases that were marched
+   long gradients = 0;    ///< cases that were differentiated
+   double seconds = 0;    ///< wall time
+};
+
+/** Finds the variables that serve the goal, from a start within bounds and limits, by Ipopt
+   with the derivatives of Sensitivity: the largest response through a bound on all of them that
+   is least; of pressures by linear programmes, as they are linear between changes of states,
+   each within the reach of what the one before promised and kept. What is found is an optimum
+   in its neighbourhood: contact is not convex. Responses bend where nodes change their states;
+   where that happens at the optimum its conditions need not hold, and it is `improved`: the
+   best design of all that were tried, never worse than the start.
+
+    `start`: a value of each variable; limits hold there. InputError as
+   DesignProblem::validate() and march(). */
+DesignReport design(const DesignProblem &problem, const Eigen::VectorXd &start,
+                    const DesignSettings &settings = {});
+
+} // namespace cattaneo

@@ -1,0 +1,94 @@
+#include <cattaneo/design/march_trace.hpp>
+#include <cattaneo/friction/contact_law.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cmath>
+
+namespace cattaneo
+{
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+std::size_t MarchTrace::at(double time) const
+{
+   require(!states.empty() && states.front().state.time <= time &&
+              states.back().state.time >= time,
+           "march trace: it has no state at time ", time);
+   std::size_t k = last();
+   while (states[k].state.time > time) { --k; }
+   return k;
+}
+
+MarchTrace trace_march(const ReducedProblem &problem, const LoadHistory &history,
+                       ContactState &state, const MarchSettings &settings)
+{
+   MarchTrace trace;
+   trace.history = history;
+   trace.states.push_back({state});
+   int piece = 0;
+   const auto observe = [&](const ContactState &now, const IncrementRecord &record)
+   {
+      while (piece + 1 < history.pieces() && now.time > history.piece(piece).end) { ++piece; }
+      const LoadPiece at = history.piece(piece);
+      const double share = std::clamp((now.time - at.start) / at.duration(), 0.0, 1.0);
+      trace.states.push_back({now, at.point, share, record.event});
+   };
+   trace.report = march(problem, history, state, settings, observe);
+   return trace;
+}
+
+MarchTrace trace_march(const ReducedProblem &problem, const LoadHistory &history,
+                       const MarchSettings &settings)
+{
+   ContactState state = ContactState::virgin(problem);
+   return trace_march(problem, history, state, settings);
+}
+
+std::vector<Tie> ties(const ReducedProblem &problem, const MarchTrace &trace, double tolerance)
+{
+   require_between("ties: tolerance", tolerance, 0, 1);
+   const Index n = problem.nodes(), c = problem.components();
+   std::vector<bool> held(n, false);
+   for (Index row : problem.held) { held[row % n] = true; }
+   std::vector<Tie> found;
+   for (std::size_t k = 1; k < trace.states.size(); ++k)
+   {
+      const ContactState &now = trace.states[k].state, &before = trace.states[k - 1].state;
+      const double tiny = tolerance * now.peak_force;
+      for (Index i = 0; i < n; ++i)
+      {
+         const NodeState taken = now.status[i];
+         const double own = problem.C()(i, i);
+         NodeState other = taken;
+         double along = 0, way = 0; // |q| and |Δv|
+         for (Index row = i; row < c * n; row += n)
+         {
+            along = std::hypot(along, now.q[row]);
+            way = std::hypot(way, now.v[row] - before.v[row]);
+         }
+         if (!closed(taken))
+         {
+            if (own * (now.w[i] + problem.gap[i]) <= tiny) { other = NodeState::stick; }
+         }
+         else if (now.p[i] <= tiny) { other = NodeState::separation; }
+         else if (c == 0 || held[i] || problem.friction[i] == 0) { continue; }
+         else if (taken != NodeState::stick)
+         {
+            if (problem.A()(i, i) * way <= tiny) { other = NodeState::stick; }
+         }
+         else if (FrictionBound(problem.friction[i]).at(now.p[i]) - along <= tiny)
+         {
+            other = c == 2         ? NodeState::slip
+                    : now.q[i] < 0 ? NodeState::forward_slip
+                                   : NodeState::backward_slip;
+         }
+         if (other != taken && i != trace.states[k].event)
+         {
+            found.push_back({k, i, taken, other});
+         }
+      }
+   }
+   return found;
+}
+
+} // namespace cattaneo

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cattaneo/friction/march.hpp>
+#include <vector>
+
+namespace cattaneo
+{
+
+/// A state that a march came to, and where its loads come from: those of point k of the history
+/// are λ_k, and the state's λ_point + share (λ_point+1 - λ_point).
+struct TracedState
+{
+   ContactState state; ///< as the march left it
+   int point = 0;      ///< k of the history, from 0
+   double share = 0;   ///< of the way to the next point, 0 to 1
+   /// The share is the answer's: this node changes its state there (IncrementRecord::event).
+   /// -1: it is the history's.
+   Eigen::Index event = -1;
+};
+
+/// All states of a march, which is what its derivatives are taken of.
+struct MarchTrace
+{
+   LoadHistory history;             ///< that was marched
+   std::vector<TracedState> states; ///< the first is the one at its start, which is given
+   MarchReport report;              ///< of the march
+
+   /// Index of the last state that was reached by a time of the history. InputError if the
+   /// march began later or ended earlier.
+   std::size_t at(double time) const;
+   /// Index of the last state.
+   std::size_t last() const { return states.size() - 1; }
+};
+
+/// march(), keeping all its states; the last one in `state`. InputError as march().
+MarchTrace trace_march(const ReducedProblem &problem, const LoadHistory &history,
+                       ContactState &state, const MarchSettings &settings = {});
+/// From before any load.
+MarchTrace trace_march(const ReducedProblem &problem, const LoadHistory &history,
+                       const MarchSettings &settings = {});
+
+/** A node that meets the laws of two states at once at the end of an increment: it touches
+    without force, or lies on the friction limit without having slipped. What a parameter does
+    then depends on the way in which it changes: derivatives are one-sided, those of the state
+    that the trace has. With the other state in its place (ContactState::status) they are those
+    of the other side. */
+struct Tie
+{
+   std::size_t state = 0;              ///< of the trace
+   Eigen::Index node = 0;              ///< of the problem
+   NodeState taken = NodeState::stick; ///< that the trace has
+   NodeState other = NodeState::stick; ///< that obeys the laws as well
+};
+
+/** All ties of a trace, in its order. Within `tolerance` of the largest nodal force so far, by
+   the node's own stiffness. The node at whose change of state an increment ends on the exact
+   path is none, as the path goes on through it smoothly; others that change with it are.
+
+    A tie need not matter. Where a cycle comes back to its largest load all nodes that slipped
+    are tied; as long as these loads vary together both sides have the same derivative. */
+std::vector<Tie> ties(const ReducedProblem &problem, const MarchTrace &trace,
+                      double tolerance = 1e-9);
+
+} // namespace cattaneo

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <cattaneo/design/march_trace.hpp>
+#include <map>
+
+namespace cattaneo
+{
+
+/// What a response depends on in one state: derivatives by its entries. Empty: by none.
+struct StateWeights
+{
+   Eigen::VectorXd displacements; ///< {v; w}
+   Eigen::VectorXd forces;        ///< {q; p}
+   Eigen::VectorXd multipliers;   ///< of the load patterns
+   Eigen::VectorXd conjugates;    ///< of these, see conjugates()
+   Eigen::VectorXd loss;          ///< of each node over the increment that ends in the state
+};
+
+/** A number that a march returned, with its derivatives by the states of the trace: what
+    Sensitivity differentiates by parameters. Values of Responses, and what sums, products and
+    quotients make of them. */
+struct Response
+{
+   double value = 0;                            ///< the number itself
+   std::map<std::size_t, StateWeights> weights; ///< by index of the state in the trace
+
+   /// Value and derivatives of the sum.
+   Response &operator+=(const Response &other) { return add(other, 1); }
+   /// Value and derivatives of the difference.
+   Response &operator-=(const Response &other) { return add(other, -1); }
+   /// Value and derivatives times a factor.
+   Response &operator*=(double factor);
+
+private:
+   Response &add(const Response &other, double factor);
+};
+
+/// Of the sum.
+Response operator+(Response a, const Response &b);
+/// Of the difference.
+Response operator-(Response a, const Response &b);
+/// Times a factor.
+Response operator*(double factor, Response a);
+/// Of the product.
+Response operator*(const Response &a, const Response &b);
+/// Of the quotient; b is not zero.
+Response operator/(const Response &a, const Response &b);
+
+/** The numbers of a trace. States are given by their index in it (MarchTrace::at(), last());
+    InputError for one that it does not have, for a node or a component that the problem does
+   not have and for a pattern of another name. */
+class Responses
+{
+public:
+   /// Both must outlive this.
+   Responses(const ReducedProblem &problem, const MarchTrace &trace);
+
+   /// Energy that friction takes between two states, by all nodes …
+   Response dissipation(std::size_t from, std::size_t to) const;
+   /// … or by one.
+   Response dissipation(std::size_t from, std::size_t to, Eigen::Index node) const;
+   /// Displacements and nodal forces of a node; component: 0, with torsion also 1.
+   Response slip(std::size_t state, Eigen::Index node, int component = 0) const;
+   /// w: without the gap.
+   Response opening(std::size_t state, Eigen::Index node) const;
+   /// q of the node.
+   Response shear(std::size_t state, Eigen::Index node, int component = 0) const;
+   /// p of the node, compression positive.
+   Response normal_force(std::size_t state, Eigen::Index node) const;
+   /// Normal force over weight. InputError if the node has none.
+   Response pressure(std::size_t state, Eigen::Index node) const;
+   /// That of the node where it is largest (of several the first; derivatives are then
+   /// one-sided).
+   Response peak_pressure(std::size_t state) const;
+   /// Sums of nodal forces times given lever arms (size n; empty: 1).
+   Response shear_resultant(std::size_t state, const Eigen::VectorXd &arm = {},
+                            int component = 0) const;
+   /// Of p.
+   Response normal_resultant(std::size_t state, const Eigen::VectorXd &arm = {}) const;
+   /// Load multiplier of a pattern and its conjugate, see conjugates(). InputError of the
+   /// latter if H is not known.
+   Response multiplier(std::size_t state, const std::string &pattern) const;
+   /// Of a force its displacement, of a displacement its reaction.
+   Response conjugate(std::size_t state, const std::string &pattern) const;
+   /// Change of force over change of displacement of a pattern between two states, whichever of
+   /// them is its multiplier. InputError if the displacement does not change.
+   Response secant_stiffness(std::size_t from, std::size_t to,
+                             const std::string &pattern) const;
+
+private:
+   const ContactState &state(std::size_t k) const;
+   /// Row of K of a node, component -1: the normal one.
+   Eigen::Index row(Eigen::Index node, int component) const;
+   Response entry(std::size_t k, Eigen::VectorXd StateWeights::*what, const Eigen::VectorXd &of,
+                  const Eigen::VectorXd &weights) const;
+   Response resultant(std::size_t k, const Eigen::VectorXd &arm, int component) const;
+   Eigen::VectorXd unit(Eigen::Index size, Eigen::Index k) const;
+
+   const ReducedProblem &problem_;
+   const MarchTrace &trace_;
+};
+
+} // namespace cattaneo

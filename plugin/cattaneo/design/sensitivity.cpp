@@ -1,0 +1,575 @@
+#include <cattaneo/design/sensitivity.hpp>
+#include <cattaneo/friction/energy.hpp>
+#include <cattaneo/friction/methods.hpp>
+#include <cattaneo/friction/state_equations.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cmath>
+
+namespace cattaneo
+{
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+StiffnessChange stiffness_scale(const ReducedProblem &problem)
+{
+   const auto count = static_cast<Index>(problem.patterns.size());
+   StiffnessChange change{problem.K, MatrixXd::Zero(problem.K.rows(), count), problem.H};
+   for (Index k = 0; k < count; ++k)
+   {
+      const LoadPattern &pattern = problem.patterns[k];
+      const bool prescribed = pattern.control == Control::displacement;
+      if (prescribed) { change.loads.col(k) << pattern.q, pattern.p; }
+      for (Index l = 0; problem.knows_loads() && l < count; ++l)
+      {
+         const bool other = problem.patterns[l].control == Control::displacement;
+         require(problem.H(k, l) == 0 || prescribed == other, "stiffness scale: pattern '",
+                 pattern.name, "' is of ", prescribed ? "displacement" : "force",
+                 " and acts on '", problem.patterns[l].name, "', which is not");
+         if (!prescribed) { change.H(k, l) *= -1; }
+      }
+   }
+   return change;
+}
+
+double Parameters::dot(const Parameters &change) const
+{
+   double sum = 0;
+   const auto add = [&](const char *what, const MatrixXd &a, const MatrixXd &b)
+   {
+      if (a.size() == 0 || b.size() == 0) { return; }
+      require(a.rows() == b.rows() && a.cols() == b.cols(), "parameters: ", what, " of ",
+              a.rows(), " × ", a.cols(), " and of ", b.rows(), " × ", b.cols(), " entries");
+      sum += a.cwiseProduct(b).sum();
+   };
+   add("friction", friction, change.friction);
+   add("gap", gap, change.gap);
+   add("multipliers", multipliers, change.multipliers);
+   add("stiffness", stiffness, change.stiffness);
+   return sum;
+}
+
+double TraceChange::of(const Response &response) const
+{
+   double sum = 0;
+   for (const auto &[k, weight] : response.weights)
+   {
+      const auto add = [&, column = static_cast<Index>(k)](const VectorXd &w, const MatrixXd &x)
+      {
+         if (w.size() > 0) { sum += w.dot(x.col(column)); }
+      };
+      add(weight.displacements, displacements);
+      add(weight.forces, forces);
+      add(weight.multipliers, multipliers);
+      add(weight.conjugates, conjugates);
+      add(weight.loss, loss);
+   }
+   return sum;
+}
+
+struct Sensitivity::System
+{
+   System(const ReducedProblem &problem, const MarchTrace &trace,
+          std::vector<StiffnessChange> stiffness);
+
+   /// The equations of the states at the end of increment k. False, with the reason, if they
+   /// are singular.
+   bool set(std::size_t k);
+   const ContactState &state(std::size_t k) const { return trace.states[k].state; }
+   /// Change of the loads over the piece of the history that state k lies in.
+   VectorXd piece(std::size_t k) const
+   {
+      const int point = trace.states[k].point;
+      return trace.history.multipliers.col(point + 1) - trace.history.multipliers.col(point);
+   }
+   /// Has the tangential entry of a node no equation of forces?
+   bool sticks(std::size_t k, Index i) const
+   {
+      return held[i] || state(k).status[i] == NodeState::stick;
+   }
+
+   /// What comes to zero where a node changes its state: a gap, a pressure or what is left of
+   /// friction. Derivatives by {v; w}, {q; p}, gap and friction.
+   struct Boundary
+   {
+      VectorXd displacements, forces;
+      double gap = 0, friction = 0;
+   };
+   Boundary boundary(std::size_t k) const;
+   // Forward.
+   /// Displacements and forces of state k for forces db with the contact nodes clamped, forces
+   /// `beside` added to the equations, and given displacements of the rows without one.
+   void respond(std::size_t k, const VectorXd &db, const VectorXd &beside, VectorXd &du,
+                VectorXd &dF);
+   VectorXd loss_change(std::size_t k, const Parameters &change, const TraceChange &so_far);
+
+   // Backward.
+   /// Derivatives by what state k depends on.
+   struct Adjoint
+   {
+      VectorXd equations; ///< by what is added to the equation of each row
+      VectorXd clamped;   ///< by forces with the contact nodes clamped
+      VectorXd imposed;   ///< by given displacements, zero in rows with an equation
+   };
+   Adjoint go_back(std::size_t k, const VectorXd &displacements, const VectorXd &forces);
+   /// How a boundary comes nearer along the loads of the piece, by its Adjoint. Zero, to
+   /// round-off: it does not decide how far the path goes, the event is at the load before.
+   double approach(std::size_t k, const Adjoint &of) const;
+   /// Is the share of state k of its piece that of the state before?
+   bool goes_with_the_last(std::size_t k) const
+   {
+      return trace.states[k - 1].point == trace.states[k].point;
+   }
+   /// Do forces, or derivatives by displacements, have a part along the free motions?
+   bool pushes(const VectorXd &forces) const
+   {
+      const VectorXd along = free.transpose() * forces;
+      return along.size() > 0 &&
+             along.cwiseAbs().maxCoeff() > 1e-9 * forces.cwiseAbs().maxCoeff();
+   }
+   /// Adds what the losses over increment k make of their weights.
+   void spread_loss(std::size_t k, const VectorXd &weights, Gradient &gradient, MatrixXd &by_u,
+                    MatrixXd &by_F) const;
+
+   const ReducedProblem &problem;
+   const MarchTrace &trace;
+   const std::vector<StiffnessChange> stiffness;
+   const Index n, m; ///< nodes, slips
+   const MatrixXd &K;
+   MatrixXd F;    ///< forces of the patterns, one column each
+   VectorXd acts; ///< their sign in the conjugates, see conjugates()
+   std::vector<bool> held;
+   const bool frictionless;
+   std::string message;
+   // Of the states that were set last.
+   MatrixXd free; ///< motions that they leave to a body; equations are then of K_held
+   StateEquations *equations = nullptr;
+
+   StateEquations as_given;
+   std::unique_ptr<StateEquations> as_held;
+   MatrixXd K_held, held_motions;        ///< the stiffness with one against these motions
+   long factorisations = 0, updates = 0; ///< of equations that are gone
+};
+
+Sensitivity::System::System(const ReducedProblem &problem, const MarchTrace &trace,
+                            std::vector<StiffnessChange> changes)
+   : problem(problem), trace(trace), stiffness(std::move(changes)), n(problem.nodes()),
+     m(problem.slips()), K(problem.K), held(n, false),
+     frictionless(problem.friction.maxCoeff() == 0),
+     as_given(K, friction_bounds(problem.friction))
+{
+   const auto count = static_cast<Index>(problem.patterns.size());
+   require(problem.components() <= 1, "sensitivity: the problem has ", problem.components(),
+           " tangential components a node, at most 1 is supported");
+   require(!trace.states.empty(), "sensitivity: the trace has no state");
+   trace.history.validate(static_cast<int>(count));
+   for (const TracedState &traced : trace.states)
+   {
+      traced.state.validate(problem);
+      require(traced.point >= 0 && traced.point + 1 < trace.history.times.size(),
+              "sensitivity: a state after point ", traced.point, " of a history of ",
+              trace.history.times.size(), " points");
+   }
+   for (const StiffnessChange &change : stiffness)
+   {
+      require(change.K.rows() == K.rows() && change.K.cols() == K.cols(),
+              "sensitivity: a stiffness change of ", change.K.rows(), " × ", change.K.cols(),
+              " for a stiffness of ", K.rows(), " rows");
+      require(change.loads.cols() == 0 ||
+                 (change.loads.rows() == K.rows() && change.loads.cols() == count),
+              "sensitivity: a change of loads of ", change.loads.rows(), " × ",
+              change.loads.cols(), ", must be ", K.rows(), " × ", count);
+      require(change.H.rows() == 0 || (change.H.rows() == count && change.H.cols() == count),
+              "sensitivity: a change of H of ", change.H.rows(), " × ", change.H.cols(),
+              ", must be ", count, " × ", count);
+   }
+   F.resize(K.rows(), count);
+   acts.resize(count);
+   for (Index k = 0; k < count; ++k)
+   {
+      F.col(k) << problem.patterns[k].q, problem.patterns[k].p;
+      acts[k] = problem.patterns[k].control == Control::force ? -1 : 1;
+   }
+   for (Index row : problem.held) { held[row % n] = true; }
+}
+
+bool Sensitivity::System::set(std::size_t k)
+{
+   std::vector<NodeState> states = state(k).status;
+   free = free_motions(problem, states);
+   if (free.cols() > 0 && (held_motions.cols() != free.cols() || held_motions != free))
+   {
+      if (as_held)
+      {
+         factorisations += as_held->factorisations();
+         updates += as_held->updates();
+      }
+      // Forces that are balanced do not push them: any stiffness will do.
+      held_motions = free;
+      as_held.reset();
+      K_held = K + K.diagonal().mean() * free * free.transpose();
+      as_held = std::make_unique<StateEquations>(K_held, friction_bounds(problem.friction));
+   }
+   equations = free.cols() > 0 ? as_held.get() : &as_given;
+   std::vector<Index> open;
+   for (Index i = 0; i < n; ++i)
+   {
+      if (!held[i]) { continue; }
+      if (closed(states[i])) { states[i] = NodeState::stick; }
+      else { open.push_back(i); }
+   }
+   bool done = equations->set(states);
+   for (Index i : open) { done = done && equations->set(i, NodeState::separation, true); }
+   if (!done)
+   {
+      std::ostringstream text;
+      text << "the states at time " << state(k).time
+           << " leave a body free to move: what it does has no derivatives";
+      message = text.str();
+   }
+   return done;
+}
+
+Sensitivity::System::Boundary Sensitivity::System::boundary(std::size_t k) const
+{
+   const ContactState &now = state(k);
+   const Index i = trace.states[k].event;
+   Boundary at{VectorXd::Zero(K.rows()), VectorXd::Zero(K.rows())};
+   if (!closed(now.status[i]))
+   {
+      at.displacements[m + i] = 1;
+      at.gap = 1;
+   }
+   else if (slips(now.status[i]) || m == 0) { at.forces[m + i] = 1; }
+   else
+   {
+      at.forces[i] = now.q[i] < 0 ? 1 : -1;
+      at.forces[m + i] = problem.friction[i];
+      at.friction = now.p[i];
+   }
+   return at;
+}
+
+void Sensitivity::System::respond(std::size_t k, const VectorXd &db, const VectorXd &beside,
+                                  VectorXd &du, VectorXd &dF)
+{
+   VectorXd imposed = VectorXd::Zero(K.rows());
+   for (Index i = 0; i < n; ++i)
+   {
+      if (m > 0 && sticks(k, i)) { imposed[i] = du[i]; }
+      if (closed(state(k).status[i])) { imposed[m + i] = du[m + i]; }
+   }
+   VectorXd x, forces;
+   equations->solve(db + K * imposed + beside, x, forces);
+   du = imposed + x;
+   dF = free.cols() > 0 ? VectorXd(db + K * du) : VectorXd(forces - beside);
+}
+
+Sensitivity::System::Adjoint Sensitivity::System::go_back(std::size_t k,
+                                                          const VectorXd &displacements,
+                                                          const VectorXd &forces)
+{
+   Adjoint adjoint;
+   VectorXd z;
+   equations->solve_transposed(displacements + K * forces, adjoint.equations, z);
+   adjoint.equations *= -1;
+   adjoint.clamped = forces - z;
+   adjoint.imposed = displacements + K * adjoint.clamped;
+   for (Index i = 0; i < n; ++i)
+   {
+      if (m > 0 && !sticks(k, i)) { adjoint.imposed[i] = 0; }
+      if (!closed(state(k).status[i])) { adjoint.imposed[m + i] = 0; }
+   }
+   return adjoint;
+}
+
+double Sensitivity::System::approach(std::size_t k, const Adjoint &of) const
+{
+   const VectorXd along = F * piece(k);
+   const double rate = of.clamped.dot(along),
+                most = of.clamped.cwiseAbs().dot(along.cwiseAbs());
+   return std::abs(rate) > 1e-12 * most ? rate : 0.0;
+}
+
+VectorXd Sensitivity::System::loss_change(std::size_t k, const Parameters &change,
+                                          const TraceChange &so_far)
+{
+   VectorXd result = VectorXd::Zero(n);
+   const auto now = static_cast<Index>(k), before = now - 1;
+   for (Index i = 0; m > 0 && i < n; ++i)
+   {
+      const LossDerivative by = loss_derivative(problem, state(k - 1), state(k), i);
+      result[i] = by.q0[0] * so_far.forces(i, before) + by.q1[0] * so_far.forces(i, now) +
+                  by.p0 * so_far.forces(m + i, before) + by.p1 * so_far.forces(m + i, now) +
+                  by.slip[0] * (so_far.displacements(i, now) - so_far.displacements(i, before));
+      if (change.friction.size()) { result[i] += by.friction * change.friction[i]; }
+      for (Index s = 0; s < change.stiffness.size(); ++s)
+      {
+         result[i] += by.stiffness[0] * stiffness[s].K(i, i) * change.stiffness[s];
+      }
+   }
+   return result;
+}
+
+void Sensitivity::System::spread_loss(std::size_t k, const VectorXd &weights,
+                                      Gradient &gradient, MatrixXd &by_u, MatrixXd &by_F) const
+{
+   const auto now = static_cast<Index>(k), before = now - 1;
+   for (Index i = 0; i < weights.size(); ++i)
+   {
+      if (weights[i] == 0) { continue; }
+      const LossDerivative by = loss_derivative(problem, state(k - 1), state(k), i);
+      by_F(i, before) += weights[i] * by.q0[0];
+      by_F(i, now) += weights[i] * by.q1[0];
+      by_F(m + i, before) += weights[i] * by.p0;
+      by_F(m + i, now) += weights[i] * by.p1;
+      by_u(i, now) += weights[i] * by.slip[0];
+      by_u(i, before) -= weights[i] * by.slip[0];
+      gradient.by.friction[i] += weights[i] * by.friction;
+      for (std::size_t s = 0; s < stiffness.size(); ++s)
+      {
+         gradient.by.stiffness[static_cast<Index>(s)] +=
+            weights[i] * by.stiffness[0] * stiffness[s].K(i, i);
+      }
+   }
+}
+
+Sensitivity::Sensitivity(const ReducedProblem &problem, const MarchTrace &trace,
+                         std::vector<StiffnessChange> stiffness)
+   : system_(std::make_unique<System>(problem, trace, std::move(stiffness)))
+{
+}
+Sensitivity::~Sensitivity() = default;
+Sensitivity::Sensitivity(Sensitivity &&) noexcept = default;
+
+long Sensitivity::factorisations() const
+{
+   const System &s = *system_;
+   return s.factorisations + s.as_given.factorisations() +
+          (s.as_held ? s.as_held->factorisations() : 0);
+}
+long Sensitivity::updates() const
+{
+   const System &s = *system_;
+   return s.updates + s.as_given.updates() + (s.as_held ? s.as_held->updates() : 0);
+}
+
+TraceChange Sensitivity::along(const Parameters &change)
+{
+   System &s = *system_;
+   const Index n = s.n, m = s.m, count = s.F.cols(), points = s.trace.history.times.size(),
+               states = static_cast<Index>(s.trace.states.size());
+   const auto check = [](const char *what, const MatrixXd &x, Index rows, Index columns)
+   {
+      require(x.size() == 0 || (x.rows() == rows && x.cols() == columns),
+              "sensitivity: a change of ", what, " of ", x.rows(), " × ", x.cols(),
+              " entries, must be ", rows, " × ", columns);
+      require(x.allFinite(), "sensitivity: a change of ", what, " is not finite");
+   };
+   check("friction", change.friction, n, 1);
+   check("gap", change.gap, n, 1);
+   check("multipliers", change.multipliers, count, points);
+   check("stiffness", change.stiffness, static_cast<Index>(s.stiffness.size()), 1);
+   TraceChange result;
+   result.displacements = result.forces = MatrixXd::Zero(m + n, states);
+   result.multipliers = result.conjugates = MatrixXd::Zero(count, states);
+   result.loss = MatrixXd::Zero(n, states);
+   double share_change = 0;
+   for (Index k = 1; k < states; ++k)
+   {
+      const TracedState &traced = s.trace.states[k];
+      const ContactState &now = traced.state;
+      if (!s.set(k))
+      {
+         result.message = s.message;
+         return result;
+      }
+      VectorXd loads = VectorXd::Zero(count);
+      if (change.multipliers.size() > 0)
+      {
+         loads = (1 - traced.share) * change.multipliers.col(traced.point) +
+                 traced.share * change.multipliers.col(traced.point + 1);
+      }
+      const VectorXd u = now.displacements();
+      VectorXd clamped = s.F * loads, own = VectorXd::Zero(count);
+      for (Index j = 0; j < change.stiffness.size(); ++j)
+      {
+         const StiffnessChange &stiffness = s.stiffness[j];
+         clamped += change.stiffness[j] * (stiffness.K * u);
+         if (stiffness.H.rows() > 0)
+         {
+            own += change.stiffness[j] * (stiffness.H * now.multipliers);
+         }
+         if (stiffness.loads.cols() == 0) { continue; }
+         clamped += change.stiffness[j] * (stiffness.loads * now.multipliers);
+         own += change.stiffness[j] * s.acts.cwiseProduct(stiffness.loads.transpose() * u);
+      }
+      VectorXd beside = VectorXd::Zero(m + n);
+      for (Index i = 0; change.friction.size() > 0 && m > 0 && i < n; ++i)
+      {
+         if (!s.sticks(k, i))
+         {
+            beside[i] = sense(now.status[i]) * now.p[i] * change.friction[i];
+         }
+      }
+      if (s.frictionless && s.pushes(clamped + beside))
+      {
+         result.message = "a body that is free to slide without friction is pushed";
+         return result;
+      }
+      VectorXd du = result.displacements.col(k - 1), dF;
+      du.tail(n).setZero();
+      if (change.gap.size() > 0) { du.tail(n) = -change.gap; }
+      s.respond(k, clamped, beside, du, dF);
+      if (traced.event < 0) { share_change = 0; }
+      else
+      {
+         const System::Boundary at = s.boundary(k);
+         const double rate = s.approach(k, s.go_back(k, at.displacements, at.forces));
+         double off = at.displacements.dot(du) + at.forces.dot(dF);
+         if (change.gap.size() > 0) { off += at.gap * change.gap[traced.event]; }
+         if (change.friction.size() > 0) { off += at.friction * change.friction[traced.event]; }
+         if (rate != 0) { share_change = -off / rate; }
+         else if (!s.goes_with_the_last(k)) { share_change = 0; }
+         VectorXd du_rate = VectorXd::Zero(m + n), dF_rate;
+         s.respond(k, s.F * s.piece(k), VectorXd::Zero(m + n), du_rate, dF_rate);
+         du += share_change * du_rate;
+         dF += share_change * dF_rate;
+         loads += share_change * s.piece(k);
+      }
+      result.displacements.col(k) = du;
+      result.forces.col(k) = dF;
+      result.multipliers.col(k) = loads;
+      result.conjugates.col(k) = own + s.acts.cwiseProduct(s.F.transpose() * du);
+      if (s.problem.knows_loads()) { result.conjugates.col(k) += s.problem.H * loads; }
+      result.loss.col(k) = s.loss_change(k, change, result);
+   }
+   result.found = true;
+   return result;
+}
+
+Gradient Sensitivity::gradient(const Response &response)
+{
+   System &s = *system_;
+   const Index n = s.n, m = s.m, count = s.F.cols(),
+               states = static_cast<Index>(s.trace.states.size());
+   Gradient result;
+   Parameters &by = result.by;
+   by.friction = by.gap = VectorXd::Zero(n);
+   by.multipliers = MatrixXd::Zero(count, s.trace.history.times.size());
+   by.stiffness = VectorXd::Zero(static_cast<Index>(s.stiffness.size()));
+   MatrixXd by_u = MatrixXd::Zero(m + n, states), by_F = by_u,
+            by_loads = MatrixXd::Zero(count, states);
+   for (const auto &[k, weight] : response.weights)
+   {
+      const auto size = [&](const VectorXd &x, Index expected)
+      {
+         require(x.size() == 0 || x.size() == expected, "sensitivity: a response with ",
+                 x.size(), " weights of a state, must be ", expected);
+         return x.size() > 0;
+      };
+      const auto column = static_cast<Index>(k);
+      require(column < states, "sensitivity: a response of state ", k, " of a trace with ",
+              states, " states");
+      if (size(weight.displacements, m + n)) { by_u.col(column) += weight.displacements; }
+      if (size(weight.forces, m + n)) { by_F.col(column) += weight.forces; }
+      if (size(weight.multipliers, count)) { by_loads.col(column) += weight.multipliers; }
+      if (size(weight.loss, m > 0 ? n : 0) && k > 0)
+      {
+         s.spread_loss(k, weight.loss, result, by_u, by_F);
+      }
+      if (!size(weight.conjugates, count)) { continue; }
+      const VectorXd acting = s.acts.cwiseProduct(weight.conjugates);
+      by_u.col(column) += s.F * acting;
+      if (s.problem.knows_loads())
+      {
+         by_loads.col(column) += s.problem.H.transpose() * weight.conjugates;
+      }
+      for (Index j = 0; k > 0 && j < by.stiffness.size(); ++j)
+      {
+         const StiffnessChange &stiffness = s.stiffness[j];
+         const ContactState &now = s.state(k);
+         if (stiffness.H.rows() > 0)
+         {
+            by.stiffness[j] += weight.conjugates.dot(stiffness.H * now.multipliers);
+         }
+         if (stiffness.loads.cols() > 0)
+         {
+            by.stiffness[j] += acting.dot(stiffness.loads.transpose() * now.displacements());
+         }
+      }
+   }
+   double by_share = 0;
+   for (Index k = states - 1; k > 0; --k)
+   {
+      const TracedState &traced = s.trace.states[k];
+      const ContactState &now = traced.state;
+      if (by_share == 0 && by_u.col(k).isZero(0) && by_F.col(k).isZero(0) &&
+          by_loads.col(k).isZero(0))
+      {
+         continue;
+      }
+      if (!s.set(k))
+      {
+         result.message = s.message;
+         return result;
+      }
+      if (s.pushes(by_u.col(k)))
+      {
+         std::ostringstream message;
+         message << "it depends on where a body moves that is free to at time " << now.time;
+         result.message = message.str();
+         return result;
+      }
+      for (Index j = 0; s.frictionless && j < count; ++j)
+      {
+         if (s.pushes(s.F.col(j))) { by.multipliers.row(j).setConstant(std::nan("")); }
+      }
+      if (s.frictionless && s.free.cols() > 0) { by.friction.setConstant(std::nan("")); }
+      System::Adjoint at = s.go_back(k, by_u.col(k), by_F.col(k));
+      if (traced.event < 0) { by_share = 0; }
+      else
+      {
+         const System::Boundary boundary = s.boundary(k);
+         const System::Adjoint met = s.go_back(k, boundary.displacements, boundary.forces);
+         const double rate = s.approach(k, met);
+         by_share += (s.F.transpose() * at.clamped + by_loads.col(k)).dot(s.piece(k));
+         if (rate != 0)
+         {
+            const double moved = -by_share / rate;
+            at.equations += moved * met.equations;
+            at.clamped += moved * met.clamped;
+            at.imposed += moved * met.imposed;
+            by.gap[traced.event] += moved * boundary.gap;
+            by.friction[traced.event] += moved * boundary.friction;
+         }
+         if (rate != 0 || !s.goes_with_the_last(k)) { by_share = 0; }
+      }
+      const VectorXd by_load = s.F.transpose() * at.clamped + by_loads.col(k);
+      by.multipliers.col(traced.point) += (1 - traced.share) * by_load;
+      by.multipliers.col(traced.point + 1) += traced.share * by_load;
+      by.gap -= at.imposed.tail(n);
+      by_u.col(k - 1).head(m) += at.imposed.head(m);
+      for (Index i = 0; m > 0 && i < n; ++i)
+      {
+         if (!s.sticks(k, i))
+         {
+            by.friction[i] += sense(now.status[i]) * now.p[i] * at.equations[i];
+         }
+      }
+      for (Index j = 0; j < by.stiffness.size(); ++j)
+      {
+         const StiffnessChange &stiffness = s.stiffness[j];
+         by.stiffness[j] += at.clamped.dot(stiffness.K * now.displacements());
+         if (stiffness.loads.cols() > 0)
+         {
+            by.stiffness[j] += at.clamped.dot(stiffness.loads * now.multipliers);
+         }
+      }
+   }
+   result.found = true;
+   return result;
+}
+
+} // namespace cattaneo

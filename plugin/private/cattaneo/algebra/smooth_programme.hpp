@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+
+namespace cattaneo
+{
+
+/** The least f(y) under low ≤ y ≤ high and least ≤ c(y) ≤ most, all of order one. Bounds of
+   2e19 and more are none. */
+struct SmoothProgramme
+{
+   Eigen::VectorXd low, high, least, most;
+   /// f and c are.
+   bool linear = false;
+   /// False: they have no value there.
+   std::function<bool(const Eigen::VectorXd &y, double &f, Eigen::VectorXd &c)> values;
+   std::function<bool(const Eigen::VectorXd &y, Eigen::VectorXd &f, Eigen::MatrixXd &c)>
+      derivatives;
+   std::function<bool(int iteration)> goes_on; ///< asked in every iteration
+};
+
+enum class SmoothOutcome
+{
+   solved,
+   failed,
+   stopped,
+   unavailable ///< built without Ipopt
+};
+
+/// With ∇f + Σ λ ∇c + z = 0, multipliers of upper bounds positive.
+struct SmoothSolution
+{
+   SmoothOutcome outcome = SmoothOutcome::failed;
+   std::string message;
+   Eigen::VectorXd y, z, lambda;
+   int iterations = 0;
+};
+
+SmoothSolution solve(const SmoothProgramme &programme, const Eigen::VectorXd &start,
+                     double tolerance, int max_iterations);
+
+} // namespace cattaneo

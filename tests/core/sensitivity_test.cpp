@@ -1,0 +1,563 @@
+#include "expect_input_error.hpp"
+#include "random_problem.hpp"
+#include "small_problems.hpp"
+
+#include <cattaneo/design/sensitivity.hpp>
+#include <cattaneo/halfplane/half_plane.hpp>
+#include <cmath>
+#include <complex>
+
+using namespace cattaneo;
+using cattaneo_test::random_problem;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace
+{
+
+struct Case
+{
+   ReducedProblem problem;
+   LoadHistory history;
+   MarchSettings settings;
+};
+
+/// Pressed, sheared to and fro, with some nodes that open and close and slip that turns.
+Case random_case(int seed, Stepping stepping, int increments = 3)
+{
+   std::mt19937 random(seed);
+   Case result;
+   result.problem = random_problem(8, 0.3, 0.3, random);
+   for (double &f : result.problem.friction)
+   {
+      f *= 1 + 0.3 * std::cos(7 * f + random() % 100);
+   }
+   result.problem.gap.array() += 0.05; // nothing touches by itself
+   result.history = LoadHistory::through(result.problem, {{},
+                                                          {{"press", 1}},
+                                                          {{"press", 1.2}, {"shear", 0.6}},
+                                                          {{"press", 0.9}, {"shear", -0.7}},
+                                                          {{"press", 1.2}, {"shear", 0.5}}});
+   result.settings.stepping = stepping;
+   result.settings.increments = increments;
+   result.settings.single_increment_if_exact = false;
+   return result;
+}
+
+/// The problem with its parameters changed along a direction.
+Case changed(Case c, const Parameters &by, double h)
+{
+   if (by.friction.size()) { c.problem.friction += h * by.friction; }
+   if (by.gap.size()) { c.problem.gap += h * by.gap; }
+   if (by.multipliers.size()) { c.history.multipliers += h * by.multipliers; }
+   if (by.stiffness.size())
+   {
+      const double s = h * by.stiffness[0];
+      c.problem.K *= 1 + s;
+      c.problem.H *= 1 - s; // of forces, as all patterns of these cases
+   }
+   return c;
+}
+
+using Read = std::function<Response(const Responses &, const MarchTrace &)>;
+
+/// Derivative along a direction by central differences of the march as a whole.
+double by_differences(const Case &c, const Parameters &by, const Read &read, double h)
+{
+   const auto value = [&](double step)
+   {
+      const Case other = changed(c, by, step);
+      const MarchTrace trace = trace_march(other.problem, other.history, other.settings);
+      EXPECT_EQ(trace.report.status, FrictionStatus::converged) << trace.report.message;
+      return read(Responses(other.problem, trace), trace).value;
+   };
+   return (value(h) - value(-h)) / (2 * h);
+}
+
+/// Everything that a march returns, and products and quotients of it.
+const std::vector<std::pair<const char *, Read>> &all_responses()
+{
+   static const std::vector<std::pair<const char *, Read>> all = {
+      {"dissipation", [](const Responses &of, const MarchTrace &trace)
+       { return of.dissipation(0, trace.last()); }},
+      {"loss of a node", [](const Responses &of, const MarchTrace &trace)
+       { return of.dissipation(trace.at(1), trace.last(), 3); }},
+      {"slip",
+       [](const Responses &of, const MarchTrace &trace) { return of.slip(trace.last(), 2); }},
+      {"opening", [](const Responses &of, const MarchTrace &trace)
+       { return of.opening(trace.at(2), 5) + of.opening(trace.at(2), 1); }},
+      {"shear", [](const Responses &of, const MarchTrace &trace)
+       { return of.shear(trace.at(3), 1) - of.shear(trace.at(2), 4); }},
+      {"peak pressure", [](const Responses &of, const MarchTrace &trace)
+       { return of.peak_pressure(trace.at(2)); }},
+      {"resultants",
+       [](const Responses &of, const MarchTrace &trace)
+       {
+          return of.shear_resultant(trace.last()) *
+                 of.normal_resultant(trace.at(3), VectorXd::LinSpaced(8, -1, 2));
+       }},
+      {"multiplier", [](const Responses &of, const MarchTrace &trace)
+       { return of.multiplier(trace.at(3), "press") * of.slip(trace.at(3), 1); }},
+      {"stiffness", [](const Responses &of, const MarchTrace &trace)
+       { return of.secant_stiffness(trace.at(2), trace.at(3), "shear"); }},
+      {"loss factor",
+       [](const Responses &of, const MarchTrace &trace)
+       {
+          const Response force = of.multiplier(trace.at(2), "shear") -
+                                 of.multiplier(trace.at(3), "shear"),
+                         moved = of.conjugate(trace.at(2), "shear") -
+                                 of.conjugate(trace.at(3), "shear");
+          return of.dissipation(trace.at(2), trace.last()) / (force * moved);
+       }},
+   };
+   return all;
+}
+
+/// One of each kind of parameters, at random.
+std::vector<Parameters> directions(const Case &c, int seed)
+{
+   std::srand(seed);
+   std::vector<Parameters> all(4);
+   all[0].friction = VectorXd::Random(c.problem.nodes());
+   all[1].gap = VectorXd::Random(c.problem.nodes());
+   all[2].multipliers =
+      MatrixXd::Random(c.history.multipliers.rows(), c.history.multipliers.cols());
+   all[2].multipliers.col(0).setZero(); // where the virgin state stands
+   all[3].stiffness = VectorXd::Ones(1);
+   return all;
+}
+
+struct Differentiated
+{
+   Case c;
+   MarchTrace trace;
+   Sensitivity sensitivity;
+
+   explicit Differentiated(const Case &given)
+      : c(given), trace(trace_march(c.problem, c.history, c.settings)),
+        sensitivity(c.problem, trace, {stiffness_scale(c.problem)})
+   {
+      EXPECT_EQ(trace.report.status, FrictionStatus::converged) << trace.report.message;
+   }
+   Response response(const Read &read) const
+   {
+      return read(Responses(c.problem, trace), trace);
+   }
+};
+
+class EachStepping : public testing::TestWithParam<std::tuple<Stepping, int>>
+{
+};
+
+} // namespace
+
+// The only oracle here is the march itself, at parameters that differ a little.
+TEST_P(EachStepping, DerivativesAreThoseOfTheMarch)
+{
+   const auto [stepping, seed] = GetParam();
+   Differentiated at(random_case(seed, stepping));
+   ASSERT_TRUE(ties(at.c.problem, at.trace).empty());
+   for (const Parameters &direction : directions(at.c, seed))
+   {
+      const TraceChange change = at.sensitivity.along(direction);
+      ASSERT_TRUE(change.found) << change.message;
+      for (const auto &[name, read] : all_responses())
+      {
+         const Response response = at.response(read);
+         const Gradient gradient = at.sensitivity.gradient(response);
+         ASSERT_TRUE(gradient.found) << gradient.message;
+         const double forward = change.of(response), backward = gradient.by.dot(direction),
+                      expected = by_differences(at.c, direction, read, 1e-6),
+                      scale = std::max(std::abs(response.value), std::abs(expected));
+         EXPECT_NEAR(backward, expected, 3e-8 * scale) << name;
+         EXPECT_NEAR(forward, backward, 1e-12 * scale) << name;
+      }
+   }
+}
+
+// With loads and gaps displacements and forces are scaled, and energies twice.
+TEST_P(EachStepping, EulersIdentity)
+{
+   const auto [stepping, seed] = GetParam();
+   Differentiated at(random_case(seed, stepping));
+   Parameters scaled;
+   scaled.gap = at.c.problem.gap;
+   scaled.multipliers = at.c.history.multipliers;
+   const double degree[] = {2, 2, 1, 1, 1, 1, 2, 2, 0, 0};
+   std::size_t k = 0;
+   for (const auto &[name, read] : all_responses())
+   {
+      const Response response = at.response(read);
+      EXPECT_NEAR(at.sensitivity.gradient(response).by.dot(scaled),
+                  degree[k++] * response.value, 1e-10 * std::abs(response.value))
+         << name;
+   }
+}
+
+INSTANTIATE_TEST_SUITE_P(Sensitivity, EachStepping,
+                         testing::Combine(testing::Values(Stepping::fixed, Stepping::exact,
+                                                          Stepping::advancing),
+                                          testing::Values(1, 2, 3, 4, 5, 6)));
+
+namespace
+{
+
+using Complex = std::complex<long double>;
+using ComplexVector = Eigen::Matrix<Complex, Eigen::Dynamic, 1>;
+using ComplexMatrix = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic>;
+
+/// The march again in extended precision, its states being known, with a parameter that has an
+/// imaginary part: derivatives without a difference. Returns the slip at its end and the energy
+/// lost.
+std::pair<ComplexVector, Complex> complex_march(const Case &c, const MarchTrace &trace,
+                                                const Parameters &by)
+{
+   const Index n = c.problem.nodes();
+   const Complex h(0, 1e-30L);
+   const auto moved = [&](const auto &x, const auto &change)
+   {
+      ComplexMatrix result = x.template cast<Complex>();
+      if (change.size()) { result += h * change.template cast<Complex>(); }
+      return result;
+   };
+   const ComplexMatrix f = moved(c.problem.friction, by.friction),
+                       g = moved(c.problem.gap, by.gap),
+                       loads = moved(c.history.multipliers, by.multipliers);
+   ComplexMatrix K = c.problem.K.cast<Complex>();
+   if (by.stiffness.size()) { K *= Complex(1) + h * Complex(by.stiffness[0]); }
+   ComplexVector v = ComplexVector::Zero(n), p = v, q = v;
+   Complex lost = 0;
+   for (std::size_t k = 1; k < trace.states.size(); ++k)
+   {
+      const TracedState &at = trace.states[k];
+      const Complex share(at.share);
+      ComplexVector b = ComplexVector::Zero(2 * n);
+      for (Index j = 0; j < 2; ++j)
+      {
+         const Complex load =
+            loads(j, at.point) + share * (loads(j, at.point + 1) - loads(j, at.point));
+         b.head(n) += load * c.problem.patterns[j].q.cast<Complex>();
+         b.tail(n) += load * c.problem.patterns[j].p.cast<Complex>();
+      }
+      ComplexMatrix M = ComplexMatrix::Identity(2 * n, 2 * n);
+      ComplexVector rhs(2 * n);
+      for (Index i = 0; i < n; ++i)
+      {
+         const NodeState state = at.state.status[i];
+         const Complex slope = Complex(sense(state)) * f(i, 0);
+         if (state == NodeState::stick) { rhs[i] = v[i]; }
+         else
+         {
+            M.row(i) = K.row(i) + slope * K.row(n + i);
+            rhs[i] = -b[i] - slope * b[n + i];
+         }
+         if (closed(state)) { rhs[n + i] = -g(i, 0); }
+         else
+         {
+            M.row(n + i) = K.row(n + i);
+            rhs[n + i] = -b[n + i];
+         }
+      }
+      const ComplexVector u = M.partialPivLu().solve(rhs), F = b + K * u;
+      for (Index i = 0; i < n; ++i)
+      {
+         // What slips both before and after, and has turned, sticks first while forces change
+         // linearly; friction is exhausted at the root of |q0 + s (trial - q0)| = f (p0 + s dp)
+         // beyond the one at s = 0.
+         Complex step = u[i] - v[i];
+         if (step.real() == 0) { continue; }
+         Complex p_from = p[i];
+         const NodeState before = trace.states[k - 1].state.status[i], now = at.state.status[i];
+         if (slips(before) && slips(now) && before != now)
+         {
+            const Complex dq = F[i] - K(i, i) * step - q[i], dp = F[n + i] - p[i],
+                          to = Complex(
+                             -sense(before)); // q0 = to f p0, s dq = -to f (2 p0 + s dp)
+            p_from += dp * (-to * Complex(2) * f(i, 0) * p[i] / (dq + to * f(i, 0) * dp));
+         }
+         if (step.real() < 0) { step = -step; }
+         lost += Complex(0.5L) * f(i, 0) * (p_from + F[n + i]) * step;
+      }
+      v = u.head(n);
+      q = F.head(n);
+      p = F.tail(n);
+   }
+   return {v, lost};
+}
+
+} // namespace
+
+// By another formulation, in extended precision and without differences: to round-off.
+TEST(Sensitivity, AgreesWithComplexStepsInExtendedPrecision)
+{
+   bool turned = false;
+   for (int seed = 1; seed <= 10; ++seed)
+   {
+      Differentiated at(random_case(seed, Stepping::fixed, seed % 3 + 1));
+      const Responses of(at.c.problem, at.trace);
+      const std::size_t last = at.trace.last();
+      for (const Parameters &direction : directions(at.c, seed))
+      {
+         const auto [v, lost] = complex_march(at.c, at.trace, direction);
+         const Response dissipation = of.dissipation(0, last);
+         ASSERT_NEAR(static_cast<double>(lost.real()), dissipation.value,
+                     1e-11 * dissipation.value);
+         const double expected = static_cast<double>(lost.imag() / 1e-30L);
+         EXPECT_NEAR(at.sensitivity.gradient(dissipation).by.dot(direction), expected,
+                     1e-11 * std::max(std::abs(expected), dissipation.value));
+         for (Index i = 0; i < 8; ++i)
+         {
+            const double slipped = static_cast<double>(v[i].imag() / 1e-30L);
+            EXPECT_NEAR(at.sensitivity.gradient(of.slip(last, i)).by.dot(direction), slipped,
+                        1e-11 * std::max(1.0, std::abs(slipped)));
+         }
+      }
+      for (std::size_t k = 1; k <= last; ++k)
+      {
+         for (Index i = 0; i < 8; ++i)
+         {
+            turned = turned || sense(at.trace.states[k - 1].state.status[i]) *
+                                     sense(at.trace.states[k].state.status[i]) <
+                                  0;
+         }
+      }
+   }
+   EXPECT_TRUE(turned); // within an increment, by what was asked
+}
+
+// A block on a spring of stiffness 2 slips from Q = f P on, v = (f P - Q)/2, and loses
+// f P (Q - f P)/2.
+TEST(Sensitivity, BlockOnASpringInClosedForm)
+{
+   const double f = 0.3, P = 2, Q = 1;
+   const ReducedProblem problem = cattaneo_test::one_block(f);
+   const LoadHistory history =
+      LoadHistory::through(problem, {{}, {{"press", P}}, {{"press", P}, {"shear", Q}}});
+   MarchSettings settings;
+   settings.stepping = Stepping::exact;
+   const MarchTrace trace = trace_march(problem, history, settings);
+   Sensitivity sensitivity(problem, trace);
+   const Responses of(problem, trace);
+   const Gradient lost = sensitivity.gradient(of.dissipation(0, trace.last()));
+   ASSERT_TRUE(lost.found);
+   EXPECT_NEAR(lost.by.friction[0], P * (Q - 2 * f * P) / 2, 1e-14);
+   EXPECT_NEAR(lost.by.multipliers(0, 1) + lost.by.multipliers(0, 2), f * (Q - 2 * f * P) / 2,
+               1e-14);
+   EXPECT_NEAR(lost.by.multipliers(1, 2), f * P / 2, 1e-14);
+   const Gradient slip = sensitivity.gradient(of.slip(trace.last(), 0));
+   EXPECT_NEAR(slip.by.friction[0], P / 2, 1e-14);
+   EXPECT_NEAR(slip.by.multipliers(1, 2), -0.5, 1e-14);
+   EXPECT_NEAR(slip.by.gap[0], -1.5 * f, 1e-14); // p falls by 3 a unit of gap
+   // The load at which it slips is f P.
+   std::size_t event = 0;
+   while (event < trace.last() && trace.states[event].event < 0) { ++event; }
+   const Response load = of.multiplier(event, "shear");
+   EXPECT_NEAR(load.value, f * P, 1e-14);
+   EXPECT_NEAR(sensitivity.gradient(load).by.friction[0], P, 1e-13);
+}
+
+// Sheared just to where it slips, a block has two derivatives: zero if Q falls, -1/2 if it
+// rises. Both are had, and the tie has a name.
+TEST(Sensitivity, TiesAreNamedAndHaveTwoSides)
+{
+   const ReducedProblem problem = cattaneo_test::one_block(0.5);
+   const LoadHistory history =
+      LoadHistory::through(problem, {{}, {{"press", 1}}, {{"press", 1}, {"shear", 0.5}}});
+   MarchSettings settings;
+   settings.stepping = Stepping::fixed;
+   MarchTrace trace = trace_march(problem, history, settings);
+   const std::vector<Tie> tied = ties(problem, trace);
+   ASSERT_EQ(tied.size(), 1u);
+   EXPECT_EQ(tied[0].state, trace.last());
+   EXPECT_EQ(tied[0].node, 0);
+   const auto derivative = [&]
+   {
+      return Sensitivity(problem, trace)
+         .gradient(Responses(problem, trace).slip(trace.last(), 0))
+         .by.multipliers(1, 2);
+   };
+   const double one = derivative();
+   trace.states.back().state.status[0] = tied[0].other;
+   const double other = derivative();
+   EXPECT_NEAR(std::max(one, other), 0, 1e-14);
+   EXPECT_NEAR(std::min(one, other), -0.5, 1e-14);
+   EXPECT_TRUE(ties(cattaneo_test::one_block(0.6), trace).size() <= 1);
+}
+
+// Hertz: p0 = √(P E*/πR) and with it ∂p0/∂P = p0/2P and, R being that of the gap x²/2R,
+// ∂p0/∂(1/R) = p0 R/2. Cattaneo: the shear amid
+// the stick zone.
+TEST(Sensitivity, HertzAndCattaneo)
+{
+   HalfPlane pad, plane;
+   pad.material = plane.material = Material{8 / M_PI * 0.91, 0.3}; // a = P = R = 1
+   pad.depth = plane.depth = 1e4;
+   pad.normal = {0, 1};
+   pad.forces = {{"P", {0, -1}}, {"Q", {1, 0}}};
+   std::vector<double> grid;
+   for (int k = -30; k <= 30; ++k) { grid.push_back(k / 25.0); }
+   ReducedProblem problem = reduce(condense(pad, grid, 1), plane).problem;
+   problem.B().setZero(); // equal half-planes
+   join_coupling(problem);
+   const double f = 0.5, Q = 0.3;
+   set_friction(problem, f);
+   const VectorXd square = problem.position.col(0).cwiseAbs2();
+   problem.gap = 0.5 * square;
+   const LoadHistory history =
+      LoadHistory::through(problem, {{}, {{"P", 1}}, {{"P", 1}, {"Q", Q}}});
+   MarchSettings settings;
+   settings.increments_of_piece = {1, 4};
+   const MarchTrace trace = trace_march(problem, history, settings);
+   ASSERT_EQ(trace.report.status, FrictionStatus::converged) << trace.report.message;
+   const Responses of(problem, trace);
+   Sensitivity sensitivity(problem, trace);
+   const double p0 = 2 / M_PI;
+   const Response peak = of.peak_pressure(trace.at(1));
+   EXPECT_NEAR(peak.value, p0, 2e-3 * p0);
+   const Gradient by = sensitivity.gradient(peak);
+   ASSERT_TRUE(by.found) << by.message;
+   EXPECT_NEAR(by.by.multipliers(0, 1), p0 / 2, 0.02 * p0);
+   EXPECT_NEAR(by.by.gap.dot(0.5 * square), p0 / 2, 0.02 * p0);
+   // The pressure amid it is a sum of the loads; that it does not change with friction is
+   // exact.
+   EXPECT_EQ(by.by.friction.norm(), 0);
+   // q at the centre, with q' = f p0/a √(a² - x²) - f (p0/a) √(c² - x²), c² = 1 - Q/fP:
+   // f p0 (1 - c), by f: p0 (1 - c) - p0 Q/(2 f c).
+   // The two sides change their states together, one after the other.
+   Parameters flatter;
+   flatter.gap = 0.5 * square;
+   const Read lost = [](const Responses &read, const MarchTrace &march)
+   { return read.dissipation(0, march.last()); };
+   for (const Stepping stepping : {Stepping::fixed, Stepping::advancing, Stepping::exact})
+   {
+      Case all{problem, history, settings};
+      all.settings.stepping = stepping;
+      Differentiated at(all);
+      const Response energy = at.response(lost);
+      EXPECT_NEAR(at.sensitivity.gradient(energy).by.dot(flatter),
+                  by_differences(all, flatter, lost, 1e-5), 1e-6 * energy.value);
+   }
+   const double c = std::sqrt(1 - Q / f);
+   const Response shear = (-1 / problem.weights[30]) * of.shear(trace.last(), 30);
+   const double sign = shear.value > 0 ? 1 : -1;
+   EXPECT_NEAR(sign * shear.value, f * p0 * (1 - c), 0.01 * p0);
+   EXPECT_NEAR(sign * sensitivity.gradient(shear).by.friction.sum(),
+               p0 * (1 - c) - p0 * Q / (2 * f * c), 0.02 * p0);
+}
+
+// Without friction nothing is to be known of where a body slides to, but all of its pressures.
+TEST(Sensitivity, SlidingBodyWithoutFriction)
+{
+   std::mt19937 random(3);
+   ReducedProblem problem = random_problem(6, 0, 0, random);
+   const VectorXd along = VectorXd::Ones(6) / std::sqrt(6.0);
+   const MatrixXd keep = MatrixXd::Identity(6, 6) - along * along.transpose();
+   MatrixXd motion = MatrixXd::Zero(12, 1);
+   motion.topRows(6) = along;
+   problem.set_stiffness(keep * MatrixXd(problem.A()) * keep, MatrixXd::Zero(6, 6),
+                         MatrixXd(problem.C()), motion);
+   for (LoadPattern &pattern : problem.patterns) { pattern.q = (keep * pattern.q).eval(); }
+   problem.patterns[1].q += along;
+   Case c{problem, LoadHistory::through(problem, {{}, {{"press", 1}}}), {}};
+   Differentiated at(c);
+   const Responses of(at.c.problem, at.trace);
+   const Gradient pressed = at.sensitivity.gradient(of.normal_force(at.trace.last(), 2));
+   ASSERT_TRUE(pressed.found) << pressed.message;
+   for (const Parameters &direction : directions(at.c, 1))
+   {
+      if (direction.friction.size() || direction.multipliers.size()) { continue; }
+      const double expected = by_differences(
+         at.c, direction,
+         [](const Responses &read, const MarchTrace &trace)
+         { return read.normal_force(trace.last(), 2); },
+         1e-6);
+      Parameters without = pressed.by;
+      without.friction.resize(0);
+      without.multipliers.resize(0, 0);
+      EXPECT_NEAR(without.dot(direction), expected, 1e-7);
+   }
+   EXPECT_TRUE(std::isnan(pressed.by.friction[0]));
+   EXPECT_TRUE(std::isnan(pressed.by.multipliers(1, 1)));
+   EXPECT_NEAR(pressed.by.multipliers(0, 1),
+               by_differences(
+                  at.c,
+                  [&]
+                  {
+                     Parameters more;
+                     more.multipliers = MatrixXd::Zero(2, 2);
+                     more.multipliers(0, 1) = 1;
+                     return more;
+                  }(),
+                  [](const Responses &read, const MarchTrace &trace)
+                  { return read.normal_force(trace.last(), 2); },
+                  1e-6),
+               1e-7);
+   EXPECT_FALSE(at.sensitivity.gradient(of.slip(at.trace.last(), 2)).found);
+   EXPECT_TRUE(
+      at.sensitivity.gradient(of.slip(at.trace.last(), 2) - of.slip(at.trace.last(), 3)).found);
+}
+
+// A body that touches at one node may turn about it: what that does not matter to is known all
+// the same, and of the rest it is said.
+TEST(Sensitivity, BodyThatTouchesAtOneNode)
+{
+   std::mt19937 random(5);
+   ReducedProblem problem = random_problem(3, 0.3, 0, random);
+   const Eigen::Vector3d turn = Eigen::Vector3d(-1, 0, 1) / std::sqrt(2.0);
+   const Eigen::Matrix3d keep = Eigen::Matrix3d::Identity() - turn * turn.transpose();
+   MatrixXd motion = MatrixXd::Zero(6, 1);
+   motion.bottomRows(3) = turn;
+   problem.set_stiffness(MatrixXd(problem.A()), MatrixXd::Zero(3, 3),
+                         keep * MatrixXd(problem.C()) * keep, motion);
+   problem.gap = Eigen::Vector3d(9, 0, 9);
+   for (LoadPattern &pattern : problem.patterns)
+   {
+      pattern.p =
+         pattern.name == "press" ? Eigen::Vector3d(0.2, 1, 0.2) : Eigen::Vector3d(0, 0, 0);
+   }
+   const Case c{problem, LoadHistory::through(problem, {{}, {{"press", 1}}}), {}};
+   MarchTrace trace = trace_march(problem, c.history, c.settings);
+   // It may lean on another node without a force; here it stands upright.
+   const std::size_t last = trace.last();
+   ContactState &state = trace.states[last].state;
+   state.w[0] = state.w[2] = 0.5 * (state.w[0] + state.w[2]);
+   state.status = {NodeState::separation, state.status[1], NodeState::separation};
+   Sensitivity sensitivity(problem, trace);
+   const Responses of(problem, trace);
+   const Read force = [](const Responses &read, const MarchTrace &march)
+   { return read.normal_force(march.last(), 1) + read.slip(march.last(), 0); };
+   const Gradient pressed = sensitivity.gradient(force(of, trace));
+   ASSERT_TRUE(pressed.found) << pressed.message;
+   for (const Parameters &direction : directions(c, 2))
+   {
+      if (direction.stiffness.size()) { continue; }
+      EXPECT_NEAR(pressed.by.dot(direction), by_differences(c, direction, force, 1e-6), 1e-7);
+   }
+   const Gradient outside = sensitivity.gradient(of.opening(last, 0));
+   EXPECT_FALSE(outside.found);
+   EXPECT_NE(outside.message.find("free"), std::string::npos) << outside.message;
+   EXPECT_TRUE(sensitivity.gradient(of.opening(last, 0) + of.opening(last, 2)).found);
+}
+
+TEST(Sensitivity, RefusesWhatDoesNotFit)
+{
+   const Case c = random_case(1, Stepping::fixed);
+   const MarchTrace trace = trace_march(c.problem, c.history, c.settings);
+   const Responses of(c.problem, trace);
+   expect_input_error([&] { of.slip(trace.last() + 1, 0); }, "state");
+   expect_input_error([&] { of.slip(0, 8); }, "node 8");
+   expect_input_error([&] { of.slip(0, 0, 1); }, "component 1");
+   expect_input_error([&] { of.multiplier(0, "pull"); }, "pull");
+   expect_input_error([&] { of.slip(0, 0) / (0.0 * of.slip(0, 0)); }, "divided");
+   expect_input_error([&] { trace.at(99); }, "99");
+   Sensitivity sensitivity(c.problem, trace);
+   Parameters change;
+   change.gap = VectorXd::Zero(3);
+   expect_input_error([&] { sensitivity.along(change); }, "gap");
+   expect_input_error(
+      [&] {
+         Sensitivity(c.problem, trace, {{MatrixXd::Zero(2, 2), {}, {}}});
+      },
+      "stiffness change");
+}
