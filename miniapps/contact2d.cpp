@@ -1,6 +1,6 @@
 //  contact2d: frictional contact of your own meshes: any number of bodies and interfaces
 //
-//  Reads meshes (MFEM or Gmsh), condenses each to the nodes of its interfaces
+//  Reads meshes (MFEM, Gmsh, ABAQUS or CalculiX), condenses each to the nodes of its interfaces
 //  and marches a load history with Coulomb friction. A JSON case file names bodies, interfaces,
 //  bolts and loads; two bodies, or one on a line or half-plane, can be said by options as well:
 //  docs/contact2d.md describes both. Units are the user's: forces are per unit thickness.
@@ -64,7 +64,7 @@ struct Options
 
    explicit Options(miniapp::Study &study)
    {
-      add_options(study, bodies[0], "1", "Mesh of body 1 (MFEM or Gmsh).");
+      add_options(study, bodies[0], "1", "Mesh of body 1 (MFEM, Gmsh, or .inp).");
       add_options(study, bodies[1], "2",
                   "Mesh of body 2; without it body 1 is on a rigid line or a half-plane.");
       add_options(study, half_plane);
@@ -186,8 +186,8 @@ struct Options
       miniapp::JointCase::Face face;
       face.name = "contact";
       face.source = {"option ", ""};
-      face.friction = {{{0, friction}}};
-      if (gap == "closed") { face.gap = miniapp::JointCase::Profile{{{0, 0}}}; }
+      face.friction = {{{0, friction}}, {}};
+      if (gap == "closed") { face.gap = miniapp::JointCase::Profile{{{0, 0}}, {}}; }
       for (int k = 0; k < (alone() ? 1 : 2); ++k)
       {
          const miniapp::BodyOptions &body = bodies[k];
@@ -260,6 +260,7 @@ void contact2d(miniapp::Study &study)
       if (face.bodies[1] < 0 && !face.tied) { beyond_corners.emplace_back(face); }
    }
    miniapp::JointReport joint_report(study, joint, own.scene.reduction);
+   SmallDisplacements small(own.scene.reduction, even_sides(joint));
    std::optional<ReductionFields> fields;
    if (!options.paraview.empty())
    {
@@ -280,7 +281,8 @@ void contact2d(miniapp::Study &study)
                  {
                     snapshots.note(reached);
                     for (auto &side : beyond_corners) { side.note(reached); }
-                    joint_report.note(reached);
+                    joint_report.note(reached, history.cycle);
+                    small.note(reached);
                     if (!fields || !frame) { return; }
                     study.counters -= spent; // what the frame costs is added
                     fields->write(reached);
@@ -290,6 +292,7 @@ void contact2d(miniapp::Study &study)
    study.save(problem);
    if (fields) { study.say(text("%d frames in %s", frames, options.paraview.c_str())); }
    for (const auto &side : beyond_corners) { side.warn(); }
+   warn_of_large_displacements(own, small, history.state);
 
    history.report_state(problem, joint_report.of_state(history.state));
    joint_report.report(history.state, history.report);

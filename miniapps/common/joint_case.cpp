@@ -1,8 +1,9 @@
 #include "common/joint_case.hpp"
 
+#include <algorithm>
 #include <cattaneo/input_error.hpp>
+#include <cctype>
 #include <cmath>
-#include <set>
 
 namespace miniapp
 {
@@ -105,12 +106,17 @@ public:
    JointCase::Profile profile(const Check &check) const
    {
       JointCase::Profile made;
-      if (value_.is_number()) { made.points = {{0, number(check)}}; }
+      if (value_.is_string())
+      {
+         made.function.emplace(called(), text(), std::vector<std::string>{"s"});
+      }
+      else if (value_.is_number()) { made.points = {{0, number(check)}}; }
       else
       {
          if (!value_.is_array() || value_.size() < 2)
          {
-            refuse("a number, or a table [[arc length, value], …] of two points or more");
+            refuse("a number, a function of the arc length s, or a table [[arc length, value], "
+                   "…] of two points or more");
          }
          for (const Key &point : list())
          {
@@ -266,12 +272,19 @@ JointCase::Side side(const Key &key, const JointCase &joint)
    return made;
 }
 
-/// {"line": [[x, y], [x, y], …]} or {"circle": {"centre": [x, y], "radius": r}}.
+/// {"line": [[x, y], [x, y], …]}, {"curve": "0.01*x^2"} or {"circle": {"centre": [x, y],
+/// "radius": r}}.
 void add_obstacle(JointCase::Face &face, const Key &key)
 {
-   key.must_be_of({"line", "circle"});
-   require(key.has("line") != key.has("circle"), key.called(),
-           " must have one of the keys line and circle");
+   key.must_be_of({"line", "circle", "curve"});
+   require(key.value().size() == 1, key.called(),
+           " must have one of the keys line, circle and curve");
+   if (key.has("curve"))
+   {
+      face.curve.emplace(key["curve"].called(), key["curve"].text(),
+                         std::vector<std::string>{"x"});
+      return;
+   }
    if (key.has("circle"))
    {
       const Key circle = key["circle"];
@@ -290,11 +303,36 @@ void add_obstacle(JointCase::Face &face, const Key &key)
    }
 }
 
+/// {"D": {"y": -1}, "turn": {"angle": 1, "centre": [0, 5]}}
+std::vector<JointCase::Motion> motions(const Key &key)
+{
+   if (!key.value().is_object()) { key.refuse("an object"); }
+   std::vector<JointCase::Motion> all;
+   for (const auto &item : key.value().items())
+   {
+      const Key one = key[item.key()];
+      check_name(one, item.key());
+      one.must_be_of({"x", "y", "angle", "centre"});
+      JointCase::Motion made;
+      made.load = item.key();
+      if (one.has("x")) { made.along[0] = one["x"].number(); }
+      if (one.has("y")) { made.along[1] = one["y"].number(); }
+      if (one.has("angle")) { made.angle = one["angle"].number(); }
+      if (one.has("centre"))
+      {
+         const std::array<double, 2> centre = one["centre"].pair();
+         made.centre = {centre[0], centre[1]};
+      }
+      all.push_back(made);
+   }
+   return all;
+}
+
 JointCase::Face face(const Key &key, const std::string &name, const JointCase &joint)
 {
    check_name(key, name);
-   key.must_be_of(
-      {"between", "friction", "gap", "slave", "tied", "overlap", "pairing", "obstacle"});
+   key.must_be_of({"between", "friction", "gap", "slave", "tied", "overlap", "pairing",
+                   "obstacle", "motion"});
    JointCase::Face made;
    made.name = name;
    made.source = source(key);
@@ -312,7 +350,13 @@ JointCase::Face face(const Key &key, const std::string &name, const JointCase &j
               ": an obstacle is for one side alone, and goes without the key gap");
       add_obstacle(made, key["obstacle"]);
    }
-   for (const char *other : {"friction", "gap", "overlap", "pairing", "obstacle"})
+   if (key.has("motion"))
+   {
+      require(sides.size() == 1, key.called(),
+              ": a motion is that of the rigid obstacle of one side alone");
+      made.motions = motions(key["motion"]);
+   }
+   for (const char *other : {"friction", "gap", "overlap", "pairing", "obstacle", "motion"})
    {
       require(!made.tied || !key.has(other), key.called(), " is tied, it goes without the key ",
               other);
@@ -321,11 +365,13 @@ JointCase::Face face(const Key &key, const std::string &name, const JointCase &j
    if (key.has("gap"))
    {
       const Key gap = key["gap"];
-      if (!gap.value().is_string()) { made.gap = gap.profile(any); }
-      else if (gap.choice({"geometry", "closed"}) == "closed")
+      const std::string word = gap.value().is_string() ? gap.text() : "";
+      if (word == "closed") { made.gap = JointCase::Profile{{{0, 0}}, {}}; }
+      else if (word.size() > 1 && std::all_of(word.begin(), word.end(), isalpha))
       {
-         made.gap = JointCase::Profile{{{0, 0}}};
+         gap.choice({"geometry", "closed"});
       }
+      else { made.gap = gap.profile(any); }
    }
    if (key.has("slave"))
    {
@@ -384,6 +430,7 @@ void each(const std::string &text, const std::string &name, Add add)
 
 ordered_json to_json(const JointCase::Profile &profile)
 {
+   if (profile.function) { return profile.function->text(); }
    if (profile.points.size() == 1) { return profile.points[0][1]; }
    return profile.points;
 }
@@ -397,6 +444,7 @@ ordered_json one_or_list(const std::vector<double> &values)
 
 double JointCase::Profile::at(double s) const
 {
+   if (function) { return (*function)({s}); }
    const auto after = std::find_if(points.begin(), points.end(),
                                    [&](const auto &point) { return point[0] >= s; });
    if (after == points.begin()) { return after->at(1); }
@@ -428,7 +476,6 @@ JointCase joint_case(const JointKeys &keys, int order)
    each(keys.bodies, "bodies",
         [&](const Key &key, const std::string &name)
         { joint.bodies.push_back(body(key, name)); });
-   std::set<std::string> names;
    each(keys.interfaces, "interfaces",
         [&](const Key &key, const std::string &name)
         { joint.faces.push_back(face(key, name, joint)); });
@@ -502,6 +549,14 @@ ordered_json to_json(const JointCase &joint)
       {
          made["obstacle"]["circle"] = {{"centre", {face.centre[0], face.centre[1]}},
                                        {"radius", face.radius}};
+      }
+      if (face.curve) { made["obstacle"]["curve"] = face.curve->text(); }
+      for (const JointCase::Motion &motion : face.motions)
+      {
+         made["motion"][motion.load] = {{"x", motion.along[0]},
+                                        {"y", motion.along[1]},
+                                        {"angle", motion.angle},
+                                        {"centre", {motion.centre[0], motion.centre[1]}}};
       }
    }
    for (const JointCase::Bolt &bolt : joint.bolts)

@@ -3,6 +3,7 @@
 #include "common/study.hpp"
 
 #include <cattaneo/elastic/guide.hpp>
+#include <cattaneo/expression.hpp>
 #include <cattaneo/reduced/interfaces.hpp>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -42,10 +43,12 @@ struct JointCase
       double depth = none; ///< of a half-plane
       bool half_plane = false;
    };
-   /// A number, or a table over the arc length with straight lines between its points.
+   /// A number, a table over the arc length with straight lines between its points, or a
+   /// function of it.
    struct Profile
    {
-      std::vector<std::array<double, 2>> points; ///< one: a number, whatever its arc length
+      std::vector<std::array<double, 2>> points;    ///< one: a number, whatever its arc length
+      std::optional<cattaneo::Expression> function; ///< in place of points
       double at(double arc_length) const;
    };
    struct Side
@@ -54,21 +57,30 @@ struct JointCase
       std::string part;
       std::string called; ///< in an error
    };
+   /// Of a rigid obstacle, per unit multiplier of a load: a translation and a turn.
+   struct Motion
+   {
+      std::string load;
+      Eigen::Vector2d along{0, 0}, centre{0, 0};
+      double angle = 0;
+   };
    struct Face
    {
       std::string name;
       Source source;
       std::array<Side, 2> sides;
-      Profile friction{{{0, 0}}};
+      Profile friction{{{0, 0}}, {}};
       std::optional<Profile> gap; ///< not given: the geometry's
       cattaneo::SlaveSide slave = cattaneo::SlaveSide::coarser;
       double most_overlap = cattaneo::Interface().most_overlap;
       bool tied = false;
-      /// Of a rigid obstacle: a polyline, or a disc (a hole: negative radius); none: the line
-      /// that touches the side.
+      /// Of a rigid obstacle: a polyline, a disc (a hole: negative radius) or a curve y(x);
+      /// none: the line that touches the side.
       std::vector<Eigen::Vector2d> obstacle;
       Eigen::Vector2d centre{0, 0};
       double radius = none;
+      std::optional<cattaneo::Expression> curve;
+      std::vector<Motion> motions;
       /// Nodes are paired one to one if none is farther off along the contact than this, in
       /// distances of nodes.
       double pairing = none;

@@ -1,6 +1,6 @@
 #include "common/joint_report.hpp"
 
-#include <cattaneo/friction/loop.hpp>
+#include <cattaneo/readout/zones.hpp>
 #include <cattaneo/whole_file.hpp>
 #include <cmath>
 #include <filesystem>
@@ -16,6 +16,9 @@ using nlohmann::ordered_json;
 
 namespace
 {
+
+/// States of a march that a picture shows, at least the last ones.
+constexpr std::ptrdiff_t most_drawn = 4096;
 
 /// Without what is round-off of values of this size.
 double settled(double x, double size)
@@ -96,7 +99,7 @@ std::vector<double> JointReport::shanks(const ContactState &state) const
    return forces;
 }
 
-void JointReport::note(const ContactState &state)
+void JointReport::note(const ContactState &state, int cycle)
 {
    const std::vector<double> now = shanks(state);
    for (std::size_t k = 0; k < now.size(); ++k)
@@ -108,9 +111,27 @@ void JointReport::note(const ContactState &state)
    {
       const InterfaceReport &face = reduction_.interfaces[k];
       if (face.tied) { continue; }
-      const auto slip = state.v.segment(face.first, face.nodes);
-      courses_[k].slip.push_back(slip.dot(face.weights) / face.weights.sum());
-      courses_[k].shear.push_back(-state.q.segment(face.first, face.nodes).sum());
+      Course &course = courses_[k];
+      const double slip =
+         state.v.segment(face.first, face.nodes).dot(face.weights) / face.weights.sum();
+      const double shear = -state.q.segment(face.first, face.nodes).sum();
+      if (cycle > 0)
+      {
+         const bool first = course.slip.empty(); // of a march that is taken up in a cycle
+         course.loops
+            .emplace(cycle, Loop(Control::force, first ? shear : course.shear.back(),
+                                 first ? slip : course.slip.back()))
+            .first->second.add(shear, slip);
+      }
+      if (course.slip.size() == 2 * most_drawn)
+      {
+         for (std::vector<double> *all : {&course.slip, &course.shear})
+         {
+            all->erase(all->begin(), all->begin() + most_drawn);
+         }
+      }
+      course.slip.push_back(slip);
+      course.shear.push_back(shear);
    }
 }
 
@@ -133,6 +154,7 @@ void JointReport::report(const ContactState &state, const MarchReport &march)
 {
    if (joint_.numbered) { return; }
    report_interfaces(state, march);
+   report_cycles(march);
    if (!joint_.bolts.empty()) { report_bolts(state); }
    draw_loops();
 }
@@ -150,10 +172,14 @@ void JointReport::report_interfaces(const ContactState &state, const MarchReport
                                               {"about_x", plane ? "about x" : "", "%.5g"},
                                               {"about_y", plane ? "y" : "", "%.5g"},
                                               {"dissipation", "lost a cycle", "%.4e"},
+                                              {"stick", "stick", "%.4g"},
+                                              {"slip", "slip", "%.4g"},
+                                              {"separation", "open (length)", "%.4g"},
                                               {"tied"},
                                               {"nodes"},
                                               {"free_surface"},
                                               {"arm"}});
+   const std::vector<Zone> all_zones = zones(reduction_.problem, state);
    const CycleRecord *cycle = march.cycles.empty() ? nullptr : &march.cycles.back();
    for (const InterfaceReport &face : reduction_.interfaces)
    {
@@ -162,10 +188,47 @@ void JointReport::report_interfaces(const ContactState &state, const MarchReport
       const bool known = cycle && cycle->whole && !face.tied;
       const double lost =
          known ? cycle->node_dissipation.segment(face.first, face.nodes).sum() : none;
-      study_.row(table, {face.name, body(face.bodies[face.of_second]), sum.normal,
-                         sum.tangential, plane ? sum.force[0] : none, sum.force[1],
-                         plane ? sum.moment : none, about[0], about[1], lost, face.tied,
-                         face.nodes, face.free_surface.size(), face.arm});
+      std::array<double, 3> lengths = {0, 0, 0}; // of stick, slip and separation
+      for (const Zone &zone : all_zones)
+      {
+         if (reduction_.problem.chains[zone.chain].interface != face.name) { continue; }
+         lengths[zone.state == NodeState::stick        ? 0
+                 : zone.state == NodeState::separation ? 2
+                                                       : 1] +=
+            zone.to.position - zone.from.position;
+      }
+      if (face.tied) { lengths.fill(none); }
+      study_.row(table,
+                 {face.name, body(face.bodies[face.of_second]), sum.normal, sum.tangential,
+                  plane ? sum.force[0] : none, sum.force[1], plane ? sum.moment : none,
+                  about[0], about[1], lost, lengths[0], lengths[1], lengths[2], face.tied,
+                  face.nodes, face.free_surface.size(), face.arm});
+   }
+}
+
+void JointReport::report_cycles(const MarchReport &march)
+{
+   Table &table = study_.table("interface_cycles", {{"cycle", "cycle"},
+                                                    {"interface", "interface"},
+                                                    {"dissipation", "dissipation", "%.4e"},
+                                                    {"work", "area of -T", "%.4e"},
+                                                    {"shear_range", "range of T", "%.4e"},
+                                                    {"slip_range", "of mean slip", "%.4e"},
+                                                    {"stiffness", "secant", "%.4e"},
+                                                    {"loss_factor", "loss factor", "%.4f"}});
+   for (const CycleRecord &cycle : march.cycles)
+   {
+      for (std::size_t k = 0; k < courses_.size() && cycle.whole; ++k)
+      {
+         const InterfaceReport &face = reduction_.interfaces[k];
+         const auto loop = courses_[k].loops.find(cycle.cycle);
+         if (face.tied || loop == courses_[k].loops.end()) { continue; }
+         const Loop &its = loop->second;
+         study_.row(table, {cycle.cycle, face.name,
+                            cycle.node_dissipation.segment(face.first, face.nodes).sum(),
+                            its.work(), its.force_range(), its.displacement_range(),
+                            its.stiffness(), its.loss_factor()});
+      }
    }
 }
 

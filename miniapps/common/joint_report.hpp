@@ -3,7 +3,9 @@
 #include "common/joint_case.hpp"
 #include "common/study.hpp"
 
+#include <cattaneo/friction/loop.hpp>
 #include <cattaneo/friction/march.hpp>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -16,8 +18,8 @@ class JointReport
 public:
    /// All must outlive it.
    JointReport(Study &study, const JointCase &joint, const cattaneo::Reduction &reduction);
-   /// A state that the march has reached.
-   void note(const cattaneo::ContactState &state);
+   /// A state that the march has reached, in this cycle (0: in none).
+   void note(const cattaneo::ContactState &state, int cycle);
    /// Forces of the contact on the first body, of a case with one interface; also in the
    /// results.
    std::string of_state(const cattaneo::ContactState &state);
@@ -40,15 +42,19 @@ private:
    std::vector<double> shanks(const cattaneo::ContactState &state) const;
    void report_interfaces(const cattaneo::ContactState &state,
                           const cattaneo::MarchReport &march);
+   void report_cycles(const cattaneo::MarchReport &march);
    void report_bolts(const cattaneo::ContactState &state);
    void draw_loops();
 
    Study &study_;
    const JointCase &joint_;
    const cattaneo::Reduction &reduction_;
+   /// Of an interface: mean slip and the sum of its shear, as that resists the slip.
    struct Course
    {
-      std::vector<double> slip, shear; ///< of an interface, mean and sum
+      std::vector<double> slip, shear; ///< as far as a picture can show
+      /// Of each cycle the last point before it begins it.
+      std::map<int, cattaneo::Loop> loops;
    };
    std::vector<Course> courses_;
    std::vector<std::array<double, 2>> range_; ///< of each bolt's force

@@ -1,6 +1,7 @@
 #include "common/own_bodies.hpp"
 
 #include <algorithm>
+#include <cattaneo/elastic/rotation.hpp>
 #include <cattaneo/elastic/statements.hpp>
 #include <cattaneo/exchange/nodal_statements.hpp>
 #include <cattaneo/exchange/read_stiffness.hpp>
@@ -170,6 +171,13 @@ public:
       return nodal_ ? nodal_->contact_line(nodal_->nodes_of(side.part))
                     : contact_line(*elastic_, boundary_part(side.called, side.part, terms_));
    }
+   bool has_load(const std::string &load) const
+   {
+      const auto named = [&](const BodyLoad &one) { return one.name == load; };
+      const auto has = [&](const std::vector<BodyLoad> &loads)
+      { return std::any_of(loads.begin(), loads.end(), named); };
+      return (nodal_ && has(nodal_->loads)) || (elastic_ && has(elastic_->patterns()));
+   }
    /// An end of a shank: forces that add up to F, spread evenly.
    void pull(const std::string &load, const JointCase::Side &end, const Eigen::Vector2d &F)
    {
@@ -219,7 +227,15 @@ private:
             {
                if (!warning.empty()) { warn(warning); }
             }
-            terms_ = {group_names(body_.mesh).boundary, body_.expansion};
+            const MeshNames names = mesh_names(body_.mesh);
+            require(!names.axisymmetric || joint_.formulation == Formulation::axisymmetric,
+                    "its elements are axisymmetric (CAX), key 'analysis' must be axisymmetric");
+            if (!names.passed_over.empty())
+            {
+               warn("mesh '" + body_.mesh + "': its " + names.passed_over +
+                    " are passed over, supports and loads are those of the case");
+            }
+            terms_ = {names.boundary, names.numbered, body_.expansion};
             const int attributes = mesh.attributes.Size() ? mesh.attributes.Max() : 1;
             own.materials.push_back(materials(body_, attributes, joint_.plane_stress));
             elastic_ = &own.scene.add(std::move(mesh), joint_.order, own.materials.back(),
@@ -312,7 +328,29 @@ Reduction paired(std::vector<CondensedBody> bodies, const JointCase::Face &face,
 
 bool has_shape(const JointCase::Face &face)
 {
-   return !face.obstacle.empty() || !std::isnan(face.radius);
+   return !face.obstacle.empty() || !std::isnan(face.radius) || face.curve;
+}
+
+/// Loads that move rigid obstacles, of several interfaces if they have one name.
+void move_obstacles(Reduction &reduction, const JointCase &joint)
+{
+   std::map<std::string, std::vector<ObstacleMotion>> loads;
+   for (std::size_t k = 0; k < joint.faces.size(); ++k)
+   {
+      for (const JointCase::Motion &one : joint.faces[k].motions)
+      {
+         require(joint.formulation == Formulation::plane ||
+                    (one.along[0] == 0 && one.angle == 0),
+                 joint.faces[k].source.called("motion"),
+                 ": about an axis an obstacle moves along y alone");
+         loads[one.load].push_back(
+            {k,
+             [one](double, double y) { return one.along[0] - one.angle * (y - one.centre[1]); },
+             [one](double x, double)
+             { return one.along[1] + one.angle * (x - one.centre[0]); }});
+      }
+   }
+   for (const auto &[load, motions] : loads) { reduction.add_obstacle_motion(load, motions); }
 }
 
 /// What the case says of the interfaces' friction and gaps, and of shanks.
@@ -327,19 +365,24 @@ void complete(Reduction &reduction, const JointCase &joint)
       for (Eigen::Index i = report.first; i < report.first + report.nodes && !face.tied; ++i)
       {
          problem.friction[i] = face.friction.at(problem.arc_length[i]);
+         require(problem.friction[i] >= 0, face.source.called("friction"), " is ",
+                 problem.friction[i], " at arc length ", problem.arc_length[i],
+                 ", must not be negative");
          if (face.gap) { problem.gap[i] = face.gap->at(problem.arc_length[i]); }
       }
       if (has_shape(face))
       {
          problem.gap.segment(report.first, report.nodes) =
-            face.obstacle.empty() ? gaps_to_circle(report, face.centre, face.radius)
-                                  : gaps_to_polyline(report, face.obstacle);
+            face.curve ? gaps_to_curve(report, [&](double x) { return (*face.curve)({x}); })
+            : face.obstacle.empty() ? gaps_to_circle(report, face.centre, face.radius)
+                                    : gaps_to_polyline(report, face.obstacle);
       }
    }
    for (const JointCase::Bolt &bolt : joint.bolts)
    {
       reduction.add_shank(bolt.name, bolt.stiffness / (bolt.pretension * bolt.pretension));
    }
+   move_obstacles(reduction, joint);
 }
 
 Reduction united(const JointCase &joint, std::vector<CondensedBody> condensed,
@@ -383,6 +426,14 @@ OwnBodies make_own_bodies(const JointCase &joint)
       half_planes += joint.bodies[b].half_plane;
    }
    find_matrices(own, joint, parts);
+   for (const JointCase::Bolt &bolt : joint.bolts)
+   {
+      for (const Part &part : parts)
+      {
+         require(!part.has_load(bolt.name), part.called(), " has a load '", bolt.name,
+                 "', which is the name of a bolt: one of them must have another");
+      }
+   }
    for (const JointCase::Bolt &bolt : joint.bolts)
    {
       for (int k : {0, 1})
@@ -511,6 +562,38 @@ void warn_of_overlap(const ReducedProblem &problem, const InterfaceReport &inter
            "are in "
            "their places and in one unit";
    warn(text.str());
+}
+
+std::vector<bool> even_sides(const JointCase &joint)
+{
+   std::vector<bool> even;
+   for (const JointCase::Face &face : joint.faces)
+   {
+      const bool rigid = face.sides[1].body < 0;
+      even.push_back(
+         (rigid && std::isnan(face.radius) && !face.curve && face.obstacle.size() < 3) ||
+         (!rigid && joint.bodies[face.sides[1].body].half_plane));
+   }
+   return even;
+}
+
+void warn_of_large_displacements(OwnBodies &own, const SmallDisplacements &noted,
+                                 const ContactState &last)
+{
+   for (const std::string &sentence : noted.warnings()) { warn(sentence); }
+   Reduction &reduction = own.scene.reduction;
+   const Counters before = reduction.counters; // of the study, which asked for no fields
+   for (std::size_t b = 0; b < own.scene.bodies.size(); ++b)
+   {
+      const Eigen::VectorXd field =
+         reduction.displacement(static_cast<int>(b), last.v, last.w, last.multipliers);
+      const Rotation most = largest_rotation(*own.scene.bodies[b], field);
+      const std::string &name = reduction.bodies[b].name,
+                        sentence = rotation_warning(name.empty() ? std::to_string(b + 1) : name,
+                                                    most.angle, most.place);
+      if (!sentence.empty()) { warn(sentence); }
+   }
+   reduction.counters = before;
 }
 
 /// Degrees.

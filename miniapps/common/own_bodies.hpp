@@ -5,6 +5,7 @@
 
 #include <cattaneo/fretting/corner.hpp>
 #include <cattaneo/halfplane/half_plane.hpp>
+#include <cattaneo/readout/small_displacements.hpp>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -61,6 +62,13 @@ void warn_of_overlap(const cattaneo::ReducedProblem &problem,
                      const cattaneo::InterfaceReport &interface);
 /// Warns of a stiffness with few right digits.
 void warn_of_accuracy(double accuracy);
+
+/// Warns of what lies beyond small displacements: what was noted of the march, and rotations of
+/// bodies with elements in its last state.
+void warn_of_large_displacements(OwnBodies &own, const cattaneo::SmallDisplacements &noted,
+                                 const cattaneo::ContactState &last);
+/// Of each interface whether its second side is a straight rigid line, or a half-plane.
+std::vector<bool> even_sides(const JointCase &joint);
 
 /// Displacements are small: a node presses along its own normal. One that bears although this
 /// is far from the rigid line's, on a side beyond a corner for instance, holds the body as no

@@ -225,6 +225,7 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
       if (nodes && frame) { nodes->add(reached); }
       if (saver) { saver->add(reached, record); }
       if (film) { film->add(problem, reached, record); }
+      cycle = record.cycle;
       observe(reached, frame);
    };
    Watch watch("march");

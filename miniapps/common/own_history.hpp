@@ -43,6 +43,7 @@ public:
    cattaneo::MarchSettings settings;
    cattaneo::ContactState state;
    cattaneo::MarchReport report;
+   int cycle = 0; ///< of the state that an observer is called with; 0: none
 
 private:
    Study &study_;

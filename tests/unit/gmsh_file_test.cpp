@@ -137,10 +137,11 @@ TEST(GmshFile, IsReadInAllFormats)
       EXPECT_EQ(lower, 1);
       EXPECT_EQ(rest, 3);
    }
-   const GroupNames names = group_names(format_41(true));
-   EXPECT_EQ(names.boundary, (std::map<std::string, int>{{"lower_side", 5}, {"rest", 6}}));
+   const MeshNames names = mesh_names(format_41(true));
+   EXPECT_EQ(names.boundary,
+             (std::map<std::string, std::vector<int>>{{"lower_side", {5}}, {"rest", {6}}}));
    EXPECT_EQ(names.elements, (std::map<std::string, int>{{"steel", 9}}));
-   EXPECT_TRUE(group_names(format_22()).boundary.empty());
+   EXPECT_TRUE(mesh_names(format_22()).boundary.empty());
 }
 
 /// The edge of a quadrilateral of 8 nodes is bent, its middle follows: x = -¼ Σ corners + ½ Σ

@@ -1,5 +1,6 @@
 // A rigid obstacle that moves is a pattern of displacements.
 #include "elastic_support.hpp"
+#include <cattaneo/contact/interfaces_of_bodies.hpp>
 #include <cattaneo/friction/march.hpp>
 
 namespace
@@ -94,6 +95,73 @@ TEST(ObstacleMotion, IsTheOppositeMotionOfTheSupport)
          EXPECT_NEAR(fields[1][dy] - oy, fields[0][dy], 1e-11) << kind;
       }
    }
+}
+
+/// A plate on a rigid floor under another one of other nodes, whose top moves: or the floor.
+Reduction stack(ElasticBody &low, ElasticBody &high, bool by_obstacle)
+{
+   const auto turn_x = [](double, double y) { return 0.2 - y; };
+   const auto turn_y = [](double x, double) { return x - 0.3; };
+   if (by_obstacle)
+   {
+      high.fix(3, 0);
+      high.fix(3, 1);
+   }
+   else
+   {
+      high.add_displacement("down", 3, 0, 0.0);
+      high.add_displacement("down", 3, 1, -1.0);
+      high.add_displacement("turn", 3, 0, turn_x);
+      high.add_displacement("turn", 3, 1, turn_y);
+   }
+   Reduction made = reduce({{"low", &low}, {"high", &high}},
+                           {{"between", {1, 1}, {0, 3}}, {"floor", {0, 1}, {}}});
+   if (!by_obstacle) { return made; }
+   made.add_obstacle_motion("down", {{1, 0.0, 1.0}});
+   made.add_obstacle_motion("turn", {{1, [=](double x, double y) { return -turn_x(x, y); },
+                                      [=](double x, double y) { return -turn_y(x, y); }}});
+   return made;
+}
+
+TEST(ObstacleMotion, OfAStackIsTheOppositeMotionOfItsTop)
+{
+   mfem::Mesh below = block("quads"), above = block("triangles", 7, 3);
+   for (int v = 0; v < above.GetNV(); ++v) { above.GetVertex(v)[1] += 1; }
+   ElasticBody low(below, 2, Material{1.0, 0.3}), high(above, 2, Material{2.0, 0.2}),
+      other(above, 2, Material{2.0, 0.2});
+   Reduction support = stack(low, high, false), obstacle = stack(low, other, true);
+   ReducedProblem &a = support.problem, &b = obstacle.problem;
+   b.validate();
+   EXPECT_LT(difference(b.H, a.H), 1e-9);
+   for (const char *name : {"down", "turn"})
+   {
+      const LoadPattern &one = b.patterns[b.pattern(name)], &same = a.patterns[a.pattern(name)];
+      EXPECT_LT(difference(one.q, same.q), 1e-9);
+      EXPECT_LT(difference(one.p, same.p), 1e-9);
+   }
+   // The field of the lower body: moved with the floor, and strained as under the moved top.
+   const Eigen::Index n = a.nodes();
+   const VectorXd u = VectorXd::LinSpaced(2 * n, -0.03, 0.07);
+   const auto field = [&](Reduction &of) {
+      return of.displacement(0, u.head(n), u.tail(n), of.problem.multipliers({{"down", 0.3}}));
+   };
+   VectorXd moved = field(obstacle);
+   for (int node = 0; node < low.node_coordinates().Width(); ++node)
+   {
+      moved[low.true_dof(node, 1)] -= 0.3;
+   }
+   EXPECT_LT((moved - field(support)).cwiseAbs().maxCoeff(), 1e-10);
+   expect_input_error(
+      [&] {
+         obstacle.add_obstacle_motion("d", {{0, 0.0, 1.0}});
+      },
+      "interface 'between' is between two bodies");
+   expect_input_error(
+      [&] {
+         obstacle.add_obstacle_motion("d", {{2, 0.0, 1.0}});
+      },
+      "interface 2, must be 0 to 1");
+   expect_input_error([&] { obstacle.add_obstacle_motion("d", 0.0, 1.0); }, "is of 2 bodies");
 }
 
 TEST(ObstacleMotion, ConjugatesAreReactionAndDisplacementOfTheWholeBody)

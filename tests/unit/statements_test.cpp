@@ -17,17 +17,27 @@ struct Block
    ElasticBody body{mesh, 2, Material{1, 0.3}};
 };
 
-TEST(Statements, LinearFunctions)
+TEST(Statements, ValuesAreFunctions)
 {
-   const auto at = [](const char *text) { return linear_field("load", text)(3, 5); };
+   const auto at = [](const char *text) { return scalar_field("load", text)(3, 5); };
    EXPECT_EQ(at("0.5"), 0.5);
    EXPECT_EQ(at("-41.5*x"), -41.5 * 3);
    EXPECT_EQ(at("1+2*x-y"), 1 + 6 - 5);
    EXPECT_EQ(at("x-.5e1-y+2*y"), 3 - 5 + 5);
-   for (const char *text : {"", "+", "1+", "x*2", "2**x", "2*", "1e999", "1+2*z", "(x)"})
+   EXPECT_EQ(at("2x^2*y-(x-1)/2"), 2 * 9 * 5 - 1);
+   EXPECT_EQ(at("-x^2+2^-1"), -9 + 0.5);
+   EXPECT_EQ(at("2^3^2"), 512);
+   EXPECT_EQ(at("8/4/2-3-2"), -4);
+   EXPECT_EQ(at("max(x,y)+min(2*x,y)"), 5 + 5);
+   EXPECT_DOUBLE_EQ(at("10*exp(-(x-2)^2)+sqrt(y+4)"), 10 * std::exp(-1) + 3);
+   EXPECT_DOUBLE_EQ(at("sin(pi*x/6)+abs(-y)"), 6);
+   EXPECT_EQ(scalar_field("load", "r+2*z+x", Formulation::axisymmetric)(3, 5), 16);
+   for (const char *text :
+        {"", "+", "1+", "2**x", "2*", "1e999", "1+2*z", "(x", "x)", "0x10", "sin x", "r"})
    {
-      expect_input_error([&] { linear_field("load", text); },
-                         "load: '" + std::string(text) + "' is not a number or a linear");
+      expect_input_error([&] { scalar_field("load", text); },
+                         "load: '" + std::string(text) +
+                            "' is not a number or a function of x and y");
    }
 }
 
@@ -80,6 +90,23 @@ TEST(Statements, LoadsAreThoseOfTheCalls)
       EXPECT_EQ(one.control, other.control);
       EXPECT_EQ(one.values, other.values) << one.name;
    }
+   // A strain in all directions, and one with directions of its own.
+   Block strained, tensor;
+   add_loads(strained.body, "load", "S initial-strain 2*x; S initial-strain 1 2*x y^2 4");
+   tensor.body.add_initial_strain("S", [](double x, double) { return 2 * x; });
+   mfem::MatrixFunctionCoefficient strain(3,
+                                          [](const mfem::Vector &x, mfem::DenseMatrix &e)
+                                          {
+                                             e = 0.0;
+                                             e(0, 0) = 1;
+                                             e(1, 1) = 2 * x(0);
+                                             e(0, 1) = e(1, 0) = x(1) * x(1);
+                                             e(2, 2) = 4;
+                                          });
+   tensor.body.add_initial_strain("S", strain);
+   const Eigen::VectorXd &one = strained.body.patterns()[0].values,
+                         &other = tensor.body.patterns()[0].values;
+   for (int i = 0; i < one.size(); ++i) { EXPECT_DOUBLE_EQ(one[i], other[i]); }
    const auto refused = [&](const std::string &text, const std::string &part)
    {
       Block block;

@@ -26,10 +26,12 @@ rule_of_revolution(const mfem::FiniteElement &element,
 class AxisymmetricElasticityIntegrator : public mfem::BilinearFormIntegrator
 {
 public:
+   /// First Lamé coefficient λ and shear modulus μ.
    AxisymmetricElasticityIntegrator(mfem::Coefficient &lambda, mfem::Coefficient &mu)
       : lambda_(lambda), mu_(mu)
    {
    }
+   /// Rows {u_r; u_z} of the element's nodes, as MFEM numbers them.
    void AssembleElementMatrix(const mfem::FiniteElement &element,
                               mfem::ElementTransformation &transformation,
                               mfem::DenseMatrix &matrix) override;
@@ -49,7 +51,9 @@ private:
 class TorsionIntegrator : public mfem::DiffusionIntegrator
 {
 public:
+   /// G, a force per area.
    explicit TorsionIntegrator(mfem::Coefficient &shear_modulus);
+   /// A row for the twist of each of the element's nodes.
    void AssembleElementMatrix(const mfem::FiniteElement &element,
                               mfem::ElementTransformation &transformation,
                               mfem::DenseMatrix &matrix) override;

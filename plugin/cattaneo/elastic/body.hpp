@@ -71,7 +71,9 @@ public:
    ElasticBody(mfem::FiniteElementSpace &space, const mfem::SparseMatrix &stiffness,
                Formulation formulation = Formulation::plane);
 
+   /// A body can be moved, not copied.
    ElasticBody(ElasticBody &&) = default;
+   /// A body can be moved, not copied.
    ElasticBody &operator=(ElasticBody &&) = default;
 
    /// No displacement of this component on the nodes of a boundary part.
@@ -96,6 +98,9 @@ public:
       it is a strain in all three directions. Asked again by stress_at: a coefficient must
       outlive the body. InputError for a user's operator and for torsion. */
    void add_initial_strain(const std::string &pattern, const Field &strain);
+   /// The same of a tensor {xx, yy, xy, zz} (in axisymmetry {rr, zz, rz, θθ}), xy half of the
+   /// angle, the last out of the plane.
+   void add_initial_strain(const std::string &pattern, const std::array<Field, 4> &strain);
    /// The same of any symmetric 3 × 3 tensor, in the order x, y and out of the plane (r, z and
    /// θ in axisymmetry); without shear out of the plane (InputError).
    void add_initial_strain(const std::string &pattern, mfem::MatrixCoefficient &strain);
@@ -132,9 +137,13 @@ public:
    /// of torsion (InputError).
    void set_stress(StressLaw law);
 
+   /// Plane, axisymmetric or torsion.
    Formulation formulation() const { return formulation_; }
+   /// Unknowns a node: 2, of torsion 1.
    int components() const { return cattaneo::components(formulation_); }
+   /// The space of its displacements, the user's own or made of the order.
    mfem::FiniteElementSpace &space() const { return *space_; }
+   /// Those that share its mesh.
    const Ranks &ranks() const { return ranks_; }
    /// True dofs of all ranks.
    int dofs() const;
@@ -151,9 +160,11 @@ public:
    const Material &material(int attribute) const;
    /// At the point that is set in an element's transformation.
    Material material(mfem::ElementTransformation &at) const;
+   /// False of a user's operator.
    bool has_material() const { return varying_ || !materials_.empty(); }
    /// Set by set_stress(), or empty.
    const StressLaw &stress_law() const { return stress_law_; }
+   /// Can stress_at() tell stresses?
    bool has_stress() const { return has_material() || stress_law_; }
    /// Of all patterns that have one, at the point that is set; InputError if one of these is
    /// not among the loads.
@@ -173,6 +184,7 @@ public:
    /// True if a scalar node lies on the axis of revolution; always false in the plane.
    bool on_axis(int scalar_dof) const;
 
+   /// What was done so far.
    const Counters &counters() const { return counters_; }
 
 private:

@@ -232,6 +232,19 @@ void ElasticBody::add_initial_strain(const std::string &pattern, const Field &st
 }
 
 void ElasticBody::add_initial_strain(const std::string &pattern,
+                                     const std::array<Field, 4> &strain)
+{
+   const std::string where = "initial strain '" + pattern + "'";
+   add_strain_field(pattern,
+                    [strain, where](mfem::ElementTransformation &place)
+                    {
+                       const auto at = [&](std::size_t k)
+                       { return strain[k].at(place, where); };
+                       return Strain{at(0), at(1), at(3), 2 * at(2)};
+                    });
+}
+
+void ElasticBody::add_initial_strain(const std::string &pattern,
                                      mfem::MatrixCoefficient &strain)
 {
    const std::string where = "initial strain '" + pattern + "'";

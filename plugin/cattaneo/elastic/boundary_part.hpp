@@ -14,13 +14,16 @@ namespace cattaneo
 /// mesh.
 struct BoundaryPart
 {
-   std::vector<int> attributes;
-   int axis = 0; ///< coordinate of the interval: 0 = x, 1 = y
-   double lo = -std::numeric_limits<double>::infinity();
-   double hi = std::numeric_limits<double>::infinity();
+   std::vector<int> attributes; ///< of its boundary elements, from 1
+   int axis = 0;                ///< coordinate of the interval: 0 = x, 1 = y
+   double lo = -std::numeric_limits<double>::infinity(); ///< lower end of the interval, in the
+                                                         ///< mesh's units
+   double hi = std::numeric_limits<double>::infinity();  ///< upper end
    int marked = 0; ///< number of entries of the marker that it was made of, 0: of none
 
+   /// All of one attribute.
    BoundaryPart(int attribute) : attributes{attribute} {}
+   /// All of some attributes.
    BoundaryPart(std::vector<int> some) : attributes(std::move(some)) {}
    /// MFEM's marker: for each boundary attribute, from 1, whether it belongs to the part (1) or
    /// not (0). Where it is used, InputError if it has not one for each of the mesh.
@@ -36,6 +39,7 @@ struct BoundaryPart
       require(!attributes.empty(), "boundary marker: none of its ", marker.Size(),
               " entries is 1, at least one must be");
    }
+   /// Of some attributes what lies between `lo_` and `hi_` of coordinate `axis_`.
    BoundaryPart(std::vector<int> some, int axis_, double lo_, double hi_)
       : attributes(std::move(some)), axis(axis_), lo(lo_), hi(hi_)
    {

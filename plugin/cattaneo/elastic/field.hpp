@@ -15,14 +15,17 @@ namespace cattaneo
 class Field
 {
 public:
+   /// The same everywhere.
    Field(double constant) : f_([constant](mfem::ElementTransformation &) { return constant; })
    {
    }
+   /// Of MFEM; must live as long as it may be asked.
    Field(mfem::Coefficient &coefficient)
       : f_([&coefficient](mfem::ElementTransformation &at)
            { return coefficient.Eval(at, at.GetIntPoint()); })
    {
    }
+   /// A function of (x, y).
    template <class F,
              class = std::enable_if_t<std::is_invocable_r_v<double, F, double, double>>>
    Field(F f)
@@ -46,8 +49,9 @@ private:
 /// Isotropic elasticity whose constants vary over a body.
 struct VaryingMaterial
 {
-   Field young, poisson;
-   PlaneState state = PlaneState::strain;
+   Field young;                           ///< Young's modulus, in the range that Material has
+   Field poisson;                         ///< Poisson's ratio, likewise
+   PlaneState state = PlaneState::strain; ///< strain or stress, everywhere the same
 
    /// At the point that is set in the transformation; InputError that names it if the material
    /// is not sound there.

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cattaneo/elastic/statements.hpp>
+#include <cattaneo/exchange/line_reader.hpp>
+#include <cattaneo/expression.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/words.hpp>
 #include <cctype>
@@ -32,18 +34,29 @@ std::vector<int> components(const std::string &where, const std::string &text, b
    return {0, 1};
 }
 
-/// An attribute by its number or by its name.
-int attribute(const std::string &word, const BodyTerms &terms, const std::string &error)
+/// An attribute by its number, or those of a name.
+std::vector<int> attributes_of(const std::string &word, const BodyTerms &terms,
+                               const std::string &error)
 {
-   const auto named = terms.boundary.find(word);
-   if (named != terms.boundary.end()) { return named->second; }
+   auto named = terms.boundary.find(word);
+   if (named == terms.boundary.end()) { named = terms.boundary.find(upper_case(word)); }
+   if (named != terms.boundary.end())
+   {
+      require(!named->second.empty(), error, "; ", named->first,
+              " is no part of the boundary: it must be whole edges, with the nodes in their "
+              "middles");
+      return named->second;
+   }
    char *end = nullptr;
    const long number = std::strtol(word.c_str(), &end, 10);
    std::vector<std::string> names;
-   for (const auto &[name, its] : terms.boundary) { names.push_back(name); }
-   require(*end == 0 && number > 0 && number < 1000000000, error,
+   for (const auto &[name, its] : terms.boundary)
+   {
+      if (!its.empty()) { names.push_back(name); }
+   }
+   require(terms.numbered && *end == 0 && number > 0 && number < 1000000000, error,
            names.empty() ? "" : "; names are " + listed(names));
-   return static_cast<int>(number);
+   return {static_cast<int>(number)};
 }
 
 } // namespace
@@ -51,13 +64,22 @@ int attribute(const std::string &word, const BodyTerms &terms, const std::string
 BoundaryPart boundary_part(const std::string &called, const std::string &text,
                            const BodyTerms &terms)
 {
-   const std::string form = "', must be boundary attributes such as 3 or 3,4, perhaps with an "
-                            "interval such as 3[-1<x<1]";
+   const std::string form = terms.numbered
+                               ? "', must be boundary attributes such as 3 or 3,4, perhaps "
+                                 "with an interval such as 3[-1<x<1]"
+                               : "', must be names of surfaces or sets of nodes, perhaps with "
+                                 "an interval such as TOP[-1<x<1]";
    const std::size_t bracket = std::min(text.find('['), text.size());
    std::vector<int> attributes;
    for (const std::string &word : split(text.substr(0, bracket), ","))
    {
-      attributes.push_back(attribute(word, terms, called + ": '" + text + form));
+      for (int its : attributes_of(word, terms, called + ": '" + text + form))
+      {
+         if (std::find(attributes.begin(), attributes.end(), its) == attributes.end())
+         {
+            attributes.push_back(its);
+         }
+      }
    }
    require(!attributes.empty(), called, ": '", text, form);
    if (bracket == text.size()) { return attributes; }
@@ -70,42 +92,13 @@ BoundaryPart boundary_part(const std::string &called, const std::string &text,
            number(called, bounds[2])};
 }
 
-ScalarField linear_field(const std::string &called, const std::string &text)
+ScalarField scalar_field(const std::string &called, const std::string &text,
+                         Formulation formulation)
 {
-   double coefficients[3] = {0, 0, 0}; // of 1, x, y
-   const auto check = [&](bool condition)
-   {
-      require(condition, called, ": '", text,
-              "' is not a number or a linear function such as 1-3*x+2*y");
-   };
-   check(!text.empty());
-   const char *at = text.c_str();
-   while (*at)
-   {
-      check(at == text.c_str() || *at == '+' || *at == '-');
-      double value = 1;
-      if (*at == '+' || *at == '-') { value = *at++ == '-' ? -1 : 1; }
-      const bool numeric = std::isdigit(static_cast<unsigned char>(*at)) || *at == '.';
-      if (numeric)
-      {
-         char *end = nullptr;
-         value *= std::strtod(at, &end);
-         check(end != at);
-         at = end;
-         if (*at == '*')
-         {
-            ++at;
-            check(*at == 'x' || *at == 'y');
-         }
-      }
-      check(numeric || *at == 'x' || *at == 'y');
-      const int power = *at == 'x' ? 1 : *at == 'y' ? 2 : 0;
-      if (power) { ++at; }
-      coefficients[power] += value;
-   }
-   const double c = coefficients[0], cx = coefficients[1], cy = coefficients[2];
-   check(std::isfinite(c) && std::isfinite(cx) && std::isfinite(cy));
-   return [=](double x, double y) { return c + cx * x + cy * y; };
+   std::vector<std::string> variables = {"x", "y"};
+   if (formulation != Formulation::plane) { variables = {"x", "y", "r", "z"}; }
+   const Expression value(called, text, variables);
+   return [value](double x, double y) { return value({x, y, x, y}); };
 }
 
 void add_supports(ElasticBody &body, const std::string &called, const std::string &text,
@@ -143,15 +136,16 @@ void add_loads(ElasticBody &body, const std::string &called, const std::string &
       std::size_t words;
       const char *form;
    };
-   static const Kind kinds[] = {{"pressure", 4, "PATTERN pressure WHERE p"},
-                                {"traction", 5, "PATTERN traction WHERE tx ty"},
-                                {"body-force", 4, "PATTERN body-force bx by"},
-                                {"displacement-x", 4, "PATTERN displacement-x WHERE u"},
-                                {"displacement-y", 4, "PATTERN displacement-y WHERE u"},
-                                {"displacement-r", 4, "PATTERN displacement-r WHERE u"},
-                                {"displacement-z", 4, "PATTERN displacement-z WHERE u"},
-                                {"temperature", 3, "PATTERN temperature T"},
-                                {"initial-strain", 3, "PATTERN initial-strain e"}};
+   static const Kind kinds[] = {
+      {"pressure", 4, "PATTERN pressure WHERE p"},
+      {"traction", 5, "PATTERN traction WHERE tx ty"},
+      {"body-force", 4, "PATTERN body-force bx by"},
+      {"displacement-x", 4, "PATTERN displacement-x WHERE u"},
+      {"displacement-y", 4, "PATTERN displacement-y WHERE u"},
+      {"displacement-r", 4, "PATTERN displacement-r WHERE u"},
+      {"displacement-z", 4, "PATTERN displacement-z WHERE u"},
+      {"temperature", 3, "PATTERN temperature T"},
+      {"initial-strain", 3, "PATTERN initial-strain e, or xx yy xy zz"}};
    const bool plane = body.formulation() == Formulation::plane;
    for (const std::string &statement : split(text, ";\n"))
    {
@@ -172,11 +166,17 @@ void add_loads(ElasticBody &body, const std::string &called, const std::string &
          known.push_back(name);
       }
       require(kind, where, ": kind '", words[1], "' is not one of ", listed(known));
-      require(words.size() == kind->words, where, ": has ", words.size(), " words, must be ",
-              kind->form);
-      const auto field = [&](std::size_t k) { return linear_field(where, words[k]); };
+      const bool tensor = words[1] == "initial-strain" && words.size() == 6;
+      require(words.size() == kind->words || tensor, where, ": has ", words.size(),
+              " words, must be ", kind->form);
+      const auto field = [&](std::size_t k)
+      { return scalar_field(where, words[k], body.formulation()); };
       const std::string name = kind->name;
       if (name == "body-force") { body.add_body_force(pattern, field(2), field(3)); }
+      else if (tensor)
+      {
+         body.add_initial_strain(pattern, {field(2), field(3), field(4), field(5)});
+      }
       else if (name == "initial-strain") { body.add_initial_strain(pattern, field(2)); }
       else if (name == "temperature")
       {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace cattaneo
 {
@@ -15,7 +16,9 @@ namespace cattaneo
 /// What a statement may ask of the body that it is about.
 struct BodyTerms
 {
-   std::map<std::string, int> boundary; ///< attributes by the names of their groups
+   /// Attributes by the names of their groups; none: of a name that is no part of the boundary.
+   std::map<std::string, std::vector<int>> boundary;
+   bool numbered = true; ///< attributes may be said by their numbers
    /// Coefficient of thermal expansion, of all of the body; not known: no temperatures.
    double expansion = std::numeric_limits<double>::quiet_NaN();
 };
@@ -25,8 +28,10 @@ struct BodyTerms
 BoundaryPart boundary_part(const std::string &called, const std::string &text,
                            const BodyTerms &terms = {});
 
-/// A constant or a linear function of the coordinates: "0.5", "-3*x", "1+2*x-y".
-ScalarField linear_field(const std::string &called, const std::string &text);
+/// A number or a function of the coordinates (Expression): "0.5", "-3*x", "1+2*x-y^2", about an
+/// axis also of r and z.
+ScalarField scalar_field(const std::string &called, const std::string &text,
+                         Formulation formulation = Formulation::plane);
 
 /// Supports, separated by spaces: "1:x 2,4:xy" fixes components on boundary attributes,
 /// "@0,-1:x" at the node nearest to a point, which must not lie outside of the body. About an
@@ -36,7 +41,8 @@ void add_supports(ElasticBody &body, const std::string &called, const std::strin
 
 /// Loads, separated by semicolons, each "PATTERN KIND WHERE VALUES": "P pressure 3 100", "Q
 /// traction 3 0.5 0", "G body-force 0 -9.81", "D displacement-x 3[0<y<1] 0.01", "H temperature
-/// 20+3*y", "E initial-strain 1e-4". Names of patterns are UTF-8, without = , and ".
+/// 20+3*y", "E initial-strain 1e-4" or "E initial-strain xx yy xy zz" (rr, zz, rz and θθ about
+/// an axis; xy is half of the angle). Names of patterns are UTF-8, without = , and ".
 void add_loads(ElasticBody &body, const std::string &called, const std::string &text,
                const BodyTerms &terms = {});
 

@@ -9,7 +9,8 @@ namespace cattaneo
 /// positive, force per area.
 struct Stress
 {
-   double xx = 0, yy = 0;
+   double xx = 0; ///< σxx, about an axis σrr
+   double yy = 0; ///< σyy, about an axis σzz
    double zz = 0; ///< ν(σxx + σyy) in plane strain, 0 in plane stress; axisymmetric: σθθ
    double xy = 0; ///< shear stress
 
@@ -21,7 +22,10 @@ struct Stress
 /// shear angle γ_xy = 2 ε_xy.
 struct Strain
 {
-   double xx = 0, yy = 0, zz = 0, xy = 0;
+   double xx = 0; ///< ε_xx, about an axis ε_rr
+   double yy = 0; ///< ε_yy, about an axis ε_zz
+   double zz = 0; ///< out of the plane, about an axis ε_θθ
+   double xy = 0; ///< γ_xy
 
    /// Adds another one, times a factor.
    void add(double factor, const Strain &other)
@@ -40,7 +44,8 @@ Stress stress(const Material &material, const Strain &strain);
 /// Circumferential shear stresses of a body that twists.
 struct TorsionStress
 {
-   double r_theta = 0, theta_z = 0;
+   double r_theta = 0; ///< τ_rθ, force per area
+   double theta_z = 0; ///< τ_θz, force per area
 };
 
 } // namespace cattaneo

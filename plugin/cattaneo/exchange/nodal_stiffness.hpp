@@ -13,9 +13,10 @@ namespace cattaneo
 /// A row of another program's matrix.
 struct NodeDof
 {
-   int node = 0;
+   int node = 0;      ///< its number in that program
    int direction = 1; ///< 1: x (r about an axis), 2: y (z)
 
+   /// By node, then by direction.
    bool operator<(const NodeDof &other) const
    {
       return node < other.node || (node == other.node && direction < other.direction);
@@ -33,26 +34,32 @@ struct NodeDof
 class NodalStiffness
 {
 public:
+   /// By rows, both triangles.
    using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+   /// Numbers of nodes.
    using Nodes = std::vector<int>;
+   /// Where each node is: (x, y), or (r, z).
    using Places = std::map<int, Eigen::Vector2d>;
+   /// Nodes by the names of sets.
    using Sets = std::map<std::string, Nodes>;
 
    std::string name; ///< of the file; of a part, the set that is the part, or "body 1", …
-   Formulation formulation = Formulation::plane;
-   Matrix K;                    ///< symmetric, both triangles
-   std::vector<NodeDof> dofs;   ///< of each row, each once
-   Places places;               ///< of each node: (x, y), or (r, z)
-   Sets sets;                   ///< names in capitals
-   std::vector<int> fixed;      ///< rows; sorted
-   std::vector<BodyLoad> loads; ///< values by row
+   Formulation formulation = Formulation::plane; ///< plane or axisymmetric
+   Matrix K;                                     ///< symmetric, both triangles
+   std::vector<NodeDof> dofs;                    ///< of each row, each once
+   Places places;                                ///< of each node: (x, y), or (r, z)
+   Sets sets;                                    ///< names in capitals
+   std::vector<int> fixed;                       ///< rows; sorted
+   std::vector<BodyLoad> loads;                  ///< values by row
    /// Nodes of each outer edge of the body, along it with the body on the left. Empty if no
    /// elements are known.
    std::vector<Nodes> edges;
    /// The program that wrote K left out rows of supports, so that K resists motions.
    bool supports_left_out = false;
 
+   /// Is there a set of that name, whatever its capitals?
    bool has_set(const std::string &set) const;
+   /// Its nodes; InputError with the names that there are.
    const Nodes &nodes_of(const std::string &set) const;
 
    /// Holds a direction (1 or 2) of nodes. Rows that K has no more are held already.

@@ -9,21 +9,22 @@ using Eigen::Vector2d;
 
 std::vector<NodalStiffness::Nodes>
 outer_edges(const std::vector<NodalStiffness::Nodes> &elements,
-            const NodalStiffness::Places &places)
+            const NodalStiffness::Places &places, const std::vector<int> &numbers)
 {
    std::map<std::pair<int, int>, std::vector<NodalStiffness::Nodes>> edges;
    for (std::size_t e = 0; e < elements.size(); ++e)
    {
       const NodalStiffness::Nodes &nodes = elements[e];
       const std::size_t count = nodes.size();
-      require(count == 3 || count == 4 || (count >= 6 && count <= 9), "element ", e, " has ",
-              count, " nodes, must have 3, 4, 6, 7, 8 or 9");
+      const std::string which =
+         "element " + std::to_string(numbers.empty() ? static_cast<int>(e) : numbers[e]);
+      require(count == 3 || count == 4 || (count >= 6 && count <= 9), which, " has ", count,
+              " nodes, must have 3, 4, 6, 7, 8 or 9");
       const std::size_t corners = count == 3 || count == 6 || count == 7 ? 3 : 4;
       const auto place = [&](std::size_t a) -> const Vector2d &
       {
          const auto found = places.find(nodes[a]);
-         require(found != places.end(), "element ", e, " has node ", nodes[a],
-                 ", which has no place");
+         require(found != places.end(), which, " has node ", nodes[a], ", which has no place");
          return found->second;
       };
       double area = 0; // twice, of its corners
@@ -46,9 +47,8 @@ outer_edges(const std::vector<NodalStiffness::Nodes> &elements,
             };
             for (std::size_t other = 0; other < corners; ++other)
             {
-               require(distance(a) <= distance(other), "element ", e, ": node ",
-                       nodes[corners + a], " is not between its corners ", nodes[a], " and ",
-                       nodes[b],
+               require(distance(a) <= distance(other), which, ": node ", nodes[corners + a],
+                       " is not between its corners ", nodes[a], " and ", nodes[b],
                        ", must be: corners come first, then the middle of each side from the "
                        "first on");
             }

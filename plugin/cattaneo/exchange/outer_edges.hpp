@@ -11,10 +11,12 @@ namespace cattaneo
    between the first two corners (6 or 8 nodes), and then a node inside that it may have (7 or
    9), as ABAQUS, Gmsh and VTK number them.
 
-    InputError, with the number of the element in the list, for another number of nodes, a node
-    without a place, or a node that is not between the corners it should be between. */
+    InputError, with the number of the element in the list or of `numbers`, for another number
+   of nodes, a node without a place, or one that is not between the corners it should be
+   between.
+ */
 std::vector<NodalStiffness::Nodes>
 outer_edges(const std::vector<NodalStiffness::Nodes> &elements,
-            const NodalStiffness::Places &places);
+            const NodalStiffness::Places &places, const std::vector<int> &numbers = {});
 
 } // namespace cattaneo

@@ -422,6 +422,35 @@ void add_cards(const std::vector<Card> &cards, const std::string &file, NodalSti
    }
 }
 
+/// Nodes of a deck, their sets (also those of element sets and surfaces) and edges.
+void take_nodes(InputDeck &deck, NodalStiffness &result)
+{
+   std::map<std::string, std::set<int>> known;
+   for (const auto &[name, nodes] : deck.node_sets)
+   {
+      known[name].insert(nodes.begin(), nodes.end());
+   }
+   const auto add = [&](const std::string &name, const NodalStiffness::Nodes &nodes)
+   {
+      for (int node : nodes)
+      {
+         if (known[name].insert(node).second) { deck.node_sets[name].push_back(node); }
+      }
+   };
+   for (const auto &[name, elements] : deck.element_sets)
+   {
+      for (std::size_t e : elements) { add(name, deck.elements[e].nodes); }
+   }
+   for (const auto &[name, edges] : deck.surfaces)
+   {
+      for (const NodalStiffness::Nodes &edge : edges) { add(name, edge); }
+   }
+   result.formulation = deck.formulation;
+   result.places = std::move(deck.places);
+   result.sets = std::move(deck.node_sets);
+   result.edges = std::move(deck.edges);
+}
+
 /// Of a matrix whose rows a `.dofs` file names.
 void read_dofs(const std::string &file, NodalStiffness &result)
 {
@@ -550,14 +579,15 @@ NodalStiffness read_stiffness(const std::string &matrix, const std::string &plac
    else
    {
       const std::string deck = beside(".inp");
-      const std::vector<Card> cards = read_input_deck(deck, result);
+      InputDeck said = read_input_deck(deck);
+      take_nodes(said, result);
       (ending == ".sti"          ? read_calculix
        : form == MtxForm::sparse ? read_abaqus_sparse
                                  : read_user_element)(matrix, result);
       // Forces are those of the whole circumference already.
       const bool wedge = ending == ".sti" && result.formulation == Formulation::axisymmetric;
       if (wedge) { result.K *= 180.0; }
-      add_cards(cards, deck, result);
+      add_cards(said.cards, deck, result);
    }
    result.validate();
    return result;

@@ -1,12 +1,9 @@
-#include <array>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/mesh/gmsh_file.hpp>
 #include <cstdint>
 #include <cstdio>
 #include <fstream>
-#include <map>
 #include <sstream>
-#include <vector>
 
 namespace cattaneo
 {
@@ -120,19 +117,7 @@ public:
       }
       while (std::getline(in_.lines(), line)) { section(line); }
    }
-   std::string text() const
-   {
-      std::ostringstream out;
-      out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" << nodes_.size() << '\n';
-      for (const auto &[number, x] : nodes_)
-      {
-         char line[120];
-         std::snprintf(line, sizeof line, "%ld %.17g %.17g %.17g\n", number, x[0], x[1], x[2]);
-         out << line;
-      }
-      out << "$EndNodes\n$Elements\n" << count_ << '\n' << elements_ << "$EndElements\n";
-      return out.str();
-   }
+   std::string text() const { return text_.text(); }
 
 private:
    void section(const std::string &line)
@@ -173,10 +158,6 @@ private:
          }
       }
    }
-   void add_node(long number, const std::array<double, 3> &x)
-   {
-      require(nodes_.emplace(number, x).second, "mesh file has node ", number, " twice");
-   }
    void read_nodes()
    {
       const long blocks = in_.count(in_.large());
@@ -192,7 +173,7 @@ private:
          {
             const double x = in_.real(), y = in_.real(), z = in_.real();
             for (long c = 0; parametric && c < dimension; ++c) { in_.real(); }
-            add_node(number, {x, y, z});
+            text_.add_node(number, {x, y, z});
          }
       }
    }
@@ -203,7 +184,7 @@ private:
       {
          const long number = in_.integer();
          const double x = in_.real(), y = in_.real(), z = in_.real();
-         add_node(number, {x, y, z});
+         text_.add_node(number, {x, y, z});
       }
    }
    void read_elements()
@@ -223,7 +204,8 @@ private:
             const long number = in_.large();
             std::vector<long> own(nodes_of(type, "element " + std::to_string(number)));
             for (long &node : own) { node = in_.large(); }
-            add_element(number, type, {groups.empty() ? 0 : groups[0], entity}, std::move(own));
+            text_.add_element(number, type, {groups.empty() ? 0 : groups[0], entity},
+                              std::move(own));
          }
       }
    }
@@ -245,45 +227,63 @@ private:
                own(nodes_of(type, "element " + std::to_string(number)));
             for (long &tag : own_tags) { tag = in_.integer(); }
             for (long &node : own) { node = in_.integer(); }
-            add_element(number, type, own_tags, std::move(own));
+            text_.add_element(number, type, own_tags, std::move(own));
          }
       }
-   }
-   void add_element(long number, long type, const std::vector<long> &tags,
-                    std::vector<long> own)
-   {
-      if (type == 15) { return; }
-      if (type == 16)
-      {
-         std::array<double, 3> middle{0, 0, 0};
-         for (std::size_t k = 0; k < own.size(); ++k)
-         {
-            const auto at = nodes_.find(own[k]);
-            require(at != nodes_.end(), "mesh file has node ", own[k], " in element ", number,
-                    ", which is not among its nodes");
-            for (int c = 0; c < 3; ++c) { middle[c] += (k < 4 ? -0.25 : 0.5) * at->second[c]; }
-         }
-         type = 10;
-         own.push_back(nodes_.rbegin()->first + 1);
-         add_node(own.back(), middle);
-      }
-      std::ostringstream line;
-      line << number << ' ' << type << ' ' << tags.size();
-      for (long tag : tags) { line << ' ' << tag; }
-      for (long node : own) { line << ' ' << node; }
-      elements_ += line.str() + '\n';
-      ++count_;
    }
 
    Numbers in_;
    bool newer_ = false;
    Groups groups_;
-   std::map<long, std::array<double, 3>> nodes_;
-   std::string elements_;
-   long count_ = 0;
+   GmshText text_;
 };
 
 } // namespace
+
+void GmshText::add_node(long number, const std::array<double, 3> &x)
+{
+   require(nodes_.emplace(number, x).second, "mesh file has node ", number, " twice");
+}
+
+void GmshText::add_element(long number, long type, const std::vector<long> &tags,
+                           std::vector<long> nodes)
+{
+   if (type == 15) { return; }
+   if (type == 16)
+   {
+      std::array<double, 3> middle{0, 0, 0};
+      for (std::size_t k = 0; k < nodes.size(); ++k)
+      {
+         const auto at = nodes_.find(nodes[k]);
+         require(at != nodes_.end(), "mesh file has node ", nodes[k], " in element ", number,
+                 ", which is not among its nodes");
+         for (int c = 0; c < 3; ++c) { middle[c] += (k < 4 ? -0.25 : 0.5) * at->second[c]; }
+      }
+      type = 10;
+      nodes.push_back(nodes_.rbegin()->first + 1);
+      add_node(nodes.back(), middle);
+   }
+   std::ostringstream line;
+   line << number << ' ' << type << ' ' << tags.size();
+   for (long tag : tags) { line << ' ' << tag; }
+   for (long node : nodes) { line << ' ' << node; }
+   elements_ += line.str() + '\n';
+   ++count_;
+}
+
+std::string GmshText::text() const
+{
+   std::ostringstream out;
+   out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" << nodes_.size() << '\n';
+   for (const auto &[number, x] : nodes_)
+   {
+      char line[120];
+      std::snprintf(line, sizeof line, "%ld %.17g %.17g %.17g\n", number, x[0], x[1], x[2]);
+      out << line;
+   }
+   out << "$EndNodes\n$Elements\n" << count_ << '\n' << elements_ << "$EndElements\n";
+   return out.str();
+}
 
 std::string as_gmsh_22(const std::string &file, long size)
 {

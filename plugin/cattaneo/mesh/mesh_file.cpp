@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/mesh/deck_mesh.hpp>
 #include <cattaneo/mesh/gmsh_file.hpp>
 #include <cerrno>
 #include <cmath>
@@ -354,9 +355,10 @@ mfem::Mesh read_mesh(const std::string &file)
    std::string line, converted;
    std::getline(in, line);
    const bool gmsh = line.rfind("$MeshFormat", 0) == 0;
-   if (gmsh && needs_gmsh_22(file))
+   if (is_deck(file)) { converted = deck_mesh(file).text; }
+   else if (gmsh && needs_gmsh_22(file)) { converted = as_gmsh_22(file, size); }
+   if (!converted.empty())
    {
-      converted = as_gmsh_22(file, size);
       std::istringstream text(converted);
       std::getline(text, line);
       check_gmsh(text, static_cast<long>(converted.size()));
@@ -369,7 +371,8 @@ mfem::Mesh read_mesh(const std::string &file)
               save_anew);
       const bool geometry = std::filesystem::path(file).extension() == ".geo";
       require(line.rfind("MFEM mesh v1.", 0) == 0,
-              "mesh file must begin with 'MFEM mesh v1.' or '$MeshFormat' (Gmsh), not with '",
+              "mesh file must begin with 'MFEM mesh v1.' or '$MeshFormat' (Gmsh), or be a deck "
+              "called .inp, not with '",
               line.substr(0, 20), "'",
               geometry ? ": this is a geometry, which gmsh -2 NAME.geo makes a mesh "
                          "of"
@@ -391,9 +394,10 @@ mfem::Mesh read_mesh(const std::string &file)
    return mesh;
 }
 
-GroupNames group_names(const std::string &file)
+MeshNames mesh_names(const std::string &file)
 {
-   GroupNames names;
+   if (is_deck(file)) { return deck_mesh(file).names; }
+   MeshNames names;
    std::ifstream in(file, std::ios::binary);
    std::string line;
    while (std::getline(in, line) && line.rfind("$PhysicalNames", 0) != 0)
@@ -412,7 +416,7 @@ GroupNames group_names(const std::string &file)
               k + 1, " of ", expected, " has no name, must be DIMENSION NUMBER \"NAME\"");
       std::string name = line.substr(from + 1, to - from - 1);
       std::replace(name.begin(), name.end(), ' ', '_');
-      if (dimension == 1) { names.boundary[name] = number; }
+      if (dimension == 1) { names.boundary[name] = {number}; }
       if (dimension == 2) { names.elements[name] = number; }
    }
    return names;

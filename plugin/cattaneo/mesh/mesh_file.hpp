@@ -3,24 +3,32 @@
 #include <map>
 #include <mfem.hpp>
 #include <string>
+#include <vector>
 
 namespace cattaneo
 {
 
-/** The plane mesh in a user's file: MFEM's format ("MFEM mesh v1.…", conforming), or Gmsh's
-    4.1 or 2.2, ASCII or binary, of triangles and quadrilaterals.
+/** The plane mesh in a user's file: MFEM's format ("MFEM mesh v1.…", conforming), Gmsh's 4.1 or
+    2.2, ASCII or binary, or an .inp of CalculiX or ABAQUS, of triangles and quadrilaterals.
 
     MFEM's reader trusts its file: a node number that is out of range reads foreign memory. The
     file is therefore checked first, section by section. InputError saying what is wrong. */
 mfem::Mesh read_mesh(const std::string &file);
 
-/// Attributes by the names of their groups ($PhysicalNames of Gmsh; spaces as underscores).
-struct GroupNames
+/// What a mesh file says beside the mesh.
+struct MeshNames
 {
-   std::map<std::string, int> boundary, elements;
+   /// Boundary attributes by the names of groups ($PhysicalNames of Gmsh; spaces as
+   /// underscores), surfaces and sets of a deck (in capitals; several if they overlap, none if
+   /// a set is no part of the boundary).
+   std::map<std::string, std::vector<int>> boundary;
+   std::map<std::string, int> elements; ///< attributes by the names of groups
+   bool numbered = true;                ///< false: boundary attributes are this program's own
+   bool axisymmetric = false;           ///< elements of a deck
+   std::string passed_over;             ///< supports and loads of a deck: "*BOUNDARY, *CLOAD"
 };
-/// Of a mesh file that read_mesh() takes; none if it has no names.
-GroupNames group_names(const std::string &file);
+/// Of a mesh file that read_mesh() takes.
+MeshNames mesh_names(const std::string &file);
 
 /// A sentence if vertices lie on one another, where the body is cut and its faces may pass
 /// through each other; else nothing. `name` is what the mesh is called in it.

@@ -14,22 +14,29 @@ class Ranks
 {
 public:
    Ranks() = default;
+   /// Of an mfem::ParMesh its ranks, else this one alone.
    explicit Ranks(const mfem::Mesh &mesh);
 
+   /// How many.
    int size() const { return size_; }
+   /// Which of them this is, from 0.
    int rank() const { return rank_; }
+   /// More than one?
    bool several() const { return size_ > 1; }
    /// True if the mesh is a conforming mfem::ParMesh, be it on one rank.
    bool distributed() const { return distributed_; }
+   /// Is this the first of those that share the mesh?
    bool first() const { return rank_ == 0; }
    /// True on the first of all ranks of the program, whatever mesh they share.
    static bool first_of_all();
 
    /// True if it is on any rank.
    bool any(bool here) const;
+   /// Over all ranks.
    long sum(long here) const;
    /// Sums matrices of equal shape entry by entry, in place; the same bits on every rank.
    void sum(Eigen::MatrixXd &here) const;
+   /// Largest of all ranks.
    double max(double here) const;
    /// The values of all ranks, in the order of the ranks.
    std::vector<double> gather(const std::vector<double> &here) const;
@@ -38,6 +45,7 @@ public:
    void on_first(const std::function<void()> &work) const;
    /// The values of all ranks, in the order of the ranks, on the first; none elsewhere.
    std::vector<double> collect(const std::vector<double> &here) const;
+   /// The same of whole numbers.
    std::vector<int> collect(const std::vector<int> &here) const;
    /// The first rank's matrix on all, whatever its shape.
    void share(Eigen::MatrixXd &matrix) const;

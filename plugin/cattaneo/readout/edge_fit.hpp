@@ -23,10 +23,11 @@ struct EdgeTractions
 /// Distances from the edge between which nodes are used.
 struct FitWindow
 {
-   double nearest = 0.0;
-   double farthest = 0.0;
+   double nearest = 0.0;  ///< from the edge
+   double farthest = 0.0; ///< from the edge
 };
 
+/// Which nodes a fit uses.
 struct FitSettings
 {
    /// Both 0: the window is chosen, as the one of least reported error.
@@ -43,16 +44,17 @@ struct FitSettings
 /// One node near an edge or a corner.
 struct EdgeSample
 {
-   double distance = 0.0;
-   double pressure = 0.0;
-   double shear = 0.0; ///< on the cracked body, positive into the contact
+   double distance = 0.0; ///< from the edge or corner, positive
+   double pressure = 0.0; ///< traction, compression positive
+   double shear = 0.0;    ///< on the cracked body, positive into the contact
 };
 
 /// Samples first … last - 1 may be used.
 struct UsableSamples
 {
    std::vector<EdgeSample> samples; ///< by distance
-   std::size_t first = 0, last = 0;
+   std::size_t first = 0;           ///< first of `samples` that may be used
+   std::size_t last = 0;            ///< one beyond the last
 };
 
 /** What a fit may use of tractions: the nodes of the window, or all but the skipped ones if it
@@ -68,15 +70,16 @@ UsableSamples usable_samples(const EdgeTractions &tractions, const FitSettings &
 /// than the difference to windows of at most three times that error.
 struct FittedIntensity
 {
-   double value = 0.0;
-   double relative_error = 0.0;
-   FitWindow window;
-   int nodes = 0; ///< used
+   double value = 0.0;          ///< K_N or K_T, in the units of tractions and distances
+   double relative_error = 0.0; ///< of the value
+   FitWindow window;            ///< that was used
+   int nodes = 0;               ///< used
 };
 
+/// The intensities at an edge.
 struct EdgeFit
 {
-   FittedIntensity k_n;
+   FittedIntensity k_n; ///< p = K_N √t
    FittedIntensity
       k_t; ///< signed as fretting::Edge::k_t: > 0 pulls the body in, away from the edge
 };

@@ -17,10 +17,12 @@ struct ZoneBorder
 /// A run of contact nodes in one state, with its ends read out between the nodes.
 struct Zone
 {
-   NodeState state;
-   ZoneBorder from, to;
-   Eigen::Index first, last; ///< nodes
-   int chain = 0;            ///< of the contact line, see chain_numbers()
+   NodeState state;    ///< of all its nodes
+   ZoneBorder from;    ///< where it begins
+   ZoneBorder to;      ///< where it ends
+   Eigen::Index first; ///< first node
+   Eigen::Index last;  ///< last node
+   int chain = 0;      ///< of the contact line, see chain_numbers()
 };
 
 /// Number of the chain of each node, from 0.
@@ -66,6 +68,7 @@ Zone widest_zone(const std::vector<Zone> &zones, NodeState which);
     the contact does, without a node of slip between, is known to a spacing only, since slip
     between the last two nodes does not show. */
 Zone stick_zone(const ReducedProblem &problem, const std::vector<Zone> &zones);
+/// The same of a state.
 Zone stick_zone(const ReducedProblem &problem, const ContactState &state);
 
 /// Stretches of contact: runs of closed nodes of one chain, in the order of the nodes. Their

@@ -30,9 +30,10 @@ enum class SlaveSide
 /// Where two bodies may touch, or a body and a rigid obstacle, or two parts of one body.
 struct Interface
 {
-   std::string name = "contact";
-   InterfaceSide first, second; ///< a rigid obstacle is the second
-   SlaveSide slave = SlaveSide::coarser;
+   std::string name = "contact";         ///< unique among the interfaces
+   InterfaceSide first;                  ///< body 1 of its frames
+   InterfaceSide second;                 ///< the other body, or a rigid obstacle
+   SlaveSide slave = SlaveSide::coarser; ///< which of the two has the nodes
    /// Initial gap as a function of the contact nodes' places, instead of that of the geometry;
    /// 0.0: closed, whatever chordal errors say. A rigid obstacle is closed unless this is
    /// given.
@@ -91,7 +92,8 @@ Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface>
 struct SeparateBodies
 {
    Eigen::MatrixXd K; ///< the bodies' S, one block each
-   Eigen::SparseMatrix<double, Eigen::RowMajor> L;
+   Eigen::SparseMatrix<double, Eigen::RowMajor>
+      L; ///< u = L U: relative displacements {v; w} of the rows by displacements of all bodies
    Eigen::MatrixXd loads;             ///< one column f_k a pattern
    std::vector<LoadPattern> patterns; ///< names and controls alone
 };

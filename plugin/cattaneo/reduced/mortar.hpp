@@ -23,13 +23,15 @@ namespace cattaneo
     own has entries beside its diagonal. */
 struct Mortar
 {
+   /// By rows.
    using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
    /// Nodes of the slave line that are contact nodes, increasing; n of them.
    std::vector<int> nodes;
    /// n × nodes of the slave line, n × nodes of the master line; of x and of y, which differ on
    /// an axis only. Rows of each sum to the same, in the plane to 1.
-   std::array<Matrix, 2> own, other;
+   std::array<Matrix, 2> own;   ///< of each component: of the nodes of the slave
+   std::array<Matrix, 2> other; ///< of the nodes of the other body
    /// n × 2: common tangent of both lines, a unit vector in the direction of the slave's. It
    /// and the gap do not depend on which of two matching lines is called the slave.
    Eigen::MatrixX2d tangent;
@@ -47,11 +49,11 @@ struct Mortar
    double left_out = 0;
 };
 
-/** Integrates the dual functions of the slave over the segments that nodes of both lines cut,
-    each where it faces the other (facing each other across the mean of both tangents), straight
-    or curved, of orders 1 to 8 that may differ. In axisymmetry with the weight r; a node on
-    the axis, which is no contact node, moves with the even (z) and odd (r) polynomials through
-    the other nodes of its element.
+/** Integrates the dual functions [Wohlmuth 2000] of the slave over the segments that nodes of
+   both lines cut, each where it faces the other (facing each other across the mean of both
+   tangents), straight or curved, of orders 1 to 8 that may differ. In axisymmetry with the
+   weight r; a node on the axis, which is no contact node, moves with the even (z) and odd (r)
+   polynomials through the other nodes of its element.
 
     `without`: nodes of the slave that are to carry no row; their neighbours share their part.
     `what` begins the sentences of InputError: lines of another formulation, of torsion, without

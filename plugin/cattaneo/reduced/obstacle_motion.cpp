@@ -1,4 +1,3 @@
-#include <cattaneo/condense/local_frame.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/reduction.hpp>
 #include <cmath>
@@ -9,31 +8,49 @@ namespace cattaneo
 void Reduction::add_obstacle_motion(const std::string &name, const ScalarField &ux,
                                     const ScalarField &uy, const ScalarField &u_theta)
 {
+   require(bodies.size() == 1, "obstacle motion '", name, "': the reduction is of ",
+           bodies.size(), " bodies, must be of one on a rigid obstacle");
+   std::vector<ObstacleMotion> motions;
+   for (std::size_t k = 0; k < interfaces.size(); ++k)
+   {
+      motions.push_back({k, ux, uy, u_theta});
+   }
+   add_obstacle_motion(name, motions);
+}
+
+void Reduction::add_obstacle_motion(const std::string &name,
+                                    const std::vector<ObstacleMotion> &motions)
+{
    require(!name.empty(), "obstacle motion: it has no name, must have one");
    const std::string where = "obstacle motion '" + name + "'";
-   require(bodies.size() == 1 && !union_, where, ": the reduction is of ", bodies.size(),
-           " bodies, must be of one on a rigid obstacle");
    for (const LoadPattern &pattern : problem.patterns)
    {
       require(pattern.name != name, where, ": a load pattern of that name is there already");
    }
    const Eigen::Index n = problem.nodes(), m = problem.slips();
-   Eigen::VectorXd u(2 * n), theta(n);
-   for (Eigen::Index i = 0; i < n; ++i)
+   Eigen::VectorXd d = Eigen::VectorXd::Zero(m + n);
+   for (const ObstacleMotion &motion : motions)
    {
-      const Eigen::Vector2d x = problem.position.row(i);
-      u[i] = ux(x[0], x[1]);
-      u[n + i] = uy(x[0], x[1]);
-      theta[i] = u_theta(x[0], x[1]);
-      require(std::isfinite(u[i]) && std::isfinite(u[n + i]) && std::isfinite(theta[i]), where,
-              ": the displacement at ", x, " is (", u[i], ", ", u[n + i], ", ", theta[i],
-              "), must be finite");
-      require(!torsion.empty() || theta[i] == 0, where, ": at ", x, " it is ", theta[i],
-              " along the circumference, must be 0 in a reduction without torsion");
+      require(motion.interface < interfaces.size(), where, ": interface ", motion.interface,
+              ", must be 0 to ", interfaces.size() - 1);
+      const InterfaceReport &of = interfaces[motion.interface];
+      require(of.bodies[1] < 0 && !of.tied, where, ": interface '", of.name, "' is ",
+              of.tied ? "tied" : "between two bodies", ", must be of one on a rigid obstacle");
+      for (Eigen::Index i = 0; i < of.nodes; ++i)
+      {
+         const Eigen::Vector2d x = of.position.row(i), t = of.tangent.row(i),
+                               u(motion.ux(x[0], x[1]), motion.uy(x[0], x[1]));
+         const double theta = motion.u_theta(x[0], x[1]);
+         require(u.allFinite() && std::isfinite(theta), where, ": the displacement at ", x,
+                 " is (", u[0], ", ", u[1], ", ", theta, "), must be finite");
+         require(!torsion.empty() || theta == 0, where, ": at ", x, " it is ", theta,
+                 " along the circumference, must be 0 in a reduction without torsion");
+         const Eigen::Index node = of.first + i;
+         d[node] = t.dot(u);
+         d[m + node] = t[0] * u[1] - t[1] * u[0];
+         if (!torsion.empty()) { d[n + node] = theta; }
+      }
    }
-   u = FrameChange::of(bodies[0].line).rows(u).col(0);
-   Eigen::VectorXd d(m + n);
-   d << u.head(n), theta.head(m - n), u.tail(n);
    for (Eigen::Index row : problem.held)
    {
       const Eigen::Index i = row % n;
@@ -60,10 +77,10 @@ void Reduction::add_obstacle_motion(const std::string &name, const ScalarField &
    }
    problem.patterns.push_back({name, Control::displacement, f.head(m), f.tail(n)});
    if (obstacle_.size() == 0) { obstacle_.resize(m + n, 0); }
-   Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(m + n, k + 1);
-   motions.leftCols(obstacle_.cols()) = obstacle_;
-   motions.col(k) = d;
-   obstacle_ = motions;
+   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(m + n, k + 1);
+   all.leftCols(obstacle_.cols()) = obstacle_;
+   all.col(k) = d;
+   obstacle_ = all;
 }
 
 } // namespace cattaneo

@@ -1,3 +1,4 @@
+#include <cattaneo/algebra/root.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/obstacle_shape.hpp>
 #include <cmath>
@@ -76,6 +77,34 @@ VectorXd gaps_to_circle(const InterfaceReport &nodes, const Vector2d &centre, do
                   // Without the difference of large numbers where the node is nearly on it.
                   const double root = std::sqrt(left), near = e.squaredNorm() - radius * radius;
                   return radius > 0 ? near / (root - along) : -near / (root + along);
+               });
+}
+
+VectorXd gaps_to_curve(const InterfaceReport &nodes,
+                       const std::function<double(double)> &height)
+{
+   require(nodes.spacing.size() == nodes.nodes,
+           "obstacle: the distances of the nodes of "
+           "interface '",
+           nodes.name, "' are not known");
+   const double step = nodes.spacing.size() > 0 ? nodes.spacing.minCoeff() : 0;
+   return gaps(nodes,
+               [&](const Vector2d &x, const Vector2d &looks)
+               {
+                  const auto above = [&](double g)
+                  { return x[1] + g * looks[1] - height(x[0] + g * looks[0]); };
+                  const double here = above(0);
+                  if (here == 0) { return 0.0; }
+                  for (double reach = step; reach < 1e6 * step; reach *= 2)
+                  {
+                     for (double g : {reach, -reach})
+                     {
+                        const double there = above(g);
+                        if (there == 0) { return g; }
+                        if (there * here < 0) { return find_root(above, 0.0, g); }
+                     }
+                  }
+                  return std::nan("");
                });
 }
 

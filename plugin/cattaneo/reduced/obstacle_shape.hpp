@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <cattaneo/reduced/reduction.hpp>
+#include <functional>
 #include <vector>
 
 namespace cattaneo
@@ -19,5 +20,10 @@ Eigen::VectorXd gaps_to_polyline(const InterfaceReport &nodes,
 /// A disc, or with a negative radius a hole of that radius.
 Eigen::VectorXd gaps_to_circle(const InterfaceReport &nodes, const Eigen::Vector2d &centre,
                                double radius);
+
+/// The curve y = height(x), whichever of its sides is the obstacle's: the first point of it
+/// that is met on the way from a node, outwards or inwards in steps of the nodes' distance.
+Eigen::VectorXd gaps_to_curve(const InterfaceReport &nodes,
+                              const std::function<double(double)> &height);
 
 } // namespace cattaneo

@@ -14,13 +14,15 @@ namespace cattaneo
     nodes `first` … `first + nodes - 1` of the problem, in the order of their arc length. */
 struct ContactChain
 {
-   std::string interface; ///< name of the interface it belongs to
-   Eigen::Index first = 0, nodes = 0;
-   bool loop = false; ///< the last node is followed by the first
+   std::string interface;  ///< name of the interface it belongs to
+   Eigen::Index first = 0; ///< first node
+   Eigen::Index nodes = 0; ///< number of nodes
+   bool loop = false;      ///< the last node is followed by the first
    /// How the boundary goes on beyond the first and the last node, of the body that carries the
    /// nodes and of the other one (a rigid obstacle goes on smoothly).
    std::array<LineEnd, 2> ends{LineEnd::unknown, LineEnd::unknown};
-   std::array<LineEnd, 2> other_ends{LineEnd::unknown, LineEnd::unknown};
+   std::array<LineEnd, 2> other_ends{
+      LineEnd::unknown, LineEnd::unknown}; ///< the same of the body that faces them
    /// Numbers of the bodies that carry the nodes and that face them, as in the columns of
    /// `dofs`; the same of a body that touches itself, -1: a rigid obstacle.
    std::array<int, 2> bodies{0, -1};
@@ -51,7 +53,7 @@ struct ReducedProblem
    /// friction. Nothing below the reduction takes a small B for zero.
    bool coupled = false;
 
-   std::vector<LoadPattern> patterns;
+   std::vector<LoadPattern> patterns; ///< loads, in the order of multipliers
 
    /// Response of the loads to the loads with the contact nodes clamped (u = {v; w} = 0), in
    /// the order of the patterns: the conjugate of pattern k (displacement of a force, reaction
@@ -80,20 +82,25 @@ struct ReducedProblem
    /// and no law of friction. They are coupled to nothing and loaded by nothing, see hold().
    std::vector<Eigen::Index> held;
 
+   /// Number of contact nodes n.
    Eigen::Index nodes() const { return gap.size(); }
+   /// Number of tangential components a node, c.
    Eigen::Index components() const { return nodes() ? slips() / nodes() : 0; }
    /// Number of tangential displacements, c·n.
    Eigen::Index slips() const { return K.rows() - nodes(); }
 
    /// Tangential stiffness, c·n × c·n; a view of K, as the other two.
    auto A() const { return K.topLeftCorner(slips(), slips()); }
+   /// The same, to be written to.
    auto A() { return K.topLeftCorner(slips(), slips()); }
    /// Coupling, n × c·n: normal force by tangential displacement. K has its transpose as well:
    /// who writes B calls complete().
    auto B() const { return K.bottomLeftCorner(nodes(), slips()); }
+   /// The same, to be written to.
    auto B() { return K.bottomLeftCorner(nodes(), slips()); }
    /// Normal stiffness, n × n.
    auto C() const { return K.bottomRightCorner(nodes(), nodes()); }
+   /// The same, to be written to.
    auto C() { return K.bottomRightCorner(nodes(), nodes()); }
 
    /// Is H known? Else conjugates are known but for a part that is linear in the loads.
@@ -137,6 +144,7 @@ std::vector<ContactChain> one_chain(Eigen::Index nodes);
 /// that are openings alone (n × k), orthonormal columns. They are all that A and C do not
 /// resist, because K is semidefinite.
 Eigen::MatrixXd rigid_slips(const ReducedProblem &problem);
+/// Those that are openings alone, n × k, see rigid_slips().
 Eigen::MatrixXd rigid_openings(const ReducedProblem &problem);
 
 /// The same friction coefficient at every node.

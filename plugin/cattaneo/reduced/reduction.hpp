@@ -14,20 +14,35 @@ struct Interface;
 /// What an interface came to.
 struct InterfaceReport
 {
-   std::string name;
-   std::array<int, 2> bodies{0, -1};  ///< whose nodes it has, and whose face them
-   Eigen::Index first = 0, nodes = 0; ///< its nodes of the problem; tied: among the tied ones
-   bool tied = false;                 ///< its nodes are none of the problem
+   std::string name;                 ///< that it was given
+   std::array<int, 2> bodies{0, -1}; ///< whose nodes it has, and whose face them
+   Eigen::Index first = 0; ///< first of its nodes of the problem; tied: among the tied ones
+   Eigen::Index nodes = 0; ///< number of them
+   bool tied = false;      ///< its nodes are none of the problem
    /// The nodes are those of Interface::second: forces on the first body are the opposite.
    bool of_second = false;
-   Eigen::MatrixX2d position, tangent; ///< of the nodes, where forces act and their frames
-   Eigen::VectorXd weights, spacing;   ///< of the nodes, LineNode's
-   bool matching = false;              ///< its nodes are also the other body's
+   Eigen::MatrixX2d position; ///< n × 2, of the nodes, where forces act
+   Eigen::MatrixX2d tangent;  ///< n × 2, of their frames: unit vectors
+   Eigen::VectorXd weights;   ///< of the nodes, see LineNode
+   Eigen::VectorXd spacing;   ///< of the nodes, see LineNode
+   bool matching = false;     ///< its nodes are also the other body's
    /// Places of nodes of the slave that nothing faces, and of those that are faced but carry no
    /// row: tips, nodes that are another interface's, those that close a ring of interfaces.
-   std::vector<Eigen::Vector2d> free_surface = {}, without_row = {};
-   double left_out = 0; ///< Mortar::left_out
-   double arm = 0;      ///< largest size of Mortar::arm: moment left by a normal force of 1
+   std::vector<Eigen::Vector2d> free_surface = {}; ///< nodes of the slave that nothing faces
+   std::vector<Eigen::Vector2d> without_row = {};  ///< see above
+   double left_out = 0;                            ///< Mortar::left_out
+   double arm = 0; ///< largest size of Mortar::arm: moment left by a normal force of 1
+};
+
+/// A rigid obstacle moves (or deforms) by (ux, uy) per unit multiplier, functions of the
+/// contact nodes' places, in axisymmetry (ur, uz); with torsion also by u_θ along the
+/// circumference. (0, 1) moves it up; (c - y, x) turns it about (0, c).
+struct ObstacleMotion
+{
+   std::size_t interface = 0; ///< in Reduction::interfaces
+   ScalarField ux = 0.0;      ///< along x or r
+   ScalarField uy = 0.0;      ///< along y or z
+   ScalarField u_theta = 0.0; ///< along the circumference
 };
 
 /** A reduced problem together with the way back to the fields of its bodies. Load patterns of
@@ -40,11 +55,11 @@ struct InterfaceReport
 class Reduction
 {
 public:
-   ReducedProblem problem;
-   std::vector<CondensedBody> bodies;
-   std::vector<InterfaceReport> interfaces;
-   std::vector<CondensedBody> torsion; ///< as many again if something twists, or none
-   Counters counters;                  ///< sum over the bodies and all later recoveries
+   ReducedProblem problem;                  ///< what is left to solve
+   std::vector<CondensedBody> bodies;       ///< as condensed, in the order given
+   std::vector<InterfaceReport> interfaces; ///< in the order given
+   std::vector<CondensedBody> torsion;      ///< as many again if something twists, or none
+   Counters counters;                       ///< sum over the bodies and all later recoveries
 
    /// Adds the circumferential components of one axisymmetric body (its torsion body, condensed
    /// to the same nodes): v_θ = u_θ and q_θ the force on the body, positive with the twist.
@@ -53,14 +68,17 @@ public:
    /// u_θ2, q_θ the force on body 1.
    void add_torsion(CondensedBody body1, std::optional<CondensedBody> body2 = std::nullopt);
 
-   /** A load pattern that moves the rigid obstacle of one body (or deforms it) by (ux, uy) per
-       unit multiplier, functions of the contact nodes' places, in axisymmetry (ur, uz); with
-       torsion also by u_θ along the circumference. (0, 1) moves it up; (c - y, x) turns it
-       about (0, c). Displacements of the reduced problem are relative to it; the gap stays as
-       it is, and the conjugate of the pattern is the obstacle's reaction.
+   /** A load pattern that moves rigid obstacles, each that of one interface. Displacements of
+       the reduced problem are relative to them; gaps and normals stay as they are (the motion
+       is linearised), and the conjugate of the pattern is the obstacles' reaction. Shanks must
+       have been added before.
 
-       InputError if the name is empty or taken, if there are two bodies, if a displacement is
-      not finite, or if it moves along a component that is held (a plane of symmetry). */
+       InputError if the name is empty or taken, if an interface is between two bodies or tied,
+      if a displacement is not finite, or if it moves along a component that is held (a plane of
+      symmetry). */
+   void add_obstacle_motion(const std::string &name,
+                            const std::vector<ObstacleMotion> &motions);
+   /// The same of all obstacles of one body.
    void add_obstacle_motion(const std::string &name, const ScalarField &ux,
                             const ScalarField &uy, const ScalarField &u_theta = 0.0);
 

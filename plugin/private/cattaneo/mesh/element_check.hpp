@@ -11,7 +11,7 @@ namespace cattaneo
     - it has an area, beyond the round-off of its coordinates;
     - the determinant of its Jacobian is positive everywhere: a polynomial, also of curved
       elements, whose Bernstein coefficients bound it from below; where they do not decide the
-      element is quartered (Johnen, Remacle, Geuzaine, J. Comput. Phys. 233, 2013);
+      element is quartered [Johnen 2013];
     - it lies on the other side of each edge that it shares than its neighbour there. Readers
       turn over what is numbered clockwise, so that a node that was dragged across an edge
    leaves no negative determinant behind. (Not asked of hanging edges, nor across ranks.)

@@ -1,0 +1,149 @@
+#include <algorithm>
+#include <cattaneo/exchange/input_deck.hpp>
+#include <cattaneo/exchange/line_reader.hpp>
+#include <cattaneo/mesh/deck_mesh.hpp>
+#include <cattaneo/mesh/gmsh_file.hpp>
+#include <cattaneo/words.hpp>
+#include <filesystem>
+#include <set>
+
+namespace cattaneo
+{
+
+namespace
+{
+
+using Nodes = InputDeck::Nodes;
+using Ends = std::pair<int, int>;
+
+Ends ends(const Nodes &edge)
+{
+   return std::minmax(edge.front(), edge.back());
+}
+
+/// Parts of the boundary by their names, each the ends of its edges. A set of nodes that is no
+/// part of it has none.
+std::map<std::string, std::set<Ends>> parts_of_boundary(const InputDeck &deck)
+{
+   std::map<std::string, std::set<Ends>> parts;
+   for (const auto &[name, edges] : deck.surfaces)
+   {
+      for (const Nodes &edge : edges) { parts[name].insert(ends(edge)); }
+   }
+   std::set<Ends> outer;
+   for (const Nodes &edge : deck.edges) { outer.insert(ends(edge)); }
+   // A truss of three nodes has its middle between the ends, or behind them as lines of Gmsh.
+   const auto line = [&](const InputDeck::Element &element)
+   {
+      const Ends behind = std::minmax(element.nodes[0], element.nodes[1]);
+      return outer.count(behind) ? behind : ends(element.nodes);
+   };
+   for (const InputDeck::Element &element : deck.elements)
+   {
+      require(element.corners != 2 || outer.count(line(element)), element.place, ": element ",
+              element.number, ", a line (", element.type,
+              "), is no edge of the body's boundary, must be one or be left out");
+   }
+   for (const auto &[name, elements] : deck.element_sets)
+   {
+      for (std::size_t e : elements)
+      {
+         if (deck.elements[e].corners == 2) { parts[name].insert(line(deck.elements[e])); }
+      }
+   }
+   for (const auto &[name, nodes] : deck.node_sets)
+   {
+      const std::set<int> its(nodes.begin(), nodes.end());
+      std::set<int> covered;
+      std::set<Ends> edges;
+      for (const Nodes &edge : deck.edges)
+      {
+         const bool whole = std::all_of(edge.begin(), edge.end(),
+                                        [&](int node) { return its.count(node) == 1; });
+         if (!whole) { continue; }
+         edges.insert(ends(edge));
+         covered.insert(edge.begin(), edge.end());
+      }
+      parts.emplace(name, covered == its ? edges : std::set<Ends>());
+   }
+   return parts;
+}
+
+} // namespace
+
+bool is_deck(const std::string &file)
+{
+   return upper_case(std::filesystem::path(file).extension().string()) == ".INP";
+}
+
+DeckMesh deck_mesh(const std::string &file)
+{
+   const InputDeck deck = read_input_deck(file);
+   DeckMesh made;
+   made.names.numbered = false;
+   made.names.axisymmetric = deck.formulation == Formulation::axisymmetric;
+   std::vector<std::string> passed_over;
+   for (const char *card : {"BOUNDARY", "CLOAD", "DLOAD", "DSLOAD", "TEMPERATURE",
+                            "MODEL CHANGE", "PRE-TENSION SECTION"})
+   {
+      if (deck.keywords.count(card)) { passed_over.push_back(std::string("*") + card); }
+   }
+   made.names.passed_over = listed(passed_over);
+
+   GmshText text;
+   std::set<int> used;
+   long last = 0;
+   for (const InputDeck::Element &element : deck.elements)
+   {
+      last = std::max<long>(last, element.number);
+      require(element.corners > 2 || (element.corners == 2 && element.section == 0),
+              element.place, ": element ", element.number, " is a ", element.type,
+              element.corners == 2 ? " with a *SOLID SECTION" : "",
+              ", must be a CPS, CPE or CAX of 3, 4, 6 or 8 nodes, or be left out");
+      if (element.corners < 3) { continue; }
+      require(deck.sections == 0 || element.section > 0, element.place, ": element ",
+              element.number,
+              " is in no *SOLID SECTION, must be in one, or there must be none at all");
+      for (int node : element.nodes)
+      {
+         if (!used.insert(node).second) { continue; }
+         const Eigen::Vector2d &at = deck.places.at(node);
+         text.add_node(node, {at[0], at[1], 0});
+      }
+   }
+   require(!used.empty(), "file '", file,
+           "' has no elements, must have CPS, CPE or CAX of 3, 4, 6 or 8 nodes");
+   for (const InputDeck::Element &element : deck.elements)
+   {
+      if (element.corners < 3) { continue; }
+      static const std::map<std::size_t, long> types = {{3, 2}, {4, 3}, {6, 9}, {8, 16}};
+      text.add_element(element.number, types.at(element.nodes.size()),
+                       {std::max(element.section, 1), 1},
+                       {element.nodes.begin(), element.nodes.end()});
+   }
+   const std::map<std::string, std::set<Ends>> parts = parts_of_boundary(deck);
+   for (const auto &part : parts) { made.names.boundary[part.first]; }
+   // An edge has one attribute: edges that have the same names share it.
+   std::map<std::vector<std::string>, int> attributes;
+   for (const Nodes &edge : deck.edges)
+   {
+      std::vector<std::string> names;
+      for (const auto &[name, edges] : parts)
+      {
+         if (edges.count(ends(edge))) { names.push_back(name); }
+      }
+      const auto [known, is_new] =
+         attributes.emplace(names, static_cast<int>(attributes.size()) + 1);
+      for (std::size_t k = 0; k < names.size() && is_new; ++k)
+      {
+         made.names.boundary[names[k]].push_back(known->second);
+      }
+      std::vector<long> nodes{edge.front(), edge.back()};
+      if (edge.size() == 3) { nodes.push_back(edge[1]); }
+      text.add_element(++last, edge.size() == 3 ? 8 : 1, {known->second, 1}, nodes);
+   }
+   made.text = text.text();
+   return made;
+}
+
+} // namespace cattaneo

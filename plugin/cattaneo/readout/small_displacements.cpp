@@ -1,0 +1,80 @@
+#include <cattaneo/friction/contact_state.hpp>
+#include <cattaneo/readout/small_displacements.hpp>
+#include <cmath>
+#include <sstream>
+
+namespace cattaneo
+{
+
+using Eigen::Index;
+
+SmallDisplacements::SmallDisplacements(const Reduction &reduction, std::vector<bool> even)
+   : reduction_(reduction), even_(std::move(even)), slip_(reduction.interfaces.size()),
+     gap_(reduction.interfaces.size())
+{
+   even_.resize(slip_.size(), false);
+}
+
+void SmallDisplacements::note(const ContactState &state)
+{
+   const Eigen::VectorXd &gaps = reduction_.problem.gap;
+   for (std::size_t k = 0; k < slip_.size(); ++k)
+   {
+      const InterfaceReport &face = reduction_.interfaces[k];
+      if (face.tied || face.spacing.size() != face.nodes) { continue; }
+      const auto along = reduction_.problem.arc_length.segment(face.first, face.nodes);
+      const double length = along.maxCoeff() - along.minCoeff();
+      for (Index i = 0; i < face.nodes; ++i)
+      {
+         const Index node = face.first + i;
+         if (!closed(state.status[node]) || state.p[node] <= 0) { continue; }
+         const double slip = std::abs(state.v[node]), share = slip / face.spacing[i];
+         if (!even_[k] && share > slip_[k].share) { slip_[k] = {i, slip, share}; }
+         const double gap = std::abs(gaps[node]);
+         if (gap > gap_[k].share * length) { gap_[k] = {i, gap, gap / length}; }
+      }
+   }
+}
+
+std::vector<std::string> SmallDisplacements::warnings() const
+{
+   std::vector<std::string> all;
+   for (std::size_t k = 0; k < slip_.size(); ++k)
+   {
+      const InterfaceReport &face = reduction_.interfaces[k];
+      const auto add = [&](const Most &most, const char *what, const char *of, const char *then)
+      {
+         std::ostringstream text;
+         text << "interface '" << face.name << "': " << what << most.value << " at ("
+              << face.position(most.node, 0) << ", " << face.position(most.node, 1)
+              << "), which is " << most.share << of << ": displacements are taken for small, "
+              << then;
+         all.push_back(text.str());
+      };
+      if (slip_[k].share > 1)
+      {
+         add(slip_[k], "a node slips by ", " of its distance from the next",
+             "it still faces what it faced at rest");
+      }
+      if (gap_[k].share > 0.1)
+      {
+         add(gap_[k], "contact closes or opens a gap of ", " of the length of the interface",
+             "the gap is that along the normals at rest");
+      }
+   }
+   return all;
+}
+
+std::string rotation_warning(const std::string &body, double rotation,
+                             const Eigen::Vector2d &place)
+{
+   if (std::abs(rotation) <= 0.05) { return ""; }
+   std::ostringstream text;
+   text << "body " << body << " turns by " << rotation * 180 / std::acos(-1.0)
+        << " degrees at (" << place[0] << ", " << place[1]
+        << "): displacements are taken for small, its turned shape and the forces on it are "
+           "wrong by as much";
+   return text.str();
+}
+
+} // namespace cattaneo

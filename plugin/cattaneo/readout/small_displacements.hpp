@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cattaneo/reduced/reduction.hpp>
+#include <string>
+#include <vector>
+
+namespace cattaneo
+{
+
+struct ContactState;
+
+/** Whether a march stayed where displacements are small: nodes go on facing what they faced,
+   and gaps are measured along the normals of the beginning. Beyond that results are those of
+    another problem, without any sign of it in themselves. */
+class SmallDisplacements
+{
+public:
+   /// `even`: interfaces, by their number, whose obstacle is the same wherever a node slides,
+   /// as a straight rigid line is; of them slip is not limited. The reduction must outlive it.
+   explicit SmallDisplacements(const Reduction &reduction, std::vector<bool> even = {});
+
+   /// A state that the march has reached.
+   void note(const ContactState &state);
+
+   /// A sentence for each interface and limit that was passed: slip of a node in contact beyond
+   /// its distance from the next, and a gap that closed of more than a tenth of the length of
+   /// the interface.
+   std::vector<std::string> warnings() const;
+
+private:
+   struct Most
+   {
+      Eigen::Index node = -1;
+      double value = 0, share = 0;
+   };
+   const Reduction &reduction_;
+   std::vector<bool> even_;
+   std::vector<Most> slip_, gap_; ///< of each interface
+};
+
+/// A sentence if a body turns by more than a twentieth (3 degrees) anywhere, else nothing.
+std::string rotation_warning(const std::string &body, double rotation,
+                             const Eigen::Vector2d &place);
+
+} // namespace cattaneo

@@ -1,0 +1,155 @@
+#include "expect_input_error.hpp"
+
+#include <cattaneo/elastic/statements.hpp>
+#include <cattaneo/mesh/mesh_file.hpp>
+#include <fstream>
+#include <gtest/gtest.h>
+
+// Meshes in decks of ABAQUS and CalculiX.
+namespace
+{
+
+using namespace cattaneo;
+
+std::string written(const std::string &text, const std::string &name = "deck.inp")
+{
+   const std::string file = testing::TempDir() + name;
+   std::ofstream(file) << text;
+   return file;
+}
+
+/// Two squares of one side, below 1 2 3, above 4 5 6.
+const std::string nodes =
+   "*Node, nset=all\n1, 0., 0.\n2, 1., 0.\n3, 2., 0.\n4, 0., 1.\n5, 1., 1.\n6, 2., 1.\n";
+const std::string squares = "*Element, type=CPE4R, elset=left\n7, 1, 2, 5, 4\n"
+                            "*Element, type=CPE4I, elset=right\n 12, 2, 3,\n6, 5\n";
+
+double area(const std::string &file)
+{
+   mfem::Mesh mesh = read_mesh(file);
+   double sum = 0;
+   for (int e = 0; e < mesh.GetNE(); ++e) { sum += mesh.GetElementVolume(e); }
+   return sum;
+}
+
+/// Lengths of the edges that a name has, in a mesh of straight edges.
+double length(const std::string &file, const std::string &name)
+{
+   mfem::Mesh mesh = read_mesh(file);
+   const std::vector<int> attributes = mesh_names(file).boundary.at(name);
+   double sum = 0;
+   for (int b = 0; b < mesh.GetNBE(); ++b)
+   {
+      if (std::find(attributes.begin(), attributes.end(), mesh.GetBdrAttribute(b)) ==
+          attributes.end())
+      {
+         continue;
+      }
+      mfem::Array<int> ends;
+      mesh.GetBdrElementVertices(b, ends);
+      const double *x = mesh.GetVertex(ends[0]), *y = mesh.GetVertex(ends[1]);
+      sum += std::hypot(x[0] - y[0], x[1] - y[1]);
+   }
+   return sum;
+}
+
+TEST(DeckMesh, HasSetsAndSurfacesAsParts)
+{
+   const std::string file =
+      written(nodes + squares +
+              "*Nset, nset=bottom, generate\n1, 3, 1\n*Nset, nset=corner\n1, 2\n"
+              "*Elset, elset=both, generate\n7, 12, 5\n*Elset, elset=more\nboth\n"
+              "*Surface, name=top, type=ELEMENT\nmore, S3\n*Surface, name=round\nboth\n"
+              "*Surface, name=nodes, type=NODE\nbottom\n*Nset, nset=row, elset=left\n"
+              "*Nset, nset=single\n5\n*Element, type=T3D2, elset=line\n20, 4, 1\n");
+   mfem::Mesh mesh = read_mesh(file);
+   EXPECT_EQ(mesh.GetNE(), 2);
+   EXPECT_EQ(mesh.GetNBE(), 6);
+   EXPECT_DOUBLE_EQ(area(file), 2);
+   EXPECT_EQ(length(file, "BOTTOM"), 2);
+   EXPECT_EQ(length(file, "NODES"), 2);
+   EXPECT_EQ(length(file, "CORNER"), 1);
+   EXPECT_EQ(length(file, "TOP"), 2);
+   EXPECT_EQ(length(file, "ROUND"), 6);
+   EXPECT_EQ(length(file, "LINE"), 1);
+   EXPECT_EQ(length(file, "ROW"), 3);
+   EXPECT_EQ(length(file, "SINGLE"), 0); // no edge
+   const MeshNames names = mesh_names(file);
+   EXPECT_FALSE(names.numbered);
+   EXPECT_FALSE(names.axisymmetric);
+   const BodyTerms terms{names.boundary, names.numbered};
+   EXPECT_EQ(boundary_part("load", "bottom[0<x<1]", terms).attributes.size(), 2u);
+   // Edges of two names are there once.
+   EXPECT_EQ(boundary_part("load", "top,round", terms).attributes.size(),
+             boundary_part("load", "round", terms).attributes.size());
+   expect_input_error([&] { boundary_part("load", "single", terms); },
+                      "SINGLE is no part of the boundary: it must be whole edges");
+   expect_input_error([&] { boundary_part("load", "1", terms); },
+                      "'1', must be names of surfaces or sets of nodes");
+   expect_input_error([&] { boundary_part("load", "side", terms); }, "names are ALL, BOTTOM");
+}
+
+/// Sections are the attributes of materials, in their order.
+TEST(DeckMesh, HasTheSectionsAsAttributes)
+{
+   const std::string sections = "*Solid Section, elset=right, material=b\n1.,\n"
+                                "*Solid Section, elset=left, material=a\n";
+   mfem::Mesh mesh = read_mesh(written(nodes + squares + sections));
+   EXPECT_EQ(mesh.GetAttribute(0), 2);
+   EXPECT_EQ(mesh.GetAttribute(1), 1);
+   EXPECT_EQ(read_mesh(written(nodes + squares)).GetAttribute(1), 1);
+   const std::string loaded =
+      written(nodes + squares + "*Boundary\nall, 1, 2\n*Step\n*Cload\n1, 1, 2.\n*End step\n");
+   EXPECT_EQ(mesh_names(loaded).passed_over, "*BOUNDARY, *CLOAD");
+}
+
+/// Order 2: 8 nodes with a bent side (a parabola of 2 by 0.2 below), and a triangle of 6.
+TEST(DeckMesh, HasCurvedSides)
+{
+   const std::string file = written(
+      "*NODE\n1, 0, 0\n2, 2, 0\n3, 2, 2\n4, 0, 2\n5, 1, -0.2\n6, 2, 1\n7, 1, 2\n8, 0, 1\n"
+      "9, 4, 1\n10, 3, 0.5\n11, 3, 1.5\n99, 7, 7\n*ELEMENT, TYPE=CAX8R\n1,1,2,3,4,5,6,7,8\n"
+      "*ELEMENT, TYPE=CAX6\n2, 2, 9, 3, 10, 11, 6\n*NSET, NSET=LOW\n1, 5, 2\n"
+      "*NSET, NSET=ENDS\n1, 2\n",
+      "curved.INP");
+   EXPECT_NEAR(area(file), 4 + 2.0 / 3 * 2 * 0.2 + 2, 1e-13);
+   const MeshNames names = mesh_names(file);
+   EXPECT_TRUE(names.axisymmetric);
+   EXPECT_EQ(names.boundary.at("LOW").size(), 1u);
+   EXPECT_TRUE(names.boundary.at("ENDS").empty()); // without the middle
+}
+
+TEST(DeckMesh, RefusesInOneSentenceWithTheLine)
+{
+   const auto says = [](const std::string &text, const char *part)
+   {
+      const std::string file = written(text);
+      expect_input_error([&] { read_mesh(file); }, part);
+   };
+   const std::string both = nodes + squares;
+   says(nodes, "has no elements, must have CPS, CPE or CAX");
+   says(both + "*ELEMENT, TYPE=C3D8\n30, 1, 2, 3, 4, 5, 6, 1, 2\n",
+        "line 14: element 30 is a C3D8, must be a CPS, CPE or CAX");
+   says(both + "*ELEMENT, TYPE=CPE4\n7, 1, 2, 5, 4\n", "line 14: element 7 is there a second");
+   says(both + "*ELEMENT, TYPE=CPE4\n8, 1, 2, 5\n",
+        "element 8 is a CPE4 of 3 nodes, must have 4");
+   says(both + "*ELEMENT, TYPE=CPE4\n8, 1, 2, 5, 9\n", "element 8 has node 9, which *NODE");
+   says(both + "*ELEMENT, TYPE=CAX4\n8, 1, 2, 5, 4\n", "plane and axisymmetric");
+   says(both + "*ELEMENT, TYPE=T3D2\n8, 2, 5\n", "a line (T3D2), is no edge");
+   says(both + "*ELEMENT, TYPE=T3D2, ELSET=T\n8, 1, 2\n*SOLID SECTION, ELSET=T\n*SOLID "
+               "SECTION, ELSET=LEFT\n*SOLID SECTION, ELSET=RIGHT\n",
+        "is a T3D2 with a *SOLID SECTION");
+   says(both + "*SURFACE, NAME=A\n7, S2\n",
+        "line 14: face S2 of element 7 of surface 'A' is inside of the body");
+   says(both + "*SURFACE, NAME=A\n7, S5\n", "face 'S5' of surface 'A', must be S1 to S4");
+   says(both + "*SURFACE, NAME=A\nnone, S1\n", "line 14: there is no element set 'none'");
+   says(both + "*ELSET, ELSET=A\n8\n", "line 14: there is no element 8");
+   says(both + "*ELSET, ELSET=A, GENERATE\n7, 8\n", "must be between elements that are there");
+   says(both + "*SOLID SECTION, ELSET=LEFT\n", "element 12 is in no *SOLID SECTION");
+   says(both + "*PART, NAME=A\n*PART, NAME=B\n", "a second *PART begins");
+   says(both + "*TIE, NAME=A\n", "*TIE makes nodes depend on others");
+   says("*NODE\n1, 0., 0., 1.\n", "line 2: node 1 is at z = 1");
+   says("*INCLUDE, INPUT=none.inp\n", "none.inp'");
+}
+
+} // namespace
