@@ -9,6 +9,11 @@ foreach(library IN LISTS libraries)
    install(EXPORT ${export_${library}} NAMESPACE Cattaneo:: DESTINATION ${config_dir})
 endforeach()
 install(DIRECTORY plugin/cattaneo DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
+set(exported_mfem_dir ${MFEM_DIR})
+if(bundled_mfem)
+   file(RELATIVE_PATH from_config /${config_dir} /${mfem_dir}/lib/cmake/mfem)
+   set(exported_mfem_dir "\${CMAKE_CURRENT_LIST_DIR}/${from_config}")
+endif()
 configure_package_config_file(cmake/CattaneoConfig.cmake.in
    "${CMAKE_CURRENT_BINARY_DIR}/CattaneoConfig.cmake" INSTALL_DESTINATION ${config_dir})
 write_basic_package_version_file("${CMAKE_CURRENT_BINARY_DIR}/CattaneoConfigVersion.cmake"
