@@ -21,6 +21,7 @@
 
 #include "common/fretting_figures.hpp"
 #include "common/pad.hpp"
+#include "common/shipped.hpp"
 
 #include <cattaneo/fretting/from_contact.hpp>
 #include <cattaneo/fretting/measures.hpp>
@@ -240,8 +241,7 @@ void assess_pad(miniapp::Study &study)
 {
    miniapp::Pad pad;
    std::string material = "Al", criterion = "open", records,
-               material_file =
-                  std::string(CATTANEO_SOURCE_DIR) + "/miniapps/data/materials.json";
+               material_file = miniapp::shipped("data/materials.json");
    double young = none, poisson = none, threshold = none, limit = none, yield = none;
    study.option(&pad.kind, {"p", "pad"},
                 "hertz (cylinder on flat), fe (the same by finite elements), flat-rounded, or "

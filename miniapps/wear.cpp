@@ -68,10 +68,24 @@ struct Case
    double middle = 0; ///< of what is symmetric, arc length
 };
 
-/// A pad on a half-plane, P = 1, of a half-width a = 1 unworn if it is a parabola with R = 1.
-Case pad_on_half_plane(miniapp::Study &study, const std::string &profile, double flat,
-                       double shear, double friction, double poisson, int order, int nodes)
+struct Pad
 {
+   std::string profile = "parabola";
+   double flat = 0.5, poisson = 0.3;
+   int nodes = 201, order = 2;
+
+   bool is_the_default() const
+   {
+      const Pad usual;
+      return profile == usual.profile && flat == usual.flat && poisson == usual.poisson &&
+             nodes == usual.nodes && order == usual.order;
+   }
+};
+
+/// A pad on a half-plane, P = 1, of a half-width a = 1 unworn if it is a parabola with R = 1.
+Case pad_on_half_plane(miniapp::Study &study, const Pad &pad, double shear, double friction)
+{
+   const auto &[profile, flat, poisson, nodes, order] = pad;
    require((nodes - 1) % (2 * order) == 0, "option --nodes is ", nodes,
            ", must be one more than a multiple of twice the order ", order);
    const bool parabola = profile == "parabola";
@@ -193,27 +207,28 @@ void draw_loop(miniapp::Panel &panel, const std::string &label, const Case &scen
 
 void wear_contact(miniapp::Study &study)
 {
-   std::string profile = "parabola", file, history_text, update = "cycle",
-               stepping = "advancing", save_state, load_state;
-   double shear = miniapp::none, friction = miniapp::none, poisson = 0.3, flat = 0.5,
-          coefficient = 1e-2, threshold = 0;
+   Pad pad;
+   std::string file, history_text, update = "cycle", stepping = "advancing", save_state,
+                                   load_state;
+   double shear = miniapp::none, friction = miniapp::none, coefficient = 1e-2, threshold = 0;
    bool of_energy = false;
-   int nodes = 201, order = 2, cycles = 1000, cycle_start = -1;
+   int cycles = 1000, cycle_start = -1;
    WearSettings settings;
    settings.tolerance = 1e-3;
    settings.march.increments = 1;
-   study.option(&profile, "profile",
+   study.option(&pad.profile, "profile",
                 "Pad: parabola, or flat with rounded edges (a = 1, R = 1).",
                 {"parabola", "flat"});
-   study.option(&flat, "flat", "Pad: half-width that is flat, in a.", miniapp::between(0, 1));
+   study.option(&pad.flat, "flat", "Pad: half-width that is flat, in a.",
+                miniapp::between(0, 1));
    study.option(&shear, "shear", "Pad: amplitude of Q/fP; default: 0.5.",
                 miniapp::between(0, 1));
    study.option(&friction, "friction",
                 "Coefficient of friction; default: 0.5, of --reduced the file's.",
                 miniapp::positive);
-   study.option(&poisson, "poisson", "Pad: Poisson's ratio.");
-   study.option(&nodes, "nodes", "Pad: contact nodes.", miniapp::at_least(25));
-   study.option(&order, "order", "Pad: order of the elements.", miniapp::within(1, 8));
+   study.option(&pad.poisson, "poisson", "Pad: Poisson's ratio.");
+   study.option(&pad.nodes, "nodes", "Pad: contact nodes.", miniapp::at_least(25));
+   study.option(&pad.order, "order", "Pad: order of the elements.", miniapp::within(1, 8));
    study.option(&cycles, "cycles", "Cycles that wear.", miniapp::not_negative);
    study.option(&coefficient, "wear", "Archard's k, of both bodies together, 1/pressure.",
                 miniapp::not_negative);
@@ -253,12 +268,14 @@ void wear_contact(miniapp::Study &study)
       shear = std::isnan(shear) ? 0.5 : shear;
       study.results["shear"] = shear;
       friction = std::isnan(friction) ? 0.5 : friction;
-      scene = pad_on_half_plane(study, profile, flat, shear, friction, poisson, order, nodes);
+      scene = pad_on_half_plane(study, pad, shear, friction);
    }
    else
    {
       require(std::isnan(shear),
               "option --shear is of the pad, --history says it of --reduced");
+      require(pad.is_the_default(), "options --profile, --flat, --poisson, --nodes and --order "
+                                    "are of the pad, --reduced has its own contact");
       scene.problem = load_reduced_problem(file);
       if (!std::isnan(friction)) { set_friction(scene.problem, friction); }
       require(cycle_start >= 0, "option --cycle-start is ", cycle_start,
@@ -271,7 +288,7 @@ void wear_contact(miniapp::Study &study)
       scene.history.validate(static_cast<int>(scene.problem.patterns.size()));
       study.condensed(scene.problem, 0);
    }
-   study.results["scene"] = file.empty() ? profile : "reduced";
+   study.results["scene"] = file.empty() ? pad.profile : "reduced";
    const ReducedProblem &problem = scene.problem;
    study.save(problem);
    WearLaw law = WearLaw::uniform(problem, coefficient);

@@ -1,6 +1,7 @@
 #include "common/figure.hpp"
 
 #include "common/miniapp.hpp"
+#include "common/shipped.hpp"
 #include "common/text.hpp"
 
 #include <cattaneo/input_error.hpp>
@@ -145,12 +146,11 @@ void run_plot_script(const std::vector<std::string> &arguments, const std::strin
 {
    if (!writes()) { return; }
    std::string command =
-      "for python in python3 /usr/bin/python3; do if $python -c 'import matplotlib' "
-      "2>/dev/null; "
-      "then exec $python " +
-      argument(std::string(CATTANEO_SOURCE_DIR) + "/miniapps/plot/plot.py");
+      "for python in python3 /usr/bin/python3; do command -v $python >/dev/null || continue; "
+      "$python " +
+      argument(shipped("plot/plot.py"));
    for (const std::string &text : arguments) { command += " " + argument(text); }
-   command += " " + argument(picture) + "; fi; done; exit 3";
+   command += " " + argument(picture) + "; code=$?; [ $code = 3 ] || exit $code; done; exit 3";
    std::cout << std::flush;
    require(std::system(command.c_str()) == 0, "option --plot: '", picture,
            "' was not drawn; it needs Python 3 with matplotlib (Debian: python3-matplotlib)");

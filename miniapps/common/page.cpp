@@ -1,6 +1,7 @@
 #include "common/page.hpp"
 
 #include "common/figure.hpp"
+#include "common/shipped.hpp"
 #include "common/text.hpp"
 
 #include <algorithm>
@@ -105,7 +106,7 @@ ordered_json Film::json() const
 
 void write_page(const std::string &file, const ordered_json &run, const std::string &figure)
 {
-   const std::string place = std::string(CATTANEO_SOURCE_DIR) + "/miniapps/plot/page.html";
+   const std::string place = shipped("plot/page.html");
    std::ifstream in(place);
    require(in.good(), "option --html: cannot read '", place, "'");
    std::ostringstream page;

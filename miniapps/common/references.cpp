@@ -1,6 +1,7 @@
 #include "common/references.hpp"
 
 #include "common/miniapp.hpp"
+#include "common/shipped.hpp"
 
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
@@ -101,7 +102,7 @@ double mesh_share(const ordered_json &term, const Meaning &meaning)
 
 References::References(const std::string &study) : entries_(ordered_json::array())
 {
-   const std::string file = std::string(CATTANEO_SOURCE_DIR) + "/miniapps/data/references.json";
+   const std::string file = shipped("data/references.json");
    std::ifstream in(file);
    if (!in.good())
    {

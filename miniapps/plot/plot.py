@@ -29,7 +29,10 @@ import math
 import sys
 from collections import OrderedDict, defaultdict
 
-import matplotlib
+try:
+    import matplotlib
+except ImportError:
+    sys.exit(3)  # another Python may have it
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt

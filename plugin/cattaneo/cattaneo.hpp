@@ -5,6 +5,7 @@
 #include <cattaneo/core.hpp>
 #include <cattaneo/elastic/axisymmetric.hpp>
 #include <cattaneo/elastic/point_stress.hpp>
+#include <cattaneo/elastic/rotation.hpp>
 #include <cattaneo/elastic/statements.hpp>
 #include <cattaneo/elastic/views.hpp>
 #include <cattaneo/mesh/filled_corner.hpp>

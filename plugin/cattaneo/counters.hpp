@@ -46,7 +46,9 @@ struct Counters
       visit("limit_solves", self.limit_solves);
    }
 
+   /// Adds up, but for tangential_unknowns, of which the larger one stays.
    Counters &operator+=(const Counters &other) { return add(other, 1); }
+   /// What was done since: of two readings of one count.
    Counters &operator-=(const Counters &other) { return add(other, -1); }
 
 private:

@@ -25,10 +25,12 @@ const Part &as_text(const Part &part)
 {
    return part;
 }
+/// As few digits as say the number exactly.
 inline std::string as_text(double value)
 {
    return exact_text(value);
 }
+/// "(x, y)".
 inline std::string as_text(const Eigen::Vector2d &place)
 {
    return "(" + exact_text(place[0]) + ", " + exact_text(place[1]) + ")";
@@ -46,7 +48,9 @@ void require(bool condition, const Parts &...parts)
 
 // The usual limits of a number; @a what: where it stands and its name. All refuse infinity and
 // NaN.
+/// InputError unless the value is above 0.
 void require_positive(const char *what, double value);
+/// InputError unless the value is at least `least`.
 void require_at_least(const char *what, double value, double least);
 /// Neither bound is allowed.
 void require_between(const char *what, double value, double low, double high);

@@ -19,10 +19,10 @@ enum class Control
 /// contact node moved (thesis 3.4, 3.17, 3.19).
 struct LoadPattern
 {
-   std::string name;
-   Control control = Control::force;
-   Eigen::VectorXd q; ///< tangential, size c·n as ReducedProblem::A
-   Eigen::VectorXd p; ///< normal, compression positive, size n
+   std::string name;                 ///< by which histories and results call it
+   Control control = Control::force; ///< what its multiplier scales
+   Eigen::VectorXd q;                ///< tangential, size c·n as ReducedProblem::A
+   Eigen::VectorXd p;                ///< normal, compression positive, size n
 };
 
 /// Load multipliers by the names of their patterns: {{"P", 1}, {"Q", 0.2}}.

@@ -36,6 +36,7 @@ struct Monitor
 
    static_assert(std::atomic<bool>::is_always_lock_free); // a signal handler may set one
 
+   /// Has somebody asked the work to stop?
    bool stopped() const { return stop && stop->load(std::memory_order_relaxed); }
    /// InputError naming the setting, its value and what is allowed.
    void validate() const { require_at_least("monitor: interval", interval, 0); }

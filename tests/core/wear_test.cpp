@@ -310,16 +310,17 @@ TEST(Wear, GoesOnFromASavedStateToTheSameBits)
    WearState whole = WearState::virgin(pad.problem), half = whole;
    wear(pad.problem, law, pad.history, 20, whole, settings_with(0));
    wear(pad.problem, law, pad.history, 7, half, settings_with(0));
-   save(half, "wear.json");
-   WearState again = load_wear_state("wear.json");
+   const std::string file = testing::TempDir() + "wear.json";
+   save(half, file);
+   WearState again = load_wear_state(file);
    wear(pad.problem, law, pad.history, 20, again, settings_with(0));
    EXPECT_EQ(again.depth, whole.depth);
    EXPECT_EQ(again.dissipation, whole.dissipation);
    EXPECT_EQ(again.contact.v, whole.contact.v);
    EXPECT_EQ(again.cycles, 20);
    expect_input_error([] { load_wear_state("nowhere.json"); }, "nowhere.json");
-   save(half.contact, "contact.json");
-   expect_input_error([] { load_wear_state("contact.json"); }, "wear state");
+   save(half.contact, file);
+   expect_input_error([&] { load_wear_state(file); }, "wear state");
 }
 
 TEST(Wear, WithoutKNothingWears)

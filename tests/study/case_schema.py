@@ -3,9 +3,11 @@
 Every key that the program or the schema knows is tried with values of all kinds, and so are case files with a random
 choice of keys: both must agree. What no schema can say (a sweep of no option, loads of a pattern that is not there, …)
 is the program's own. SCHEMA2 is that of files of version 2, whose objects are tried key by key with values of a wrong kind.
+Each is a run of the program: a third of them in the usual tests, drawn with a fixed seed, all of them in ./test --all.
 """
 
 import json
+import os
 import pathlib
 import random
 import re
@@ -22,6 +24,13 @@ VALUES = [None, True, False, 0, -1, 1, 2, 3, 8, 9, -2, 2.0, 1.5, 0.25, 0.5, 0.49
 # How a schema may say things here: a keyword that is not read would be taken for granted.
 KEYWORDS = {"description", "$ref", "type", "enum", "const", "oneOf", "items", "minimum", "maximum", "exclusiveMinimum",
             "exclusiveMaximum", "properties", "required", "additionalProperties", "minItems", "maxItems", "minProperties"}
+
+
+DRAW = random.Random(1)
+
+
+def some(values):
+    return values if os.environ.get("CATTANEO_STRESS") == "full" else DRAW.sample(values, -(-len(values) // 3))
 
 
 def is_number(value):
@@ -90,7 +99,7 @@ def of_version_2(asked, schema, definitions):
              "interfaces": {"flat": {"between": ["pad:1", "base:3"], "friction": 0.3, "gap": "geometry", "slave": "first", "overlap": 1},
                             "cut": {"between": ["pad:2", "base:2"], "tied": True},
                             "pairs": {"between": "pad:3", "pairing": 0.1},
-                            "floor": {"between": "pad:4", "obstacle": {"line": [[0, 0], [1, 0]]}}},
+                            "floor": {"between": "pad:4", "obstacle": {"line": [[0, 0], [1, 0]]}, "motion": {"D": {"y": -1, "angle": 1, "centre": [0, 1]}}}},
              "bolts": {"bolt": {"between": ["pad:1", "base:3"], "direction": [0, 1], "stiffness": 1, "pretension": 1}}}
     wrong = []
     places = [(kind, name) for kind in ("bodies", "interfaces", "bolts") for name in sound[kind]] + [("bodies", "ground", "half-plane")]
@@ -99,7 +108,7 @@ def of_version_2(asked, schema, definitions):
         for step in place:
             keys = keys[step]
         for key in [*keys, "nonsense"]:
-            for value in (None, True, 0, 2.5, -1, "x", "geometry", [], [1], ["a"], [[0, 1], [1, 2]], {}):
+            for value in some([None, True, 0, 2.5, -1, "x", "geometry", [], [1], ["a"], [[0, 1], [1, 2]], {}]):
                 case = json.loads(json.dumps(sound))
                 inner = case
                 for step in place:
@@ -107,7 +116,7 @@ def of_version_2(asked, schema, definitions):
                 inner[key] = value
                 said = asked.says(case)
                 # What no schema says: what goes with what, names that are not there, numbers of Poisson.
-                if re.search(r"which do not go together|there is no body|must be the name|a body and a part|goes without|for one side alone|must have one of the keys|has \d of the keys", said):
+                if re.search(r"which do not go together|there is no body|must be the name|a body and a part|goes without|for one side alone|must have one of the keys|is not a number or a function|is not one of geometry|has \d of the keys", said):
                     continue
                 refuses = re.match(r"error: key '", said) is not None
                 if refuses == fits(schema, case, definitions):
@@ -132,13 +141,12 @@ def main():
             values = VALUES if key != "$schema" else ["case.schema.json"]
             if key == "version":  # 2 has a schema of its own
                 values = [value for value in VALUES if value != 2]
-            for value in values:
+            for value in some(values):
                 if bool(asked.refuses({key: value})) != bool(refused({key: value})):
                     wrong.append(f"'{key}': {json.dumps(value)} is accepted by one alone: {asked.says({key: value})}")
-        draw = random.Random(1)
-        for _ in range(150):
-            case = {key: draw.choice(VALUES) for key in draw.sample(sorted(set(keys) - {"$schema"}), 3)}
-            case.update({key: value for key, value in (("version", 1), ("order", 2.0)) if draw.random() < 0.5})
+        for _ in some(range(150)):
+            case = {key: DRAW.choice(VALUES) for key in DRAW.sample(sorted(set(keys) - {"$schema"}), 3)}
+            case.update({key: value for key, value in (("version", 1), ("order", 2.0)) if DRAW.random() < 0.5})
             if case.get("version") == 2:
                 continue
             found, expected = asked.refuses(case), refused(case)

@@ -641,8 +641,8 @@ TEST_F(Contact2D, BadInputIsOneSentenceAndLeavesNoFile)
       {block + "--load1 'P pressure 2'",
        {"P pressure 2", "3 words", "PATTERN pressure WHERE p"}},
       {block + "--load1 'P push 2 1'", {"kind 'push'", "pressure, traction, body-force"}},
-      {block + "--load1 'P pressure 2 nan'", {"'nan'", "linear function"}},
-      {block + "--load1 'P pressure 2 1*z'", {"'1*z'", "linear function"}},
+      {block + "--load1 'P pressure 2 nan'", {"'nan'", "a function of x and y"}},
+      {block + "--load1 'P pressure 2 1*z'", {"'1*z'", "a function of x and y"}},
       {block + "--load1 'P pressure 2 1; P displacement-x 4 1'",
        {"load pattern 'P'", "displacement"}},
       {pressed + "--history 'P=0; Q=1'", {"history 'Q=1'", "no load pattern 'Q'", "P"}},
@@ -1087,7 +1087,8 @@ TEST_F(Contact2D, WarnsOfASideThatBears)
    const std::string options =
       "--mesh1 '" + write("pad.mesh", mesh) + "' --load1 'P pressure 3 1' --contact1 ";
    const auto around = contact2d(options + "1,4");
-   ASSERT_EQ(around.results["warnings"].size(), 1u) << around.output;
+   // A pad that is pressed so much that its side bears turns there, and closes a large gap.
+   ASSERT_EQ(around.results["warnings"].size(), 3u) << around.output;
    const std::string warning = around.results["warnings"][0];
    EXPECT_NE(warning.find("name no boundary around a corner"), std::string::npos) << warning;
    EXPECT_EQ(contact2d(options + "1").results["warnings"].size(), 0u);
@@ -1109,7 +1110,7 @@ TEST_F(Contact2D, WarnsOfElementsThatMissTheCurvesOfTheirMesh)
             });
       }
       const std::string options = "--mesh1 '" + write("curved.mesh", mesh) +
-                                  "' --load1 'P pressure 3 1' --contact1 1 --order ";
+                                  "' --load1 'P pressure 3 1e-3' --contact1 1 --order ";
       const auto lower = contact2d(options + "1"), same = contact2d(options + "2");
       ASSERT_EQ(lower.code, 0) << lower.output;
       EXPECT_EQ(same.results["warnings"].size(), 0u) << same.output;
@@ -1133,7 +1134,7 @@ TEST_F(Contact2D, WarnsOfALineThatIsNamedTooShort)
    mfem::Mesh lower = cattaneo::rectangle_mesh(x, y);
    const std::string meshes = "--mesh1 '" + write("upper.mesh", upper) + "' --mesh2 '" +
                               write("lower.mesh", lower) +
-                              "' --support2 1:xy --friction 0.3 --load1 'P pressure 3 1' ";
+                              "' --support2 1:xy --friction 0.3 --load1 'P pressure 3 1e-3' ";
    const auto part = contact2d(meshes + "--contact1 '1[-1<x<1]' --contact2 '3[-1<x<1]'");
    ASSERT_EQ(part.code, 0) << part.output;
    ASSERT_EQ(part.results["warnings"].size(), 2u) << part.output;

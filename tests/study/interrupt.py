@@ -1,5 +1,6 @@
 """interrupt.py PROGRAMS: Ctrl-C leaves what was computed; progress is shown on a terminal and nowhere else."""
 
+import concurrent.futures
 import json
 import os
 import pathlib
@@ -52,21 +53,25 @@ def read(source):
     return found
 
 
+def check(programs, program, options):
+    seconds = None
+    with tempfile.TemporaryDirectory() as folder:
+        # A limit shows progress late, and in a pipe it is as quiet as the others.
+        for terminal in (True,) if program == "shakedown" else (True, False):
+            code, out, shown, results, took = interrupted(str(programs / program), options, pathlib.Path(folder), terminal, seconds)
+            seconds = took + 1
+            assert code == 2, (program, code, out)
+            assert results["status"] == "stopped", (program, results["status"])
+            assert "topped" in out, (program, out)
+            assert (" steps, " in shown and ("%" in shown or program == "shakedown")) if terminal else shown == "", (program, terminal, shown)
+            assert " steps, " not in out, (program, out)
+
+
 def main():
     programs = pathlib.Path(sys.argv[1])
-    with tempfile.TemporaryDirectory() as name:
-        folder = pathlib.Path(name)
-        for program, options in LONG.items():
-            seconds = None
-            # A limit shows progress late, and in a pipe it is as quiet as the others.
-            for terminal in (True,) if program == "shakedown" else (True, False):
-                code, out, shown, results, took = interrupted(str(programs / program), options, folder, terminal, seconds)
-                seconds = took + 1
-                assert code == 2, (program, code, out)
-                assert results["status"] == "stopped", (program, results["status"])
-                assert "topped" in out, (program, out)
-                assert (" steps, " in shown and ("%" in shown or program == "shakedown")) if terminal else shown == "", (program, terminal, shown)
-                assert " steps, " not in out, (program, out)
+    with concurrent.futures.ThreadPoolExecutor() as pool:  # most of the time is waiting
+        for done in [pool.submit(check, programs, program, options) for program, options in LONG.items()]:
+            done.result()
 
 
 main()

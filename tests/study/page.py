@@ -11,11 +11,19 @@ import sys
 import tempfile
 
 RUN = ["-reduced", "problems/hertz.json", "-history", "P=0; P=1; Q=.24; Q=-.24; Q=.24", "-cycle-start", "2", "-frames", "all"]
-# What a hand does: the slider is put somewhere, and says so itself.
+# What a hand does: the slider is put somewhere, and says so itself. What the page is then is kept in it.
 MOVE = """<script>
-const slider = document.getElementById("increment");
-slider.value = %d;
-slider.dispatchEvent(new Event("input"));
+const slider = document.getElementById("increment"), kept = [];
+for (const place of %s) {
+  slider.value = place - 1;
+  slider.dispatchEvent(new Event("input"));
+  kept.push(document.documentElement.outerHTML);
+}
+const keeper = document.createElement("script");
+keeper.type = "application/json";
+keeper.id = "kept";
+keeper.textContent = JSON.stringify(kept).replaceAll("<", "\\\\u003c");
+document.body.append(keeper);
 </script></body>"""
 
 
@@ -98,10 +106,11 @@ def main():
         seen = []
         seen.append(check(shown(browser, page), len(history), history, nodes)) # it begins at the end
         seen.append(check(shown(browser, page, "#increment=12"), 12, history, nodes))
-        for number in (1, 30, 45):
-            moved = folder / "moved.html"
-            moved.write_text(text.replace("</body>", MOVE % (number - 1)), encoding="utf-8")
-            seen.append(check(shown(browser, moved, "#increment=12"), number, history, nodes))
+        places, moved = [1, 30, 45], folder / "moved.html"
+        moved.write_text(text.replace("</body>", MOVE % places), encoding="utf-8")
+        kept = re.search(r'<script type="application/json" id="kept">(.*?)</script>', shown(browser, moved, "#increment=12"), re.S)
+        for number, dom in zip(places, json.loads(kept.group(1)), strict=True):
+            seen.append(check(dom, number, history, nodes))
         cursors, ways, loads = zip(*seen)
         by_number = [seen[k] for k in (2, 1, 3, 4, 0)]
         assert [x for x, _, _ in by_number] == sorted(set(cursors)), cursors

@@ -53,6 +53,16 @@ void DenseLU::solve(Eigen::Ref<Eigen::MatrixXd> x) const
    if (column_scale_.size()) { x = column_scale_.asDiagonal() * x; }
 }
 
+void DenseLU::solve_transposed(Eigen::Ref<Eigen::VectorXd> x) const
+{
+   const int n = static_cast<int>(rows()), one = 1;
+   if (n == 0) { return; }
+   if (column_scale_.size()) { x = column_scale_.asDiagonal() * x; }
+   int info = 0;
+   dgetrs_("T", &n, &one, factors_.data(), &n, exchanges_.data(), x.data(), &n, &info);
+   if (row_scale_.size()) { x = row_scale_.asDiagonal() * x; }
+}
+
 #else
 
 bool DenseLU::compute(Eigen::MatrixXd matrix)
@@ -77,6 +87,16 @@ void DenseLU::solve(Eigen::Ref<Eigen::MatrixXd> x) const
    factors_.triangularView<Eigen::Upper>().solveInPlace(permuted);
    x = permuted;
    if (column_scale_.size()) { x = column_scale_.asDiagonal() * x; }
+}
+
+void DenseLU::solve_transposed(Eigen::Ref<Eigen::VectorXd> x) const
+{
+   if (column_scale_.size()) { x = column_scale_.asDiagonal() * x; }
+   factors_.triangularView<Eigen::Upper>().transpose().solveInPlace(x);
+   factors_.triangularView<Eigen::UnitLower>().transpose().solveInPlace(x);
+   const Eigen::VectorXd permuted = x;
+   x(exchanges_) = permuted;
+   if (row_scale_.size()) { x = row_scale_.asDiagonal() * x; }
 }
 
 #endif

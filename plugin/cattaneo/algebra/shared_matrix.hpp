@@ -22,13 +22,17 @@ public:
    /// arrays live as long as `owner`.
    SharedMatrix(int size, const int *start, const int *column, const double *value,
                 std::shared_ptr<const void> owner);
+   /// Keeps the matrix itself.
    explicit SharedMatrix(Eigen::SparseMatrix<double, Eigen::RowMajor> matrix);
 
+   /// Number of rows.
    int size() const { return size_; }
+   /// Without a copy; valid as long as this or a copy of it lives.
    SparseView view() const
    {
       return {size_, size_, start_ ? start_[size_] : 0, start_, column_, value_};
    }
+   /// The entry on the diagonal, 0 if none is stored.
    double diagonal(int row) const;
    /// True if the other has the same pattern and entries equal to 1e-12 of the largest.
    bool equals(const SharedMatrix &other) const;

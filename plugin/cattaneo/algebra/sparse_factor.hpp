@@ -14,6 +14,7 @@ namespace cattaneo
 class NotPositiveDefinite : public InputError
 {
 public:
+   /// Found out at a row of the whole matrix.
    NotPositiveDefinite(int row_of_K, const std::string &message)
       : InputError(message), row(row_of_K)
    {
@@ -33,12 +34,14 @@ public:
 class SparseFactor
 {
 public:
+   /// Which library factors.
    enum class Backend
    {
       automatic, ///< CHOLMOD if built with it
       cholmod,
       eigen
    };
+   /// Was the library built with CHOLMOD?
    static bool has_cholmod();
 
    /// Factors K(keep, keep) + diag(shift on the trailing rows). `keep`: rows of K in any order,
@@ -54,6 +57,7 @@ public:
    /// Solves with the factored (shifted) matrix, one right-hand side a column; rows in the
    /// order of `keep`.
    Eigen::MatrixXd solve(const Eigen::MatrixXd &rhs) const;
+   /// Number of rows that were factored.
    int rows() const;
    /// Number of non-zeros of the factor (with CHOLMOD: stored entries of its supernodes).
    long nonzeros() const;

@@ -11,9 +11,9 @@ namespace cattaneo
 /// A load pattern on all dofs of a body.
 struct BodyLoad
 {
-   std::string name; ///< one that no other load of the body has
-   Control control = Control::force;
-   Eigen::VectorXd values; ///< force control: forces; displacement: prescribed values
+   std::string name;                 ///< one that no other load of the body has
+   Control control = Control::force; ///< what the multiplier scales
+   Eigen::VectorXd values;           ///< force control: forces; displacement: prescribed values
 };
 
 /// A motion of fixed dofs that is free after all, of all of them together: that of a part that
@@ -31,9 +31,9 @@ struct AssembledBody
    /// Symmetric, of all dofs, supported ones among them; each entry once.
    SharedMatrix K;
    std::vector<int>
-      fixed; ///< sorted: fixed, prescribed by a load of displacements, or a block's
-   DofPlaces places;
-   std::vector<BodyLoad> loads;
+      fixed;         ///< sorted: fixed, prescribed by a load of displacements, or a block's
+   DofPlaces places; ///< of all dofs
+   std::vector<BodyLoad> loads; ///< each of a name of its own
    /// True if K may resist rigid motions (elastic foundations, springs that do not connect x
    /// with y): K is then asked which it resists, and those are free no more. False: all that
    /// the supports leave are free, and a body is refused if contact nodes and supports together

@@ -35,7 +35,7 @@ class CondensedBody
 {
 public:
    std::string name; ///< what sentences about unions call it; may be empty
-   ContactLine line;
+   ContactLine line; ///< its contact nodes, in their order
    /// 2n × 2n (torsion: n × n), symmetric; zero in the rows and columns that are held.
    Eigen::MatrixXd S;
    /// Rows of S of components that supports hold, increasing. At a node of which one component
@@ -48,7 +48,7 @@ public:
    /// The motions of the contact nodes that neither supports nor stiffness resist, in local
    /// frames: rows of S × k, orthonormal columns. S does not resist them to round-off.
    Eigen::MatrixXd free_motions;
-   Counters counters;
+   Counters counters; ///< of condensing it and of all later recoveries
 
    /// Displacement of all dofs (of this rank's, if the body is on several) for contact
    /// displacements {v; w} of *this body* and load multipliers (order of `patterns`). One solve

@@ -17,8 +17,8 @@ struct LineNode
    /// Of the body's stiffness, for each component: x and y (twist, -1). Of a body on several
    /// ranks they are numbers that all ranks share.
    std::array<int, 2> dofs{-1, -1};
-   Eigen::Vector2d position{0, 0};
-   Eigen::Vector2d tangent{1, 0}; ///< unit vector along the line, the body on its left
+   Eigen::Vector2d position{0, 0}; ///< (x, y), or (r, z)
+   Eigen::Vector2d tangent{1, 0};  ///< unit vector along the line, the body on its left
    /// Consistent: ∫φ ds in the plane (they sum to the length), else ∫φ 2πr ds (to the area).
    double weight = 0;
    double arc_length = 0; ///< from the line's beginning
@@ -40,14 +40,16 @@ struct LineElement
    std::vector<Eigen::Index> nodes;
    Eigen::Matrix2Xd points; ///< where all of them are, one a column
 
+   /// Degree of the polynomials: one less than its nodes.
    Eigen::Index order() const { return points.cols() - 1; }
 };
 
 /// Nodes that follow each other along the boundary.
 struct LineChain
 {
-   Eigen::Index first = 0, nodes = 0;
-   bool loop = false; ///< the last node is followed by the first
+   Eigen::Index first = 0; ///< of ContactLine::nodes
+   Eigen::Index nodes = 0; ///< how many of them follow
+   bool loop = false;      ///< the last node is followed by the first
    /** How the boundary of the body goes on beyond the first and the last node, whatever it is
        called there: smoothly if it turns by less than smooth_turn, or than 1.5 times as much
        as the line itself between its last two elements (a polygon stands for a curve), up to
@@ -56,7 +58,9 @@ struct LineChain
    std::array<LineEnd, 2> ends{LineEnd::unknown, LineEnd::unknown};
    /// In their order along the chain. Matching nodes are paired without them: none are needed.
    std::vector<LineElement> elements = {};
-   static constexpr double smooth_turn = 10, corner_turn = 45; ///< degrees
+   static constexpr double smooth_turn =
+      10; ///< degrees of the tangent between elements: less is smooth
+   static constexpr double corner_turn = 45; ///< degrees: more is a corner
 };
 
 /** The trace of a body on an interface: its ordered contact nodes and the boundary elements
@@ -85,11 +89,13 @@ struct LineChain
    torques of nodal forces are exact. */
 struct ContactLine
 {
-   Formulation formulation = Formulation::plane;
-   std::vector<LineNode> nodes;
+   Formulation formulation = Formulation::plane; ///< decides what dofs and weights are
+   std::vector<LineNode> nodes;                  ///< along the boundary, chain after chain
    std::vector<LineChain> chains; ///< in the order of the nodes, each node on one
 
+   /// Number of contact nodes.
    Eigen::Index size() const { return static_cast<Eigen::Index>(nodes.size()); }
+   /// The chain that a node is on.
    const LineChain &chain_of(Eigen::Index node) const;
 
    /// What all nodes have of a kind: each(&LineNode::weight) has n entries, each of

@@ -11,9 +11,10 @@ namespace cattaneo
 /// Where each true dof sits: its node's coordinates and its component.
 struct DofPlaces
 {
-   Eigen::VectorXd x, y;
-   std::vector<int> component;
-   Formulation formulation = Formulation::plane;
+   Eigen::VectorXd x;          ///< coordinate of the node of each dof, r about an axis
+   Eigen::VectorXd y;          ///< the other one, z about an axis
+   std::vector<int> component; ///< of each dof: 0 along x (r) or the twist, 1 along y (z)
+   Formulation formulation = Formulation::plane; ///< decides which motions are rigid
 };
 
 /** Rigid motions of a set of dofs (plane: x, y, rotation; axisymmetric: along the axis;

@@ -9,26 +9,28 @@ namespace cattaneo
 /// A body of a union, with its name in sentences about it.
 struct NamedBody
 {
-   std::string name;
-   const ElasticBody *body;
+   std::string name;        ///< unique among the bodies
+   const ElasticBody *body; ///< not owned
 };
 
 /// A side of an interface: a part of the boundary of a body, or a rigid obstacle.
 struct BoundarySide
 {
-   int body = -1; ///< number of the body; -1: a rigid obstacle
-   BoundaryPart part = BoundaryPart(1);
+   int body = -1;                       ///< number of the body; -1: a rigid obstacle
+   BoundaryPart part = BoundaryPart(1); ///< of its boundary; of a rigid obstacle not looked at
 };
 
 /// Interface of MFEM bodies, see there.
 struct BoundaryInterface
 {
-   std::string name;
-   BoundarySide first, second;
-   SlaveSide slave = SlaveSide::coarser;
-   std::optional<ScalarField> gap = std::nullopt;
-   double most_overlap = Interface().most_overlap;
-   bool tied = false;
+   std::string name;                              ///< unique among the interfaces
+   BoundarySide first;                            ///< body 1 of its frames
+   BoundarySide second;                           ///< the other body, or a rigid obstacle
+   SlaveSide slave = SlaveSide::coarser;          ///< which of the two has the nodes
+   std::optional<ScalarField> gap = std::nullopt; ///< the geometry's unless given
+   double most_overlap =
+      Interface().most_overlap; ///< in lengths of an element: more is taken for a mistake
+   bool tied = false;           ///< joined, whatever happens
 };
 
 /** Any number of MFEM bodies over any number of interfaces, whose meshes need not match: each

@@ -11,9 +11,9 @@ namespace cattaneo::fretting
    may come from a closed form (calibration.hpp) or from any solution (edge_fit.hpp). */
 struct FrettingProblem
 {
-   CrackedEdge crack;
-   FatigueMaterial material;
-   bool plane_stress = false;
+   CrackedEdge crack;         ///< the edge, its crack and the load cycle
+   FatigueMaterial material;  ///< of the cracked body
+   bool plane_stress = false; ///< else plane strain
 
    /// Sizes against which the near-edge field is judged small; 0 where unknown.
    double half_width = 0.0;    ///< a
@@ -21,32 +21,36 @@ struct FrettingProblem
    bool bulk_known = false;    ///< crack.bulk_stress is the real one, not just left at 0
 };
 
+/// Choices that the criteria leave open.
 struct FrettingSettings
 {
-   Criterion criterion = Criterion::open;
-   double mode_two_ratio = 0.8; ///< ΔK_II,th over ΔK_th (thesis 2.5.2)
+   Criterion criterion = Criterion::open; ///< what is compared with ΔK_th
+   double mode_two_ratio = 0.8;           ///< ΔK_II,th over ΔK_th (thesis 2.5.2)
 
    /// InputError unless the ratio is positive.
    void validate() const;
 };
 
+/// How far a number may be trusted.
 enum class Trust
 {
    good,
    caution,
    poor
 };
+/// As it is printed: its enumerator's name.
 std::string to_string(Trust trust);
 
 /// One measure of validity, in words an engineer can act on.
 struct Validity
 {
-   std::string measure; ///< "d/a", "a0/d", …; "" for a remark without a number
-   double value = 0.0;
-   Trust trust = Trust::good;
-   std::string text;
+   std::string measure;       ///< "d/a", "a0/d", …; "" for a remark without a number
+   double value = 0.0;        ///< of the measure
+   Trust trust = Trust::good; ///< what it means for the report
+   std::string text;          ///< a sentence that says why
 };
 
+/// What the criteria say of the edge. Units: N, mm, MPa.
 struct FrettingReport
 {
    double k_t_range = 0.0;         ///< ΔK_T, MPa√mm
@@ -67,7 +71,7 @@ struct FrettingReport
    double energy_max = 0.0;           ///< per area and cycle, N/mm
    double energy_total = 0.0;         ///< per cycle and thickness, N
    Trust trust = Trust::good;         ///< the worst of validity
-   std::vector<Validity> validity;
+   std::vector<Validity> validity;    ///< all measures, those that are good as well
 };
 
 /// InputError for bad input; everything else is said in the report.

@@ -69,8 +69,8 @@ double edge_gradient(double radius, double modulus);
    shear force at the leading edge, where K_T may be negative. */
 struct ShearIntensities
 {
-   double trailing = 0.0;
-   double leading = 0.0;
+   double trailing = 0.0; ///< K_T there, force per length to the power 3/2
+   double leading = 0.0;  ///< K_T there, signed
 };
 
 /** K_T = ±Q/(π√(2a)) + (σ0/4)√(a/2) ((2.6), (2.9), (2.19)), independent of the profile.

@@ -11,16 +11,16 @@ namespace cattaneo::fretting
    π/2 and π. */
 struct Corner
 {
-   double pad_angle = 0.0;
-   double body_angle = 0.0;
+   double pad_angle = 0.0;  ///< that the pad fills, radians
+   double body_angle = 0.0; ///< that the body fills, radians
 };
 
 /// The corner of an elastic pad bonded to a rigid body.
 struct RigidCorner
 {
-   double pad_angle = 0.0; ///< radians
-   double poisson = 0.0;
-   bool plane_stress = false;
+   double pad_angle = 0.0;    ///< radians
+   double poisson = 0.0;      ///< of the body on the rigid one
+   bool plane_stress = false; ///< else plane strain
 };
 
 /** One of Williams' eigensolutions of the bonded corner. On the interface, at distance r from
@@ -37,8 +37,9 @@ struct RigidCorner
 struct CornerMode
 {
    double eigenvalue = 0.0; ///< λ; the stress is singular if λ < 1
-   double pressure = 0.0;
-   double shear = 0.0;
+   double pressure = 0.0;   ///< p of the mode at unit distance, compression positive
+   double shear =
+      0.0; ///< q of the mode at unit distance, positive on the body into the contact
    /// Shear on the *pad* into the contact over the pressure. Square punch on a half-plane:
    /// 0.543075578837 in mode I, -0.218923236249 in mode II. Without a sign of its own in the
    /// limit of no pressure (equal angles, mode II), where it is infinite.
@@ -48,7 +49,7 @@ struct CornerMode
 /// In the order of the eigenvalues.
 struct CornerModes
 {
-   CornerMode one;
+   CornerMode one;                ///< the stronger singularity
    std::optional<CornerMode> two; ///< none if there is no second real eigenvalue to fit
 };
 
@@ -60,18 +61,19 @@ struct CornerModes
 CornerModes corner_modes(const Corner &corner);
 
 /** On a rigid body: the roots below 1 of κ sin²λα + λ² sin²α = (κ+1)²/4, clamped and free face
-    (Williams 1952), κ = 3-4ν or, in plane stress, (3-ν)/(1+ν). A right angle has one of them,
+    [Williams 1952], κ = 3-4ν or, in plane stress, (3-ν)/(1+ν). A right angle has one of them,
     0.7112 for ν = 0.3 in plane strain.
     InputError unless 0 < angle < π and 0 <= ν < 0.5; if nothing is singular; and if the roots
     are complex, as for wide angles: the tractions then change sign ever faster towards the
     corner and have no intensity. */
 CornerModes corner_modes(const RigidCorner &corner);
 
+/// What the tractions near a corner were fitted by.
 struct CornerFit
 {
    FittedIntensity k_one; ///< units: stress · length^{1-λ_I}
    FittedIntensity k_two; ///< units: stress · length^{1-λ_II}; zero without a second mode
-   CornerModes modes;
+   CornerModes modes;     ///< the eigensolutions that were fitted
    /// Friction below which the corner slips however small the load, |q/p| of mode one.
    double least_friction = 0.0;
 };

@@ -13,14 +13,14 @@ namespace cattaneo::fretting
 /// What the edges of a marched contact are read from.
 struct MarchedStates
 {
-   const ReducedProblem &problem;
-   const ContactState &pressed; ///< after the normal load, before the cyclic loads
-   const ContactState &peak;    ///< of the cyclic loads
+   const ReducedProblem &problem; ///< of both states
+   const ContactState &pressed;   ///< after the normal load, before the cyclic loads
+   const ContactState &peak;      ///< of the cyclic loads
    /// The other end of the cycle (which may be `pressed`) and the steady cycle itself: for the
    /// energy. Null: none is compared.
    const ContactState *opposite = nullptr;
-   const CycleRecord *cycle = nullptr;
-   CrackedBody cracked = CrackedBody::second;
+   const CycleRecord *cycle = nullptr;        ///< marched, steady
+   CrackedBody cracked = CrackedBody::second; ///< its shear traction gives K_T its sign
    double modulus = 0; ///< E* of similar bodies; 0: of different materials, no energy
    /// Eigensolutions of the corner at the first (side 1) or the last (side -1) node of the
    /// line, InputError where there are none. Without it corners are not fitted.
@@ -30,7 +30,7 @@ struct MarchedStates
 /// One edge, with what the near-edge field predicts beside what was computed.
 struct SolvedEdge
 {
-   ContactEdge edge;
+   ContactEdge edge;                       ///< as contact_edges() has it
    double travel = 0;                      ///< between the pressed state and the peak load
    double k_t_range = 0;                   ///< ΔK_T of the cycle
    std::optional<EnergyComparison> energy; ///< none without a cycle
@@ -38,6 +38,7 @@ struct SolvedEdge
    std::vector<std::string> notes; ///< sentences: what was left out, and what not to trust
 };
 
+/// What there is to say of all edges.
 struct EdgeReport
 {
    std::vector<SolvedEdge> edges; ///< in the order of the nodes

@@ -16,8 +16,9 @@ enum class Basis
 /// A value that is known between two bounds (equal if it is known exactly).
 struct Interval
 {
-   double low = 0.0;
-   double high = 0.0;
+   double low = 0.0;  ///< lower bound
+   double high = 0.0; ///< upper bound
+   /// Half-way between.
    double middle() const { return 0.5 * (low + high); }
 };
 
@@ -25,7 +26,7 @@ struct Interval
     strength is an interval, the criteria use its low end. */
 struct FatigueMaterial
 {
-   std::string name;
+   std::string name;            ///< of the record
    double young = 0.0;          ///< E
    double poisson = 0.0;        ///< ν
    double threshold = 0.0;      ///< ΔK_th, MPa√mm
@@ -33,8 +34,8 @@ struct FatigueMaterial
    Interval shear_yield;        ///< k, yield stress in pure shear
    Interval friction;           ///< f that tests report; 0 if unknown
    double threshold_ratio = -1; ///< load ratio R at which ΔK_th and σ_fl were measured
-   Basis threshold_basis = Basis::range;
-   Basis fatigue_limit_basis = Basis::range;
+   Basis threshold_basis = Basis::range;     ///< how ΔK_th is quoted
+   Basis fatigue_limit_basis = Basis::range; ///< how σ_fl is quoted
 
    /// InputError for values out of range, and if ΔK_th and σ_fl are not both ranges or both
    /// amplitudes: their ratio would be wrong by 2, a0 by 4.

@@ -5,7 +5,8 @@
 namespace cattaneo::fretting
 {
 
-/** Stress under a whole Hertz contact in partial slip (Cattaneo–Mindlin), in units of p0 and a:
+/** Stress under a whole Hertz contact in partial slip ([Hertz 1882], [Cattaneo 1938],
+    [Mindlin 1949]), in units of p0 and a:
     pressure √(1-x²), shear f√(1-x²) less f c √(1-(x/c)²) in the stick zone |x| < c = √(1-Q/fP),
     pulling the body in +x, so that x = -1 is the trailing edge. y >= 0 is the depth.
     @param load_ratio Q/(fP), from 0 (no shear) to 1 (sliding) */

@@ -17,8 +17,8 @@ enum class Criterion
 /// Load states of an edge crack over one cycle.
 struct CrackCycle
 {
-   double max = 0.0;
-   double min = 0.0;
+   double max = 0.0; ///< K_I at the peak of the load
+   double min = 0.0; ///< K_I at its valley, negative if closed
    /// The driving force that the criterion compares with ΔK_th.
    double drive(Criterion criterion) const;
 };
@@ -42,23 +42,26 @@ struct CrackedEdge
        valley: the peak less 2ΔK_T κ(c/d_r) and less the range of the bulk term. */
 CrackCycle crack_cycle(const CrackedEdge &crack, double depth);
 
+/// What becomes of a crack at the edge.
 enum class CrackVerdict
 {
    arrests,          ///< K_I falls below the short-crack threshold before a0
    propagates,       ///< above ΔK_th at a0 and rising
    arrests_beyond_a0 ///< above ΔK_th at a0 but falling: stops at arrest_depth
 };
+/// As it is printed, in words.
 std::string to_string(CrackVerdict verdict);
 
+/// What the crack does, and how near to the threshold it is.
 struct ThresholdReport
 {
-   CrackVerdict verdict = CrackVerdict::arrests;
-   double drive = 0.0;        ///< at a0, to be compared with ΔK_th
+   CrackVerdict verdict = CrackVerdict::arrests; ///< of the whole way from the surface on
+   double drive = 0.0;                           ///< at a0, to be compared with ΔK_th
    double arrest_depth = 0.0; ///< where the drive falls below ΔK_th; infinite if it propagates,
                               ///< at most a0 if it arrests before
 };
 
-/** Kitagawa–Takahashi verdict (thesis 2.5.1): a crack grows while its drive exceeds
+/** Verdict after [Kitagawa 1976] (thesis 2.5.1): a crack grows while its drive exceeds
     ΔK_th √(c/a0) for c < a0 and ΔK_th beyond. @a threshold is ΔK_th, @a critical is a0, in the
     units of the edge. InputError unless both are positive. */
 ThresholdReport assess_threshold(const CrackedEdge &crack, double threshold, double critical,

@@ -14,6 +14,7 @@ double surface_von_mises(double friction, double constraint, double t_over_d);
       f < 1, at the contact edge for f > 1),
     - when the whole slip zone has yielded: 1/f, for any constraint. */
 double first_yield_load(double friction, double constraint);
+/// When the whole slip zone has yielded, see above.
 double full_yield_load(double friction);
 
 } // namespace cattaneo::fretting

@@ -12,8 +12,8 @@ namespace cattaneo
 /// the whole circumference, along the axis.
 struct FarForce
 {
-   std::string pattern;
-   Eigen::Vector2d force;
+   std::string pattern;   ///< load pattern it belongs to
+   Eigen::Vector2d force; ///< per unit multiplier, in x and y
 };
 
 /** An elastic half-plane, in axisymmetry and torsion half-space, with a straight surface: a

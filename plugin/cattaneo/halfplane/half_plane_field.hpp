@@ -23,8 +23,10 @@ public:
    /// In x and y, stresses positive in tension.
    struct Point
    {
-      Eigen::Vector2d displacement{0, 0};
-      double xx = 0, yy = 0, xy = 0;
+      Eigen::Vector2d displacement{0, 0}; ///< relative to the depth
+      double xx = 0;                      ///< σ_xx
+      double yy = 0;                      ///< σ_yy
+      double xy = 0;                      ///< τ_xy
    };
    /// On the surface stresses are those just below it. InputError for a point above it.
    Point at(const Eigen::Vector2d &position) const;

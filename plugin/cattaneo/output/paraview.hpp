@@ -23,6 +23,7 @@ namespace cattaneo
 class BodyFields
 {
 public:
+   /// The folder is made by the first write().
    BodyFields(const ElasticBody &body, const std::string &directory, const std::string &name);
 
    /// Writes one more time of the series. `displacement`: all true dofs, as
@@ -31,6 +32,7 @@ public:
    /// if the size is wrong, an initial strain has no multiplier or the folder cannot be
    /// written.
    void write(const mfem::Vector &displacement, double time, const NamedLoads &loads = {});
+   /// The same of a vector of Eigen's.
    void write(const Eigen::VectorXd &displacement, double time, const NamedLoads &loads = {});
 
    /// A field as last written; InputError with the list of names if there is none of that name.
@@ -57,6 +59,7 @@ private:
 class ContactLineFields
 {
 public:
+   /// The folder is made by the first write(). InputError unless the problem is of the plane.
    ContactLineFields(const ReducedProblem &problem, const std::string &directory,
                      const std::string &name);
 

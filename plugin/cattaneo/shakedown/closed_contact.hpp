@@ -18,8 +18,9 @@ namespace cattaneo
  */
 struct ClosedContact
 {
-   ReducedProblem reduced; ///< of the closed nodes
-   std::vector<Eigen::Index> closed, open;
+   ReducedProblem reduced;           ///< of the closed nodes
+   std::vector<Eigen::Index> closed; ///< nodes of the whole problem that stay closed
+   std::vector<Eigen::Index> open;   ///< all others
 
    /// w + g of the open nodes when the closed ones have slipped by @a slip under the loads
    /// @a multipliers: negative where the assumption fails (the bodies overlap).

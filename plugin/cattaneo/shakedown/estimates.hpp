@@ -13,7 +13,8 @@ struct PointwiseEstimate
 {
    double value = 0;      ///< friction coefficient or load factor; infinite if there is none
    Eigen::Index node = 0; ///< where it is decided, …
-   Eigen::Index vertex_a = 0, vertex_b = 0; ///< … and between which two load vertices
+   Eigen::Index vertex_a = 0; ///< … between this load vertex …
+   Eigen::Index vertex_b = 0; ///< … and this one
 };
 
 /** Method 1 (4.9): only the shear tractions redistribute, independently at each node and
@@ -39,14 +40,14 @@ struct Method2Estimate
 {
    /// Some permissible residual shear has no resultant. If none has, the estimates are zero.
    bool exists = false;
-   std::string message;
-   double low = 0;     ///< the choice that needs the least friction
-   double high = 0;    ///< the choice that needs the most
-   double natural = 0; ///< the choice at the same relative height in its range at every node
+   std::string message; ///< what was found, in one sentence
+   double low = 0;      ///< the choice that needs the least friction
+   double high = 0;     ///< the choice that needs the most
+   double natural = 0;  ///< the choice at the same relative height in its range at every node
    Eigen::VectorXd natural_residual; ///< that choice, size n
    Eigen::VectorXd residual_low;  ///< lower end of the permissible range, size n (figure 4.9)
    Eigen::VectorXd residual_high; ///< upper end
-   Counters counters;
+   Counters counters;             ///< of the limit programme
 };
 
 /// `low` is a limit programme and needs Ipopt; without it, low is NaN and the message says so.

@@ -8,26 +8,28 @@
 namespace cattaneo
 {
 
-/** A shakedown limit by Melan's static theorem (thesis 4.3.2): is there a slip v, constant in
-    time, with which all nodes stick, closed (w = 0), throughout the load cycle? What is proven
-   of it is proven for a contact whose nodes all stay closed: with nodes that open it is another
-   problem, whose marches may shake down above the limit but at those nodes (transient.hpp); see
-   closed_contact for contacts that are partly open throughout. The limit is the upper one, λ2:
-   above it every start ends in cyclic slip; below it some start shakes down, and all do if the
-   problem is uncoupled (lower_limit.hpp). Where the stuck tractions are singular, at the edges
-   of contact, it may be the mesh that decides, and then the limit falls with the spacing. */
+/** A shakedown limit by Melan's static theorem ([Melan 1936], thesis 4.3.2): is there a slip v,
+   constant in time, with which all nodes stick, closed (w = 0), throughout the load cycle? What
+   is proven of it is proven for a contact whose nodes all stay closed: with nodes that open it
+   is another problem, whose marches may shake down above the limit but at those nodes
+   (transient.hpp); see closed_contact for contacts that are partly open throughout. The limit
+   is the upper one, λ2: above it every start ends in cyclic slip; below it some start shakes
+   down, and all do if the problem is uncoupled (lower_limit.hpp). Where the stuck tractions are
+   singular, at the edges of contact, it may be the mesh that decides, and then the limit falls
+   with the spacing. */
 struct LimitProblem
 {
-   ReducedProblem reduced;
+   ReducedProblem reduced;  ///< without a gap, its friction is that of a load limit
    ResidualForces residual; ///< of `reduced`; does not depend on friction or loads
    double coupling = 0;     ///< degree_of_coupling of `reduced`
-   LoadCycle cycle;
+   LoadCycle cycle;         ///< of loads, to be changed along a sweep
 };
 
 /// Computes the residual forces and the coupling, the expensive part. For a sweep change cycle
 /// or friction in place.
 LimitProblem limit_problem(ReducedProblem reduced, LoadCycle cycle);
 
+/// Outcome of the search for a limit.
 enum class LimitStatus
 {
    certified,   ///< lower ≤ limit ≤ upper are proven and the gap is within the tolerance
@@ -41,6 +43,7 @@ enum class LimitStatus
    unavailable  ///< built without Ipopt
 };
 
+/// As it is printed, in words.
 const char *name(LimitStatus status);
 
 /** Motions dual to the limit: at load vertex j node i slips by `slip` and opens by `opening`,
@@ -53,11 +56,12 @@ struct CollapseMechanism
 
 struct LimitReport;
 
+/// How a limit is searched. The defaults need no tuning.
 struct LimitSettings
 {
    /// Gap of the certificate over the limit, or over 1e-4 of the load that makes all slide.
    double tolerance = 1e-6;
-   int max_iterations = 300;
+   int max_iterations = 300; ///< of Ipopt, in one programme
    /// Load factors are searched up to this multiple of (friction × normal force) / shear; where
    /// nothing limits them there, proof is sought that nothing does, or the search goes on.
    double largest_factor = 1e4;
@@ -69,13 +73,15 @@ struct LimitSettings
    /// ends), and may stop it.
    Monitor monitor;
 
+   /// InputError naming the setting, its value and what is allowed.
    void validate() const;
 };
 
+/// A limit with the bounds that prove it.
 struct LimitReport
 {
-   LimitStatus status = LimitStatus::failed;
-   std::string message;
+   LimitStatus status = LimitStatus::failed; ///< what is known of the limit
+   std::string message;                      ///< what is proven, in one sentence
    /// The safe side: `lower` of a load factor, infinite if it is unlimited, `upper` of a
    /// friction coefficient.
    double limit = 0;
@@ -94,8 +100,8 @@ struct LimitReport
    CollapseMechanism mechanism;
    double coupling = 0; ///< of the problem
    int iterations = 0;  ///< of Ipopt, summed over the programmes
-   double seconds = 0;
-   Counters counters; ///< limit_solves: programmes solved
+   double seconds = 0;  ///< wall time
+   Counters counters;   ///< limit_solves: programmes solved
 };
 
 /** Largest λ ≥ 0 for the friction of the problem and the shape of the cycle. First the constant
@@ -110,7 +116,7 @@ LimitReport load_limit(const ReducedProblem &reduced, const ResidualForces &resi
 /** Smallest friction coefficient, the same at all nodes, for the loads constant + @a
    load_factor × varying (the problem's own friction is not used). It is the least f of a
    quasi-convex problem: each step asks for the state of greatest clearance from the cones of a
-   trial f, whose own largest |q|/p is the next f (Dinkelbach), until duality shows that no
+   trial f, whose own largest |q|/p is the next f [Dinkelbach 1967], until duality shows that no
    state exists at f (1 - tolerance/2). */
 LimitReport friction_limit(const LimitProblem &problem, double load_factor,
                            const LimitSettings &settings = {});

@@ -25,6 +25,7 @@ struct LoadCycle
    static LoadCycle through(const ReducedProblem &problem, const NamedLoads &constant,
                             const std::vector<NamedLoads> &vertices);
 
+   /// Number of vertices.
    Eigen::Index vertices() const { return varying.cols(); }
 
    /// The multipliers at every vertex, patterns × vertices.
@@ -54,11 +55,15 @@ struct StuckForces
    Eigen::MatrixXd p0; ///< normal (compression positive), constant part, n × vertices
    Eigen::MatrixXd p1; ///< normal, times λ
 
+   /// Number of vertices.
    Eigen::Index vertices() const { return q0.cols(); }
+   /// Tangential forces at a load factor, c·n × vertices.
    Eigen::MatrixXd q(double load_factor) const { return q0 + load_factor * q1; }
+   /// Normal forces at a load factor, n × vertices.
    Eigen::MatrixXd p(double load_factor) const { return p0 + load_factor * p1; }
 };
 
+/// InputError as LoadCycle::validate().
 StuckForces stuck_forces(const ReducedProblem &problem, const LoadCycle &cycle);
 
 } // namespace cattaneo

@@ -8,8 +8,8 @@ namespace cattaneo
 /// What is known of the lower limit λ1, and why.
 enum class LowerLimitKind
 {
-   uncoupled, ///< B = 0: every start shakes down below λ2 (Klarbring, Ciavarella, Barber 2007)
-   two_nodes, ///< exact by the geometry of the constraint lines (Ahn, Bertocchi, Barber 2008)
+   uncoupled, ///< B = 0: every start shakes down below λ2 [Klarbring 2007]
+   two_nodes, ///< exact by the geometry of the constraint lines [Ahn 2008]
    bound,     ///< λ1 is at least the value
    none       ///< no statement: coupling times friction is too large for the bound
 };
@@ -63,13 +63,13 @@ LeastPressure least_pressure(const ReducedProblem &problem, const ResidualForces
     proven, and marches (find_counter_example) are all there is. */
 struct LowerLimitReport
 {
-   LowerLimitKind kind = LowerLimitKind::none;
-   LimitStatus status = LimitStatus::failed; ///< of the programme behind it
-   std::string message;                      ///< what is proven, in one sentence
+   LowerLimitKind kind = LowerLimitKind::none; ///< what is known
+   LimitStatus status = LimitStatus::failed;   ///< of the programme behind it
+   std::string message;                        ///< what is proven, in one sentence
    double value = 0; ///< λ1, or a number that λ1 is proven not to be below
    /// v* of the bound, c·n; for two nodes the corner of the safe region at λ1.
    Eigen::VectorXd slip;
-   Counters counters;
+   Counters counters; ///< of the programme behind it
 };
 
 /// @a upper is the report of load_limit for the same problem.

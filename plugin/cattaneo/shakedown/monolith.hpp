@@ -28,9 +28,9 @@ Eigen::VectorXd traction_ratio(const ReducedProblem &problem,
 /// Where and at which friction coefficient the stuck contact first slips (4.3).
 struct Adhesion
 {
-   double load_factor = 0;
-   double friction = 0; ///< f_min: largest |q| / p; infinite if a node is in tension
-   Eigen::Index node = 0;
+   double load_factor = 0; ///< λ
+   double friction = 0;    ///< f_min: largest |q| / p; infinite if a node is in tension
+   Eigen::Index node = 0;  ///< where the ratio is largest
 };
 
 /// f_min under constant + λ varying.col(vertex), for each λ of @a load_factors (figure 4.3).
@@ -42,7 +42,7 @@ std::vector<Adhesion> adhesion_map(const ReducedProblem &problem, const LoadCycl
 struct Incipience
 {
    double load_factor = 0; ///< infinite if it never happens
-   Eigen::Index node = -1;
+   Eigen::Index node = -1; ///< where it happens, -1 if it never does
 };
 
 /// First separation: p = 0 somewhere.

@@ -36,8 +36,8 @@ ResidualForces residual_forces(const ReducedProblem &problem);
    complement of the rigid motions. It does not change with units or with any change of basis of
    slips or of openings (A → SᵀAS, C → TᵀCT, B → TᵀBS), so that on a family of meshes it
    converges to the norm of the continuous operator instead of following the number of nodes.
-   For two half-planes it is |Dundurs' β|; β = 0 is an uncoupled problem, for which Melan's
-   theorem holds. */
+   For two half-planes it is |β| of [Dundurs 1969]; β = 0 is an uncoupled problem, for which
+   Melan's theorem holds. */
 double degree_of_coupling(const ReducedProblem &problem);
 
 } // namespace cattaneo

@@ -15,12 +15,13 @@ namespace cattaneo
    first vertex), as for a shear cycled through zero; else at its first vertex. */
 struct TransientSettings
 {
-   int cycles = 200;
+   int cycles = 200; ///< the most that are marched
    /// Loss of a cycle, over that of the first or the elastic energy of the stuck contact if
    /// that is more, below which a slip that decays from cycle to cycle counts as ended.
    double shaken_down = 1e-6;
-   MarchSettings march;
+   MarchSettings march; ///< of each of them
 
+   /// InputError naming the setting, its value and what is allowed.
    void validate() const;
 };
 
@@ -37,6 +38,7 @@ enum class TransientVerdict
    stopped          ///< it was asked to (Monitor::stop)
 };
 
+/// As it is printed, in words.
 const char *name(TransientVerdict verdict);
 
 /** The theorems behind limits are of a contact whose nodes all stay closed. Where nodes open in
@@ -45,11 +47,11 @@ const char *name(TransientVerdict verdict);
    first cycle does, below the upper limit and above. */
 struct TransientReport
 {
-   FrictionStatus status = FrictionStatus::converged;
-   std::string message;
-   double load_factor = 0;
-   TransientVerdict verdict = TransientVerdict::no_equilibrium;
-   std::vector<double> dissipation; ///< of each cycle, until steady
+   FrictionStatus status = FrictionStatus::converged; ///< of the march
+   std::string message;    ///< of the march, empty if it went to its end
+   double load_factor = 0; ///< λ at which was marched
+   TransientVerdict verdict = TransientVerdict::no_equilibrium; ///< what the slip came to
+   std::vector<double> dissipation;                             ///< of each cycle, until steady
    /// Elastic energy that the slip of a stuck contact could release, the scale of dissipation:
    /// the largest ½ qᵀ A⁻¹ q over the vertices.
    double energy = 0;
@@ -59,10 +61,11 @@ struct TransientReport
    /// geometric mean over the later half of the cycles before shakedown, all of them if it does
    /// not shake down; 0 if there are too few.
    double decay = 0;
-   int steady_cycle = 0, steady_period = 0; ///< as MarchReport
-   Eigen::VectorXd slip;                    ///< at the end
-   std::vector<CutOffContact> cut_off;      ///< as MarchReport
-   Counters counters;
+   int steady_cycle = 0;               ///< as MarchReport
+   int steady_period = 0;              ///< as MarchReport
+   Eigen::VectorXd slip;               ///< at the end
+   std::vector<CutOffContact> cut_off; ///< as MarchReport
+   Counters counters;                  ///< of the march
 };
 
 /// Marches the load cycle at @a load_factor from the slip @a start (size c·n). The friction is
@@ -76,7 +79,8 @@ struct TransientBracket
 {
    /// zero, optimal and negative optimal slip, at limit × (1 - margin) and limit × (1 +
    /// margin).
-   std::vector<TransientReport> below, above;
+   std::vector<TransientReport> below; ///< at limit × (1 - margin)
+   std::vector<TransientReport> above; ///< at limit × (1 + margin)
 };
 
 /// @a limit is the report of load_limit.
@@ -91,21 +95,23 @@ struct CounterExampleSettings
    int starts = 10;   ///< random starts a load factor, besides multiples of the optimal slip
    int halvings = 6;  ///< load factors tried
    unsigned seed = 1; ///< of the random starts
-   TransientSettings transient;
+   TransientSettings transient; ///< of each march
 
+   /// InputError naming the setting, its value and what is allowed.
    void validate() const;
 };
 
+/// What the search found.
 struct CounterExample
 {
-   bool found = false;
+   bool found = false;     ///< a start that cycles
    double load_factor = 0; ///< the smallest at which a start was found to cycle
    Eigen::VectorXd start;  ///< that start
    double dissipation = 0; ///< of its steady cycle, at nodes that stay closed
    double quiet = 0;       ///< the largest load factor tried at which every start shook down
-   int marches = 0;
-   std::string message; ///< what is observed, in one sentence
-   Counters counters;
+   int marches = 0;        ///< number of marches
+   std::string message;    ///< what is observed, in one sentence
+   Counters counters;      ///< of all marches
 };
 
 /// @a proven: load factor below which no start can cycle (lower_limit; 0 if nothing is known).

@@ -7,7 +7,7 @@
 namespace cattaneo
 {
 
-/** Archard's law of wear at each contact node:
+/** Archard's law of wear [Archard 1953] at each contact node:
 
        depth rate = k (p - p_th)₊ |slip rate|,
 
@@ -19,7 +19,8 @@ struct WearLaw
 {
    Eigen::VectorXd coefficient; ///< k of each node, size n, ≥ 0, in 1/pressure
    Eigen::VectorXd threshold;   ///< p_th of each node, size n, ≥ 0; none if empty
-   bool of_energy = false;
+   bool of_energy =
+      false; ///< k is of the energy that friction takes, not of pressure times slip
 
    /// The same k at every node, no threshold.
    static WearLaw uniform(const ReducedProblem &problem, double coefficient);

@@ -12,7 +12,7 @@ namespace cattaneo
 /// All that the future of a wearing contact depends on.
 struct WearState
 {
-   ContactState contact;
+   ContactState contact;        ///< with the slip and the forces of the worn contact
    Eigen::VectorXd depth;       ///< worn off at each node, size n, ≥ 0: the gap is g + depth
    Eigen::VectorXd dissipation; ///< energy that friction took at each node so far, size n
    double cycles = 0;           ///< so far, marched or jumped over
@@ -25,6 +25,7 @@ struct WearState
 
 /// As JSON, to the last bit; reads as a contact state too. InputError as for contact states.
 void save(const WearState &state, const std::string &file);
+/// Reads what save() wrote.
 WearState load_wear_state(const std::string &file);
 
 /// When the gap takes in what has worn off.
@@ -34,11 +35,12 @@ enum class GapUpdate
    piece  ///< at the end of each linear piece of the cycle
 };
 
+/// How a contact is worn. The defaults march every cycle.
 struct WearSettings
 {
    MarchSettings march; ///< of each cycle; its monitor watches all of them and is asked between
                         ///< two; steady states of slip end nothing
-   GapUpdate update = GapUpdate::cycle;
+   GapUpdate update = GapUpdate::cycle; ///< when the gap follows
    /** Cycles are jumped over as long as a jump errs by less than half this share of the depth
        that it adds, and half of its part of all cycles times the largest depth so far: together
        less than this share of the largest depth at the end, were errors to add up (wear forgets
@@ -67,13 +69,14 @@ struct WearRecord
    double error = 0;       ///< estimate of the largest error of depth of a jump
 };
 
+/// What a march with wear came to.
 struct WearReport
 {
-   FrictionStatus status = FrictionStatus::converged;
-   std::string message;
+   FrictionStatus status = FrictionStatus::converged; ///< of the whole of it
+   std::string message;                               ///< one sentence, empty if converged
    MarchReport last; ///< of the last cycle marched: where and why it ended, if it did
    long marched = 0; ///< cycles marched, also those that only look where a jump leads
-   long jumps = 0;
+   long jumps = 0;   ///< over cycles that were not marched
    double error = 0; ///< sum of the jumps' WearRecord::error
    /** Largest number of cycles that may share one update of the gap: the explicit update
        depth += cycles × (depth of a cycle) is stable below it. With the loss of pressure δp =
@@ -85,10 +88,11 @@ struct WearReport
    long implicit_cycles = 0;
    double steady_cycle = 0; ///< from which each cycle wears as the next does; 0: none
    double final_cycle = 0;  ///< at which wear had come to its end; 0: it has not
-   Counters counters;
-   double seconds = 0;
+   Counters counters;       ///< of all marches
+   double seconds = 0;      ///< wall time
 };
 
+/// Called after every cycle that was marched and every jump.
 using WearObserver = std::function<void(const WearState &, const WearRecord &)>;
 
 /** Wears a contact: marches the opening part of a history and then its cycle, `cycles` times

@@ -9,9 +9,9 @@ namespace cattaneo
 /// The state in which a cycle wears off nothing more.
 struct WornOut
 {
-   FrictionStatus status = FrictionStatus::stalled;
-   std::string message;   ///< empty if found (converged)
-   Eigen::VectorXd depth; ///< worn off at each node, size n, ≥ 0
+   FrictionStatus status = FrictionStatus::stalled; ///< converged if the state was found
+   std::string message;                             ///< empty if found (converged)
+   Eigen::VectorXd depth;                           ///< worn off at each node, size n, ≥ 0
    /// What is left beyond the contact, size n: how far the surfaces would overlap unworn; depth
    /// is its positive part but for nodes that stick, where it is 0. It crosses zero where wear
    /// ends.
@@ -30,7 +30,7 @@ struct WornOut
 
     The nodes that stick are those of the unworn cycle. Where A = C and B = 0 (half-planes of
    one material) and pressures do not vary in the cycle they stay the same while the surfaces
-   wear (Ciavarella and Hills 1999). Otherwise the worn contact is marched: nodes that slip then
+   wear [Ciavarella 1999]. Otherwise the worn contact is marched: nodes that slip then
    under pressure, or open, are left out, and the problem is solved again with the slip that is
    locked in now, until a cycle takes no more than 1e-8 of the energy of the unworn one. That is
    a state in which wear ends; the one that a march comes to may be another where nodes stick

@@ -18,6 +18,8 @@ public:
    double pivot_ratio() const;
    /// Solves in place, one right-hand side a column; after a compute() that succeeded.
    void solve(Eigen::Ref<Eigen::MatrixXd> x) const;
+   /// The same with the transposed matrix, one right-hand side.
+   void solve_transposed(Eigen::Ref<Eigen::VectorXd> x) const;
    Eigen::Index rows() const { return factors_.rows(); }
 
 private:

@@ -18,7 +18,7 @@ namespace cattaneo
 
        ‖E‖ <= 10 √(2/π) max ‖E ω‖  but for a probability of 10⁻ʳ
 
-    (Halko, Martinsson, Tropp, SIAM Review 53, 2011, lemma 4.1); r = 3. The vectors are the same
+    ([Halko 2011], lemma 4.1); r = 3. The vectors are the same
     each time. */
 class StiffnessProbes
 {

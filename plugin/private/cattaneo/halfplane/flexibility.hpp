@@ -25,7 +25,7 @@ Flexibility plane_flexibility(const SurfaceTrace &trace, const Material &materia
                               bool symmetric);
 
 /** Axisymmetry, x = r; with J the Bessel functions and p = t_z, q = t_r of rings
-   (Johnson, 3.8),
+   ([Johnson 1985], 3.8),
 
        u_r = (1-ν)/G ∫∫ J₁(kr) J₁(ks) dk q s ds + side (1-2ν)/2G ∫_{s<r} p s/r ds
        u_z = (1-ν)/G ∫∫ J₀(kr) J₀(ks) dk p s ds + side (1-2ν)/2G ∫_{s>r} q ds

@@ -7,7 +7,7 @@
 namespace cattaneo
 {
 
-/** The convex programme behind every limit (thesis 4.3.2; Melan's static theorem):
+/** The convex programme behind every limit (thesis 4.3.2; [Melan 1936]):
 
        largest θ for which one residual state r, constant in time, leaves every node inside its
        friction cone at every load vertex j,
