@@ -4,6 +4,8 @@
 #include <cattaneo/condense/condense.hpp>
 #include <cattaneo/condense/straight_line.hpp>
 #include <cattaneo/design/design.hpp>
+#include <cattaneo/design/edge_response.hpp>
+#include <cattaneo/design/limit_gradient.hpp>
 #include <cattaneo/exchange/nodal_statements.hpp>
 #include <cattaneo/exchange/outer_edges.hpp>
 #include <cattaneo/exchange/read_stiffness.hpp>

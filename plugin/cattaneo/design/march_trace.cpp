@@ -44,6 +44,56 @@ MarchTrace trace_march(const ReducedProblem &problem, const LoadHistory &history
    return trace_march(problem, history, state, settings);
 }
 
+MarchTrace trace_wear(const ReducedProblem &problem, const WearLaw &law,
+                      const LoadHistory &history, double cycles, WearState &state,
+                      const WearSettings &settings)
+{
+   require(settings.tolerance == 0, "trace of wear: the tolerance is ", settings.tolerance,
+           ", must be 0: cycles that are jumped over have no states");
+   MarchTrace trace;
+   trace.history = history;
+   trace.history.cycles = static_cast<int>(std::clamp(cycles, 1.0, 1e9));
+   trace.wear = law;
+   trace.states.push_back({state.contact});
+   trace.states[0].depth = state.depth;
+   // Of the cycle that is marched: its time begins anew each cycle.
+   LoadHistory once = history;
+   once.cycles = 1;
+   double cycles_before = 0;
+   int piece = 0;
+   const auto watch =
+      [&](const ContactState &now, const IncrementRecord &record, const VectorXd &depth)
+   {
+      if (piece > 0 && now.time <= once.piece(piece).start)
+      {
+         piece = history.cycle_start;
+         ++cycles_before;
+      }
+      while (piece + 1 < once.pieces() && now.time > once.piece(piece).end) { ++piece; }
+      const LoadPiece at = once.piece(piece);
+      const double share = std::clamp((now.time - at.start) / at.duration(), 0.0, 1.0),
+                   cycle = once.piece(once.pieces() - 1).end - once.times[once.cycle_start];
+      trace.states.push_back({now, at.point, share, record.event, depth});
+      trace.states.back().state.time += cycles_before * cycle;
+   };
+   const WearReport report = wear(problem, law, history, cycles, state, settings, {}, watch);
+   require(report.implicit_cycles == 0, "trace of wear: ", report.implicit_cycles,
+           " cycles wore off so much that their update was implicit, which has no derivatives: "
+           "k must be smaller, a cycle is ",
+           1 / report.explicit_limit, " of what an update allows");
+   trace.report = report.last;
+   trace.report.status = report.status;
+   trace.report.message = report.message;
+   return trace;
+}
+
+MarchTrace trace_wear(const ReducedProblem &problem, const WearLaw &law,
+                      const LoadHistory &history, double cycles, const WearSettings &settings)
+{
+   WearState state = WearState::virgin(problem);
+   return trace_wear(problem, law, history, cycles, state, settings);
+}
+
 std::vector<Tie> ties(const ReducedProblem &problem, const MarchTrace &trace, double tolerance)
 {
    require_between("ties: tolerance", tolerance, 0, 1);
@@ -68,7 +118,9 @@ std::vector<Tie> ties(const ReducedProblem &problem, const MarchTrace &trace, do
          }
          if (!closed(taken))
          {
-            if (own * (now.w[i] + problem.gap[i]) <= tiny) { other = NodeState::stick; }
+            const VectorXd &worn = trace.states[k].depth;
+            const double gap = problem.gap[i] + (worn.size() > 0 ? worn[i] : 0.0);
+            if (own * (now.w[i] + gap) <= tiny) { other = NodeState::stick; }
          }
          else if (now.p[i] <= tiny) { other = NodeState::separation; }
          else if (c == 0 || held[i] || problem.friction[i] == 0) { continue; }

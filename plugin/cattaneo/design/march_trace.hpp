@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cattaneo/friction/march.hpp>
+#include <cattaneo/wear/wear_march.hpp>
 #include <vector>
 
 namespace cattaneo
@@ -16,6 +16,8 @@ struct TracedState
    /// The share is the answer's: this node changes its state there (IncrementRecord::event).
    /// -1: it is the history's.
    Eigen::Index event = -1;
+   /// Worn off before the increment that ends here: the gap is g + depth. Empty: nothing.
+   Eigen::VectorXd depth = {};
 };
 
 /// All states of a march, which is what its derivatives are taken of.
@@ -24,6 +26,9 @@ struct MarchTrace
    LoadHistory history;             ///< that was marched
    std::vector<TracedState> states; ///< the first is the one at its start, which is given
    MarchReport report;              ///< of the march
+   /// By which the depth of the states follows from those before, and worn_depth() of Responses
+   /// is; no coefficients: nothing wears.
+   WearLaw wear;
 
    /// Index of the last state that was reached by a time of the history. InputError if the
    /// march began later or ended earlier.
@@ -38,6 +43,21 @@ MarchTrace trace_march(const ReducedProblem &problem, const LoadHistory &history
 /// From before any load.
 MarchTrace trace_march(const ReducedProblem &problem, const LoadHistory &history,
                        const MarchSettings &settings = {});
+
+/** wear() with every cycle marched, keeping all states of their increments: times go on from
+    cycle to cycle, and `wear` of the trace is the law. The report is that of the last cycle,
+   with the status and message of the whole.
+
+    InputError as wear(), for a tolerance (cycles that are jumped over have no states) and where
+    a cycle is so severe that its own update is implicit (WearReport::implicit_cycles), which
+    has no derivatives. */
+MarchTrace trace_wear(const ReducedProblem &problem, const WearLaw &law,
+                      const LoadHistory &history, double cycles, WearState &state,
+                      const WearSettings &settings = {});
+/// From the unworn contact, before any load.
+MarchTrace trace_wear(const ReducedProblem &problem, const WearLaw &law,
+                      const LoadHistory &history, double cycles,
+                      const WearSettings &settings = {});
 
 /** A node that meets the laws of two states at once at the end of an increment: it touches
     without force, or lies on the friction limit without having slipped. What a parameter does

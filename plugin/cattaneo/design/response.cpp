@@ -13,7 +13,7 @@ namespace
 
 constexpr VectorXd StateWeights::*all_weights[] = {
    &StateWeights::displacements, &StateWeights::forces, &StateWeights::multipliers,
-   &StateWeights::conjugates, &StateWeights::loss};
+   &StateWeights::conjugates,    &StateWeights::loss,   &StateWeights::worn};
 
 } // namespace
 
@@ -132,6 +132,32 @@ Response Responses::dissipation(std::size_t from, std::size_t to, Index node) co
       weight.loss = unit(weight.loss.size(), node);
    }
    return sum;
+}
+
+Response Responses::worn(std::size_t from, std::size_t to, const VectorXd &weights) const
+{
+   state(to);
+   require(from <= to, "responses: wear from state ", from, " to state ", to,
+           ", must go forward");
+   require(trace_.wear.coefficient.size() > 0, "responses: the trace has no law of wear");
+   trace_.wear.validate(problem_);
+   Response sum;
+   for (std::size_t k = from + 1; k <= to; ++k)
+   {
+      sum +=
+         entry(k, &StateWeights::worn,
+               cattaneo::worn_depth(problem_, trace_.wear, state(k - 1), state(k)), weights);
+   }
+   return sum;
+}
+Response Responses::worn_depth(std::size_t from, std::size_t to, Index node) const
+{
+   row(node, -1);
+   return worn(from, to, unit(problem_.nodes(), node));
+}
+Response Responses::worn_volume(std::size_t from, std::size_t to) const
+{
+   return worn(from, to, problem_.weights);
 }
 
 Response Responses::slip(std::size_t k, Index node, int component) const

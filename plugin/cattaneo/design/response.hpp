@@ -14,6 +14,7 @@ struct StateWeights
    Eigen::VectorXd multipliers;   ///< of the load patterns
    Eigen::VectorXd conjugates;    ///< of these, see conjugates()
    Eigen::VectorXd loss;          ///< of each node over the increment that ends in the state
+   Eigen::VectorXd worn;          ///< of the depth of each node that it wears off
 };
 
 /** A number that a march returned, with its derivatives by the states of the trace: what
@@ -59,6 +60,11 @@ public:
    Response dissipation(std::size_t from, std::size_t to) const;
    /// … or by one.
    Response dissipation(std::size_t from, std::size_t to, Eigen::Index node) const;
+   /// Depth that a node loses between two states, by the law of the trace (MarchTrace::wear).
+   /// InputError if that has none.
+   Response worn_depth(std::size_t from, std::size_t to, Eigen::Index node) const;
+   /// Volume that all nodes lose, see the function worn_volume().
+   Response worn_volume(std::size_t from, std::size_t to) const;
    /// Displacements and nodal forces of a node; component: 0, with torsion also 1.
    Response slip(std::size_t state, Eigen::Index node, int component = 0) const;
    /// w: without the gap.
@@ -93,6 +99,7 @@ private:
    Eigen::Index row(Eigen::Index node, int component) const;
    Response entry(std::size_t k, Eigen::VectorXd StateWeights::*what, const Eigen::VectorXd &of,
                   const Eigen::VectorXd &weights) const;
+   Response worn(std::size_t from, std::size_t to, const Eigen::VectorXd &weights) const;
    Response resultant(std::size_t k, const Eigen::VectorXd &arm, int component) const;
    Eigen::VectorXd unit(Eigen::Index size, Eigen::Index k) const;
 

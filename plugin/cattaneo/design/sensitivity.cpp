@@ -3,6 +3,7 @@
 #include <cattaneo/friction/methods.hpp>
 #include <cattaneo/friction/state_equations.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/wear/worn_derivative.hpp>
 #include <cmath>
 
 namespace cattaneo
@@ -47,6 +48,7 @@ double Parameters::dot(const Parameters &change) const
    add("gap", gap, change.gap);
    add("multipliers", multipliers, change.multipliers);
    add("stiffness", stiffness, change.stiffness);
+   add("wear", wear, change.wear);
    return sum;
 }
 
@@ -64,6 +66,9 @@ double TraceChange::of(const Response &response) const
       add(weight.multipliers, multipliers);
       add(weight.conjugates, conjugates);
       add(weight.loss, loss);
+      require(weight.worn.size() == 0 || worn.cols() > 0,
+              "sensitivity: a response of wear, of which the trace has no law");
+      add(weight.worn, worn);
    }
    return sum;
 }
@@ -102,7 +107,11 @@ struct Sensitivity::System
    /// `beside` added to the equations, and given displacements of the rows without one.
    void respond(std::size_t k, const VectorXd &db, const VectorXd &beside, VectorXd &du,
                 VectorXd &dF);
-   VectorXd loss_change(std::size_t k, const Parameters &change, const TraceChange &so_far);
+   /// Of numbers of a node over increment k, by its rubbing.
+   double rub_change(std::size_t k, Index node, const RubbingDerivative &by,
+                     const Parameters &change, const TraceChange &so_far) const;
+   /// Losses and depths that increment k takes.
+   void note_rubbing(std::size_t k, const Parameters &change, TraceChange &so_far) const;
 
    // Backward.
    /// Derivatives by what state k depends on.
@@ -128,9 +137,20 @@ struct Sensitivity::System
       return along.size() > 0 &&
              along.cwiseAbs().maxCoeff() > 1e-9 * forces.cwiseAbs().maxCoeff();
    }
-   /// Adds what the losses over increment k make of their weights.
+   /// Adds what a number of a node over increment k makes of its weight, by its rubbing.
+   void spread_rub(std::size_t k, Index node, const RubbingDerivative &by, double weight,
+                   Gradient &gradient, MatrixXd &by_u, MatrixXd &by_F) const;
+   /// The same of losses and of worn depths of all nodes.
    void spread_loss(std::size_t k, const VectorXd &weights, Gradient &gradient, MatrixXd &by_u,
                     MatrixXd &by_F) const;
+   void spread_worn(std::size_t k, const VectorXd &weights, Gradient &gradient, MatrixXd &by_u,
+                    MatrixXd &by_F) const;
+   bool wears() const { return trace.wear.coefficient.size() > 0; }
+   /// Has the gap taken in what was worn since increment k began, before increment k + 1?
+   bool updates_gap_after(std::size_t k) const
+   {
+      return k + 1 < trace.states.size() && trace.states[k + 1].depth != trace.states[k].depth;
+   }
 
    const ReducedProblem &problem;
    const MarchTrace &trace;
@@ -192,6 +212,7 @@ Sensitivity::System::System(const ReducedProblem &problem, const MarchTrace &tra
       acts[k] = problem.patterns[k].control == Control::force ? -1 : 1;
    }
    for (Index row : problem.held) { held[row % n] = true; }
+   if (wears()) { trace.wear.validate(problem); }
 }
 
 bool Sensitivity::System::set(std::size_t k)
@@ -292,46 +313,85 @@ double Sensitivity::System::approach(std::size_t k, const Adjoint &of) const
    return std::abs(rate) > 1e-12 * most ? rate : 0.0;
 }
 
-VectorXd Sensitivity::System::loss_change(std::size_t k, const Parameters &change,
-                                          const TraceChange &so_far)
+double Sensitivity::System::rub_change(std::size_t k, Index i, const RubbingDerivative &by,
+                                       const Parameters &change,
+                                       const TraceChange &so_far) const
 {
-   VectorXd result = VectorXd::Zero(n);
    const auto now = static_cast<Index>(k), before = now - 1;
-   for (Index i = 0; m > 0 && i < n; ++i)
+   double sum = by.q0[0] * so_far.forces(i, before) + by.q1[0] * so_far.forces(i, now) +
+                by.p0 * so_far.forces(m + i, before) + by.p1 * so_far.forces(m + i, now) +
+                by.slip[0] * (so_far.displacements(i, now) - so_far.displacements(i, before));
+   if (change.friction.size()) { sum += by.friction * change.friction[i]; }
+   for (Index s = 0; s < change.stiffness.size(); ++s)
    {
-      const LossDerivative by = loss_derivative(problem, state(k - 1), state(k), i);
-      result[i] = by.q0[0] * so_far.forces(i, before) + by.q1[0] * so_far.forces(i, now) +
-                  by.p0 * so_far.forces(m + i, before) + by.p1 * so_far.forces(m + i, now) +
-                  by.slip[0] * (so_far.displacements(i, now) - so_far.displacements(i, before));
-      if (change.friction.size()) { result[i] += by.friction * change.friction[i]; }
-      for (Index s = 0; s < change.stiffness.size(); ++s)
-      {
-         result[i] += by.stiffness[0] * stiffness[s].K(i, i) * change.stiffness[s];
-      }
+      sum += by.stiffness[0] * stiffness[s].K(i, i) * change.stiffness[s];
    }
-   return result;
+   return sum;
+}
+
+void Sensitivity::System::note_rubbing(std::size_t k, const Parameters &change,
+                                       TraceChange &so_far) const
+{
+   if (m == 0) { return; }
+   const Rubbing rub = rubbing(problem, state(k - 1), state(k));
+   const auto column = static_cast<Index>(k);
+   for (Index i = 0; i < n; ++i)
+   {
+      if (rub.way[i] == 0) { continue; }
+      so_far.loss(i, column) = rub_change(
+         k, i, loss_derivative(problem, state(k - 1), state(k), rub, i), change, so_far);
+      if (!wears() || !(problem.weights[i] > 0)) { continue; }
+      const WornDerivative worn =
+         worn_derivative(problem, trace.wear, state(k - 1), state(k), rub, i);
+      so_far.worn(i, column) = rub_change(k, i, worn.by, change, so_far);
+      if (change.wear.size()) { so_far.worn(i, column) += worn.coefficient * change.wear[i]; }
+   }
+}
+
+void Sensitivity::System::spread_rub(std::size_t k, Index i, const RubbingDerivative &by,
+                                     double weight, Gradient &gradient, MatrixXd &by_u,
+                                     MatrixXd &by_F) const
+{
+   const auto now = static_cast<Index>(k), before = now - 1;
+   by_F(i, before) += weight * by.q0[0];
+   by_F(i, now) += weight * by.q1[0];
+   by_F(m + i, before) += weight * by.p0;
+   by_F(m + i, now) += weight * by.p1;
+   by_u(i, now) += weight * by.slip[0];
+   by_u(i, before) -= weight * by.slip[0];
+   gradient.by.friction[i] += weight * by.friction;
+   for (std::size_t s = 0; s < stiffness.size(); ++s)
+   {
+      gradient.by.stiffness[static_cast<Index>(s)] +=
+         weight * by.stiffness[0] * stiffness[s].K(i, i);
+   }
 }
 
 void Sensitivity::System::spread_loss(std::size_t k, const VectorXd &weights,
                                       Gradient &gradient, MatrixXd &by_u, MatrixXd &by_F) const
 {
-   const auto now = static_cast<Index>(k), before = now - 1;
+   if (weights.isZero(0)) { return; }
+   const Rubbing rub = rubbing(problem, state(k - 1), state(k));
    for (Index i = 0; i < weights.size(); ++i)
    {
-      if (weights[i] == 0) { continue; }
-      const LossDerivative by = loss_derivative(problem, state(k - 1), state(k), i);
-      by_F(i, before) += weights[i] * by.q0[0];
-      by_F(i, now) += weights[i] * by.q1[0];
-      by_F(m + i, before) += weights[i] * by.p0;
-      by_F(m + i, now) += weights[i] * by.p1;
-      by_u(i, now) += weights[i] * by.slip[0];
-      by_u(i, before) -= weights[i] * by.slip[0];
-      gradient.by.friction[i] += weights[i] * by.friction;
-      for (std::size_t s = 0; s < stiffness.size(); ++s)
-      {
-         gradient.by.stiffness[static_cast<Index>(s)] +=
-            weights[i] * by.stiffness[0] * stiffness[s].K(i, i);
-      }
+      if (weights[i] == 0 || rub.way[i] == 0) { continue; }
+      spread_rub(k, i, loss_derivative(problem, state(k - 1), state(k), rub, i), weights[i],
+                 gradient, by_u, by_F);
+   }
+}
+
+void Sensitivity::System::spread_worn(std::size_t k, const VectorXd &weights,
+                                      Gradient &gradient, MatrixXd &by_u, MatrixXd &by_F) const
+{
+   if (weights.isZero(0)) { return; }
+   const Rubbing rub = rubbing(problem, state(k - 1), state(k));
+   for (Index i = 0; i < weights.size(); ++i)
+   {
+      if (weights[i] == 0 || rub.way[i] == 0 || !(problem.weights[i] > 0)) { continue; }
+      const WornDerivative worn =
+         worn_derivative(problem, trace.wear, state(k - 1), state(k), rub, i);
+      spread_rub(k, i, worn.by, weights[i], gradient, by_u, by_F);
+      gradient.by.wear[i] += weights[i] * worn.coefficient;
    }
 }
 
@@ -371,10 +431,16 @@ TraceChange Sensitivity::along(const Parameters &change)
    check("gap", change.gap, n, 1);
    check("multipliers", change.multipliers, count, points);
    check("stiffness", change.stiffness, static_cast<Index>(s.stiffness.size()), 1);
+   check("wear", change.wear, n, 1);
+   require(change.wear.size() == 0 || s.wears(),
+           "sensitivity: a change of wear, of which the trace has no law");
    TraceChange result;
    result.displacements = result.forces = MatrixXd::Zero(m + n, states);
    result.multipliers = result.conjugates = MatrixXd::Zero(count, states);
    result.loss = MatrixXd::Zero(n, states);
+   result.worn = MatrixXd::Zero(n, s.wears() ? states : 0);
+   VectorXd gap = change.gap.size() > 0 ? change.gap : VectorXd(VectorXd::Zero(n));
+   Index in_gap = 0; // the last state up to which wear is part of it
    double share_change = 0;
    for (Index k = 1; k < states; ++k)
    {
@@ -384,6 +450,11 @@ TraceChange Sensitivity::along(const Parameters &change)
       {
          result.message = s.message;
          return result;
+      }
+      if (s.wears() && s.updates_gap_after(k - 1))
+      {
+         gap += result.worn.middleCols(in_gap + 1, k - 1 - in_gap).rowwise().sum();
+         in_gap = k - 1;
       }
       VectorXd loads = VectorXd::Zero(count);
       if (change.multipliers.size() > 0)
@@ -419,16 +490,14 @@ TraceChange Sensitivity::along(const Parameters &change)
          return result;
       }
       VectorXd du = result.displacements.col(k - 1), dF;
-      du.tail(n).setZero();
-      if (change.gap.size() > 0) { du.tail(n) = -change.gap; }
+      du.tail(n) = -gap;
       s.respond(k, clamped, beside, du, dF);
       if (traced.event < 0) { share_change = 0; }
       else
       {
          const System::Boundary at = s.boundary(k);
          const double rate = s.approach(k, s.go_back(k, at.displacements, at.forces));
-         double off = at.displacements.dot(du) + at.forces.dot(dF);
-         if (change.gap.size() > 0) { off += at.gap * change.gap[traced.event]; }
+         double off = at.displacements.dot(du) + at.forces.dot(dF) + at.gap * gap[traced.event];
          if (change.friction.size() > 0) { off += at.friction * change.friction[traced.event]; }
          if (rate != 0) { share_change = -off / rate; }
          else if (!s.goes_with_the_last(k)) { share_change = 0; }
@@ -443,7 +512,7 @@ TraceChange Sensitivity::along(const Parameters &change)
       result.multipliers.col(k) = loads;
       result.conjugates.col(k) = own + s.acts.cwiseProduct(s.F.transpose() * du);
       if (s.problem.knows_loads()) { result.conjugates.col(k) += s.problem.H * loads; }
-      result.loss.col(k) = s.loss_change(k, change, result);
+      s.note_rubbing(k, change, result);
    }
    result.found = true;
    return result;
@@ -457,6 +526,7 @@ Gradient Sensitivity::gradient(const Response &response)
    Gradient result;
    Parameters &by = result.by;
    by.friction = by.gap = VectorXd::Zero(n);
+   by.wear = VectorXd::Zero(s.wears() ? n : 0);
    by.multipliers = MatrixXd::Zero(count, s.trace.history.times.size());
    by.stiffness = VectorXd::Zero(static_cast<Index>(s.stiffness.size()));
    MatrixXd by_u = MatrixXd::Zero(m + n, states), by_F = by_u,
@@ -479,6 +549,9 @@ Gradient Sensitivity::gradient(const Response &response)
       {
          s.spread_loss(k, weight.loss, result, by_u, by_F);
       }
+      require(weight.worn.size() == 0 || s.wears(),
+              "sensitivity: a response of wear, of which the trace has no law");
+      if (size(weight.worn, n) && k > 0) { s.spread_worn(k, weight.worn, result, by_u, by_F); }
       if (!size(weight.conjugates, count)) { continue; }
       const VectorXd acting = s.acts.cwiseProduct(weight.conjugates);
       by_u.col(column) += s.F * acting;
@@ -501,10 +574,13 @@ Gradient Sensitivity::gradient(const Response &response)
       }
    }
    double by_share = 0;
+   VectorXd by_worn = VectorXd::Zero(n); // that the gap of later states has taken in
    for (Index k = states - 1; k > 0; --k)
    {
       const TracedState &traced = s.trace.states[k];
       const ContactState &now = traced.state;
+      if (s.wears() && s.updates_gap_after(k)) { by_worn = by.gap; }
+      s.spread_worn(k, by_worn, result, by_u, by_F);
       if (by_share == 0 && by_u.col(k).isZero(0) && by_F.col(k).isZero(0) &&
           by_loads.col(k).isZero(0))
       {

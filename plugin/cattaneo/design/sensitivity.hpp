@@ -34,6 +34,7 @@ struct Parameters
    Eigen::VectorXd gap;         ///< of each node, size n
    Eigen::MatrixXd multipliers; ///< of LoadHistory: patterns × points
    Eigen::VectorXd stiffness;   ///< of each StiffnessChange
+   Eigen::VectorXd wear;        ///< of Archard's k of each node (MarchTrace::wear), size n
 
    /// Σ derivative × change, of whatever both have. InputError if sizes differ.
    double dot(const Parameters &change) const;
@@ -57,14 +58,16 @@ struct TraceChange
    Eigen::MatrixXd multipliers;   ///< of the load patterns, also where the exact path turns
    Eigen::MatrixXd conjugates;    ///< of these
    Eigen::MatrixXd loss; ///< of each node over the increment that ends in the state, n × states
+   Eigen::MatrixXd worn; ///< of the depth that it wears off; no columns: the trace has no law
 
    /// Derivative of a response along the change.
    double of(const Response &response) const;
 };
 
 /** Derivatives of what a march returned by its parameters, exact in the discrete problem: by
-    friction and gap of each node, by the load multipliers of the history and by changes of the
-    stiffness.
+    friction and gap of each node, by the load multipliers of the history, by changes of the
+    stiffness and, where the trace has a law of wear, by its k of each node. Where depth is
+   added to the gap (trace_wear()) all of it is followed through.
 
     At the end of each increment the states of the nodes stand for linear equations,
 

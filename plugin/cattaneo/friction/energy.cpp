@@ -62,14 +62,15 @@ VectorXd frictional_loss(const ReducedProblem &problem, const ContactState &befo
    return lost;
 }
 
-LossDerivative loss_derivative(const ReducedProblem &problem, const ContactState &before,
-                               const ContactState &after, Index node)
+RubbingDerivative rubbing_derivative(const ReducedProblem &problem, const ContactState &before,
+                                     const ContactState &after, Index node, double by_way,
+                                     double by_from, double by_to)
 {
    const Index n = problem.nodes(), c = problem.components();
    const double f = problem.friction[node], p0 = std::max(before.p[node], 0.0),
                 p1 = std::max(after.p[node], 0.0), dp = p1 - p0;
    const NodeVector none = NodeVector::Zero(c);
-   LossDerivative by{none, none, none, none};
+   RubbingDerivative by{none, none, none, none};
    NodeVector q0(c), q1(c), slip(c), own(c);
    for (Index k = 0; k < c; ++k)
    {
@@ -81,7 +82,7 @@ LossDerivative loss_derivative(const ReducedProblem &problem, const ContactState
    }
    const double way = magnitude(slip);
    if (way == 0) { return by; }
-   // The loss is ½ f way (p0 + turn dp + p1), with the share `turn` = -b/a of rubbing().
+   // p_from = p0 + turn dp, with the share `turn` = -b/a of rubbing().
    double turn = 0;
    const NodeVector turning = q1 - own.cwiseProduct(slip) - q0;
    const double a = turning.squaredNorm() - f * f * dp * dp,
@@ -90,15 +91,13 @@ LossDerivative loss_derivative(const ReducedProblem &problem, const ContactState
    {
       turn = std::clamp(-b / a, 0.0, 1.0);
    }
-   const double sum = p0 + turn * dp + p1;
-   by.slip = 0.5 * f * sum / way * slip;
-   by.friction = 0.5 * way * sum;
-   by.p0 = 0.5 * f * way * (1 - turn);
-   by.p1 = 0.5 * f * way * (1 + turn);
+   by.slip = by_way / way * slip;
+   by.p0 = by_from * (1 - turn);
+   by.p1 = by_from * turn + by_to;
    if (turn > 0 && turn < 1)
    {
       // d turn = -(db + turn da)/a
-      const double by_both = -0.5 * f * way * dp / a;
+      const double by_both = -by_from * dp / a;
       const NodeVector by_turning = 2 * by_both * (q0 + turn * turning);
       by.q1 = by_turning;
       by.q0 = 2 * by_both * turning - by_turning;
@@ -111,6 +110,18 @@ LossDerivative loss_derivative(const ReducedProblem &problem, const ContactState
    // Nothing is borne in tension.
    if (before.p[node] <= 0) { by.p0 = 0; }
    if (after.p[node] <= 0) { by.p1 = 0; }
+   return by;
+}
+
+RubbingDerivative loss_derivative(const ReducedProblem &problem, const ContactState &before,
+                                  const ContactState &after, const Rubbing &rub, Index node)
+{
+   // The loss is ½ f way (p_from + p_to).
+   const double half = 0.5 * problem.friction[node], way = rub.way[node],
+                sum = rub.p_from[node] + rub.p_to[node];
+   RubbingDerivative by =
+      rubbing_derivative(problem, before, after, node, half * sum, half * way, half * way);
+   by.friction += 0.5 * way * sum;
    return by;
 }
 

@@ -1,6 +1,6 @@
 #include <cattaneo/friction/energy.hpp>
 #include <cattaneo/input_error.hpp>
-#include <cattaneo/wear/archard.hpp>
+#include <cattaneo/wear/worn_derivative.hpp>
 #include <cmath>
 
 namespace cattaneo
@@ -50,6 +50,38 @@ void WearLaw::validate(const ReducedProblem &problem) const
            "wear: the problem has no weights of its nodes, and so no pressure");
 }
 
+namespace
+{
+
+/// Mean of what is positive of a line between two values, with its derivatives by these.
+struct PositiveMean
+{
+   PositiveMean(double from, double to)
+   {
+      const double low = std::min(from, to), high = std::max(from, to);
+      if (high <= 0) { return; }
+      value = 0.5 * (from + to);
+      by_from = by_to = 0.5;
+      if (low >= 0) { return; }
+      const double share = high / (high - low), by_high = share - 0.5 * share * share;
+      value = 0.5 * high * share;
+      by_from = from > to ? by_high : 0.5 * share * share;
+      by_to = from > to ? 0.5 * share * share : by_high;
+   }
+   double value = 0, by_from = 0, by_to = 0;
+};
+
+/// Of a node along its way, over the threshold.
+PositiveMean pressure(const ReducedProblem &problem, const WearLaw &law, const Rubbing &rub,
+                      Index i)
+{
+   const double least = law.threshold.size() > 0 ? law.threshold[i] : 0.0;
+   return {rub.p_from[i] / problem.weights[i] - least,
+           rub.p_to[i] / problem.weights[i] - least};
+}
+
+} // namespace
+
 VectorXd worn_depth(const ReducedProblem &problem, const WearLaw &law,
                     const ContactState &before, const ContactState &after)
 {
@@ -59,16 +91,25 @@ VectorXd worn_depth(const ReducedProblem &problem, const WearLaw &law,
    for (Index i = 0; i < depth.size(); ++i)
    {
       if (depth[i] == 0) { continue; }
-      const double least = law.threshold.size() > 0 ? law.threshold[i] : 0.0,
-                   from = rub.p_from[i] / problem.weights[i] - least,
-                   to = rub.p_to[i] / problem.weights[i] - least, high = std::max(from, to);
-      // A line from `from` to `to`: the mean of what is positive of it.
-      const double mean = std::min(from, to) >= 0 ? 0.5 * (from + to)
-                          : high <= 0             ? 0.0
-                                                  : 0.5 * high * high / std::abs(to - from);
-      depth[i] *= mean;
+      // Without a weight it has no area, and no pressure.
+      depth[i] *= problem.weights[i] > 0 ? pressure(problem, law, rub, i).value : 0.0;
    }
    return depth;
+}
+
+WornDerivative worn_derivative(const ReducedProblem &problem, const WearLaw &law,
+                               const ContactState &before, const ContactState &after,
+                               const Rubbing &rub, Index node)
+{
+   const PositiveMean mean = pressure(problem, law, rub, node);
+   const double k = law.coefficient[node], f = law.of_energy ? problem.friction[node] : 1.0,
+                way = rub.way[node], weight = problem.weights[node];
+   WornDerivative result{rubbing_derivative(problem, before, after, node, f * k * mean.value,
+                                            f * k * way * mean.by_from / weight,
+                                            f * k * way * mean.by_to / weight),
+                         f * way * mean.value};
+   if (law.of_energy) { result.by.friction += k * way * mean.value; }
+   return result;
 }
 
 double worn_volume(const ReducedProblem &problem, const VectorXd &depth)

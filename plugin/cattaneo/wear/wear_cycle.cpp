@@ -21,9 +21,10 @@ VectorXd WearCycle::compliance() const
 }
 
 WearCycles::WearCycles(const ReducedProblem &problem, const WearLaw &law,
-                       const LoadHistory &history, const MarchSettings &settings)
+                       const LoadHistory &history, const MarchSettings &settings,
+                       const WornIncrementObserver &watch)
    : problem_(problem), law_(law), solver_(problem, settings.friction), settings_(settings),
-     history_(history), start_(history.times[history.cycle_start])
+     history_(history), start_(history.times[history.cycle_start]), watch_(watch)
 {
    history_.cycles = 1;
    settings_.monitor = {};
@@ -48,7 +49,7 @@ WearCycle WearCycles::march(const LoadHistory &part, ContactState &contact,
    ContactState before = contact;
    VectorXd way = VectorXd::Zero(n), along = way, in_time = way;
    double duration = 0;
-   const auto note = [&](const ContactState &after, const IncrementRecord &)
+   const auto note = [&](const ContactState &after, const IncrementRecord &record)
    {
       const Rubbing rub = rubbing(worn, before, after);
       const VectorXd p = 0.5 * (rub.p_from + rub.p_to);
@@ -60,6 +61,7 @@ WearCycle WearCycles::march(const LoadHistory &part, ContactState &contact,
       along += p.cwiseProduct(rub.way);
       in_time += (after.time - before.time) * p;
       duration += after.time - before.time;
+      if (watch_) { watch_(after, record, depth); }
       before = after;
    };
    cycle.report = cattaneo::march(solver_, part, contact, settings_, note);

@@ -100,9 +100,9 @@ class WearMarch
 public:
    WearMarch(const ReducedProblem &problem, const WearLaw &law, const LoadHistory &history,
              double cycles, WearState &state, const WearSettings &settings,
-             const WearObserver &observer)
+             const WearObserver &observer, const WornIncrementObserver &watch)
       : problem_(problem), state_(state), settings_(settings), observer_(observer),
-        cycles_(problem, law, history, settings.march), end_(cycles),
+        cycles_(problem, law, history, settings.march, watch), end_(cycles),
         progress_(settings.march.monitor)
    {
       report_.explicit_limit = std::numeric_limits<double>::infinity();
@@ -369,7 +369,7 @@ WearReport WearMarch::run()
 
 WearReport wear(const ReducedProblem &problem, const WearLaw &law, const LoadHistory &history,
                 double cycles, WearState &state, const WearSettings &settings,
-                const WearObserver &observer)
+                const WearObserver &observer, const WornIncrementObserver &watch)
 {
    settings.validate();
    law.validate(problem);
@@ -389,7 +389,7 @@ WearReport wear(const ReducedProblem &problem, const WearLaw &law, const LoadHis
            "wear: the state has the load multipliers (", state.contact.multipliers.transpose(),
            "), the history begins ", begins ? "" : "its cycle ", "with (", loads.transpose(),
            ")");
-   return WearMarch(problem, law, once, cycles, state, settings, observer).run();
+   return WearMarch(problem, law, once, cycles, state, settings, observer, watch).run();
 }
 
 } // namespace cattaneo

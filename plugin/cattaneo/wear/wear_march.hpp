@@ -95,6 +95,11 @@ struct WearReport
 /// Called after every cycle that was marched and every jump.
 using WearObserver = std::function<void(const WearState &, const WearRecord &)>;
 
+/// Called after every increment that is marched, with the depth that its gap had: also those of
+/// cycles that only look where a jump leads.
+using WornIncrementObserver = std::function<void(const ContactState &, const IncrementRecord &,
+                                                 const Eigen::VectorXd &depth)>;
+
 /** Wears a contact: marches the opening part of a history and then its cycle, `cycles` times
     over all (history.cycles is not asked), and takes off what each cycle wears.
 
@@ -117,6 +122,6 @@ using WearObserver = std::function<void(const WearState &, const WearRecord &)>;
    beginning or between two cycles. */
 WearReport wear(const ReducedProblem &problem, const WearLaw &law, const LoadHistory &history,
                 double cycles, WearState &state, const WearSettings &settings = {},
-                const WearObserver &observer = {});
+                const WearObserver &observer = {}, const WornIncrementObserver &watch = {});
 
 } // namespace cattaneo

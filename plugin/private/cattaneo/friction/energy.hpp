@@ -25,15 +25,22 @@ Rubbing rubbing(const ReducedProblem &problem, const ContactState &before,
 Eigen::VectorXd frictional_loss(const ReducedProblem &problem, const ContactState &before,
                                 const ContactState &after);
 
-/// Derivatives of the frictional_loss() of one node, as it is cut where slip turns: by its
-/// forces before (0) and after (1), its slip Δv, its friction and its own tangential stiffness.
-struct LossDerivative
+/// Derivatives of a number that depends on the rubbing() of one node, as its way is cut where
+/// slip turns: by its forces before (0) and after (1), its slip Δv, its friction and its own
+/// tangential stiffness.
+struct RubbingDerivative
 {
    NodeVector q0, q1, slip, stiffness;
    double p0 = 0, p1 = 0, friction = 0;
 };
-LossDerivative loss_derivative(const ReducedProblem &problem, const ContactState &before,
-                               const ContactState &after, Eigen::Index node);
+/// Of a number with derivatives by way, p_from and p_to of the node.
+RubbingDerivative rubbing_derivative(const ReducedProblem &problem, const ContactState &before,
+                                     const ContactState &after, Eigen::Index node,
+                                     double by_way, double by_from, double by_to);
+/// Of the frictional_loss() of the node, whose rubbing() over the increment is given.
+RubbingDerivative loss_derivative(const ReducedProblem &problem, const ContactState &before,
+                                  const ContactState &after, const Rubbing &rub,
+                                  Eigen::Index node);
 
 /// Elastic energy stored by the contact displacements and loads of a state (both bodies); what
 /// the loads store in the clamped bodies only if it is known (H).

@@ -34,7 +34,7 @@ class WearCycles
 public:
    /// All must outlive this.
    WearCycles(const ReducedProblem &problem, const WearLaw &law, const LoadHistory &history,
-              const MarchSettings &settings);
+              const MarchSettings &settings, const WornIncrementObserver &watch = {});
 
    bool begins(const ContactState &contact) const { return contact.time < start_; }
    double start() const { return start_; }
@@ -62,6 +62,7 @@ private:
    MarchSettings settings_;
    LoadHistory history_;
    double start_;
+   const WornIncrementObserver watch_;
 };
 
 /// What `cycles` cycles like this one take off when the pressures are those at their end, size

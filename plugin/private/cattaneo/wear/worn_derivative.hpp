@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cattaneo/friction/energy.hpp>
+#include <cattaneo/wear/archard.hpp>
+
+namespace cattaneo
+{
+
+/// Derivatives of the worn_depth() of one node that has a weight, over an increment: by what
+/// its rubbing depends on, and by Archard's k there.
+struct WornDerivative
+{
+   RubbingDerivative by;
+   double coefficient = 0;
+};
+WornDerivative worn_derivative(const ReducedProblem &problem, const WearLaw &law,
+                               const ContactState &before, const ContactState &after,
+                               const Rubbing &rub, Eigen::Index node);
+
+} // namespace cattaneo
