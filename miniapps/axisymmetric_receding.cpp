@@ -60,8 +60,8 @@ void bonded(miniapp::Study &study, Disc &disc, const std::vector<double> &wanted
                                          {"p_2"},
                                          {"p_3"},
                                          {"p_4"}});
-   Panel &panel = study.panel(Panel::Kind::lines, "bonded_pressure", "Bonded disc: pressure",
-                              "r/t", "p/p0");
+   Panel &panel = study.panel(Panel::Kind::lines, "bonded_pressure",
+                              "Bonded disc: pressure, shear (dashed)", "r/t", "p/p0, q/p0");
    for (double a : wanted)
    {
       const LoadPattern &pattern = problem.patterns[problem.pattern(radius_load(a))];
@@ -80,11 +80,26 @@ void bonded(miniapp::Study &study, Disc &disc, const std::vector<double> &wanted
       }
       study.row(table, row);
       panel.add(exact_text("a = ", a), r, p);
+      panel.add(exact_text("q: a = ", a), r, q, "dashed");
    }
 }
 
-void load(miniapp::Study &study, Disc &disc, miniapp::Run &run)
+/// @param levels P/P0 to draw on the way: the zones stay
+void load(miniapp::Study &study, Disc &disc, miniapp::Run &run,
+          const std::vector<double> &levels)
 {
+   if (!levels.empty())
+   {
+      Panel &profiles =
+         study.panel(Panel::Kind::lines, "loading_tractions",
+                     "Pressure p and shear q over f, loading", "r/t", "p/p0, q/(f p0)");
+      for (double level : levels)
+      {
+         run.to(disc.pressed(level));
+         profiles.add_tractions(exact_text("P/P0 = ", level), disc.radii(), disc.problem(),
+                                run.state);
+      }
+   }
    run.to(disc.pressed());
    const Extent found = disc.extent(run.state);
    study.title(
@@ -193,7 +208,7 @@ void unload(miniapp::Study &study, Disc &disc, miniapp::Run &run,
          std::find_if(wanted.begin(), wanted.end(),
                       [&](double value) { return std::abs(level - value) < 1e-9; });
       if (target == wanted.end()) { return; }
-      if (*target == 0.5 || *target == 0.1) { add_profile(*target, now); }
+      add_profile(*target, now);
       std::vector<ordered_json> row = {*target, found.separation, found.stick};
       auto errors = found.errors();
       miniapp::add_borders(found.zones, row, errors);
@@ -215,8 +230,8 @@ void axisymmetric_receding(miniapp::Study &study)
    Disc disc;
    miniapp::DiscOptions &options = disc.options;
    std::string twisted = "top", obstacle = "half-plane";
-   std::vector<double> levels, torques, rotations, bonded_a, map_a, map_f = {0.5, 0.8}, discs,
-                                                                    critical_f = {0, 0.5, 0.8};
+   std::vector<double> on_the_way, levels, torques, rotations, bonded_a, map_a,
+      map_f = {0.5, 0.8}, discs, critical_f = {0, 0.5, 0.8};
    double amplitude = 0.5;
    int cycles = 0;
    study.option(&options.disc_radius, "disc-radius", "b, in t.");
@@ -229,6 +244,8 @@ void axisymmetric_receding(miniapp::Study &study)
    study.option(&options.domain, "domain", miniapp::domain_help);
    study.option(&options.order, "order", "Order of the elements.");
    study.option(&options.spacing, "spacing", "Distance of the contact nodes, in t.");
+   study.option(&on_the_way, "load-levels", "Loading: list of P/P0 to draw (empty: none).",
+                miniapp::between(0, 1));
    study.option(&levels, "unload", "Unloading: list of P/P0 to report (empty: none).",
                 miniapp::between(0, 1));
    study.option(&torques, "torque", "Torsion: list of T/T_s to report (empty: none).",
@@ -265,6 +282,7 @@ void axisymmetric_receding(miniapp::Study &study)
            "twist");
    require(rotations.empty() || twisted != "traction",
            "option --rotation does not go with --twist traction, which prescribes torque");
+   std::sort(on_the_way.begin(), on_the_way.end());
    std::sort(levels.rbegin(), levels.rend());
    std::sort(torques.begin(), torques.end());
    std::sort(rotations.begin(), rotations.end());
@@ -291,7 +309,7 @@ void axisymmetric_receding(miniapp::Study &study)
    study.reduced(disc.scene);
    if (!bonded_a.empty()) { bonded(study, disc, bonded_a); }
    miniapp::Run run(study, disc.problem());
-   load(study, disc, run);
+   load(study, disc, run, on_the_way);
    const ContactState loaded = run.state;
    const auto again = [&]() -> miniapp::Run &
    {

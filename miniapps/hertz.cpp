@@ -32,7 +32,7 @@ void hertz(miniapp::Study &study)
    std::string body = "half-plane";
    double friction = 0.4, poisson = 0.3, ratio = 0.4, domain = 0, span = 1.67;
    int order = 2, nodes = 101;
-   std::vector<double> shear = {0.6};
+   std::vector<double> shear = {0.6}, levels_of_P;
    MarchSettings settings;
    study.option(&body, "body", "half-plane (two of them) or block (on a half-plane).",
                 {"half-plane", "block"});
@@ -44,6 +44,9 @@ void hertz(miniapp::Study &study)
    study.option(&domain, "domain", miniapp::domain_help, miniapp::none_or_above(10));
    study.option(&order, "order", "Order of the elements.", miniapp::within(1, 8));
    study.option(&nodes, "nodes", "Contact nodes.", miniapp::at_least(9));
+   study.option(&levels_of_P, "load-levels",
+                "Loading: list of P/P0 whose pressures and gaps are drawn (empty: none).",
+                miniapp::between(0, 1));
    study.option(&shear, "shear", "Monotonic shear after P: list of Q/fP, or none.");
    study.option(&settings.increments, "increments",
                 "Load increments between two values (more where contact advances).",
@@ -70,6 +73,24 @@ void hertz(miniapp::Study &study)
    { return std::abs(s) < half ? std::sqrt(half * half - s * s) / b : 0.0; };
 
    miniapp::Run run(study, problem, settings);
+   if (!levels_of_P.empty())
+   {
+      // Thesis figures 3.11 and 3.12; b and p0 are those of the full load.
+      using miniapp::Panel;
+      Panel &gaps = study.panel(Panel::Kind::lines, "gaps", "Gap during loading", "x/b",
+                                "gap over b²/2R"),
+            &pressures = study.panel(Panel::Kind::lines, "pressures", "Pressure during loading",
+                                     "x/b", "p/p0 Hertz");
+      std::sort(levels_of_P.begin(), levels_of_P.end());
+      for (const double level : levels_of_P)
+      {
+         run.to({{"P", level}});
+         const std::string label = exact_text("P/P0 = ", level);
+         gaps.add(label, x / b, VectorXd((problem.gap + run.state.w) * (2 * radius / (b * b))));
+         pressures.add(label, x / b, tractions(problem, run.state.p) / p0);
+      }
+      gaps.add("before", x / b, VectorXd(problem.gap * (2 * radius / (b * b))), "dashed");
+   }
    run.to({{"P", 1}});
    miniapp::Panel &profiles =
       study.panel(miniapp::Panel::Kind::lines, "tractions", "Pressure and shear", "x/b",

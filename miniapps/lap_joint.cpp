@@ -39,7 +39,8 @@ using miniapp::text;
 namespace
 {
 
-void draw(miniapp::Study &study, Joint &joint, const BoltedLoop &loop, Panel &diagram)
+void draw(miniapp::Study &study, Joint &joint, const BoltedLoop &loop,
+          const std::vector<ContactState> &stations, Panel &diagram)
 {
    const ReducedProblem &problem = joint.problem();
    const VectorXd x = problem.position.col(0);
@@ -48,8 +49,8 @@ void draw(miniapp::Study &study, Joint &joint, const BoltedLoop &loop, Panel &di
               pulled = settled_states(problem, loop.first_peak);
    for (Index i = 0; i < problem.nodes(); ++i)
    {
-      const bool in = closed(tightened[i]) || closed(pulled[i]);
-      if (in) { edge = std::max(edge, std::abs(x[i])); }
+      if (!closed(tightened[i]) && !closed(pulled[i])) { continue; }
+      edge = std::max(edge, std::abs(x[i]));
    }
    edge *= 1.15;
    Panel &profiles = study.panel(Panel::Kind::lines, "tractions",
@@ -57,9 +58,11 @@ void draw(miniapp::Study &study, Joint &joint, const BoltedLoop &loop, Panel &di
          &density =
             study.panel(Panel::Kind::lines, "dissipation",
                         "Dissipation a cycle along the contact", "x/t", "D' E' t/P0² × 10³");
-   profiles.add_tractions("P only", x, problem, loop.tightened);
-   profiles.add_tractions("first Tmax", x, problem, loop.first_peak);
-   profiles.add_tractions("back to T = 0", x, problem, loop.first_end);
+   for (std::size_t k = 0; k < stations.size(); ++k)
+   {
+      const double T = named(problem, stations[k].multipliers).at("T") / joint.P0();
+      profiles.add_tractions(text("%zu: T/P0 = %.3g", k + 1, T), x, problem, stations[k]);
+   }
    const VectorXd weight = problem.weights * (joint.unit() / 1e3);
    density.add("first cycle", x,
                loop.report.cycles.front().node_dissipation.cwiseQuotient(weight));
@@ -91,11 +94,13 @@ void single(miniapp::Study &study, Joint &joint)
       study.panel(Panel::Kind::zones, "zones",
                   "Zones in time (1: pinched, then T: 0 → Tmax → 0)", "load step", "x/t");
    nlohmann::ordered_json evolution = nlohmann::ordered_json::array();
-   std::vector<ContactState> states; // of the first cycle, for the frames
+   std::vector<ContactState> states, stations; // for the frames, and for draw()
    const auto observe = [&](const ContactState &state)
    {
       if (state.time < 1) { return; }
       if (!joint.paraview.empty() && state.time <= 3) { states.push_back(state); }
+      const double off = std::abs(2 * state.time - std::round(2 * state.time));
+      if (off < 1e-9 && state.time < 4.25) { stations.push_back(state); }
       const std::vector<Zone> all = zones(problem, state);
       diagram.add(state.time, all, x);
       evolution.push_back({{"time", state.time},
@@ -135,14 +140,13 @@ void single(miniapp::Study &study, Joint &joint)
                tractions(problem, o.tightened.q).cwiseAbs().maxCoeff() / joint.friction,
                "shear after P", none, "f p0");
    study.results["zones"] = evolution;
-   study.results["seconds_march"] = o.report.seconds;
    // The remote load goes from none to its peak: the pressed state is the cycle's other end.
    fretting::MarchedStates edges{problem, o.tightened, o.first_peak};
    edges.opposite = &edges.pressed;
    edges.cycle = &o.report.cycles.back();
    edges.modulus = 0.5; // E*, with E' = 1 of both laps
    miniapp::report_edges(study, fretting::read_edges(edges), shift);
-   draw(study, joint, o, diagram);
+   draw(study, joint, o, stations, diagram);
    if (!joint.paraview.empty()) { write_frames(study, joint, states); }
 }
 

@@ -12,14 +12,15 @@
 //                plane_receding -friction 0.7 -unload "0.9 0.5 0.2 0.1" -march exact
 //                plane_receding -obstacle th0 -friction 0.3 -order 1 -spacing 0.04
 //                plane_receding -domain 1e4 -overhang 0.8 -friction 1.4
+//                plane_receding -domain 1e4 -overhang 0.8 -bonded "0.1 0.18 0.3 0.5 0.8"
+//                plane_receding -obstacle th0 -bonded "1.5 2"
 //                plane_receding -map "0.4 0.8 1.2 1.6 2 3" -spacing 0.05 -corner 0.01
 //                plane_receding -domain 1e4 -map 4 -map-friction "0.3 0.5 1"
 //                plane_receding -obstacle th0 -unload 0.5
 //                plane_receding -obstacle th0 -overhang 2 -unload 0.5
 
+#include "common/bonded_strip.hpp"
 #include "common/extent.hpp"
-#include "common/receding.hpp"
-#include "common/williams.hpp"
 
 #include <algorithm>
 #include <array>
@@ -29,6 +30,7 @@ using namespace cattaneo;
 using Eigen::Index;
 using Eigen::VectorXd;
 using miniapp::exact_text;
+using miniapp::nodes_before;
 using miniapp::none;
 using miniapp::overhang_load;
 using miniapp::Panel;
@@ -43,35 +45,6 @@ miniapp::Extent extent(const ReducedProblem &problem, const ContactState &state,
                        double overhang)
 {
    return miniapp::extent(problem, state, false, -overhang);
-}
-
-/// Nodes before a place of the line.
-Index nodes_before(const VectorXd &x, double at)
-{
-   return std::lower_bound(x.data(), x.data() + x.size(), at) - x.data();
-}
-
-/// The bonded strip (thesis 5.2).
-void bonded(miniapp::Study &study, const ReducedProblem &problem, double overhang)
-{
-   const miniapp::BondedTractions b = miniapp::bonded_tractions(problem, overhang);
-   study.title("Bonded strip");
-   study.value("corner_ratio", b.corner_ratio, "q/p at the corner (Williams: 0.5431)");
-   study.say(miniapp::text("   strengths of its singular terms: %.4f and %.4f",
-                           b.strengths(0, 0), b.strengths(1, 0)));
-   study.results["corner_strength"] = {b.strengths(0, 0), b.strengths(1, 0)};
-   study.value("lowest_bonded_pressure", b.lowest_pressure, "lowest pressure at x > 0", none,
-               "p0");
-   study.value("adhesion_friction", b.adhesion_friction, "friction for full adhesion", none,
-               std::isfinite(b.adhesion_friction) ? "" : "none: the strip pulls");
-   study.value("adhesion_x", b.adhesion_x, "needed at x/t");
-   Panel &panel =
-      study.panel(Panel::Kind::lines, "bonded", "Bonded strip: traction ratio", "x/t", "q/p");
-   const Index shown = nodes_before(problem.arc_length, 3.0) - 8;
-   panel.add(exact_text("n = ", overhang), problem.arc_length.segment(8, shown),
-             b.q.cwiseQuotient(b.p).segment(8, shown));
-   panel.add("Williams corner", std::vector<double>{0, 3},
-             {miniapp::williams_ratio[0], miniapp::williams_ratio[0]}, "dashed");
 }
 
 void load(miniapp::Study &study, miniapp::Run &run, double overhang)
@@ -184,7 +157,7 @@ void unload(miniapp::Study &study, miniapp::Run &run, const Unloading &options)
       study.row(levels, row, errors,
                 {{"separation_error", found.separation_error},
                  {"stick_slip_error", found.stick_error}});
-      if (is(0.5) || is(0.1)) { add_profile(level, now); }
+      add_profile(level, now);
    };
    std::vector<NamedLoads> loads;
    for (double level : miniapp::unloading_levels(options.steps, options.lowest, options.wanted))
@@ -255,7 +228,7 @@ void plane_receding(miniapp::Study &study)
    miniapp::RecedingOptions options;
    std::string obstacle = "half-plane", march_by = "advancing";
    double friction = 0.7;
-   std::vector<double> map_n, map_f = {0.3, 0.5, 0.7, 1};
+   std::vector<double> map_n, map_f = {0.3, 0.5, 0.7, 1}, bonded_n;
    Unloading unloading{4, 50, 0.05, {}, {-0.5, 0, 0.5}};
    bool study_domain = false;
    study.option(&unloading.overhang, "overhang",
@@ -283,6 +256,9 @@ void plane_receding(miniapp::Study &study)
                 "Unloading: p/p0 at which it ends; steps shrink toward it.",
                 miniapp::between(0, 1));
    study.option(&unloading.points, "slip", "Unloading: list of ξ/t whose slip is followed.");
+   study.option(&bonded_n, "bonded",
+                "Bonded strips: list of n to draw, with the n at which their kind changes.",
+                miniapp::positive);
    study.option(&map_n, "map", "Map of s and e: list of n (empty: none).");
    study.option(&map_f, "map-friction", "Map of s and e: list of f.", miniapp::positive);
    study.option(&study_domain, "domain-study", "Print s and e for growing domains.");
@@ -305,13 +281,13 @@ void plane_receding(miniapp::Study &study)
               "option --slip: ", point, " must be on the strip, from ", -overhang, " to ",
               options.length - overhang, " (in t)");
    }
-   options.overhangs = miniapp::joined_once({overhang}, map_n);
+   options.overhangs = miniapp::joined_once(miniapp::joined_once({overhang}, map_n), bonded_n);
 
    miniapp::Scene scene = miniapp::make_receding(options);
    ReducedProblem &problem = scene.problem();
    set_friction(problem, friction);
    study.reduced(scene);
-   bonded(study, problem, overhang);
+   miniapp::report_bonded(study, options, problem, overhang, bonded_n);
 
    miniapp::Run run(study, problem);
    load(study, run, overhang);

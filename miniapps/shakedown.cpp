@@ -16,6 +16,7 @@
 //  Sample runs:  shakedown
 //                shakedown -nodes 101 -find load -friction 1 -reversal -1 -march -cycles 30
 //                shakedown -nodes 81 -map -adhesion-map
+//                shakedown -find friction -tractions
 //                shakedown -nodes 33 -mesh-study "33 65 101"
 //                shakedown -nodes 33 -mismatch "0.1 1 10"
 //                shakedown -obstacle rigid -nodes 65 -friction 0.6 -starts 4
@@ -81,6 +82,9 @@ void Shakedown::options()
    study.option(&map, "map", "Largest load against friction for several R (figure 4.18).");
    study.option(&adhesion, "adhesion-map",
                 "Friction that prevents all slip under a monotonic load (figure 4.3).");
+   study.option(
+      &steps, "tractions",
+      "Tractions of the monolith and the steps of the estimates (figures 4.4 to 4.14).");
    study.option(&march, "march", "March in time from zero, optimal and negative optimal slip.");
    study.option(&cycles, "cycles", "Cycles of a march, at most.", at_least(1));
    study.option(&starts, "starts",
@@ -117,6 +121,7 @@ void Shakedown::options()
    require(held != cycled, "options --held and --cycled are both '", held,
            "', must be two load patterns");
    saved = !reduced.empty();
+   require(!saved || !steps, "option --tractions is for the punch, not for a saved problem");
    for (const auto &[option, list] :
         {std::pair{"--mesh-study", mesh_study}, {"--mismatch", mismatch}})
    {

@@ -84,6 +84,9 @@ void twist(Study &study, Disc &disc, Run &run, Turning::Stop stop,
    Panel &profiles = study.panel(Panel::Kind::lines, "torsion_tractions",
                                  "Pressure p and shear |q| over f", "r/t", "p/p0, |q|/(f p0)"),
          &sliding = study.panel(Panel::Kind::lines, "slip", "Slip", "r/t", "|v| E/(p0 t)"),
+         &directions = study.panel(Panel::Kind::lines, "slip_angles",
+                                   "Angle of slip from the radius, of its rate and in total",
+                                   "r/t", "degrees"),
          &diagram = study.panel(Panel::Kind::zones, "torsion_zones", "Zones under torsion",
                                 "T/T_s", "r/t");
    const auto length = [n](const VectorXd &x)
@@ -95,6 +98,17 @@ void twist(Study &study, Disc &disc, Run &run, Turning::Stop stop,
       profiles.add("|q|/f: " + label, r, tractions(problem, length(now.state.q)) / disc.f,
                    "dashed");
       sliding.add(label, r.head(n - 1), length(now.state.v).head(n - 1));
+      const std::vector<NodeState> settled = settled_states(problem, now.state);
+      std::vector<double> radii, rate, total;
+      for (Index i = 0; i < n; ++i)
+      {
+         if (!slips(settled[i])) { continue; }
+         radii.push_back(r[i]);
+         rate.push_back(slip_angle(r, now.state.q, r[i]));
+         total.push_back(slip_angle(r, now.state.v, r[i]));
+      }
+      directions.add(label, radii, rate);
+      directions.add("total: " + label, radii, total, "dashed");
    };
    double last = -1;
    const auto observe = [&](const ContactState &state, const IncrementRecord &)

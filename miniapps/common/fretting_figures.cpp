@@ -234,6 +234,7 @@ void correlate(Study &study, const std::string &file, const Pad &common,
                                           {"k_t_range", "ΔK_T", "%.4g"},
                                           {"energy_max", "energy", "%.4g"},
                                           {"energy_total"},
+                                          {"yield_load"},
                                           {"trust", "trust"}});
    const auto lines = [&](const char *name, const char *title, const char *x,
                           const char *y) -> Panel &
@@ -274,7 +275,8 @@ void correlate(Study &study, const std::string &file, const Pad &common,
          const FrettingReport r = judge(test.pad, contact, criteria).report;
          study.row(table, {test.series, test.cycles, test.runout, test.pad.friction,
                            r.edge_stress_range, r.abscissa, r.ordinate, r.k_t_range,
-                           r.energy_max, r.energy_total, to_string(r.trust)});
+                           r.energy_max, r.energy_total, r.yield_ratio_full / test.pad.friction,
+                           to_string(r.trust)});
          const bool trusted = r.trust != Trust::poor;
          const auto add = [&](Panel &panel, double x, double y)
          {

@@ -157,6 +157,32 @@ BondedTractions bonded_tractions(const ReducedProblem &problem, double overhang)
    return result;
 }
 
+double changing_overhang(RecedingOptions options, double from, double to,
+                         const std::function<double(const BondedTractions &)> &figure)
+{
+   constexpr int parts = 16, rounds = 3;
+   for (int round = 0; round < rounds; ++round)
+   {
+      options.overhangs.clear();
+      for (int k = 0; k <= parts; ++k)
+      {
+         options.overhangs.push_back(from + (to - from) * k / parts);
+      }
+      const Scene scene = make_receding(options);
+      std::vector<double> values;
+      for (double n : options.overhangs)
+      {
+         values.push_back(figure(bonded_tractions(scene.reduction.problem, n)));
+      }
+      int k = 1;
+      while (k <= parts && (values[k] > 0) == (values[0] > 0)) { ++k; }
+      if (k > parts) { return std::numeric_limits<double>::quiet_NaN(); }
+      from = options.overhangs[k - 1];
+      to = options.overhangs[k];
+   }
+   return 0.5 * (from + to);
+}
+
 PointHistory::PointHistory(double xi_, const VectorXd &positions, const VectorXd &slip_)
    : xi(xi_), positions_(positions)
 {

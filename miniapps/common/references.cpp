@@ -141,11 +141,12 @@ void References::compare(const std::string &key, double computed, double error,
          continue;
       }
       const double mesh = mesh_share(entry.value("mesh", ordered_json(0.0)), meaning);
+      const double none = std::numeric_limits<double>::quiet_NaN();
       found.push_back({entry.at("name"),
-                       entry.at("value"),
-                       {entry.at("spread"), mesh + (std::isfinite(error) ? error : 0)},
+                       entry.value("value", none),
+                       {entry.value("spread", none), mesh + (std::isfinite(error) ? error : 0)},
                        computed,
-                       entry.value("thesis", std::numeric_limits<double>::quiet_NaN())});
+                       entry.value("thesis", none)});
    }
 }
 

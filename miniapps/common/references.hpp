@@ -23,13 +23,17 @@ struct Allowed
 struct Reference
 {
    std::string name;
-   double value;
+   double value; ///< NaN: only the thesis has one
    Allowed allowed;
    double computed, thesis = std::numeric_limits<double>::quiet_NaN();
 
    double difference() const { return computed - value; }
-   /// Of its own ±; NaN is outside.
-   bool outside() const { return !(std::abs(difference()) <= allowed.spread); }
+   /// Of its own ±; what is computed as NaN is outside, and nothing of a value that only the
+   /// thesis has.
+   bool outside() const
+   {
+      return !std::isnan(value) && !(std::abs(difference()) <= allowed.spread);
+   }
    /// Whether the mesh explains what is outside; a closed form has no ± of its own.
    std::string verdict() const;
 };

@@ -105,6 +105,7 @@ void Shakedown::monolith()
       }
    }
    if (adhesion) { draw_adhesion(opens, by); }
+   if (steps) { draw_monolith(); }
 }
 
 void Shakedown::draw_adhesion(double opens, const char *by)
@@ -154,7 +155,7 @@ void Shakedown::smallest_friction()
    const PointwiseEstimate first = method1_friction(problem, cycle, lambda_max, inner);
    study.value("method1", first.value, "method 1 (4.9)", none,
                text("at x = %.3f", x[first.node]));
-   if (problem.components() == 1) { method2(); }
+   if (problem.components() == 1) { method2(first.value); }
    least = smallest(limit);
    report("friction", least, lambda_max, least.limit);
    if (!standard || lambda_max != 0.8 || std::abs(reversal + 0.5) > 1e-12) { return; }
@@ -166,10 +167,11 @@ void Shakedown::smallest_friction()
    study.value("friction_limit_transposed", other.limit, "exact with B transposed");
 }
 
-void Shakedown::method2()
+void Shakedown::method2(double f1)
 {
    const Method2Estimate second = method2_friction(limit, lambda_max, inner);
    study.counters += second.counters;
+   if (steps) { draw_estimates(second, f1); }
    if (!second.exists)
    {
       study.say("   method 2: none: " + second.message);
@@ -179,10 +181,10 @@ void Shakedown::method2()
    study.value("method2_high", second.high, "and most");
    study.value("method2_natural", second.natural, "and of the one without resultant");
    Panel &panel = study.panel(Panel::Kind::lines, "method2",
-                              "Permissible residual shear, method 1", "x/a", "a q/P");
-   panel.add("permissible", x, traction(second.residual_low), "band");
-   panel.add("permissible", x, traction(second.residual_high), "band");
-   panel.add("without resultant", x, traction(second.natural_residual), "dashed");
+                              "Permissible residual shear, method 1", "x/a", "-a q/P");
+   panel.add("permissible", x, -traction(second.residual_high), "band");
+   panel.add("permissible", x, -traction(second.residual_low), "band");
+   panel.add("without resultant", x, -traction(second.natural_residual), "dashed");
    panel.say("inside: 0.1");
 }
 

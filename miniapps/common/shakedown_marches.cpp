@@ -86,14 +86,15 @@ void Shakedown::draw_optimal()
    study.panel(Panel::Kind::lines, "optimal_slip", "Optimal slip", "x/a", "v E'/P")
       .add("", x, of.slip);
    Panel &residual = study.panel(Panel::Kind::lines, "residual", "Residual tractions", "x/a",
-                                 "q a/P, p a/P"),
+                                 "-q a/P, p a/P"),
          &band = study.panel(Panel::Kind::lines, "optimal",
-                             "Permissible residual shear, optimal pressures", "x/a", "a q/P");
-   residual.add("shear", x, traction(residual_q));
+                             "Permissible residual shear, optimal pressures", "x/a", "-a q/P");
+   // The thesis' shear is positive where Q is.
+   residual.add("shear", x, VectorXd(-traction(residual_q)));
    residual.add("pressure", x, traction(residual_p));
-   band.add("permissible", x, traction((-f * p - q).rowwise().maxCoeff()), "band");
-   band.add("permissible", x, traction((f * p - q).rowwise().minCoeff()), "band");
-   band.add("optimal", x, traction(residual_q), "dashed");
+   band.add("permissible", x, traction((-f * p + q).rowwise().maxCoeff()), "band");
+   band.add("permissible", x, traction((f * p + q).rowwise().minCoeff()), "band");
+   band.add("optimal", x, VectorXd(-traction(residual_q)), "dashed");
    // Tractions are singular at the ends: they are not the picture's scale.
    for (Panel *panel : {&residual, &band}) { panel->say("inside: 0.1"); }
 }

@@ -5,6 +5,7 @@
 #include "common/watch.hpp"
 
 #include <cattaneo/shakedown/closed_contact.hpp>
+#include <cattaneo/shakedown/estimates.hpp>
 #include <cattaneo/shakedown/limit.hpp>
 #include <cattaneo/shakedown/monolith.hpp>
 #include <cattaneo/shakedown/transient.hpp>
@@ -51,7 +52,11 @@ private:
    /// Friction for full adhesion against the load (thesis figure 4.3).
    void draw_adhesion(double opens, const char *by);
    void smallest_friction();
-   void method2();
+   void method2(double f1);
+   /// Tractions of the monolith (thesis figures 4.4 and 4.5), and the steps of the estimates
+   /// (4.7 to 4.14) from `f1`, the friction of method 1.
+   void draw_monolith();
+   void draw_estimates(const cattaneo::Method2Estimate &second, double f1);
    void largest_load();
    /// The cycle and the friction of the limit problem.
    void as_before();
@@ -78,7 +83,7 @@ private:
    PunchOptions punch;
    double friction = 0.85, lambda_max = 0.8, lambda_min = -0.4, reversal = none, corner = 0.01;
    std::string find = "both", reduced, held = "P", cycled = "Q";
-   bool map = false, adhesion = false, march = false, closed = false;
+   bool map = false, adhesion = false, march = false, closed = false, steps = false;
    int cycles = 200, starts = 0;
    std::vector<double> mesh_study, mismatch;
 

@@ -14,11 +14,13 @@ def mistakes(entry):
     """What is wrong with the shape of one entry."""
     if "note" in entry:
         return set(entry) - {"study", "when", "note"}
-    wrong = (set(entry) - KEYS) | (KEYS - {"mesh", "thesis"} - set(entry))
-    for key in ("value", "spread"):
+    # A value of the thesis for which there is no reference stands alone.
+    free = {"mesh", "value", "spread"} if "thesis" in entry and "value" not in entry else {"mesh", "thesis"}
+    wrong = (set(entry) - KEYS) | (KEYS - free - set(entry))
+    for key in {"value", "spread", "thesis"} & set(entry):
         if not isinstance(entry.get(key), (int, float)) or isinstance(entry.get(key), bool):
             wrong.add(key)
-    if "spread" not in wrong and entry["spread"] < 0:
+    if "spread" not in wrong and entry.get("spread", 0) < 0:
         wrong.add("spread")
     for key in ("study", "name", "source"):
         if not isinstance(entry.get(key), str) or not entry[key]:
@@ -40,8 +42,8 @@ def main():
         for row in json.loads(results.read_text(encoding="utf-8")).get("references", []):
             reached.add((study, row["quantity"], row["reference"]))
     for entry in entries:
-        if "note" not in entry and (entry["study"], entry["name"], entry["value"]) not in reached:
-            print(f"{entry['study']}: no sample run reaches '{entry['name']}', {entry['value']}")
+        if "note" not in entry and (entry["study"], entry["name"], entry.get("value")) not in reached:
+            print(f"{entry['study']}: no sample run reaches '{entry['name']}', {entry.get('value')}")
             bad += 1
     print(f"{len(entries)} entries, {bad} mistakes")
     sys.exit(bad != 0 or not entries)

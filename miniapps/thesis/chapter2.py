@@ -1,0 +1,103 @@
+"""Chapter 2: what the edge of an incomplete contact does to a crack."""
+
+import html
+import json
+
+import figures as f
+import runs
+import sketches
+from chapter import Chapter
+
+EDGE = "fretting -f 0.8"
+DATA = "miniapps/data/fretting_records"
+TESTS = {"a": (f"fretting -m Al -rec {DATA}.csv", "aluminium alloy, cylinders"),
+         "b": (f"fretting -m Ti6Al4V -rec {DATA}_titanium.csv", "titanium alloy, cylinders"),
+         "c": (f"fretting -m Ti6Al4V -p flat-rounded -r 3 -b 3 -P 1000 -Q 20 -rec {DATA}_rounded.csv", "titanium alloy, flat pads with round edges")}
+INVENTED = "The tests shown are *invented*: those of the thesis are in papers whose numbers its text doesn't give. Put your own in such a file. "
+
+CHAPTER = Chapter(2, "Correlation of fretting fatigue tests", """
+Two bodies of the same material touch over a width 2a that grows with the load, and are sheared: near the edges they slip to and fro, and there cracks begin. Close to an edge all such
+contacts look alike. The pressure rises as p = K_N √t with the distance t from the edge, and the shear would be q = K_T/√t if nothing slipped: two numbers hold whatever shape and loads
+have to say. What slips is d = 2 K_T/(f K_N) wide.
+
+From K_N, K_T and the friction coefficient f follow, in closed form: the stresses, and whether the slip zone yields (2.2 to 2.4); the stress at the edge, the classical measure of fatigue (2.5);
+the stress intensity of a crack that grows from the edge, and with it the verdict of Kitagawa and Takahashi: does it go on growing when it has the critical length a0, or
+does it stop (2.6 to 2.8)? The range of K_T as a mode II intensity (2.9), and the frictional energy of a cycle (2.10).
+
+Several formulas of the thesis are misprinted or wrong; each one used here was checked against an independent numerical route. Lengths are in d, stresses in K_N √d, unless said.
+""")
+figure = CHAPTER.figure
+
+
+def fields(run):
+    """A field has one picture for each series."""
+    said, rows = run.panel("field")
+    names = list(dict.fromkeys(row["series"] for row in rows))
+    sheet, all_axes = f.sheet(len(names), 1, height=3)
+    for axes, name in zip(all_axes, names):
+        f.plot.draw_field(axes, said, [row for row in rows if row["series"] == name])
+        f.plot.finish(axes, {**said, "title": [name]})
+    return sheet
+
+
+def materials():
+    shown = json.loads((runs.SOURCE / "miniapps/data/materials.json").read_text(encoding="utf-8"))["materials"]
+    keys = {"name": "material", "young_GPa": "E, GPa", "poisson": "ν", "threshold_MPa_sqrt_m": "ΔK_th, MPa√m", "fatigue_limit_MPa": "σ_fl, MPa",
+            "shear_yield_MPa": "k, MPa", "friction": "f", "source": "source"}
+
+    def cell(value):
+        return html.escape(" to ".join(map(str, value)) if isinstance(value, list) else str(value))
+
+    body = "".join("<tr>" + "".join(f"<td>{cell(one[key])}</td>" for key in keys) + "</tr>" for one in shown)
+    head = "".join(f"<th>{name}</th>" for name in keys.values())
+    return f'<div class="scroll"><table><thead><tr>{head}</tr></thead><tbody class="plain">{body}</tbody></table></div>'
+
+
+def spots(*all_runs):
+    """Yield of the slip zone, with the tests as spots."""
+    sheet, (axes,) = f.sheet(1, height=3.7)
+    for name, curve in all_runs[0].series("yield").items():
+        if name != "design":
+            f.curves(axes, {name: curve})
+    for k, (run, (_, words)) in enumerate(zip(all_runs, TESTS.values())):
+        rows = run.rows("records")
+        axes.plot([row["friction"] for row in rows], [row["yield_load"] for row in rows], f.plot.MARKERS[k], color=f.COLOURS[2 + k], markersize=5, label=words + " (invented)")
+    f.label(axes, "friction coefficient f", "K_N √d/k")
+    axes.set_ylim(0, 6)
+    return sheet
+
+
+def tests(panel):
+    return lambda run: f.panels((run, panel, {"title": ""}))
+
+
+CHAPTER.sketch("2.1", "The contact and its edge", """
+A pad is pressed by P, sheared by Q, and the specimen below is pulled in step (σ). Zoomed in on the trailing edge: the pressure, the singular shear of full adhesion, and the shear
+with slip over the length d.""", sketches.edge)
+for number, friction in (("2.2a", 0.8), ("2.2b", 0.6)):
+    figure(number, f"Equivalent stress near the edge, f = {friction}", f"fretting -f {friction}", """
+Von Mises' stress over K_N √d below the surface; t > 0 is under the pad, 0 < t < d slips. (The first picture; the other one is of the companion figure.)""", fields)
+figure("2.3", "Equivalent stress along the surface", EDGE, """
+It is nearly constant over the slip zone, so that this yields almost at once: the smaller f, the less so.""", lambda run: f.panels((run, "surface", {"title": ""})), wrong="""
+The thesis' (2.12) and (2.14) have 2 for √2, and (2.17) is three times the usual invariant; the curves are of the corrected field.""", proof="fretting -f 0.8")
+figure("2.4", "Load at which the slip zone yields", [command for command, _ in TESTS.values()], INVENTED + """
+Lower curve: the load at which some point yields, upper one: the whole slip zone, 1/f whatever ν. They differ for little friction only.""", spots)
+figure("Table 2.1", "Materials", "fretting -m Al", "The records that the program ships; the thesis' values, with their sources in its bibliography.", lambda run: materials())
+for letter, (command, words) in TESTS.items():
+    figure("2.5" + letter, f"Stress at the edge against life: {words}", command, INVENTED + "Range of the stress along the surface at the contact's edge, √(8 f K_N K_T) at peak load. Hollow: not broken.",
+           tests("stress"), wrong="The thesis has half of this stress: √(2 f K_N K_T). It follows from the misprint in (2.12).", proof="fretting -f 0.8")
+figure("2.6", "Stress intensity of a crack at the edge", EDGE, """
+Largest K_I over √(K_N K_T d) of a crack of depth c, normal to the surface, for reversed loads (R = -1). The pressure closes longer cracks.""",
+       lambda run: f.panels((run, "trajectory", {"title": ""})))
+figure("2.7", "Threshold of fretting fatigue", EDGE, """
+Above its curve a crack still grows when it has the critical length a0 = (ΔK_th/σ_fl)²/π; below it stops. One diagram for all contacts and materials.""",
+       lambda run: f.panels((run, "threshold", {"title": "", "only": lambda s: s != "design"})), wrong="""
+The thesis doesn't say which part of K_I's cycle counts. Here it is the part in which the crack is open; `--criterion range` and `half-range` are the others.""", proof="fretting --criterion range")
+for number, panel, title, text in (
+        ("2.8", "threshold_tests", "Tests and threshold", "Filled: broken. Those above the curve should be."),
+        ("2.9", "mode_two", "Range of K_T against life", "The line is the mode II threshold, 0.8 ΔK_th in K_II = √(2π) K_T."),
+        ("2.10", "energy", "Frictional energy against life", "Largest energy per area and cycle, 4√3 K_T²/E* for reversed loads, a quarter into the slip zone.")):
+    wrong = {"2.9": "The thesis compares ΔK_T itself with 0.8 ΔK_th, which is 2.5 times too much: K_II has a factor √(2π).",
+             "2.10": "(2.22) of the thesis has the wrong dimension and lacks E*."}.get(number, "")
+    for letter, (command, words) in TESTS.items():
+        figure(number + letter, f"{title}: {words}", command, INVENTED + text, tests(panel), wrong=wrong, proof="fretting" if wrong else "")

@@ -1,0 +1,59 @@
+"""Chapter 3: static reduction, and three contacts that try it."""
+
+import figures as f
+import sketches
+from chapter import Chapter
+
+RIGID = "square_punch"
+SIMILAR = 'square_punch -obstacle half-plane --shear "0.25 0.5 0.75"'
+PARABOLA = 'hertz -body block -ratio 0.8 -shear none -load-levels "0.1 0.25 0.5 0.75 1"'
+
+CHAPTER = Chapter(3, "Static reduction for frictional contact", """
+A finite element model has thousands of unknowns, and only those of the contact nodes take part in contact. All others follow from them linearly: they are
+eliminated once, exactly, and what is left is a dense relation between the forces of the contact nodes (shear q, pressure p) and the relative displacements there (slip v, opening w),
+q = A v + Bᵀ w + q^w(t), p = B v + C w + p^w(t), where q^w and p^w are the forces that the loads would cause if nothing moved. For two bodies the
+relations are added through their flexibilities. Contact is *coupled* unless B = 0.
+
+Each node then is in one of four states: *stick* (w + g = 0, v constant, |q| ≤ f p), *separation* (p = q = 0, w + g > 0), *forward slip* (q = -f p, v grows), *backward slip* (q = f p, v falls), g
+being an initial gap. The loads are followed in increments, in each of which states are sought that satisfy all of that to round-off; there are no contact elements, and no stiffness of
+contact or of stick to choose. The thesis goes from node to node until nothing changes (Gauss-Seidel); here whole sets of states change at a time (an active set), with a path by single nodes
+to fall back on.
+
+Three problems try it. Units: a = P0 = E' = 1 (the parabola: the half-width b and the largest pressure p0 of Hertz).
+""")
+figure = CHAPTER.figure
+
+
+def pressed(run, name, only, **changes):
+    return f.panels((run, name, {"only": only, "title": "", **changes}))
+
+
+def alone(series):
+    return series == "Q/fP = 0"
+
+
+CHAPTER.sketch("3.1", "Signs of forces", """
+Shear q and pressure p of a contact node, on each body in its own frame: x along the contact, y into the body. The forces on both are then equal.""", sketches.signs)
+CHAPTER.sketch("3.2", "Signs of displacements", "In the same frames the displacements of both bodies add up: slip v = v1 + v2, opening w = w1 + w2.", lambda: sketches.signs(True))
+CHAPTER.sketch("3.3", "Gap of a contact node", "An initial gap g(s) is measured between nodes that face each other; contact is where w + g = 0.", sketches.gap)
+figure("3.4", "Case I: a block on a rigid plane", f"{RIGID} --check", "The block with its loads, and its contact nodes, as the program is given them.",
+       lambda run: f.panels((run, "scene", {"title": ""}), height=4.2))
+CHAPTER.sketch("3.5", "Load history", "P is applied and held, then Q grows; it acts on the top, with a linear pressure that balances its moment.",
+               lambda: sketches.histories({"P": ([0, 1, 3], [0, 1, 1]), "Q": ([0, 1, 3], [0, 0, 0.9])}))
+figure("3.6", "Case I: slip under P alone", RIGID, "Friction f = 0.2. The slip is antisymmetric; the middle sticks.",
+       lambda run: pressed(run, "slip", alone), rows="P only")
+figure("3.7", "Case I: slip under P and Q", RIGID, """
+As soon as Q acts the trailing (left) side, whose slip it would reverse, sticks with the slip it has; the slip zone of the leading side grows inward.""",
+       lambda run: pressed(run, "slip", None), rows="right end")
+figure("3.8", "Case II: slip under P alone", SIMILAR, "The same block on a half-plane of its own material, f = 0.4: much less slip.",
+       lambda run: pressed(run, "slip", alone), rows="P only")
+figure("3.9", "Case II: slip under P and Q", SIMILAR, "The block on the half-plane under growing shear.",
+       lambda run: pressed(run, "slip", None), rows="right end")
+CHAPTER.sketch("3.10", "Case III: a parabolic punch", "The face of the block is a parabola: contact grows with the load.", lambda: sketches.gap(load=True))
+figure("3.11", "Case III: gap during loading", PARABOLA, "The distance of facing nodes as the load grows to that of b = 0.8 a. Where it is zero there is contact.",
+       lambda run: f.panels((run, "gaps", {"title": "", "limits_y": "-0.02,"})), rows="half-width")
+figure("3.12", "Case III: pressure during loading", [PARABOLA, "hertz"], """
+Pressures at the same loads. On a square block the contact is not Hertz's: the block is no half-plane. Where both bodies are half-planes (second row of peak pressure) it is, to
+five digits.""", lambda run, _: f.panels((run, "pressures", {"title": ""})), rows="peak|half-width")
+CHAPTER.missing("3.9 (laws)", "Other laws of friction", "the contact law has one bound |q| ≤ f p a node so far; bounds with cohesion, or that depend on pressure or direction, are not there")
+CHAPTER.missing("3.9 (dislocations)", "Dislocation solutions", "no study prints the tractions of a displacement jump at a node yet; A and B of a saved problem (`--save`) are just that")

@@ -1,0 +1,99 @@
+"""Chapter 5: a strip pressed onto a half-plane, which lifts off at its end."""
+
+import figures as f
+import sketches
+from chapter import Chapter
+
+BONDED = 'plane_receding -domain 1e4 -overhang 0.8 -bonded "0.1 0.18 0.3 0.4 0.5 0.6 0.7 0.8"'
+SMALL = 'plane_receding -map "0.2 0.4 0.6 0.8 0.9 1 1.1 1.2 1.3 1.4 1.6 1.8 2 2.5 3" -map-friction "0.3 0.5 0.7 1"'
+LARGE = 'plane_receding -map 4 -map-friction "0.1 0.15 0.2 0.25 0.3 0.4 0.5 0.6 0.7 0.8 0.9 1 1.2 1.4 1.7 2"'
+LOADING = "plane_receding -friction 0.7"
+UNLOADING = 'plane_receding -friction 0.7 -unload "0.9 0.5 0.2 0.1" -lowest 0.03 -march exact'
+BLOCK = "plane_receding -obstacle th0 -overhang 2 -friction 0.7 -unload 0.5"
+
+CHAPTER = Chapter(5, "Plane receding contact", """
+A long strip of thickness t lies on a half-plane of the same material and is pressed by p on its top, except for a length n t at its
+end. The end lifts off: under an infinitesimal load the contact *recedes* to a smaller one, and then stays as it is, while stresses and displacements grow
+in proportion to the load. Separation lies s beyond the edge of the load, toward the strip's end; between there and e the strip slips; the rest
+sticks. ξ = x - n t is counted from the edge of the load, into it.
+
+When the load is taken back things are less simple: slip depends on the history, and five zones appear. The loading is one
+increment; the unloading is followed exactly, from one change of a node's state to the next.
+
+The problem needs a half-plane, here one without a mesh. The thesis has a block, whose size it doesn't say; a block of the
+size it may have had (20 t long, 200 t deep, 80 t beyond the strip's end) carries a remote tension, which changes e at first order:
+`./run plane_receding -domain-study` shows that. Units: t = p0 = E' = 1.
+""")
+figure = CHAPTER.figure
+WRONG = """The thesis' border of stick is that of its finite block, whose remote tension shifts e by a fifth. (The references of e are of a block 10⁴ t deep, and e goes on changing
+with the depth: blocks of 10⁵ and 10⁶ t give what the half-plane does.)"""
+
+
+def small(run):
+    sheet, (axes,) = f.sheet(1, height=4.2)
+    for k, friction in enumerate((0.3, 0.5, 0.7, 1.0)):
+        n = run.column("map", "overhang", friction=friction)
+        style = {"color": f.COLOURS[k], "linestyle": f.DASHES[k]}
+        f.curves(axes, {f"f = {friction:g}": (n, run.column("map", "separation", friction=friction))}, **style)
+        f.curves(axes, {None: (n, run.column("map", "stick_slip", friction=friction))}, "overhang n", "s/t (above), e/t (below)", **style)
+    f.thesis(axes, [(1.6, 1.1), (1.6, -0.7), (1.2, 0.9), (1.2, -1.45)])
+    axes.set_xlim(0, 3)
+    return sheet
+
+
+def large(run):
+    sheet, (axes,) = f.sheet(1, height=3.8)
+    at = run.column("map", "friction")
+    f.curves(axes, {"separation s": (at, run.column("map", "separation")), "border of stick e": (at, run.column("map", "stick_slip"))},
+             "friction coefficient f", "s/t, e/t")
+    f.thesis(axes, list(zip([0.7, 0.7], f.marks(run, "s/t, n = 4, f = 0.7", "e/t, n = 4, f = 0.7"))))
+    return sheet
+
+
+def slip_of_point(k):
+    """Slip of one point, through loading and unloading."""
+    def drawn(run):
+        sheet, (axes,) = f.sheet(1, height=2.9)
+        row = run.rows("slip_histories")[k]
+        axes.plot(row["level"][:2], row["slip"][:2], color=f.COLOURS[1], linewidth=1.6, linestyle=f.DASHES[1], label="loading")
+        axes.plot(row["level"][1:], row["slip"][1:], color=f.COLOURS[0], linewidth=1.6, label="unloading")
+        f.label(axes, "p/p0", "v E'/(p0 t)")
+        return sheet
+    return drawn
+
+
+CHAPTER.sketch("5.1", "The strip and its loads", """
+The lower body is a half-plane; the strip goes on to the right until nothing changes any more (100 t).""", sketches.strip)
+figure("5.2", "Traction ratio of the bonded strip", [BONDED, 'plane_receding -obstacle th0 -bonded "1.5 2"'], """
+Strip and half-plane bonded together: the ratio of shear to pressure that friction would have to bear. All curves begin at the corner with Williams' 0.5431.
+For small n that is the most; then a maximum appears inside and rises so quickly that full adhesion
+asks for unusual friction from n = 0.7 on.""",
+       lambda run, _: f.panels((run, "bonded", {"limits_x": "0,2", "limits_y": "0,1.4", "title": ""})),
+       rows="adhesion|rises|pulls|corner ratio", wrong="""
+On a half-plane the bonded strip never pulls, whatever n. On a finite block it does, from an n on that is the block's: the block of the second command pulls from the n in the
+table on, the thesis' own, which it doesn't describe, from 1.89. The largest ratio leaves the corner at n = 0.12 already (at 0.18 it is 0.59, 0.17 t away), so that f = 0.543 is not enough from there on.""", proof='plane_receding -overhang 4 -bonded "2 3 4"')
+figure("5.3a", "Separation and stick against the overhang", SMALL, """
+s and e for four friction coefficients. Below a certain n nothing separates (no curve). Beyond n = 2 the strip's end no
+longer matters.""", small, rows="n = 1.6|n = 1.2|n = 4, f = 0.7", wrong=WRONG, proof="plane_receding -obstacle th0 -friction 0.7")
+figure("5.3b", "Separation and stick against friction", LARGE, """
+The same for a long end (n = 4). With little friction slip reaches far under the load; with much the border of stick comes to the edge of the load
+and beyond.""", large, rows="n = 4", wrong=WRONG, proof="plane_receding -obstacle th0 -friction 0.7")
+figure("5.4", "Tractions during loading", LOADING, """
+Pressure, and shear over f (dashed), for f = 0.7; they grow in proportion to p. Where the curves meet the strip slips.""",
+       lambda run: f.panels((run, "tractions", {"title": ""})), rows="n = 4, f = 0.7", wrong=WRONG, proof=LOADING + " -domain-study")
+figure("5.5", "Tractions during unloading", UNLOADING, """
+Pressure and shear over f when the load is taken back to 0.9, 0.5, 0.2 and 0.1 of its maximum. The shear that slip left behind goes away last.""",
+       lambda run: f.panels((run, "tractions", {"title": ""})), rows="separation, unloaded", wrong=WRONG, proof=UNLOADING.replace("-march exact", "-domain 1e4"))
+figure("5.6", "Zones during unloading", [UNLOADING, BLOCK], """
+Read from left to right: at p = p0 separation, slip and stick as loading left them. As p falls the contact recedes further, with reverse slip behind it; most of the
+slip zone sticks at once, and a second slip zone, in the sense of loading, grows inward. Diamonds: borders that the thesis states.""",
+       lambda run, _: f.panels((run, "zones", {"title": ""})), rows="border|separation, unloaded", wrong="""
+The thesis' borders are those of a block (the second group of rows, n = 2, is of one); and not all of the slip zone sticks at the first instant:
+-0.17 < ξ/t < 0.44 slips on.""", proof=BLOCK)
+figure("5.7a", "Slip of a point at ξ = -t/2", UNLOADING, """
+It slips while the load grows, sticks at first on unloading, slips back, and separates.""", slip_of_point(0), rows="ξ/t = -0.5", wrong="""
+The slip at full load is that of a half-plane; the reference, of a block 10⁴ t deep, is met by one.""", proof=UNLOADING.replace("-march exact", "-domain 1e4"))
+figure("5.7b", "Slip of a point at ξ = 0", UNLOADING, """
+Under the edge of the load: it slips on, sticks, and slips back when little load is left.""", slip_of_point(1))
+figure("5.7c", "Slip of a point at ξ = t/2", UNLOADING, """
+It sticks as long as the load grows, and slips in the sense of loading only when the load is taken back.""", slip_of_point(2))

@@ -1,0 +1,135 @@
+"""Chapter 7: a disc on a half-space, pressed and twisted."""
+
+import math
+
+import figures as f
+import sketches
+from chapter import Chapter
+
+BONDED = 'axisymmetric_receding -bonded "0.5 1.5 2.1 3"'
+ADHESION = 'axisymmetric_receding -bonded "3.75 4.25 4.7"'
+SMALL = "axisymmetric_receding -load-radius 0.5 -friction 0.9"
+CRITICAL = 'axisymmetric_receding -critical "2 3 4 5 6 8" -critical-friction "0 0.5 0.8 100"'
+LOADING = 'axisymmetric_receding -load-levels "0.25 0.5 0.75 1"'
+MAP = 'axisymmetric_receding -map "0.25 0.5 1 1.5 2 2.5 3 3.4 3.6 3.8 4 4.2 4.4 4.6 4.8 5"'
+UNLOADING = 'axisymmetric_receding -unload "0.9 0.5 0.3 0.1"'
+TORSION = 'axisymmetric_receding -torque "0.1 0.2 0.3 0.4 0.5 0.6 0.7 0.8 0.9"'
+
+CHAPTER = Chapter(7, "Axisymmetric receding contact", """
+A disc of thickness t and radius b lies on a half-space of the same material. A pressure p0 on r < a presses it; beyond r = d it lifts off,
+and between c and d it slips outward. As in chapter 5 the zones appear at once and stay while the load grows. Then the
+disc's top is turned about its axis while the pressure is held: slip gets a second component, and shear a direction. The contact
+spins when the torque reaches T_s.
+
+The limit of steady spinning follows from the pressure *without* friction, since then no shear is left in the radial direction:
+T_s = 2πf ∫ p r² dr. Turning drags friction out of the radial direction and so lets the disc lift off further.
+
+The thesis doesn't say its Poisson's ratio; here it is 0.3, and the half-space has no mesh. Units: t = p0 = E = 1; b = 5 t unless said.
+""")
+figure = CHAPTER.figure
+DOMAIN = "The references are of a cylinder of radius 100 t, which is felt in the fourth digit."
+
+
+def critical(run, frictions):
+    sheet, (axes,) = f.sheet(1, height=3.9)
+    f.curves(axes, {"loaded all over, a = b": ([2, 8], [2, 8])}, color="black")
+    for friction in frictions:
+        rows = run.rows("critical_load_radius", friction=friction)
+        name = "bonded sideways (f = 100)" if friction > 10 else f"f = {friction:g}"
+        f.curves(axes, {name: ([row["load_radius"] for row in rows], [row["disc_radius"] for row in rows])}, "radius of the load a/t",
+                 "radius of the disc b/t", marker="o", markersize=4)
+    axes.text(6.4, 4.2, "no separation\nto the right of a line", ha="center", fontsize=8.5)
+    return sheet
+
+
+def extents(run):
+    sheet, (axes,) = f.sheet(1, height=3.9)
+    for k, friction in enumerate((0.5, 0.8)):
+        rows = run.rows("map", friction=friction)
+        a, b = [row["load_radius"] for row in rows], 5
+        d = [b if row["separation"] is None else row["separation"] for row in rows]
+        c = [last if row["stick"] is None else row["stick"] for row, last in zip(rows, d)]
+        style = {"color": f.COLOURS[k], "linestyle": f.DASHES[k]}
+        f.curves(axes, {f"f = {friction:g}": (a, d)}, **style)
+        f.curves(axes, {None: (a, c)}, "radius of the load a/t", "separation d/t (upper), stick c/t (lower)", **style)
+    f.thesis(axes, [(2.5, 3.75)])
+    return sheet
+
+
+def arrows(run):
+    """Directions of slip over radius and torque, radial to the right and round upward."""
+    sheet, (axes,) = f.sheet(1, height=4.4)
+    series = run.series("slip_angles")
+    rows = [{"torque": 0, **{key: run[key] for key in ("stick", "separation")}}, *run.rows("torsion")]
+    f.curves(axes, {"separation d": ([r["separation"] for r in rows], [r["torque"] for r in rows]),
+                    "border of stick c": ([r["stick"] for r in rows], [r["torque"] for r in rows])}, "r/t", "T/T_s")
+    for prefix, colour, name in (("", "black", "rate of slip, which friction opposes"), ("total: ", f.COLOURS[2], "total slip, as the thesis has it")):
+        for row in rows:
+            radii, angles = series[f"{prefix}T/T_s = {row.get('wanted') or 0:g}"]
+            if not radii:
+                continue
+            chosen = [round((len(radii) - 1) * k / 7) for k in range(8)]
+            axes.quiver([radii[k] for k in chosen], [row["torque"]] * 8, [math.cos(math.radians(angles[k])) for k in chosen],
+                        [math.sin(math.radians(angles[k])) for k in chosen], color=colour, angles="uv", scale=26, width=0.003, pivot="tail")
+        axes.plot([], [], color=colour, marker=r"$\rightarrow$", linestyle="", markersize=10, label=name)
+    f.label(axes)
+    axes.set_ylim(-0.05, 1.05)
+    return sheet
+
+
+def kinds(run, name, drop, y, **limits):
+    """Two panels: the plain curves of one, and their dashed companions."""
+    sheet, both = f.sheet(2)
+    for axes, only, label in zip(both, (lambda s: not s.startswith(drop), lambda s: s.startswith(drop)), y):
+        f.draw(axes, run, name, only=only, rename=lambda s: s.removeprefix(drop), title="", y=label, **limits)
+    return sheet
+
+
+CHAPTER.sketch("7.1", "Disc and half-space", "The disc may be as wide or narrow as one likes; the load acts on its middle.", sketches.disc)
+figure("7.2", "The mesh", "axisymmetric_receding --check", """
+The disc in a plane through its axis, with its loads and supports, as the program is given it. The half-space below needs no mesh.""",
+       lambda run: f.panels((run, "scene", {"title": ""})))
+figure("7.3", "Pressure under a bonded disc", BONDED, """
+Disc and half-space bonded together: a load on r < a leaves hardly any pressure beyond about a + t.""",
+       lambda run: f.panels((run, "bonded_pressure", {"title": "", "only": lambda s: not s.startswith("q") and "0.5" not in s,
+                                                      "limits_y": "-0.02,1.2"})), rows="bonded", wrong="""
+The thesis finds a = 2.1 t to be the least radius of load without tension. The pressure near the rim is then a thousandth of p0 and changes its sign with any detail of the mesh;
+the number is ill-conditioned, and the profile is compared instead. (Where tension first goes is a = 0.80 t.)""", proof='axisymmetric_receding -bonded "0.8 2.1"')
+figure("7.4", "Where a bonded disc separates", CRITICAL, """
+Radius of the load below which a disc without radial slip lifts off somewhere, against the radius of the disc. It is the line EF of figure 7.8. As
+said with figure 7.3 it is ill-conditioned: a thousandth of the pressure moves it by tenths of t.""", lambda run: critical(run, [100]))
+CHAPTER.sketch("7.5", "Names", "d: radius of separation; c: border of stick.", lambda: sketches.disc(radii=True))
+figure("7.6", "Tractions under a bonded disc, a = 0.5", BONDED, """
+Pressure and shear of the monolith under a small load.""",
+       lambda run: f.panels((run, "bonded_pressure", {"title": "", "only": lambda s: s.endswith("a = 0.5"), "limits_x": "0,5", "limits_y": "-0.05,0.3",
+                                                      "rename": lambda s: s.replace("q: a = 0.5", "shear q").replace("a = 0.5", "pressure p")})), wrong="""
+That the monolith pulls from 0.65 b on can't be confirmed: its pressure there is ten thousandths of p0; here it pulls first at 0.97 b.""", proof=BONDED)
+figure("7.7", "Tractions with contact, a = 0.5", SMALL, "The same with contact and f = 0.9: the pressure ends at d, and slip begins at c.",
+       lambda run: f.panels((run, "tractions", {"title": "", "limits_x": "0,5"})), rows="a = 0.5", wrong=DOMAIN, proof=SMALL + " -domain 100")
+figure("7.8", "When nothing separates", [CRITICAL, ADHESION], """
+Discs and loads for which nothing lifts off, without friction, with f = 0.5 and 0.8, and bonded sideways. To the right of the frictionless line that holds for every friction.""",
+       lambda run, _: critical(run, [0, 0.5, 0.8, 100]), rows="critical|full adhesion", wrong="""
+The thesis adds that a friction above 0.543 keeps the rim from slipping then. It keeps the corner itself, but close to it the ratio of tractions is higher: full
+adhesion asks for the values in the table.""", proof=ADHESION)
+figure("7.9", "Pressure during loading", LOADING, "a = 2.5 t, f = 0.5: pressures at four loads are proportional, and the disc separates at the same radius.",
+       lambda run: kinds(run, "loading_tractions", "q/f: ", ("p/p0", "q/(f p0)")), rows="loaded, a = 2.5, f = 0.5", wrong=DOMAIN, proof=LOADING + " -domain 100")
+figure("7.10", "Separation and stick against the load's radius", MAP, """
+Radii of separation and of stick for f = 0.5 and 0.8. When nothing separates any more (d = b) slip remains at the rim.""", extents, rows="loaded, a = 2.5")
+figure("7.11", "Tractions during unloading", UNLOADING, "a = 2.5 t, f = 0.5: pressure and shear over f at 1, 0.9, 0.5, 0.3 and 0.1 of the load.",
+       lambda run: kinds(run, "unloading_tractions", "q/f: ", ("p/p0", "q/(f p0)")), rows="^d/t at")
+figure("7.12", "Zones during unloading", UNLOADING, """
+As the strip's (figure 5.6): the contact recedes, reverse slip follows from the edge, and forward slip grows inward. Diamonds: the thesis at half of the load.""",
+       lambda run: f.panels((run, "zones", {"title": ""})), rows="border", wrong="""
+The thesis reads its borders off a figure, without saying ν or the extent of its half-space.""", proof=UNLOADING)
+CHAPTER.sketch("7.13", "The torque", "P is held while the top of the disc is turned.", lambda: sketches.disc(torque=True))
+figure("7.14", "Tractions under torsion", TORSION, "Pressure, and resultant shear over f, for growing torque. Slip spreads inward, and separation moves inward with it.",
+       lambda run: kinds(run, "torsion_tractions", "|q|/f: ", ("p/p0", "|q|/(f p0)")), rows="T_s|without friction|T/T_s|T_max")
+figure("7.15", "Slip under torsion", TORSION, "Resultant slip, which grows from the border of stick to that of separation, and everywhere with the torque.",
+       lambda run: f.panels((run, "slip", {"title": ""})))
+figure("7.16", "Zones and directions of slip under torsion", TORSION, """
+To the right radius, upward torque; arrows have the direction of slip: radial to the right, around the axis upward. At T = 0 slip is radial, at the spinning limit it goes round.""",
+       arrows, rows="slip angle|T/T_s", wrong="""
+The thesis draws the direction of the total slip (7.4). Friction is opposed to the *rate* of slip, which turns much sooner: in the middle of the annulus at half the torque by
+49°, not 13°.""", proof=TORSION)
+figure("7.17", "The contact from above", TORSION, "Zones and directions of slip before the disc is turned, and under half of the torque.",
+       lambda run: f.panels((run, "plan_before"), (run, "plan_twisted"), height=4.6))
