@@ -35,6 +35,7 @@
 #include <cattaneo/shakedown/limit_of_the_mesh.hpp>
 #include <cattaneo/shakedown/lower_limit.hpp>
 #include <cattaneo/shakedown/transient.hpp>
+#include <cattaneo/version.hpp>
 #include <cattaneo/wear/worn_out.hpp>
 #include <cattaneo/whole_file.hpp>
 #include <cattaneo/words.hpp>

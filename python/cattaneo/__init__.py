@@ -12,9 +12,13 @@ small dense problem that is left Coulomb's law is satisfied to round-off:
 Names are those of the C++ library; docs/python.md is the guide.
 """
 
-from importlib.metadata import PackageNotFoundError, version as _version
-
-from . import fretting as fretting, readout as readout, shakedown as shakedown
+from . import (
+    design as design,
+    fretting as fretting,
+    readout as readout,
+    shakedown as shakedown,
+    wear as wear,
+)
 from ._core import (
     CondensedBody as CondensedBody,
     ContactLine as ContactLine,
@@ -63,11 +67,9 @@ from ._core import (
     write_abaqus as write_abaqus,
     write_matrix_market as write_matrix_market,
     write_npz as write_npz,
+    version as _version,
 )
 
 from . import _pickle as _pickle  # teaches pickle, and with it multiprocessing, problems and states
 
-try:
-    __version__ = _version("cattaneo")
-except PackageNotFoundError:  # imported from a build folder
-    __version__ = "unknown"
+__version__ = _version

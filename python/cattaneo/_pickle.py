@@ -9,7 +9,7 @@ from typing import Any
 from . import _core
 
 
-def _text(of: _core.ReducedProblem | _core.ContactState) -> str:
+def _text(of: _core.ReducedProblem | _core.ContactState | _core.wear.WearState) -> str:
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder, "saved.json")
         _core.save(of, file)
@@ -33,5 +33,11 @@ def _load_state(text: str) -> _core.ContactState:
     return state
 
 
+def _load_wear_state(text: str) -> _core.wear.WearState:
+    state: _core.wear.WearState = _loaded(_core.wear.load_wear_state, text)
+    return state
+
+
 copyreg.pickle(_core.ReducedProblem, lambda problem: (_load_problem, (_text(problem),)))
 copyreg.pickle(_core.ContactState, lambda state: (_load_state, (_text(state),)))
+copyreg.pickle(_core.wear.WearState, lambda state: (_load_wear_state, (_text(state),)))

@@ -105,8 +105,8 @@ std::string sizes(Index rows, Index columns)
    return "(" + text(rows) + ", " + text(columns) + ")";
 }
 
-Eigen::VectorXd finite_vector(const Doubles &all, nb::handle object, const std::string &what,
-                              Index size)
+Eigen::VectorXd any_vector(const Doubles &all, nb::handle object, const std::string &what,
+                           Index size)
 {
    if (all.shape.size() != 1)
    {
@@ -115,7 +115,13 @@ Eigen::VectorXd finite_vector(const Doubles &all, nb::handle object, const std::
    }
    require(size < 0 || all.shape[0] == size, what, " has ", all.shape[0],
            " entries, must have ", size);
-   const Eigen::Map<const Eigen::VectorXd> values(all.data, all.shape[0]);
+   return Eigen::Map<const Eigen::VectorXd>(all.data, all.shape[0]);
+}
+
+Eigen::VectorXd finite_vector(const Doubles &all, nb::handle object, const std::string &what,
+                              Index size)
+{
+   Eigen::VectorXd values = any_vector(all, object, what, size);
    for (Index i = 0; i < values.size(); ++i)
    {
       require(std::isfinite(values[i]), entry(what, i), " is ", values[i], ", must be finite");
@@ -247,6 +253,19 @@ Eigen::VectorXd vector_or_number(nb::handle object, const std::string &what, Ind
    if (!all.shape.empty()) { return finite_vector(all, object, what, size); }
    require(std::isfinite(all.data[0]), what, " is ", all.data[0], ", must be finite");
    return Eigen::VectorXd::Constant(size, all.data[0]);
+}
+
+Eigen::VectorXd bounds(nb::handle object, const std::string &what, Index size)
+{
+   const Doubles all = doubles(object, what, "a number or an array of them");
+   const Eigen::VectorXd values =
+      all.shape.empty() ? Eigen::VectorXd(Eigen::VectorXd::Constant(size, all.data[0]))
+                        : any_vector(all, object, what, size);
+   for (Index i = 0; i < values.size(); ++i)
+   {
+      require(!std::isnan(values[i]), entry(what, i), " is nan, must be a number");
+   }
+   return values;
 }
 
 Eigen::MatrixXd matrix(nb::handle object, const std::string &what, Index rows, Index columns)

@@ -95,6 +95,8 @@ Enum chosen(nb::handle object, const std::string &what, const std::vector<std::s
 Eigen::VectorXd vector(nb::handle object, const std::string &what, Index size = -1);
 /// The same, or one number for all.
 Eigen::VectorXd vector_or_number(nb::handle object, const std::string &what, Index size);
+/// The same, which may be infinite: bounds.
+Eigen::VectorXd bounds(nb::handle object, const std::string &what, Index size);
 /// Finite numbers in rows and columns; a negative size is any.
 Eigen::MatrixXd matrix(nb::handle object, const std::string &what, Index rows = -1,
                        Index columns = -1);

@@ -1,8 +1,9 @@
+#include "marches.hpp"
+
 #include "arrays.hpp"
 #include "module.hpp"
 #include "watch.hpp"
 #include <cattaneo/friction/history_statements.hpp>
-#include <cattaneo/friction/march.hpp>
 #include <limits>
 #include <nanobind/stl/string.h>
 #include <sstream>
@@ -52,6 +53,16 @@ struct March
    }
 };
 
+March march_of(nb::handle problem)
+{
+   March march{nb::borrow(problem), {}, {}, {}, {}};
+   for (const LoadPattern &each : given<ReducedProblem>(problem, "problem").patterns)
+   {
+      march.loads.push_back(each.name);
+   }
+   return march;
+}
+
 LoadHistory history_through(const ReducedProblem &problem, nb::handle points,
                             nb::handle cycle_start, nb::handle cycles, nb::handle times)
 {
@@ -80,57 +91,15 @@ LoadHistory history_through(const ReducedProblem &problem, nb::handle points,
    return history;
 }
 
-/// The history of a march that begins at `state`. A list of points goes on from where the state
-/// stands; a history has times of its own.
-LoadHistory history_from(const ReducedProblem &problem, nb::handle history,
-                         const ContactState &state, bool at_rest)
-{
-   const bool listed = nb::isinstance<nb::list>(history) || nb::isinstance<nb::tuple>(history);
-   if (!listed && !nb::isinstance<LoadHistory>(history))
-   {
-      refuse(history, "history", "a LoadHistory or a list of loads by names");
-   }
-   LoadHistory loads =
-      listed ? history_through(problem, history, nb::none(), nb::cast(1), nb::none())
-             : given<LoadHistory>(history, "history");
-   loads.validate(static_cast<int>(problem.patterns.size()));
-   if (listed) { loads.times.array() += state.time; }
-   for (Index l = 0; (listed || at_rest) && l < state.multipliers.size(); ++l)
-   {
-      const double first = loads.multipliers(l, 0), stands = state.multipliers[l];
-      require(std::abs(first - stands) <= 1e-12 * std::abs(stands), "history: load '",
-              problem.patterns[l].name, "' is ", first, " at its first point, and ", stands,
-              at_rest ? " before any load; begin with {}"
-                      : " in the state that it goes on from; begin with what that has "
-                        "(MarchReport.loads)");
-   }
-   return loads;
-}
-
-void warn_of(const MarchReport &report)
-{
-   const bool fine =
-      report.status == FrictionStatus::converged || report.status == FrictionStatus::stopped;
-   if (!fine)
-   {
-      warn(std::string("march: ") + name(report.status) + " at time " +
-           exact_text(report.event_time) + ": " + report.message);
-   }
-   for (const CutOffContact &end : report.cut_off) { warn("march: " + end.message()); }
-}
-
 nb::object march_from(nb::handle problem, nb::handle history, nb::handle state,
                       const MarchSettings &given_settings, nb::handle keep_states,
                       nb::handle observer, nb::handle progress, nb::handle stop)
 {
    const ReducedProblem &of = given<ReducedProblem>(problem, "problem");
    MarchSettings settings = given_settings;
-   March march{nb::borrow(problem), {}, {}, {}, {}};
-   for (const LoadPattern &each : of.patterns) { march.loads.push_back(each.name); }
-   march.state =
-      state.is_none() ? ContactState::virgin(of) : given<ContactState>(state, "state");
-   march.state.validate(of);
-   const LoadHistory loads = history_from(of, history, march.state, state.is_none());
+   March march = march_of(problem);
+   march.state = state_or_rest(of, state);
+   const LoadHistory loads = history_from(of, history, march.state);
    const bool keep = flag(keep_states, "keep_states");
    if (!observer.is_none() && PyCallable_Check(observer.ptr()) == 0)
    {
@@ -151,7 +120,7 @@ nb::object march_from(nb::handle problem, nb::handle history, nb::handle state,
       unlocked([&] { return cattaneo::march(copy, loads, march.state, settings, watched); });
    nb::object result = nb::cast(std::move(march));
    const MarchReport &report = nb::inst_ptr<March>(result)->report;
-   warn_of(report);
+   warn_of("march", report);
    if (report.status == FrictionStatus::converged && report.counters.increments == 0)
    {
       warn("march: nothing was marched, the state stands at time " + exact_text(report.time) +
@@ -230,6 +199,77 @@ struct Cycle
 };
 
 } // namespace
+
+LoadHistory history_from(const ReducedProblem &problem, nb::handle history,
+                         const ContactState &state)
+{
+   const bool listed = nb::isinstance<nb::list>(history) || nb::isinstance<nb::tuple>(history);
+   if (!listed && !nb::isinstance<LoadHistory>(history))
+   {
+      refuse(history, "history", "a LoadHistory or a list of loads by names");
+   }
+   LoadHistory loads =
+      listed ? history_through(problem, history, nb::none(), nb::cast(1), nb::none())
+             : given<LoadHistory>(history, "history");
+   loads.validate(static_cast<int>(problem.patterns.size()));
+   if (listed) { loads.times.array() += state.time; }
+   for (Index l = 0; listed && l < state.multipliers.size(); ++l)
+   {
+      const double first = loads.multipliers(l, 0), stands = state.multipliers[l];
+      require(std::abs(first - stands) <= 1e-12 * std::abs(stands), "history: load '",
+              problem.patterns[l].name, "' is ", first, " at its first point, and ", stands,
+              state.multipliers.isZero(0)
+                 ? " before any load; begin with {}"
+                 : " in the state that it goes on from; begin with what that has "
+                   "(MarchReport.loads)");
+   }
+   return loads;
+}
+
+MarchSettings march_settings(nb::handle increments, nb::handle stepping,
+                             nb::handle single_increment_if_exact, nb::handle max_halvings,
+                             nb::handle method)
+{
+   MarchSettings settings;
+   settings.increments =
+      static_cast<int>(whole(increments, "increments", 1, std::numeric_limits<int>::max()));
+   settings.stepping = chosen<Stepping>(stepping, "stepping", {"fixed", "advancing", "exact"});
+   settings.single_increment_if_exact =
+      flag(single_increment_if_exact, "single_increment_if_exact");
+   settings.max_halvings = static_cast<int>(whole(max_halvings, "max_halvings", 0, 1000));
+   settings.friction.method =
+      chosen<FrictionMethod>(method, "method", {"automatic", "gauss_seidel"});
+   return settings;
+}
+
+nb::object march_report(nb::handle problem, MarchReport report, ContactState state)
+{
+   March march = march_of(problem);
+   march.report = std::move(report);
+   march.state = std::move(state);
+   return nb::cast(std::move(march));
+}
+
+void warn_of_status(const std::string &what, FrictionStatus status, const std::string &message)
+{
+   if (status == FrictionStatus::converged || status == FrictionStatus::stopped) { return; }
+   warn(what + ": " + name(status) + " " + message);
+}
+
+void warn_of(const std::string &what, const MarchReport &report)
+{
+   warn_of_status(what, report.status,
+                  "at time " + exact_text(report.event_time) + ": " + report.message);
+   for (const CutOffContact &end : report.cut_off) { warn(what + ": " + end.message()); }
+}
+
+ContactState state_or_rest(const ReducedProblem &problem, nb::handle state)
+{
+   ContactState result =
+      state.is_none() ? ContactState::virgin(problem) : given<ContactState>(state, "state");
+   result.validate(problem);
+   return result;
+}
 
 void bind_marches(nb::module_ &m)
 {
@@ -445,18 +485,10 @@ void bind_marches(nb::module_ &m)
          Flag stop_at_steady_state, Number steady_tolerance, Text method, Number tolerance,
          Flag keep_states, nb::object observer, nb::object progress, nb::object stop)
       {
-         MarchSettings settings;
-         settings.increments = static_cast<int>(
-            whole(increments, "increments", 1, std::numeric_limits<int>::max()));
-         settings.stepping =
-            chosen<Stepping>(stepping, "stepping", {"fixed", "advancing", "exact"});
-         settings.single_increment_if_exact =
-            flag(single_increment_if_exact, "single_increment_if_exact");
-         settings.max_halvings = static_cast<int>(whole(max_halvings, "max_halvings", 0, 1000));
+         MarchSettings settings = march_settings(
+            increments, stepping, single_increment_if_exact, max_halvings, method);
          settings.stop_at_steady_state = flag(stop_at_steady_state, "stop_at_steady_state");
          settings.steady_tolerance = number(steady_tolerance, "steady_tolerance");
-         settings.friction.method =
-            chosen<FrictionMethod>(method, "method", {"automatic", "gauss_seidel"});
          settings.friction.tolerance = number(tolerance, "tolerance");
          settings.validate();
          return march_from(problem.object, history, state, settings, keep_states, observer,

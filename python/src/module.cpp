@@ -2,6 +2,7 @@
 
 #include "watch.hpp"
 #include <cattaneo/counters.hpp>
+#include <cattaneo/version.hpp>
 
 namespace nb = nanobind;
 using namespace cattaneo;
@@ -57,6 +58,7 @@ NB_MODULE(_core, m)
    // Module-level objects outlive the interpreter's last count of them.
    nb::set_leak_warnings(false);
    m.doc() = "Cattaneo::core as Python sees it; the package cattaneo has the names.";
+   m.attr("version") = CATTANEO_VERSION;
    bind_common(m);
    python::bind_bodies(m);
    python::bind_reduced_problems(m);
@@ -67,4 +69,7 @@ NB_MODULE(_core, m)
    python::bind_readout(m);
    python::bind_shakedown(m);
    python::bind_fretting(m);
+   python::bind_wear(m);
+   python::bind_design(m);
+   python::explain_calls(m);
 }

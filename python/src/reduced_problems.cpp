@@ -5,6 +5,7 @@
 #include <cattaneo/friction/contact_state.hpp>
 #include <cattaneo/friction/critical_friction.hpp>
 #include <cattaneo/reduced/reduced_file.hpp>
+#include <cattaneo/wear/wear_march.hpp>
 #include <nanobind/stl/string.h>
 #include <sstream>
 
@@ -337,11 +338,15 @@ void bind_reduced_problems(nb::module_ &m)
          {
             save(given<ContactState>(of, "of"), file(name));
          }
-         else { refuse(of, "of", "of class ReducedProblem or ContactState"); }
+         else if (nb::isinstance<WearState>(of))
+         {
+            save(given<WearState>(of, "of"), file(name));
+         }
+         else { refuse(of, "of", "of class ReducedProblem, ContactState or WearState"); }
       },
       arg("of"), arg("file"),
-      nb::sig(
-         "def save(of: ReducedProblem | ContactState, file: str | os.PathLike[str]) -> None"),
+      nb::sig("def save(of: ReducedProblem | ContactState | wear.WearState, file: str | "
+              "os.PathLike[str]) -> None"),
       "Writes a reduced problem or a state as JSON, restored to the last bit.");
    m.def(
       "load_reduced_problem", [](File name) { return load_reduced_problem(file(name)); },

@@ -7,7 +7,6 @@
 #include <cattaneo/shakedown/lower_limit.hpp>
 #include <cattaneo/shakedown/transient.hpp>
 #include <limits>
-#include <mutex>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 #include <sstream>
@@ -25,17 +24,6 @@ CATTANEO_ARGUMENT(NodeNumbers, "numpy.typing.ArrayLike");
 CATTANEO_ARGUMENT(MaybeReport, "None | LimitReport");
 
 constexpr int most = std::numeric_limits<int>::max();
-
-/// Work with Ipopt, one at a time: the linear solver inside of it (MUMPS) is not safe for
-/// threads. The interpreter's lock is given up first.
-template <class Work>
-auto one_at_a_time(Work &&work)
-{
-   static std::mutex solver;
-   const nb::gil_scoped_release release;
-   const std::lock_guard<std::mutex> turn(solver);
-   return work();
-}
 
 LimitSettings limit_settings(nb::handle tolerance, nb::handle max_iterations,
                              nb::handle largest_factor, nb::handle largest_friction)

@@ -45,6 +45,12 @@ void Watch::ask()
    if (PyObject_IsTrue(answer.ptr()) == 1) { stopped_ = true; }
 }
 
+std::recursive_mutex &ipopt()
+{
+   static std::recursive_mutex solver;
+   return solver;
+}
+
 void warn(const std::string &sentence)
 {
    const nb::object category = nb::module_::import_("cattaneo._core").attr("OutcomeWarning");

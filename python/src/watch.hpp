@@ -2,6 +2,7 @@
 
 #include "arguments.hpp"
 #include <cattaneo/monitor.hpp>
+#include <mutex>
 
 namespace cattaneo::python
 {
@@ -34,6 +35,19 @@ template <class Work>
 auto unlocked(Work &&work)
 {
    const nb::gil_scoped_release release;
+   return work();
+}
+
+/// Held while Ipopt works: the linear solver inside of it (MUMPS) is not safe for threads. What
+/// is called from inside may ask for Ipopt in turn.
+std::recursive_mutex &ipopt();
+
+/// Does what `work` says with Ipopt, without the interpreter's lock, which is given up first.
+template <class Work>
+auto one_at_a_time(Work &&work)
+{
+   const nb::gil_scoped_release release;
+   const std::lock_guard<std::recursive_mutex> turn(ipopt());
    return work();
 }
 

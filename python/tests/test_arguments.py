@@ -9,7 +9,7 @@ import cattaneo
 import numpy as np
 import pytest
 import scipy.sparse as sparse
-from cattaneo import fretting, readout, shakedown
+from cattaneo import design, fretting, readout, shakedown, wear
 
 
 def triangle():
@@ -33,6 +33,22 @@ def problem():
     return cattaneo.ReducedProblem(
         np.diag([2.0, 2.0]), np.zeros((2, 2)), np.eye(2), patterns, friction=0.5, weights=1.0, arc_length=[0, 1]
     )
+
+
+def history():
+    return cattaneo.LoadHistory.through(problem(), [{}, {"P": 1}, {"P": 1, "Q": 0.2}, {"P": 1}], cycle_start=1)
+
+
+def law():
+    return wear.WearLaw.uniform(problem(), 1e-3)
+
+
+def case():
+    return design.DesignCase("pressed", cattaneo.LoadHistory.through(problem(), [{}, {"P": 1}]))
+
+
+def chosen():
+    return design.DesignProblem(problem(), [case()], np.eye(2), 0, 1)
 
 
 def changed(matrix, i, j, value):
@@ -97,7 +113,31 @@ SAID = [
     (lambda: fretting.pressure(fretting.Edge(1, 0, 0.5), [1, np.nan]), ValueError, r"t\[1\] is nan, must be finite"),
     (lambda: fretting.hertz_slip_energy([1, 2], [1, 2, 3], 0.5, 1), ValueError, "do not fit each other, must broadcast"),
     (lambda: cattaneo.load_reduced_problem(""), ValueError, "file is '', must be the name of a file"),
-    (lambda: cattaneo.save(None, "x.json"), TypeError, "of is None, must be of class ReducedProblem or ContactState"),
+    (lambda: cattaneo.save(None, "x.json"), TypeError, "of is None, must be of class ReducedProblem, ContactState or WearState"),
+    (lambda: wear.WearLaw([1, np.nan]), ValueError, r"coefficient\[1\] is nan, must be finite"),
+    (lambda: wear.WearLaw([1.0, 2.0], threshold=[1.0]), ValueError, "threshold has 1 entries, must have 2"),
+    (lambda: wear.WearLaw([1.0]).set(problem(), "", 2.0), ValueError, "wear law: 1 coefficients for 2 contact nodes"),
+    (lambda: wear.wear(problem(), 1e-3, history(), 1), TypeError, "law is a float, must be of class WearLaw"),
+    (lambda: wear.wear(problem(), law(), [{}, {"P": 1}], 1), TypeError, "history is a list of 2 entries, must be of class LoadHistory"),
+    (lambda: wear.wear(problem(), law(), history(), 1.5), ValueError, "wear: cycles is 1.5, must be a whole number"),
+    (lambda: wear.wear(problem(), law(), history(), 1, tolerance=1), ValueError, "tolerance is 1, must be 0 or from 1e-8 to 0.1"),
+    (lambda: wear.wear(problem(), law(), history(), 1, update="never"), ValueError, "update is 'never', must be one of 'cycle', 'piece'"),
+    (lambda: wear.worn_volume(problem(), [1.0]), ValueError, "depth has 1 entries, must have 2"),
+    (lambda: wear.WearState(cattaneo.ContactState.virgin(problem()), [1, 2, 3]), ValueError, "depth has 3 entries, must have 2"),
+    (lambda: design.Parameters(gap=[[1.0]]), ValueError, "gap is a list of 1 entries, must be of one dimension"),
+    (lambda: design.Response(1, {0: {"force": [1]}}), ValueError, r"a name in weights\[0\] is 'force', must be one of 'displacements'"),
+    (lambda: design.Response(1, {-1: {}}), ValueError, "a state of weights is -1, must be from 0"),
+    (lambda: design.Response(1, {}) + "a", TypeError, "other is 'a', must be a Response or a number"),
+    (lambda: design.Response(1, {}) / 0, ValueError, "divided by one that is zero"),
+    (lambda: design.Responses(problem(), None), TypeError, "trace is None, must be of class MarchTrace"),
+    (lambda: design.DesignCase("a", None), TypeError, "history is None, must be of class LoadHistory"),
+    (lambda: design.DesignProblem(problem(), [], np.eye(2), 0, 1), ValueError, "there is no load case"),
+    (lambda: design.DesignProblem(problem(), [case()], np.eye(3), 0, 1), ValueError, r"variables has shape \(3, 3\), must have \(2, any\)"),
+    (lambda: design.DesignProblem(problem(), [case()], np.eye(2), 1, 0), ValueError, "variable 0 is bounded by 1 and 0"),
+    (lambda: design.DesignProblem(problem(), [case()], np.eye(2), 0, 1, objective=3), TypeError, "objective is an int, must be a function or None"),
+    (lambda: design.DesignProblem(problem(), [case()], np.eye(2), 0, 1, limits=np.eye(2), most=np.nan), ValueError, r"most\[0\] is nan"),
+    (lambda: design.design(chosen(), [0, 0], tolerance=1e-20), ValueError, "design settings: tolerance is 1e-20, must be from 1e-14 to 1"),
+    (lambda: design.design(chosen(), [9, 9]), ValueError, "variable 0 starts at 9, must lie between 0 and 1"),
 ]
 
 
@@ -109,6 +149,47 @@ def test_what_is_said(k):
     text = str(caught.value)
     assert "\n" not in text and "incompatible function arguments" not in text
     assert kind is TypeError or isinstance(caught.value, cattaneo.InputError)
+
+
+def test_calls_that_fit_no_signature():
+    """Say what does not fit, in the words of the call; of functions, methods, static ones and classes alike."""
+    p = problem()
+    for call, sentence in (
+        (lambda: cattaneo.march(p, [{}, {"P": 1}], incremnts=3), r"march: there is no argument 'incremnts' \(is 'increments' meant\?\), must be one of 'problem', 'history', "),
+        (lambda: cattaneo.march(p, [{}, {"P": 1}], None, 3), "march: 4 arguments are given by place, must be at most 3: 'problem', 'history', 'state'; by their names: 'increments'"),
+        (lambda: cattaneo.march(p), "march: argument 'history' is missing, its arguments are 'problem', 'history'"),
+        (lambda: cattaneo.march(p, [{}, {"P": 1}], problem=p), "march: argument 'problem' is given twice"),
+        (lambda: cattaneo.NodalStiffness(K, PLACES, element=[[0, 1, 2]]), r"NodalStiffness: there is no argument 'element' \(is 'elements' meant"),
+        (lambda: cattaneo.Material(1.0), "Material: argument 'poisson' is missing"),
+        (lambda: body().fix([0], direction="x", node=[0]), "NodalStiffness.fix: there is no argument 'node'"),
+        (lambda: body().fix(), "NodalStiffness.fix: argument 'nodes' is missing"),
+        (lambda: cattaneo.LoadHistory.through(p, [{}, {"P": 1}], cycle=2), r"LoadHistory.through: there is no argument 'cycle' \(is 'cycles' meant"),
+        (lambda: p.copy(1), "ReducedProblem.copy: 1 argument is given by place, must be at most 0"),
+        (lambda: p.copy(deep=True), "ReducedProblem.copy: there is no argument 'deep', it takes none"),
+        (lambda: wear.wear(p, law(), history(), cycle=3), r"wear: there is no argument 'cycle' \(is 'cycles' meant"),
+        (lambda: design.DesignCase("a", history(), start=3), "DesignCase: there is no argument 'start', must be one of 'name', 'history', 'weight', 'from_'"),
+        (lambda: shakedown.load_limit(problem=None, tol=1), "load_limit: there is no argument 'tol'"),
+        (lambda: fretting.pressure(fretting.Edge(1, 0, 0.5)), "pressure: argument 't' is missing"),
+    ):
+        with pytest.raises(TypeError, match=sentence) as caught:
+            call()
+        assert "\n" not in str(caught.value) and "incompatible" not in str(caught.value)
+
+
+def test_every_function_names_its_arguments():
+    """Whatever is bound: a name that none has is refused in one sentence with those that there are."""
+    count = 0
+    for name, call in callables()[1]:
+        if type(call).__name__ not in ("nb_func", "nb_bound_method", "nb_type"):
+            continue
+        try:
+            call(no_such_name=1)
+        except TypeError as error:
+            text = str(error)
+            assert "\n" not in text and "incompatible" not in text, (name, text)
+            assert "no_such_name" in text or "no constructor" in text, (name, text)
+            count += 1
+    assert count > 150
 
 
 def test_a_mask_is_not_numbers():
@@ -136,9 +217,11 @@ def callables():
         p, report, report.state, line, condensed, reduction, body(), cycle, cattaneo.Material(1, 0.3),
         cattaneo.HalfPlane(cattaneo.Material(1, 0.3), depth=9), cattaneo.LoadHistory.through(p, [{}, {"P": 1}]),
         shakedown.limit_problem(p, cycle), fretting.Edge(1, 0.1, 0.5), cattaneo.Interface("a", (0, line)),
+        law(), wear.WearState.virgin(p), design.trace_march(p, [{}, {"P": 1}]), design.Parameters(gap=[1, 0]), case(), chosen(),
+        design.Response(1.0, {0: {"forces": [1, 0, 0, 0]}}), design.stiffness_scale(p),
     ]  # fmt: skip
     found = []
-    for room in (cattaneo, readout, shakedown, fretting):
+    for room in (cattaneo, readout, shakedown, fretting, wear, design):
         for name in dir(room):
             thing = getattr(room, name)
             if name.startswith("_"):
@@ -217,7 +300,29 @@ def nearly_right():
     limit = shakedown.limit_problem(p, cycle)
     half_plane = cattaneo.HalfPlane(cattaneo.Material(1, 0.3), depth=9)
     edge = fretting.Edge(1, 0.1, 0.5)
+    trace = design.trace_march(p, at)
+    of = design.Responses(p, trace)
+    change = design.Parameters(friction=[1, 0], gap=[0, 1])
     return [
+        (wear.WearLaw, [[1e-3, 1e-3]], {"threshold": 0.1, "of_energy": True}),
+        (wear.wear, [p, law(), history(), 2], {"state": None, "update": "piece", "tolerance": 1e-3, "final_share": 0.0, "increments": 2, "stepping": "exact", "observer": None, "stop": None}),
+        (wear.worn_out, [p, history()], {"contact": None, "increments": 2}),
+        (wear.worn_depth, [p, law(), state, state], {}),
+        (wear.WearState, [state, [0.0, 1.0]], {"dissipation": 1.0, "cycles": 3}),
+        (design.trace_march, [p, at], {"state": None, "increments": 2, "stepping": "exact"}),
+        (design.Response, [1.0, {0: {"forces": [1, 0, 0, 0]}}], {}),
+        (lambda *a: of.dissipation(*a), [0, 1, 0], {}),
+        (lambda *a: of.shear_resultant(*a), [1, [1.0, 2.0], 0], {}),
+        (lambda *a: of.multiplier(*a), [1, "P"], {}),
+        (design.Parameters, [], {"friction": [1, 0], "gap": [0, 1], "multipliers": np.zeros((2, 3)), "stiffness": [1.0]}),
+        (design.Sensitivity, [p, trace], {"stiffness": [design.stiffness_scale(p)]}),
+        (lambda *a: design.Sensitivity(p, trace).gradient(*a), [of.shear(1, 0)], {}),
+        (lambda *a: design.Sensitivity(p, trace).along(*a), [change], {}),
+        (lambda *a: design.Sensitivity(p, trace).along(change).of(*a), [of.shear(1, 0)], {}),
+        (lambda *a: trace.other_side(*a), [design.ties(p, trace)], {}),
+        (design.DesignCase, ["a", at], {"weight": 2.0, "from_": 1.0}),
+        (design.DesignProblem, [p, [case()], np.eye(2), 0, 1], {"limits": np.eye(2), "least": [0, -np.inf], "most": 1.0, "goal": "least_sum", "objective": lambda of, states: []}),
+        (design.design, [chosen(), [0.1, 0.2]], {"tolerance": 1e-6, "max_iterations": 3, "increments": 2}),
         (cattaneo.NodalStiffness, [triangle(), PLACES, [[0, 1], [2, 3], [4, 5]], [[0, 1, 2]]], {"fixed": [4], "loads": {"P": np.ones(6)}, "sets": {"A": [0, 1]}, "name": "b"}),
         (lambda *a: body().fix(*a), [[0], "x"], {}),
         (lambda *a: body().add_forces(*a), ["P", [0], "y", 1.0], {}),

@@ -95,8 +95,7 @@ def test_page_names_what_there_is():
         if not row.startswith("| `"):
             continue
         cell = row.split("|")[1]
-        inside = {"`cattaneo.readout`": cattaneo.readout, "`cattaneo.shakedown`": cattaneo.shakedown}
-        inside["`cattaneo.fretting`"] = cattaneo.fretting
+        inside = {f"`cattaneo.{name}`": getattr(cattaneo, name) for name in ("readout", "shakedown", "wear", "design", "fretting")}
         room = inside.get(cell.strip())
         for word in re.findall(r"`([A-Za-z_]+)[^`]*`", row.split("|")[2] if room else cell):
             assert hasattr(room or cattaneo, word) or word == "cattaneo", word

@@ -395,6 +395,7 @@ TEST(ExactPath, SettlesAStateThatIsNoEquilibriumFirst)
    // it slips on, to v = 0.3.
    problem.gap[0] = 0;
    start = ContactState::with_slip(problem, VectorXd::Ones(1));
+   start.multipliers = Vector2d(1, 0);
    const LoadHistory shear = LoadHistory::through({Vector2d(1, 0), Vector2d(1, -1)});
    const ContactState slid = first_of(start, shear, state, report);
    EXPECT_EQ(slid.time, 0);

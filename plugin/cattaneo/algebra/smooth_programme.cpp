@@ -144,6 +144,8 @@ SmoothSolution solve(const SmoothProgramme &programme, const VectorXd &start, do
    using namespace Ipopt;
    SmartPtr<SmoothNlp> nlp = new SmoothNlp(programme, start);
    SmartPtr<IpoptApplication> app = IpoptApplicationFactory();
+   // What a monitor or an objective throws ends the work; Ipopt would call it a failure.
+   app->RethrowNonIpoptException(true);
    const SmartPtr<OptionsList> options = app->Options();
    options->SetIntegerValue("print_level", 0);
    options->SetStringValue("sb", "yes");

@@ -519,7 +519,8 @@ const char *name(DesignStatus status)
 void DesignSettings::validate() const
 {
    march.validate();
-   require_between("design settings: tolerance", tolerance, 0, 1);
+   require(tolerance >= 1e-14 && tolerance < 1, "design settings: tolerance is ", tolerance,
+           ", must be from 1e-14 to 1");
    require_at_least("design settings: max_iterations", max_iterations, 1);
 }
 

@@ -54,12 +54,17 @@ double Parameters::dot(const Parameters &change) const
 
 double TraceChange::of(const Response &response) const
 {
+   require(found, "trace change: it is not known, ", message);
    double sum = 0;
    for (const auto &[k, weight] : response.weights)
    {
       const auto add = [&, column = static_cast<Index>(k)](const VectorXd &w, const MatrixXd &x)
       {
-         if (w.size() > 0) { sum += w.dot(x.col(column)); }
+         if (w.size() == 0) { return; }
+         require(column < x.cols() && w.size() == x.rows(), "trace change: a response with ",
+                 w.size(), " weights of state ", column, ", the trace has ", x.cols(),
+                 " states with ", x.rows());
+         sum += w.dot(x.col(column));
       };
       add(weight.displacements, displacements);
       add(weight.forces, forces);

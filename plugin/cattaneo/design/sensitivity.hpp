@@ -60,7 +60,8 @@ struct TraceChange
    Eigen::MatrixXd loss; ///< of each node over the increment that ends in the state, n × states
    Eigen::MatrixXd worn; ///< of the depth that it wears off; no columns: the trace has no law
 
-   /// Derivative of a response along the change.
+   /// Derivative of a response along the change. InputError if it is not known, or the response
+   /// is none of the trace.
    double of(const Response &response) const;
 };
 

@@ -438,6 +438,33 @@ MarchReport March::run()
    return report;
 }
 
+/// A history goes on with the loads that the state has: where they jump, the way there is not
+/// known, and what friction keeps depends on it.
+void check_loads(const FrictionSolver &solver, const LoadHistory &history,
+                 const ContactState &state)
+{
+   if (solver.frictionless()) { return; }
+   int k = 0;
+   while (k + 1 < history.pieces() && history.piece(k).end <= state.time) { ++k; }
+   const LoadPiece piece = history.piece(k);
+   if (state.time >= piece.end) { return; }
+   const bool begins = state.time <= history.times[0];
+   const VectorXd loads =
+      begins ? piece.from : piece.at((state.time - piece.start) / piece.duration());
+   const bool at_rest = state.multipliers.isZero(0);
+   for (Eigen::Index l = 0; l < loads.size(); ++l)
+   {
+      // The time of a state far into a history has few digits for its place in a piece.
+      const double most = history.multipliers.row(l).cwiseAbs().maxCoeff();
+      require(std::abs(loads[l] - state.multipliers[l]) <= 1e-6 * most, "history: load '",
+              solver.problem().patterns[l].name, "' is ", loads[l], " at ",
+              begins ? "its first point" : "time " + exact_text(state.time), ", and ",
+              state.multipliers[l],
+              at_rest ? " before any load; begin with a point of no loads"
+                      : " in the state that it goes on from; begin with the loads of that");
+   }
+}
+
 } // namespace
 
 MarchReport march(FrictionSolver &solver, const LoadHistory &history, ContactState &state,
@@ -446,6 +473,7 @@ MarchReport march(FrictionSolver &solver, const LoadHistory &history, ContactSta
    settings.validate();
    state.validate(solver.problem());
    history.validate(static_cast<int>(solver.problem().patterns.size()));
+   check_loads(solver, history, state);
    return March(solver, history, state, settings, observer).run();
 }
 

@@ -369,6 +369,8 @@ ConeSolution run_ipopt(const ConeProgramme &programme, const ConeSettings &setti
    using namespace Ipopt;
    SmartPtr<ConeNlp> nlp = new ConeNlp(programme, settings, start);
    SmartPtr<IpoptApplication> app = IpoptApplicationFactory();
+   // What a monitor or an objective throws ends the work; Ipopt would call it a failure.
+   app->RethrowNonIpoptException(true);
    const SmartPtr<OptionsList> options = app->Options();
    options->SetIntegerValue("print_level", 0);
    options->SetStringValue("sb", "yes");

@@ -19,6 +19,8 @@ WearLaw WearLaw::uniform(const ReducedProblem &problem, double coefficient)
 void WearLaw::set(const ReducedProblem &problem, const std::string &interface,
                   double coefficient_there)
 {
+   require(coefficient.size() == problem.nodes(), "wear law: ", coefficient.size(),
+           " coefficients for ", problem.nodes(), " contact nodes, must be one for each");
    bool found = false;
    for (const ContactChain &chain : problem.chains)
    {
@@ -114,6 +116,8 @@ WornDerivative worn_derivative(const ReducedProblem &problem, const WearLaw &law
 
 double worn_volume(const ReducedProblem &problem, const VectorXd &depth)
 {
+   require(problem.weights.size() == depth.size(), "worn volume: ", depth.size(),
+           " depths for a problem with ", problem.weights.size(), " weights of its nodes");
    return problem.weights.dot(depth);
 }
 

@@ -23,7 +23,7 @@ struct WearState
    void validate(const ReducedProblem &problem) const;
 };
 
-/// As JSON, to the last bit; reads as a contact state too. InputError as for contact states.
+/// As JSON, to the last bit. InputError as for contact states.
 void save(const WearState &state, const std::string &file);
 /// Reads what save() wrote.
 WearState load_wear_state(const std::string &file);

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cattaneo/algebra/dense_cholesky.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/progress_report.hpp>
 #include <cattaneo/wear/wear_cycle.hpp>
 #include <cattaneo/wear/worn_out.hpp>
+#include <limits>
 #include <sstream>
 
 namespace cattaneo
@@ -98,9 +100,17 @@ WornOut worn_out(const ReducedProblem &problem, const LoadHistory &history,
    {
       result.stick[i] = !slips[i] && first.range.always_closed()[i];
    }
+   ProgressReport progress(settings.monitor);
    // Sets that lose nodes end soon; slip that is locked in may shift with them.
    for (Index most = n + 20; result.searches < most;)
    {
+      progress.note(std::numeric_limits<double>::quiet_NaN(), result.searches);
+      if (settings.monitor.stopped())
+      {
+         result.status = FrictionStatus::stopped;
+         result.message = "the search was asked to stop";
+         return result;
+      }
       ++result.searches;
       result.overlap = overlap_of_free_nodes(problem, history, result.contact.v, result.stick);
       if (result.overlap.size() == 0 ||

@@ -41,8 +41,9 @@ struct WornOut
 
     `contact`: a state at the beginning of the cycle (or before the opening part) of the unworn
     problem. Status: converged; stalled if the cycle never repeats itself or the set is not
-    found; gross_sliding if no node is found that sticks, where wear may have no end; or of a
-   march without equilibrium. InputError as wear(). */
+    found; stopped, asked before each set that is tried; gross_sliding if no node is found that
+   sticks, where wear may have no end; or of a march without equilibrium. InputError as wear().
+ */
 WornOut worn_out(const ReducedProblem &problem, const LoadHistory &history,
                  const ContactState &contact, const MarchSettings &settings = {});
 

@@ -1,0 +1,31 @@
+"""Derivatives of what a march returns, by friction, gaps, loads and stiffness, and designs found by them.
+
+    trace = design.trace_march(problem, history)
+    lost = design.Responses(problem, trace).dissipation(0, trace.last())
+    gradient = design.Sensitivity(problem, trace).gradient(lost)    # gradient.by.friction, .gap: a number a node
+
+    wanted = design.DesignProblem(problem, [design.DesignCase("full", history)], G, low=0, high=1)
+    design.design(wanted, start=0)                                  # gap = problem.gap + G x of least peak pressure
+"""
+
+from ._core.design import (
+    ActiveResponse as ActiveResponse,
+    DesignCase as DesignCase,
+    DesignProblem as DesignProblem,
+    DesignReport as DesignReport,
+    Gradient as Gradient,
+    MarchTrace as MarchTrace,
+    Parameters as Parameters,
+    Response as Response,
+    Responses as Responses,
+    Sensitivity as Sensitivity,
+    StiffnessChange as StiffnessChange,
+    Tie as Tie,
+    TraceChange as TraceChange,
+    design as design,
+    gap_variables as gap_variables,
+    limit_curvature as limit_curvature,
+    stiffness_scale as stiffness_scale,
+    ties as ties,
+    trace_march as trace_march,
+)

@@ -1,0 +1,547 @@
+#include "sensitivity.hpp"
+
+#include "arrays.hpp"
+#include "marches.hpp"
+#include "watch.hpp"
+#include <limits>
+#include <mutex>
+#include <nanobind/stl/string.h>
+#include <sstream>
+
+// Derivatives of what a march returned.
+
+namespace cattaneo::python
+{
+
+namespace
+{
+
+CATTANEO_ARGUMENT(MaybeNumbers, "None | numpy.typing.ArrayLike");
+CATTANEO_ARGUMENT(MaybeWhole, "None | int");
+CATTANEO_ARGUMENT(HistoryLike, "cattaneo._core.LoadHistory | "
+                               "collections.abc.Sequence[collections.abc.Mapping[str, float]]");
+CATTANEO_ARGUMENT(Ties, "collections.abc.Sequence[Tie]");
+CATTANEO_ARGUMENT(Changes, "collections.abc.Sequence[StiffnessChange]");
+CATTANEO_ARGUMENT(ResponseLike, "Response | float");
+CATTANEO_ARGUMENT(
+   Weights,
+   "collections.abc.Mapping[int, collections.abc.Mapping[str, numpy.typing.ArrayLike]]");
+
+constexpr long most = std::numeric_limits<int>::max();
+
+/// Sensitivity with what it is of, for one thread at a time.
+struct Derivatives
+{
+   std::unique_ptr<const ReducedProblem> problem;
+   nb::object trace;
+   std::unique_ptr<Sensitivity> of;
+   std::unique_ptr<std::mutex> turn = std::make_unique<std::mutex>();
+
+   template <class Work>
+   auto work(Work &&work)
+   {
+      return unlocked(
+         [&]
+         {
+            const std::lock_guard<std::mutex> lock(*turn);
+            return work(*of);
+         });
+   }
+};
+
+constexpr std::pair<const char *, Eigen::VectorXd StateWeights::*> weight_names[] = {
+   {"displacements", &StateWeights::displacements},
+   {"forces", &StateWeights::forces},
+   {"multipliers", &StateWeights::multipliers},
+   {"conjugates", &StateWeights::conjugates},
+   {"loss", &StateWeights::loss}};
+
+Response response_of(nb::handle value, nb::handle weights)
+{
+   Response response;
+   response.value = number(value, "value");
+   if (!nb::isinstance<nb::dict>(weights)) { refuse(weights, "weights", "a dict by states"); }
+   for (const auto &[state, parts] : nb::borrow<nb::dict>(weights))
+   {
+      const long k = whole(state, "a state of weights", 0, most);
+      const std::string what = "weights[" + std::to_string(k) + "]";
+      if (!nb::isinstance<nb::dict>(parts))
+      {
+         refuse(parts, what, "a dict of arrays by names");
+      }
+      std::vector<std::string> names;
+      for (const auto &[each, member] : weight_names) { names.emplace_back(each); }
+      for (const auto &[key, values] : nb::borrow<nb::dict>(parts))
+      {
+         const auto part = weight_names[choice(key, "a name in " + what, names)];
+         response.weights[k].*part.second = vector(values, what + "['" + part.first + "']");
+      }
+   }
+   return response;
+}
+
+/// A response, or a number that depends on nothing.
+Response operand(nb::handle object)
+{
+   if (nb::isinstance<Response>(object)) { return given<Response>(object, "other"); }
+   if (nb::isinstance<nb::str>(object)) { refuse(object, "other", "a Response or a number"); }
+   Response constant;
+   constant.value = number(object, "other");
+   return constant;
+}
+
+/// Sums and products keep their order.
+template <class Operation>
+auto left(Operation operation)
+{
+   return [operation](const Response &self, ResponseLike other)
+   { return operation(self, operand(other)); };
+}
+template <class Operation>
+auto right(Operation operation)
+{
+   return [operation](const Response &self, ResponseLike other)
+   { return operation(operand(other), self); };
+}
+
+void bind_trace(nb::module_ &m)
+{
+   nb::class_<Tie>(m, "Tie",
+                   "A node that meets the laws of two states at once at the end of an "
+                   "increment: derivatives there are one-sided, those of `taken`.")
+      .def_ro("state", &Tie::state, "of the trace")
+      .def_ro("node", &Tie::node)
+      .def_ro("taken", &Tie::taken, "that the trace has")
+      .def_ro("other", &Tie::other, "that obeys the laws as well")
+      .def("__repr__",
+           [](const Tie &self)
+           {
+              std::ostringstream text;
+              text << "<Tie of node " << self.node << " in state " << self.state << ": "
+                   << name(self.taken) << " or " << name(self.other) << ">";
+              return text.str();
+           });
+
+   using Self = Trace;
+   const auto each = [](auto value)
+   {
+      return [value](const Self &self)
+      {
+         Eigen::VectorXd all(self.trace.states.size());
+         for (Index k = 0; k < all.size(); ++k)
+         {
+            all[k] = static_cast<double>(self.trace.states[k].*value);
+         }
+         return array(std::move(all));
+      };
+   };
+   nb::class_<Self>(m, "MarchTrace",
+                    "All states of a march, which is what its derivatives are taken of.")
+      .def_prop_ro(
+         "problem", [](const Self &self) { return self.problem; },
+         nb::sig("def problem(self) -> cattaneo._core.ReducedProblem"))
+      .def_prop_ro("history", [](const Self &self) { return self.trace.history; })
+      .def_prop_ro(
+         "states",
+         [](nb::handle_t<Self> self)
+         {
+            nb::list all;
+            for (TracedState &each : given<Self>(self, "self").trace.states)
+            {
+               all.append(nb::cast(each.state, nb::rv_policy::reference_internal, self));
+            }
+            return all;
+         },
+         nb::sig("def states(self) -> list[cattaneo._core.ContactState]"),
+         "the first is the one at the start")
+      .def_prop_ro("point", each(&TracedState::point),
+                   "of the history, after which each state lies")
+      .def_prop_ro("share", each(&TracedState::share), "of the way to the next point, 0 to 1")
+      .def_prop_ro("event", each(&TracedState::event),
+                   "the node whose change of state decides the share; -1: the history does")
+      .def_prop_ro(
+         "report",
+         [](const Self &self) {
+            return march_report(self.problem, self.trace.report,
+                                self.trace.states.back().state);
+         },
+         nb::sig("def report(self) -> cattaneo._core.MarchReport"))
+      .def(
+         "at",
+         [](const Self &self, Number time) { return self.trace.at(number(time, "time")); },
+         arg("time"), "Index of the last state that was reached by a time of the history.")
+      .def(
+         "last", [](const Self &self) { return self.trace.last(); }, "Index of the last state.")
+      .def(
+         "other_side",
+         [](const Self &self, Ties ties)
+         {
+            Self result = self;
+            for (const nb::object &each : sequence(ties, "ties"))
+            {
+               const Tie &tie = given<Tie>(each, "an entry of ties");
+               auto &states = result.trace.states;
+               require(tie.state < states.size() &&
+                          tie.node < static_cast<Index>(states[tie.state].state.status.size()),
+                       "ties: state ", tie.state, ", node ", tie.node,
+                       " is not one of the trace");
+               states[tie.state].state.status[tie.node] = tie.other;
+            }
+            return result;
+         },
+         arg("ties"),
+         "The same trace with the other state of some ties, whose derivatives are those of the "
+         "other side.")
+      .def("__len__", [](const Self &self) { return self.trace.states.size(); })
+      .def("__repr__",
+           [](const Self &self)
+           {
+              std::ostringstream text;
+              text << "<MarchTrace of " << self.trace.states.size()
+                   << " states: " << name(self.trace.report.status) << ">";
+              return text.str();
+           });
+   const MarchSettings settings;
+   m.def(
+      "trace_march",
+      [](Of<ReducedProblem> problem, HistoryLike history, MaybeState state, Whole increments,
+         Text stepping, Flag single_increment_if_exact, Whole max_halvings,
+         Flag stop_at_steady_state, Number steady_tolerance, Text method, ProgressLike progress,
+         StopLike stop)
+      {
+         MarchSettings with = march_settings(increments, stepping, single_increment_if_exact,
+                                             max_halvings, method);
+         with.stop_at_steady_state = flag(stop_at_steady_state, "stop_at_steady_state");
+         with.steady_tolerance = number(steady_tolerance, "steady_tolerance");
+         const ReducedProblem copy = given(problem, "problem");
+         ContactState from = state_or_rest(copy, state);
+         const LoadHistory loads = history_from(copy, history, from);
+         Watch watch(progress, stop);
+         with.monitor = watch.monitor();
+         Trace trace{problem.object,
+                     unlocked([&] { return trace_march(copy, loads, from, with); })};
+         warn_of("trace_march", trace.trace.report);
+         return trace;
+      },
+      arg("problem"), arg("history"), arg("state") = nb::none(), nb::kw_only(),
+      arg("increments") = settings.increments, arg("stepping") = "advancing",
+      arg("single_increment_if_exact") = settings.single_increment_if_exact,
+      arg("max_halvings") = settings.max_halvings,
+      arg("stop_at_steady_state") = settings.stop_at_steady_state,
+      arg("steady_tolerance") = settings.steady_tolerance, arg("method") = "automatic",
+      arg("progress") = false, arg("stop") = nb::none(), "march(), keeping all its states.");
+   m.def(
+      "ties",
+      [](Of<ReducedProblem> problem, Of<Self> trace, Number tolerance)
+      {
+         const ReducedProblem &of = given(problem, "problem");
+         const Trace &from = given(trace, "trace");
+         for (const TracedState &each : from.trace.states) { each.state.validate(of); }
+         nb::list all;
+         for (const Tie &tie : ties(of, from.trace, number(tolerance, "tolerance")))
+         {
+            all.append(nb::cast(tie));
+         }
+         return all;
+      },
+      arg("problem"), arg("trace"), arg("tolerance") = 1e-9,
+      nb::sig("def ties(problem: cattaneo._core.ReducedProblem, trace: MarchTrace, tolerance: "
+              "float = 1e-09) -> list[Tie]"),
+      "All ties of a trace, within `tolerance` of the largest nodal force so far.");
+}
+
+void bind_responses(nb::module_ &m)
+{
+   using R = Response;
+   const auto plus = [](const R &a, const R &b) { return a + b; };
+   const auto minus = [](const R &a, const R &b) { return a - b; };
+   const auto times = [](const R &a, const R &b) { return a * b; };
+   const auto over = [](const R &a, const R &b) { return a / b; };
+   nb::class_<R>(m, "Response",
+                 "A number that a march returned, with its derivatives by the states of the "
+                 "trace; + - * / make others of it.")
+      .def(
+         "__init__",
+         [](R *self, Number value, Weights weights)
+         { new (self) R(response_of(value, weights)); },
+         arg("value"), arg("weights"),
+         "weights: by the index of a state, derivatives by its entries: 'displacements' {v; "
+         "w}, "
+         "'forces' {q; p}, 'multipliers', 'conjugates', 'loss' of each node over the increment "
+         "that ends in the state.")
+      .def_ro("value", &R::value)
+      .def_prop_ro(
+         "weights",
+         [](const R &self)
+         {
+            nb::dict all;
+            for (const auto &[k, weight] : self.weights)
+            {
+               nb::dict parts;
+               for (const auto &[each, member] : weight_names)
+               {
+                  if ((weight.*member).size() > 0) { parts[each] = array(weight.*member); }
+               }
+               all[nb::cast(k)] = parts;
+            }
+            return all;
+         },
+         nb::sig("def weights(self) -> dict[int, dict[str, "
+                 "numpy.typing.NDArray[numpy.float64]]]"))
+      .def("__float__", [](const R &self) { return self.value; })
+      .def("__add__", left(plus))
+      .def("__radd__", left(plus))
+      .def("__sub__", left(minus))
+      .def("__rsub__", right(minus))
+      .def("__mul__", left(times))
+      .def("__rmul__", left(times))
+      .def("__truediv__", left(over))
+      .def("__rtruediv__", right(over))
+      .def("__neg__", [](const R &self) { return -1 * self; })
+      .def("__repr__",
+           [](const R &self)
+           {
+              std::ostringstream text;
+              text << "<Response " << self.value << " of " << self.weights.size() << " states>";
+              return text.str();
+           });
+
+   using Self = Asked;
+   const auto index = [](nb::handle value, const char *what)
+   { return static_cast<std::size_t>(whole(value, what, 0, most)); };
+   const auto of_node = [index](auto member)
+   {
+      return [member, index](const Self &self, Whole state, Whole node)
+      { return ((*self).*member)(index(state, "state"), whole(node, "node", 0, most)); };
+   };
+   const auto of_component = [index](auto member)
+   {
+      return [member, index](const Self &self, Whole state, Whole node, Whole component)
+      {
+         return ((*self).*member)(index(state, "state"), whole(node, "node", 0, most),
+                                  static_cast<int>(whole(component, "component", 0, 1)));
+      };
+   };
+   const auto of_pattern = [index](auto member)
+   {
+      return [member, index](const Self &self, Whole state, Text pattern)
+      { return ((*self).*member)(index(state, "state"), text(pattern, "pattern")); };
+   };
+   const auto arms = [](nb::handle arm)
+   { return arm.is_none() ? Eigen::VectorXd() : vector(arm, "arm"); };
+   nb::class_<Self>(m, "Responses",
+                    "The numbers of a trace. States are given by their index in it, "
+                    "MarchTrace.at(time) or last().")
+      .def(
+         "__init__",
+         [](Self *self, Of<ReducedProblem> problem, Of<Trace> trace)
+         { new (self) Self(given(problem, "problem"), trace.object); },
+         arg("problem"), arg("trace"))
+      .def(
+         "dissipation",
+         [index](const Self &self, Whole from, Whole to, MaybeWhole node)
+         {
+            const std::size_t first = index(from, "from_"), last = index(to, "to");
+            return node.is_none()
+                      ? (*self).dissipation(first, last)
+                      : (*self).dissipation(first, last, whole(node, "node", 0, most));
+         },
+         arg("from_"), arg("to"), arg("node") = nb::none(),
+         "Energy that friction takes between two states, by all nodes or one.")
+      .def("slip", of_component(&Responses::slip), arg("state"), arg("node"),
+           arg("component") = 0)
+      .def("opening", of_node(&Responses::opening), arg("state"), arg("node"),
+           "w: without the gap")
+      .def("shear", of_component(&Responses::shear), arg("state"), arg("node"),
+           arg("component") = 0, "q of the node")
+      .def("normal_force", of_node(&Responses::normal_force), arg("state"), arg("node"),
+           "p of the node, compression positive")
+      .def("pressure", of_node(&Responses::pressure), arg("state"), arg("node"),
+           "normal force over weight")
+      .def(
+         "peak_pressure",
+         [index](const Self &self, Whole state)
+         { return (*self).peak_pressure(index(state, "state")); },
+         arg("state"), "of the node where it is largest")
+      .def(
+         "shear_resultant",
+         [index, arms](const Self &self, Whole state, MaybeNumbers arm, Whole component)
+         {
+            return (*self).shear_resultant(
+               index(state, "state"), arms(arm),
+               static_cast<int>(whole(component, "component", 0, 1)));
+         },
+         arg("state"), arg("arm") = nb::none(), arg("component") = 0,
+         "sum of q, times a lever arm of each node")
+      .def(
+         "normal_resultant",
+         [index, arms](const Self &self, Whole state, MaybeNumbers arm)
+         { return (*self).normal_resultant(index(state, "state"), arms(arm)); },
+         arg("state"), arg("arm") = nb::none(), "sum of p, times a lever arm of each node")
+      .def("multiplier", of_pattern(&Responses::multiplier), arg("state"), arg("pattern"))
+      .def("conjugate", of_pattern(&Responses::conjugate), arg("state"), arg("pattern"),
+           "of a force its displacement, of a displacement its reaction")
+      .def(
+         "secant_stiffness",
+         [index](const Self &self, Whole from, Whole to, Text pattern)
+         {
+            return (*self).secant_stiffness(index(from, "from_"), index(to, "to"),
+                                            text(pattern, "pattern"));
+         },
+         arg("from_"), arg("to"), arg("pattern"),
+         "change of force over change of displacement between two states");
+}
+
+void bind_parameters(nb::module_ &m)
+{
+   nb::class_<StiffnessChange>(m, "StiffnessChange",
+                               "How stiffness and loads change with a number that they are "
+                               "linear in, a modulus for instance.")
+      .def(
+         "__init__",
+         [](StiffnessChange *self, Numbers K, MaybeNumbers loads, MaybeNumbers H)
+         {
+            StiffnessChange change{matrix(K, "K"), {}, {}};
+            if (!loads.is_none()) { change.loads = matrix(loads, "loads"); }
+            if (!H.is_none()) { change.H = matrix(H, "H"); }
+            new (self) StiffnessChange(std::move(change));
+         },
+         arg("K"), arg("loads") = nb::none(), arg("H") = nb::none(),
+         "K: of ReducedProblem.K. loads: of the forces {q; p} of each pattern, a column each. "
+         "H: of ReducedProblem.H.")
+      .def_prop_ro("K", viewed(&StiffnessChange::K))
+      .def_prop_ro("loads", viewed(&StiffnessChange::loads))
+      .def_prop_ro("H", viewed(&StiffnessChange::H));
+   m.def(
+      "stiffness_scale",
+      [](Of<ReducedProblem> problem) { return stiffness_scale(given(problem, "problem")); },
+      arg("problem"), "All stiffnesses by the same factor, per unit of it.");
+
+   using Self = Parameters;
+   nb::class_<Self>(m, "Parameters",
+                    "One number for each parameter of a march: how much it changes, or the "
+                    "derivative of a response by it. No entries: no change.")
+      .def(
+         "__init__",
+         [](Self *self, MaybeNumbers friction, MaybeNumbers gap, MaybeNumbers multipliers,
+            MaybeNumbers stiffness)
+         {
+            Self made;
+            if (!friction.is_none()) { made.friction = vector(friction, "friction"); }
+            if (!gap.is_none()) { made.gap = vector(gap, "gap"); }
+            if (!multipliers.is_none())
+            {
+               made.multipliers = matrix(multipliers, "multipliers");
+            }
+            if (!stiffness.is_none()) { made.stiffness = vector(stiffness, "stiffness"); }
+            new (self) Self(std::move(made));
+         },
+         arg("friction") = nb::none(), arg("gap") = nb::none(), arg("multipliers") = nb::none(),
+         arg("stiffness") = nb::none(),
+         "friction, gap: of each node. multipliers: of LoadHistory, (loads, points). "
+         "stiffness: "
+         "of each StiffnessChange.")
+      .def_prop_ro("friction", viewed(&Self::friction), "of each node")
+      .def_prop_ro("gap", viewed(&Self::gap), "of each node")
+      .def_prop_ro("multipliers", viewed(&Self::multipliers), "(loads, points)")
+      .def_prop_ro("stiffness", viewed(&Self::stiffness), "of each StiffnessChange")
+      .def(
+         "dot",
+         [](const Self &self, Of<Self> change) { return self.dot(given(change, "change")); },
+         arg("change"), "Sum of derivative times change, of whatever both have.");
+}
+
+} // namespace
+
+void bind_sensitivity(nb::module_ &m)
+{
+   bind_trace(m);
+   bind_responses(m);
+   bind_parameters(m);
+
+   nb::class_<Gradient>(m, "Gradient", "Derivatives of a response, if they are known.")
+      .def_ro("found", &Gradient::found)
+      .def_ro("message", &Gradient::message, "why not")
+      .def_prop_ro(
+         "by", [](Gradient &self) -> Parameters & { return self.by; },
+         nb::rv_policy::reference_internal, "derivative by each parameter");
+   nb::class_<TraceChange>(m, "TraceChange",
+                           "Changes of all states of a trace with one change of parameters, a "
+                           "column for each state.")
+      .def_ro("found", &TraceChange::found)
+      .def_ro("message", &TraceChange::message, "why not")
+      .def_prop_ro("displacements", viewed(&TraceChange::displacements), "of {v; w}")
+      .def_prop_ro("forces", viewed(&TraceChange::forces), "of {q; p}")
+      .def_prop_ro("multipliers", viewed(&TraceChange::multipliers), "of the load patterns")
+      .def_prop_ro("conjugates", viewed(&TraceChange::conjugates), "of these")
+      .def_prop_ro("loss", viewed(&TraceChange::loss),
+                   "of each node over the increment that ends in the state")
+      .def(
+         "of",
+         [](const TraceChange &self, Of<Response> response)
+         { return self.of(given(response, "response")); },
+         arg("response"), "Derivative of a response along the change.");
+
+   using Self = Derivatives;
+   nb::class_<Self>(
+      m, "Sensitivity",
+      "Derivatives of what a march returned by its parameters, exact in the "
+      "discrete problem, with the states that its nodes had. Where a node has two "
+      "at once they are one-sided, see ties().")
+      .def(
+         "__init__",
+         [](Self *self, Of<ReducedProblem> problem, Of<Trace> trace, Changes stiffness)
+         {
+            std::vector<StiffnessChange> changes;
+            for (const nb::object &each : sequence(stiffness, "stiffness"))
+            {
+               changes.push_back(given<StiffnessChange>(
+                  each, "stiffness[" + std::to_string(changes.size()) + "]"));
+            }
+            Self made;
+            made.problem = std::make_unique<const ReducedProblem>(given(problem, "problem"));
+            made.trace = trace.object;
+            made.of = std::make_unique<Sensitivity>(*made.problem, given(trace, "trace").trace,
+                                                    std::move(changes));
+            new (self) Self(std::move(made));
+         },
+         arg("problem"), arg("trace"), arg("stiffness") = nb::tuple(),
+         "problem: as it was marched. stiffness: changes, by which there are derivatives too.")
+      .def(
+         "gradient",
+         [](Self &self, Of<Response> response)
+         {
+            const Response of = given(response, "response");
+            Gradient result = self.work([&](Sensitivity &all) { return all.gradient(of); });
+            if (!result.found) { warn("gradient: it is not known: " + result.message); }
+            return result;
+         },
+         arg("response"),
+         "Of one response by all parameters, back through the march. If it is not known that "
+         "is "
+         "warned of (OutcomeWarning).")
+      .def(
+         "along",
+         [](Self &self, Of<Parameters> change)
+         {
+            const Parameters of = given(change, "change");
+            TraceChange result = self.work([&](Sensitivity &all) { return all.along(of); });
+            if (!result.found) { warn("along: it is not known: " + result.message); }
+            return result;
+         },
+         arg("change"),
+         "Of all states along one change of parameters, forward through the march. If it is "
+         "not "
+         "known that is warned of (OutcomeWarning).")
+      .def(
+         "factorisations",
+         [](Self &self)
+         { return self.work([](Sensitivity &all) { return all.factorisations(); }); },
+         "Dense factorisations so far.")
+      .def(
+         "updates",
+         [](Self &self) { return self.work([](Sensitivity &all) { return all.updates(); }); },
+         "Unknowns bordered to a factor so far.");
+}
+
+} // namespace cattaneo::python

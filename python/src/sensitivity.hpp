@@ -1,0 +1,50 @@
+#pragma once
+
+#include "arguments.hpp"
+#include <cattaneo/design/sensitivity.hpp>
+#include <memory>
+#include <optional>
+
+// What design.cpp needs of the derivatives.
+
+namespace cattaneo::python
+{
+
+/// A trace, and the problem it is of.
+struct Trace
+{
+   nb::object problem;
+   MarchTrace trace;
+};
+
+/// Responses: of a problem and a trace that are kept, or those that an objective is asked of,
+/// until its call ends.
+class Asked
+{
+public:
+   Asked(const ReducedProblem &problem, nb::handle trace)
+      : problem_(std::make_unique<const ReducedProblem>(problem)), trace_(nb::borrow(trace)),
+        own_(std::make_unique<const Responses>(*problem_, given<Trace>(trace, "trace").trace)),
+        of_(own_.get())
+   {
+   }
+   explicit Asked(const Responses &of) : of_(&of) {}
+
+   const Responses &operator*() const
+   {
+      require(of_ != nullptr,
+              "responses: those that an objective is called with end with the call");
+      return *of_;
+   }
+   void end() { of_ = nullptr; }
+
+private:
+   std::unique_ptr<const ReducedProblem> problem_;
+   nb::object trace_;
+   std::unique_ptr<const Responses> own_;
+   const Responses *of_;
+};
+
+void bind_sensitivity(nb::module_ &m);
+
+} // namespace cattaneo::python

@@ -1,0 +1,226 @@
+"""Derivatives and designs against closed forms, and what a script can do with them."""
+
+import os
+import signal
+import threading
+import warnings
+
+import cattaneo
+import numpy as np
+import pytest
+from cattaneo import design
+
+k, P, d = 2.0, 3.0, 2.0
+
+
+def slider(friction):
+    """A slider on a spring k, pressed by P, whose spring's end moves by d. A cycle loses 4 f P (d - f P/k)."""
+    return cattaneo.ReducedProblem(
+        [[k]],
+        [[0.0]],
+        [[1.0]],
+        [cattaneo.LoadPattern("P", [0.0], [1.0]), cattaneo.LoadPattern("d", [-k], [0.0], control="displacement")],
+        friction=friction,
+        weights=1.0,
+        H=[[0, 0], [0, k]],
+    )
+
+
+def cycle(problem):
+    points = [{}, {"P": P}] + [{"P": P, "d": s * d} for s in (1, -1, 1)]
+    return cattaneo.LoadHistory.through(problem, points, cycle_start=2)
+
+
+@pytest.mark.parametrize("stepping", ["exact", "advancing"])
+def test_gradient_of_a_loss_by_hand(stepping):
+    """Loss 4 f P (d - f P/k), by friction and by the loads' size; backward, forward, and of what is made of it."""
+    f = 0.4
+    problem = slider(f)
+    trace = design.trace_march(problem, cycle(problem), stepping=stepping, increments=1)
+    of = design.Responses(problem, trace)
+    lost = of.dissipation(trace.at(2), trace.last())
+    assert float(lost) == lost.value == pytest.approx(4 * f * P * (d - f * P / k), rel=1e-12)
+    sensitivity = design.Sensitivity(problem, trace)
+    by = sensitivity.gradient(lost).by
+    assert by.friction == pytest.approx([4 * P * (d - 2 * f * P / k)], rel=1e-10)
+    by_P, by_d = design.Parameters(multipliers=[[0, 1, 1, 1, 1], [0] * 5]), [[0] * 5, [0, 0, 1, -1, 1]]
+    assert by.dot(by_P) == pytest.approx(4 * f * (d - 2 * f * P / k), rel=1e-10)
+    assert by.dot(design.Parameters(multipliers=by_d)) == pytest.approx(4 * f * P, rel=1e-10)
+    along = sensitivity.along(by_P)
+    assert along.of(lost) == pytest.approx(by.dot(by_P), rel=1e-10)
+    assert along.loss.shape == (1, len(trace))
+    # Reaction f P: 2 f P over 2 d is the secant stiffness; the loss over the area of range times range.
+    first, turned = trace.at(2), trace.at(3)
+    force = of.conjugate(first, "d") - of.conjugate(turned, "d")
+    assert force.value == pytest.approx(2 * f * P, rel=1e-12)
+    moved = of.multiplier(first, "d") - of.multiplier(turned, "d")
+    ratio = lost / (force * moved)
+    assert ratio.value == pytest.approx((d - f * P / k) / d, rel=1e-12)
+    assert sensitivity.gradient(ratio).by.friction == pytest.approx([-P / k / d], rel=1e-9)
+    half = 1 - 0.5 * ratio / 2 + (-ratio)
+    assert half.value == pytest.approx(1 - 1.25 * ratio.value, rel=1e-12)
+    assert sensitivity.gradient(half).by.friction == pytest.approx([1.25 * P / k / d], rel=1e-9)
+    assert of.secant_stiffness(turned, first, "d").value == pytest.approx(f * P / d, rel=1e-12)
+    # One of its own: q of the last state.
+    own = design.Response(trace.states[-1].q[0], {trace.last(): {"forces": [1, 0]}})
+    assert sensitivity.gradient(own).by.friction == pytest.approx([-P], rel=1e-12)
+    assert own.weights[trace.last()]["forces"] == pytest.approx([1, 0])
+
+
+def test_modulus():
+    """With a spring (1 + s) k the loss is 4 f P (d - f P/k(1 + s))."""
+    f = 0.4
+    problem = slider(f)
+    trace = design.trace_march(problem, cycle(problem), stepping="exact")
+    lost = design.Responses(problem, trace).dissipation(trace.at(2), trace.last())
+    change = design.stiffness_scale(problem)
+    gradient = design.Sensitivity(problem, trace, [change]).gradient(lost)
+    assert gradient.by.stiffness == pytest.approx([4 * (f * P) ** 2 / k], rel=1e-9)
+    assert np.array_equal(change.K, problem.K)
+
+
+def test_ties_have_two_sides():
+    """With k d = f P the node is at the limit: its slip follows d on one side, and not on the other."""
+    f = k * d / P
+    problem = slider(f)
+    trace = design.trace_march(problem, [{}, {"P": P}, {"P": P, "d": d}], increments=1, stepping="fixed")
+    (tie,) = [tie for tie in design.ties(problem, trace) if tie.state == trace.last()]
+    assert {tie.taken, tie.other} == {cattaneo.NodeState.stick, cattaneo.NodeState.forward_slip}
+    slopes = []
+    for side in (trace, trace.other_side([tie])):
+        slip = design.Responses(problem, side).slip(side.last(), 0)
+        slopes.append(design.Sensitivity(problem, side).gradient(slip).by.multipliers[1, 2])
+    assert sorted(slopes) == pytest.approx([0, 1], abs=1e-12)
+
+
+def searched(report):
+    if report.status == "unavailable":
+        pytest.skip("built without Ipopt")
+    return report
+
+
+@pytest.fixture(autouse=True)
+def without_ipopt():
+    warnings.filterwarnings("ignore", "design: unavailable", cattaneo.OutcomeWarning)
+
+
+def damped(objective, high=0.9):
+    problem = slider(0.1)
+    return design.DesignProblem(
+        problem,
+        [design.DesignCase("cycle", cycle(problem), weight=-1, from_=2)],
+        [design.Parameters(friction=[1.0])],
+        low=0,
+        high=high,
+        goal="least_sum",
+        objective=objective,
+    )
+
+
+def lost_in_all(of, states):
+    return [of.dissipation(states[0], states[-1])]
+
+
+def test_friction_of_most_damping():
+    """Most is lost with f P = k d/2, k d² a cycle; a bound below holds it with the slope that is left."""
+    report = searched(design.design(damped(lost_in_all), 0.0, stepping="exact"))
+    assert report.optimal and report.problem.friction[0] == pytest.approx(k * d / 2 / P, rel=1e-6)
+    assert -report.objective == pytest.approx(k * d**2, rel=1e-10)
+    assert 0.1 + report.x[0] == report.problem.friction[0]
+    held = design.design(damped(lost_in_all, high=0.3), [0.0], stepping="exact")
+    assert held.x == pytest.approx([0.3], abs=1e-7)
+    assert held.bound_multipliers == pytest.approx([4 * P * (d - 2 * 0.4 * P / k)], rel=1e-5)
+    assert len(held.traces) == 1 and held.traces[0].report.converged
+
+
+def test_punch_of_uniform_pressure():
+    """From a flat punch with the gap of every node free; the closed form is interpolated, so to the size of an element."""
+    material = cattaneo.Material(8 / np.pi * 0.91, 0.3)
+    upper = cattaneo.HalfPlane(material, depth=1e4, normal=(0, 1), forces={"P": (0, -1), "Q": (1, 0)})
+    body = cattaneo.condense(upper, np.linspace(-1, 1, 17), order=1)
+    flat = cattaneo.reduce(body, cattaneo.HalfPlane(material, depth=1e4)).problem
+    flat.friction = 0.3
+    n = flat.nodes
+    G = np.delete(np.eye(n), n // 2, axis=1)
+    case = design.DesignCase("pressed", cattaneo.LoadHistory.through(flat, [{}, {"P": 1}]))
+    wanted = design.DesignProblem(flat, [case], G, low=0, high=2)
+    # The half-plane goes on beyond its contact nodes, which end here as a punch does.
+    warnings.filterwarnings("ignore", "design, case 'pressed': contact is compressed up to", cattaneo.OutcomeWarning)
+    report = searched(design.design(wanted, 0))
+    assert report.optimal and report.objective_at_start > 0.6
+    assert report.objective == pytest.approx(0.5, abs=1e-6)
+    x = flat.position[:, 0]
+    part = lambda s: s * np.log(np.maximum(s, 1e-300))
+    exact = (part(1 + x) + part(1 - x)) / 4
+    assert report.problem.gap == pytest.approx(exact, abs=0.04 * exact.max())
+    assert sum(active.multiplier for active in report.active) == pytest.approx(1, abs=1e-6)
+    assert np.array_equal(wanted.with_(report.x).gap, report.problem.gap)
+    design.limit_curvature(wanted, -0.1, 0.35)
+    assert wanted.limits.shape == (n - 2, n - 1) and (wanted.most == 0.35).all()
+    curved = design.design(wanted, 0)
+    assert report.objective < curved.objective < curved.objective_at_start
+
+
+def test_what_an_objective_raises_is_raised():
+    """Also from within Ipopt, as Ctrl-C and what a monitor raises."""
+    searched(design.design(damped(lost_in_all), 0.0, stepping="exact"))
+    calls, kept = [], []
+
+    def failing(of, states):
+        calls.append(1)
+        kept.append(of)
+        if len(calls) > 2:
+            raise KeyError("enough")
+        return lost_in_all(of, states)
+
+    with pytest.raises(KeyError, match="enough"):
+        design.design(damped(failing), 0.0)
+    with pytest.raises(cattaneo.InputError, match="end with the call"):
+        kept[0].peak_pressure(0)
+    with pytest.raises(TypeError, match="response 0 of the objective is an int, must be of class Response"):
+        design.design(damped(lambda of, states: [3]), 0.0)
+    with pytest.raises(TypeError, match="what the objective returned is None, must be a list"):
+        design.design(damped(lambda of, states: None), 0.0)
+
+    def slow(of, states):
+        if len(calls) < 1000:
+            calls.append(1)
+            os.kill(os.getpid(), signal.SIGINT) if len(calls) == 6 else None
+        return lost_in_all(of, states)
+
+    with pytest.raises(KeyboardInterrupt):
+        design.design(damped(slow), 0.0)
+    stop = threading.Event()
+    stop.set()
+    assert design.design(damped(lost_in_all), 0.0, stop=stop).status == "stopped"
+
+
+def test_limits_raise_what_a_monitor_raises():
+    from cattaneo import shakedown
+
+    problem = slider(0.5)
+    limit = shakedown.limit_problem(problem, shakedown.LoadCycle.through(problem, {"P": P}, [{"d": 1}, {"d": -1}]))
+    if shakedown.load_limit(limit).status == "unavailable":
+        pytest.skip("built without Ipopt")
+
+    def listen(progress):
+        raise RuntimeError("heard")
+
+    with pytest.raises(RuntimeError, match="heard"):
+        shakedown.load_limit(limit, progress=listen)
+
+
+def test_outcomes():
+    """A case that slides away is named."""
+    problem = slider(0.1)
+    problem = cattaneo.ReducedProblem(
+        [[k]], [[0.0]], [[1.0]], [cattaneo.LoadPattern("P", [0.0], [1.0]), cattaneo.LoadPattern("Q", [-1.0], [0.0])], friction=0.1, weights=1.0
+    )
+    sliding = cattaneo.LoadHistory.through(problem, [{}, {"P": 1}, {"P": -1}])
+    wanted = design.DesignProblem(problem, [design.DesignCase("lifted", sliding)], np.ones((1, 1)), 0, 1)
+    assert "1 variables" in repr(wanted)
+    trace = design.trace_march(problem, [{}, {"P": 1}])
+    with pytest.raises(cattaneo.InputError, match="state 9 of a trace with"):
+        design.Responses(problem, trace).pressure(9, 0)
+    with pytest.raises(cattaneo.InputError, match="a response with 3 weights|trace change"):
+        design.Sensitivity(problem, trace).along(design.Parameters(friction=[1.0])).of(design.Response(0, {0: {"forces": [1, 2, 3]}}))
