@@ -28,4 +28,5 @@ from ._core.design import (
     stiffness_scale as stiffness_scale,
     ties as ties,
     trace_march as trace_march,
+    trace_wear as trace_wear,
 )

@@ -20,6 +20,7 @@ CATTANEO_ARGUMENT(MaybeNumbers, "None | numpy.typing.ArrayLike");
 CATTANEO_ARGUMENT(MaybeWhole, "None | int");
 CATTANEO_ARGUMENT(HistoryLike, "cattaneo._core.LoadHistory | "
                                "collections.abc.Sequence[collections.abc.Mapping[str, float]]");
+CATTANEO_ARGUMENT(MaybeWearState, "None | cattaneo._core.wear.WearState");
 CATTANEO_ARGUMENT(Ties, "collections.abc.Sequence[Tie]");
 CATTANEO_ARGUMENT(Changes, "collections.abc.Sequence[StiffnessChange]");
 CATTANEO_ARGUMENT(ResponseLike, "Response | float");
@@ -54,7 +55,8 @@ constexpr std::pair<const char *, Eigen::VectorXd StateWeights::*> weight_names[
    {"forces", &StateWeights::forces},
    {"multipliers", &StateWeights::multipliers},
    {"conjugates", &StateWeights::conjugates},
-   {"loss", &StateWeights::loss}};
+   {"loss", &StateWeights::loss},
+   {"worn", &StateWeights::worn}};
 
 Response response_of(nb::handle value, nb::handle weights)
 {
@@ -230,6 +232,39 @@ void bind_trace(nb::module_ &m)
       arg("stop_at_steady_state") = settings.stop_at_steady_state,
       arg("steady_tolerance") = settings.steady_tolerance, arg("method") = "automatic",
       arg("progress") = false, arg("stop") = nb::none(), "march(), keeping all its states.");
+   const WearSettings wear;
+   m.def(
+      "trace_wear",
+      [](Of<ReducedProblem> problem, Of<WearLaw> law, Of<LoadHistory> history, Number cycles,
+         MaybeWearState state, Text update, Whole increments, Text stepping,
+         Flag single_increment_if_exact, Whole max_halvings, Text method, ProgressLike progress,
+         StopLike stop)
+      {
+         WearSettings with;
+         with.march = march_settings(increments, stepping, single_increment_if_exact,
+                                     max_halvings, method);
+         with.update = chosen<GapUpdate>(update, "update", {"cycle", "piece"});
+         const ReducedProblem copy = given(problem, "problem");
+         const WearLaw by = given(law, "law");
+         const LoadHistory loads = given(history, "history");
+         const double all = number(cycles, "cycles");
+         WearState from =
+            state.is_none() ? WearState::virgin(copy) : given<WearState>(state, "state");
+         Watch watch(progress, stop);
+         with.march.monitor = watch.monitor();
+         Trace trace{problem.object,
+                     unlocked([&] { return trace_wear(copy, by, loads, all, from, with); })};
+         warn_of("trace_wear", trace.trace.report);
+         return trace;
+      },
+      arg("problem"), arg("law"), arg("history"), arg("cycles"), arg("state") = nb::none(),
+      nb::kw_only(), arg("update") = "cycle", arg("increments") = wear.march.increments,
+      arg("stepping") = "advancing",
+      arg("single_increment_if_exact") = wear.march.single_increment_if_exact,
+      arg("max_halvings") = wear.march.max_halvings, arg("method") = "automatic",
+      arg("progress") = false, arg("stop") = nb::none(),
+      "wear.wear() with every cycle marched, keeping the states of all increments; times go on "
+      "from cycle to cycle.");
    m.def(
       "ties",
       [](Of<ReducedProblem> problem, Of<Self> trace, Number tolerance)
@@ -268,7 +303,7 @@ void bind_responses(nb::module_ &m)
          "weights: by the index of a state, derivatives by its entries: 'displacements' {v; "
          "w}, "
          "'forces' {q; p}, 'multipliers', 'conjugates', 'loss' of each node over the increment "
-         "that ends in the state.")
+         "that ends in the state, 'worn' of the depth that it wears off.")
       .def_ro("value", &R::value)
       .def_prop_ro(
          "weights",
@@ -348,6 +383,20 @@ void bind_responses(nb::module_ &m)
          },
          arg("from_"), arg("to"), arg("node") = nb::none(),
          "Energy that friction takes between two states, by all nodes or one.")
+      .def(
+         "worn_depth",
+         [index](const Self &self, Whole from, Whole to, Whole node)
+         {
+            return (*self).worn_depth(index(from, "from_"), index(to, "to"),
+                                      whole(node, "node", 0, most));
+         },
+         arg("from_"), arg("to"), arg("node"),
+         "Depth that a node loses between two states of trace_wear().")
+      .def(
+         "worn_volume",
+         [index](const Self &self, Whole from, Whole to)
+         { return (*self).worn_volume(index(from, "from_"), index(to, "to")); },
+         arg("from_"), arg("to"), "Volume that all nodes lose.")
       .def("slip", of_component(&Responses::slip), arg("state"), arg("node"),
            arg("component") = 0)
       .def("opening", of_node(&Responses::opening), arg("state"), arg("node"),
@@ -424,9 +473,10 @@ void bind_parameters(nb::module_ &m)
       .def(
          "__init__",
          [](Self *self, MaybeNumbers friction, MaybeNumbers gap, MaybeNumbers multipliers,
-            MaybeNumbers stiffness)
+            MaybeNumbers stiffness, MaybeNumbers wear)
          {
             Self made;
+            if (!wear.is_none()) { made.wear = vector(wear, "wear"); }
             if (!friction.is_none()) { made.friction = vector(friction, "friction"); }
             if (!gap.is_none()) { made.gap = vector(gap, "gap"); }
             if (!multipliers.is_none())
@@ -437,14 +487,14 @@ void bind_parameters(nb::module_ &m)
             new (self) Self(std::move(made));
          },
          arg("friction") = nb::none(), arg("gap") = nb::none(), arg("multipliers") = nb::none(),
-         arg("stiffness") = nb::none(),
+         arg("stiffness") = nb::none(), arg("wear") = nb::none(),
          "friction, gap: of each node. multipliers: of LoadHistory, (loads, points). "
-         "stiffness: "
-         "of each StiffnessChange.")
+         "stiffness: of each StiffnessChange. wear: of Archard's k of each node.")
       .def_prop_ro("friction", viewed(&Self::friction), "of each node")
       .def_prop_ro("gap", viewed(&Self::gap), "of each node")
       .def_prop_ro("multipliers", viewed(&Self::multipliers), "(loads, points)")
       .def_prop_ro("stiffness", viewed(&Self::stiffness), "of each StiffnessChange")
+      .def_prop_ro("wear", viewed(&Self::wear), "of Archard's k of each node")
       .def(
          "dot",
          [](const Self &self, Of<Self> change) { return self.dot(given(change, "change")); },
@@ -476,6 +526,8 @@ void bind_sensitivity(nb::module_ &m)
       .def_prop_ro("conjugates", viewed(&TraceChange::conjugates), "of these")
       .def_prop_ro("loss", viewed(&TraceChange::loss),
                    "of each node over the increment that ends in the state")
+      .def_prop_ro("worn", viewed(&TraceChange::worn),
+                   "of the depth that it wears off; no columns: nothing wears")
       .def(
          "of",
          [](const TraceChange &self, Of<Response> response)

@@ -79,6 +79,29 @@ def test_modulus():
     assert np.array_equal(change.K, problem.K)
 
 
+def test_worn_depth_by_hand():
+    """Two sliders beneath a block wear by k P times their way, 4 N + 1 times d - f P/kt after N cycles: derivatives by
+    k, friction and d."""
+    from cattaneo import wear
+
+    kt, f, K, cycles = 2.0, 0.5, 1e-3, 3
+    ones, none = np.ones(2), np.zeros(2)
+    patterns = [cattaneo.LoadPattern("P", none, ones), cattaneo.LoadPattern("d", -kt * ones, none, control="displacement")]
+    problem = cattaneo.ReducedProblem(
+        kt * np.eye(2), np.zeros((2, 2)), np.eye(2) - 0.5, patterns, friction=f, weights=1.0, arc_length=[0, 1]
+    )
+    trace = design.trace_wear(problem, wear.WearLaw.uniform(problem, K), cycle(problem), cycles, stepping="exact")
+    worn = design.Responses(problem, trace).worn_volume(0, trace.last())
+    way = (4 * cycles + 1) * (d - f * P / kt)
+    assert worn.value == pytest.approx(2 * K * P * way, rel=1e-12)
+    by = design.Sensitivity(problem, trace).gradient(worn).by
+    assert by.wear == pytest.approx([P * way] * 2, rel=1e-9)
+    assert by.friction == pytest.approx([-(4 * cycles + 1) * K * P**2 / kt] * 2, rel=1e-9)
+    assert by.dot(design.Parameters(multipliers=[[0] * 5, [0, 0, 1, -1, 1]])) == pytest.approx(
+        2 * K * P * (4 * cycles + 1), rel=1e-9
+    )
+
+
 def test_ties_have_two_sides():
     """With k d = f P the node is at the limit: its slip follows d on one side, and not on the other."""
     f = k * d / P

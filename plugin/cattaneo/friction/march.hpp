@@ -158,7 +158,8 @@ using MarchObserver = std::function<void(const ContactState &, const IncrementRe
    last bit, on an exact path after every event: the state of a march that was stopped, taken up
    again, comes to what the march would have come to. What an observer throws ends the march,
    the state being what it was called with. InputError also where the history does not go on
-   with the loads that the state has, unless there is no friction: the way there would matter. */
+   with the loads that the state has, unless there is no friction: the way there would matter.
+ */
 MarchReport march(const ReducedProblem &problem, const LoadHistory &history,
                   ContactState &state, const MarchSettings &settings = {},
                   const MarchObserver &observer = {});
