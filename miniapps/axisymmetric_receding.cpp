@@ -152,7 +152,7 @@ void map(miniapp::Study &study, Disc &disc, const std::vector<double> &wanted,
 
 /// Load radius above which no point of a disc separates (thesis figure 7.8).
 void critical(miniapp::Study &study, const Disc &disc, const std::vector<double> &discs,
-              const std::vector<double> &frictions)
+              const std::vector<double> &frictions, bool also_bonded)
 {
    const miniapp::Stopwatch watch;
    Table &table = study.table("critical_load_radius", {{"disc_radius", "b/t", "%.3g"},
@@ -161,11 +161,14 @@ void critical(miniapp::Study &study, const Disc &disc, const std::vector<double>
    table.draw("Radius of the load above which nothing separates", "disc_radius",
               "radius of the disc b/t", {{"load_radius", "a"}}, "radius of the load a/t",
               {"friction", "f"});
+   Table &bonded = study.table("bonded_critical", {{"disc_radius", "b/t", "%.3g"},
+                                                   {"load_radius", "bonded: critical a/t"}});
    for (double b : discs)
    {
       miniapp::DiscOptions own = disc.options;
       own.disc_radius = b;
       own.twist = miniapp::Twist::none;
+      if (also_bonded) { study.row(bonded, {b, miniapp::bonded_critical_radius(own)}); }
       miniapp::CriticalLoad critical(own);
       for (double f : frictions) { study.row(table, {b, f, critical.radius(f)}); }
       study.counters += critical.counters();
@@ -234,6 +237,7 @@ void axisymmetric_receding(miniapp::Study &study)
       map_f = {0.5, 0.8}, discs, critical_f = {0, 0.5, 0.8};
    double amplitude = 0.5;
    int cycles = 0;
+   bool critical_bonded = false;
    study.option(&options.disc_radius, "disc-radius", "b, in t.");
    study.option(&disc.a, "load-radius", "a, in t.");
    study.option(&disc.f, "friction", "Coefficient of friction (0: no tangential unknowns).",
@@ -245,7 +249,7 @@ void axisymmetric_receding(miniapp::Study &study)
    study.option(&options.order, "order", "Order of the elements.");
    study.option(&options.spacing, "spacing", "Distance of the contact nodes, in t.");
    study.option(&on_the_way, "load-levels", "Loading: list of P/P0 to draw (empty: none).",
-                miniapp::between(0, 1));
+                miniapp::above_up_to(0, 1));
    study.option(&levels, "unload", "Unloading: list of P/P0 to report (empty: none).",
                 miniapp::between(0, 1));
    study.option(&torques, "torque", "Torsion: list of T/T_s to report (empty: none).",
@@ -268,6 +272,8 @@ void axisymmetric_receding(miniapp::Study &study)
                 miniapp::at_least(1));
    study.option(&critical_f, "critical-friction", "Critical radius of the load: list of f.",
                 miniapp::not_negative);
+   study.option(&critical_bonded, "critical-bonded",
+                "Critical radius of the load: of the bonded disc too (ill-conditioned).");
    study.parse();
    study.results["load_radius"] = disc.a;
    require(map_a.empty() || !map_f.empty(),
@@ -326,7 +332,7 @@ void axisymmetric_receding(miniapp::Study &study)
    }
    if (cycles > 0) { cycle(study, disc, again(), amplitude, cycles); }
    if (!map_a.empty()) { map(study, disc, map_a, map_f); }
-   if (!discs.empty()) { critical(study, disc, discs, critical_f); }
+   if (!discs.empty()) { critical(study, disc, discs, critical_f, critical_bonded); }
 }
 
 } // namespace

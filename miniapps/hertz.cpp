@@ -46,7 +46,7 @@ void hertz(miniapp::Study &study)
    study.option(&nodes, "nodes", "Contact nodes.", miniapp::at_least(9));
    study.option(&levels_of_P, "load-levels",
                 "Loading: list of P/P0 whose pressures and gaps are drawn (empty: none).",
-                miniapp::between(0, 1));
+                miniapp::above_up_to(0, 1));
    study.option(&shear, "shear", "Monotonic shear after P: list of Q/fP, or none.");
    study.option(&settings.increments, "increments",
                 "Load increments between two values (more where contact advances).",

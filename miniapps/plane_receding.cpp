@@ -14,13 +14,15 @@
 //                plane_receding -domain 1e4 -overhang 0.8 -friction 1.4
 //                plane_receding -domain 1e4 -overhang 0.8 -bonded "0.1 0.18 0.3 0.5 0.8"
 //                plane_receding -obstacle th0 -bonded "1.5 2"
-//                plane_receding -map "0.4 0.8 1.2 1.6 2 3" -spacing 0.05 -corner 0.01
+//                plane_receding -spacing 0.05 -corner 0.01 -steps 20 -cycles 4 -cycle-to "0.9
+//                0.2" plane_receding -map "0.4 0.8 1.2 1.6 2 3" -spacing 0.05 -corner 0.01
 //                plane_receding -domain 1e4 -map 4 -map-friction "0.3 0.5 1"
 //                plane_receding -obstacle th0 -unload 0.5
 //                plane_receding -obstacle th0 -overhang 2 -unload 0.5
 
 #include "common/bonded_strip.hpp"
 #include "common/extent.hpp"
+#include "common/receding_cycles.hpp"
 
 #include <algorithm>
 #include <array>
@@ -228,7 +230,8 @@ void plane_receding(miniapp::Study &study)
    miniapp::RecedingOptions options;
    std::string obstacle = "half-plane", march_by = "advancing";
    double friction = 0.7;
-   std::vector<double> map_n, map_f = {0.3, 0.5, 0.7, 1}, bonded_n;
+   std::vector<double> map_n, map_f = {0.3, 0.5, 0.7, 1}, bonded_n, cycled;
+   int cycles = 100;
    Unloading unloading{4, 50, 0.05, {}, {-0.5, 0, 0.5}};
    bool study_domain = false;
    study.option(&unloading.overhang, "overhang",
@@ -256,6 +259,11 @@ void plane_receding(miniapp::Study &study)
                 "Unloading: p/p0 at which it ends; steps shrink toward it.",
                 miniapp::between(0, 1));
    study.option(&unloading.points, "slip", "Unloading: list of ξ/t whose slip is followed.");
+   study.option(
+      &cycled, "cycle-to",
+      "Cycles of the load between p0 and less: list of the lowest p/p0 (empty: none).",
+      miniapp::between(0, 1));
+   study.option(&cycles, "cycles", "Cycles of the load, at most.", miniapp::at_least(1));
    study.option(&bonded_n, "bonded",
                 "Bonded strips: list of n to draw, with the n at which their kind changes.",
                 miniapp::positive);
@@ -291,6 +299,12 @@ void plane_receding(miniapp::Study &study)
 
    miniapp::Run run(study, problem);
    load(study, run, overhang);
+   if (!cycled.empty())
+   {
+      run.settings.increments = unloading.steps;
+      miniapp::cycle_the_load(study, run, overhang_load(overhang), cycled, cycles);
+      run.settings = {};
+   }
    if (!unloading.wanted.empty())
    {
       run.settings.stepping = miniapp::stepping(march_by);

@@ -195,4 +195,33 @@ double CriticalLoad::radius(double friction)
    return result;
 }
 
+double bonded_critical_radius(DiscOptions options)
+{
+   double from = 0.02 * options.disc_radius, to = options.disc_radius;
+   constexpr int parts = 16, rounds = 3;
+   for (int round = 0; round < rounds; ++round)
+   {
+      options.load_radii.clear();
+      for (int k = 0; k <= parts; ++k)
+      {
+         options.load_radii.push_back(k == parts ? to : from + (to - from) * k / parts);
+      }
+      const Scene scene = make_disc(options);
+      const ReducedProblem &problem = scene.reduction.problem;
+      const auto pulls = [&](int k)
+      {
+         const LoadPattern &pattern =
+            problem.patterns[problem.pattern(radius_load(options.load_radii[k]))];
+         // Without the node at the axis and the last three, at the corner of the rim.
+         return pattern.p.segment(1, problem.nodes() - 4).minCoeff() < 0;
+      };
+      int last = parts;
+      while (last >= 0 && !pulls(last)) { --last; }
+      if (last < 0 || last == parts) { return std::numeric_limits<double>::quiet_NaN(); }
+      from = options.load_radii[last];
+      to = options.load_radii[last + 1];
+   }
+   return 0.5 * (from + to);
+}
+
 } // namespace miniapp

@@ -71,4 +71,9 @@ private:
    std::vector<cattaneo::NodeState> guess_; ///< of the last state: where the next search starts
 };
 
+/** Radius of the load below which a disc that is bonded to its half-space pulls somewhere, to a
+   thousandth of b; NaN if it never does. Ill-conditioned: far from the load the pressure is a
+   thousandth of p0. */
+double bonded_critical_radius(DiscOptions options);
+
 } // namespace miniapp

@@ -29,15 +29,13 @@ Several formulas of the thesis are misprinted or wrong; each one used here was c
 figure = CHAPTER.figure
 
 
+def plain(series):
+    return series.replace(" (design)", "")
+
+
 def fields(run):
-    """A field has one picture for each series."""
-    said, rows = run.panel("field")
-    names = list(dict.fromkeys(row["series"] for row in rows))
-    sheet, all_axes = f.sheet(len(names), 1, height=3)
-    for axes, name in zip(all_axes, names):
-        f.plot.draw_field(axes, said, [row for row in rows if row["series"] == name])
-        f.plot.finish(axes, {**said, "title": [name]})
-    return sheet
+    """Of the run's own friction alone."""
+    return f.panels((run, "field", {"title": "", "only": lambda s: s == f"f = {run['friction']:g}"}))
 
 
 def materials():
@@ -76,9 +74,9 @@ A pad is pressed by P, sheared by Q, and the specimen below is pulled in step (�
 with slip over the length d.""", sketches.edge)
 for number, friction in (("2.2a", 0.8), ("2.2b", 0.6)):
     figure(number, f"Equivalent stress near the edge, f = {friction}", f"fretting -f {friction}", """
-Von Mises' stress over K_N √d below the surface; t > 0 is under the pad, 0 < t < d slips. (The first picture; the other one is of the companion figure.)""", fields)
+Von Mises' stress over K_N √d below the surface; t > 0 is under the pad, 0 < t < d slips.""", fields)
 figure("2.3", "Equivalent stress along the surface", EDGE, """
-It is nearly constant over the slip zone, so that this yields almost at once: the smaller f, the less so.""", lambda run: f.panels((run, "surface", {"title": ""})), wrong="""
+It is nearly constant over the slip zone, so that this yields almost at once: the smaller f, the less so.""", lambda run: f.panels((run, "surface", {"title": "", "rename": plain})), wrong="""
 The thesis' (2.12) and (2.14) have 2 for √2, and (2.17) is three times the usual invariant; the curves are of the corrected field.""", proof="fretting -f 0.8")
 figure("2.4", "Load at which the slip zone yields", [command for command, _ in TESTS.values()], INVENTED + """
 Lower curve: the load at which some point yields, upper one: the whole slip zone, 1/f whatever ν. They differ for little friction only.""", spots)
@@ -88,10 +86,10 @@ for letter, (command, words) in TESTS.items():
            tests("stress"), wrong="The thesis has half of this stress: √(2 f K_N K_T). It follows from the misprint in (2.12).", proof="fretting -f 0.8")
 figure("2.6", "Stress intensity of a crack at the edge", EDGE, """
 Largest K_I over √(K_N K_T d) of a crack of depth c, normal to the surface, for reversed loads (R = -1). The pressure closes longer cracks.""",
-       lambda run: f.panels((run, "trajectory", {"title": ""})))
+       lambda run: f.panels((run, "trajectory", {"title": "", "rename": plain})))
 figure("2.7", "Threshold of fretting fatigue", EDGE, """
 Above its curve a crack still grows when it has the critical length a0 = (ΔK_th/σ_fl)²/π; below it stops. One diagram for all contacts and materials.""",
-       lambda run: f.panels((run, "threshold", {"title": "", "only": lambda s: s != "design"})), wrong="""
+       lambda run: f.panels((run, "threshold", {"title": "", "only": lambda s: s != "design", "rename": plain})), wrong="""
 The thesis doesn't say which part of K_I's cycle counts. Here it is the part in which the crack is open; `--criterion range` and `half-range` are the others.""", proof="fretting --criterion range")
 for number, panel, title, text in (
         ("2.8", "threshold_tests", "Tests and threshold", "Filled: broken. Those above the curve should be."),

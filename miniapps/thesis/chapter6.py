@@ -89,7 +89,7 @@ def widths(run):
 
 
 def zones(run):
-    return f.panels((run, "zones", {"title": "", "limits_x": "0,5"}))
+    return f.panels((run, "zones", {"title": "", "limits_x": "0,5", "limits_y": "0.5,0.8", "y": "x/t (the other end is its mirror image)"}))
 
 
 CHAPTER.sketch("6.1", "A receding contact", """
@@ -125,7 +125,8 @@ Loss a cycle for three coefficients of friction. It falls with f, because slip s
 The thesis concludes that tension dissipates more than compression. That holds for the first cycle (right); in the steady cycle, which the figure is about, compression
 does (left): the contact is wider there.""", proof=SWEEP)
 figure("6.11", "Loss against the width of the bolt", WIDTHS, """
-The same pull on bolts of other widths, with the same pressure and with the same force. A wider or a stronger bolt loses less.""", widths)
+The same pull on bolts of other widths. With the same pressure a wider bolt loses less, and at the same width so does a higher pressure; of bolts of the same force the narrow one, whose pressure is
+highest, loses least.""", widths)
 figure("6.2.2", "Where compression ends", TOUCH, """
 The text's remark on compression: at a certain load the free ends touch. It depends on how far they reach (-0.0397 at 2 t, -0.0417 at 1.9 t beyond the bolt).""",
        lambda run: f.panels((run, "tractions", {"title": "at Tmax = -0.04 P0"})), rows="touch")

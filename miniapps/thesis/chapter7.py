@@ -9,7 +9,7 @@ from chapter import Chapter
 BONDED = 'axisymmetric_receding -bonded "0.5 1.5 2.1 3"'
 ADHESION = 'axisymmetric_receding -bonded "3.75 4.25 4.7"'
 SMALL = "axisymmetric_receding -load-radius 0.5 -friction 0.9"
-CRITICAL = 'axisymmetric_receding -critical "2 3 4 5 6 8" -critical-friction "0 0.5 0.8 100"'
+CRITICAL = 'axisymmetric_receding -critical "2 3 4 5 6 8" -critical-friction "0 0.5 0.8" -critical-bonded'
 LOADING = 'axisymmetric_receding -load-levels "0.25 0.5 0.75 1"'
 MAP = 'axisymmetric_receding -map "0.25 0.5 1 1.5 2 2.5 3 3.4 3.6 3.8 4 4.2 4.4 4.6 4.8 5"'
 UNLOADING = 'axisymmetric_receding -unload "0.9 0.5 0.3 0.1"'
@@ -33,10 +33,9 @@ DOMAIN = "The references are of a cylinder of radius 100 t, which is felt in the
 def critical(run, frictions):
     sheet, (axes,) = f.sheet(1, height=3.9)
     f.curves(axes, {"loaded all over, a = b": ([2, 8], [2, 8])}, color="black")
-    for friction in frictions:
-        rows = run.rows("critical_load_radius", friction=friction)
-        name = "bonded sideways (f = 100)" if friction > 10 else f"f = {friction:g}"
-        f.curves(axes, {name: ([row["load_radius"] for row in rows], [row["disc_radius"] for row in rows])}, "radius of the load a/t",
+    for friction in [*frictions, None]:
+        rows = run.rows("bonded_critical") if friction is None else run.rows("critical_load_radius", friction=friction)
+        f.curves(axes, {"bonded" if friction is None else f"f = {friction:g}": ([f.nan(row["load_radius"]) for row in rows], [row["disc_radius"] for row in rows])}, "radius of the load a/t",
                  "radius of the disc b/t", marker="o", markersize=4)
     axes.text(6.4, 4.2, "no separation\nto the right of a line", ha="center", fontsize=8.5)
     return sheet
@@ -72,7 +71,8 @@ def arrows(run):
             axes.quiver([radii[k] for k in chosen], [row["torque"]] * 8, [math.cos(math.radians(angles[k])) for k in chosen],
                         [math.sin(math.radians(angles[k])) for k in chosen], color=colour, angles="uv", scale=26, width=0.003, pivot="tail")
         axes.plot([], [], color=colour, marker=r"$\rightarrow$", linestyle="", markersize=10, label=name)
-    f.label(axes)
+    f.label(axes, legend=False)
+    axes.legend(fontsize=7.5, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=2, frameon=False)
     axes.set_ylim(-0.05, 1.05)
     return sheet
 
@@ -81,7 +81,7 @@ def kinds(run, name, drop, y, **limits):
     """Two panels: the plain curves of one, and their dashed companions."""
     sheet, both = f.sheet(2)
     for axes, only, label in zip(both, (lambda s: not s.startswith(drop), lambda s: s.startswith(drop)), y):
-        f.draw(axes, run, name, only=only, rename=lambda s: s.removeprefix(drop), title="", y=label, **limits)
+        f.draw(axes, run, name, only=only, rename=lambda s: s.removeprefix(drop), title="", y=label, style="line", **limits)
     return sheet
 
 
@@ -96,19 +96,19 @@ Disc and half-space bonded together: a load on r < a leaves hardly any pressure 
 The thesis finds a = 2.1 t to be the least radius of load without tension. The pressure near the rim is then a thousandth of p0 and changes its sign with any detail of the mesh;
 the number is ill-conditioned, and the profile is compared instead. (Where tension first goes is a = 0.80 t.)""", proof='axisymmetric_receding -bonded "0.8 2.1"')
 figure("7.4", "Where a bonded disc separates", CRITICAL, """
-Radius of the load below which a disc without radial slip lifts off somewhere, against the radius of the disc. It is the line EF of figure 7.8. As
-said with figure 7.3 it is ill-conditioned: a thousandth of the pressure moves it by tenths of t.""", lambda run: critical(run, [100]))
+Radius of the load below which the bonded disc pulls somewhere, against the radius of the disc: the line EF of figure 7.8. As said with figure 7.3 it is ill-conditioned: a thousandth of the
+pressure moves it by more than t. Bonded discs of less than about 4.9 t don't pull at all.""", lambda run: critical(run, []))
 CHAPTER.sketch("7.5", "Names", "d: radius of separation; c: border of stick.", lambda: sketches.disc(radii=True))
 figure("7.6", "Tractions under a bonded disc, a = 0.5", BONDED, """
 Pressure and shear of the monolith under a small load.""",
-       lambda run: f.panels((run, "bonded_pressure", {"title": "", "only": lambda s: s.endswith("a = 0.5"), "limits_x": "0,5", "limits_y": "-0.05,0.3",
+       lambda run: f.panels((run, "bonded_pressure", {"title": "", "only": lambda s: s.endswith("a = 0.5"), "limits_x": "0,5", "limits_y": "-0.12,0.32",
                                                       "rename": lambda s: s.replace("q: a = 0.5", "shear q").replace("a = 0.5", "pressure p")})), wrong="""
 That the monolith pulls from 0.65 b on can't be confirmed: its pressure there is ten thousandths of p0; here it pulls first at 0.97 b.""", proof=BONDED)
 figure("7.7", "Tractions with contact, a = 0.5", SMALL, "The same with contact and f = 0.9: the pressure ends at d, and slip begins at c.",
        lambda run: f.panels((run, "tractions", {"title": "", "limits_x": "0,5"})), rows="a = 0.5", wrong=DOMAIN, proof=SMALL + " -domain 100")
 figure("7.8", "When nothing separates", [CRITICAL, ADHESION], """
-Discs and loads for which nothing lifts off, without friction, with f = 0.5 and 0.8, and bonded sideways. To the right of the frictionless line that holds for every friction.""",
-       lambda run, _: critical(run, [0, 0.5, 0.8, 100]), rows="critical|full adhesion", wrong="""
+Discs and loads for which nothing lifts off, without friction, with f = 0.5 and 0.8, and bonded. To the right of the frictionless line that holds for every friction.""",
+       lambda run, _: critical(run, [0, 0.5, 0.8]), rows="critical|full adhesion", wrong="""
 The thesis adds that a friction above 0.543 keeps the rim from slipping then. It keeps the corner itself, but close to it the ratio of tractions is higher: full
 adhesion asks for the values in the table.""", proof=ADHESION)
 figure("7.9", "Pressure during loading", LOADING, "a = 2.5 t, f = 0.5: pressures at four loads are proportional, and the disc separates at the same radius.",

@@ -4,9 +4,10 @@ import figures as f
 from chapter import Chapter
 
 PAD = "design"
-MISMATCH = 'shakedown -nodes 101 -find load -reversal -1 -mismatch "0.01 0.03 0.1 0.3 1 3 10 30 100"'
-BOLTS = 'lap_joint -bolts "-1.5 0 1.5" -friction 0.4 -load 0.2 -spacing 0.0125'
-LOWER = "shakedown -find load -nodes 101"
+MISMATCH = 'shakedown -nodes 101 -find load -mismatch "0.01 0.03 0.1 0.3 1 3 10 30 100"'
+BOLTS = ['lap_joint -bolts "-1.2 0 1.2" -lower-thickness 2 -load 0.1 -spacing 0.025', 'lap_joint -bolts "-1.5 0 1.5" -friction 0.4 -load 0.2 -spacing 0.025']
+LOWER = ["shakedown -find load -nodes 65 -starts 8", "shakedown -find load -obstacle rigid -nodes 65 -friction 0.6 -starts 8"]
+RECEDING = 'plane_receding -spacing 0.04 -corner 0.01 -steps 20 -cycles 40 -cycle-to "0.95 0.9 0.8 0.6 0.4 0.2"'
 
 CHAPTER = Chapter(8, "Further work", """
 The thesis ends with five proposals. What became of them here.
@@ -26,15 +27,42 @@ def mismatch(run):
     return sheet
 
 
+def lower(*all_runs):
+    """What is known of loads that shake down from every start."""
+    sheet, (axes,) = f.sheet(1, height=2.6)
+    names = ("block on half-plane, f = 0.85", "block on rigid plane, f = 0.6")
+    for k, run in enumerate(all_runs):
+        limit, quiet, found = run["load_limit"], run.json.get("quiet_up_to") or 0, run.json.get("counter_example")
+        axes.barh(k, limit, color="#DDEBF5", height=0.5, label=None if k else "no start may shake down above λ2 (proven)")
+        axes.barh(k, quiet, color="#9CC3E0", height=0.5, label=None if k else "all starts tried shook down (observed)")
+        axes.plot([limit, limit], [k - 0.3, k + 0.3], color="black", linewidth=2)
+        if found:
+            axes.plot([found], [k], "X", color=f.COLOURS[1], markersize=9, label="slips for ever from some start")
+    axes.set_yticks(range(len(all_runs)), names[:len(all_runs)])
+    f.label(axes, "λ = Qmax/P0, R = -0.5")
+    axes.legend(fontsize=7.5, loc="upper center", bbox_to_anchor=(0.4, -0.25), ncol=3)
+    return sheet
+
+
 figure("8.2 (1)", "Optimised profiles", [PAD, "design --profile crown --loads \"0.3 1\" --weights \"2 1\""], """
 The profile of the punch whose largest pressure is least, found by derivatives of the solved contact: from a flat pad, whose pressure is singular at its ends, to one that presses
 uniformly. Another objective, the energy lost in a cycle, and limits of curvature: `docs/design.md`.""",
-       lambda run, _: f.panels((run, "profile", {"title": "gap"}), (run, "pressure", {"title": "pressure", "limits_y": "0,3"})), rows="uniform|gap at")
+       lambda run, crown: f.panels((run, "profile", {"title": "gap, P alone"}), (run, "pressure", {"title": "pressure", "limits_y": "0,3"}),
+                                   (crown, "profile", {"title": "gap, a crown for two loads"}), (crown, "pressure", {"title": "pressure", "limits_y": "0,3"})),
+       rows="uniform|gap at")
 figure("8.2 (2)", "Coupling", MISMATCH, """
 The degree of coupling is the largest share of elastic energy that slip and opening can have in common, a number between 0 and 1 that doesn't depend on the mesh; for two half-planes it is
-Dundurs' |β|. Here it and the limits, for blocks on softer and stiffer half-planes. The stiffer the half-plane, the more coupling and the less the contact bears.""", mismatch)
+Dundurs' |β|. Here it and the limits, for blocks on softer and stiffer half-planes. Coupling is least on a half-plane of a tenth of the stiffness, and most on a rigid one; what the contact bears
+doesn't follow it alone. (λ = f = 0.85 is gross sliding.)""", mismatch)
 figure("8.2 (3)", "Order of tightening", BOLTS, """
-Three bolts in a row, tightened from the middle outward, and from outside inward: the shear that is left after it, and what it does to the loss in a steady cycle.""",
-       lambda run: f.panels((run, "residual", {"title": "Shear left by tightening"}), (run, "dissipation", {"title": "Loss a steady cycle"})))
-CHAPTER.missing("8.2 (4)", "Lower limit of shakedown", "for the thesis' punch the program proves no lower limit; `./run shakedown -starts 20` searches starts that slip for ever")
-CHAPTER.missing("8.2 (5)", "Shakedown of receding contact", "no study cycles the pressure of a receding contact yet; the theory assumes a set of nodes that stay closed, which a receding contact has only inside")
+Three bolts in a row, tightened from the middle outward, and from outside inward: the shear that is left after it, and the loss in a steady cycle. With laps of different thickness the order
+matters for the shear that is left; equal laps have none (second command), since by symmetry pressing doesn't shear them.""",
+       lambda run, _: f.panels((run, "residual", {"title": "Shear left by tightening"}), (run, "dissipation", {"title": "Loss a steady cycle"})))
+figure("8.2 (4)", "Lower limit of shakedown", LOWER, """
+Below λ1 a coupled contact shakes down from every start, between λ1 and λ2 from some. The thesis proposes to solve the constraints of all combinations of states. Here is what is proven, and what
+was tried: marches from random and adversarial starts at many loads. For the thesis' block no positive λ1 can be *proven*: an admissible slip may take all pressure from a node near the corner
+under P alone, and then the node's friction holds nothing. No start was found either that slips for ever below λ2.""", lower)
+figure("8.2 (5)", "Shakedown of a receding contact", RECEDING, """
+The strip of chapter 5 under a pressure that goes between p0 and less: loss in each cycle. The theory takes a set of nodes that stay closed and can say nothing here, since with the load nodes at
+the edge open and close (the table of the command counts them); these are marches from one start, observed and not proven. What is left falls with about the cube of the range, and is there even when the load
+loses only a twentieth: whatever makes the contact recede further makes its edge slip.""", lambda run: f.panels((run, "load_losses", {"title": ""})))

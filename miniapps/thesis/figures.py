@@ -2,7 +2,7 @@
 
 from collections import defaultdict
 
-from runs import plot  # first: it chooses matplotlib's backend
+from runs import nan, plot  # noqa: F401  first: it chooses matplotlib's backend
 
 import matplotlib.pyplot as plt  # noqa: E402
 
@@ -30,9 +30,9 @@ def panels(*chosen, columns=0, height=3.3):
     return figure
 
 
-def draw(axes, run, name, only=None, rename=None, **comments):
+def draw(axes, run, name, only=None, rename=None, style="", **comments):
     """A panel as plot.py draws it. `only`: the series whose names it accepts; `rename`: what they are called instead;
-    comments replace those of the file: title, x, y, limits_x="0,1", scale, reversed."""
+    `style`: of all of them; comments replace those of the file: title, x, y, limits_x="0,1", scale, reversed."""
     said, rows = run.panel(name)
     said = defaultdict(list, said)
     for key, text in comments.items():
@@ -41,6 +41,8 @@ def draw(axes, run, name, only=None, rename=None, **comments):
         rows = [row for row in rows if only(row["series"])]
     if rename:
         rows = [dict(row, series=rename(row["series"])) for row in rows]
+    if style:
+        rows = [dict(row, style=style) for row in rows]
     plot.DRAW[said["kind"][0]](axes, said, rows)
     plot.finish(axes, said)
 
@@ -59,6 +61,8 @@ def label(axes, x="", y="", title="", legend=True):
     axes.set_xlabel(x or axes.get_xlabel())
     axes.set_ylabel(y or axes.get_ylabel())
     axes.set_title(title or axes.get_title())
+    if axes.get_xscale() == "linear":
+        axes.locator_params(axis="x", nbins=7)
     axes.grid(True, color="#DDDDDD", linewidth=0.6)
     axes.set_axisbelow(True)
     if legend and axes.get_legend_handles_labels()[0]:

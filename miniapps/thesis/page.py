@@ -23,11 +23,12 @@ code { font: .84em/1.4 "DejaVu Sans Mono", Consolas, monospace; background: var(
 .scroll { overflow-x: auto; } table { border-collapse: collapse; font-size: .82rem; margin: .6rem 0; width: 100%; }
 th, td { padding: .22rem .6rem; border-bottom: 1px solid var(--line); text-align: right; white-space: nowrap; }
 th:first-child, td:first-child { text-align: left; white-space: normal; } th { color: var(--soft); font-weight: 600; }
+.plain td { white-space: normal; }
 .outside { color: var(--warn); font-weight: 600; }
 .wrong { border-left: 4px solid var(--warn); padding: .1rem 0 .1rem .9rem; margin: .8rem 0; }
 .missing { border: 1px dashed var(--soft); padding: .6rem .9rem; color: var(--soft); }
 @media print { body { max-width: none; padding: 0; font-size: 10.5pt; } section { break-inside: avoid; }
-  h2 { break-before: page; border: 0; } h2, h3 { break-after: avoid; } a { color: inherit; text-decoration: none; }
+  .scroll { overflow: visible; } h2 { break-before: page; border: 0; } h2, h3 { break-after: avoid; } a { color: inherit; text-decoration: none; }
   figure img { max-height: 17cm; } @page { size: A4; margin: 16mm 15mm; } }
 """
 
@@ -51,9 +52,14 @@ def picture(figure, words):
     text = io.StringIO()
     figure.tight_layout()
     figure.savefig(text, format="svg", metadata={"Date": None})
+    kind, data = "svg+xml", text.getvalue().encode()
+    if len(data) > 400_000:  # fields of colour are smaller as pixels
+        pixels = io.BytesIO()
+        figure.savefig(pixels, format="png", dpi=180)
+        kind, data = "png", pixels.getvalue()
     plt.close(figure)
-    data = base64.b64encode(text.getvalue().encode()).decode()
-    return f'<figure><img alt="{html.escape(words)}" src="data:image/svg+xml;base64,{data}"></figure>'
+    size = " ".join(f'{name}="{96 * inches:.0f}"' for name, inches in zip(("width", "height"), figure.get_size_inches()))
+    return f'<figure><img {size} alt="{html.escape(words)}" src="data:image/{kind};base64,{base64.b64encode(data).decode()}"></figure>'
 
 
 def number(value, form="{:.5g}"):

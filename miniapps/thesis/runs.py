@@ -120,6 +120,13 @@ class Runs:
         self.folder.mkdir(parents=True, exist_ok=True)
         known.write_text(json.dumps(seconds, indent=1, sort_keys=True) + "\n")
 
+    def forget_others(self):
+        """Removes runs of other commands and of former programs."""
+        kept = {run.folder.name for run in self.done.values() if run.folder}
+        for folder in self.folder.iterdir():
+            if folder.is_dir() and folder.name not in kept:
+                shutil.rmtree(folder)
+
     def stop(self):
         with self.lock:
             self.stopped = True

@@ -78,6 +78,8 @@ def main():
         fault = next((f"./run {run.command}: {run.fault}" for run in its if run.fault), "")
         return its, fault
 
+    if not parts:
+        runs.forget_others()
     say("drawing")
     text, faults = page(chapters, found, HEADING, ABOUT)
     folder.mkdir(parents=True, exist_ok=True)
