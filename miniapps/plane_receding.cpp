@@ -14,8 +14,8 @@
 //                plane_receding -domain 1e4 -overhang 0.8 -friction 1.4
 //                plane_receding -domain 1e4 -overhang 0.8 -bonded "0.1 0.18 0.3 0.5 0.8"
 //                plane_receding -obstacle th0 -bonded "1.5 2"
-//                plane_receding -spacing 0.05 -corner 0.01 -steps 20 -cycles 4 -cycle-to "0.9
-//                0.2" plane_receding -map "0.4 0.8 1.2 1.6 2 3" -spacing 0.05 -corner 0.01
+//                plane_receding -spacing 0.05 -corner 0.01 -steps 9 -cycles 4 -cycle-to 0.5
+//                plane_receding -map "0.4 0.8 1.2 1.6 2 3" -spacing 0.05 -corner 0.01
 //                plane_receding -domain 1e4 -map 4 -map-friction "0.3 0.5 1"
 //                plane_receding -obstacle th0 -unload 0.5
 //                plane_receding -obstacle th0 -overhang 2 -unload 0.5
