@@ -141,7 +141,7 @@ Found found(const Wanted &wanted, const Eigen::VectorXd &start, DesignSettings s
    for (MarchTrace &trace : report.traces)
    {
       warn_of("design, case '" + copy.cases[result.traces.size()].name + "'", trace.report);
-      result.traces.append(nb::cast(Trace{result.problem, std::move(trace)}));
+      result.traces.append(nb::cast(Trace(result.problem, std::move(trace))));
    }
    report.traces.clear();
    if (report.status != DesignStatus::optimal && report.status != DesignStatus::stopped)

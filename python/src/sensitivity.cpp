@@ -13,6 +13,23 @@
 namespace cattaneo::python
 {
 
+void Trace::check(const ReducedProblem &of) const
+{
+   const auto same =
+      [](const char *what, const Eigen::VectorXd &now, const Eigen::VectorXd &then)
+   {
+      require(now.size() == then.size(), "trace: the problem has ", now.size(),
+              " nodes, and had ", then.size(), " when it was marched");
+      for (Index i = 0; i < now.size(); ++i)
+      {
+         require(now[i] == then[i], "trace: ", what, "[", i, "] of the problem is ", now[i],
+                 ", and was ", then[i], " when it was marched; march it anew");
+      }
+   };
+   same("friction", of.friction, friction);
+   same("gap", of.gap, gap);
+}
+
 namespace
 {
 
@@ -220,8 +237,8 @@ void bind_trace(nb::module_ &m)
          const LoadHistory loads = history_from(copy, history, from);
          Watch watch(progress, stop);
          with.monitor = watch.monitor();
-         Trace trace{problem.object,
-                     unlocked([&] { return trace_march(copy, loads, from, with); })};
+         Trace trace(problem.object,
+                     unlocked([&] { return trace_march(copy, loads, from, with); }));
          warn_of("trace_march", trace.trace.report);
          return trace;
       },
@@ -252,8 +269,8 @@ void bind_trace(nb::module_ &m)
             state.is_none() ? WearState::virgin(copy) : given<WearState>(state, "state");
          Watch watch(progress, stop);
          with.march.monitor = watch.monitor();
-         Trace trace{problem.object,
-                     unlocked([&] { return trace_wear(copy, by, loads, all, from, with); })};
+         Trace trace(problem.object,
+                     unlocked([&] { return trace_wear(copy, by, loads, all, from, with); }));
          warn_of("trace_wear", trace.trace.report);
          return trace;
       },
@@ -271,7 +288,7 @@ void bind_trace(nb::module_ &m)
       {
          const ReducedProblem &of = given(problem, "problem");
          const Trace &from = given(trace, "trace");
-         for (const TracedState &each : from.trace.states) { each.state.validate(of); }
+         from.check(of);
          nb::list all;
          for (const Tie &tie : ties(of, from.trace, number(tolerance, "tolerance")))
          {
@@ -551,6 +568,7 @@ void bind_sensitivity(nb::module_ &m)
                   each, "stiffness[" + std::to_string(changes.size()) + "]"));
             }
             Self made;
+            given(trace, "trace").check(given(problem, "problem"));
             made.problem = std::make_unique<const ReducedProblem>(given(problem, "problem"));
             made.trace = trace.object;
             made.of = std::make_unique<Sensitivity>(*made.problem, given(trace, "trace").trace,

@@ -10,11 +10,22 @@
 namespace cattaneo::python
 {
 
-/// A trace, and the problem it is of.
+/// A trace, the problem it is of, and what of that may have been changed since.
 struct Trace
 {
+   Trace(nb::handle of, MarchTrace states)
+      : problem(nb::borrow(of)), trace(std::move(states)),
+        friction(given<ReducedProblem>(of, "problem").friction),
+        gap(given<ReducedProblem>(of, "problem").gap)
+   {
+   }
+
    nb::object problem;
    MarchTrace trace;
+   Eigen::VectorXd friction, gap;
+
+   /// InputError if `of` is not as it was marched.
+   void check(const ReducedProblem &of) const;
 };
 
 /// Responses: of a problem and a trace that are kept, or those that an objective is asked of,
@@ -27,6 +38,7 @@ public:
         own_(std::make_unique<const Responses>(*problem_, given<Trace>(trace, "trace").trace)),
         of_(own_.get())
    {
+      given<Trace>(trace, "trace").check(problem);
    }
    explicit Asked(const Responses &of) : of_(&of) {}
 

@@ -102,6 +102,20 @@ def test_worn_depth_by_hand():
     )
 
 
+def test_problems_are_as_they_were_marched():
+    """A problem whose friction was set since then has other derivatives."""
+    problem = slider(0.4)
+    trace = design.trace_march(problem, cycle(problem))
+    problem.friction = 0.5
+    for use in (design.Responses, design.Sensitivity, design.ties):
+        with pytest.raises(cattaneo.InputError, match=r"friction\[0\] of the problem is 0.5, and was 0.4 when it was marched"):
+            use(problem, trace)
+    problem.friction = 0.4
+    states = design.Responses(problem, trace), trace.states, design.Sensitivity(problem, trace)
+    del problem, trace
+    assert states[1][-1].time == 4 and states[0].slip(0, 0).value == 0
+
+
 def test_ties_have_two_sides():
     """With k d = f P the node is at the limit: its slip follows d on one side, and not on the other."""
     f = k * d / P
