@@ -108,14 +108,15 @@ public:
       JointCase::Profile made;
       if (value_.is_string())
       {
-         made.function.emplace(called(), text(), std::vector<std::string>{"s"});
+         made.function.emplace(called(), text(), std::vector<std::string>{"s", "x", "y"});
       }
       else if (value_.is_number()) { made.points = {{0, number(check)}}; }
       else
       {
          if (!value_.is_array() || value_.size() < 2)
          {
-            refuse("a number, a function of the arc length s, or a table [[arc length, value], "
+            refuse("a number, a function of the arc length s and the place x, y, or a table "
+                   "[[arc length, value], "
                    "…] of two points or more");
          }
          for (const Key &point : list())
@@ -306,7 +307,10 @@ void add_obstacle(JointCase::Face &face, const Key &key)
 /// {"D": {"y": -1}, "turn": {"angle": 1, "centre": [0, 5]}}
 std::vector<JointCase::Motion> motions(const Key &key)
 {
-   if (!key.value().is_object()) { key.refuse("an object"); }
+   if (!key.value().is_object() || key.value().empty())
+   {
+      key.refuse("an object that names loads");
+   }
    std::vector<JointCase::Motion> all;
    for (const auto &item : key.value().items())
    {
@@ -323,6 +327,8 @@ std::vector<JointCase::Motion> motions(const Key &key)
          const std::array<double, 2> centre = one["centre"].pair();
          made.centre = {centre[0], centre[1]};
       }
+      require(made.along.norm() > 0 || made.angle != 0, one.called(),
+              " moves nothing, must have x, y or angle that is not 0");
       all.push_back(made);
    }
    return all;
@@ -400,6 +406,9 @@ JointCase::Bolt bolt(const Key &key, const std::string &name, const JointCase &j
       require(!joint.bodies[made.ends[k].body].half_plane, ends[k].called(),
               ": a shank cannot end in a half-plane");
    }
+   require(made.ends[0].body != made.ends[1].body || made.ends[0].part != made.ends[1].part,
+           between_.called(), ": both ends are '", ends[0].text(),
+           "', must be two parts that the shank pulls together");
    if (key.has("direction")) { made.direction = key["direction"].pair(); }
    const double length = std::hypot(made.direction[0], made.direction[1]);
    require(length > 0, key.called(), ": its direction is (0, 0), must have a length");
@@ -442,9 +451,9 @@ ordered_json one_or_list(const std::vector<double> &values)
 
 } // namespace
 
-double JointCase::Profile::at(double s) const
+double JointCase::Profile::at(double s, const Eigen::Vector2d &place) const
 {
-   if (function) { return (*function)({s}); }
+   if (function) { return (*function)({s, place[0], place[1]}); }
    const auto after = std::find_if(points.begin(), points.end(),
                                    [&](const auto &point) { return point[0] >= s; });
    if (after == points.begin()) { return after->at(1); }
@@ -476,6 +485,9 @@ JointCase joint_case(const JointKeys &keys, int order)
    each(keys.bodies, "bodies",
         [&](const Key &key, const std::string &name)
         { joint.bodies.push_back(body(key, name)); });
+   // It has no mesh, and is condensed to the lines of those that stand on it.
+   std::stable_partition(joint.bodies.begin(), joint.bodies.end(),
+                         [](const JointCase::Body &one) { return !one.half_plane; });
    each(keys.interfaces, "interfaces",
         [&](const Key &key, const std::string &name)
         { joint.faces.push_back(face(key, name, joint)); });

@@ -43,13 +43,13 @@ struct JointCase
       double depth = none; ///< of a half-plane
       bool half_plane = false;
    };
-   /// A number, a table over the arc length with straight lines between its points, or a
-   /// function of it.
+   /// A number, a table over the arc length with straight lines between its points (beyond its
+   /// ends constant), or a function of it and the place.
    struct Profile
    {
       std::vector<std::array<double, 2>> points;    ///< one: a number, whatever its arc length
-      std::optional<cattaneo::Expression> function; ///< in place of points
-      double at(double arc_length) const;
+      std::optional<cattaneo::Expression> function; ///< in place of points, of s, x and y
+      double at(double arc_length, const Eigen::Vector2d &place) const;
    };
    struct Side
    {

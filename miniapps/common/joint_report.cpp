@@ -43,7 +43,8 @@ Vector2d JointReport::middle(const InterfaceReport &face) const
 {
    const Vector2d mean = face.position.transpose() * face.weights / face.weights.sum();
    const double size = face.position.cwiseAbs().maxCoeff();
-   return {settled(mean[0], size), settled(mean[1], size)};
+   // Places of meshes have less digits.
+   return {settled(mean[0], 1e3 * size), settled(mean[1], 1e3 * size)};
 }
 
 JointReport::Resultant JointReport::resultant(const InterfaceReport &face,
@@ -70,9 +71,14 @@ JointReport::Resultant JointReport::resultant(const InterfaceReport &face,
    {
       const Vector2d t = face.tangent.row(i), n(-t[1], t[0]);
       const Vector2d force = (face.of_second ? -1 : 1) * (q[i] * t + p[i] * n);
-      const Vector2d arm = face.position.row(i).transpose() - about;
+      // On the first body and on the second, which feels the opposite.
+      const Vector2d arm = face.acts_at[face.of_second].row(i).transpose() - about,
+                     apart = (face.acts_at[face.of_second].row(i) -
+                              face.acts_at[!face.of_second].row(i))
+                                .transpose();
       made.force += force;
       made.moment += arm[0] * force[1] - arm[1] * force[0];
+      made.defect += apart[0] * force[1] - apart[1] * force[0];
       size += force.norm();
       lever += arm.norm() * force.norm();
    }
@@ -81,6 +87,16 @@ JointReport::Resultant JointReport::resultant(const InterfaceReport &face,
       *x = settled(*x, size);
    }
    made.moment = settled(made.moment, lever);
+   made.defect = settled(made.defect, lever);
+   if (twists())
+   {
+      const Index n = reduction_.problem.nodes();
+      const VectorXd around = face.tied ? reduction_.tied_twisting(state.v, state.multipliers)
+                                        : VectorXd(state.q.tail(n));
+      const VectorXd torques =
+         around.segment(face.first, face.nodes).cwiseProduct(face.position.col(0));
+      made.torque = settled((face.of_second ? -1 : 1) * torques.sum(), torques.lpNorm<1>());
+   }
    return made;
 }
 
@@ -106,15 +122,22 @@ void JointReport::note(const ContactState &state, int cycle)
    {
       range_[k] = {std::min(range_[k][0], now[k]), std::max(range_[k][1], now[k])};
    }
-   if (state.q.size() == 0 || state.q.size() > state.p.size()) { return; }
+   if (state.q.size() == 0) { return; }
+   const Index n = state.p.size(), around = twists() ? n : 0; // first of the components
    for (std::size_t k = 0; k < courses_.size(); ++k)
    {
       const InterfaceReport &face = reduction_.interfaces[k];
       if (face.tied) { continue; }
       Course &course = courses_[k];
-      const double slip =
-         state.v.segment(face.first, face.nodes).dot(face.weights) / face.weights.sum();
-      const double shear = -state.q.segment(face.first, face.nodes).sum();
+      VectorXd forces = state.q.segment(around + face.first, face.nodes),
+               slips = state.v.segment(around + face.first, face.nodes);
+      if (twists())
+      {
+         forces = forces.cwiseProduct(face.position.col(0));
+         slips = slips.cwiseQuotient(face.position.col(0));
+      }
+      const double slip = slips.dot(face.weights) / face.weights.sum();
+      const double shear = -settled(forces.sum(), forces.lpNorm<1>());
       if (cycle > 0)
       {
          const bool first = course.slip.empty(); // of a march that is taken up in a cycle
@@ -169,6 +192,8 @@ void JointReport::report_interfaces(const ContactState &state, const MarchReport
                                               {"force_x", plane ? "x" : "", "%.6g"},
                                               {"force_y", plane ? "y" : "axial", "%.6g"},
                                               {"moment", plane ? "moment" : "", "%.4g"},
+                                              {"moment_defect"},
+                                              {"torque", twists() ? "torque" : "", "%.6g"},
                                               {"about_x", plane ? "about x" : "", "%.5g"},
                                               {"about_y", plane ? "y" : "", "%.5g"},
                                               {"dissipation", "lost a cycle", "%.4e"},
@@ -201,21 +226,23 @@ void JointReport::report_interfaces(const ContactState &state, const MarchReport
       study_.row(table,
                  {face.name, body(face.bodies[face.of_second]), sum.normal, sum.tangential,
                   plane ? sum.force[0] : none, sum.force[1], plane ? sum.moment : none,
-                  about[0], about[1], lost, lengths[0], lengths[1], lengths[2], face.tied,
-                  face.nodes, face.free_surface.size(), face.arm});
+                  plane ? sum.defect : none, twists() ? sum.torque : none, about[0], about[1],
+                  lost, lengths[0], lengths[1], lengths[2], face.tied, face.nodes,
+                  face.free_surface.size(), face.arm});
    }
 }
 
 void JointReport::report_cycles(const MarchReport &march)
 {
-   Table &table = study_.table("interface_cycles", {{"cycle", "cycle"},
-                                                    {"interface", "interface"},
-                                                    {"dissipation", "dissipation", "%.4e"},
-                                                    {"work", "area of -T", "%.4e"},
-                                                    {"shear_range", "range of T", "%.4e"},
-                                                    {"slip_range", "of mean slip", "%.4e"},
-                                                    {"stiffness", "secant", "%.4e"},
-                                                    {"loss_factor", "loss factor", "%.4f"}});
+   Table &table = study_.table(
+      "interface_cycles", {{"cycle", "cycle"},
+                           {"interface", "interface"},
+                           {"dissipation", "dissipation", "%.4e"},
+                           {"work", twists() ? "area of -torque" : "area of -T", "%.4e"},
+                           {"shear_range", twists() ? "range of torque" : "range of T", "%.4e"},
+                           {"slip_range", twists() ? "of mean turn" : "of mean slip", "%.4e"},
+                           {"stiffness", "secant", "%.4e"},
+                           {"loss_factor", "loss factor", "%.4f"}});
    for (const CycleRecord &cycle : march.cycles)
    {
       for (std::size_t k = 0; k < courses_.size() && cycle.whole; ++k)
@@ -249,7 +276,9 @@ void JointReport::draw_loops()
 {
    Panel &panel =
       study_.panel(Panel::Kind::lines, "interface_loops",
-                   "Shear force of each interface over its mean slip", "mean slip", "-T");
+                   twists() ? "Torque of each interface over its mean turn"
+                            : "Shear force of each interface over its mean slip",
+                   twists() ? "mean turn" : "mean slip", twists() ? "-torque" : "-T");
    for (std::size_t k = 0; k < courses_.size(); ++k)
    {
       panel.add(reduction_.interfaces[k].name, courses_[k].slip, courses_[k].shear);

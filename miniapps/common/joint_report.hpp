@@ -28,16 +28,19 @@ public:
 
 private:
    /// Of an interface: pressure and shear as they press on its first body, and their moment
-   /// about its middle.
+   /// about its middle, where they act on it; about an axis the torque. What the moments on
+   /// both bodies add up to is the defect.
    struct Resultant
    {
-      double normal = 0, tangential = 0, moment = 0;
+      double normal = 0, tangential = 0, moment = 0, defect = 0, torque = 0;
       Eigen::Vector2d force{0, 0};
    };
    Resultant resultant(const cattaneo::InterfaceReport &face,
                        const cattaneo::ContactState &state) const;
    Eigen::Vector2d middle(const cattaneo::InterfaceReport &face) const;
    std::string body(int b) const;
+   /// Do bodies twist about the axis?
+   bool twists() const { return !reduction_.torsion.empty(); }
    /// Forces of the shanks.
    std::vector<double> shanks(const cattaneo::ContactState &state) const;
    void report_interfaces(const cattaneo::ContactState &state,
@@ -49,7 +52,8 @@ private:
    Study &study_;
    const JointCase &joint_;
    const cattaneo::Reduction &reduction_;
-   /// Of an interface: mean slip and the sum of its shear, as that resists the slip.
+   /// Of an interface: mean slip and the sum of its shear, as that resists the slip; of bodies
+   /// that twist mean turn and torque.
    struct Course
    {
       std::vector<double> slip, shear; ///< as far as a picture can show

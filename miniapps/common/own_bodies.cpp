@@ -1,5 +1,7 @@
 #include "common/own_bodies.hpp"
 
+#include "common/own_half_plane.hpp"
+
 #include <algorithm>
 #include <cattaneo/elastic/rotation.hpp>
 #include <cattaneo/elastic/statements.hpp>
@@ -81,12 +83,6 @@ std::vector<Material> materials(const JointCase::Body &body, int attributes, boo
    return list;
 }
 
-Eigen::Vector2d mean_normal(const ContactLine &line)
-{
-   return (line.each(&LineNode::normal).transpose() * line.each(&LineNode::weight))
-      .normalized();
-}
-
 /// The rigid obstacle is the straight line that touches the contact nodes, across their mean
 /// normal.
 ScalarField distance_to_rigid_line(const ContactLine &line)
@@ -94,53 +90,6 @@ ScalarField distance_to_rigid_line(const ContactLine &line)
    const Eigen::Vector2d normal = mean_normal(line);
    const double level = (line.each(&LineNode::position) * normal).minCoeff();
    return [=](double x, double y) { return normal.dot(Eigen::Vector2d(x, y)) - level; };
-}
-
-/// How much of the nodes' common displacement along an axis the body resists, of 1.
-double held_share(const CondensedBody &body, const Eigen::Vector2d &axis)
-{
-   const Eigen::VectorXd motion = (body.rigid_motions().leftCols(2) * axis).normalized();
-   const Eigen::MatrixXd &free = body.free_motions;
-   return (motion - free * (free.transpose() * motion)).norm();
-}
-
-/// The half-plane touches the contact nodes as a rigid line does. Contact nodes that are held
-/// lie on a plane of symmetry, which it has as well.
-void stand_on_half_plane(OwnBodies &own, CondensedBody body, const JointCase::Body &plane,
-                         bool plane_stress)
-{
-   const ContactLine &line = body.line;
-   HalfPlane below;
-   below.material = {plane.young[0], plane.poisson[0],
-                     plane_stress ? PlaneState::stress : PlaneState::strain};
-   Eigen::Vector2d normal = mean_normal(line), at = line.nodes.front().position;
-   if (!body.held.empty())
-   {
-      const LineNode &node = line.nodes[body.held.front() % line.size()];
-      below.symmetric = true;
-      normal = node.normal();
-      at = node.position;
-   }
-   const double level = (line.each(&LineNode::position) * normal).minCoeff();
-   below.normal = -normal;
-   below.point = at + (level - normal.dot(at)) * normal;
-   const bool relative = std::isnan(plane.depth); // to nothing: forces alone are known
-   if (relative)
-   {
-      const double most = below.symmetric ? held_share(body, normal)
-                                          : std::max(held_share(body, Eigen::Vector2d(1, 0)),
-                                                     held_share(body, Eigen::Vector2d(0, 1)));
-      require(most < 1e-7, "half-plane: supports or prescribed displacements hold body ",
-              body.name.empty() ? "1" : body.name,
-              " against it, whose displacements are relative to a depth: ",
-              plane.source.called("depth"), " must state it, or forces alone act on the body");
-   }
-   below.depth = relative ? 1e4 * line.nodes.back().arc_length : plane.depth;
-   own.scene.reduction = reduce(std::move(body), below);
-   if (relative) { own.scene.problem().H.resize(0, 0); }
-   own.accuracy = std::max(own.accuracy, own.scene.reduction.bodies[1].error_estimate());
-   own.materials.push_back({below.material});
-   own.half_plane = below;
 }
 
 bool similar(const Material &a, const Material &b)
@@ -195,6 +144,22 @@ public:
       if (!joint_.numbered) { made.name = body_.name; }
       return made;
    }
+   /// Is something said of what happens around the axis?
+   bool twists() const { return cattaneo::twists(body_.support, body_.load); }
+   /// To the nodes of its sides of interfaces, in their order.
+   CondensedBody condensed_twisting(const std::vector<JointCase::Side> &sides) const
+   {
+      std::vector<ContactLine> lines;
+      for (const JointCase::Side &side : sides)
+      {
+         lines.push_back(
+            contact_line(*twisting_, boundary_part(side.called, side.part, terms_)));
+      }
+      CondensedBody made =
+         condense(*twisting_, lines.size() == 1 ? lines[0] : joined(lines), condensation());
+      made.name = body_.name;
+      return made;
+   }
    /// In a sentence.
    std::string called() const
    {
@@ -213,6 +178,24 @@ public:
       {
          throw InputError(called() + ": " + error.what());
       }
+   }
+   /// The torsion of the body, on its mesh.
+   void add_twisting(OwnBodies &own, std::size_t b)
+   {
+      const std::vector<Material> &its = own.materials[b];
+      mfem::Mesh &mesh = *own.scene.meshes[b];
+      own.scene.torsion.push_back(
+         its.size() == 1
+            ? std::make_unique<ElasticBody>(mesh, joint_.order, its[0], Formulation::torsion)
+            : std::make_unique<ElasticBody>(mesh, joint_.order, its, Formulation::torsion));
+      twisting_ = own.scene.torsion.back().get();
+      own.scene.dofs += twisting_->dofs();
+      named(
+         [&]
+         {
+            add_supports(*twisting_, body_.source.called("support"), body_.support, terms_);
+            add_loads(*twisting_, body_.source.called("load"), body_.load, terms_);
+         });
    }
 
 private:
@@ -252,10 +235,47 @@ private:
 
    const JointCase &joint_;
    const JointCase::Body &body_;
-   ElasticBody *elastic_ = nullptr;
+   ElasticBody *elastic_ = nullptr, *twisting_ = nullptr;
    std::optional<NodalStiffness> nodal_;
    BodyTerms terms_;
 };
+
+/// Adds the torsion of all bodies if a support or a load of one asks for it.
+bool twist(OwnBodies &own, const JointCase &joint, std::vector<Part> &parts)
+{
+   const auto asks =
+      std::find_if(parts.begin(), parts.end(), [](const Part &part) { return part.twists(); });
+   if (joint.formulation == Formulation::plane || asks == parts.end()) { return false; }
+   for (const JointCase::Body &body : joint.bodies)
+   {
+      require(!body.mesh.empty(), asks->called(), " is turned about the axis, and body ",
+              body.name, body.half_plane ? " is a half-plane" : " is a matrix",
+              ": bodies that twist must have meshes");
+   }
+   require(joint.bolts.empty(), asks->called(),
+           " is turned about the axis: beside bolts it cannot be, their shanks would twist");
+   for (std::size_t b = 0; b < parts.size(); ++b) { parts[b].add_twisting(own, b); }
+   return true;
+}
+
+std::vector<CondensedBody> condensed_twisting(const JointCase &joint,
+                                              const std::vector<Part> &parts)
+{
+   std::vector<std::vector<JointCase::Side>> sides(parts.size());
+   for (const JointCase::Face &face : joint.faces)
+   {
+      for (const JointCase::Side &side : face.sides)
+      {
+         if (side.body >= 0) { sides[side.body].push_back(side); }
+      }
+   }
+   std::vector<CondensedBody> made;
+   for (std::size_t b = 0; b < parts.size(); ++b)
+   {
+      made.push_back(parts[b].named([&] { return parts[b].condensed_twisting(sides[b]); }));
+   }
+   return made;
+}
 
 /// Of bodies that are matrices each takes the part of its file that has the sets which its
 /// contacts name.
@@ -353,8 +373,33 @@ void move_obstacles(Reduction &reduction, const JointCase &joint)
    for (const auto &[load, motions] : loads) { reduction.add_obstacle_motion(load, motions); }
 }
 
+/// Where a place is along a line, at the nearest point; beyond its ends as the line goes on.
+double arc_length_on(const ContactLine &line, const Eigen::Vector2d &place)
+{
+   double nearest = std::numeric_limits<double>::infinity(), found = 0;
+   for (const LineChain &chain : line.chains)
+   {
+      const Eigen::Index last = chain.first + chain.nodes - 1;
+      if (chain.nodes == 1) { found = line.nodes[last].arc_length; }
+      for (Eigen::Index i = chain.first; i < last + (chain.loop ? 1 : 0); ++i)
+      {
+         const LineNode &a = line.nodes[i], &b = line.nodes[i < last ? i + 1 : chain.first];
+         const Eigen::Vector2d along = b.position - a.position;
+         const double share = along.dot(place - a.position) / along.squaredNorm();
+         const double within = std::clamp(share, 0.0, 1.0);
+         const double away = (a.position + within * along - place).norm();
+         const bool end = !chain.loop && (share < 0 ? i == chain.first : i == last - 1);
+         if (away >= nearest) { continue; }
+         nearest = away;
+         found = a.arc_length + (end ? share : within) * along.norm();
+      }
+   }
+   return found;
+}
+
 /// What the case says of the interfaces' friction and gaps, and of shanks.
-void complete(Reduction &reduction, const JointCase &joint)
+void complete(Reduction &reduction, const JointCase &joint,
+              const std::vector<std::array<ContactLine, 2>> &lines)
 {
    ReducedProblem &problem = reduction.problem;
    for (std::size_t k = 0; k < joint.faces.size(); ++k)
@@ -364,18 +409,32 @@ void complete(Reduction &reduction, const JointCase &joint)
       report.name = face.name;
       for (Eigen::Index i = report.first; i < report.first + report.nodes && !face.tied; ++i)
       {
-         problem.friction[i] = face.friction.at(problem.arc_length[i]);
-         require(problem.friction[i] >= 0, face.source.called("friction"), " is ",
-                 problem.friction[i], " at arc length ", problem.arc_length[i],
-                 ", must not be negative");
-         if (face.gap) { problem.gap[i] = face.gap->at(problem.arc_length[i]); }
+         const Eigen::Vector2d place = problem.position.row(i);
+         const double arc = arc_length_on(lines[k][0], place);
+         const auto check = [&](const char *key, double value, bool right, const char *must)
+         {
+            require(right, face.source.called(key), " is ", value, " at arc length ", arc,
+                    ", the place ", place, ", ", must);
+         };
+         const double f = problem.friction[i] = face.friction.at(arc, place);
+         check("friction", f, std::isfinite(f) && f >= 0, "must be finite and not negative");
+         if (!face.gap) { continue; }
+         const double g = problem.gap[i] = face.gap->at(arc, place);
+         check("gap", g, std::isfinite(g), "must be finite");
       }
       if (has_shape(face))
       {
-         problem.gap.segment(report.first, report.nodes) =
-            face.curve ? gaps_to_curve(report, [&](double x) { return (*face.curve)({x}); })
-            : face.obstacle.empty() ? gaps_to_circle(report, face.centre, face.radius)
-                                    : gaps_to_polyline(report, face.obstacle);
+         try
+         {
+            problem.gap.segment(report.first, report.nodes) =
+               face.curve ? gaps_to_curve(report, [&](double x) { return (*face.curve)({x}); })
+               : face.obstacle.empty() ? gaps_to_circle(report, face.centre, face.radius)
+                                       : gaps_to_polyline(report, face.obstacle);
+         }
+         catch (const InputError &error)
+         {
+            throw InputError(face.source.called("obstacle") + ": " + error.what());
+         }
       }
    }
    for (const JointCase::Bolt &bolt : joint.bolts)
@@ -383,6 +442,25 @@ void complete(Reduction &reduction, const JointCase &joint)
       reduction.add_shank(bolt.name, bolt.stiffness / (bolt.pretension * bolt.pretension));
    }
    move_obstacles(reduction, joint);
+}
+
+std::vector<Interface> interfaces_of(const JointCase &joint,
+                                     const std::vector<std::array<ContactLine, 2>> &lines)
+{
+   std::vector<Interface> interfaces;
+   for (std::size_t k = 0; k < joint.faces.size(); ++k)
+   {
+      const JointCase::Face &face = joint.faces[k];
+      Interface made{face.name, {face.sides[0].body, lines[k][0]}, {}, face.slave};
+      made.most_overlap = face.most_overlap;
+      made.tied = face.tied;
+      if (face.sides[1].body >= 0) { made.second = {face.sides[1].body, lines[k][1]}; }
+      else { made.gap = distance_to_rigid_line(lines[k][0]); }
+      // By the arc length or the normals, which are not known yet.
+      if (face.gap || has_shape(face)) { made.gap = 0.0; }
+      interfaces.push_back(std::move(made));
+   }
+   return interfaces;
 }
 
 Reduction united(const JointCase &joint, std::vector<CondensedBody> condensed,
@@ -397,20 +475,27 @@ Reduction united(const JointCase &joint, std::vector<CondensedBody> condensed,
               "match");
       return paired(std::move(condensed), one, joint.numbered);
    }
-   std::vector<Interface> interfaces;
-   for (std::size_t k = 0; k < joint.faces.size(); ++k)
+   return reduce(std::move(condensed), interfaces_of(joint, lines));
+}
+
+/// Pulled apart by a shank that is to pull together: most likely a direction the wrong way.
+void warn_of_push(const JointCase &joint, const JointCase::Bolt &bolt,
+                  const std::array<ContactLine, 2> &ends)
+{
+   const auto middle = [](const ContactLine &line) -> Eigen::Vector2d
    {
-      const JointCase::Face &face = joint.faces[k];
-      Interface made{face.name, {face.sides[0].body, lines[k][0]}, {}, face.slave};
-      made.most_overlap = face.most_overlap;
-      made.tied = face.tied;
-      if (face.sides[1].body >= 0) { made.second = {face.sides[1].body, lines[k][1]}; }
-      else { made.gap = distance_to_rigid_line(lines[k][0]); }
-      // By the arc length or the normals, which are not known yet.
-      if (face.gap || has_shape(face)) { made.gap = 0.0; }
-      interfaces.push_back(std::move(made));
+      return line.each(&LineNode::position).transpose() * line.each(&LineNode::weight) /
+             line.each(&LineNode::weight).sum();
+   };
+   const Eigen::Vector2d apart = middle(ends[0]) - middle(ends[1]),
+                         along(bolt.direction[0], bolt.direction[1]);
+   if (along.dot(apart) < -1e-6 * apart.norm())
+   {
+      warn(bolt.source.called("direction") + " points from " +
+           joint.bodies[bolt.ends[0].body].name + " to " +
+           joint.bodies[bolt.ends[1].body].name +
+           ": the shank pushes them apart, to pull them together it must point the other way");
    }
-   return reduce(std::move(condensed), interfaces);
 }
 
 } // namespace
@@ -425,6 +510,9 @@ OwnBodies make_own_bodies(const JointCase &joint)
       parts.emplace_back(own, joint, static_cast<int>(b));
       half_planes += joint.bodies[b].half_plane;
    }
+   require(half_planes < 2, "there are ", half_planes,
+           " half-planes, must be one at most: two would have no body between them");
+   const bool twists = twist(own, joint, parts);
    find_matrices(own, joint, parts);
    for (const JointCase::Bolt &bolt : joint.bolts)
    {
@@ -444,6 +532,9 @@ OwnBodies make_own_bodies(const JointCase &joint)
          const double pull = k == 0 ? -bolt.pretension : bolt.pretension;
          part.named([&] { part.pull(bolt.name, bolt.ends[k], pull * along); });
       }
+      warn_of_push(joint, bolt,
+                   {parts[bolt.ends[0].body].line(bolt.ends[0]),
+                    parts[bolt.ends[1].body].line(bolt.ends[1])});
    }
    std::vector<std::array<ContactLine, 2>> lines(joint.faces.size());
    std::vector<std::vector<ContactLine>> of_body(parts.size());
@@ -476,14 +567,11 @@ OwnBodies make_own_bodies(const JointCase &joint)
    }
    if (half_planes > 0)
    {
-      require(joint.bodies.size() == 2 && joint.faces.size() == 1 &&
-                 joint.bodies[1].half_plane && !joint.faces[0].tied && joint.bolts.empty(),
-              "a half-plane is for one body that stands on it, at one interface and the second "
-              "of both: others must have meshes");
-      stand_on_half_plane(own, std::move(condensed[0]), joint.bodies[1], joint.plane_stress);
+      stand_on_half_plane(own, std::move(condensed), interfaces_of(joint, lines), joint);
    }
    else { own.scene.reduction = united(joint, std::move(condensed), lines); }
-   complete(own.scene.reduction, joint);
+   if (twists) { own.scene.reduction.add_torsion(condensed_twisting(joint, parts)); }
+   complete(own.scene.reduction, joint, lines);
    return own;
 }
 

@@ -643,6 +643,161 @@ TEST_F(Joints, TablesAreOverTheArcLength)
    EXPECT_NE(refused(keys).find("key 'interfaces.flat.friction' is -0."), std::string::npos);
 }
 
+/// The arc length of tables is that of the first side, whichever has the nodes.
+TEST_F(Joints, TablesDoNotDependOnTheSlave)
+{
+   block("pad.mesh", -1, 1, 7, 0, 1, 2);
+   block("base.mesh", -2, 2, 11, -1, 0, 2);
+   json keys;
+   keys["bodies"] = {{"pad", body("pad.mesh", "3:xy", {"P traction 2 0 1e-9"})},
+                     {"base", body("base.mesh", "1:xy")}};
+   keys["interfaces"] = {{"flat", face("pad:1", "base:3")}};
+   json &flat = keys["interfaces"]["flat"];
+   for (const json &gap :
+        {json("0.3+0.1*s"), json("0.4+0.1*x+0*y"), json::array({{0, 0.3}, {1, 0.4}, {2, 0.5}})})
+   {
+      flat["gap"] = gap;
+      for (const char *slave : {"first", "second"})
+      {
+         flat["slave"] = slave;
+         const Result got = run(keys, "--csv '" + folder + "/out'");
+         ASSERT_EQ(got.code, 0) << got.output;
+         const auto x = column("out_nodes.csv", "x"), open = column("out_nodes.csv", "opening");
+         ASSERT_GT(x.size(), 5u);
+         for (std::size_t i = 0; i < x.size(); ++i)
+         {
+            // Beyond its ends a table is constant, the line goes on.
+            const double at = gap.is_array() ? std::clamp(x[i], -1.0, 1.0) : x[i];
+            EXPECT_NEAR(open[i], 0.4 + 0.1 * at, 1e-9) << slave << " at " << x[i];
+         }
+      }
+   }
+}
+
+/// Forces act where they act: the moment about the middle balances the loads, also over a gap
+/// and where the slave is wider than what it faces.
+TEST_F(Joints, MomentsAreInEquilibrium)
+{
+   const double gap = 0.01, p = 0.9, q = 0.2;
+   block("pad.mesh", -1, 1, 5, gap, 1 + gap, 3);
+   block("base.mesh", -3.1, 2, 7, -1, 0, 2);
+   json keys;
+   keys["bodies"] = {{"pad", body("pad.mesh", "", {"P pressure 3 0.9", "Q traction 3 0.2 0"})},
+                     {"base", body("base.mesh", "1:xy")}};
+   keys["interfaces"] = {{"flat", face("pad:1", "base:3")}};
+   keys["interfaces"]["flat"]["friction"] = 0.9;
+   keys["history"] = {"P=0", "P=1", "Q=1"};
+   for (const char *slave : {"first", "second"})
+   {
+      keys["interfaces"]["flat"]["slave"] = slave;
+      const Result got = run(keys);
+      ASSERT_EQ(got.code, 0) << got.output;
+      const json flat = interface(got, "flat");
+      const double x = flat["about_x"], y = flat["about_y"];
+      const double loads = -x * -2 * p - (1 + gap - y) * 2 * q;
+      EXPECT_NEAR(flat["moment"], -loads, 1e-11) << slave;
+      // On the base they act lower by the gap.
+      EXPECT_NEAR(flat["moment_defect"], gap * 2 * q, 1e-11) << slave;
+   }
+}
+
+/// Two pads on one half-plane: what they do to each other goes through it.
+TEST_F(Joints, PadsFeelEachOtherThroughAHalfPlane)
+{
+   block("left.mesh", -3, -1, 6, 0, 1, 2);
+   block("right.mesh", 0.5, 2, 7, 0, 1.2, 3);
+   {
+      mfem::Mesh left(folder + "/left.mesh"), right(folder + "/right.mesh");
+      mfem::Mesh *both[] = {&left, &right};
+      std::ofstream out(folder + "/both.mesh");
+      out.precision(17);
+      mfem::Mesh(both, 2).Print(out);
+   }
+   const auto loads = [](const std::string &part, double p, double q)
+   {
+      std::ostringstream P, Q;
+      P << "P pressure 3" << part << " " << p;
+      Q << "Q traction 3" << part << " " << q << " 0";
+      return std::vector<std::string>{P.str(), Q.str()};
+   };
+   json keys;
+   keys["bodies"] = {{"left", body("left.mesh", "", loads("", 3, 0.3))},
+                     {"ground", {{"half-plane", {{"young", 500}, {"poisson", 0.2}}}}},
+                     {"right", body("right.mesh", "", loads("", 1, -0.1))}};
+   keys["interfaces"] = {{"l", {{"between", {"left:1", "ground"}}, {"friction", 0.4}}},
+                         {"r", {{"between", {"right:1", "ground"}}, {"friction", 0.4}}}};
+   keys["history"] = {"P=0", "P=1", "Q=1", "Q=-1", "Q=1"};
+   const Result two = run(keys, "--csv '" + folder + "/two'");
+   ASSERT_EQ(two.code, 0) << two.output;
+   EXPECT_NEAR(interface(two, "l")["normal"], 6, 1e-11);
+   EXPECT_NEAR(interface(two, "r")["tangential"], 0.15, 1e-11);
+   // One body of two pieces has one line of two.
+   std::vector<std::string> all = loads("[-3<x<-1]", 3, 0.3);
+   for (const std::string &load : loads("[0.5<x<2]", 1, -0.1)) { all.push_back(load); }
+   keys["bodies"] = {{"both", body("both.mesh", "", all)},
+                     {"ground", {{"half-plane", {{"young", 500}, {"poisson", 0.2}}}}}};
+   keys["interfaces"] = {{"one", {{"between", {"both:1", "ground"}}, {"friction", 0.4}}}};
+   const Result one = run(keys, "--csv '" + folder + "/one'");
+   ASSERT_EQ(one.code, 0) << one.output;
+   for (const char *name : {"p", "q", "slip", "opening"})
+   {
+      const auto a = column("two_nodes.csv", name), b = column("one_nodes.csv", name);
+      ASSERT_EQ(a.size(), b.size());
+      for (std::size_t i = 0; i < a.size(); ++i) { EXPECT_NEAR(a[i], b[i], 1e-9) << name; }
+   }
+   EXPECT_NEAR(two.results["total_dissipation"], one.results["total_dissipation"], 1e-12);
+}
+
+/// A hollow shaft of two parts that are pressed together and twisted: of one material it stays
+/// plane, and its angle is that of its parts in series; all of it slips under 2/3 π f p (a³ -
+/// b³).
+TEST_F(Joints, ShaftsOfTwoPartsTwist)
+{
+   const double a = 2, p = 3, f = 0.3, G = 500, J = std::acos(-1.0) / 2 * 15,
+                most = 2 * std::acos(-1.0) / 3 * f * p * 7;
+   block("upper.mesh", 1, a, 5, 0, 1.5, 2);
+   block("same.mesh", 1, a, 5, -1, 0, 2);
+   block("other.mesh", 1, a, 8, -1, 0, 2);
+   std::vector<double> angles;
+   for (const char *lower : {"same.mesh", "other.mesh"})
+   {
+      for (const char *slave : {"first", "second"})
+      {
+         const auto twisted = [&](double torque)
+         {
+            std::ostringstream load;
+            load.precision(17);
+            load << "T traction-t 3 " << torque / J << "*r";
+            json keys{{"analysis", "axisymmetric"}};
+            keys["bodies"] = {{"upper", body("upper.mesh", "", {"P pressure 3 3", load.str()})},
+                              {"lower", body(lower, "1:zt")}};
+            keys["interfaces"] = {{"flat", face("upper:1", "lower:3")}};
+            keys["interfaces"]["flat"]["friction"] = f;
+            keys["interfaces"]["flat"]["slave"] = slave;
+            keys["history"] = {"P=0", "P=1", "T=1"};
+            return run(keys, "--csv '" + folder + "/out'");
+         };
+         // The outer edge slips from 3/4 of all on, on a mesh its node a little earlier.
+         const double T = 0.4 * most;
+         const Result stuck = twisted(T);
+         ASSERT_EQ(stuck.code, 0) << stuck.output;
+         EXPECT_NEAR(interface(stuck, "flat")["torque"], -T, 1e-9);
+         EXPECT_NEAR(interface(stuck, "flat")["normal"], 3 * p * std::acos(-1.0), 1e-9);
+         // A shear that grows with r is right in the mean alone where nodes do not match.
+         const double angle = T * 2.5 / (G * J);
+         EXPECT_NEAR(column("out_history.csv", "displacement T").back() / (T * angle), 1,
+                     lower == std::string("same.mesh") ? 1e-9 : 1e-6);
+         const Result slips = twisted(0.99 * most), slides = twisted(1.01 * most);
+         ASSERT_EQ(slips.code, 0) << slips.output;
+         EXPECT_EQ(slides.code, 2) << slides.output;
+         EXPECT_EQ(slides.results["status"], "gross sliding");
+         angles.push_back(slips.results["total_dissipation"]);
+      }
+   }
+   // Nodes that match are paired if the first side has them, a union over interfaces if not.
+   EXPECT_NEAR(angles[0], angles[1], 1e-9 * angles[0]);
+}
+
 /// A case file 1 as a case file 2 is the same case.
 TEST_F(Joints, CaseFilesOfVersion1AreThoseOfVersion2)
 {
@@ -732,6 +887,20 @@ TEST_F(Joints, RefuseWhatIsWrongInOneSentence)
    says("/bolts", {{"b", {{"between", {"pad:3"}}, {"stiffness", 1}, {"pretension", 1}}}},
         "has 1 ends, must have two");
    says("/version", 3, "must be 1 or 2");
+   says("/bolts",
+        {{"b", {{"between", {"pad:2", "pad:2"}}, {"stiffness", 1}, {"pretension", 1}}}},
+        "both ends are 'pad:2'");
+   says("/interfaces/flat/gap", "1/(s-s)", "key 'interfaces.flat.gap' is ");
+   says("/interfaces/again", face("pad:1", "base:3"), "carry rows of interfaces before it");
+   says("/bodies/pad/guides", {{{"on", "4"}}}, "(0, 0) is in a guide, contact nodes must be");
+   says("/bodies/pad/support", "3:t", "component 't', must be x, y or xy");
+   says("/bodies/pad/load", "T twist 3 1", "kind 'twist' is not one of ");
+   keys["interfaces"]["floor"] = {{"between", {"base:1"}}};
+   keys["bodies"]["base"].erase("support");
+   says("/interfaces/floor/motion", {{"D", {{"x", 0}}}}, "floor.motion.D' moves nothing");
+   says("/interfaces/floor/motion", json::object(), "must be an object that names loads");
+   says("/interfaces/floor/obstacle", {{"line", {{0, -1}, {0, -1}}}},
+        "key 'interfaces.floor.obstacle': ");
 }
 
 /// A key of a structure may be swept.

@@ -146,10 +146,12 @@ void require_unmoved(const ContactLine &line, const std::string &pattern,
    if (moved.empty()) { return; }
    const auto n = line.size();
    const Eigen::Index a = *std::min_element(moved.begin(), moved.end()), i = a % n;
-   require(
-      false, "condense: component ", component_name(line.formulation, static_cast<int>(a / n)),
-      " of the contact node at ", line.nodes[i].position, " is displaced by load pattern '",
-      pattern, "', contact nodes must be free or fixed");
+   require(false, "condense: component ",
+           component_name(line.formulation, static_cast<int>(a / n)),
+           " of the contact node at ", line.nodes[i].position,
+           pattern.empty() ? std::string(" is in a guide")
+                           : " is displaced by load pattern '" + pattern + "'",
+           ", contact nodes must be free or fixed: the contact must end before it");
 }
 
 CondensedBody in_local_frames(const ContactLine &line, const std::vector<BodyLoad> &loads,

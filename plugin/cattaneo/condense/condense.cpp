@@ -298,7 +298,7 @@ CondensedBody condense(const AssembledBody &body, const ContactLine &line,
       {
          if (block.motion[contact.all[a]] != 0)
          {
-            require_unmoved(line, block.load, {static_cast<int>(a)});
+            require_unmoved(line, "", {static_cast<int>(a)});
          }
       }
    }

@@ -137,7 +137,7 @@ ContactDofs contact_dofs(const ElasticBody &body, const ContactLine &line)
    }
    for (const BlockMotion &block : body.blocks())
    {
-      require_unmoved(line, block.load.empty() ? "(guide)" : block.load,
+      require_unmoved(line, "",
                       known_by_owner([&](int dof) { return block.motion[dof] != 0; }));
    }
    return contact;

@@ -25,13 +25,33 @@ void check_point(const ElasticBody &body, const std::string &where, double x, do
            " is outside of the body, which reaches from ", box.min(), " to ", box.max());
 }
 
-std::vector<int> components(const std::string &where, const std::string &text, bool plane)
+/// Components that a body of the formulation has: about an axis it may leave them to another.
+std::vector<int> components(const std::string &where, const std::string &text,
+                            Formulation formulation)
 {
-   if (text == "x" || (!plane && text == "r")) { return {0}; }
-   if (text == "y" || (!plane && text == "z")) { return {1}; }
-   require(text == "xy" || (!plane && text == "rz"), where, ": component '", text,
-           "', must be ", plane ? "x, y or xy" : "r, z or rz");
-   return {0, 1};
+   const bool plane = formulation == Formulation::plane;
+   std::vector<int> own;
+   bool known = !text.empty();
+   for (std::size_t k = 0; k < text.size(); ++k)
+   {
+      const char c = text[k];
+      const int number = c == 'x' || (!plane && c == 'r')   ? 0
+                         : c == 'y' || (!plane && c == 'z') ? 1
+                         : !plane && c == 't'               ? 2
+                                                            : -1;
+      known = known && number >= 0 && text.find(c) == k;
+      const bool around = formulation == Formulation::torsion;
+      if ((number == 2) == around) { own.push_back(around ? 0 : number); }
+   }
+   require(known, where, ": component '", text, "', must be ",
+           plane ? "x, y or xy" : "some of r, z and t (around the axis), as rz");
+   return own;
+}
+
+/// Of a kind of load, whether it acts around an axis.
+bool around(const std::string &kind)
+{
+   return kind == "traction-t" || kind == "twist";
 }
 
 /// An attribute by its number, or those of a name.
@@ -104,7 +124,6 @@ ScalarField scalar_field(const std::string &called, const std::string &text,
 void add_supports(ElasticBody &body, const std::string &called, const std::string &text,
                   const BodyTerms &terms)
 {
-   const bool plane = body.formulation() == Formulation::plane;
    for (const std::string &statement : split(text, " ;\t\n"))
    {
       const std::string where = called + " '" + statement + "'";
@@ -112,7 +131,8 @@ void add_supports(ElasticBody &body, const std::string &called, const std::strin
       require(colon != std::string::npos, where,
               ": must be attributes:components such as 1:xy, or @x,y:components for one node");
       const std::string place = statement.substr(0, colon);
-      const std::vector<int> fixed = components(where, statement.substr(colon + 1), plane);
+      const std::vector<int> fixed =
+         components(where, statement.substr(colon + 1), body.formulation());
       if (place[0] == '@')
       {
          const std::vector<std::string> point = split(place.substr(1), ",");
@@ -145,7 +165,9 @@ void add_loads(ElasticBody &body, const std::string &called, const std::string &
       {"displacement-r", 4, "PATTERN displacement-r WHERE u"},
       {"displacement-z", 4, "PATTERN displacement-z WHERE u"},
       {"temperature", 3, "PATTERN temperature T"},
-      {"initial-strain", 3, "PATTERN initial-strain e, or xx yy xy zz"}};
+      {"initial-strain", 3, "PATTERN initial-strain e, or xx yy xy zz"},
+      {"traction-t", 4, "PATTERN traction-t WHERE t"},
+      {"twist", 4, "PATTERN twist WHERE angle"}};
    const bool plane = body.formulation() == Formulation::plane;
    for (const std::string &statement : split(text, ";\n"))
    {
@@ -159,8 +181,9 @@ void add_loads(ElasticBody &body, const std::string &called, const std::string &
       for (const Kind &k : kinds)
       {
          const std::string name = k.name;
-         const bool other = plane ? name == "displacement-r" || name == "displacement-z"
-                                  : name == "displacement-x" || name == "displacement-y";
+         const bool other =
+            plane ? name == "displacement-r" || name == "displacement-z" || around(name)
+                  : name == "displacement-x" || name == "displacement-y";
          if (other) { continue; }
          if (words[1] == name) { kind = &k; }
          known.push_back(name);
@@ -169,6 +192,7 @@ void add_loads(ElasticBody &body, const std::string &called, const std::string &
       const bool tensor = words[1] == "initial-strain" && words.size() == 6;
       require(words.size() == kind->words || tensor, where, ": has ", words.size(),
               " words, must be ", kind->form);
+      if (around(words[1]) != (body.formulation() == Formulation::torsion)) { continue; }
       const auto field = [&](std::size_t k)
       { return scalar_field(where, words[k], body.formulation()); };
       const std::string name = kind->name;
@@ -190,6 +214,8 @@ void add_loads(ElasticBody &body, const std::string &called, const std::string &
       {
          const BoundaryPart part = boundary_part(where, words[2], terms);
          if (name == "pressure") { body.add_pressure(pattern, part, field(3)); }
+         else if (name == "traction-t") { body.add_traction(pattern, part, field(3)); }
+         else if (name == "twist") { body.add_displacement(pattern, part, 0, field(3)); }
          else if (name == "traction") { body.add_traction(pattern, part, field(3), field(4)); }
          else
          {
@@ -198,6 +224,24 @@ void add_loads(ElasticBody &body, const std::string &called, const std::string &
          }
       }
    }
+}
+
+bool twists(const std::string &supports, const std::string &loads)
+{
+   const std::vector<std::string> held = split(supports, " ;\t\n"), all = split(loads, ";\n");
+   return std::any_of(held.begin(), held.end(),
+                      [](const std::string &statement)
+                      {
+                         const std::size_t colon = statement.rfind(':');
+                         return colon != std::string::npos &&
+                                statement.find('t', colon) != std::string::npos;
+                      }) ||
+          std::any_of(all.begin(), all.end(),
+                      [](const std::string &statement)
+                      {
+                         const std::vector<std::string> words = split(statement, " \t");
+                         return words.size() > 1 && around(words[1]);
+                      });
 }
 
 } // namespace cattaneo

@@ -35,15 +35,21 @@ ScalarField scalar_field(const std::string &called, const std::string &text,
 
 /// Supports, separated by spaces: "1:x 2,4:xy" fixes components on boundary attributes,
 /// "@0,-1:x" at the node nearest to a point, which must not lie outside of the body. About an
-/// axis components are r and z, x and y mean the same.
+/// axis components are r and z, x and y mean the same, and t, around the axis: "1:rzt". Of the
+/// same text an axisymmetric body takes r and z, its torsion t.
 void add_supports(ElasticBody &body, const std::string &called, const std::string &text,
                   const BodyTerms &terms = {});
 
 /// Loads, separated by semicolons, each "PATTERN KIND WHERE VALUES": "P pressure 3 100", "Q
 /// traction 3 0.5 0", "G body-force 0 -9.81", "D displacement-x 3[0<y<1] 0.01", "H temperature
 /// 20+3*y", "E initial-strain 1e-4" or "E initial-strain xx yy xy zz" (rr, zz, rz and θθ about
-/// an axis; xy is half of the angle). Names of patterns are UTF-8, without = , and ".
+/// an axis; xy is half of the angle). Names of patterns are UTF-8, without = , and ". About an
+/// axis also "T traction-t 3 0.5", force per area around it, and "W twist 3 0.01", a turn about
+/// it in radians: of the same text a torsion body takes these, an axisymmetric one the others.
 void add_loads(ElasticBody &body, const std::string &called, const std::string &text,
                const BodyTerms &terms = {});
+
+/// True if supports or loads say something of what happens around an axis.
+bool twists(const std::string &supports, const std::string &loads);
 
 } // namespace cattaneo

@@ -14,6 +14,7 @@ namespace cattaneo
 
 using Eigen::Index;
 using Eigen::MatrixXd;
+using Eigen::Vector2d;
 using Eigen::VectorXd;
 
 SurfaceTrace trace_of(const ContactLine &line, const Surface &surface)
@@ -337,19 +338,103 @@ CondensedBody condense(const HalfPlane &body, const std::vector<double> &grid, i
    return condense(body, facing);
 }
 
+namespace
+{
+
+/// A chain of an interface's first side, which stands on the half-plane.
+struct Standing
+{
+   std::size_t interface;
+   const LineChain *chain;
+   double along; ///< the surface, of its first node
+};
+
+/// Nodes of some chains as a line of their own; elements keep what nodes they are of.
+void append(ContactLine &line, const ContactLine &from, const LineChain &chain)
+{
+   LineChain moved = chain;
+   moved.first = line.size();
+   for (LineElement &element : moved.elements)
+   {
+      for (Index &node : element.nodes)
+      {
+         if (node >= 0) { node += moved.first - chain.first; }
+      }
+   }
+   line.nodes.insert(line.nodes.end(), from.nodes.begin() + chain.first,
+                     from.nodes.begin() + chain.first + chain.nodes);
+   line.chains.push_back(std::move(moved));
+}
+
+} // namespace
+
+Reduction reduce(std::vector<CondensedBody> bodies, std::vector<Interface> interfaces,
+                 const HalfPlane &half_plane)
+{
+   const auto below = static_cast<int>(bodies.size());
+   std::vector<Standing> standing;
+   for (std::size_t k = 0; k < interfaces.size(); ++k)
+   {
+      const ContactLine &line = interfaces[k].first.line;
+      for (const LineChain &chain : line.chains)
+      {
+         if (interfaces[k].second.body != below) { continue; }
+         const Vector2d &place = line.nodes[chain.first].position;
+         standing.push_back({k, &chain, (place - half_plane.point).dot(tangent(half_plane))});
+      }
+   }
+   require(!standing.empty(), "half-plane: no interface has it as the second side, one must");
+   // Bodies that stand on it have lines that run against its own.
+   std::stable_sort(standing.begin(), standing.end(),
+                    [](const Standing &a, const Standing &b) { return a.along > b.along; });
+   ContactLine all;
+   all.formulation = interfaces[standing[0].interface].first.line.formulation;
+   for (const Standing &one : standing)
+   {
+      append(all, interfaces[one.interface].first.line, *one.chain);
+   }
+   const Index n = all.size();
+   for (Index i = 0; i < n; ++i) // numbers of its own, bodies may have the same
+   {
+      all.nodes[i].dofs = {static_cast<int>(i), static_cast<int>(n + i)};
+      if (components(all.formulation) == 1) { all.nodes[i].dofs[1] = -1; }
+   }
+   bodies.push_back(condense(half_plane, all));
+   const CondensedBody &made = bodies.back();
+   for (Interface &one : interfaces)
+   {
+      if (one.second.body != below) { continue; }
+      one.second.line = ContactLine();
+      one.second.line.formulation = all.formulation;
+      one.pairing =
+         Pairing{std::vector<int>(one.first.line.size()), VectorXd(one.first.line.size())};
+   }
+   // Its chains are those that stand on it from the last to the first, each turned round.
+   for (std::size_t c = standing.size(); c-- > 0;)
+   {
+      Interface &one = interfaces[standing[c].interface];
+      const LineChain &chain = *standing[c].chain;
+      ContactLine &own = one.second.line;
+      append(own, made.line, made.line.chains[standing.size() - 1 - c]);
+      for (Index i = 0; i < chain.nodes; ++i)
+      {
+         const LineNode &node = one.first.line.nodes[chain.first + i];
+         const double gap = (half_plane.point - node.position).dot(half_plane.normal);
+         one.pairing->partner[chain.first + i] = static_cast<int>(own.size() - 1 - i);
+         one.pairing->gap[chain.first + i] = std::abs(gap) > 1e-9 * node.spacing ? gap : 0.0;
+      }
+   }
+   return reduce(std::move(bodies), interfaces);
+}
+
 Reduction reduce(CondensedBody body, const HalfPlane &half_plane)
 {
-   CondensedBody other = condense(half_plane, body.line);
-   const Index n = body.line.size();
-   Pairing pairing{std::vector<int>(n), VectorXd(n)};
-   for (Index i = 0; i < n; ++i)
-   {
-      const LineNode &node = body.line.nodes[i];
-      pairing.partner[i] = static_cast<int>(n - 1 - i);
-      const double gap = (half_plane.point - node.position).dot(half_plane.normal);
-      pairing.gap[i] = std::abs(gap) > 1e-9 * node.spacing ? gap : 0.0;
-   }
-   return reduce(std::move(body), std::move(other), pairing);
+   Interface contact;
+   contact.first = {0, body.line};
+   contact.second.body = 1;
+   std::vector<CondensedBody> bodies;
+   bodies.push_back(std::move(body));
+   return reduce(std::move(bodies), {contact}, half_plane);
 }
 
 } // namespace cattaneo

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cattaneo/material.hpp>
-#include <cattaneo/reduced/reduction.hpp>
+#include <cattaneo/reduced/interfaces.hpp>
 #include <string>
 #include <vector>
 
@@ -66,6 +66,15 @@ CondensedBody condense(const HalfPlane &body, const ContactLine &line);
 /// axis): of two half-planes that meet the one, on whose line the other is condensed.
 CondensedBody condense(const HalfPlane &body, const std::vector<double> &grid, int order,
                        Formulation formulation = Formulation::plane);
+
+/** Any number of bodies of which one or more stand on one half-plane, with lines that feel each
+    other through it: the last body, of number bodies.size(), which is the second side of their
+    interfaces. Lines and pairings there, one to one, need not be given. The gap is that of the
+    geometry unless it is given, as of a body alone; the half-plane is condensed once, to all
+    lines. InputError if none stands on it, if lines overlap along its surface, or as of
+    reduce(bodies, interfaces). */
+Reduction reduce(std::vector<CondensedBody> bodies, std::vector<Interface> interfaces,
+                 const HalfPlane &half_plane);
 
 /// A body pressed on a half-plane. The gap is that of the geometry: how far the body's contact
 /// nodes lie from the surface.

@@ -104,13 +104,27 @@ void HistoryWriter::add(const ContactState &, const IncrementRecord &record)
 namespace
 {
 
+/// How many of other names than the one before them.
+int interfaces(const ReducedProblem &problem)
+{
+   int count = 0;
+   const std::string *last = nullptr;
+   for (const ContactChain &chain : problem.chains)
+   {
+      count += !last || chain.interface != *last;
+      last = &chain.interface;
+   }
+   return count;
+}
+
 std::string node_header(const ReducedProblem &problem)
 {
    require(problem.arc_length.size() == problem.nodes() &&
               problem.position.rows() == problem.nodes() &&
               problem.weights.size() == problem.nodes(),
            "node table: the reduced problem has no arc length, positions or weights");
-   return std::string("time,node,arc_length,x,y,state,p,") +
+   return std::string("time,node,") + (interfaces(problem) > 1 ? "interface," : "") +
+          "arc_length,x,y,state,p," +
           (has_disc(problem) ? "q_radial,q_circumferential,slip_radial,slip_circumferential"
                              : "q,slip") +
           ",opening";
@@ -130,13 +144,20 @@ std::string node_rows(const ReducedProblem &problem, const ContactState &state)
       slip.col(k) = state.v.segment(k * n, n);
    }
    const std::vector<NodeState> settled = settled_states(problem, state);
+   const bool several = interfaces(problem) > 1;
+   std::size_t chain = 0;
    std::ostringstream out;
    out.precision(17);
    for (Eigen::Index i = 0; i < n; ++i)
    {
-      out << state.time << ',' << i << ',' << problem.arc_length[i] << ','
-          << problem.position(i, 0) << ',' << problem.position(i, 1) << ',' << name(settled[i])
-          << ',' << p[i];
+      out << state.time << ',' << i << ',';
+      while (several && i >= problem.chains[chain].first + problem.chains[chain].nodes)
+      {
+         ++chain;
+      }
+      if (several) { out << problem.chains[chain].interface << ','; }
+      out << problem.arc_length[i] << ',' << problem.position(i, 0) << ','
+          << problem.position(i, 1) << ',' << name(settled[i]) << ',' << p[i];
       for (Eigen::Index k = 0; k < columns; ++k) { out << ',' << q(i, k); }
       for (Eigen::Index k = 0; k < columns; ++k) { out << ',' << slip(i, k); }
       out << ',' << state.w[i] + problem.gap[i] << '\n';

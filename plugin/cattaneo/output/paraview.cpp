@@ -29,20 +29,31 @@ const char *unknown(Formulation formulation)
    return formulation == Formulation::torsion ? "twist" : "displacement";
 }
 
-/// What the contact does to the second body, whose nodes run against those of the first.
+/// What the contact does to the last body, on whose nodes others stand one to one.
 Eigen::VectorXd forces_below(const Reduction &reduction, const ContactState &state)
 {
-   const std::vector<LineNode> &above = reduction.bodies.front().line.nodes,
-                               &below = reduction.bodies.back().line.nodes;
-   const auto n = static_cast<Eigen::Index>(above.size());
-   Eigen::VectorXd forces(2 * n);
-   for (Eigen::Index i = 0; i < n; ++i)
+   const auto last = static_cast<int>(reduction.bodies.size()) - 1;
+   const ContactLine &below = reduction.bodies.back().line;
+   const Eigen::Index n = below.size();
+   const Eigen::MatrixX2d places = below.each(&LineNode::position);
+   const Eigen::VectorXd tied = reduction.tied_forces(state.v, state.w, state.multipliers);
+   Eigen::VectorXd forces = Eigen::VectorXd::Zero(2 * n);
+   for (const InterfaceReport &face : reduction.interfaces)
    {
-      const LineNode &node = above[i], &facing = below[n - 1 - i];
-      const double q = state.q.size() > 0 ? state.q[i] : 0.0;
-      const Eigen::Vector2d force = -q * node.tangent - state.p[i] * node.normal();
-      forces[n - 1 - i] = force.dot(facing.tangent);
-      forces[2 * n - 1 - i] = force.dot(facing.normal());
+      for (Eigen::Index i = 0; i < face.nodes && face.bodies[1] == last; ++i)
+      {
+         const Eigen::Index k = face.first + i;
+         const double q = face.tied            ? tied[k]
+                          : state.q.size() > 0 ? state.q[k]
+                                               : 0.0,
+                      p = face.tied ? tied[tied.size() / 2 + k] : state.p[k];
+         const Eigen::Vector2d t = face.tangent.row(i), normal(-t[1], t[0]),
+                               force = -q * t - p * normal;
+         Eigen::Index at = 0;
+         (places.rowwise() - face.acts_at[1].row(i)).rowwise().squaredNorm().minCoeff(&at);
+         forces[at] += force.dot(below.nodes[at].tangent);
+         forces[n + at] += force.dot(below.nodes[at].normal());
+      }
    }
    return forces;
 }

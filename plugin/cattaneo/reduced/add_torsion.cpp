@@ -1,14 +1,42 @@
+#include <algorithm>
 #include <cattaneo/input_error.hpp>
-#include <cattaneo/reduced/union.hpp>
+#include <cattaneo/reduced/bodies_union.hpp>
 
 namespace cattaneo
 {
+
+namespace
+{
+
+/// What a contact node sees of displacements around the axis: of other nodes what it sees of
+/// their radial ones, which are odd in r as well, without regard to frames.
+UnionRows twisting_rows(UnionRows rows, const std::vector<CondensedBody> &twisting)
+{
+   for (ContactRow &row : rows.rows)
+   {
+      const CondensedBody &body = twisting[row.body];
+      require(!std::binary_search(body.held.begin(), body.held.end(), row.node),
+              "add torsion: the contact node at ", body.line.nodes[row.node].position, " of ",
+              called(twisting, row.body),
+              " is held around the axis: the contact line must end before it, or the other "
+              "side be the slave");
+      row.slides = true;
+   }
+   return rows;
+}
+
+} // namespace
 
 void Reduction::add_torsion(CondensedBody body1, std::optional<CondensedBody> body2)
 {
    std::vector<CondensedBody> twisting;
    twisting.push_back(std::move(body1));
    if (body2) { twisting.push_back(std::move(*body2)); }
+   add_torsion(std::move(twisting));
+}
+
+void Reduction::add_torsion(std::vector<CondensedBody> twisting)
+{
    const Eigen::Index n = problem.nodes();
    require(obstacle_.size() == 0,
            "add torsion: the obstacle already moves, torsion must be added before");
@@ -16,10 +44,8 @@ void Reduction::add_torsion(CondensedBody body1, std::optional<CondensedBody> bo
            problem.components(), " tangential components a node, must have 1");
    require(twisting.size() == bodies.size(), "add torsion: of ", twisting.size(),
            " bodies to a reduction of ", bodies.size(), ", must be as many");
-   require(
-      bodies.size() == 1 ? !union_ : !partner_.empty(),
-      "add torsion: to a union over interfaces, must be to one body, or to two whose nodes "
-      "match");
+   require(shanks_.empty(),
+           "add torsion: the reduction has shanks, torsion must be added before");
    for (std::size_t b = 0; b < bodies.size(); ++b)
    {
       require(bodies[b].line.formulation == Formulation::axisymmetric &&
@@ -39,7 +65,14 @@ void Reduction::add_torsion(CondensedBody body1, std::optional<CondensedBody> bo
    torsion_pattern_ = join(twisting, problem.patterns);
    const auto count = static_cast<Eigen::Index>(problem.patterns.size());
    Block block;
-   if (twisting.size() == 1) { block = alone(twisting[0], torsion_pattern_[0], count); }
+   if (rows_)
+   {
+      ++counters.unions;
+      block =
+         united(twisting, twisting_rows(*rows_, twisting), torsion_pattern_, problem.patterns);
+      torsion_union_ = block.way_back;
+   }
+   else if (twisting.size() == 1) { block = alone(twisting[0], torsion_pattern_[0], count); }
    else
    {
       ++counters.unions;

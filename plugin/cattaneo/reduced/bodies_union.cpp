@@ -271,7 +271,7 @@ Block united(const std::vector<CondensedBody> &bodies, const std::vector<Contact
    // Rows that do not slide are held.
    const auto spread = [&](const MatrixXd &some)
    {
-      MatrixXd all = MatrixXd::Zero(2 * n, some.cols());
+      MatrixXd all = MatrixXd::Zero(map.components * n, some.cols());
       all(map.sliding, Eigen::all) = some;
       return all;
    };
@@ -283,6 +283,73 @@ Block united(const std::vector<CondensedBody> &bodies, const std::vector<Contact
       if (!rows[i].slides) { block.held.push_back(static_cast<int>(i)); }
    }
    block.way_back = std::move(shared);
+   return block;
+}
+
+namespace
+{
+
+/// A union of which some nodes are tied.
+class TiedUnion : public Reduction::Union
+{
+public:
+   std::shared_ptr<const Reduction::Union> all;
+   std::vector<int> free;     ///< rows {v; w} of those that are not
+   MatrixXd stiffness, loads; ///< forces on the tied ones
+
+   VectorXd own(int b, const VectorXd &relative, const VectorXd &multipliers) const override
+   {
+      VectorXd u = VectorXd::Zero(relative.size() + stiffness.rows());
+      u(free) = relative;
+      return all->own(b, u, multipliers);
+   }
+   VectorXd tied(const VectorXd &relative, const VectorXd &multipliers) const override
+   {
+      return stiffness * relative + loads * multipliers;
+   }
+};
+
+/// Numbers of all components of nodes, of `all` nodes.
+std::vector<int> components_of(const std::vector<int> &nodes, Index all, int components)
+{
+   std::vector<int> rows;
+   for (int c = 0; c < components; ++c)
+   {
+      for (int node : nodes) { rows.push_back(static_cast<int>(c * all) + node); }
+   }
+   return rows;
+}
+
+} // namespace
+
+Block united(const std::vector<CondensedBody> &bodies, const UnionRows &rows,
+             const Reduction::PatternIndex &index, const std::vector<LoadPattern> &patterns)
+{
+   Block block = united(bodies, rows.rows, rows.groups, index, patterns);
+   if (rows.tied.empty()) { return block; }
+   const auto all = static_cast<Index>(rows.rows.size());
+   const auto components = static_cast<int>(block.S.rows() / all);
+   const std::vector<int> free = components_of(rows.free, all, components),
+                          tied = components_of(rows.tied, all, components);
+   auto way_back = std::make_shared<TiedUnion>();
+   way_back->all = block.way_back;
+   way_back->free = free;
+   way_back->stiffness = block.S(tied, free);
+   way_back->loads = block.f(tied, Eigen::all);
+   block.way_back = std::move(way_back);
+   block.S = block.S(free, free).eval();
+   block.f = block.f(free, Eigen::all).eval();
+   const MatrixXd motions = at_rest(block.motions, block.motions(tied, Eigen::all));
+   block.motions = motions(free, Eigen::all);
+   std::vector<int> held;
+   for (std::size_t k = 0; k < free.size(); ++k)
+   {
+      if (std::count(block.held.begin(), block.held.end(), free[k]) > 0)
+      {
+         held.push_back(static_cast<int>(k));
+      }
+   }
+   block.held = held;
    return block;
 }
 

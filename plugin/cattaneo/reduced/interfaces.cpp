@@ -56,6 +56,8 @@ public:
 
 private:
    Side side(const InterfaceSide &given) const;
+   void face_all(const std::vector<int> &without);
+   void pair_nodes(const std::vector<int> &without);
    void meet(const std::vector<int> &without);
    ContactRow row(Index i) const;
    void check_row(const ContactRow &row, Index i) const;
@@ -91,6 +93,7 @@ Facing::Facing(const Interface &given, const std::vector<CondensedBody> &bodies)
    { return line.each(&LineNode::spacing).array().log().mean(); };
    const double coarser = spacing(master_.line) - spacing(slave_.line);
    const double same = 0.01; // more than round-off
+   if (given.pairing) { return; }
    if (given.slave == SlaveSide::second ||
        (given.slave == SlaveSide::coarser && coarser > same) ||
        (given.slave == SlaveSide::finer && coarser < -same))
@@ -132,8 +135,36 @@ Side Facing::side(const InterfaceSide &given) const
    return made;
 }
 
+/// One to one, in the frames of the first side.
+void Facing::pair_nodes(const std::vector<int> &without)
+{
+   face_all(without);
+   const Index n = slave_.line.size();
+   const Pairing &pairs = *given_.pairing;
+   require(static_cast<Index>(pairs.partner.size()) == n && pairs.gap.size() == n, what_,
+           ": its pairing is of ", pairs.partner.size(), " nodes, must be of the ", n,
+           " of its first side");
+   for (Mortar::Matrix &other : mortar_.other)
+   {
+      other.resize(static_cast<Index>(mortar_.nodes.size()), master_.line.size());
+      for (std::size_t i = 0; i < mortar_.nodes.size(); ++i)
+      {
+         const int partner = pairs.partner[mortar_.nodes[i]];
+         require(partner >= 0 && partner < master_.line.size(), what_, ": partner ", partner,
+                 " in its pairing, must be from 0 to ", master_.line.size() - 1);
+         other.insert(static_cast<Index>(i), partner) = 1;
+      }
+   }
+   mortar_.gap = pairs.gap(mortar_.nodes);
+}
+
 void Facing::meet(const std::vector<int> &without)
 {
+   if (given_.pairing)
+   {
+      pair_nodes(without);
+      return;
+   }
    if (master_.body >= 0)
    {
       mortar_ = mortar(slave_.line, master_.line, without, what_);
@@ -149,6 +180,12 @@ void Facing::meet(const std::vector<int> &without)
       return;
    }
    // An obstacle faces every node.
+   face_all(without);
+}
+
+/// Every node of the slave is faced, by nothing yet.
+void Facing::face_all(const std::vector<int> &without)
+{
    const ContactLine &line = slave_.line;
    mortar_ = Mortar();
    for (Index k = 0; k < line.size(); ++k)
@@ -237,6 +274,10 @@ void Facing::add_rows(std::vector<ContactRow> &rows,
    // Each node without a row gives its part to its neighbours, which may close a ring then.
    while (true)
    {
+      require(without_row_.size() < slave_.nodes.size(), what_, ": all nodes of ",
+              called(bodies_, slave_.body),
+              " there carry rows of interfaces before it, or would close a ring of them: name "
+              "each place where two sides meet once");
       meet(without_row_);
       auto slaves = taken;
       const std::size_t before = without_row_.size();
@@ -336,6 +377,15 @@ InterfaceReport Facing::report() const
    {
       if (!slides_[i]) { report.tangent.row(i) = line.nodes[mortar_.nodes[i]].tangent; }
    }
+   for (int c : {0, 1})
+   {
+      for (Eigen::MatrixX2d &at : report.acts_at) { at.resize(report.nodes, 2); }
+      report.acts_at[0].col(c) = mortar_.own[c] * line.each(&LineNode::position).col(c);
+      report.acts_at[1].col(c) = report.acts_at[0].col(c);
+      if (master_.body < 0) { continue; }
+      report.acts_at[1].col(c) =
+         mortar_.other[c] * master_.line.each(&LineNode::position).col(c);
+   }
    report.weights = mortar_.weights;
    report.spacing = line.each(&LineNode::spacing)(mortar_.nodes);
    report.left_out = mortar_.left_out;
@@ -404,68 +454,18 @@ void Facing::add_facts(ReducedProblem &problem, Index first, bool matching) cons
    }
 }
 
-/// A union of which some nodes are tied.
-class TiedUnion : public Reduction::Union
+/// Contact nodes by whether their interface is tied.
+void sort_out(const std::vector<Facing> &facings, UnionRows &rows)
 {
-public:
-   std::shared_ptr<const Reduction::Union> all;
-   std::vector<int> free;     ///< rows {v; w} of those that are not
-   MatrixXd stiffness, loads; ///< forces on the tied ones
-
-   VectorXd own(int b, const VectorXd &relative, const VectorXd &multipliers) const override
+   int row = 0;
+   for (const Facing &facing : facings)
    {
-      VectorXd u = VectorXd::Zero(relative.size() + stiffness.rows());
-      u(free) = relative;
-      return all->own(b, u, multipliers);
-   }
-   VectorXd tied(const VectorXd &relative, const VectorXd &multipliers) const override
-   {
-      return stiffness * relative + loads * multipliers;
-   }
-};
-
-/// Rows {v; w} of all contact nodes, by whether their interface is tied.
-struct TiedRows
-{
-   std::vector<int> free, tied;
-
-   TiedRows(const std::vector<Facing> &facings, Index nodes)
-   {
-      for (int component : {0, 1})
+      for (Index i = 0; i < facing.nodes(); ++i)
       {
-         auto row = static_cast<int>(component * nodes);
-         for (const Facing &facing : facings)
-         {
-            for (Index i = 0; i < facing.nodes(); ++i)
-            {
-               (facing.tied() ? tied : free).push_back(row++);
-            }
-         }
+         (facing.tied() ? rows.tied : rows.free).push_back(row++);
       }
    }
-   void take_from(Block &block) const
-   {
-      auto way_back = std::make_shared<TiedUnion>();
-      way_back->all = block.way_back;
-      way_back->free = free;
-      way_back->stiffness = block.S(tied, free);
-      way_back->loads = block.f(tied, Eigen::all);
-      block.way_back = std::move(way_back);
-      block.S = block.S(free, free).eval();
-      block.f = block.f(free, Eigen::all).eval();
-      const MatrixXd motions = at_rest(block.motions, block.motions(tied, Eigen::all));
-      block.motions = motions(free, Eigen::all);
-      std::vector<int> held;
-      for (std::size_t k = 0; k < free.size(); ++k)
-      {
-         if (std::count(block.held.begin(), block.held.end(), free[k]) > 0)
-         {
-            held.push_back(static_cast<int>(k));
-         }
-      }
-      block.held = held;
-   }
-};
+}
 
 /// Numbers of the bodies that interfaces join, without those that touch an obstacle.
 std::vector<std::vector<int>> groups_of(std::size_t bodies, const std::vector<Facing> &facings)
@@ -598,9 +598,11 @@ Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface>
       {
          return named(reduce(std::move(bodies[0]), one.gap.value_or(0.0)));
       }
-      if (bodies.size() == 2 && one.slave != SlaveSide::second && is_all(one.second, 1))
+      if (bodies.size() == 2 && (one.pairing || one.slave != SlaveSide::second) &&
+          is_all(one.second, 1))
       {
-         if (auto pairing = matching_nodes(bodies[0].line, bodies[1].line))
+         if (auto pairing =
+                one.pairing ? one.pairing : matching_nodes(bodies[0].line, bodies[1].line))
          {
             for (Index i = 0; one.gap && i < pairing->gap.size(); ++i)
             {
@@ -617,17 +619,18 @@ Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface>
    ++result.counters.unions;
    result.bodies = std::move(bodies);
    std::vector<Facing> facings;
-   const std::vector<ContactRow> rows = rows_of(interfaces, result.bodies, facings);
+   auto rows = std::make_shared<UnionRows>();
+   rows->rows = rows_of(interfaces, result.bodies, facings);
+   rows->groups = groups_of(result.bodies.size(), facings);
+   sort_out(facings, *rows);
+   const auto n = static_cast<Index>(rows->free.size());
+   require(n > 0, "reduce: all contact nodes are of tied interfaces, one at least must not be");
    const auto count = static_cast<int>(result.bodies.size());
    ReducedProblem &problem = result.problem;
    result.pattern_ = join(result.bodies, problem.patterns);
-   Block block = united(result.bodies, rows, groups_of(result.bodies.size(), facings),
-                        result.pattern_, problem.patterns);
-   const TiedRows tied(facings, static_cast<Index>(rows.size()));
-   const auto n = static_cast<Index>(tied.free.size() / 2);
-   require(n > 0, "reduce: all contact nodes are of tied interfaces, one at least must not be");
-   if (n < static_cast<Index>(rows.size())) { tied.take_from(block); }
+   const Block block = united(result.bodies, *rows, result.pattern_, problem.patterns);
    result.union_ = block.way_back;
+   result.rows_ = std::move(rows);
    take(block, problem);
    problem.weights = problem.arc_length = Eigen::VectorXd::Zero(n);
    problem.position.resize(n, 2);

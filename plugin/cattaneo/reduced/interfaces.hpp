@@ -44,6 +44,9 @@ struct Interface
    /// The sides are joined, u = 0 on all nodes, whatever the gap: glued, welded, or one body
    /// meshed in two. The nodes are none of the reduced problem.
    bool tied = false;
+   /// Nodes of both lines one to one, of the first side, which has them then, whatever `slave`
+   /// says; with the gap of each unless `gap` is given.
+   std::optional<Pairing> pairing = std::nullopt;
 };
 
 /** The trace of a body with several interfaces, to be condensed to at once: the nodes of all

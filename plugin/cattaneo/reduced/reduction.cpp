@@ -16,6 +16,7 @@ InterfaceReport fill(ReducedProblem &problem, const Block &block, const ContactL
    report.nodes = n;
    report.position = line.each(&LineNode::position);
    report.tangent = line.each(&LineNode::tangent);
+   report.acts_at = {report.position, report.position};
    report.weights = line.each(&LineNode::weight);
    report.spacing = line.each(&LineNode::spacing);
    problem.weights = line.each(&LineNode::weight);
@@ -117,6 +118,8 @@ Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairin
    result.interfaces = {fill(problem, block, first.line)};
    result.interfaces[0].bodies = {0, 1};
    result.interfaces[0].matching = true;
+   result.interfaces[0].acts_at[1] =
+      second.line.each(&LineNode::position)(pairing.partner, Eigen::all);
    for (ContactChain &chain : problem.chains)
    {
       chain.other_ends = {
@@ -175,10 +178,22 @@ Eigen::VectorXd Reduction::tied_forces(const Eigen::VectorXd &v, const Eigen::Ve
                                        const Eigen::VectorXd &multipliers) const
 {
    if (!union_) { return {}; }
-   Eigen::VectorXd u(v.size() + w.size());
-   u << v, w;
-   if (obstacle_.size() > 0) { u += obstacle_ * multipliers; }
-   return union_->tied(u, acting(u, multipliers));
+   const Eigen::Index n = problem.nodes();
+   Eigen::VectorXd moved(v.size() + n), u(2 * n);
+   moved << v, w;
+   if (obstacle_.size() > 0) { moved += obstacle_ * multipliers; }
+   u << moved.head(n), moved.tail(n);
+   return union_->tied(u, acting(moved, multipliers));
+}
+
+Eigen::VectorXd Reduction::tied_twisting(const Eigen::VectorXd &v,
+                                         const Eigen::VectorXd &multipliers) const
+{
+   if (!torsion_union_) { return {}; }
+   const Eigen::Index n = problem.nodes();
+   Eigen::VectorXd u = v.tail(n);
+   if (obstacle_.size() > 0) { u += (obstacle_ * multipliers).segment(n, n); }
+   return torsion_union_->tied(u, multipliers);
 }
 
 Eigen::VectorXd Reduction::twist(int b, const Eigen::VectorXd &v,

@@ -10,6 +10,7 @@ namespace cattaneo
 {
 
 struct Interface;
+struct UnionRows;
 
 /// What an interface came to.
 struct InterfaceReport
@@ -21,11 +22,15 @@ struct InterfaceReport
    bool tied = false;      ///< its nodes are none of the problem
    /// The nodes are those of Interface::second: forces on the first body are the opposite.
    bool of_second = false;
-   Eigen::MatrixX2d position; ///< n × 2, of the nodes, where forces act
+   Eigen::MatrixX2d position; ///< n × 2, of the nodes
    Eigen::MatrixX2d tangent;  ///< n × 2, of their frames: unit vectors
-   Eigen::VectorXd weights;   ///< of the nodes, see LineNode
-   Eigen::VectorXd spacing;   ///< of the nodes, see LineNode
-   bool matching = false;     ///< its nodes are also the other body's
+   /// n × 2 each: where the nodes' forces act on the body that has the nodes, and on what faces
+   /// it. The first is the node's own place but on an element that is faced in part; the second
+   /// lies across a gap.
+   std::array<Eigen::MatrixX2d, 2> acts_at;
+   Eigen::VectorXd weights; ///< of the nodes, see LineNode
+   Eigen::VectorXd spacing; ///< of the nodes, see LineNode
+   bool matching = false;   ///< its nodes are also the other body's
    /// Places of nodes of the slave that nothing faces, and of those that are faced but carry no
    /// row: tips, nodes that are another interface's, those that close a ring of interfaces.
    std::vector<Eigen::Vector2d> free_surface = {}; ///< nodes of the slave that nothing faces
@@ -61,11 +66,16 @@ public:
    std::vector<CondensedBody> torsion;      ///< as many again if something twists, or none
    Counters counters;                       ///< sum over the bodies and all later recoveries
 
-   /// Adds the circumferential components of one axisymmetric body (its torsion body, condensed
-   /// to the same nodes): v_θ = u_θ and q_θ the force on the body, positive with the twist.
-   /// Load patterns of the same name are one pattern. InputError unless the reduction is of one
-   /// axisymmetric body without torsion, or if the nodes differ. Of two bodies v_θ = u_θ1 -
-   /// u_θ2, q_θ the force on body 1.
+   /** Adds the circumferential components of axisymmetric bodies (their torsion bodies, in the
+       same order, each condensed to the same nodes): of one body v_θ = u_θ and q_θ the force on
+       it, positive with the twist; of several v_θ = u_θ of the body that has the nodes less
+       that of what faces it, q_θ the force on the former. At nodes that do not match u_θ is
+       taken from the other body as u_r is: a turn about the axis is exact. Load patterns of the
+       same name are one pattern. InputError unless the reduction is of as many axisymmetric
+       bodies without torsion, if nodes differ, or if in a union over interfaces a contact node
+       is held around the axis. */
+   void add_torsion(std::vector<CondensedBody> twisting);
+   /// The same of one body, or of two.
    void add_torsion(CondensedBody body1, std::optional<CondensedBody> body2 = std::nullopt);
 
    /** A load pattern that moves rigid obstacles, each that of one interface. Displacements of
@@ -100,6 +110,10 @@ public:
       displacement(). */
    Eigen::VectorXd tied_forces(const Eigen::VectorXd &v, const Eigen::VectorXd &w,
                                const Eigen::VectorXd &multipliers) const;
+
+   /// The circumferential forces q_θ of the same nodes, for displacements v of twist().
+   Eigen::VectorXd tied_twisting(const Eigen::VectorXd &v,
+                                 const Eigen::VectorXd &multipliers) const;
 
    /// Displacement of all true dofs of body `b`, for relative displacements v (of all
    /// tangential components) and w of the contact nodes and multipliers of problem.patterns.
@@ -140,7 +154,8 @@ private:
                            const Eigen::VectorXd &multipliers);
 
    std::shared_ptr<const Union> union_, torsion_union_;
-   std::vector<int> partner_; ///< of two bodies with nodes that match
+   std::shared_ptr<const UnionRows> rows_; ///< of a union over interfaces
+   std::vector<int> partner_;              ///< of two bodies with nodes that match
    PatternIndex pattern_, torsion_pattern_;
    /// Displacements {v; w} of a rigid obstacle, one column a pattern of the problem; empty if
    /// it rests.

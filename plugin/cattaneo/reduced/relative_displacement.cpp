@@ -48,7 +48,8 @@ Matrix2d turned(const ContactRow &row, const TraceShare &share, const LineNode &
 RelativeDisplacement::RelativeDisplacement(const std::vector<CondensedBody> &bodies,
                                            const std::vector<ContactRow> &rows)
 {
-   // Numbers of a node's two components in U, -1: held.
+   components = cattaneo::components(bodies.front().line.formulation);
+   // Numbers of a node's components in U, -1: held or none.
    std::vector<std::vector<int>> number;
    int size = 0;
    for (const CondensedBody &body : bodies)
@@ -64,11 +65,14 @@ RelativeDisplacement::RelativeDisplacement(const std::vector<CondensedBody> &bod
       }
    }
    const auto dof = [&](int body, int node, int component)
-   { return number[body][node + component * bodies[body].line.size()]; };
+   {
+      return component < components ? number[body][node + component * bodies[body].line.size()]
+                                    : -1;
+   };
    // Numbers in u, -1: does not slide.
    const auto n = static_cast<int>(rows.size());
    std::vector<std::array<int, 2>> relative(rows.size(), {-1, -1});
-   for (int component : {0, 1})
+   for (int component = 0; component < components; ++component)
    {
       for (int i = 0; i < n; ++i)
       {
@@ -106,7 +110,8 @@ RelativeDisplacement::RelativeDisplacement(const std::vector<CondensedBody> &bod
       for (const TraceShare &share : row.shares)
       {
          const LineNode &node = bodies[share.body].line.nodes[share.node];
-         const Matrix2d block = turned(row, share, node);
+         Matrix2d block = turned(row, share, node);
+         if (components == 1) { block = share.x * Matrix2d::Identity(); }
          const bool is_own = share.body == row.body && share.node == row.node;
          if (is_own) { own += block; }
          for (int b : {0, 1})

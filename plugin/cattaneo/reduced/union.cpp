@@ -82,7 +82,7 @@ void balance(const Eigen::MatrixXd &motions, Eigen::MatrixXd &forces,
    {
       const double load = push.col(k).norm();
       require(load <= 1e-9 * scale[k], "reduce: load pattern '", patterns[k].name,
-              "' pushes both bodies in a common rigid motion that nothing resists (part ",
+              "' pushes the bodies in a common rigid motion that nothing resists (part ",
               load / scale[k],
               " of it), its loads must be in equilibrium or a body be supported");
    }

@@ -49,8 +49,8 @@ struct ContactDofs
 /// (ContactLine::validate), is of another formulation, or its dofs are not from 0 to dofs - 1.
 ContactDofs contact_dofs(const ContactLine &line, Formulation formulation, int dofs);
 
-/// InputError that names the node and the pattern if a load displaces a contact dof: `moved`
-/// are positions of those.
+/// InputError that names the node and the pattern (without a name: a guide) if a load displaces
+/// a contact dof: `moved` are positions of those.
 void require_unmoved(const ContactLine &line, const std::string &pattern,
                      const std::vector<int> &moved);
 

@@ -13,6 +13,18 @@ Block united(const std::vector<CondensedBody> &bodies, const std::vector<Contact
              const std::vector<std::vector<int>> &groups, const Reduction::PatternIndex &index,
              const std::vector<LoadPattern> &patterns);
 
+/// The contact nodes of a union over interfaces, of which some are tied.
+struct UnionRows
+{
+   std::vector<ContactRow> rows;
+   std::vector<std::vector<int>> groups; ///< see united()
+   std::vector<int> free, tied;          ///< numbers of rows
+};
+
+/// The block of bodies on the nodes that are not tied; their components one after the other.
+Block united(const std::vector<CondensedBody> &bodies, const UnionRows &rows,
+             const Reduction::PatternIndex &index, const std::vector<LoadPattern> &patterns);
+
 /// What a body is called in a sentence.
 std::string called(const std::vector<CondensedBody> &bodies, int body);
 

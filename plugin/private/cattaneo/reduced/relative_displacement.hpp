@@ -27,7 +27,7 @@ struct ContactRow
     other: U = E {u; y} and u = G U, where U are all components of the bodies' traces that are
     not held, one body after the other, each {v; w} in its own frames; u the relative
     displacements {v; w} without those that do not slide; y the components of U that are no
-    slave's. */
+    slave's. Of bodies that twist there is one component, v, and the share of x counts. */
 struct RelativeDisplacement
 {
    using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
@@ -35,6 +35,7 @@ struct RelativeDisplacement
    std::vector<Eigen::Index> offsets;  ///< of each body in U
    std::vector<std::vector<int>> free; ///< rows of each body's S that U has
    std::vector<int> sliding;           ///< rows of u in {v; w} of all contact nodes
+   int components = 2;                 ///< of a node
 
    /// No slave's displacement may depend on itself.
    RelativeDisplacement(const std::vector<CondensedBody> &bodies,
