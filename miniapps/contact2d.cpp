@@ -293,6 +293,7 @@ void contact2d(miniapp::Study &study)
    if (fields) { study.say(text("%d frames in %s", frames, options.paraview.c_str())); }
    for (const auto &side : beyond_corners) { side.warn(); }
    warn_of_large_displacements(own, small, history.state);
+   if (history.report.status != FrictionStatus::converged) { warn_of_loose_bodies(own); }
 
    history.report_state(problem, joint_report.of_state(history.state));
    joint_report.report(history.state, history.report);

@@ -652,6 +652,31 @@ void warn_of_overlap(const ReducedProblem &problem, const InterfaceReport &inter
    warn(text.str());
 }
 
+void warn_of_loose_bodies(const OwnBodies &own)
+{
+   const Reduction &reduction = own.scene.reduction;
+   for (std::size_t b = 0; b < reduction.bodies.size(); ++b)
+   {
+      double least = std::numeric_limits<double>::infinity();
+      for (const InterfaceReport &face : reduction.interfaces)
+      {
+         const auto number = static_cast<int>(b);
+         if (face.bodies[0] != number && face.bodies[1] != number) { continue; }
+         least = std::min(
+            least,
+            face.tied ? 0 : reduction.problem.gap.segment(face.first, face.nodes).minCoeff());
+      }
+      if (reduction.bodies[b].free_motions.cols() == 0 || least <= 0) { continue; }
+      const std::string &name = reduction.bodies[b].name;
+      std::ostringstream text;
+      text << "body " << (name.empty() ? std::to_string(b + 1) : name)
+           << " is free and touches nothing at rest, the least gap is " << least
+           << ": the first force moves it until it touches, all at once, which a march may not "
+              "follow; place it so that it touches, or move it there by a guide";
+      warn(text.str());
+   }
+}
+
 std::vector<bool> even_sides(const JointCase &joint)
 {
    std::vector<bool> even;

@@ -60,6 +60,9 @@ OwnBodies make_own_bodies(const JointCase &joint);
 /// Warns of bodies that overlap by more than the length of a node's part of the line.
 void warn_of_overlap(const cattaneo::ReducedProblem &problem,
                      const cattaneo::InterfaceReport &interface);
+/// Of a march that found no equilibrium: warns of bodies that nothing holds and that touch
+/// nothing at rest.
+void warn_of_loose_bodies(const OwnBodies &own);
 /// Warns of a stiffness with few right digits.
 void warn_of_accuracy(double accuracy);
 
