@@ -7,6 +7,7 @@
 //  Sample runs:  square_punch
 //                square_punch -obstacle half-plane --shear "0.25 0.75"
 //                square_punch -obstacle half-plane -domain 1e4 --shear "0.25 0.75"
+//                square_punch -obstacle half-plane --shear none -dislocation "0 0.7"
 //                square_punch -order 1 -nodes 201 -grading 0.02
 //                square_punch -obstacle half-plane -nodes 65 -cycles 3 -amplitude 0.6
 //                square_punch -obstacle half-plane -nodes 65 -cycles 3 -march exact
@@ -24,13 +25,51 @@ using miniapp::Panel;
 namespace
 {
 
+/// Tractions of glide dislocations, jumps of the slip by 1 (thesis 3.9): with w = 0 they are A
+/// v and B v.
+void dislocations(miniapp::Study &study, const ReducedProblem &problem,
+                  const Eigen::VectorXd &x, const std::vector<double> &places)
+{
+   Panel &panel = study.panel(Panel::Kind::lines, "dislocations",
+                              "Tractions of a jump of slip by 1", "x/a", "q a/E', p a/E'");
+   miniapp::Table &table =
+      study.table("dislocations_near", {{"place", "jump at x/a", "%.3f"},
+                                        {"near", "q at 0.2 a from it, over E'/4πr"}});
+   for (const double place : places)
+   {
+      Eigen::Index node = 0, near = 0;
+      (x.array() - place).abs().minCoeff(&node);
+      ((x.array() - x[node]).abs() - 0.2).abs().minCoeff(&near);
+      Eigen::VectorXd v = (x.array() > x[node]).cast<double>();
+      v[node] = 0.5;
+      Eigen::VectorXd q = tractions(problem, problem.A() * v),
+                      p = tractions(problem, problem.B() * v), r = x.array() - x[node];
+      const std::string at = exact_text("jump at ", place);
+      // The nodes beside a jump oscillate.
+      const Eigen::Index first = std::max<Eigen::Index>(0, node - 4),
+                         count = std::min<Eigen::Index>(x.size(), node + 5) - first;
+      for (Eigen::VectorXd *drawn : {&q, &p})
+      {
+         drawn->segment(first, count).setConstant(none);
+      }
+      panel.add("shear, " + at, x, q);
+      panel.add("pressure, " + at, x, p);
+      // Within one body without ends: E'/4πr, the sign that opposes the jump.
+      const double sign = q[near] * r[near] > 0 ? 1 : -1;
+      const Eigen::VectorXd exact = sign / (4 * M_PI) * r.cwiseInverse();
+      panel.add("infinite body: shear, " + at, x, exact, "dashed");
+      study.row(table, {place, q[near] / exact[near]});
+   }
+   panel.limit("y", -2, 2);
+}
+
 void square_punch(miniapp::Study &study)
 {
    miniapp::PunchOptions options;
    MarchSettings settings;
    std::string obstacle = "rigid", march_by = "advancing";
    double friction = none, amplitude = 0.8;
-   std::vector<double> shear = {0.25, 0.5, 0.75, 0.9};
+   std::vector<double> shear = {0.25, 0.5, 0.75, 0.9}, jumps;
    int cycles = 0;
    study.option(&obstacle, "obstacle", "What the block stands on: rigid or half-plane.",
                 {"rigid", "half-plane"});
@@ -39,6 +78,9 @@ void square_punch(miniapp::Study &study)
                 miniapp::not_negative);
    add_options(study, options);
    study.option(&shear, "shear", "Monotonic shear: list of Q/fP, or none.");
+   study.option(
+      &jumps, "dislocation", "Tractions of jumps of slip: list of x/a (empty: none).",
+      miniapp::Check{[](double at) { return std::abs(at) < 1; }, "must be between -1 and 1"});
    study.option(&cycles, "cycles", "Cycles of Q = ± amplitude fP, after P (0: none).",
                 miniapp::not_negative);
    study.option(&amplitude, "amplitude", "Amplitude of the cycles in Q/fP.");
@@ -58,6 +100,7 @@ void square_punch(miniapp::Study &study)
 
    // Arc length runs from the left corner.
    const Eigen::VectorXd x = problem.arc_length.array() - 1;
+   if (!jumps.empty()) { dislocations(study, problem, x, jumps); }
    Panel &slip =
             study.panel(Panel::Kind::lines, "slip", "Slip of the interface", "x/a", "v E'/P"),
          &shears =

@@ -1,7 +1,9 @@
 #include "common/fretting_figures.hpp"
 
 #include <algorithm>
+#include <cattaneo/fretting/calibration.hpp>
 #include <cattaneo/fretting/edge_crack.hpp>
+#include <cattaneo/fretting/hertz_field.hpp>
 #include <cattaneo/fretting/measures.hpp>
 #include <cattaneo/fretting/yield.hpp>
 #include <cattaneo/input_error.hpp>
@@ -55,6 +57,37 @@ Panel &add_curves(Panel &panel, const std::vector<double> &frictions, double des
 void mark(Panel &panel, const std::string &name, double x, double y)
 {
    panel.add(name, std::vector<double>{x}, {y}, "star");
+}
+
+} // namespace
+
+namespace
+{
+
+/// Pressure of a flat pad with round edges, and what its edge makes of it (thesis appendix A).
+void draw_profile(Study &study, const Pad &pad)
+{
+   const FlatRoundedContact contact =
+      flat_rounded_contact(pad.normal, pad.radius, pad.flat, pad.modulus());
+   const double a = contact.half_width;
+   const RoundedEdge edge =
+      rounded_edge(pad.normal / (M_PI * std::sqrt(2 * pad.flat)), pad.radius, pad.modulus());
+   Panel &panel =
+      study.panel(Panel::Kind::lines, "profile", "Pressure of the pad", "x/a", "p, MPa");
+   std::vector<double> x, whole, alone, root;
+   for (int i = 1; i <= 400; i++)
+   {
+      const double t = a * std::pow(0.0025 * i, 2);
+      x.push_back(t / a - 1);
+      whole.push_back(contact.pressure(t - a));
+      alone.push_back(edge.pressure(t));
+      root.push_back(contact.k_n * std::sqrt(t));
+   }
+   panel.add("pad", x, whole);
+   panel.add("edge of a semi-infinite flat (A.1)", x, alone);
+   panel.add("K_N √t", x, root);
+   panel.limit("y", 0, 1.2 * contact.pressure(pad.flat));
+   study.value("rounded_edge_k_n", edge.k_n);
 }
 
 } // namespace
@@ -115,6 +148,36 @@ void draw_design(Study &study, const Pad &pad, const JudgedEdge &judged,
                  const double c = 0.005 * i;
                  return std::pair{c, crack_intensity(unit, c) / std::sqrt(unit.k_t)};
               });
+   // K_N stays: with R only the end of the cycle changes at which the crack is pressed shut.
+   Panel &ratios = lines("trajectory_ratios", exact_text("Open part of ΔK_I, f = ", f).c_str(),
+                         "crack depth c/d", "ΔK_I/√(K_N K_T d)");
+   for (const double R : {-1.0, -0.5, 0.0, 0.3, 0.6})
+   {
+      CrackedEdge crack;
+      crack.edge = {1, 0.5 * f, f};
+      crack.stress_ratio = R;
+      std::vector<double> depth, open;
+      for (int i = 1; i <= 200; i++)
+      {
+         depth.push_back(0.005 * i);
+         open.push_back(crack_cycle(crack, depth.back()).drive(Criterion::open) /
+                        std::sqrt(crack.edge.k_t));
+      }
+      ratios.add(exact_text("R = ", R), depth, open);
+   }
+   if (!pad.plane_stress)
+   {
+      Table &transition =
+         study.table("transition", {{"sliding", "Q/fP", "%.2f"},
+                                    {"friction", "f, severest at the surface", "%.4f"}});
+      transition.draw("Friction above which a Hertz contact is severest at its surface",
+                      "sliding", "Q/fP", {{"friction", "f"}}, "friction coefficient f");
+      for (int i = 4; i <= 20; i++)
+      {
+         study.row(transition, {0.05 * i, hertz_transition_friction(constraint, 0.05 * i)});
+      }
+   }
+   if (pad.kind == "flat-rounded") { draw_profile(study, pad); }
    Panel &threshold =
       lines("threshold", "Threshold, edge field alone", x_of_threshold, y_of_threshold);
    const double last = std::max(1.0, 1.5 * r.abscissa);
@@ -248,7 +311,9 @@ void correlate(Study &study, const std::string &file, const Pad &common,
             lines("threshold_tests", "Tests and threshold", x_of_threshold, y_of_threshold),
          &mode_two = lines("mode_two", "Mode II", "life, cycles", "ΔK_T, MPa√mm"),
          &energy = lines("energy", "Largest frictional energy", "life, cycles",
-                         "energy a cycle, mJ/mm²");
+                         "energy a cycle, mJ/mm²"),
+         &total = lines("energy_all", "Frictional energy of the edge", "life, cycles",
+                        "energy a cycle, mJ/mm");
    double least = std::numeric_limits<double>::infinity(), most = 0, furthest = 0;
    std::vector<std::string> columns;
    int number = 0;
@@ -288,6 +353,7 @@ void correlate(Study &study, const std::string &file, const Pad &common,
          add(tests, r.abscissa, r.ordinate);
          add(mode_two, test.cycles, r.k_t_range);
          add(energy, test.cycles, r.energy_max);
+         add(total, test.cycles, r.energy_total);
          least = std::min(least, test.cycles);
          most = std::max(most, test.cycles);
          furthest = std::max(furthest, r.abscissa);
@@ -313,7 +379,7 @@ void correlate(Study &study, const std::string &file, const Pad &common,
    }
    tests.add("threshold", x, y, "dashed");
    tests.limit("y", 0, 2 * y[50]);
-   for (Panel *panel : {&stress, &mode_two, &energy}) { panel->limit("y", 0, none); }
+   for (Panel *panel : {&stress, &mode_two, &energy, &total}) { panel->limit("y", 0, none); }
 }
 
 } // namespace miniapp

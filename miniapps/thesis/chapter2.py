@@ -80,6 +80,9 @@ It is nearly constant over the slip zone, so that this yields almost at once: th
 The thesis' (2.12) and (2.14) have 2 for √2, and (2.17) is three times the usual invariant; the curves are of the corrected field.""", proof="fretting -f 0.8")
 figure("2.4", "Load at which the slip zone yields", [command for command, _ in TESTS.values()], INVENTED + """
 Lower curve: the load at which some point yields, upper one: the whole slip zone, 1/f whatever ν. They differ for little friction only.""", spots)
+figure("2.4 (Hertz)", "Where a Hertz contact is severest", EDGE, """
+The remark before figure 2.3: with little friction the severest point lies below the surface, with more at the edge. The friction from which on it is at the surface, for a Hertz contact
+sheared by Q: about 0.26 if it slides, more in partial slip.""", lambda run: f.panels((run, "transition", {"title": ""})), rows="severest")
 figure("Table 2.1", "Materials", "fretting -m Al", "The records that the program ships; the thesis' values, with their sources in its bibliography.", lambda run: materials())
 for letter, (command, words) in TESTS.items():
     figure("2.5" + letter, f"Stress at the edge against life: {words}", command, INVENTED + "Range of the stress along the surface at the contact's edge, √(8 f K_N K_T) at peak load. Hollow: not broken.",
@@ -87,6 +90,9 @@ for letter, (command, words) in TESTS.items():
 figure("2.6", "Stress intensity of a crack at the edge", EDGE, """
 Largest K_I over √(K_N K_T d) of a crack of depth c, normal to the surface, for reversed loads (R = -1). The pressure closes longer cracks.""",
        lambda run: f.panels((run, "trajectory", {"title": "", "rename": plain})))
+figure("2.6 (R)", "Other load ratios", EDGE, """
+The part of the cycle of K_I in which the crack is open, for loads that go between R times their peak and the peak. Up to R = 0.3 nothing changes, since the crack is shut at the other end anyway: the weak
+dependence on R that the thesis reports. Above that less of the range is left to short cracks.""", lambda run: f.panels((run, "trajectory_ratios", {"title": ""})))
 figure("2.7", "Threshold of fretting fatigue", EDGE, """
 Above its curve a crack still grows when it has the critical length a0 = (ΔK_th/σ_fl)²/π; below it stops. One diagram for all contacts and materials.""",
        lambda run: f.panels((run, "threshold", {"title": "", "only": lambda s: s != "design", "rename": plain})), wrong="""
@@ -99,3 +105,11 @@ for number, panel, title, text in (
              "2.10": "(2.22) of the thesis has the wrong dimension and lacks E*."}.get(number, "")
     for letter, (command, words) in TESTS.items():
         figure(number + letter, f"{title}: {words}", command, INVENTED + text, tests(panel), wrong=wrong, proof="fretting" if wrong else "")
+figure("2.10 (total)", "Total frictional energy against life", [command for command, _ in TESTS.values()], INVENTED + """
+The energy of the whole slip zone, (8π/3) K_T³/(f K_N E*) a cycle for reversed loads; the thesis says that it orders the tests as the largest density does.""",
+       lambda *all_runs: f.panels(*((run, "energy_all", {"title": words}) for run, (_, words) in zip(all_runs, TESTS.values()))))
+figure("A", "A flat pad with round edges", "fretting -p flat-rounded -r 3 -b 3 -P 1000 -Q 20 -bs 20 -m Ti6Al4V", """
+Appendix A: pressure of a pad with a flat of half-width b and edges of radius R; the edge alone, of a flat without end (A.1); and what is left of both very close to the edge, K_N √t.""",
+       lambda run: f.panels((run, "profile", {"title": "whole"}), (run, "profile", {"title": "at the edge", "limits_x": "-1,-0.94"})), wrong="""
+(A.2) has a minus sign too many, and the thesis has one symbol for two constants: far from the edge p = K_P/√x, at it p = K_N √x with K_N = 3 K_P/a_r.""",
+       proof="fretting -p flat-rounded -r 3 -b 3 -P 1000 -Q 20 -bs 20 -m Ti6Al4V")

@@ -56,4 +56,6 @@ figure("3.12", "Case III: pressure during loading", [PARABOLA, "hertz"], """
 Pressures at the same loads. On a square block the contact is not Hertz's: the block is no half-plane. Where both bodies are half-planes (second row of peak pressure) it is, to
 five digits.""", lambda run, _: f.panels((run, "pressures", {"title": ""})), rows="peak|half-width")
 CHAPTER.missing("3.9 (laws)", "Other laws of friction", "the contact law has one bound |q| ≤ f p a node so far; bounds with cohesion, or that depend on pressure or direction, are not there")
-CHAPTER.missing("3.9 (dislocations)", "Dislocation solutions", "no study prints the tractions of a displacement jump at a node yet; A and B of a saved problem (`--save`) are just that")
+figure("3.9 (dislocations)", "Dislocation solutions", 'square_punch -obstacle half-plane -nodes 401 --shear none -dislocation "0 0.7"', """
+A by-product that the thesis names: tractions of a glide dislocation, a jump of the slip by 1 at a place of the contact with everything else bonded. They are A v and B v. Close to the jump the
+shear is that of an infinite body, E'/4πr (dashed); farther away the block's sides are felt, and there is pressure too.""", lambda run: f.panels((run, "dislocations", {"title": ""})))

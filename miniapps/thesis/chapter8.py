@@ -4,7 +4,8 @@ import figures as f
 from chapter import Chapter
 
 PAD = "design"
-MISMATCH = 'shakedown -nodes 101 -find load -mismatch "0.01 0.03 0.1 0.3 1 3 10 30 100"'
+FRICTIONS = (0.7, 0.85, 1)
+MISMATCH = [f'shakedown -nodes 65 -find load -friction {friction:g} -mismatch "0.01 0.03 0.1 0.3 1 3 10 30 100"' for friction in FRICTIONS]
 BOLTS = ['lap_joint -bolts "-1.2 0 1.2" -lower-thickness 2 -load 0.1 -spacing 0.025', 'lap_joint -bolts "-1.5 0 1.5" -friction 0.4 -load 0.2 -spacing 0.025']
 LOWER = ["shakedown -find load -nodes 65 -starts 8", "shakedown -find load -obstacle rigid -nodes 65 -friction 0.6 -starts 8"]
 RECEDING = 'plane_receding -spacing 0.04 -corner 0.01 -steps 20 -cycles 40 -cycle-to "0.95 0.9 0.8 0.6 0.4 0.2"'
@@ -15,13 +16,16 @@ The thesis ends with five proposals. What became of them here.
 figure = CHAPTER.figure
 
 
-def mismatch(run):
+def mismatch(*all_runs):
     sheet, both = f.sheet(2)
-    rows = run.rows("mismatch")
-    at = [row["plane_stiffness"] for row in rows]
-    f.curves(both[0], {"": (at, [row["coupling"] for row in rows])}, "E' of the half-plane over the block's", "degree of coupling", legend=False, marker="o")
-    f.curves(both[1], {"R = -0.5": (at, [row["load_limit"] for row in rows]), "R = -1": (at, [row["load_limit_reversed"] for row in rows])},
-             "E' of the half-plane over the block's", "largest λ, f = 0.85", marker="o")
+    for k, (run, friction) in enumerate(zip(all_runs, FRICTIONS)):
+        rows = run.rows("mismatch")
+        at = [row["plane_stiffness"] for row in rows]
+        if not k:
+            f.curves(both[0], {"": (at, [row["coupling"] for row in rows])}, "E' of the half-plane over the block's", "degree of coupling", legend=False, marker="o")
+        for key, word, style in (("load_limit", "-0.5", "-"), ("load_limit_reversed", "-1", (0, (5, 2)))):
+            f.curves(both[1], {f"f = {friction:g}, R = {word}": (at, [row[key] / friction for row in rows])}, "E' of the half-plane over the block's", "largest λ/f",
+                     color=f.COLOURS[k], linestyle=style)
     for axes in both:
         axes.set_xscale("log")
     return sheet
@@ -33,11 +37,11 @@ def lower(*all_runs):
     names = ("block on half-plane, f = 0.85", "block on rigid plane, f = 0.6")
     for k, run in enumerate(all_runs):
         limit, quiet, found = run["load_limit"], run.json.get("quiet_up_to") or 0, run.json.get("counter_example")
-        axes.barh(k, limit, color="#DDEBF5", height=0.5, label=None if k else "no start may shake down above λ2 (proven)")
-        axes.barh(k, quiet, color="#9CC3E0", height=0.5, label=None if k else "all starts tried shook down (observed)")
+        axes.barh(k, limit, color="#DDEBF5", height=0.5, label=None if k else "λ2 (proven)")
+        axes.barh(k, quiet, color="#9CC3E0", height=0.5, label=None if k else "all starts that were tried shake down")
         axes.plot([limit, limit], [k - 0.3, k + 0.3], color="black", linewidth=2)
         if found:
-            axes.plot([found], [k], "X", color=f.COLOURS[1], markersize=9, label="slips for ever from some start")
+            axes.plot([found], [k], "X", color=f.COLOURS[1], markersize=9, label="some start slips for ever")
     axes.set_yticks(range(len(all_runs)), names[:len(all_runs)])
     f.label(axes, "λ = Qmax/P0, R = -0.5")
     axes.legend(fontsize=7.5, loc="upper center", bbox_to_anchor=(0.4, -0.25), ncol=3)
@@ -53,7 +57,7 @@ uniformly. Another objective, the energy lost in a cycle, and limits of curvatur
 figure("8.2 (2)", "Coupling", MISMATCH, """
 The degree of coupling is the largest share of elastic energy that slip and opening can have in common, a number between 0 and 1 that doesn't depend on the mesh; for two half-planes it is
 Dundurs' |β|. Here it and the limits, for blocks on softer and stiffer half-planes. Coupling is least on a half-plane of a tenth of the stiffness, and most on a rigid one; what the contact bears
-doesn't follow it alone. (λ = f = 0.85 is gross sliding.)""", mismatch)
+doesn't follow it alone. (λ = f is gross sliding.)""", mismatch)
 figure("8.2 (3)", "Order of tightening", BOLTS, """
 Three bolts in a row, tightened from the middle outward, and from outside inward: the shear that is left after it, and the loss in a steady cycle. With laps of different thickness the order
 matters for the shear that is left; equal laps have none (second command), since by symmetry pressing doesn't shear them.""",
