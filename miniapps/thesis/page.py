@@ -4,6 +4,7 @@ import base64
 import html
 import io
 import re
+import shlex
 
 from figures import plt
 
@@ -105,7 +106,7 @@ def section(figure, runs, fault):
     if figure.commands:
         seconds = sum(run.seconds for run in runs)
         lines = "<br>".join(f"<code>./run {html.escape(command)}</code>" for command in figure.commands)
-        parts.append(f'<p class="made">Alone: <code>./run thesis {html.escape(figure.number)}</code>; its numbers '
+        parts.append(f'<p class="made">Alone: <code>./run thesis {html.escape(shlex.quote(figure.number))}</code>; its numbers '
                      f'({seconds:.1f} s), with <code>--csv</code> or <code>--plot</code>:<br>{lines}</p>')
     rows = figure.comparisons(runs) if not fault else []
     if rows:

@@ -8,6 +8,7 @@ import argparse
 import importlib
 import os
 import pathlib
+import re
 import sys
 import time
 
@@ -83,7 +84,7 @@ def main():
     say("drawing")
     text, faults = page(chapters, found, HEADING, ABOUT)
     folder.mkdir(parents=True, exist_ok=True)
-    file = folder / ("-".join(parts).replace(" ", "") + ".html" if parts else "index.html")
+    file = folder / (re.sub(r"[^\w.-]", "", "-".join(parts)) + ".html" if parts else "index.html")
     file.write_text(text, encoding="utf-8")
     for figure, fault in faults:
         say(f"missing: {figure.name}: {fault}")
