@@ -56,6 +56,19 @@ protected:
       std::ofstream(folder + "/case.json") << all.dump();
       return run_miniapp("contact2d", "--case '" + folder + "/case.json' " + options);
    }
+   /// A case of meshes/ that can stand in another folder.
+   static json shipped(const std::string &name)
+   {
+      const std::string folder = std::string(CATTANEO_SOURCE_DIR) + "/meshes/";
+      json keys;
+      std::ifstream(folder + name + ".json") >> keys;
+      keys.erase("$schema");
+      for (json &body : keys["bodies"])
+      {
+         body["mesh"] = folder + body["mesh"].get<std::string>();
+      }
+      return keys;
+   }
    /// The message of a case that is refused.
    std::string refused(const json &keys) const
    {
@@ -921,16 +934,8 @@ TEST_F(Joints, AreSweptByTheirKeys)
 /// The bolted joint from decks as ABAQUS and CalculiX read them is that of Gmsh's meshes.
 TEST_F(Joints, OfDecksAreThoseOfTheSameMeshes)
 {
-   json keys;
-   std::ifstream("meshes/bolted_joint.json") >> keys;
-   keys.erase("$schema");
+   json keys = shipped("bolted_joint");
    keys["cycles"] = 1;
-   for (auto &item : keys["bodies"].items())
-   {
-      const std::string name = item.key();
-      const fs::path mesh = fs::absolute("meshes/" + item.value()["mesh"].get<std::string>());
-      item.value()["mesh"] = mesh.string();
-   }
    const Result meshes = run(keys, "--csv '" + folder + "/meshes'");
    for (auto &item : keys["bodies"].items())
    {
@@ -1043,13 +1048,7 @@ TEST_F(CodeAster, SSNP152)
 /// find these would be an error.
 TEST_F(CodeAster, SSNP154)
 {
-   json keys;
-   std::ifstream("meshes/SSNP154.json") >> keys;
-   for (auto &item : keys["bodies"].items())
-   {
-      item.value()["mesh"] =
-         fs::absolute("meshes/" + item.value()["mesh"].get<std::string>()).string();
-   }
+   json keys = shipped("SSNP154");
    const double moved[][2] = {{0, -1.281}, {0.1, -1.274}};
    for (const auto &[friction, expected] : moved)
    {
