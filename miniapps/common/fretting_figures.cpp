@@ -167,9 +167,7 @@ void draw_design(Study &study, const Pad &pad, const JudgedEdge &judged,
    }
    if (!pad.plane_stress)
    {
-      Table &transition =
-         study.table("transition", {{"sliding", "Q/fP", "%.2f"},
-                                    {"friction", "f, severest at the surface", "%.4f"}});
+      Table &transition = study.table("transition", {{"sliding"}, {"friction"}}); // not printed
       transition.draw("Friction above which a Hertz contact is severest at its surface",
                       "sliding", "Q/fP", {{"friction", "f"}}, "friction coefficient f");
       for (int i = 4; i <= 20; i++)
