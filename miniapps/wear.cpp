@@ -13,9 +13,9 @@
 //                wear --profile flat --cycles 2000
 //                wear --case problems/hertz_wear.case.json
 
-#include "common/hertz_scene.hpp"
 #include "common/run.hpp"
 #include "common/watch.hpp"
+#include "common/wearing_pad.hpp"
 
 #include <algorithm>
 #include <cattaneo/friction/history_statements.hpp>
@@ -28,94 +28,12 @@ using namespace cattaneo;
 using Eigen::Index;
 using Eigen::VectorXd;
 using miniapp::exact_text;
+using miniapp::Pad;
 using miniapp::text;
+using miniapp::WearCase;
 
 namespace
 {
-
-/// How far a parabola wears in the end, over the half-width c of stick: ξ √(ξ² - 1) = (P/P*)
-/// arccosh ξ.
-double worn_extent(double P_over_held)
-{
-   double low = 1 + 1e-9, high = 1e3;
-   for (int k = 0; k < 200; ++k)
-   {
-      const double x = std::sqrt(low * high);
-      (x * std::sqrt(x * x - 1) > P_over_held * std::acosh(x) ? high : low) = x;
-   }
-   return low;
-}
-
-/// Grid of a contact line |x| < span of so many elements, finer toward ±c, where slip begins.
-std::vector<double> grid_about(double c, double span, int elements)
-{
-   const int outer = std::max(2, elements / 5), inner = elements / 2 - outer;
-   const auto toward_c = [](int k, int of)
-   { return std::pow(static_cast<double>(k) / of, 1.8); };
-   std::vector<double> half = {0}; // from 0 to span
-   for (int k = inner - 1; k >= 0; --k) { half.push_back(c - c * toward_c(k, inner)); }
-   for (int k = 1; k <= outer; ++k) { half.push_back(c + (span - c) * toward_c(k, outer)); }
-   std::vector<double> grid;
-   for (std::size_t k = half.size() - 1; k > 0; --k) { grid.push_back(-half[k]); }
-   grid.insert(grid.end(), half.begin(), half.end());
-   return grid;
-}
-
-struct Case
-{
-   ReducedProblem problem;
-   LoadHistory history;
-   double middle = 0; ///< of what is symmetric, arc length
-};
-
-struct Pad
-{
-   std::string profile = "parabola";
-   double flat = 0.5, poisson = 0.3;
-   int nodes = 201, order = 2;
-
-   bool is_the_default() const
-   {
-      const Pad usual;
-      return profile == usual.profile && flat == usual.flat && poisson == usual.poisson &&
-             nodes == usual.nodes && order == usual.order;
-   }
-};
-
-/// A pad on a half-plane, P = 1, of a half-width a = 1 unworn if it is a parabola with R = 1.
-Case pad_on_half_plane(miniapp::Study &study, const Pad &pad, double shear, double friction)
-{
-   const auto &[profile, flat, poisson, nodes, order] = pad;
-   require((nodes - 1) % (2 * order) == 0, "option --nodes is ", nodes,
-           ", must be one more than a multiple of twice the order ", order);
-   const bool parabola = profile == "parabola";
-   const double c = parabola ? std::sqrt(1 - shear) : 1.0,
-                span = parabola ? std::max(1.15, 1.1 * c * worn_extent(1 / (1 - shear)))
-                                : 1 + 2 * (1 - flat);
-   miniapp::HalfPlanes planes;
-   planes.order = order;
-   planes.nodes = nodes;
-   planes.material = Material{8 / M_PI * (1 - poisson * poisson), poisson, PlaneState::strain};
-   planes.grid = grid_about(c, span, (nodes - 1) / order);
-   miniapp::Scene scene = make_scene(planes);
-   Case result;
-   ReducedProblem &problem = result.problem = scene.problem();
-   problem.B().setZero(); // equal half-planes: what is there is round-off
-   join_coupling(problem);
-   set_friction(problem, friction);
-   const VectorXd x = problem.position.col(0);
-   problem.gap = parabola
-                    ? VectorXd(0.5 * x.cwiseAbs2())
-                    : VectorXd(0.5 * (x.cwiseAbs().array() - flat).cwiseMax(0.0).square());
-   study.condensed(problem, scene.dofs);
-   const double Q = shear * friction;
-   result.history = LoadHistory::through(
-      problem,
-      {{}, {{"P", 1}}, {{"P", 1}, {"Q", Q}}, {{"P", 1}, {"Q", -Q}}, {{"P", 1}, {"Q", Q}}});
-   result.history.cycle_start = 2;
-   result.middle = 0.5 * (problem.arc_length.minCoeff() + problem.arc_length.maxCoeff());
-   return result;
-}
 
 ReducedProblem with_gap(ReducedProblem problem, const VectorXd &depth)
 {
@@ -138,7 +56,7 @@ double crossing(const VectorXd &s, const VectorXd &value, Index from, int way)
 }
 
 /// The state in which wear ends, solved for directly.
-void report_end(miniapp::Study &study, const Case &scene, const WornOut &end,
+void report_end(miniapp::Study &study, const WearCase &scene, const WornOut &end,
                 miniapp::Panel &profiles, miniapp::Panel &pressures)
 {
    study.title("Worn out");
@@ -178,7 +96,7 @@ void report_end(miniapp::Study &study, const Case &scene, const WornOut &end,
 }
 
 /// One cycle more in many increments, for the loop of each load that varies.
-void draw_loop(miniapp::Panel &panel, const std::string &label, const Case &scene,
+void draw_loop(miniapp::Panel &panel, const std::string &label, const WearCase &scene,
                const WearState &state, MarchSettings settings)
 {
    const ReducedProblem worn = with_gap(scene.problem, state.depth);
@@ -260,7 +178,7 @@ void wear_contact(miniapp::Study &study)
    settings.march.stepping = miniapp::stepping(stepping);
    settings.update = update == "piece" ? GapUpdate::piece : GapUpdate::cycle;
 
-   Case scene;
+   WearCase scene;
    if (file.empty())
    {
       require(history_text.empty() && cycle_start < 0,
@@ -354,7 +272,8 @@ void wear_contact(miniapp::Study &study)
    study.value("energy", state.dissipation.sum(), "energy that friction took");
    study.value("explicit_limit", report.explicit_limit,
                "most cycles that may share an explicit update");
-   study.say(text("   %ld cycles marched, %ld jumps", report.marched, report.jumps));
+   study.say(text("   %ld cycles marched, %ld jumps, %.2g s", report.marched, report.jumps,
+                  report.seconds));
    if (report.implicit_cycles > 0)
    {
       miniapp::warn(

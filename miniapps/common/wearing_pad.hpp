@@ -1,0 +1,40 @@
+#pragma once
+
+#include "common/study.hpp"
+
+#include <cattaneo/friction/load_history.hpp>
+#include <string>
+
+namespace miniapp
+{
+
+using cattaneo::LoadHistory;
+using cattaneo::ReducedProblem;
+
+/// A contact that wears through a history with a cycle.
+struct WearCase
+{
+   ReducedProblem problem;
+   LoadHistory history;
+   double middle = 0; ///< of what is symmetric, arc length
+};
+
+/// A pad on a half-plane of the same material.
+struct Pad
+{
+   std::string profile = "parabola";
+   double flat = 0.5, poisson = 0.3;
+   int nodes = 201, order = 2;
+
+   bool is_the_default() const
+   {
+      const Pad usual;
+      return profile == usual.profile && flat == usual.flat && poisson == usual.poisson &&
+             nodes == usual.nodes && order == usual.order;
+   }
+};
+
+/// P = 1, of a half-width a = 1 unworn if it is a parabola with R = 1; Q between ±shear f P.
+WearCase pad_on_half_plane(Study &study, const Pad &pad, double shear, double friction);
+
+} // namespace miniapp
