@@ -147,7 +147,7 @@ void run_plot_script(const std::vector<std::string> &arguments, const std::strin
    if (!writes()) { return; }
    std::string command =
       "for python in python3 /usr/bin/python3; do command -v $python >/dev/null || continue; "
-      "$python " +
+      "CATTANEO_TRIES_PYTHONS=1 $python " +
       argument(shipped("plot/plot.py"));
    for (const std::string &text : arguments) { command += " " + argument(text); }
    command += " " + argument(picture) + "; code=$?; [ $code = 3 ] || exit $code; done; exit 3";

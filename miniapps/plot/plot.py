@@ -26,13 +26,16 @@ in hatching as well, so that a black-and-white print can be read.
 """
 import csv
 import math
+import os
 import sys
 from collections import OrderedDict, defaultdict
 
 try:
     import matplotlib
 except ImportError:
-    sys.exit(3)  # another Python may have it
+    if "CATTANEO_TRIES_PYTHONS" not in os.environ:  # a study tries others, and says it if none has it
+        print("plot.py: this Python has no matplotlib (Debian: python3-matplotlib, for /usr/bin/python3)", file=sys.stderr)
+    sys.exit(3)
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
@@ -40,6 +43,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.patches import Annulus, Patch, Polygon
 
 COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000"]
+DASHED = (0, (5, 2))  # of companions
 DASHES = ["-", (0, (6, 2)), (0, (2, 1.5)), (0, (7, 2, 1.5, 2)), (0, (1, 1)), (0, (9, 3)), "-"]
 MARKERS = ["o", "s", "D", "v", "P", "X"]
 STATES = OrderedDict([
@@ -97,7 +101,7 @@ def draw_lines(axes, comments, rows):
     plain = any(style == "dashed" and ": " in name for name, style in series)
     curves = ("line", "marked", "points", "hollow", "band")
     names = list(OrderedDict.fromkeys(name for name, style in series if style in curves))
-    labelled, bands = set(), {}
+    labelled, bands, companions = set(), {}, {}
     for (name, style), points in series.items():
         x, y = zip(*points)
         # A comparison takes the colour of the curve it belongs to ("closed form: q" goes with "q").
@@ -115,7 +119,10 @@ def draw_lines(axes, comments, rows):
             axes.plot(x, y, MARKERS[owner % 6], color=colour, markersize=3.5 if len(x) > 20 else 7,
                       markerfacecolor=colour if full else "none", label=label)
         elif style == "dashed":
-            axes.plot(x, y, color=colour, linestyle=(0, (5, 2)), linewidth=1.2, label=label)
+            if owner is not None and name != names[owner]:  # one word for all of its kind
+                companions[name[: -len(": " + names[owner])]] = True
+                label = None
+            axes.plot(x, y, color=colour, linestyle=DASHED, linewidth=1.2, label=label)
         elif style == "band":
             half = len(x) // 2  # below, then above
             axes.fill_between(x[:half], y[:half], y[half:], color=colour, alpha=0.3, label=label)
@@ -124,6 +131,8 @@ def draw_lines(axes, comments, rows):
             mark, size = {"star": ("*", 13), "cross": ("x", 5)}.get(style, ("D", 6))
             axes.plot(x, y, mark, color="black", markerfacecolor="black" if style == "star" else "none",
                       markersize=size, label=label, zorder=5)
+    for kind in companions:
+        axes.plot([], [], color="black", linestyle=DASHED, linewidth=1.2, label=kind)
     if any(style == "hollow" for name, style in series):
         axes.plot([], [], "o", color="black", markerfacecolor="none", label="run-out (hollow)")
     if comments["inside"]:
