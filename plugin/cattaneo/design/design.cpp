@@ -69,7 +69,8 @@ class Design
 public:
    Design(const DesignProblem &given, const DesignSettings &settings)
       : given_(given), settings_(settings), march_(settings.march),
-        progress_(settings.march.monitor), variables_(given.low.size())
+        progress_(settings.march.monitor), variables_(given.low.size()),
+        limits_(given.limits.rows() > 0 ? given.limits : MatrixXd(0, variables_))
    {
       march_.stop_at_steady_state = false;
       march_.monitor = {};
@@ -99,6 +100,7 @@ private:
    MarchSettings march_;
    ProgressReport progress_;
    const Index variables_;
+   const MatrixXd limits_; // a column a variable, also where there is none
    std::optional<Trial> trial_, best_;
    double unit_ = 1;           // of the objective
    VectorXd scale_, row_unit_; // of each variable, and of each limit
@@ -197,12 +199,11 @@ void Design::differentiate(Trial &trial)
 
 bool Design::allowed(const VectorXd &x) const
 {
-   const VectorXd limits = given_.limits * x;
+   const VectorXd limits = limits_ * x;
    bool inside = (x - given_.low).minCoeff() >= 0 && (given_.high - x).minCoeff() >= 0;
    for (Index r = 0; r < limits.size(); ++r)
    {
-      const double leave =
-         settings_.tolerance * given_.limits.row(r).cwiseAbs().dot(x.cwiseAbs());
+      const double leave = settings_.tolerance * limits_.row(r).cwiseAbs().dot(x.cwiseAbs());
       inside =
          inside && limits[r] >= given_.least[r] - leave && limits[r] <= given_.most[r] + leave;
    }
@@ -221,7 +222,7 @@ void Design::find_scales(const Trial &trial)
       if (steepest > 0) { scale_[j] = std::min(scale_[j], unit_ / steepest); }
       if (!(scale_[j] > 0)) { scale_[j] = 1; }
    }
-   row_unit_ = (given_.limits * scale_.asDiagonal()).cwiseAbs().rowwise().maxCoeff();
+   row_unit_ = (limits_ * scale_.asDiagonal()).cwiseAbs().rowwise().maxCoeff();
    for (double &unit : row_unit_) { unit = unit > 0 ? unit : 1.0; }
 }
 
@@ -232,7 +233,7 @@ SmoothProgramme Design::programme(const Trial *about, double radius)
    constexpr double none = 2e19; // what Ipopt takes for infinite
    const auto bounded = [none](const VectorXd &x)
    { return VectorXd(x.cwiseMax(-none).cwiseMin(none)); };
-   const Index limits = given_.limits.rows(), extra = largest() ? 1 : 0,
+   const Index limits = limits_.rows(), extra = largest() ? 1 : 0,
                count = largest() ? best_->values.size() : 0;
    SmoothProgramme p;
    p.linear = about != nullptr;
@@ -262,7 +263,7 @@ SmoothProgramme Design::programme(const Trial *about, double radius)
       f = largest() ? y[variables_] : values.sum() / unit_;
       c.resize(count + limits);
       if (largest()) { c.head(count) = values.array() / unit_ - y[variables_]; }
-      c.tail(limits) = (given_.limits * x).cwiseQuotient(row_unit_);
+      c.tail(limits) = (limits_ * x).cwiseQuotient(row_unit_);
       return true;
    };
    p.derivatives = [this, about, count, limits](const VectorXd &y, VectorXd &f, MatrixXd &c)
@@ -281,7 +282,7 @@ SmoothProgramme Design::programme(const Trial *about, double radius)
       }
       else { f = by.colwise().sum().transpose(); }
       c.bottomLeftCorner(limits, variables_) =
-         row_unit_.cwiseInverse().asDiagonal() * given_.limits * scale_.asDiagonal();
+         row_unit_.cwiseInverse().asDiagonal() * limits_ * scale_.asDiagonal();
       return true;
    };
    p.goes_on = [this, about](int iteration)
@@ -346,13 +347,13 @@ void Design::check_optimality(const SmoothSolution &solution)
 {
    Trial &trial = at(report_.x);
    differentiate(trial);
-   const Index limits = given_.limits.rows(), count = solution.lambda.size() - limits;
+   const Index limits = limits_.rows(), count = solution.lambda.size() - limits;
    report_.bound_multipliers = unit_ * solution.z.head(variables_).cwiseQuotient(scale_);
    report_.limit_multipliers = unit_ * solution.lambda.tail(limits).cwiseQuotient(row_unit_);
    const VectorXd shares = largest() ? VectorXd(solution.lambda.head(count))
                                      : VectorXd(VectorXd::Ones(trial.values.size()));
    const VectorXd gradient = trial.by.transpose() * shares + report_.bound_multipliers +
-                             given_.limits.transpose() * report_.limit_multipliers;
+                             limits_.transpose() * report_.limit_multipliers;
    report_.stationarity = gradient.cwiseProduct(scale_).cwiseAbs().maxCoeff() / unit_;
    if (largest())
    {
@@ -372,7 +373,7 @@ void Design::check_optimality(const SmoothSolution &solution)
       note(report_.bound_multipliers[j], report_.x[j] - given_.low[j],
            given_.high[j] - report_.x[j]);
    }
-   const VectorXd at_limits = given_.limits * report_.x;
+   const VectorXd at_limits = limits_ * report_.x;
    for (Index r = 0; r < limits; ++r)
    {
       const double below = at_limits[r] - given_.least[r],
