@@ -37,6 +37,7 @@ public:
       stays_ -= B.transpose() * half_;
       return border_.compute(B.transpose() * B);
    }
+   Index unknowns() const { return forces_.cols(); } ///< of z
    /// What the minimum takes from the energy of z, and the constraint adds.
    MatrixXd without(const MatrixXd &energy, Index first, Index count) const
    {
@@ -87,8 +88,9 @@ public:
    explicit BodiesUnion(RelativeDisplacement relative) : map(std::move(relative)) {}
    VectorXd own(int b, const VectorXd &relative, const VectorXd &multipliers) const override
    {
-      VectorXd z(map.relative() + multipliers.size());
-      z << relative(map.sliding), multipliers;
+      // Motions of an obstacle, which come later, do not load the bodies.
+      VectorXd z(minimum.unknowns());
+      z << relative(map.sliding), multipliers.head(z.size() - map.relative());
       VectorXd coordinates(map.size());
       coordinates << z.head(map.relative()), minimum.at(z);
       const auto count = static_cast<Index>(map.free[b].size());
@@ -305,7 +307,7 @@ public:
    }
    VectorXd tied(const VectorXd &relative, const VectorXd &multipliers) const override
    {
-      return stiffness * relative + loads * multipliers;
+      return stiffness * relative + loads * multipliers.head(loads.cols());
    }
 };
 
