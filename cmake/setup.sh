@@ -164,7 +164,8 @@ prepare()
    if [ ! -f "$build/build.ninja" ] || [ "$(cat "$build/configured" 2>/dev/null)" != "$configuration" ]; then
       say "configuring ($build_type, MFEM at ${MFEM_DIR#"$PWD"/})"
       rm -f "$build/CMakeCache.txt"
-      cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE="$build_type" -DMFEM_DIR="$MFEM_DIR" $(launcher) ${CATTANEO_CMAKE_ARGS:-} \
+      cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE="$build_type" -DMFEM_DIR="$MFEM_DIR" -DCMAKE_UNITY_BUILD=ON \
+         $(launcher) ${CATTANEO_CMAKE_ARGS:-} \
          >"$deps/configure.log" 2>&1 || { cat "$deps/configure.log" >&2; die "configuration failed"; }
       printf '%s' "$configuration" >"$build/configured"
    fi

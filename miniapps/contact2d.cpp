@@ -18,6 +18,8 @@
 #include "common/joint_report.hpp"
 #include "common/own_bodies.hpp"
 #include "common/own_history.hpp"
+#include "common/own_options.hpp"
+#include "common/own_warnings.hpp"
 
 #include <algorithm>
 #include <cattaneo/input_error.hpp>

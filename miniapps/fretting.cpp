@@ -6,7 +6,8 @@
 //  strong the shear would be if nothing slipped. From them follow the slip zone, the stresses,
 //  the growth of a crack normal to the surface, the Kitagawa-Takahashi verdict and the
 //  frictional energy. The pad 'fe' finds the two numbers in a finite element solution of the
-//  contact and compares slip zone and energy with the computed ones.
+//  contact and compares slip zone and energy with the computed ones; the stresses of its steady
+//  cycle, averaged over a depth, are put to multiaxial criteria on critical planes.
 //
 //  Units: N, mm, MPa; forces per mm of thickness. Material data in GPa, MPa and MPa sqrt(m).
 //
@@ -16,9 +17,11 @@
 //                fretting -p kn -kn 4000 -kt 20 -f 0.6 -E 115 -m Ti6Al4V
 //                fretting -p fe -Q 50
 //                fretting -p fe -Q 50 -bs 30 -nodes 201
+//                fretting -p fe -Q 100 --averaging-depth 0.1
 //                fretting -Q 5 -bs 10 -plot fretting.png -csv fretting
 //                fretting -plot fretting.svg -csv f -rec miniapps/data/fretting_records.csv
 
+#include "common/critical_planes.hpp"
 #include "common/fretting_figures.hpp"
 #include "common/pad.hpp"
 #include "common/shipped.hpp"
@@ -243,7 +246,9 @@ void assess_pad(miniapp::Study &study)
    miniapp::Pad pad;
    std::string material = "Al", criterion = "open", records,
                material_file = miniapp::shipped("data/materials.json");
-   double young = none, poisson = none, threshold = none, limit = none, yield = none;
+   PlaneWeights weights;
+   double depth = none, young = none, poisson = none, threshold = none, limit = none,
+          yield = none;
    study.option(&pad.kind, {"p", "pad"},
                 "hertz (cylinder on flat), fe (the same by finite elements), flat-rounded, or "
                 "kn (K_N and K_T given).",
@@ -268,6 +273,14 @@ void assess_pad(miniapp::Study &study)
                 "Half width of the contact, mm (pad kn, for the validity only).");
    study.option(&pad.nodes, "nodes", "Contact nodes (pad fe).");
    study.option(&pad.order, "order", "Order of the elements (pad fe).");
+   study.option(&depth, {"ad", "averaging-depth"},
+                "Criteria on critical planes along the surface, of stresses averaged over this "
+                "depth, mm (pad fe; 0: at the surface).",
+                miniapp::not_negative);
+   study.option(&weights.findley, "findley", "k of Findley's criterion (pad fe).",
+                miniapp::not_negative);
+   study.option(&weights.fatemi_socie, "fatemi-socie", "k of Fatemi and Socie's (pad fe).",
+                miniapp::not_negative);
    study.option(&material, {"m", "material"}, "Name of a material record.");
    study.option(&material_file, {"mf", "material-file"}, "File of material records, JSON.",
                 miniapp::Text::input);
@@ -309,6 +322,8 @@ void assess_pad(miniapp::Study &study)
       pad.friction = m.friction.middle();
    }
 
+   require(std::isnan(depth) || pad.kind == "fe",
+           "--averaging-depth is for the pad 'fe', whose stresses are known.");
    miniapp::PadContact contact = calibrate(pad);
    std::optional<miniapp::SolvedPad> solved;
    if (pad.kind == "fe")
@@ -319,7 +334,11 @@ void assess_pad(miniapp::Study &study)
    }
    const miniapp::JudgedEdge judged = judge(pad, contact, criteria);
    print_page(study, pad, contact, judged, criteria);
-   if (solved) { print_solution(study, *solved); }
+   if (solved)
+   {
+      print_solution(study, *solved);
+      if (!std::isnan(depth)) { report_critical_planes(study, pad, *solved, depth, weights); }
+   }
    draw_design(study, pad, judged, criteria);
    if (!records.empty()) { correlate(study, records, pad, criteria); }
 }

@@ -28,9 +28,9 @@ using namespace cattaneo;
 using Eigen::Index;
 using Eigen::VectorXd;
 using miniapp::exact_text;
-using miniapp::Pad;
 using miniapp::text;
 using miniapp::WearCase;
+using miniapp::WearingPad;
 
 namespace
 {
@@ -125,7 +125,7 @@ void draw_loop(miniapp::Panel &panel, const std::string &label, const WearCase &
 
 void wear_contact(miniapp::Study &study)
 {
-   Pad pad;
+   WearingPad pad;
    std::string file, history_text, update = "cycle", stepping = "advancing", save_state,
                                    load_state;
    double shear = miniapp::none, friction = miniapp::none, coefficient = 1e-2, threshold = 0;

@@ -82,7 +82,7 @@ std::vector<AtNode> supports(const ElasticBody &body)
    return at_nodes(body, held);
 }
 
-std::string body_name(const Reduction &reduction, std::size_t k)
+std::string heading(const Reduction &reduction, std::size_t k)
 {
    const std::string &name = reduction.bodies[k].name;
    return name.empty() ? "body " + std::to_string(k + 1) : name;
@@ -112,7 +112,7 @@ void list_bodies(Study &study, const Scene &scene)
          for (int c : {0, 1}) { held[c] += support.value[c] != 0; }
       }
       study.row(bodies,
-                {body_name(reduction, k), scene.meshes[k]->GetNE(), body.dofs(), frame.low[0],
+                {heading(reduction, k), scene.meshes[k]->GetNE(), body.dofs(), frame.low[0],
                  frame.high[0], frame.low[1], frame.high[1], held[0], held[1]});
    }
 }
@@ -130,18 +130,12 @@ void list_lines(Study &study, const Reduction &reduction)
       const ContactLine &line = reduction.bodies[k].line;
       const VectorXd spacing = line.each(&LineNode::spacing);
       double length = line.nodes.back().arc_length;
-      study.row(lines, {body_name(reduction, k), line.size(), line.chains.size(), length,
+      study.row(lines, {heading(reduction, k), line.size(), line.chains.size(), length,
                         spacing.minCoeff(), spacing.maxCoeff()});
    }
    const VectorXd &gap = reduction.problem.gap;
    study.value("least_gap", gap.minCoeff(), "least gap (negative: overlap)");
    study.value("most_gap", gap.maxCoeff(), "largest gap");
-}
-
-/// A sum without what is round-off of its parts.
-double settled(double sum, double of)
-{
-   return std::abs(sum) < 1e-12 * of ? 0 : sum;
 }
 
 void list_loads(Study &study, const Scene &scene)
@@ -170,9 +164,9 @@ void list_loads(Study &study, const Scene &scene)
             all += std::hypot(at.value[0], at.value[1]);
             far = std::max(far, at.position.norm());
          }
-         study.row(loads, {load.name, body_name(reduction, k),
-                           force ? "forces" : "displacement", nodes.size(),
-                           force ? settled(x, all) : none, force ? settled(y, all) : none,
+         study.row(loads, {load.name, heading(reduction, k), force ? "forces" : "displacement",
+                           nodes.size(), force ? settled(x, all) : none,
+                           force ? settled(y, all) : none,
                            plane && force ? settled(moment, all * far) : none});
       }
    }
@@ -181,7 +175,7 @@ void list_loads(Study &study, const Scene &scene)
       for (const BodyLoad &load : scene.torsion[k]->patterns())
       {
          const bool force = load.control == Control::force;
-         study.row(loads, {load.name, body_name(reduction, k), force ? "torque" : "twist",
+         study.row(loads, {load.name, heading(reduction, k), force ? "torque" : "twist",
                            at_nodes(*scene.torsion[k], load.values).size(), none, none,
                            force ? load.values.sum() : none});
       }
@@ -215,7 +209,7 @@ void draw_nodes(Panel &panel, const Reduction &reduction)
    {
       for (const LineNode &node : reduction.bodies[k].line.nodes)
       {
-         panel.item("contact of " + body_name(reduction, k), node.position, {0, 0});
+         panel.item("contact of " + heading(reduction, k), node.position, {0, 0});
       }
    }
 }
@@ -282,7 +276,7 @@ Panel &draw(Study &study, const Scene &scene, const std::string &name, const std
    const Reduction &reduction = scene.reduction;
    for (std::size_t k = 0; k < scene.bodies.size(); ++k)
    {
-      draw_boundary(panel, body_name(reduction, k), *scene.meshes[k]);
+      draw_boundary(panel, heading(reduction, k), *scene.meshes[k]);
    }
    draw_nodes(panel, scene.reduction);
    for (const auto &body : scene.bodies) { draw_loads(panel, *body, 0.8 * margin); }

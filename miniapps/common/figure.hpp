@@ -11,6 +11,9 @@
 namespace miniapp
 {
 
+/// As much of a march as a picture can show, whatever its length.
+constexpr std::size_t most_drawn = 4096;
+
 /** One panel of a figure, which is also one CSV file: comment lines that name it and its axes
     ("# kind: lines", "# title: …", "# x: …", "# y: …"), then a tidy table: one row a point
     (series, style, x, y), a zone (time, state, from, to), a ring (its state, from, to) or arrow

@@ -226,7 +226,8 @@ void draw_design(Study &study, const Pad &pad, const JudgedEdge &judged,
 namespace
 {
 
-std::vector<std::string> split(const std::string &line)
+/// Between commas; an empty one is one too.
+std::vector<std::string> cells_of(const std::string &line)
 {
    std::vector<std::string> cells;
    std::istringstream stream(line);
@@ -319,7 +320,7 @@ void correlate(Study &study, const std::string &file, const Pad &common,
    {
       number++;
       if (line.find_first_not_of(" \t\r") == std::string::npos || line[0] == '#') { continue; }
-      const std::vector<std::string> cells = split(line);
+      const std::vector<std::string> cells = cells_of(line);
       if (columns.empty())
       {
          columns = cells;

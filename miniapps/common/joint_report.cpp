@@ -14,20 +14,6 @@ using Eigen::Vector2d;
 using Eigen::VectorXd;
 using nlohmann::ordered_json;
 
-namespace
-{
-
-/// States of a march that a picture shows, at least the last ones.
-constexpr std::ptrdiff_t most_drawn = 4096;
-
-/// Without what is round-off of values of this size.
-double settled(double x, double size)
-{
-   return std::abs(x) < 1e-12 * size ? 0 : x;
-}
-
-} // namespace
-
 JointReport::JointReport(Study &study, const JointCase &joint, const Reduction &reduction)
    : study_(study), joint_(joint), reduction_(reduction), courses_(reduction.interfaces.size()),
      range_(joint.bolts.size(), {1e300, -1e300})
@@ -93,8 +79,8 @@ JointReport::Resultant JointReport::resultant(const InterfaceReport &face,
       const Index n = reduction_.problem.nodes();
       const VectorXd around = face.tied ? reduction_.tied_twisting(state.v, state.multipliers)
                                         : VectorXd(state.q.tail(n));
-      const VectorXd torques =
-         around.segment(face.first, face.nodes).cwiseProduct(face.position.col(0));
+      const VectorXd torques = around.segment(face.first, face.nodes)
+                                  .cwiseProduct(face.acts_at[face.of_second].col(0));
       made.torque = settled((face.of_second ? -1 : 1) * torques.sum(), torques.lpNorm<1>());
    }
    return made;
@@ -133,8 +119,9 @@ void JointReport::note(const ContactState &state, int cycle)
                slips = state.v.segment(around + face.first, face.nodes);
       if (twists())
       {
-         forces = forces.cwiseProduct(face.position.col(0));
-         slips = slips.cwiseQuotient(face.position.col(0));
+         const VectorXd r = face.acts_at[face.of_second].col(0);
+         forces = forces.cwiseProduct(r);
+         slips = slips.cwiseQuotient(r);
       }
       const double slip = slips.dot(face.weights) / face.weights.sum();
       const double shear = -settled(forces.sum(), forces.lpNorm<1>());

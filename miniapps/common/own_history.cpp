@@ -62,9 +62,6 @@ std::vector<std::string> interfaces(const ReducedProblem &problem)
    return names;
 }
 
-/// As much of a march as a picture can show, whatever its length.
-constexpr std::size_t most_drawn = 4096;
-
 /// The zones of a march, of a long one those of every second increment, every fourth, ….
 class ZonesInTime
 {

@@ -5,6 +5,7 @@
 
 #include <cattaneo/fretting/assessment.hpp>
 #include <cattaneo/fretting/calibration.hpp>
+#include <cattaneo/fretting/critical_plane.hpp>
 #include <optional>
 #include <string>
 
@@ -48,9 +49,18 @@ struct PadEdge : cattaneo::fretting::SolvedEdge
    bool resolved = false; ///< fewer spacings than two do not carry a slip zone, nor its energy
 };
 
+/// What the specimen feels at an instant of the steady cycle.
+struct PadInstant
+{
+   Eigen::VectorXd shear, pressure; ///< forces of the contact nodes, along x and pressing
+   double bulk = 0.0;               ///< stress, MPa
+};
+
 /// The cylinder on a half-plane, pressed and sheared by finite elements.
 struct SolvedPad
 {
+   Eigen::VectorXd positions;              ///< of the contact nodes along x
+   std::vector<PadInstant> cycle;          ///< the steady one
    double half_width = 0.0, spacing = 0.0; ///< of the contact and of its nodes
    PadEdge trailing, leading;
    int steady_cycle = 0, dofs = 0;

@@ -259,6 +259,12 @@ int exit_code(const ReducedProblem &problem, const MarchReport &report)
                 << report.stalled << " increments stalled and were passed by shorter ones"
                 << std::endl;
    }
+   if (report.taken_up_clearance > 0)
+   {
+      std::cout << "\nWhat was free and touched nothing was moved before the march, by up to "
+                << text("%.4g", report.taken_up_clearance)
+                << ", to where the first loads press it on" << std::endl;
+   }
    if (report.status == FrictionStatus::converged) { return 0; }
    if (const auto &first = report.not_unique)
    {

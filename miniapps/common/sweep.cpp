@@ -33,7 +33,7 @@ namespace fs = std::filesystem;
 namespace
 {
 
-struct Key
+struct SweptKey
 {
    std::string name;
    std::vector<std::string> values;
@@ -76,16 +76,16 @@ std::vector<std::string> spread(const std::string &word)
    return values;
 }
 
-std::vector<Key> read_keys(const std::string &statements)
+std::vector<SweptKey> read_keys(const std::string &statements)
 {
-   std::vector<Key> keys;
+   std::vector<SweptKey> keys;
    for (const std::string &statement : split(statements, ";"))
    {
       const std::size_t equals = statement.find('=');
       require(equals != std::string::npos && equals > 0, "option --sweep: '", statement,
               "', must be OPTION=values such as 'friction=0.2 0.5'");
-      Key key{statement.substr(0, equals), {}};
-      for (const Key &other : keys)
+      SweptKey key{statement.substr(0, equals), {}};
+      for (const SweptKey &other : keys)
       {
          require(other.name != key.name, "option --sweep: '", key.name, "' is there twice");
       }
@@ -99,10 +99,10 @@ std::vector<Key> read_keys(const std::string &statements)
    return keys;
 }
 
-std::vector<Point> make_points(const Options &options, const std::vector<Key> &keys)
+std::vector<Point> make_points(const Options &options, const std::vector<SweptKey> &keys)
 {
    std::vector<Point> points(1);
-   for (const Key &key : keys)
+   for (const SweptKey &key : keys)
    {
       std::vector<Point> all;
       for (const Point &point : points)
@@ -282,12 +282,12 @@ ordered_json result(const ordered_json &results, const std::string &place)
 
 /// Those that are single numbers in any point, but for its sizes, times, errors and residuals.
 std::vector<std::string> single_numbers(const std::vector<Point> &points,
-                                        const std::vector<Key> &keys)
+                                        const std::vector<SweptKey> &keys)
 {
    std::set<std::string> known = {
       "contact_nodes", "dofs",       "seconds",          "seconds_condensation",
       "time",          "event_time", "largest_residual", "energy_imbalance"};
-   for (const Key &key : keys) { known.insert(key.name); }
+   for (const SweptKey &key : keys) { known.insert(key.name); }
    std::vector<std::string> names;
    for (const Point &point : points)
    {
@@ -316,7 +316,7 @@ bool varies(const std::vector<Point> &points, const std::string &name)
 
 /// The key with the most numbers, over which results are drawn; as many as there are keys if
 /// none has two.
-std::size_t drawn_over(const std::vector<Key> &keys)
+std::size_t drawn_over(const std::vector<SweptKey> &keys)
 {
    std::size_t over = keys.size(), count = 0;
    for (std::size_t k = 0; k < keys.size(); ++k)
@@ -335,7 +335,7 @@ std::size_t drawn_over(const std::vector<Key> &keys)
 }
 
 /// A panel for each result over that key; of the other keys a curve each.
-void draw(Study &study, const std::vector<Key> &keys, const std::vector<Point> &points,
+void draw(Study &study, const std::vector<SweptKey> &keys, const std::vector<Point> &points,
           const std::vector<std::string> &names)
 {
    const std::size_t over = drawn_over(keys);
@@ -366,7 +366,7 @@ void draw(Study &study, const std::vector<Key> &keys, const std::vector<Point> &
 void run_sweep(Study &study, const std::string &statements, const std::string &wanted)
 {
    require(ranks() == 1, "option --sweep is for one rank, this runs on ", ranks());
-   const std::vector<Key> keys = read_keys(statements);
+   const std::vector<SweptKey> keys = read_keys(statements);
    require(!study.has_picture() || drawn_over(keys) < keys.size(),
            "option --plot: no key of the sweep has two numbers to draw results over");
    std::vector<Point> points = make_points(study.options(), keys);
@@ -393,7 +393,7 @@ void run_sweep(Study &study, const std::string &statements, const std::string &w
               ", or a place as 'levels.0.slip'");
    }
    std::vector<Column> columns;
-   for (const Key &key : keys) { columns.push_back({key.name, key.name, "%g"}); }
+   for (const SweptKey &key : keys) { columns.push_back({key.name, key.name, "%g"}); }
    constexpr std::size_t most = 9; // on the screen and in the figure
    std::vector<std::string> shown;
    for (const std::string &name : names)

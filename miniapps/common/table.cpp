@@ -63,6 +63,11 @@ const Table *&on_screen()
 
 } // namespace
 
+double settled(double sum, double size)
+{
+   return std::abs(sum) < 1e-12 * size ? 0 : sum;
+}
+
 Table::Table(const std::string &name, const std::vector<Column> &columns)
    : name_(name), columns_(columns)
 {

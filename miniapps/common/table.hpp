@@ -7,6 +7,9 @@
 namespace miniapp
 {
 
+/// A sum without what is round-off of parts of this size.
+double settled(double sum, double size);
+
 /// A column of a table: its key in JSON and CSV, what stands above it on the screen, and how a
 /// number is written there. Without a heading it is not printed, without a key nothing else.
 struct Column

@@ -44,7 +44,7 @@ std::vector<double> grid_about(double c, double span, int elements)
 
 } // namespace
 
-WearCase pad_on_half_plane(Study &study, const Pad &pad, double shear, double friction)
+WearCase pad_on_half_plane(Study &study, const WearingPad &pad, double shear, double friction)
 {
    const auto &[profile, flat, poisson, nodes, order] = pad;
    require((nodes - 1) % (2 * order) == 0, "option --nodes is ", nodes,

@@ -20,7 +20,7 @@ struct WearCase
 };
 
 /// A pad on a half-plane of the same material.
-struct Pad
+struct WearingPad
 {
    std::string profile = "parabola";
    double flat = 0.5, poisson = 0.3;
@@ -28,13 +28,13 @@ struct Pad
 
    bool is_the_default() const
    {
-      const Pad usual;
+      const WearingPad usual;
       return profile == usual.profile && flat == usual.flat && poisson == usual.poisson &&
              nodes == usual.nodes && order == usual.order;
    }
 };
 
 /// P = 1, of a half-width a = 1 unworn if it is a parabola with R = 1; Q between ±shear f P.
-WearCase pad_on_half_plane(Study &study, const Pad &pad, double shear, double friction);
+WearCase pad_on_half_plane(Study &study, const WearingPad &pad, double shear, double friction);
 
 } // namespace miniapp

@@ -14,6 +14,7 @@
 #include <cattaneo/fretting/assessment.hpp>
 #include <cattaneo/fretting/calibration.hpp>
 #include <cattaneo/fretting/corner.hpp>
+#include <cattaneo/fretting/critical_plane.hpp>
 #include <cattaneo/fretting/edge_crack.hpp>
 #include <cattaneo/fretting/edge_report.hpp>
 #include <cattaneo/fretting/hertz_field.hpp>

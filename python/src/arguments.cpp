@@ -216,7 +216,10 @@ std::string text(nb::handle object, const std::string &what)
       PyErr_Clear();
       throw InputError(what + " is " + described(object) + ", must be text that UTF-8 has");
    }
-   return {begin, static_cast<std::size_t>(size)};
+   const std::string all(begin, static_cast<std::size_t>(size));
+   require(all.find('\0') == std::string::npos, what, " is ", described(object),
+           ", must be text without zero bytes");
+   return all;
 }
 
 std::string file(nb::handle object, const std::string &what)

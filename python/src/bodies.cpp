@@ -34,6 +34,40 @@ CATTANEO_ARGUMENT(Lines, "collections.abc.Sequence[ContactLine]");
 constexpr int most_rows = std::numeric_limits<int>::max() - 1;
 const std::vector<std::string> formulations = {"plane", "axisymmetric", "torsion"};
 
+/// In SciPy's csr, a copy. It takes for granted that indices are within a matrix and would
+/// write anywhere else; a script may have changed them.
+nb::object own_rows(nb::handle K)
+{
+   if (nb::hasattr(K, "row") && nb::hasattr(K, "col")) // coo
+   {
+      const Index entries = integer(K.attr("data").attr("size"));
+      const char *const names[] = {"row", "col"};
+      for (int k : {0, 1})
+      {
+         const std::string what = std::string("K.") + names[k];
+         const auto found =
+            indices(nb::object(K.attr(names[k])), what, 0, integer(K.attr("shape")[k]) - 1);
+         require(static_cast<Index>(found.size()) == entries, what, " has ", found.size(),
+                 " entries, must have ", entries, " as K.data");
+      }
+   }
+   try
+   {
+      const nb::object own = K.attr("copy")();
+      if (nb::hasattr(own, "check_format"))
+      {
+         own.attr("check_format")(nb::arg("full_check") = true);
+      }
+      return own.attr("tocsr")();
+   }
+   catch (nb::python_error &error)
+   {
+      if (!error.matches(PyExc_ValueError)) { throw; }
+      throw InputError(std::string("K is no whole sparse matrix: ") +
+                       nb::str(error.value()).c_str());
+   }
+}
+
 /// A sparse or dense matrix of Python's, duplicates added up as scipy does.
 NodalStiffness::Matrix stiffness(nb::handle K)
 {
@@ -44,7 +78,7 @@ NodalStiffness::Matrix stiffness(nb::handle K)
               ", ", dense.cols(), "), must be square");
       return dense.sparseView(0.0, 0.0);
    }
-   const nb::object rows = K.attr("tocsr")().attr("copy")();
+   const nb::object rows = own_rows(K);
    rows.attr("sum_duplicates")();
    const Index size = integer(rows.attr("shape")[0]), columns = integer(rows.attr("shape")[1]),
                entries = integer(rows.attr("nnz"));
@@ -196,7 +230,8 @@ void fill(NodalStiffness &body, nb::handle places, nb::handle dofs, nb::handle e
          {
             letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
          }
-         body.sets[name] = found;
+         require(body.sets.emplace(name, found).second, "sets has '", name,
+                 "' twice, whatever its capitals");
       }
    }
    body.validate();
@@ -344,6 +379,14 @@ void bind_stiffness(nb::module_ &m)
       .def_prop_ro(
          "fixed", [](const Self &self) { return array_of_indices(self.fixed); },
          "rows that are held")
+      .def_prop_rw(
+         "supports_left_out", [](const Self &self) { return self.supports_left_out; },
+         [](Self &self, Flag left_out)
+         { self.supports_left_out = flag(left_out, "supports_left_out"); },
+         nb::for_setter(arg("supports_left_out")),
+         "K resists motions that nothing here holds: springs to the ground, supports whose "
+         "rows "
+         "are gone")
       .def_prop_ro(
          "loads",
          [](const Self &self)

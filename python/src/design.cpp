@@ -349,6 +349,7 @@ void bind_design(nb::module_ &m)
    nb::module_ design =
       m.def_submodule("design", "Derivatives of what a march returns, and designs.");
    bind_sensitivity(design);
+   bind_readout_gradients(design);
    bind_problem(design);
    bind_report(design);
 }

@@ -3,6 +3,7 @@
 #include <cattaneo/fretting/assessment.hpp>
 #include <cattaneo/fretting/calibration.hpp>
 #include <cattaneo/fretting/corner.hpp>
+#include <cattaneo/fretting/critical_plane.hpp>
 #include <cattaneo/fretting/edge_crack.hpp>
 #include <cattaneo/fretting/hertz_field.hpp>
 #include <cattaneo/fretting/measures.hpp>
@@ -367,6 +368,32 @@ void bind_criteria(nb::module_ &m)
          return find_material(read_materials(file(materials, "materials")), text(name, "name"));
       },
       arg("materials"), arg("name"), "materials: a file of them.");
+
+   m.def(
+      "critical_plane",
+      [](Text criterion, Of<Self> material, Numbers cycle, Number findley, Number fatemi_socie)
+      {
+         const Eigen::MatrixXd stresses = matrix(cycle, "cycle", -1, 4);
+         const CriticalPlane plane = critical_plane(
+            chosen<PlaneCriterion>(criterion, "criterion",
+                                   {"findley", "smith_watson_topper", "fatemi_socie"}),
+            stresses, given(material, "material"),
+            {number(findley, "findley"), number(fatemi_socie, "fatemi_socie")});
+         return nb::make_tuple(plane.value, plane.angle);
+      },
+      arg("criterion"), arg("material"), arg("cycle"), nb::kw_only(), arg("findley") = 0.3,
+      arg("fatemi_socie") = 1.0,
+      nb::sig("def critical_plane(criterion: str, material: FatigueMaterial, cycle: "
+              "numpy.typing.ArrayLike, *, findley: float = 0.3, fatemi_socie: float = 1.0) -> "
+              "tuple[float, float]"),
+      "Largest value of 'findley', 'smith_watson_topper' or 'fatemi_socie' over the planes "
+      "through a point, and the angle of that plane's normal from x. cycle: a row an instant, "
+      "columns σ_xx, σ_yy, σ_zz, τ_xy in MPa.");
+   m.def(
+      "plain_fatigue_cycle",
+      [](Of<Self> material)
+      { return array(Eigen::MatrixXd(plain_fatigue_cycle(given(material, "material")))); },
+      arg("material"), "What a plain specimen just endures, a cycle for critical_plane().");
 
    nb::class_<FrettingReport> report(m, "FrettingReport", "What the criteria say of an edge.");
    report.def_ro("k_t_range", &FrettingReport::k_t_range)

@@ -1,6 +1,7 @@
 #include "marches.hpp"
 
 #include "arrays.hpp"
+#include "members.hpp"
 #include "module.hpp"
 #include "watch.hpp"
 #include <cattaneo/friction/history_statements.hpp>
@@ -101,10 +102,7 @@ nb::object march_from(nb::handle problem, nb::handle history, nb::handle state,
    march.state = state_or_rest(of, state);
    const LoadHistory loads = history_from(of, history, march.state);
    const bool keep = flag(keep_states, "keep_states");
-   if (!observer.is_none() && PyCallable_Check(observer.ptr()) == 0)
-   {
-      refuse(observer, "observer", "a function or None");
-   }
+   require_observer(observer);
    Watch watch(progress, stop);
    settings.monitor = watch.monitor();
    const MarchObserver each = [&](const ContactState &at, const IncrementRecord &)
@@ -357,20 +355,14 @@ void bind_marches(nb::module_ &m)
    using Self = March;
    const auto number_of = [](auto member) // of each increment
    { return [member](const Self &self) { return array(self.each(member)); }; };
-   nb::class_<Self>(
-      m, "MarchReport",
-      "What a march came to: `state` at its end, arrays with an entry an increment, "
-      "and loops a cycle.")
+   nb::class_<Self> report(m, "MarchReport",
+                           "What a march came to: `state` at its end, arrays with an entry an "
+                           "increment, and loops a cycle.");
+   bind_outcome(report, [](const Self &self) -> const MarchReport & { return self.report; });
+   report
       .def_prop_ro(
          "problem", [](const Self &self) { return self.problem; },
          nb::sig("def problem(self) -> ReducedProblem"))
-      .def_prop_ro(
-         "status", [](const Self &self) { return name(self.report.status); },
-         "'converged', 'gross sliding', 'not unique', 'no solution', 'stalled' or "
-         "'stopped'")
-      .def_prop_ro("converged", [](const Self &self)
-                   { return self.report.status == FrictionStatus::converged; })
-      .def_prop_ro("message", [](const Self &self) { return self.report.message; })
       .def_prop_ro(
          "state", [](Self &self) -> ContactState & { return self.state; },
          nb::rv_policy::reference_internal, "at the end")
@@ -460,6 +452,8 @@ void bind_marches(nb::module_ &m)
       .def_prop_ro("advance_error", [](const Self &self) { return self.report.advance_error; })
       .def_prop_ro("largest_residual",
                    [](const Self &self) { return self.report.largest_residual; })
+      .def_prop_ro("taken_up_clearance",
+                   [](const Self &self) { return self.report.taken_up_clearance; })
       .def_prop_ro(
          "fallbacks", [](const Self &self) { return self.report.fallbacks; },
          "increments taken because there was no exact path")

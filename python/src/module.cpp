@@ -12,8 +12,27 @@ namespace
 
 void bind_common(nb::module_ &m)
 {
-   nb::exception<InputError>(m, "InputError", PyExc_ValueError).attr("__doc__") =
-      "Bad input: one sentence with what, where, the value, and what is allowed.";
+   static const nb::object input_error = nb::steal(PyErr_NewExceptionWithDoc(
+      "cattaneo._core.InputError",
+      "Bad input: one sentence with what, where, the value, and what is allowed.",
+      PyExc_ValueError, nullptr));
+   m.attr("InputError") = input_error;
+   // A sentence may quote a file whose letters are no UTF-8.
+   nb::register_exception_translator(
+      [](const std::exception_ptr &thrown, void *)
+      {
+         try
+         {
+            std::rethrow_exception(thrown);
+         }
+         catch (const InputError &error)
+         {
+            const std::string text = error.what();
+            const nb::object sentence = nb::steal(PyUnicode_DecodeUTF8(
+               text.data(), static_cast<Py_ssize_t>(text.size()), "replace"));
+            PyErr_SetObject(input_error.ptr(), sentence.ptr());
+         }
+      });
    m.attr("OutcomeWarning") = nb::steal(PyErr_NewExceptionWithDoc(
       "cattaneo._core.OutcomeWarning",
       "An outcome that a script should not pass over: a march that did not converge, a limit "

@@ -1,6 +1,6 @@
+#include "readout.hpp"
 #include "arrays.hpp"
 #include "module.hpp"
-#include <cattaneo/readout/contact_edges.hpp>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 #include <sstream>
@@ -9,18 +9,6 @@
 
 namespace cattaneo::python
 {
-
-namespace
-{
-
-/// A problem and a state of it, checked against each other.
-const ReducedProblem &problem_of(const Of<ReducedProblem> &problem,
-                                 const Of<ContactState> &state, const char *what = "state")
-{
-   const ReducedProblem &of = given(problem, "problem");
-   given(state, what).validate(of);
-   return of;
-}
 
 CrackedBody cracked_body(nb::handle word)
 {
@@ -40,7 +28,17 @@ FitSettings fit_settings(nb::handle window, nb::handle skip)
    return settings;
 }
 
-CATTANEO_ARGUMENT(Window, "None | tuple[float, float]");
+namespace
+{
+
+/// A problem and a state of it, checked against each other.
+const ReducedProblem &problem_of(const Of<ReducedProblem> &problem,
+                                 const Of<ContactState> &state, const char *what = "state")
+{
+   const ReducedProblem &of = given(problem, "problem");
+   given(state, what).validate(of);
+   return of;
+}
 
 std::string with_error(double value, double error)
 {

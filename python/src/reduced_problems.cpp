@@ -1,4 +1,5 @@
 #include "arrays.hpp"
+#include "members.hpp"
 #include "module.hpp"
 #include "watch.hpp"
 #include <cattaneo/exchange/write_stiffness.hpp>
@@ -187,13 +188,15 @@ void bind_reduced_problems(nb::module_ &m)
               return text.str();
            });
 
-   nb::class_<Self>(
+   nb::class_<Self> problem(
       m, "ReducedProblem",
       "A frictional contact problem reduced to its n contact nodes:\n\n"
       "    q = A v + B^T w + sum of multiplier × q_k\n"
       "    p = B v + C  w + sum of multiplier × p_k\n\n"
       "v slip, w opening, q tangential and p normal nodal forces, compression positive. c "
-      "tangential components a node: 1 in the plane, 2 with torsion, 0 without friction.")
+      "tangential components a node: 1 in the plane, 2 with torsion, 0 without friction.");
+   bind_copies(problem, "Another problem, whose friction and gap are its own.");
+   problem
       .def(
          "__init__",
          [](Self *self, Numbers A, Numbers B, Numbers C, Patterns patterns, Numbers gap,
@@ -296,12 +299,6 @@ void bind_reduced_problems(nb::module_ &m)
          [](const Self &self, Loads loads)
          { return array(self.clamped_forces(self.multipliers(named_loads(loads, "loads")))); },
          arg("loads"), "{q; p} under loads if no node moved")
-      .def(
-         "copy", [](const Self &self) { return Self(self); },
-         "Another problem, whose friction and gap are its own.")
-      .def("__copy__", [](const Self &self) { return Self(self); })
-      .def(
-         "__deepcopy__", [](const Self &self, nb::object) { return Self(self); }, arg("memo"))
       .def("validate", &Self::validate)
       .def("__repr__", &brief);
 

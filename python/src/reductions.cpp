@@ -14,7 +14,9 @@ namespace cattaneo::python
 namespace
 {
 
-CATTANEO_ARGUMENT(Side, "None | tuple[int, ContactLine]");
+CATTANEO_ARGUMENT(Side, "None | int | tuple[int, ContactLine]");
+
+CATTANEO_ARGUMENT(MaybePairing, "None | Pairing");
 CATTANEO_ARGUMENT(MaybePlace, "None | float | collections.abc.Callable[[float, float], float]");
 
 /// A number, or a function of (x, y).
@@ -28,6 +30,11 @@ ScalarField place_function(nb::handle object, const std::string &what)
 InterfaceSide side(nb::handle object, const std::string &what)
 {
    if (object.is_none()) { return {}; }
+   if (PyIndex_Check(object.ptr()) !=
+       0) // of a half-plane, whose line is that of the other side
+   {
+      return {static_cast<int>(whole(object, what, 0, 1 << 20)), {}};
+   }
    if (!nb::isinstance<nb::tuple>(object) || nb::len(object) != 2)
    {
       refuse(object, what, "(number of the body, its ContactLine)");
@@ -56,12 +63,19 @@ std::vector<Interface> interface_list(nb::handle interfaces)
    return all;
 }
 
-Reduction reduced(nb::handle first, nb::handle second, nb::handle pairing)
+Reduction reduced(nb::handle first, nb::handle second, nb::handle pairing,
+                  nb::handle half_plane)
 {
    if (nb::isinstance<nb::list>(first) || nb::isinstance<nb::tuple>(first))
    {
-      return reduce(body_list(first), interface_list(second));
+      require(pairing.is_none(),
+              "pairing is of two bodies, of several it is said of an Interface");
+      return half_plane.is_none() ? reduce(body_list(first), interface_list(second))
+                                  : reduce(body_list(first), interface_list(second),
+                                           given<HalfPlane>(half_plane, "half_plane"));
    }
+   require(half_plane.is_none(),
+           "half_plane is of a list of bodies; of one body it is the second argument");
    const CondensedBody &body = given<CondensedBody>(first, "the first argument");
    if (nb::isinstance<HalfPlane>(second))
    {
@@ -112,7 +126,7 @@ void bind_reductions(nb::module_ &m)
       .def(
          "__init__",
          [](Interface *self, Text name, Side first, Side second, Text slave, MaybePlace gap,
-            Number most_overlap)
+            Number most_overlap, Flag tied, MaybePairing pairing)
          {
             if (first.is_none())
             {
@@ -124,16 +138,23 @@ void bind_reductions(nb::module_ &m)
                side(second, "second"),
                chosen<SlaveSide>(slave, "slave", {"coarser", "finer", "first", "second"}),
                std::nullopt,
-               number(most_overlap, "most_overlap")};
+               number(most_overlap, "most_overlap"),
+               flag(tied, "tied")};
+            if (!pairing.is_none()) { made.pairing = given<Pairing>(pairing, "pairing"); }
             if (!gap.is_none()) { made.gap = place_function(gap, "gap"); }
             new (self) Interface(std::move(made));
          },
          arg("name"), arg("first"), arg("second") = nb::none(), nb::kw_only(),
          arg("slave") = "coarser", arg("gap") = nb::none(), arg("most_overlap") = 0.1,
-         "first, second: (number of the body, its line); no second: a rigid obstacle.\n"
+         arg("tied") = false, arg("pairing") = nb::none(),
+         "first, second: (number of the body, its line); no second: a rigid obstacle; of a "
+         "half-plane the number alone.\n"
          "slave: which side carries the nodes: 'coarser', 'finer', 'first' or 'second'.\n"
          "gap: a function of (x, y) or a number instead of the geometry's.\n"
-         "most_overlap: of the geometry, in lengths of the slave's elements.")
+         "most_overlap: of the geometry, in lengths of the slave's elements.\n"
+         "tied: joined whatever happens, without nodes in the problem; see "
+         "Reduction.tied_forces().\n"
+         "pairing: nodes one to one, of pair_lines(), instead of any that face each other.")
       .def_ro("name", &Interface::name)
       .def("__repr__",
            [](const Interface &self)
@@ -224,6 +245,18 @@ void bind_reductions(nb::module_ &m)
          arg("body"), arg("state"),
          "Displacements of all rows of the stiffness of a body in a state; one solve.")
       .def(
+         "tied_forces",
+         [](Self &self, Of<ContactState> state)
+         {
+            const ContactState &of = given(state, "state");
+            of.validate(self.problem);
+            return array(self.tied_forces(of.v, of.w, of.multipliers));
+         },
+         arg("state"),
+         "Nodal forces {q; p} that tied interfaces transfer, all tangential ones first, of "
+         "their "
+         "nodes in the order of `interfaces`.")
+      .def(
          "add_obstacle_motion",
          [](Self &self, Text name, Place ux, Place uy)
          {
@@ -250,16 +283,19 @@ void bind_reductions(nb::module_ &m)
 
    m.def(
       "reduce", &reduced, arg("bodies"), arg("other") = 0.0, arg("pairing") = nb::none(),
+      arg("half_plane") = nb::none(),
       nb::sig("def reduce(bodies: CondensedBody | collections.abc.Sequence[CondensedBody], "
               "other: float | collections.abc.Callable[[float, float], float] | HalfPlane | "
               "CondensedBody | collections.abc.Sequence[Interface] = 0.0, pairing: None | "
-              "Pairing = None) -> Reduction"),
+              "Pairing = None, half_plane: None | HalfPlane = None) -> Reduction"),
       "Condensed bodies to a reduced problem.\n\n"
       "reduce(body, gap=0.0): on a rigid obstacle; gap, a number or a function of (x, y), says "
       "how far it is from the body; 0.0: of the shape that the body has.\n"
       "reduce(body, half_plane): pressed on a half-plane; the gap is the geometry's.\n"
       "reduce(body1, body2[, pairing]): two bodies whose nodes match.\n"
-      "reduce([bodies], [interfaces]): any number of bodies, nodes that match or not.");
+      "reduce([bodies], [interfaces]): any number of bodies, nodes that match or not; with "
+      "half_plane=… on it, which is body number len(bodies), the second side of interfaces "
+      "without a line: Interface('foot', (0, line), 1).");
 
    nb::class_<SeparateBodies>(m, "SeparateBodies",
                               "Bodies that keep displacements of their own: K U + loads = "

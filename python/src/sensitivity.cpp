@@ -30,6 +30,17 @@ void Trace::check(const ReducedProblem &of) const
    same("gap", of.gap, gap);
 }
 
+std::vector<StiffnessChange> stiffness_changes(nb::handle stiffness)
+{
+   std::vector<StiffnessChange> changes;
+   for (const nb::object &each : sequence(stiffness, "stiffness"))
+   {
+      changes.push_back(
+         given<StiffnessChange>(each, "stiffness[" + std::to_string(changes.size()) + "]"));
+   }
+   return changes;
+}
+
 namespace
 {
 
@@ -39,7 +50,6 @@ CATTANEO_ARGUMENT(HistoryLike, "cattaneo._core.LoadHistory | "
                                "collections.abc.Sequence[collections.abc.Mapping[str, float]]");
 CATTANEO_ARGUMENT(MaybeWearState, "None | cattaneo._core.wear.WearState");
 CATTANEO_ARGUMENT(Ties, "collections.abc.Sequence[Tie]");
-CATTANEO_ARGUMENT(Changes, "collections.abc.Sequence[StiffnessChange]");
 CATTANEO_ARGUMENT(ResponseLike, "Response | float");
 CATTANEO_ARGUMENT(
    Weights,
@@ -64,6 +74,16 @@ struct Derivatives
             const std::lock_guard<std::mutex> lock(*turn);
             return work(*of);
          });
+   }
+   /// The same, which Ctrl-C ends.
+   template <class Work>
+   auto watched(const char *name, Work &&from)
+   {
+      Watch watch(nb::bool_(false), nb::none());
+      const Monitor monitor = watch.monitor();
+      auto result = work([&](Sensitivity &all) { return from(all, monitor); });
+      if (!result.found) { warn(std::string(name) + ": it is not known: " + result.message); }
+      return result;
    }
 };
 
@@ -561,12 +581,7 @@ void bind_sensitivity(nb::module_ &m)
          "__init__",
          [](Self *self, Of<ReducedProblem> problem, Of<Trace> trace, Changes stiffness)
          {
-            std::vector<StiffnessChange> changes;
-            for (const nb::object &each : sequence(stiffness, "stiffness"))
-            {
-               changes.push_back(given<StiffnessChange>(
-                  each, "stiffness[" + std::to_string(changes.size()) + "]"));
-            }
+            std::vector<StiffnessChange> changes = stiffness_changes(stiffness);
             Self made;
             given(trace, "trace").check(given(problem, "problem"));
             made.problem = std::make_unique<const ReducedProblem>(given(problem, "problem"));
@@ -582,27 +597,23 @@ void bind_sensitivity(nb::module_ &m)
          [](Self &self, Of<Response> response)
          {
             const Response of = given(response, "response");
-            Gradient result = self.work([&](Sensitivity &all) { return all.gradient(of); });
-            if (!result.found) { warn("gradient: it is not known: " + result.message); }
-            return result;
+            return self.watched("gradient", [&](Sensitivity &all, const Monitor &monitor)
+                                { return all.gradient(of, monitor); });
          },
          arg("response"),
          "Of one response by all parameters, back through the march. If it is not known that "
-         "is "
-         "warned of (OutcomeWarning).")
+         "is warned of (OutcomeWarning). Ctrl-C ends it.")
       .def(
          "along",
          [](Self &self, Of<Parameters> change)
          {
             const Parameters of = given(change, "change");
-            TraceChange result = self.work([&](Sensitivity &all) { return all.along(of); });
-            if (!result.found) { warn("along: it is not known: " + result.message); }
-            return result;
+            return self.watched("along", [&](Sensitivity &all, const Monitor &monitor)
+                                { return all.along(of, monitor); });
          },
          arg("change"),
          "Of all states along one change of parameters, forward through the march. If it is "
-         "not "
-         "known that is warned of (OutcomeWarning).")
+         "not known that is warned of (OutcomeWarning). Ctrl-C ends it.")
       .def(
          "factorisations",
          [](Self &self)

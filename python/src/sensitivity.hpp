@@ -57,6 +57,11 @@ private:
    const Responses *of_;
 };
 
+CATTANEO_ARGUMENT(Changes, "collections.abc.Sequence[StiffnessChange]");
+std::vector<StiffnessChange> stiffness_changes(nb::handle stiffness);
+
 void bind_sensitivity(nb::module_ &m);
+/// Derivatives of what is read out at edges of contact, and of limits.
+void bind_readout_gradients(nb::module_ &m);
 
 } // namespace cattaneo::python

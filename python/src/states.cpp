@@ -1,4 +1,5 @@
 #include "arrays.hpp"
+#include "members.hpp"
 #include "module.hpp"
 #include <cattaneo/friction/settled_states.hpp>
 #include <nanobind/stl/string.h>
@@ -27,9 +28,12 @@ void bind_states(nb::module_ &m)
       .value("slip", NodeState::slip, "with two tangential components: q = -f p v'/|v'|");
 
    using Self = ContactState;
-   nb::class_<Self>(m, "ContactState",
-                    "All that the future of a frictional contact depends on. Arrays are views "
-                    "that cannot be written to.")
+   nb::class_<Self> state(m, "ContactState",
+                          "All that the future of a frictional contact depends on. Arrays are "
+                          "views that cannot be written to.");
+   bind_validate(state);
+   bind_copies(state);
+   state
       .def_static(
          "virgin",
          [](Of<ReducedProblem> problem) { return Self::virgin(given(problem, "problem")); },
@@ -54,15 +58,6 @@ void bind_states(nb::module_ &m)
          "NodeState of each node, as the solver left it; see settled_states()")
       .def_ro("time", &Self::time, "of the load history")
       .def_ro("dissipation", &Self::dissipation, "frictional energy lost so far")
-      .def(
-         "validate",
-         [](const Self &self, Of<ReducedProblem> problem)
-         { self.validate(given(problem, "problem")); },
-         arg("problem"))
-      .def("copy", [](const Self &self) { return Self(self); })
-      .def("__copy__", [](const Self &self) { return Self(self); })
-      .def(
-         "__deepcopy__", [](const Self &self, nb::object) { return Self(self); }, arg("memo"))
       .def("__repr__",
            [](const Self &self)
            {

@@ -1,5 +1,6 @@
 #include "arrays.hpp"
 #include "marches.hpp"
+#include "members.hpp"
 #include "module.hpp"
 #include "watch.hpp"
 #include <cattaneo/wear/worn_out.hpp>
@@ -45,10 +46,11 @@ struct Worn
 void bind_law(nb::module_ &m)
 {
    using Self = WearLaw;
-   nb::class_<Self>(m, "WearLaw",
-                    "Archard's law at each contact node: depth rate = k (p - p_th)+ |slip "
-                    "rate|, p the pressure, k of both bodies together.")
-      .def(
+   nb::class_<Self> law(m, "WearLaw",
+                        "Archard's law at each contact node: depth rate = k (p - p_th)+ |slip "
+                        "rate|, p the pressure, k of both bodies together.");
+   bind_validate(law);
+   law.def(
          "__init__",
          [](Self *self, Numbers coefficient, MaybeNumbers threshold, Flag of_energy)
          {
@@ -81,11 +83,6 @@ void bind_law(nb::module_ &m)
       .def_prop_ro("coefficient", viewed(&Self::coefficient), "k of each node")
       .def_prop_ro("threshold", viewed(&Self::threshold), "no entries: none")
       .def_ro("of_energy", &Self::of_energy)
-      .def(
-         "validate",
-         [](const Self &self, Of<ReducedProblem> problem)
-         { self.validate(given(problem, "problem")); },
-         arg("problem"))
       .def("__repr__",
            [](const Self &self)
            {
@@ -130,9 +127,12 @@ void bind_law(nb::module_ &m)
 void bind_state(nb::module_ &m)
 {
    using Self = WearState;
-   nb::class_<Self>(m, "WearState",
-                    "All that the future of a wearing contact depends on. Arrays are views "
-                    "that cannot be written to.")
+   nb::class_<Self> state(m, "WearState",
+                          "All that the future of a wearing contact depends on. Arrays are "
+                          "views that cannot be written to.");
+   bind_validate(state);
+   bind_copies(state);
+   state
       .def(
          "__init__",
          [](Self *self, Of<ContactState> contact, Numbers depth, Numbers dissipation,
@@ -159,15 +159,6 @@ void bind_state(nb::module_ &m)
       .def_prop_ro("dissipation", viewed(&Self::dissipation),
                    "energy that friction took at each node so far")
       .def_ro("cycles", &Self::cycles, "so far, marched or jumped over")
-      .def(
-         "validate",
-         [](const Self &self, Of<ReducedProblem> problem)
-         { self.validate(given(problem, "problem")); },
-         arg("problem"))
-      .def("copy", [](const Self &self) { return Self(self); })
-      .def("__copy__", [](const Self &self) { return Self(self); })
-      .def(
-         "__deepcopy__", [](const Self &self, nb::object) { return Self(self); }, arg("memo"))
       .def("__repr__",
            [](const Self &self)
            {
@@ -238,19 +229,15 @@ void bind_report(nb::module_ &m)
          return array(std::move(all));
       };
    };
-   nb::class_<Self>(m, "WearReport",
-                    "What a march with wear came to: `state` at its end, and arrays with an "
-                    "entry for every cycle that was marched and every jump.")
+   nb::class_<Self> report(
+      m, "WearReport",
+      "What a march with wear came to: `state` at its end, and arrays with "
+      "an entry for every cycle that was marched and every jump.");
+   bind_outcome(report, [](const Self &self) -> const WearReport & { return self.report; });
+   report
       .def_prop_ro(
          "problem", [](const Self &self) { return self.problem; },
          nb::sig("def problem(self) -> cattaneo._core.ReducedProblem"), "the unworn one")
-      .def_prop_ro(
-         "status", [](const Self &self) { return name(self.report.status); },
-         "'converged', 'gross sliding', 'not unique', 'no solution', 'stalled' or "
-         "'stopped'")
-      .def_prop_ro("converged", [](const Self &self)
-                   { return self.report.status == FrictionStatus::converged; })
-      .def_prop_ro("message", [](const Self &self) { return self.report.message; })
       .def_prop_ro(
          "state", [](Self &self) -> WearState & { return self.state; },
          nb::rv_policy::reference_internal, "at the end")
@@ -297,10 +284,7 @@ Wear worn(nb::handle problem, const WearLaw &law, const LoadHistory &history, do
    const ReducedProblem copy = given<ReducedProblem>(problem, "problem");
    Wear result{nb::borrow(problem), {}, {}, {}};
    result.state = state.is_none() ? WearState::virgin(copy) : given<WearState>(state, "state");
-   if (!observer.is_none() && PyCallable_Check(observer.ptr()) == 0)
-   {
-      refuse(observer, "observer", "a function or None");
-   }
+   require_observer(observer);
    Watch watch(progress, stop);
    settings.march.monitor = watch.monitor();
    const WearObserver each = [&](const WearState &now, const WearRecord &record)
@@ -366,14 +350,9 @@ void bind_wear_march(nb::module_ &m)
    using Self = Worn;
    const auto of_end = [](auto member)
    { return [member](const Self &self) { return array(self.end.*member); }; };
-   nb::class_<Self>(m, "WornOut", "The state in which a cycle wears off nothing more.")
-      .def_prop_ro(
-         "status", [](const Self &self) { return name(self.end.status); },
-         "'converged' if it was found")
-      .def_prop_ro("converged", [](const Self &self)
-                   { return self.end.status == FrictionStatus::converged; })
-      .def_prop_ro("message", [](const Self &self) { return self.end.message; })
-      .def_prop_ro("depth", of_end(&WornOut::depth), "worn off at each node")
+   nb::class_<Self> end(m, "WornOut", "The state in which a cycle wears off nothing more.");
+   bind_outcome(end, [](const Self &self) -> const WornOut & { return self.end; });
+   end.def_prop_ro("depth", of_end(&WornOut::depth), "worn off at each node")
       .def_prop_ro("overlap", of_end(&WornOut::overlap),
                    "how far the surfaces would overlap unworn; crosses zero where wear ends")
       .def_prop_ro(

@@ -74,7 +74,7 @@ SAID = [
     (lambda: cattaneo.NodalStiffness(K, PLACES, [[0.0, 1], [2, 3], [4, 5]]), TypeError, "dofs is of dtype float64, must be whole"),
     (lambda: cattaneo.NodalStiffness(K, PLACES, elements=[[0, 1, 3]]), ValueError, r"elements\[0, 2\] is 3, must be from 0 to 2"),
     (lambda: cattaneo.NodalStiffness(K, PLACES, elements=[[0, 1]]), ValueError, "element 0 has 2 nodes, must have 3"),
-    (lambda: cattaneo.NodalStiffness(K, PLACES, elements=[[0, 1, 2, 0, 1, 2]]), ValueError, "element 0: node 1 is not between its corners 1 and 2"),
+    (lambda: cattaneo.NodalStiffness(K, PLACES, elements=[[0, 1, 2, 0, 1, 2]]), ValueError, "element 0: node 0 is not between its corners 0 and 1"),
     (lambda: cattaneo.NodalStiffness(K, PLACES, fixed=[-1]), ValueError, r"fixed\[0\] is -1, must be from 0 to 5"),
     (lambda: cattaneo.NodalStiffness(K, PLACES, fixed=[10**30]), TypeError, "fixed is a list of 1 entries, must be whole"),
     (lambda: cattaneo.NodalStiffness(K, PLACES, fixed=[True] * 5), ValueError, r"fixed is a mask of shape \(5,\), must have 6"),

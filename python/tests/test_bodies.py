@@ -192,3 +192,139 @@ def test_written_files_come_back(tmp_path):
     assert np.array_equal(cattaneo.load_contact_state(tmp_path / "state.json").p, state.p)
     with pytest.raises(cattaneo.InputError, match="nowhere"):
         cattaneo.load_reduced_problem(tmp_path / "nowhere.json")
+
+
+def test_alphabets_of_files(tmp_path):
+    """A sentence may quote what is no UTF-8, of a file of text or of another."""
+    (tmp_path / "m.sti").write_bytes(b"1 1 1.\n2 2 1.\n")
+    (tmp_path / "m.dof").write_bytes(b"1.1\n1.\xe9\n")
+    (tmp_path / "m.inp").write_bytes(b"** Gr\xf6\xdfe\n*NODE, NSET=FL\xc4CHE\n1, 0., 0.\n")
+    with pytest.raises(cattaneo.InputError, match="line 2: a direction is 'é'"):
+        cattaneo.read_stiffness(tmp_path / "m.sti")
+    (tmp_path / "m.dof").write_bytes(b"1.1\n1.2\n")
+    assert list(cattaneo.read_stiffness(tmp_path / "m.sti").sets) == ["FLÄCHE"]
+    (tmp_path / "m.npy").write_bytes(b"\x93NUMPY\x01\x00\x08\x00{'\xff': 1}")
+    with pytest.raises(cattaneo.InputError):
+        cattaneo.read_stiffness(tmp_path / "m.npy")
+    (tmp_path / "m.json").write_bytes(b'{"format": "\xff"}')
+    for read in (cattaneo.load_reduced_problem, cattaneo.load_contact_state):
+        with pytest.raises(cattaneo.InputError):
+            read(tmp_path / "m.json")
+
+
+def test_springs_may_be_said_later():
+    """A stiffness that resists motions is refused until it is said why."""
+    made = strip()
+    K = made.K.toarray()
+    K[0, 0] *= 1.1
+    with pytest.raises(cattaneo.InputError, match="it resists a translation along x"):
+        cattaneo.NodalStiffness(K, made.places)
+    held = cattaneo.NodalStiffness(K, made.places, supports_left_out=True)
+    assert held.supports_left_out
+    held.supports_left_out = False
+    with pytest.raises(cattaneo.InputError, match="it resists a translation along x"):
+        cattaneo.condense(held, strip().contact_line(made.places[:, 1] == 0))
+
+
+def column(*heights):
+    """Strips of unit width on top of each other, of E = 8, condensed to their ends; P presses the last one's top."""
+    bodies, lines, below = [], [], 0.0
+    for height in heights:
+        part = strip(height=height, young=8.0)
+        places = part.places + [0, below]
+        stacked = cattaneo.NodalStiffness(part.K, places, elements=strip_elements(), name=f"strip at {below}")
+        ends = [places[:, 1] == below, places[:, 1] == below + height]
+        if height is heights[-1]:
+            stacked.add_traction("P", ends[1], (0, -1))
+        lines.append([stacked.contact_line(end) for end in ends])
+        bodies.append(stacked)
+        below += height
+    return bodies, lines
+
+
+def strip_elements(nodes=5):
+    skfem = pytest.importorskip("skfem")
+    mesh = skfem.MeshQuad.init_tensor(np.linspace(0, 1, nodes), np.linspace(0, 1, 4))
+    basis = skfem.Basis(mesh, skfem.ElementVector(skfem.ElementQuad1()))
+    return basis.element_dofs.T[:, ::2] // 2
+
+
+@pytest.mark.parametrize("paired", [False, True])
+def test_a_column_in_two_parts_that_are_joined(paired):
+    """Under pressure 1 it shortens by its height over E, and its joint transfers the force P = 1."""
+    bodies, lines = column(1.0, 2.0)
+    below, joint = lines[0]
+    above = lines[1][0]
+    pairing = cattaneo.pair_lines(above, joint) if paired else None
+    interfaces = [
+        cattaneo.Interface("floor", (0, below)),
+        cattaneo.Interface("joint", (1, above), (0, joint), tied=True, pairing=pairing),
+    ]
+    condensed = [cattaneo.condense(bodies[0], cattaneo.joined([below, joint])), cattaneo.condense(bodies[1], above)]
+    reduction = cattaneo.reduce(condensed, interfaces)
+    assert len(reduction.problem.gap) == len(below)
+    reduction.problem.friction = 0.2
+    report = cattaneo.march(reduction.problem, [{}, {"P": 1}])
+    assert report.conjugates["P"] == pytest.approx([3.0 / 8.0])
+    forces = reduction.tied_forces(report.state).reshape(2, -1)
+    assert forces[0] == pytest.approx(np.zeros(len(above)), abs=1e-12)
+    assert abs(forces[1].sum()) == pytest.approx(1.0)
+    with pytest.raises(TypeError, match="tied is an int, must be True or False"):
+        cattaneo.Interface("joint", (0, joint), tied=1)
+    with pytest.raises(TypeError, match="pairing is a list of 0 entries, must be of class Pairing"):
+        cattaneo.Interface("joint", (0, joint), pairing=[])
+
+
+def test_bodies_on_a_half_plane():
+    """One on it, said as an interface of several, is one on it."""
+    ground = cattaneo.HalfPlane(cattaneo.Material(8.0, 0.3), depth=100.0)
+    bodies, lines = column(1.0)
+    condensed, line = cattaneo.condense(bodies[0], lines[0][0]), lines[0][0]
+    alone = cattaneo.reduce(condensed, ground).problem
+    several = cattaneo.reduce([condensed], [cattaneo.Interface("foot", (0, line), 1)], half_plane=ground).problem
+    assert several.K == pytest.approx(alone.K, abs=1e-9 * abs(alone.K).max())
+    assert several.gap == pytest.approx(alone.gap)
+    with pytest.raises(cattaneo.InputError, match="half_plane is of a list of bodies"):
+        cattaneo.reduce(condensed, 0.0, half_plane=ground)
+    with pytest.raises(TypeError, match="half_plane is an int, must be of class HalfPlane"):
+        cattaneo.reduce([condensed], [cattaneo.Interface("foot", (0, line), 1)], half_plane=3)
+    with pytest.raises(cattaneo.InputError, match="pairing is of two bodies"):
+        cattaneo.reduce([condensed], [], pairing=3)
+
+
+def test_what_a_body_cannot_be():
+    K, places = strip().K, strip().places
+    skewed, turned = K.tolil(), K.tolil()
+    skewed[0, 5] += 0.1
+    turned[7, 7] *= -1
+    line = strip().contact_line(places[:, 1] == 0)
+    for changed, sentence in ((skewed, r"not symmetric: entry \((0, 5|5, 0)\) is"), (turned, r"entry \(7, 7\) of the stiffness is -")):
+        with pytest.raises(cattaneo.InputError, match=sentence):
+            cattaneo.condense(cattaneo.NodalStiffness(changed, places, supports_left_out=True), line)
+    elements = strip_elements()
+    with pytest.raises(cattaneo.InputError, match="element 12 and element 2 are on the same side of their edge"):
+        cattaneo.NodalStiffness(K, places, elements=np.vstack([elements, elements[2]]))
+    with pytest.raises(cattaneo.InputError, match="sets has 'TOP' twice"):
+        cattaneo.NodalStiffness(K, places, sets={"top": [1], "Top": [2]})
+    with pytest.raises(cattaneo.InputError, match="must be text without zero bytes"):
+        cattaneo.NodalStiffness(K, places, loads={"a\0b": np.zeros(len(places) * 2)})
+
+
+def test_a_sparse_matrix_whose_arrays_were_changed():
+    """SciPy would write outside of them."""
+    K, places = strip().K, strip().places
+    for form in ("csr", "csc", "bsr"):
+        for name, place, value in (("indices", 0, 99_999), ("indices", 3, -1), ("indptr", 1, 10**6), ("indptr", -1, 10**6), ("indptr", 0, 5)):
+            changed = K.copy().asformat(form)
+            getattr(changed, name)[place] = value
+            with pytest.raises(cattaneo.InputError, match="K is no whole sparse matrix: "):
+                cattaneo.NodalStiffness(changed, places)
+    for k, name in enumerate(("row", "col")):
+        changed = K.tocoo(copy=True)
+        changed.coords[k][4] = 99_999
+        with pytest.raises(cattaneo.InputError, match=rf"K.{name}\[4\] is 99999, must be from 0 to {K.shape[0] - 1}"):
+            cattaneo.NodalStiffness(changed, places)
+        assert changed.coords[k][4] == 99_999  # it is as it was
+    for form in ("csr", "csc", "coo", "bsr", "lil", "dok", "dia"):
+        made = cattaneo.NodalStiffness(K.asformat(form), places)
+        assert abs(made.K - K).max() == 0

@@ -138,3 +138,22 @@ def test_fretting_closed_forms():
     assert contact.half_width == pytest.approx(a)
     assert fretting.corner_modes(np.pi / 2, np.pi).one.eigenvalue == pytest.approx(0.544483736782)
     assert fretting.hertz_slip_energy(friction, pressed, [0.2, 0.6], modulus).shape == (2,)
+
+
+def test_criteria_on_critical_planes(tmp_path):
+    (tmp_path / "materials.json").write_text(
+        '{"materials": [{"name": "Al", "young_GPa": 74, "poisson": 0.3, "threshold_MPa_sqrt_m": 2.1,'
+        ' "fatigue_limit_MPa": 124, "shear_yield_MPa": 270}]}'
+    )
+    material = fretting.find_material(tmp_path / "materials.json", "Al")
+    limit = fretting.plain_fatigue_cycle(material)
+    assert np.allclose(limit, [[62, 0, 0, 0], [-62, 0, 0, 0]])
+    value, angle = fretting.critical_plane("smith_watson_topper", material, limit)
+    assert value == pytest.approx(62**2 / 74e3)
+    assert np.sin(angle) == pytest.approx(0, abs=1e-6)
+    shear = [[0, 0, 0, 10], [0, 0, 0, -10]]
+    assert fretting.critical_plane("findley", material, shear, findley=0.2)[0] == pytest.approx(10 * np.hypot(1, 0.2))
+    with pytest.raises(ValueError, match="cycle"):
+        fretting.critical_plane("findley", material, [[1, 2, 3]])
+    with pytest.raises(ValueError, match="fatemi_socie"):
+        fretting.critical_plane("crossland", material, limit)

@@ -1,8 +1,10 @@
 """Derivatives and designs against closed forms, and what a script can do with them."""
 
 import os
+import pathlib
 import signal
 import threading
+import time
 import warnings
 
 import cattaneo
@@ -261,3 +263,113 @@ def test_outcomes():
         design.Responses(problem, trace).pressure(9, 0)
     with pytest.raises(cattaneo.InputError, match="a response with 3 weights|trace change"):
         design.Sensitivity(problem, trace).along(design.Parameters(friction=[1.0])).of(design.Response(0, {0: {"forces": [1, 2, 3]}}))
+
+
+PROBLEMS = pathlib.Path(__file__).parents[2] / "problems"
+
+
+def pressed_and_sheared(name, Q=0.2, **settings):
+    problem = cattaneo.load_reduced_problem(PROBLEMS / f"{name}.json")
+    points = [{}, {"P": 1.0}, {"P": 1.0, "Q": Q}]
+    return problem, design.trace_march(problem, points, **settings)
+
+
+def test_an_edge_of_hertz_moves():
+    """a² is as the load: the half-width changes by a/2 of a relative change of it, K_N = p0 sqrt(2/a) by a fourth."""
+    problem, trace = pressed_and_sheared("hertz", stepping="exact")
+    pressed = trace.at(1)
+    edges = cattaneo.readout.contact_edges(problem, trace.states[pressed], trace.states[-1])
+    sensitivity = design.Sensitivity(problem, trace)
+    for edge in edges:
+        moving = design.moving_edge(problem, trace, pressed, edge)
+        assert moving.position.value == pytest.approx(float(edge.position), abs=edge.position.error)
+        assert moving.k_n.value == pytest.approx(float(edge.k_n), rel=edge.k_n.relative_error)
+        grows = sensitivity.gradient(moving.position).by.multipliers[0, 1]
+        assert -edge.side * grows == pytest.approx(edge.half_width / 2, rel=0.1)
+        assert sensitivity.gradient(moving.k_n).by.multipliers[0, 1] == pytest.approx(moving.k_n.value / 4, rel=0.2)
+    stuck = design.trace_stuck(problem, trace, pressed, trace.last())
+    assert len(stuck) == pressed + 2
+    fitted = cattaneo.readout.fit_edge(cattaneo.readout.edge_tractions(problem, stuck.states[-1], edges[0]))
+    both = design.edge_intensities(problem, stuck, stuck.last(), edges[0])
+    assert [both.k_n.value, both.k_t.value] == pytest.approx([float(fitted.k_n), float(fitted.k_t)], rel=1e-9)
+    # Of a contact that is stuck shear is as Q, which is the second load.
+    by = design.Sensitivity(problem, stuck).gradient(both.k_t).by
+    assert by.multipliers[1, 2] * 0.2 == pytest.approx(both.k_t.value, rel=1e-9)
+    with pytest.raises(cattaneo.InputError, match="pressed"):
+        design.trace_stuck(problem, trace, trace.last(), pressed)
+
+
+def test_strengths_of_corners_are_as_the_loads():
+    """Without a gap all loads times a factor are all forces times it: a response is the sum of load times derivative."""
+    problem, trace = pressed_and_sheared("punch_on_half_plane", stepping="exact")
+    edges = cattaneo.readout.contact_edges(problem, trace.states[trace.at(1)], trace.states[-1])
+    assert [edge.complete for edge in edges] == [True, True]
+    modes = cattaneo.fretting.corner_modes(np.pi / 2, np.pi)
+    stuck = design.trace_stuck(problem, trace, trace.at(1), trace.last())
+    sensitivity = design.Sensitivity(problem, stuck)
+    for edge in edges:
+        fitted = cattaneo.fretting.fit_corner(modes, cattaneo.readout.edge_tractions(problem, stuck.states[-1], edge))
+        strengths = design.corner_intensities(problem, stuck, stuck.last(), edge, modes)
+        for mine, reference in ((strengths.k_one, fitted.k_one), (strengths.k_two, fitted.k_two)):
+            assert mine.value == pytest.approx(float(reference), rel=1e-9)
+            by = sensitivity.gradient(mine).by.multipliers
+            assert (by * stuck.history.multipliers).sum() == pytest.approx(mine.value, rel=1e-8)
+
+
+def test_gradients_of_limits():
+    """Without a gap: a limit is as the constant loads, as 1 over the varying ones, and as friction where nothing couples."""
+    from cattaneo import shakedown
+
+    for name, coupled in (("punch_on_half_plane", True), ("hertz", False)):
+        problem = cattaneo.load_reduced_problem(PROBLEMS / f"{name}.json")
+        problem.gap = 0.0
+        cycle = shakedown.LoadCycle.through(problem, {"P": 1}, [{"Q": 1}, {"Q": -1}])
+        of = shakedown.limit_problem(problem, cycle)
+        limit = shakedown.load_limit(of)
+        if limit.status == "unavailable":
+            pytest.skip("built without Ipopt")
+        gradient = design.load_limit_gradient(of, limit)
+        assert gradient.found and gradient.message == "" and gradient.friction.shape == (len(problem.gap),)
+        assert (gradient.constant * cycle.constant).sum() == pytest.approx(limit.limit, rel=1e-3)
+        assert (gradient.varying * cycle.varying).sum() == pytest.approx(-limit.limit, rel=1e-3)
+        if not coupled:
+            assert (gradient.friction * problem.friction).sum() == pytest.approx(limit.limit, rel=1e-3)
+        # f at which the limit is half as much; by its load factor, and by the loads alike.
+        least = shakedown.friction_limit(of, limit.limit / 2)
+        by = design.friction_limit_gradient(of, limit.limit / 2, least)
+        assert by.load_factor * limit.limit / 2 == pytest.approx((by.varying * cycle.varying).sum(), rel=1e-6)
+        assert by.load_factor * limit.limit / 2 == pytest.approx(-(by.constant * cycle.constant).sum(), rel=1e-3)
+        if not coupled:
+            assert by.load_factor * limit.limit / 2 == pytest.approx(least.limit, rel=1e-3)
+    with pytest.raises(TypeError, match="limit is None, must be of class LimitReport"):
+        design.load_limit_gradient(of, None)
+    stop = threading.Event()
+    stop.set()
+    unknown = shakedown.load_limit(of, stop=stop)
+    assert unknown.status == "stopped"
+    with pytest.warns(cattaneo.OutcomeWarning, match="load_limit_gradient: it is not known"):
+        design.load_limit_gradient(of, unknown)
+
+
+def test_derivatives_obey_ctrl_c():
+    problem, trace = pressed_and_sheared("punch_on_half_plane", stepping="fixed", increments=6000, single_increment_if_exact=False)
+    sensitivity = design.Sensitivity(problem, trace)
+    response = design.Responses(problem, trace).dissipation(0, trace.last())
+    change = design.Parameters(friction=problem.friction)
+    whole = sensitivity.gradient(response).by.friction
+
+    def interrupt(number, frame):
+        raise KeyboardInterrupt
+
+    before = signal.signal(signal.SIGALRM, interrupt)
+    try:
+        for long in (lambda: sensitivity.gradient(response), lambda: sensitivity.along(change)):
+            signal.setitimer(signal.ITIMER_REAL, 0.02)
+            began = time.monotonic()
+            with pytest.raises(KeyboardInterrupt):
+                long()
+            assert time.monotonic() - began < 0.4  # asked every tenth of a second
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+    assert sensitivity.gradient(response).by.friction == pytest.approx(whole, rel=1e-12)

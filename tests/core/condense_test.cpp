@@ -1,3 +1,4 @@
+#include "comparison.hpp"
 #include "expect_input_error.hpp"
 
 #include <cattaneo/condense/condense.hpp>
@@ -115,11 +116,6 @@ std::vector<int> others(int size, const std::vector<int> &a, const std::vector<i
       if (!in[dof]) { rest.push_back(dof); }
    }
    return rest;
-}
-
-double difference(const MatrixXd &a, const MatrixXd &b)
-{
-   return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
 }
 
 TEST(CondenseMatrix, IsTheSchurComplementOfItsBlocks)
@@ -630,6 +626,10 @@ TEST(CondenseMatrix, SaysWhatIsWrong)
    expect_input_error([&] { condense(frame.body(false), one); }, "1 rigid motion(s) free");
    Frame loose = frame;
    loose.K(10, 10) = -1;
+   expect_input_error(
+      [&] { condense(loose.body(true), line); },
+      "entry (10, 10) of the stiffness is -1, its diagonal must not be negative");
+   loose.K(10, 10) = 0;
    expect_input_error([&] { condense(loose.body(true), line); },
                       "not positive definite at component x of the node (1, 1)");
    loose.K(10, 10) = std::nan("");

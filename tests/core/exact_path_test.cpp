@@ -26,7 +26,7 @@ MarchSettings exact_settings()
    return settings;
 }
 
-LoadHistory press_then_shear(double amplitude, int cycles)
+LoadHistory press_shear_and_ease(double amplitude, int cycles)
 {
    LoadHistory history =
       LoadHistory::through({Vector2d(0, 0), Vector2d(1, 0), Vector2d(1, amplitude),
@@ -171,7 +171,7 @@ TEST(ExactPath, LawsHoldOnEveryStretchOfRandomProblems)
       ContactState state = ContactState::virgin(problem), before = state;
       std::vector<NodeState> states = state.status;
       const MarchReport report =
-         march(problem, press_then_shear(0.8, 3), state, exact_settings(),
+         march(problem, press_shear_and_ease(0.8, 3), state, exact_settings(),
                [&](const ContactState &now, const IncrementRecord &record)
                {
                   EXPECT_LT(violation(problem, before, now), 1e-12) << "problem " << k;
@@ -280,7 +280,7 @@ TEST(ExactPath, CutAtAnyEventGivesTheSameToRoundOff)
 {
    std::mt19937 random(34);
    const ReducedProblem problem = random_problem(12, 0.3, 0.1, random);
-   const LoadHistory history = press_then_shear(0.8, 2);
+   const LoadHistory history = press_shear_and_ease(0.8, 2);
    ContactState whole = ContactState::virgin(problem);
    std::vector<ContactState> passed;
    march(problem, history, whole, exact_settings(),
@@ -316,8 +316,8 @@ TEST(ExactPath, UnitsDoNotMatter)
       pattern.p *= force;
    }
    ContactState a = ContactState::virgin(problem), b = ContactState::virgin(scaled);
-   const MarchReport ra = march(problem, press_then_shear(0.8, 2), a, exact_settings());
-   const MarchReport rb = march(scaled, press_then_shear(0.8, 2), b, exact_settings());
+   const MarchReport ra = march(problem, press_shear_and_ease(0.8, 2), a, exact_settings());
+   const MarchReport rb = march(scaled, press_shear_and_ease(0.8, 2), b, exact_settings());
    ASSERT_EQ(ra.changes.size(), rb.changes.size());
    for (std::size_t k = 0; k < ra.changes.size(); ++k)
    {
@@ -434,7 +434,7 @@ TEST(ExactPath, AboveCriticalFrictionNothingIsSilent)
       ReducedProblem problem = random_problem(6, 1.0 + 0.2 * k, 0.35, random);
       ContactState state = ContactState::virgin(problem), before = state;
       const MarchReport report =
-         march(problem, press_then_shear(0.8, 1), state, exact_settings(),
+         march(problem, press_shear_and_ease(0.8, 1), state, exact_settings(),
                [&](const ContactState &now, const IncrementRecord &)
                {
                   EXPECT_LT(violation(problem, before, now), 1e-10) << "problem " << k;

@@ -1,6 +1,7 @@
 // Stiffnesses of other programs. Files and expectations are those of data/exchange/make.py and
 // of a real CalculiX 2.20, which wrote the .sti.
 
+#include "comparison.hpp"
 #include "expect_input_error.hpp"
 
 #include <cattaneo/condense/condense.hpp>
@@ -37,11 +38,6 @@ MatrixXd expected(const std::string &name)
       for (std::size_t j = 0; j < rows.size(); ++j) { S(i, j) = rows[i][j]; }
    }
    return S;
-}
-
-double difference(const MatrixXd &a, const MatrixXd &b)
-{
-   return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
 }
 
 VectorXd vector(std::initializer_list<double> values)
@@ -218,6 +214,131 @@ TEST_F(Exchange, RowsOfAnyProgram)
                       "is compressed, must not be");
 }
 
+/// Zeros between bodies connect nothing: dense forms have them, sparse ones may.
+TEST_F(Exchange, BodiesOfADenseMatrixAreFound)
+{
+   NodalStiffness laps = read_stiffness(folder + "laps.sti");
+   const std::vector<NodalStiffness> sparse = laps.parts();
+   NodalStiffness stored = laps; // every zero of it
+   const auto size = static_cast<int>(laps.dofs.size());
+   std::vector<Eigen::Triplet<double>> all;
+   for (int i = 0; i < size; ++i)
+   {
+      for (int j = 0; j < size; ++j) { all.emplace_back(i, j, laps.K.coeff(i, j)); }
+   }
+   stored.K.setFromTriplets(all.begin(), all.end());
+   std::ostringstream text;
+   text.precision(17);
+   text << "%%MatrixMarket matrix array real general\n" << size << " " << size << "\n";
+   for (const Eigen::Triplet<double> &entry : all) { text << entry.value() << "\n"; }
+   laps.loads.clear(); // or it cannot be written
+   write_matrix_market("dense.mtx", laps);
+   write_whole("dense.mtx", text.str());
+   write_abaqus("element.mtx", laps);
+   for (const NodalStiffness &dense :
+        {stored, read_stiffness("dense.mtx"), read_stiffness("element.mtx")})
+   {
+      const std::vector<NodalStiffness> parts = dense.parts();
+      ASSERT_EQ(parts.size(), 2) << dense.name;
+      EXPECT_EQ(parts[1].K.nonZeros(), sparse[1].K.nonZeros());
+      NodalStiffness upper = parts[1];
+      upper.edges = sparse[1].edges;
+      const ContactLine line = upper.contact_line(upper.nodes_of("UPPER_FACE"));
+      const CondensedBody body = condense(upper.body(), line);
+      EXPECT_EQ(body.free_motions.cols(), 3);
+      EXPECT_LT(difference(body.S, expected("upper")), 1e-12);
+   }
+   // Of both at once, one of them free, what the other one is does not matter.
+   const CondensedBody both =
+      condense(stored.body(), stored.contact_line(stored.nodes_of("UPPER_FACE")));
+   EXPECT_EQ(both.free_motions.cols(), 3);
+   EXPECT_LT(difference(both.S, expected("upper")), 1e-12);
+}
+
+/// A program may number its rows as it likes: of each two entries one is there.
+TEST_F(Exchange, EntriesOfEitherTriangle)
+{
+   std::ifstream in(folder + "abaqus.mtx");
+   std::string text;
+   int count = 0;
+   for (std::string line; std::getline(in, line);)
+   {
+      const std::size_t middle = line.find(',', line.find(',') + 1), end = line.rfind(',');
+      text += ++count % 2 == 0 ? line
+                               : line.substr(middle + 1, end - middle - 1) + "," +
+                                    line.substr(0, middle) + line.substr(end);
+      text += "\n";
+   }
+   write_whole("turned.mtx", text);
+   const NodalStiffness turned = read_stiffness("turned.mtx", folder + "abaqus.inp"),
+                        known = read_stiffness(folder + "abaqus.mtx");
+   std::vector<int> order;
+   for (const NodeDof &dof : known.dofs) { order.push_back(turned.rows().at(dof)); }
+   const MatrixXd K = turned.K;
+   EXPECT_EQ(MatrixXd(K(order, order)), MatrixXd(known.K));
+}
+
+/// A spring along x from a corner of a block to the ground: in the deck as CalculiX and ABAQUS
+/// have it, and in K.
+TEST_F(Exchange, SpringsToTheGroundHold)
+{
+   const NodalStiffness block = read_stiffness(folder + "quadratic.sti");
+   const int node = block.nodes_of("BOTTOM").front(), row = block.rows().at({node, 1});
+   std::ostringstream sti;
+   sti.precision(17);
+   for (int i = 0; i < block.K.rows(); ++i)
+   {
+      for (NodalStiffness::Matrix::InnerIterator entry(block.K, i); entry; ++entry)
+      {
+         if (entry.col() < i) { continue; }
+         const double spring = i == row && entry.col() == row ? 500 : 0;
+         sti << i + 1 << " " << entry.col() + 1 << " " << entry.value() + spring << "\n";
+      }
+   }
+   write_whole("springs.sti", sti.str());
+   write_whole("springs.dof", read_whole(folder + "quadratic.dof"));
+   const std::string deck = read_whole(folder + "quadratic.inp");
+   write_whole("springs.inp", deck);
+   const auto condensed = [&]
+   {
+      const NodalStiffness held = read_stiffness("springs.sti");
+      return condense(held.body(), held.contact_line(held.nodes_of("BOTTOM")));
+   };
+   expect_input_error([&] { condensed(); }, "it resists a translation along x");
+   write_whole("springs.inp", deck + "*ELEMENT, TYPE=SPRING1, ELSET=GROUND\n9001, " +
+                                 std::to_string(node) + "\n*SPRING, ELSET=GROUND\n1\n500.\n");
+   const CondensedBody held = condensed();
+   EXPECT_EQ(held.free_motions.cols(), 2); // along y, and about that corner
+   const ContactLine line = block.contact_line(block.nodes_of("BOTTOM"));
+   const CondensedBody free = condense(block.body(), line);
+   EXPECT_EQ(free.free_motions.cols(), 3);
+   MatrixXd springs = held.S - free.S;
+   EXPECT_NEAR(springs.cwiseAbs().maxCoeff(), 500, 1e-6);
+   EXPECT_NEAR(springs.cwiseAbs().sum(), 500, 1e-6);
+}
+
+/// Sentences and names are UTF-8, whatever the alphabet of a file.
+TEST_F(Exchange, OlderAlphabets)
+{
+   write_whole("m.sti", "1 1 1.\n2 2 1.\n");
+   write_whole("m.dof", "1.1\n1.2\n");
+   const std::string nodes = "** Gr\xF6\xDF"
+                             "e in mm\n*NODE, NSET=FL\xC4"
+                             "CHE\n1, 0., 0.\n";
+   write_whole("m.inp", nodes);
+   EXPECT_EQ(read_stiffness("m.sti").nodes_of("FL\u00C4"
+                                              "CHE"),
+             NodalStiffness::Nodes{1});
+   write_whole("m.inp", nodes + "2, \xE9, 0.\n");
+   expect_input_error([&] { read_stiffness("m.sti"); }, "line 4: x of a node is '\u00E9'");
+   write_whole("m.inp", nodes + "2, \u00E9, 0.\n");
+   expect_input_error([&] { read_stiffness("m.sti"); }, "line 4: x of a node is '\u00E9'");
+   write_whole("m.sti", "\xEF\xBB\xBF"
+                        "1 1 1.\r\n2 2 1.\r\n");
+   write_whole("m.inp", "\xEF\xBB\xBF*NODE\r\n1, 0., 0.\r\n");
+   EXPECT_EQ(read_stiffness("m.sti").places.size(), 1);
+}
+
 TEST_F(Exchange, LinesByOrderAreThoseByElements)
 {
    for (const char *file : {"laps.sti", "quadratic.sti"})
@@ -376,6 +497,44 @@ TEST_F(Exchange, WhatIsWrittenComesBack)
                       "mass matrix: it is 3×3, must be 30×30");
 }
 
+/// What the program held has no rows, and is in no set of what is written.
+TEST_F(Exchange, SetsOfHeldNodesAreWrittenWithoutThem)
+{
+   NodalStiffness lower = read_stiffness(folder + "laps.sti").parts()[0];
+   EXPECT_EQ(lower.nodes_of("FLOOR").size(), 5);
+   NodalStiffness::Nodes free = lower.nodes_of("LOWER");
+   for (int node : lower.nodes_of("FLOOR"))
+   {
+      free.erase(std::remove(free.begin(), free.end(), node), free.end());
+   }
+   EXPECT_EQ(free.size(), 10);
+   write_matrix_market("held.mtx", lower);
+   write_abaqus("held_element.mtx", lower);
+   for (const char *file : {"held.mtx", "held_element.mtx"})
+   {
+      const NodalStiffness back = read_stiffness(file);
+      EXPECT_EQ(back.K.toDense(), lower.K.toDense());
+      EXPECT_FALSE(back.has_set("FLOOR"));
+      EXPECT_EQ(back.nodes_of("LOWER"), free);
+      EXPECT_TRUE(back.supports_left_out);
+   }
+}
+
+/// A body of revolution stays one: its contact forces are of the whole circumference.
+TEST_F(Exchange, AnAxisymmetricSuperelementComesBack)
+{
+   const NodalStiffness ring = read_stiffness(folder + "ring.sti");
+   const ContactLine line = ring.contact_line(ring.nodes_of("BOTTOM"));
+   const NodalStiffness element = nodal_stiffness(condense(ring.body(), line));
+   write_abaqus("ring_element.mtx", element);
+   const NodalStiffness back = read_stiffness("ring_element.mtx");
+   EXPECT_EQ(back.formulation, Formulation::axisymmetric);
+   NodalStiffness::Nodes nodes = back.nodes_of("CONTACT");
+   const ContactLine again = back.contact_line(nodes, 1);
+   // One element less, whose other node is on the axis and has no row.
+   EXPECT_NEAR(again.each(&LineNode::weight).sum(), M_PI * (4 - 0.25), 1e-12);
+}
+
 TEST_F(Exchange, ACondensedBodyIsASuperelement)
 {
    NodalStiffness lower = lower_lap();
@@ -429,18 +588,22 @@ TEST_F(Exchange, NumpyReadsWhatIsWritten)
       {"two", Control::force, VectorXd::LinSpaced(5, 1, 5), VectorXd::LinSpaced(5, 6, 10)});
    problem.H = MatrixXd::Zero(2, 2);
    write_npz("problem.npz", problem);
-   write_whole("read.py",
-               "import sys\n"
-               "try:\n   import numpy\nexcept ImportError:\n   sys.exit(77)\n"
-               "b = numpy.load('body.npz'); p = numpy.load('problem.npz')\n"
-               "assert sorted(b) == ['K', 'M', 'dofs', 'loads', 'places'], sorted(b)\n"
-               "assert b['K'].shape == (10, 10) and (b['M'] == numpy.eye(10)).all()\n"
-               "assert b['loads'].sum() == -2.5 and b['places'][0, 0] == 2.0\n"
-               "assert abs(p['K'] - p['K'].T).max() == 0 and p['gap'].shape == (5, 1)\n"
-               "assert p['loads'].shape == (10, 2), p['loads'].shape\n"
-               "assert abs(p['loads'][:, 0].sum() + 2.5) < 1e-12, p['loads']\n"
-               "assert (p['loads'][:, 1] == numpy.arange(1., 11.)).all(), p['loads']\n"
-               "assert abs(p['K'].trace() - b['K'].trace()) < 1e-9\n");
+   write_npz("lower.npz", lower);
+   write_whole(
+      "read.py",
+      "import sys\n"
+      "try:\n   import numpy\nexcept ImportError:\n   sys.exit(77)\n"
+      "b = numpy.load('body.npz'); p = numpy.load('problem.npz')\n"
+      "held = numpy.load('lower.npz'); rows = held['dofs'][held['fixed'].astype(int).ravel()]\n"
+      "assert sorted(map(tuple, rows)) == [(n, c) for n in range(1, 6) for c in (1, 2)], rows\n"
+      "assert sorted(b) == ['K', 'M', 'dofs', 'fixed', 'loads', 'places'], sorted(b)\n"
+      "assert b['K'].shape == (10, 10) and (b['M'] == numpy.eye(10)).all()\n"
+      "assert b['loads'].sum() == -2.5 and b['places'][0, 0] == 2.0\n"
+      "assert abs(p['K'] - p['K'].T).max() == 0 and p['gap'].shape == (5, 1)\n"
+      "assert p['loads'].shape == (10, 2), p['loads'].shape\n"
+      "assert abs(p['loads'][:, 0].sum() + 2.5) < 1e-12, p['loads']\n"
+      "assert (p['loads'][:, 1] == numpy.arange(1., 11.)).all(), p['loads']\n"
+      "assert abs(p['K'].trace() - b['K'].trace()) < 1e-9\n");
    const int code = std::system("python3 read.py || /usr/bin/python3 read.py");
    if (WEXITSTATUS(code) == 77) { GTEST_SKIP() << "there is no NumPy"; }
    EXPECT_EQ(code, 0);
@@ -599,6 +762,10 @@ TEST_F(Exchange, MistakesAreToldInOneSentence)
             "element 1 has node 2"},
            {"", "*NODE\n1, 0., 0.\n*ELEMENT, TYPE=CPE4\n1, 1\n",
             "element 1 is a CPE4 of 1 nodes, must have 4"},
+           {"",
+            "*NODE\n1, 0., 0.\n2, 1., 0.\n3, 0., 1.\n*ELEMENT, TYPE=CPE3\n5, 1, 2, 3\n8, 2, 3, "
+            "1\n",
+            "file 'm.inp': element 8 and element 5 are on the same side of their edge"},
            {"", "*NODE\n1, 0., 0.\n*TRANSFORM\n", "*TRANSFORM turns directions"},
            {"", "*NODE\n1, 0., 0.\n*EQUATION\n", "*EQUATION makes nodes depend on others"},
            {"", "*NODE\n1, 0., 0.\n*Rigid body, ref node=1\n",
@@ -735,6 +902,14 @@ TEST(OuterEdges, OfASquareAndATriangle)
       },
       "element 1 has 2 nodes");
    expect_input_error([&] { outer_edges({{0, 1, 9}}, places); }, "has node 9");
+   // A quadrilateral with a corner twice is a triangle; an element that is there twice hides
+   // none.
+   EXPECT_EQ(outer_edges({{0, 1, 2, 3}, {1, 4, 4, 2}}, places), expected);
+   expect_input_error(
+      [&] {
+         outer_edges({{0, 1, 2, 3}, {1, 2, 3, 0}}, places, {7, 9});
+      },
+      "element 9 and element 7 are on the same side of their edge from node 1 to 2");
 }
 
 } // namespace

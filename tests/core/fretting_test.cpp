@@ -1,3 +1,4 @@
+#include "comparison.hpp"
 #include "expect_input_error.hpp"
 
 #include <cattaneo/fretting/assessment.hpp>
@@ -25,8 +26,6 @@ using namespace cattaneo;
 using namespace cattaneo::fretting;
 using cattaneo::InputError;
 
-const double pi = std::acos(-1.0);
-const double nan = std::numeric_limits<double>::quiet_NaN();
 const double infinity = std::numeric_limits<double>::infinity();
 
 FatigueMaterial aluminium()
@@ -67,9 +66,9 @@ TEST(Fretting, RefusesBadInput)
    EXPECT_THROW(slip_zone({1, 1, 0}), InputError);
    EXPECT_THROW(slip_zone({1, 1, -0.3}), InputError);
    EXPECT_THROW(slip_zone({0, 1, 0.3}), InputError);
-   EXPECT_THROW(slip_zone({1, nan, 0.3}), InputError);
+   EXPECT_THROW(slip_zone({1, nan_value, 0.3}), InputError);
    EXPECT_THROW(stress({1, 1, 0.3}, 0, -1), InputError);
-   EXPECT_THROW(stress({1, 1, 0.3}, nan, 1), InputError);
+   EXPECT_THROW(stress({1, 1, 0.3}, nan_value, 1), InputError);
    EXPECT_THROW(contact_modulus(0, 0.3), InputError);
    EXPECT_THROW(contact_modulus(1, 0.5), InputError);
    EXPECT_THROW(hertz_contact(-1, 1, 1), InputError);
@@ -86,7 +85,7 @@ TEST(Fretting, RefusesBadInput)
    EXPECT_THROW(hertz_transition_friction(0.3, 1.1), InputError);
    EXPECT_THROW(power_law_factor(-1), InputError);
    EXPECT_THROW(crack_factor(-1), InputError);
-   EXPECT_THROW(crack_factor(nan), InputError);
+   EXPECT_THROW(crack_factor(nan_value), InputError);
    EXPECT_THROW(crack_intensity({1, 1, 0.3}, -1), InputError);
    EXPECT_THROW(threshold_ordinate(Criterion::open, 0, 1), InputError);
    EXPECT_THROW(threshold_ordinate(Criterion::open, 0.3, 0), InputError);
@@ -95,7 +94,7 @@ TEST(Fretting, RefusesBadInput)
    EXPECT_THROW(assess_threshold({{1, 1, 0.3}}, 0, 1), InputError);
    EXPECT_THROW(slip_energy_max(-1, 1), InputError);
    EXPECT_THROW(reversed_slip_zone({1, 1, 0.3}, -1), InputError);
-   EXPECT_THROW(reversed_slip_zone({1, 1, 0.3}, nan), InputError);
+   EXPECT_THROW(reversed_slip_zone({1, 1, 0.3}, nan_value), InputError);
    EXPECT_THROW(mode_two_range(-1), InputError);
    EXPECT_THROW(slip_energy_max(1, 0), InputError);
    EXPECT_THROW(hertz_slip_energy(0.3, 1, 1.01, 1), InputError);
@@ -210,7 +209,7 @@ TEST(Fretting, EachNumberOfEachFormulaIsChecked)
       for (std::size_t k = 0; k < formula.good.size(); ++k)
       {
          const char kind = formula.kinds[k];
-         std::vector<double> bad = {nan, -infinity};
+         std::vector<double> bad = {nan_value, -infinity};
          if (kind != 'i') { bad.push_back(infinity); }
          if (kind != 'f') { bad.push_back(-1); }
          if (kind == '+') { bad.push_back(0); }
@@ -451,7 +450,7 @@ FrettingProblem round_numbers()
 
 const Validity &measure(const FrettingReport &report, const std::string &name)
 {
-   static const Validity none{"none", nan, Trust::good, ""};
+   static const Validity none{"none", nan_value, Trust::good, ""};
    for (const Validity &item : report.validity)
    {
       if (item.measure == name) { return item; }
@@ -579,7 +578,7 @@ TEST(Assessment, TrustTurnsWhereItIsSaidTo)
    for (double FrettingProblem::*size :
         {&FrettingProblem::half_width, &FrettingProblem::rounded_width})
    {
-      for (const double bad : {-1.0, nan, infinity})
+      for (const double bad : {-1.0, nan_value, infinity})
       {
          EXPECT_THROW(report([=](FrettingProblem &p) { p.*size = bad; }), InputError);
       }
@@ -612,7 +611,7 @@ TEST(Threshold, UniformTensionGrowsACrackFromTheFatigueLimitOn)
    }
    EXPECT_EQ(to_string(CrackVerdict::propagates), "propagates");
    EXPECT_EQ(to_string(CrackVerdict::arrests_beyond_a0), "arrests beyond a0");
-   EXPECT_THROW(verdict(nan, -1, Criterion::open), InputError);
+   EXPECT_THROW(verdict(nan_value, -1, Criterion::open), InputError);
    EXPECT_THROW(verdict(1, 1, Criterion::open), InputError);
 }
 
@@ -806,7 +805,7 @@ TEST(EdgeFit, RefusesBadInput)
    expect_refused(tractions, {}, "19 shear tractions");
    expect_refused(hertz_nodes(20, 0), {}, "on the other side of the edge"); // contact on both
    tractions = hertz_nodes(20, -1);
-   tractions.pressure[3] = nan;
+   tractions.pressure[3] = nan_value;
    expect_refused(tractions, {}, "node 3 has");
    expect_refused(hertz_nodes(5, -1), {}, "nodes");
    expect_refused(hertz_nodes(20, -1), {0.5, 0.25}, "the window of the fit is 0.5 to 0.25");

@@ -23,10 +23,10 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// Largest violation of the laws of contact and friction, in plain words from v and w alone:
-/// no penetration, no tension, |q| <= f p, and power q·Δv = -f p |Δv| of friction.
-double violation(const ReducedProblem &problem, const ContactState &state,
-                 const VectorXd &v_old)
+/// Largest disc_violation of the laws of contact and friction, in plain words from v and w
+/// alone: no penetration, no tension, |q| <= f p, and power q·Δv = -f p |Δv| of friction.
+double disc_violation(const ReducedProblem &problem, const ContactState &state,
+                      const VectorXd &v_old)
 {
    const VectorXd f = problem.clamped_forces(state.multipliers);
    const Index n = problem.nodes();
@@ -124,7 +124,7 @@ TEST(FrictionDisc, BothMethodsObeyTheLawOnRandomProblems)
             const IncrementReport report = solver.solve(state, loads);
             ASSERT_EQ(report.status, FrictionStatus::converged)
                << "problem " << k << " method " << method << ": " << report.message;
-            EXPECT_LT(violation(problem, state, v_old), 1e-10) << "problem " << k;
+            EXPECT_LT(disc_violation(problem, state, v_old), 1e-10) << "problem " << k;
             for (NodeState s : state.status) { slipping += s == NodeState::slip; }
             if (method == 0) { ++solves; }
          }
@@ -164,7 +164,7 @@ TEST(FrictionDisc, AnIncrementOutOfReachIsReachedInStepsOfItsLoad)
          ASSERT_EQ(report.status, FrictionStatus::converged)
             << "problem " << k << ": " << report.message;
          out_of_reach += solver.counters().newton_steps - steps > few.max_newton;
-         EXPECT_LT(violation(problem, state, before.v), 1e-10) << "problem " << k;
+         EXPECT_LT(disc_violation(problem, state, before.v), 1e-10) << "problem " << k;
          ContactState same = before;
          ASSERT_EQ(usual.solve(same, loads).status, FrictionStatus::converged);
          EXPECT_LT((state.v - same.v).cwiseAbs().maxCoeff(), 1e-9) << "problem " << k;

@@ -1,3 +1,4 @@
+#include "comparison.hpp"
 #include "expect_input_error.hpp"
 #include "small_problems.hpp"
 
@@ -25,7 +26,6 @@ using namespace cattaneo::fretting;
 using Eigen::Index;
 using Eigen::VectorXd;
 
-const double pi = std::acos(-1.0);
 const double modulus = 0.5; // E*
 
 /** Two similar half-planes by the boundary element method: constant tractions on n cells of

@@ -35,14 +35,14 @@ VectorXd uniform(const ContactLine &line, int component)
    return forces;
 }
 
-const std::vector<double> uneven{-1, -0.9, 0.2, 0.25, 1};
+const std::vector<double> uneven_grid{-1, -0.9, 0.2, 0.25, 1};
 
 TEST(HalfPlaneField, StressesUnderAUniformPressureAndShear)
 {
    const HalfPlane body = half_plane(); // below y = 0, its tangent runs against x
    for (const int order : {1, 3})
    {
-      const ContactLine line = condense(body, straight_line(uneven, order)).line;
+      const ContactLine line = condense(body, straight_line(uneven_grid, order)).line;
       const HalfPlaneField pressed(body, line, uniform(line, 1)),
          sheared(body, line, uniform(line, 0));
       for (const double x : {-3.0, -0.9, 0.0, 0.3, 0.99, 1.4})
@@ -88,7 +88,7 @@ TEST(HalfPlaneField, DisplacementsFitTheStresses)
       HalfPlane body = half_plane(state);
       body.normal = Vector2d(3, -4) / 5; // any way round
       body.point = {0.4, 2};
-      const CondensedBody condensed = condense(body, uneven, 2);
+      const CondensedBody condensed = condense(body, uneven_grid, 2);
       const Index n = condensed.line.size();
       VectorXd forces(2 * n);
       for (Index i = 0; i < 2 * n; ++i) { forces[i] = std::cos(3.0 * i) + 0.5; }
@@ -203,7 +203,7 @@ TEST(HalfPlaneField, APlaneOfSymmetryIsAMirror)
 TEST(HalfPlaneField, BadInputIsNamed)
 {
    const HalfPlane body = half_plane();
-   const ContactLine line = condense(body, uneven, 2).line;
+   const ContactLine line = condense(body, uneven_grid, 2).line;
    const HalfPlaneField field(body, line, uniform(line, 1));
    expect_input_error([&] { field.at({0, 0.1}); }, "(0, 0.1) is above its surface");
    expect_input_error([&] { HalfPlaneField(body, line, VectorXd::Ones(3)); },

@@ -46,13 +46,13 @@ namespace
 {
 
 /// A random contact whose normal displacements have a pattern of their own, "gap".
-struct Case
+struct LimitCase
 {
    ReducedProblem problem;
    LoadCycle cycle;
    MatrixXd dK; ///< a change of the stiffness
 
-   explicit Case(unsigned seed, Index components)
+   explicit LimitCase(unsigned seed, Index components)
       : problem(random_contact(seed, 2 + seed % 2, components, false)),
         cycle(random_cycle(seed, 3, 2 + seed % 3))
    {
@@ -90,7 +90,7 @@ TEST(LimitGradient, IsThatOfLimitsFoundByBruteForce)
    int compared = 0, bends = 0;
    for (unsigned seed = 0; seed < 10; ++seed)
    {
-      const Case at(seed, 1);
+      const LimitCase at(seed, 1);
       const LimitProblem given = limit_problem(at.problem, at.cycle);
       LimitSettings settings;
       settings.tolerance = 1e-9;
@@ -101,7 +101,7 @@ TEST(LimitGradient, IsThatOfLimitsFoundByBruteForce)
       const double limit = brute_force_load(at.problem, at.cycle), h = 1e-6;
       const auto compare = [&](double derivative, const auto &change, const char *what)
       {
-         Case above = at, below = at;
+         LimitCase above = at, below = at;
          change(above, h);
          change(below, -h);
          const double up = (brute_force_load(above.problem, above.cycle) - limit) / h,
@@ -119,22 +119,23 @@ TEST(LimitGradient, IsThatOfLimitsFoundByBruteForce)
       for (Index i = 0; i < at.problem.nodes(); ++i)
       {
          compare(
-            by.friction[i], [i](Case &c, double step) { c.problem.friction[i] += step; },
+            by.friction[i], [i](LimitCase &c, double step) { c.problem.friction[i] += step; },
             "friction");
          compare(
-            by.gap[i], [i](Case &c, double step) { c.change_gap(i, step); }, "gap");
+            by.gap[i], [i](LimitCase &c, double step) { c.change_gap(i, step); }, "gap");
       }
       for (Index k = 0; k < 3; ++k)
       {
          compare(
-            by.constant[k], [k](Case &c, double step) { c.cycle.constant[k] += step; },
+            by.constant[k], [k](LimitCase &c, double step) { c.cycle.constant[k] += step; },
             "constant");
          compare(
-            by.varying(k, 1), [k](Case &c, double step) { c.cycle.varying(k, 1) += step; },
+            by.varying(k, 1), [k](LimitCase &c, double step) { c.cycle.varying(k, 1) += step; },
             "varying");
       }
       compare(
-         by.stiffness[0], [](Case &c, double step) { c.change_stiffness(step); }, "stiffness");
+         by.stiffness[0], [](LimitCase &c, double step) { c.change_stiffness(step); },
+         "stiffness");
       // Loads that are scaled scale the limit: of the constant ones with it, of the others
       // against it.
       EXPECT_NEAR(by.constant.dot(at.cycle.constant), limit, 1e-6 * limit);
@@ -151,10 +152,10 @@ TEST(LimitGradient, WithTorsionAndOfTheLeastFriction)
    settings.tolerance = 1e-9;
    for (unsigned seed = 0; seed < 4; ++seed)
    {
-      Case at(seed, 1 + seed % 2);
+      LimitCase at(seed, 1 + seed % 2);
       const bool of_friction = seed % 4 >= 2;
       const double factor = 0.3, h = 1e-4;
-      const auto find = [&](const Case &c)
+      const auto find = [&](const LimitCase &c)
       {
          const LimitProblem problem = limit_problem(c.problem, c.cycle);
          return of_friction ? friction_limit(problem, factor, settings)
@@ -168,7 +169,7 @@ TEST(LimitGradient, WithTorsionAndOfTheLeastFriction)
       ASSERT_TRUE(by.found) << by.message;
       for (Index k = 0; k < 3; ++k)
       {
-         Case above = at, below = at;
+         LimitCase above = at, below = at;
          above.cycle.constant[k] += h;
          below.cycle.constant[k] -= h;
          const double up = (find(above).limit - report.limit) / h,
@@ -182,7 +183,7 @@ TEST(LimitGradient, WithTorsionAndOfTheLeastFriction)
 
 TEST(LimitGradient, NeedsALimitAndWhatFits)
 {
-   const Case at(1, 1);
+   const LimitCase at(1, 1);
    const LimitProblem given = limit_problem(at.problem, at.cycle);
    LimitReport report = load_limit(given);
    expect_input_error(

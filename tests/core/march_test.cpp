@@ -6,6 +6,7 @@
 #include "small_problems.hpp"
 
 #include <array>
+#include <cattaneo/design/march_trace.hpp>
 #include <cattaneo/friction/energy.hpp>
 #include <cattaneo/friction/march.hpp>
 #include <cattaneo/input_error.hpp>
@@ -32,6 +33,85 @@ LoadHistory press_then_shear(double amplitude, int cycles)
    history.cycle_start = 1;
    history.cycles = cycles;
    return history;
+}
+
+/// A pin amid a hole that has walls at the given angles, a gap of 0.02 from each, pushed by F.
+ReducedProblem pin_amid_walls(const std::vector<double> &degrees, const Vector2d &F, double f)
+{
+   const auto n = static_cast<Eigen::Index>(degrees.size());
+   MatrixXd moved(2 * n, 2); // {v; w} by the pin's displacement
+   for (Eigen::Index i = 0; i < n; ++i)
+   {
+      const double angle = degrees[i] * M_PI / 180;
+      moved.row(i) << std::sin(angle), -std::cos(angle);
+      moved.row(n + i) << -std::cos(angle), -std::sin(angle);
+   }
+   const MatrixXd Z = moved.householderQr().householderQ() * MatrixXd::Identity(2 * n, 2);
+   ReducedProblem problem;
+   const MatrixXd K = 1000 * (MatrixXd::Identity(2 * n, 2 * n) - Z * Z.transpose());
+   problem.set_stiffness(K.topLeftCorner(n, n), K.bottomLeftCorner(n, n),
+                         K.bottomRightCorner(n, n), Z);
+   // Forces whose work along each motion is that of F.
+   const VectorXd all = -moved * (moved.transpose() * moved).inverse() * F;
+   problem.patterns = {{"F", Control::force, all.head(n), all.tail(n)}};
+   problem.H = MatrixXd::Zero(1, 1);
+   problem.gap = VectorXd::Constant(n, 0.02);
+   set_friction(problem, f);
+   return problem;
+}
+
+TEST(March, TakesUpTheClearanceOfWhatIsFree)
+{
+   const std::vector<double> walls{0, 90, 180, 270};
+   const LoadHistory history = LoadHistory::through({VectorXd::Zero(1), VectorXd::Ones(1)});
+   for (double f : {0.0, 0.3})
+   {
+      for (double size : {1.0, 1e3})
+      {
+         // Into the corner of two walls, each of which takes its part of F.
+         const ReducedProblem corner = pin_amid_walls(walls, {3 * size, 4 * size}, f);
+         ContactState state = ContactState::virgin(corner);
+         MarchReport report = march(corner, history, state);
+         ASSERT_EQ(report.status, FrictionStatus::converged) << report.message;
+         // The forces on the pin: of the wall at 0 {q, p} along {-y, -x}, at 90 along {x, -y}.
+         EXPECT_NEAR(state.p[0] - state.q[1], 3 * size, 1e-9 * size);
+         EXPECT_NEAR(state.p[1] + state.q[0], 4 * size, 1e-9 * size);
+         EXPECT_GT(state.p[0], 0);
+         EXPECT_GT(state.p[1], 0);
+         EXPECT_EQ(state.p[2], 0);
+         EXPECT_EQ(state.p[3], 0);
+         if (f == 0) { continue; } // what pushes at one wall is free along it
+         // As far along the others as it was.
+         const ReducedProblem straight = pin_amid_walls(walls, {size, 0}, f);
+         state = ContactState::virgin(straight);
+         report = march(straight, history, state);
+         ASSERT_EQ(report.status, FrictionStatus::converged) << report.message;
+         EXPECT_NEAR(state.p[0], size, 1e-9 * size);
+         EXPECT_NEAR(state.v[0], 0, 1e-9);
+      }
+      // Away from all walls.
+      const ReducedProblem away = pin_amid_walls({0, 90}, {-1, -1}, f);
+      ContactState state = ContactState::virgin(away);
+      const MarchReport report = march(away, history, state);
+      EXPECT_EQ(report.status, FrictionStatus::no_solution) << report.message;
+      EXPECT_EQ(report.taken_up_clearance, 0);
+      EXPECT_EQ(state.w, VectorXd::Zero(2));
+      // A wall that touches at rest would be slid along: that is for friction.
+      ReducedProblem touching = pin_amid_walls(walls, {3, 4}, f);
+      touching.gap[0] = 0;
+      state = ContactState::virgin(touching);
+      EXPECT_EQ(march(touching, history, state).taken_up_clearance, 0);
+   }
+   // So little a load that the way to the walls drowns it in rounding: no first increment is
+   // found from amid the hole.
+   const ReducedProblem lightly = pin_amid_walls(walls, {3e-6, 4e-6}, 0.3);
+   ContactState state = ContactState::virgin(lightly);
+   const MarchReport report = march(lightly, history, state);
+   ASSERT_EQ(report.status, FrictionStatus::converged) << report.message;
+   EXPECT_NEAR(report.taken_up_clearance, 0.02, 1e-9);
+   EXPECT_NEAR(state.p[0] - state.q[1], 3e-6, 1e-13);
+   EXPECT_NEAR(state.p[1] + state.q[0], 4e-6, 1e-13);
+   expect_input_error([&] { trace_march(lightly, history); }, "touches nothing at rest");
 }
 
 TEST(March, OneBlockCycleInClosedForm)
@@ -1160,7 +1240,7 @@ TEST(ContactState, WhatIsHeldDoesNotSlip)
    const Eigen::Vector3d slip(0.1, 0.2, 0.3);
    expect_input_error([&] { ContactState::with_slip(problem, slip); },
                       "contact state: row 1 of the slip is 0.2, must be 0: it is held");
-   ContactState state = ContactState::with_slip(problem, {Eigen::Vector3d(0.1, 0, 0.3)});
+   ContactState state = ContactState::with_slip(problem, Eigen::Vector3d(0.1, 0, 0.3));
    EXPECT_NO_THROW(state.validate(problem));
    state.v[1] = 1e-3;
    expect_input_error([&] { state.validate(problem); }, "row 1 of the slip is 0.001");

@@ -1,3 +1,4 @@
+#include "comparison.hpp"
 #include "expect_input_error.hpp"
 #include "line_along.hpp"
 #include "quadrature.hpp"
@@ -71,11 +72,6 @@ VectorXd integrals(const ContactLine &line, const std::function<double(double)> 
       }
    }
    return result;
-}
-
-double largest(const MatrixXd &x)
-{
-   return x.size() ? x.cwiseAbs().maxCoeff() : 0;
 }
 
 class Orders : public testing::TestWithParam<std::tuple<int, int>>
@@ -223,7 +219,6 @@ TEST(Mortar, OfNodesWithoutRowsKeepsTheirPressure)
 /// in r to the axis, where there is no node.
 TEST(Mortar, OfBodiesOfRevolutionHasTheWeightOfTheCircumference)
 {
-   const double pi = std::acos(-1.0);
    const auto around = [=](double r) { return 2 * pi * r; };
    const auto axisymmetric = Formulation::axisymmetric;
    std::mt19937 random(5);

@@ -13,7 +13,7 @@ namespace
 
 using namespace cattaneo;
 
-const std::string folder = std::string(CATTANEO_SOURCE_DIR) + "/problems/";
+const std::string problems = std::string(CATTANEO_SOURCE_DIR) + "/problems/";
 
 Eigen::VectorXd vector(const nlohmann::json &j)
 {
@@ -37,8 +37,8 @@ class PublicProblem : public testing::TestWithParam<Shipped>
 TEST_P(PublicProblem, HasTheSolutionThatIsStored)
 {
    const std::string name = GetParam().name;
-   const ReducedProblem problem = load_reduced_problem(folder + name + ".json");
-   std::ifstream in(folder + name + ".solution.json");
+   const ReducedProblem problem = load_reduced_problem(problems + name + ".json");
+   std::ifstream in(problems + name + ".solution.json");
    const nlohmann::json solution = nlohmann::json::parse(in);
    ASSERT_EQ(solution.at("format"), "cattaneo reduced solution 1");
    ASSERT_EQ(solution.at("problem"), name + ".json");
@@ -105,7 +105,7 @@ TEST(PublicProblems, StoredSolutionsMeetTheLaws)
    {
       const std::string program = python;
       if (std::system((program + " -c 'import numpy' 2>/dev/null").c_str()) != 0) { continue; }
-      EXPECT_EQ(std::system((program + " '" + folder + "check.py'").c_str()), 0);
+      EXPECT_EQ(std::system((program + " '" + problems + "check.py'").c_str()), 0);
       return;
    }
    GTEST_SKIP() << "there is no Python 3 with numpy to read them";

@@ -1,3 +1,4 @@
+#include "comparison.hpp"
 #include "expect_input_error.hpp"
 
 #include <array>
@@ -287,12 +288,6 @@ TEST(ReducedFile, ProblemsWithoutFrictionOrWithTorsion)
    save(disc, file);
    EXPECT_EQ(load_reduced_problem(file).components(), 2);
    EXPECT_EQ(load_reduced_problem(file).B(), disc.B());
-}
-
-std::string content(const std::string &file)
-{
-   std::ifstream in(file);
-   return {std::istreambuf_iterator<char>(in), {}};
 }
 
 TEST(ReducedFile, RefusesAProblemThatKeepsARigidMotionToItself)

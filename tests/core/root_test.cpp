@@ -165,7 +165,7 @@ TEST(WholeFile, PipesAndLinksStayWhatTheyAre)
    EXPECT_NO_THROW(require_writable(pipe));
    write_whole(pipe, "through");
    char through[8] = {};
-   EXPECT_EQ(read(reader, through, sizeof through), 7);
+   EXPECT_EQ(::read(reader, through, sizeof through), 7);
    EXPECT_STREQ(through, "through");
    close(reader);
    EXPECT_TRUE(fs::is_fifo(pipe));

@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 namespace
 {
 
-struct Case
+struct MarchCase
 {
    ReducedProblem problem;
    LoadHistory history;
@@ -24,10 +24,10 @@ struct Case
 };
 
 /// Pressed, sheared to and fro, with some nodes that open and close and slip that turns.
-Case random_case(int seed, Stepping stepping, int increments = 3)
+MarchCase random_case(int seed, Stepping stepping, int increments = 3)
 {
    std::mt19937 random(seed);
-   Case result;
+   MarchCase result;
    result.problem = random_problem(8, 0.3, 0.3, random);
    for (double &f : result.problem.friction)
    {
@@ -46,7 +46,7 @@ Case random_case(int seed, Stepping stepping, int increments = 3)
 }
 
 /// The problem with its parameters changed along a direction.
-Case changed(Case c, const Parameters &by, double h)
+MarchCase changed(MarchCase c, const Parameters &by, double h)
 {
    if (by.friction.size()) { c.problem.friction += h * by.friction; }
    if (by.gap.size()) { c.problem.gap += h * by.gap; }
@@ -63,11 +63,11 @@ Case changed(Case c, const Parameters &by, double h)
 using Read = std::function<Response(const Responses &, const MarchTrace &)>;
 
 /// Derivative along a direction by central differences of the march as a whole.
-double by_differences(const Case &c, const Parameters &by, const Read &read, double h)
+double by_differences(const MarchCase &c, const Parameters &by, const Read &read, double h)
 {
    const auto value = [&](double step)
    {
-      const Case other = changed(c, by, step);
+      const MarchCase other = changed(c, by, step);
       const MarchTrace trace = trace_march(other.problem, other.history, other.settings);
       EXPECT_EQ(trace.report.status, FrictionStatus::converged) << trace.report.message;
       return read(Responses(other.problem, trace), trace).value;
@@ -115,7 +115,7 @@ const std::vector<std::pair<const char *, Read>> &all_responses()
 }
 
 /// One of each kind of parameters, at random.
-std::vector<Parameters> directions(const Case &c, int seed)
+std::vector<Parameters> directions(const MarchCase &c, int seed)
 {
    std::srand(seed);
    std::vector<Parameters> all(4);
@@ -130,11 +130,11 @@ std::vector<Parameters> directions(const Case &c, int seed)
 
 struct Differentiated
 {
-   Case c;
+   MarchCase c;
    MarchTrace trace;
    Sensitivity sensitivity;
 
-   explicit Differentiated(const Case &given)
+   explicit Differentiated(const MarchCase &given)
       : c(given), trace(trace_march(c.problem, c.history, c.settings)),
         sensitivity(c.problem, trace, {stiffness_scale(c.problem)})
    {
@@ -146,11 +146,11 @@ struct Differentiated
    }
 };
 
+} // namespace
+
 class EachStepping : public testing::TestWithParam<std::tuple<Stepping, int>>
 {
 };
-
-} // namespace
 
 // The only oracle here is the march itself, at parameters that differ a little.
 TEST_P(EachStepping, DerivativesAreThoseOfTheMarch)
@@ -210,7 +210,7 @@ using ComplexMatrix = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic>;
 /// The march again in extended precision, its states being known, with a parameter that has an
 /// imaginary part: derivatives without a difference. Returns the slip at its end and the energy
 /// lost.
-std::pair<ComplexVector, Complex> complex_march(const Case &c, const MarchTrace &trace,
+std::pair<ComplexVector, Complex> complex_march(const MarchCase &c, const MarchTrace &trace,
                                                 const Parameters &by)
 {
    const Index n = c.problem.nodes();
@@ -431,7 +431,7 @@ TEST(Sensitivity, HertzAndCattaneo)
    { return read.dissipation(0, march.last()); };
    for (const Stepping stepping : {Stepping::fixed, Stepping::advancing, Stepping::exact})
    {
-      Case all{problem, history, settings};
+      MarchCase all{problem, history, settings};
       all.settings.stepping = stepping;
       Differentiated at(all);
       const Response energy = at.response(lost);
@@ -459,7 +459,7 @@ TEST(Sensitivity, SlidingBodyWithoutFriction)
                          MatrixXd(problem.C()), motion);
    for (LoadPattern &pattern : problem.patterns) { pattern.q = (keep * pattern.q).eval(); }
    problem.patterns[1].q += along;
-   Case c{problem, LoadHistory::through(problem, {{}, {{"press", 1}}}), {}};
+   MarchCase c{problem, LoadHistory::through(problem, {{}, {{"press", 1}}}), {}};
    Differentiated at(c);
    const Responses of(at.c.problem, at.trace);
    const Gradient pressed = at.sensitivity.gradient(of.normal_force(at.trace.last(), 2));
@@ -516,7 +516,7 @@ TEST(Sensitivity, BodyThatTouchesAtOneNode)
       pattern.p =
          pattern.name == "press" ? Eigen::Vector3d(0.2, 1, 0.2) : Eigen::Vector3d(0, 0, 0);
    }
-   const Case c{problem, LoadHistory::through(problem, {{}, {{"press", 1}}}), {}};
+   const MarchCase c{problem, LoadHistory::through(problem, {{}, {{"press", 1}}}), {}};
    MarchTrace trace = trace_march(problem, c.history, c.settings);
    // It may lean on another node without a force; here it stands upright.
    const std::size_t last = trace.last();
@@ -542,7 +542,7 @@ TEST(Sensitivity, BodyThatTouchesAtOneNode)
 
 TEST(Sensitivity, RefusesWhatDoesNotFit)
 {
-   const Case c = random_case(1, Stepping::fixed);
+   const MarchCase c = random_case(1, Stepping::fixed);
    const MarchTrace trace = trace_march(c.problem, c.history, c.settings);
    const Responses of(c.problem, trace);
    expect_input_error([&] { of.slip(trace.last() + 1, 0); }, "state");

@@ -1,7 +1,9 @@
+#include "comparison.hpp"
 #include "disc_problems.hpp"
 #include "expect_input_error.hpp"
 #include "same_state.hpp"
 
+#include <cattaneo/design/sensitivity.hpp>
 #include <cattaneo/friction/march.hpp>
 #include <cattaneo/output/history.hpp>
 #include <cattaneo/shakedown/transient.hpp>
@@ -23,14 +25,6 @@ using cattaneo_test::random_disc_problem;
 using cattaneo_test::random_problem;
 using Eigen::VectorXd;
 
-std::string content(const std::string &file)
-{
-   std::ifstream in(file);
-   std::ostringstream text;
-   text << in.rdbuf();
-   return text.str();
-}
-
 LoadHistory to_and_fro(const ReducedProblem &problem, int cycles)
 {
    LoadHistory history = LoadHistory::through(problem, {{},
@@ -43,7 +37,7 @@ LoadHistory to_and_fro(const ReducedProblem &problem, int cycles)
    return history;
 }
 
-struct Case
+struct StoppedCase
 {
    std::string name;
    ReducedProblem problem;
@@ -51,12 +45,12 @@ struct Case
 };
 
 /// Marches that go on to the last bit.
-std::vector<Case> cases()
+std::vector<StoppedCase> cases()
 {
    std::mt19937 random(41);
    MarchSettings settings;
    settings.increments = 6;
-   std::vector<Case> all = {
+   std::vector<StoppedCase> all = {
       {"advancing", random_problem(12, 0.3, 0.1, random), settings},
       {"advancing, more friction", random_problem(10, 0.5, 0.1, random), settings},
       {"disc", random_disc_problem(5, 0.3, 0.1, random), settings}};
@@ -66,7 +60,7 @@ std::vector<Case> cases()
 }
 
 /// A march from rest with its history in a file: how many increments it takes.
-long march_to_file(const Case &c, const LoadHistory &history, ContactState &state,
+long march_to_file(const StoppedCase &c, const LoadHistory &history, ContactState &state,
                    const std::string &file)
 {
    HistoryWriter writer(file, c.problem);
@@ -79,7 +73,7 @@ long march_to_file(const Case &c, const LoadHistory &history, ContactState &stat
 TEST(Stop, AtAnyIncrementTheMarchGoesOnToTheLastBit)
 {
    const std::string folder = testing::TempDir();
-   for (const Case &c : cases())
+   for (const StoppedCase &c : cases())
    {
       SCOPED_TRACE(c.name);
       const LoadHistory history = to_and_fro(c.problem, 3);
@@ -163,7 +157,7 @@ TEST(Stop, OnAnExactPathGoesOnToRoundOff)
 TEST(Stop, AProgramThatEndsAnywhereIsTakenUpFromWhatItSaved)
 {
    const std::string folder = testing::TempDir();
-   for (const Case &c : cases())
+   for (const StoppedCase &c : cases())
    {
       SCOPED_TRACE(c.name);
       const LoadHistory history = to_and_fro(c.problem, 3);
@@ -371,6 +365,46 @@ TEST(Stop, ASignalStops)
    EXPECT_EQ(report.status, FrictionStatus::stopped);
    EXPECT_GT(report.time, 2);
    EXPECT_LT(report.time, 4);
+}
+
+TEST(Stop, DerivativesThatAreStoppedAreNotKnown)
+{
+   std::mt19937 random(53);
+   const ReducedProblem problem = random_problem(8, 0.3, 0.1, random);
+   const MarchTrace trace = trace_march(problem, to_and_fro(problem, 1));
+   const Response lost = Responses(problem, trace).dissipation(0, trace.last());
+   Sensitivity sensitivity(problem, trace);
+   Parameters change;
+   change.friction = problem.friction;
+   const VectorXd known = sensitivity.gradient(lost).by.friction;
+   std::atomic<bool> stop{false};
+   long told = 0;
+   Monitor monitor;
+   monitor.interval = 0;
+   monitor.stop = &stop;
+   monitor.progress = [&](const Progress &progress)
+   {
+      EXPECT_EQ(progress.steps, told++);
+      EXPECT_LT(progress.share, 1);
+      stop = told == 5;
+   };
+   const Gradient gradient = sensitivity.gradient(lost, monitor);
+   EXPECT_FALSE(gradient.found);
+   EXPECT_EQ(gradient.message, "it was asked to stop");
+   EXPECT_EQ(told, 5);
+   told = 0;
+   stop = false;
+   const TraceChange along = sensitivity.along(change, monitor);
+   EXPECT_FALSE(along.found);
+   expect_input_error([&] { along.of(lost); }, "it was asked to stop");
+   // What throws leaves all as it was.
+   stop = false;
+   monitor.progress = [](const Progress &progress)
+   {
+      if (progress.steps == 3) { throw std::runtime_error("enough"); }
+   };
+   EXPECT_THROW(sensitivity.gradient(lost, monitor), std::runtime_error);
+   EXPECT_EQ(sensitivity.gradient(lost).by.friction, known);
 }
 
 TEST(Stop, ALimitSaysOnlyWhatIsProven)

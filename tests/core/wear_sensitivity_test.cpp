@@ -13,7 +13,7 @@ using Eigen::VectorXd;
 namespace
 {
 
-struct Case
+struct WearCase
 {
    ReducedProblem problem;
    LoadHistory history;
@@ -23,10 +23,10 @@ struct Case
 };
 
 /// Pressed and sheared to and fro, with nodes that open, close and turn; a law of each kind.
-Case random_case(int seed, Stepping stepping)
+WearCase random_wear(int seed, Stepping stepping)
 {
    std::mt19937 random(seed);
-   Case c;
+   WearCase c;
    c.problem = random_problem(7, 0.3, 0.3, random);
    for (double &f : c.problem.friction) { f *= 1 + 0.3 * std::cos(7 * f + random() % 100); }
    c.problem.gap.array() += 0.05;
@@ -49,7 +49,7 @@ Case random_case(int seed, Stepping stepping)
 }
 
 /// wear() itself, with parameters changed.
-WearState worn(Case c, const Parameters &by, double h)
+WearState worn(WearCase c, const Parameters &by, double h)
 {
    if (by.friction.size()) { c.problem.friction += h * by.friction; }
    if (by.gap.size()) { c.problem.gap += h * by.gap; }
@@ -63,18 +63,18 @@ WearState worn(Case c, const Parameters &by, double h)
    return state;
 }
 
+} // namespace
+
 class EachLaw : public testing::TestWithParam<std::tuple<Stepping, int>>
 {
 };
-
-} // namespace
 
 // Depths after many cycles, through all updates of the gap, against wear() at parameters
 // nearby.
 TEST_P(EachLaw, DerivativesOfWornDepthAreThoseOfWear)
 {
    const auto [stepping, seed] = GetParam();
-   const Case c = random_case(seed, stepping);
+   const WearCase c = random_wear(seed, stepping);
    WearState state = WearState::virgin(c.problem);
    const MarchTrace trace =
       trace_wear(c.problem, c.law, c.history, c.cycles, state, c.settings);
@@ -163,7 +163,7 @@ TEST(WearSensitivity, OfSpringsInClosedForm)
 
 TEST(WearSensitivity, RefusesWhatHasNoDerivatives)
 {
-   Case c = random_case(1, Stepping::fixed);
+   WearCase c = random_wear(1, Stepping::fixed);
    c.settings.tolerance = 1e-3;
    expect_input_error([&] { trace_wear(c.problem, c.law, c.history, 3, c.settings); },
                       "tolerance");

@@ -1,3 +1,4 @@
+#include "comparison.hpp"
 #include "disc_problems.hpp"
 #include "expect_input_error.hpp"
 #include "random_problem.hpp"
@@ -77,11 +78,6 @@ WearSettings settings_with(double tolerance)
    settings.march = one_increment();
    settings.tolerance = tolerance;
    return settings;
-}
-
-double largest(const VectorXd &x)
-{
-   return x.cwiseAbs().maxCoeff();
 }
 
 /** n nodes on springs of their own, kt along and kn across, beneath a rigid block that moves up

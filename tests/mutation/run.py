@@ -131,7 +131,7 @@ def configure(options):
     if not os.path.exists(os.path.join(BUILD, "build.ninja")):
         say("configuring")
         command = ["cmake", "-S", SOURCE, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-                   "-DCATTANEO_BENCHMARKS=OFF",
+                   "-DCATTANEO_BENCHMARKS=OFF", "-DCMAKE_UNITY_BUILD=ON",
                    "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"]
         command.append("-DCATTANEO_MFEM=OFF" if CORE else "-DMFEM_DIR=" + options.mfem)
         if shutil.which("ccache"):
@@ -139,12 +139,18 @@ def configure(options):
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
 
 
+def compiled():
+    """(command, sources) of all that is compiled; a unity build compiles several sources as one."""
+    for entry in json.load(open(os.path.join(BUILD, "compile_commands.json"))):
+        file = entry["file"]
+        yield entry["command"], re.findall(r'#include "(.+?)"', open(file).read()) if "/Unity/" in file else [file]
+
+
 def parser_arguments():
     """The library's flags as libclang wants them, with the long headers read once."""
-    commands = json.load(open(os.path.join(BUILD, "compile_commands.json")))
     arguments, pair = ["-x", "c++", "-w"], ""
     # Core is compiled without MFEM, and each library with flags of its own: what both have goes for both.
-    for word in " ".join(e["command"] for e in commands if f"/{LIBRARY}/" in e["file"]).split():
+    for word in " ".join(c for c, files in compiled() if f"/{LIBRARY}/" in files[0]).split():
         if pair and word not in arguments:
             arguments += [pair, word]
         elif re.match(r"-[DI]|-std", word) and word not in arguments:
@@ -192,7 +198,7 @@ def draw_pool(options, arguments):
     """Points in the seed's order, room by room: round the operators, one point a line, at most `pool` a room."""
     files = [f for f in tracked() if f.startswith(LIBRARY + "/") and f.endswith((".cpp", ".hpp"))]
     if CORE:  # what it is built of, and the headers of these
-        built = {e["file"] for e in json.load(open(os.path.join(BUILD, "compile_commands.json")))}
+        built = {file for _, files in compiled() for file in files}
         files = [f for f in files if os.path.join(SOURCE, f[:-4].replace("/private/", "/") + ".cpp") in built]
     found = remembered_points(files, arguments, options.jobs)
     rooms = {}

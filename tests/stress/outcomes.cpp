@@ -117,18 +117,6 @@ long count(const std::string &family, Outcome outcome)
    return table->row(family).outcomes[static_cast<std::size_t>(outcome)];
 }
 
-Extent extent()
-{
-   const char *wish = std::getenv("CATTANEO_STRESS");
-   const std::string word = wish ? wish : "";
-   return word == "full" ? Extent::full : word == "short" ? Extent::brief : Extent::usual;
-}
-
-int cases(int usual, int full)
-{
-   return extent() == Extent::full ? full : extent() == Extent::brief ? usual / 8 : usual;
-}
-
 Verdict march_and_verify(const ReducedProblem &problem, const LoadHistory &history,
                          ContactState &state, const MarchSettings &settings)
 {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "extent.hpp"
 #include <cattaneo/friction/march.hpp>
 #include <string>
 
@@ -45,17 +46,5 @@ long count(const std::string &family, Outcome outcome);
 Verdict march_and_verify(const cattaneo::ReducedProblem &problem,
                          const cattaneo::LoadHistory &history, cattaneo::ContactState &state,
                          const cattaneo::MarchSettings &settings = {});
-
-/// How much is run: environment variable CATTANEO_STRESS=short (an eighth of the seeds, for
-/// builds with sanitizers), not set (under a minute) or full (minutes).
-enum class Extent
-{
-   brief,
-   usual,
-   full
-};
-Extent extent();
-/// The number of seeds of a run.
-int cases(int usual, int full);
 
 } // namespace cattaneo_test

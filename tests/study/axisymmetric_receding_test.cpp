@@ -8,15 +8,11 @@ namespace
 using cattaneo_test::expect_values;
 using cattaneo_test::Expected;
 using Result = cattaneo_test::Run;
+using cattaneo_test::number;
 using cattaneo_test::run_miniapp;
 
 // The studies' notes, part D; sub-grid read-out ±0.001, and a tenth of the spacing, 0.02 t.
 const double spread = 0.001, read_out = 0.002;
-
-double number(const nlohmann::json &j)
-{
-   return j.is_number() ? j.get<double>() : std::nan("");
-}
 
 Result run(const std::string &options)
 {

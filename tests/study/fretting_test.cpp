@@ -1,9 +1,12 @@
+#include "comparison.hpp"
 #include "study/run_miniapp.hpp"
 
 #include "common/punch.hpp"
 
 #include <cattaneo/fretting/corner.hpp>
+#include <cattaneo/fretting/critical_plane.hpp>
 #include <cattaneo/fretting/from_contact.hpp>
+#include <cattaneo/fretting/hertz_field.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
 #include <filesystem>
@@ -16,8 +19,6 @@ namespace
 using cattaneo_test::expect_values;
 using cattaneo_test::Expected;
 using cattaneo_test::run_miniapp;
-
-const double pi = std::acos(-1.0);
 
 void expect_relative(const nlohmann::json &value, double expected, double tolerance)
 {
@@ -160,6 +161,65 @@ TEST(Fretting, FiniteElementsTakeBulkInThePadAndTestRecords)
       }
    }
    std::filesystem::remove_all(folder);
+}
+
+/// Stresses of the closed forms of Hertz, Cattaneo and Mindlin round the cycle, averaged over
+/// the depth, through the same criteria: tractions and kernels alone are the study's.
+TEST(Fretting, CriticalPlanesUnderAHertzContactAreThoseOfTheClosedForms)
+{
+   using namespace cattaneo::fretting;
+   const CylinderOnHalfPlane contact{100};
+   const double depth = 0.1, p0 = 2 * contact.P / (pi * contact.a());
+   FatigueMaterial material;
+   material.young = contact.E;
+   material.poisson = contact.nu;
+   material.fatigue_limit = {124, 124};
+   material.shear_yield = {270, 270};
+   const auto stress = [&](double Q, double x, double y) -> Eigen::RowVector4d
+   {
+      const InPlaneStress s = hertz_stress(contact.f, Q / (contact.f * contact.P), x, y);
+      return p0 * Eigen::RowVector4d(s.xx, s.yy, contact.nu * (s.xx + s.yy), s.xy);
+   };
+   // Down from Q to -Q and up again: what is taken back slips as the first loading did, with
+   // twice the friction.
+   const auto cycle = [&](double x, double y)
+   {
+      const Eigen::RowVector4d pressed = stress(0, x, y),
+                               peak = stress(contact.Q, x, y) - pressed;
+      StressCycle result(8, 4);
+      for (int k = 0; k < 4; ++k)
+      {
+         const Eigen::RowVector4d back =
+            2 * (stress(0.25 * (k + 1) * contact.Q, x, y) - pressed);
+         result.row(k) = pressed + peak - back;
+         result.row(k + 4) = pressed - peak + back;
+      }
+      return result;
+   };
+   const StressCycle plain = plain_fatigue_cycle(material);
+   const auto run = run_miniapp("fretting", "-p fe -Q 100 --averaging-depth 0.1");
+   ASSERT_EQ(run.code, 0) << run.output;
+   const std::pair<PlaneCriterion, const char *> criteria[] = {
+      {PlaneCriterion::findley, "findley"},
+      {PlaneCriterion::smith_watson_topper, "smith_watson_topper"},
+      {PlaneCriterion::fatemi_socie, "fatemi_socie"}};
+   EXPECT_EQ(run.results["planes"].size(), 61);
+   for (const auto &row : run.results["planes"])
+   {
+      StressCycle averaged = StressCycle::Zero(8, 4);
+      const int parts = 100;
+      for (int k = 0; k < parts; ++k)
+      {
+         averaged += cycle(row["x"], depth / contact.a() * (k + 0.5) / parts) / parts;
+      }
+      for (const auto &[criterion, key] : criteria)
+      {
+         const double expected = critical_plane(criterion, averaged, material).value /
+                                 critical_plane(criterion, plain, material).value;
+         // Shares are up to 2; the edges of stick and contact lie inside of elements.
+         EXPECT_NEAR(row[key].get<double>(), expected, 0.01) << key << " at " << row["x"];
+      }
+   }
 }
 
 TEST(Fretting, ThresholdsAreTheSheets)

@@ -475,6 +475,160 @@ TEST_F(Joints, ObstaclesMayBeCurves)
    EXPECT_NE(refused(keys).find("'y' is not a number or a function of x"), std::string::npos);
 }
 
+/// An obstacle in a wrong place is no interference, unless it is said to be one.
+TEST_F(Joints, ObstaclesOverlapByLittle)
+{
+   block("column.mesh", -0.5, 0.5, 4, 0, 1, 4);
+   json keys{{"history", {"D=0", "D=1"}}};
+   keys["bodies"] = {{"column", body("column.mesh", "3:x", {"D displacement-y 3 0"})}};
+   keys["interfaces"] = {{"floor", {{"between", {"column:1"}}}}};
+   json &face = keys["interfaces"]["floor"];
+   face["obstacle"] = {{"line", {{-1, 0.02}, {1, 0.02}}}};
+   const Result pressed = run(keys);
+   ASSERT_EQ(pressed.code, 0) << pressed.output;
+   EXPECT_NEAR(interface(pressed, "floor")["normal"], 1000 * 0.02, 1e-9);
+   face["obstacle"] = {{"line", {{-1, 0.03}, {1, 0.03}}}};
+   EXPECT_NE(refused(keys).find("key 'interfaces.floor.obstacle' overlaps the body by 0.03"),
+             std::string::npos);
+   face["overlap"] = 0.2;
+   EXPECT_NEAR(interface(run(keys), "floor")["normal"], 1000 * 0.03, 1e-9);
+}
+
+/// A block in a rigid corner bears uniform pressures, of 1 below and 2 on its left: the node in
+/// the corner has one row, and its neighbours carry what it leaves of the other side.
+TEST_F(Joints, OfABlockInARigidCornerPassThePatchTest)
+{
+   block("block.mesh", 0, 1, 5, 0, 1, 4);
+   for (int order : {1, 2, 3})
+   {
+      json keys{{"order", order}, {"history", {"P=0", "P=1"}}};
+      keys["bodies"]["block"] =
+         body("block.mesh", "", {"P pressure 3 1", "P pressure 2 2"}, 1000, 0.3);
+      keys["interfaces"] = {{"floor", {{"between", {"block:1"}}}},
+                            {"wall", {{"between", {"block:4"}}}}};
+      const Result got = run(keys, "--csv '" + folder + "/corner'");
+      ASSERT_EQ(got.code, 0) << got.output;
+      EXPECT_TRUE(got.results["warnings"].empty()) << got.output;
+      const std::vector<double> p = column("corner_nodes.csv", "p"),
+                                x = column("corner_nodes.csv", "x"),
+                                y = column("corner_nodes.csv", "y");
+      ASSERT_EQ(p.size(), std::size_t(9 * order + 1));
+      for (std::size_t i = 0; i < p.size(); ++i)
+      {
+         EXPECT_NEAR(p[i], i <= std::size_t(5 * order) ? 1 : 2, 1e-9) << x[i] << " " << y[i];
+      }
+   }
+}
+
+/// A block of 4 x 2 that is cut along y = 1 from its left side to x = 3: of boundary attributes
+/// as block(), and 5 for the lower lip, 6 for the upper one.
+std::string slit_block(const std::string &file)
+{
+   const int columns = 8, tip = 6;
+   const auto lower = [&](int i, int j) { return j * (columns + 1) + i; };
+   const auto upper = [&](int i, int j) {
+      return j == 2 && i >= tip ? lower(i, j) : 3 * (columns + 1) + (j - 2) * (columns + 1) + i;
+   };
+   mfem::Mesh mesh(2, 6 * (columns + 1), 4 * columns, 2 * columns + 2 * tip + 8);
+   for (int j : {0, 1, 2, 2, 3, 4})
+   {
+      for (int i = 0; i <= columns; ++i)
+      {
+         const double x[] = {0.5 * i, 0.5 * j, 0};
+         mesh.AddVertex(x);
+      }
+   }
+   for (int i = 0; i < columns; ++i)
+   {
+      for (int j : {0, 1})
+      {
+         mesh.AddQuad(lower(i, j), lower(i + 1, j), lower(i + 1, j + 1), lower(i, j + 1));
+         mesh.AddQuad(upper(i, j + 2), upper(i + 1, j + 2), upper(i + 1, j + 3),
+                      upper(i, j + 3));
+      }
+      mesh.AddBdrSegment(lower(i, 0), lower(i + 1, 0), 1);
+      mesh.AddBdrSegment(upper(i + 1, 4), upper(i, 4), 3);
+      if (i >= tip) { continue; }
+      mesh.AddBdrSegment(lower(i + 1, 2), lower(i, 2), 5);
+      mesh.AddBdrSegment(upper(i, 2), upper(i + 1, 2), 6);
+   }
+   for (int j : {0, 1})
+   {
+      mesh.AddBdrSegment(lower(columns, j), lower(columns, j + 1), 2);
+      mesh.AddBdrSegment(lower(0, j + 1), lower(0, j), 4);
+      mesh.AddBdrSegment(upper(columns, j + 2), upper(columns, j + 3), 2);
+      mesh.AddBdrSegment(upper(0, j + 3), upper(0, j + 2), 4);
+   }
+   mesh.RemoveUnusedVertices();
+   mesh.FinalizeQuadMesh(1, 1, true);
+   std::ofstream out(file);
+   out.precision(17);
+   mesh.Print(out);
+   return file;
+}
+
+/// A slit whose lips match bears the uniform stress of the block around it, but for its tip,
+/// which carries no row, and slips where friction is less than that.
+TEST_F(Joints, OfASlitPassThePatchTest)
+{
+   slit_block(folder + "/slit.mesh");
+   for (int order : {1, 2, 3})
+   {
+      json keys{{"order", order}, {"history", {"P=0", "P=1", "Q=1"}}};
+      keys["bodies"]["block"] =
+         body("slit.mesh", "@0,0:xy @4,0:y",
+              {"P pressure 1,3 1.3", "Q traction 3 0.3 0", "Q traction 1 -0.3 0",
+               "Q traction 2 0 0.3", "Q traction 4 0 -0.3"},
+              1000, 0.3);
+      keys["interfaces"] = {{"slit", face("block:6", "block:5")}};
+      const Result sticks = run(keys, "--csv '" + folder + "/slit'");
+      ASSERT_EQ(sticks.code, 0) << sticks.output;
+      const std::vector<double> p = column("slit_nodes.csv", "p"),
+                                q = column("slit_nodes.csv", "q");
+      EXPECT_EQ(p.size(), std::size_t(6 * order));
+      for (std::size_t i = 0; i < p.size(); ++i)
+      {
+         EXPECT_NEAR(p[i], 1.3, 1e-9);
+         EXPECT_NEAR(std::abs(q[i]), 0.3, 1e-9);
+      }
+      keys["interfaces"]["slit"]["friction"] = 0.1;
+      const Result slips = run(keys);
+      ASSERT_EQ(slips.code, 0) << slips.output;
+      EXPECT_GT(slips.results["total_dissipation"], 0);
+   }
+}
+
+/// A pin that is meshed amid its hole comes to where the shipped one is meshed, and is pressed
+/// on there. Its hole is then that of a place 0.01 higher, 0.2 % of the radius.
+TEST_F(Joints, OfAPinAmidItsHoleTakeUpTheClearance)
+{
+   json keys = shipped("pin");
+   const Result touches = run(keys);
+   ASSERT_EQ(touches.code, 0) << touches.output;
+   const std::string file = keys["bodies"]["pin"]["mesh"];
+   const int bearing = cattaneo::mesh_names(file).boundary.at("bearing")[0];
+   mfem::Mesh mesh = cattaneo::read_mesh(file);
+   mesh.Transform(
+      [](const mfem::Vector &x, mfem::Vector &y)
+      {
+         y = x;
+         y(1) += 0.01;
+      });
+   std::ofstream out(folder + "/pin.mesh");
+   out.precision(17);
+   mesh.Print(out);
+   out.close();
+   keys["bodies"]["pin"]["mesh"] = "pin.mesh";
+   keys["interfaces"]["bearing"]["between"][0] = "pin:" + std::to_string(bearing);
+   const Result free = run(keys);
+   ASSERT_EQ(free.code, 0) << free.output;
+   EXPECT_NEAR(interface(free, "bearing")["force_y"],
+               interface(touches, "bearing")["force_y"].get<double>(), 1e-6);
+   EXPECT_NEAR(free.results["peak_pressure"].get<double>() /
+                  touches.results["peak_pressure"].get<double>(),
+               1, 5e-3);
+}
+
 /// It is the same whether a body is pressed on its obstacle and dragged, or the obstacle moves.
 TEST_F(Joints, ObstaclesMove)
 {
@@ -809,6 +963,40 @@ TEST_F(Joints, ShaftsOfTwoPartsTwist)
    }
    // Nodes that match are paired if the first side has them, a union over interfaces if not.
    EXPECT_NEAR(angles[0], angles[1], 1e-9 * angles[0]);
+}
+
+/// The torque of an interface is that of the loads also where elements are faced in part, so
+/// that forces act beside the nodes.
+TEST_F(Joints, TorquesAreInEquilibrium)
+{
+   const double pi = std::acos(-1.0);
+   for (double inner : {1.0, 0.0})
+   {
+      // A full shaft may be held on its axis, where nothing moves around it anyhow.
+      const double a = inner > 0 ? inner + 0.1 : 0, b = 1.75;
+      const std::string axis = inner > 0 ? "" : "4:rt";
+      block("upper.mesh", a, b, 5, 0, 1, 2);
+      block("lower.mesh", inner, 2, 8, -1, 0, 2);
+      for (int order : {1, 2, 3})
+      {
+         for (const char *slave : {"first", "second"})
+         {
+            json keys{{"analysis", "axisymmetric"}, {"order", order}};
+            keys["history"] = {"P=0", "P=1", "T=1"};
+            keys["bodies"] = {
+               {"upper", body("upper.mesh", axis, {"P pressure 3 3", "T traction-t 3 0.2*r"})},
+               {"lower", body("lower.mesh", "1:rzt " + axis)}};
+            keys["interfaces"] = {{"flat", face("upper:1", "lower:3")}};
+            keys["interfaces"]["flat"]["slave"] = slave;
+            const Result got = run(keys);
+            ASSERT_EQ(got.code, 0) << got.output;
+            const double T = 0.2 * 2 * pi * (std::pow(b, 4) - std::pow(a, 4)) / 4,
+                         N = 3 * pi * (b * b - a * a);
+            EXPECT_NEAR(interface(got, "flat")["torque"], -T, 1e-9 * T) << order << slave;
+            EXPECT_NEAR(interface(got, "flat")["normal"], N, 1e-9 * N);
+         }
+      }
+   }
 }
 
 /// A case file 1 as a case file 2 is the same case.

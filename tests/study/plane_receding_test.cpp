@@ -7,16 +7,12 @@ namespace
 
 using cattaneo_test::expect_values;
 using cattaneo_test::Expected;
+using cattaneo_test::number;
 using cattaneo_test::run_miniapp;
 
 // The studies' notes, part B; ±0.003, and a tenth of the spacing, 0.02 t unless said, for the
 // read-out of edges.
 const double spread = 0.003, read_out = 0.002;
-
-double number(const nlohmann::json &j)
-{
-   return j.is_number() ? j.get<double>() : std::nan("");
-}
 
 TEST(PlaneReceding, LoadingAndUnloadingMeetTheReferencesOnALargeBlock)
 {

@@ -1,4 +1,5 @@
 #include "run_miniapp.hpp"
+#include <extent.hpp>
 
 #include <cmath>
 #include <cstdlib>
@@ -7,12 +8,11 @@ namespace
 {
 
 using Result = cattaneo_test::Run;
+using cattaneo_test::extent;
+using cattaneo_test::Extent;
+using cattaneo_test::meshes;
+using cattaneo_test::number;
 using cattaneo_test::run_miniapp;
-
-double number(const nlohmann::json &j)
-{
-   return j.is_number() ? j.get<double>() : std::nan("");
-}
 
 /// A steady cycle of the lap joint: border of the nodes that slip at all within it, from an
 /// independent program with a far finer mesh (the studies' notes, C).
@@ -27,22 +27,20 @@ struct SteadyBorder
 /// 0.6501 with 41.
 TEST(ReadOut, SteadyStickOfTheLapJointDependsOnMechanicsAlone)
 {
-   const char *stress = std::getenv("CATTANEO_STRESS");
-   const bool in_full = stress && std::string(stress) == "full";
    for (const SteadyBorder &reference : {SteadyBorder{"-friction 0.2 -load 0.04", 0.5809, 5e-5},
                                          {"-friction 0.5 -load -0.04", 0.6685, 5e-5},
                                          {"-friction 0.8 -load 0.01", 0.685, 5e-4},
                                          {"-friction 0.8 -load 0.03", 0.6605, 5e-5},
                                          {"-friction 0.8 -load 0.04", 0.650, 5e-4}})
    {
-      for (const double spacing : {0.02, 0.01, 0.005})
+      for (const double spacing : meshes({0.02, 0.01}, {0.005}))
       {
          double first = std::nan("");
          for (const char *march : {"-march fixed -increments 20", "-march exact",
                                    "-increments 40", "-increments 41", "-increments 80"})
          {
-            // The finest mesh takes most of the time: all of it in ./test --all.
-            if (!in_full && spacing < 0.01 && march[1] == 'i') { continue; }
+            // The finer meshes take most of the time: all of them in ./test --all.
+            if (extent() != Extent::full && spacing < 0.02 && march[1] == 'i') { continue; }
             const std::string options = std::string(reference.load) + " -spacing " +
                                         std::to_string(spacing) + " " + march;
             SCOPED_TRACE(options);
@@ -62,7 +60,7 @@ TEST(ReadOut, SteadyStickOfTheLapJointDependsOnMechanicsAlone)
 TEST(ReadOut, EdgesOfTheLapJointAreWithinTheirErrors)
 {
    // Frictionless extents and the first stick zone: the notes' values.
-   for (const char *spacing : {"0.04", "0.02", "0.01", "0.005"})
+   for (const char *spacing : meshes({"0.04", "0.02", "0.01"}, {"0.005"}))
    {
       const double h = std::stod(spacing);
       for (const bool pulled : {true, false})
@@ -94,8 +92,8 @@ TEST(ReadOut, IntensitiesOfTheLapJointAreWithinTheirErrors)
       EXPECT_EQ(run.code, 0) << run.output;
       return run.results["edges"].back();
    };
-   const auto finest = intensities("0.0025");
-   for (const char *spacing : {"0.04", "0.02", "0.01", "0.005"})
+   const auto finest = intensities(extent() == Extent::full ? "0.0025" : "0.005");
+   for (const char *spacing : meshes({"0.04", "0.02", "0.01"}, {"0.005"}))
    {
       const auto edge = intensities(spacing);
       for (const char *key : {"k_n", "k_t"})
@@ -121,7 +119,7 @@ TEST(ReadOut, EdgesOfTheStripAreWithinTheirErrors)
                            {"1", 1.730, -0.046}};
    for (const auto &row : references)
    {
-      for (const char *spacing : {"0.08", "0.04", "0.02"})
+      for (const char *spacing : meshes({"0.08", "0.04"}, {"0.02"}))
       {
          const Result run =
             run_miniapp("plane_receding", std::string("-domain 1e4 -corner 0.005 -friction ") +
@@ -148,7 +146,7 @@ TEST(ReadOut, EdgesOfTheDiscAreWithinTheirErrors)
                            {"-load-radius 2.5 -friction 0.8", 4.046, 2.384}};
    for (const auto &row : references)
    {
-      for (const char *spacing : {"0.1", "0.05", "0.025"})
+      for (const char *spacing : meshes({"0.1", "0.05"}, {"0.025"}))
       {
          const Result run =
             run_miniapp("axisymmetric_receding",
@@ -166,7 +164,7 @@ TEST(ReadOut, EdgesOfTheDiscAreWithinTheirErrors)
 
 TEST(ReadOut, HalfWidthsOfHertzAreWithinTheirErrors)
 {
-   for (const char *nodes : {"41", "65", "101", "161"})
+   for (const char *nodes : meshes({"41", "65", "101"}, {"161"}))
    {
       const Result run = run_miniapp("hertz", std::string("-nodes ") + nodes);
       ASSERT_EQ(run.code, 0) << run.output;

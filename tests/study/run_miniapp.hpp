@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -45,6 +46,12 @@ inline Run run_miniapp(const std::string &name, const std::string &options,
    if (in.good()) { run.results = nlohmann::json::parse(in); }
    std::remove(file.c_str());
    return run;
+}
+
+/// NaN where a study has none.
+inline double number(const nlohmann::json &value)
+{
+   return value.is_number() ? value.get<double>() : std::nan("");
 }
 
 /// What a test expects of a value that a study prints. All of it is written in the test: what a

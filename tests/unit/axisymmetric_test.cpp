@@ -226,6 +226,13 @@ TEST(Axisymmetric, TheAxisIsHeldAndTheOtherSideRefused)
       ElasticBody torsion(mesh, order, Material{}, Formulation::torsion);
       expect_input_error([&] { torsion.fix(1, 1); }, "must be 0 (twist)");
       expect_input_error([&] { torsion.add_pressure("p", 3, 1.0); }, "must be 0 (twist)");
+      // On the axis (attribute 4) nothing moves around it, whatever its angle.
+      torsion.fix(4, 0);
+      torsion.fix_node(0, 0.5, 0);
+      EXPECT_EQ(torsion.essential_dofs().Size(), 0);
+      expect_input_error([&] { torsion.add_displacement("w", 4, 0, 1.0); }, "lies on the axis");
+      torsion.fix(1, 0);
+      EXPECT_GT(torsion.essential_dofs().Size(), 0);
    }
    EXPECT_EQ(ElasticBody(mesh, 1, Material{}).essential_dofs().Size(), 0);
    mfem::Mesh across = cylinder("quads", -0.25);
@@ -275,7 +282,7 @@ TEST(Axisymmetric, ContactLineWeighsAreasAndLeavesTheAxisOut)
 }
 
 /// Two rings, one on the other, against both as one body with the same nodes.
-struct Stack
+struct Rings
 {
    mfem::Mesh lower = rectangle_mesh(uniform(1, 2, 3), uniform(-1, 0, 3));
    mfem::Mesh upper = rectangle_mesh(uniform(1, 2, 3), uniform(0, 0.7, 2));
@@ -335,7 +342,7 @@ VectorXd solved(const ElasticBody &body)
 
 TEST(Torsion, JoinsTheReducedProblemAsAThirdBlock)
 {
-   Stack stack;
+   Rings stack;
    Reduction plain = stack.reduction(false), joined = stack.reduction(true);
    EXPECT_EQ(plain.problem.components(), 1);
    ReducedProblem &problem = joined.problem;
@@ -412,7 +419,7 @@ TEST(Torsion, JoinsTheReducedProblemAsAThirdBlock)
 /// Signs of v_θ and q_θ: the upper body turned by a given angle, or the lower one.
 TEST(Torsion, SlipIsThatOfBodyOneRelativeToBodyTwo)
 {
-   Stack stack;
+   Rings stack;
    for (int turned : {0, 1})
    {
       ElasticBody top = stack.body(stack.upper, Formulation::torsion, false, false),
@@ -450,7 +457,7 @@ TEST(Torsion, SlipIsThatOfBodyOneRelativeToBodyTwo)
 
 TEST(Torsion, RefusesWhatDoesNotBelongTogether)
 {
-   Stack stack;
+   Rings stack;
    const ElasticBody bottom = stack.body(stack.lower, Formulation::axisymmetric, true, false),
                      torsion = stack.body(stack.lower, Formulation::torsion, true, false),
                      other = stack.body(stack.upper, Formulation::torsion, true, false),
@@ -683,7 +690,7 @@ TEST(Axisymmetric, HalfSpaceMesh)
 
 TEST(Axisymmetric, OnlyTranslationAlongTheAxisIsRigid)
 {
-   Stack stack;
+   Rings stack;
    const auto modes = [](const ElasticBody &body)
    { return condense(body, contact_line(body, 1)).rigid_modes; };
    ElasticBody free = stack.body(stack.upper, Formulation::axisymmetric, false, false);

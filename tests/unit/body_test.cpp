@@ -1,3 +1,4 @@
+#include "comparison.hpp"
 #include "elastic_support.hpp"
 #include <limits>
 #include <string>
@@ -7,8 +8,6 @@ namespace
 
 using namespace cattaneo;
 using namespace support;
-
-const double nan_value = std::numeric_limits<double>::quiet_NaN();
 
 /// Resultant of a force pattern.
 Eigen::Vector2d total(const ElasticBody &body, int pattern = 0)

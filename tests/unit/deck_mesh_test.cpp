@@ -119,6 +119,42 @@ TEST(DeckMesh, HasCurvedSides)
    EXPECT_TRUE(names.boundary.at("ENDS").empty()); // without the middle
 }
 
+/// Gmsh calls its quadrilaterals of 9 nodes M3D9: two unit squares, the middle of one moved.
+TEST(DeckMesh, HasQuadrilateralsOf9Nodes)
+{
+   const std::string file = written(
+      "*NODE\n1, 0, 0\n2, 1, 0\n3, 1, 1\n4, 0, 1\n5, .5, 0\n6, 1, .5\n7, .5, 1\n8, 0, .5\n"
+      "9, .5, .6\n10, 2, 0\n11, 2, 1\n12, 1.5, 0\n13, 2, .5\n14, 1.5, 1\n15, 1.5, .5\n"
+      "*ELEMENT, type=T3D3, ELSET=Line1\n1, 1, 2, 5\n"
+      "*ELEMENT, type=M3D9, ELSET=Surface1\n2,1,2,3,4,5,6,7,8,9\n3,2,10,11,3,12,13,14,6,15\n");
+   EXPECT_NEAR(area(file), 2, 1e-14);
+   EXPECT_EQ(length(file, "LINE1"), 1);
+   mfem::Mesh mesh = read_mesh(file);
+   EXPECT_EQ(mesh.GetNBE(), 6);
+   mfem::IntegrationPoint middle;
+   middle.Set2(0.5, 0.5);
+   mfem::Vector x;
+   mesh.GetElementTransformation(0)->Transform(middle, x);
+   EXPECT_DOUBLE_EQ(x(1), 0.6);
+}
+
+/// A layer as thin as its side is bent: each middle is nearer to that of the opposite side.
+TEST(DeckMesh, HasThinBentElements)
+{
+   const std::string file =
+      written("*NODE\n1, -3, 0\n2, 3, 0\n3, 3, .2\n4, -3, .2\n5, 0, .2\n6, 3, .1\n7, 0, .4\n"
+              "8, -3, .1\n*ELEMENT, TYPE=CPE8\n1, 1, 2, 3, 4, 5, 6, 7, 8\n");
+   EXPECT_NEAR(area(file), 6 * 0.2, 1e-13);
+   expect_input_error(
+      [&]
+      {
+         read_mesh(written("*NODE\n1, -3, 0\n2, 3, 0\n3, 3, .2\n4, -3, .2\n5, 0, .2\n"
+                           "6, 3, .1\n7, 0, .4\n8, -3, .1\n"
+                           "*ELEMENT, TYPE=CPE8\n1, 1, 2, 3, 4, 7, 6, 5, 8\n"));
+      },
+      "element 1: node 7 is not between its corners 1 and 2");
+}
+
 TEST(DeckMesh, RefusesInOneSentenceWithTheLine)
 {
    const auto says = [](const std::string &text, const char *part)

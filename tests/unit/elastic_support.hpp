@@ -1,5 +1,6 @@
 #pragma once
 
+#include "comparison.hpp"
 #include "expect_input_error.hpp"
 
 #include <Eigen/Dense>
@@ -17,14 +18,6 @@ namespace support
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-/// Largest entry of a - b, relative to the largest of b.
-inline double difference(const MatrixXd &a, const MatrixXd &b)
-{
-   if (a.rows() != b.rows() || a.cols() != b.cols()) { return 1e300; }
-   if (a.size() == 0) { return 0; }
-   return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
-}
 
 inline MatrixXd dense(const mfem::SparseMatrix &K)
 {

@@ -1,5 +1,6 @@
 // What a program of MFEM has at hand, vectors, forms, markers, coefficients and grid functions,
 // says the same as the library's own words for it.
+#include "comparison.hpp"
 #include "elastic_support.hpp"
 #include <array>
 #include <cattaneo/elastic/assembly.hpp>
@@ -13,8 +14,6 @@ namespace
 
 using namespace cattaneo;
 using namespace support;
-
-const double nan_value = std::numeric_limits<double>::quiet_NaN();
 
 /// Largest deviation of the stresses (xx, yy, zz, xy) of all elements, at their corners,
 /// centres and points between, from those that are expected at (x, y).

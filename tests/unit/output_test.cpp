@@ -1,3 +1,4 @@
+#include "comparison.hpp"
 #include "expect_input_error.hpp"
 #include "small_problems.hpp"
 
@@ -42,15 +43,6 @@ protected:
    void TearDown() override { fs::remove_all(folder); }
    std::string folder;
 };
-
-std::string content(const std::string &file)
-{
-   std::ifstream in(file);
-   EXPECT_TRUE(in.good()) << file;
-   std::ostringstream text;
-   text << in.rdbuf();
-   return text.str();
-}
 
 void write_nodes(const std::string &file, const ReducedProblem &problem,
                  const std::vector<ContactState> &states)

@@ -23,12 +23,12 @@ enum class Held
 };
 
 /// A rectangle of bilinear elements, [0, 3] × [0, 2], contact at the top.
-struct Block
+struct Rectangle
 {
    mfem::Mesh mesh = rectangle_mesh(uniform(0, 3, 12), uniform(0, 2, 8));
    std::vector<Material> materials;
 
-   explicit Block(const Modulus &modulus, double poisson = 0.3)
+   explicit Rectangle(const Modulus &modulus, double poisson = 0.3)
    {
       for (int e = 0; e < mesh.GetNE(); ++e)
       {
@@ -172,7 +172,7 @@ TEST(StiffnessError, BoundsTheErrorAgainstExtendedPrecision)
          for (const Held held : {Held::nowhere, Held::below, Held::at_its_end})
          {
             SCOPED_TRACE(std::string(name) + ", held " + std::to_string(int(held)));
-            Block block(modulus);
+            Rectangle block(modulus);
             CondensedBody condensed = block.condensed(held);
             const double error = energy_error(global(condensed), block.exact(held), held);
             const double estimate = condensed.error_estimate();
@@ -196,7 +196,7 @@ TEST(StiffnessError, BoundsTheErrorOfLayersInSeries)
       for (const bool stiff_top : {true, false})
       {
          const double top = stiff_top ? contrast : 1, bottom = stiff_top ? 1 : contrast;
-         Block block([=](double, double y) { return y > 1 ? top : bottom; }, 0);
+         Rectangle block([=](double, double y) { return y > 1 ? top : bottom; }, 0);
          CondensedBody condensed = block.condensed(Held::below);
          const Eigen::Index n = condensed.line.size();
          const double stiffness = condensed.S.bottomRightCorner(n, n).sum();

@@ -1,3 +1,5 @@
+#include "comparison.hpp"
+
 #include <Eigen/Dense>
 #include <cattaneo/fretting/calibration.hpp>
 #include <cattaneo/fretting/edge_crack.hpp>
@@ -12,13 +14,6 @@ namespace
 {
 
 using namespace cattaneo::fretting;
-
-const double pi = std::acos(-1.0);
-
-void expect_relative(double value, double expected, double tolerance = 1e-8)
-{
-   EXPECT_NEAR(value, expected, tolerance * std::abs(expected));
-}
 
 /** K_I of an edge crack of depth c under the line stress σ(y), from distributed edge
    dislocations in the half-plane. The crack is mapped by y = c ((1+s)/2)^6, which smooths the

@@ -1,3 +1,5 @@
+#include "comparison.hpp"
+
 #include <cattaneo/fretting/calibration.hpp>
 #include <cattaneo/fretting/measures.hpp>
 #include <cmath>
@@ -10,13 +12,6 @@ namespace
 using namespace cattaneo::fretting;
 using cattaneo::test::integrate;
 using cattaneo::test::integrate_to_infinity;
-
-const double pi = std::acos(-1.0);
-
-void expect_relative(double value, double expected, double tolerance = 1e-8)
-{
-   EXPECT_NEAR(value, expected, tolerance * std::abs(expected));
-}
 
 TEST(SlipEnergy, GivesTheSample)
 {

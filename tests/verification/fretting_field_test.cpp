@@ -1,3 +1,5 @@
+#include "comparison.hpp"
+
 #include <array>
 #include <cattaneo/fretting/calibration.hpp>
 #include <cattaneo/fretting/hertz_field.hpp>
@@ -13,13 +15,6 @@ namespace
 using namespace cattaneo::fretting;
 using cattaneo::test::integrate;
 using cattaneo::test::integrate_to_infinity;
-
-const double pi = std::acos(-1.0);
-
-void expect_relative(double value, double expected, double tolerance = 1e-8)
-{
-   EXPECT_NEAR(value, expected, tolerance * std::abs(expected));
-}
 
 /// Edge of unit slip zone and unit K_N: stresses are then in K_N √d.
 Edge unit_edge(double friction)

@@ -2,6 +2,7 @@
 // slips circumferentially. The reduced problem is made here from the half-space's kernel.
 
 #include "common/twisted_bodies.hpp"
+#include "comparison.hpp"
 
 #include <cattaneo/friction/march.hpp>
 #include <cattaneo/readout/zones.hpp>
@@ -17,8 +18,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
-
-constexpr double pi = 3.14159265358979323846;
 
 /// Complete elliptic integrals of the parameter m = k².
 double K(double m)

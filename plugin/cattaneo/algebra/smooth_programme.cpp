@@ -16,12 +16,12 @@ namespace
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using Ipopt::Index;
-using Ipopt::Number;
-
 /// The programme for Ipopt, with a dense Jacobian.
 class SmoothNlp : public Ipopt::TNLP
 {
+   using Index = Ipopt::Index;
+   using Number = Ipopt::Number;
+
 public:
    SmoothNlp(const SmoothProgramme &programme, const VectorXd &start)
       : programme(programme), start(start)

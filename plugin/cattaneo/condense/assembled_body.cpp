@@ -38,10 +38,21 @@ void AssembledBody::validate() const
    const Eigen::SparseMatrix<double> by_columns = stiffness,
                                      transposed = by_columns.transpose(),
                                      difference = by_columns - transposed;
-   const double skew = difference.nonZeros() ? difference.coeffs().cwiseAbs().maxCoeff() : 0.0;
-   require(skew <= 1e-10 * largest,
-           "assembled body: the stiffness is not symmetric: largest |K - Kᵀ| is ", skew,
-           ", at most ", 1e-10 * largest, " is allowed (are both of its triangles there?)");
+   for (int column = 0; column < size; ++column)
+   {
+      for (Eigen::SparseMatrix<double>::InnerIterator e(difference, column); e; ++e)
+      {
+         if (std::abs(e.value()) <= 1e-10 * largest) { continue; }
+         require(false, "assembled body: the stiffness is not symmetric: entry (", e.row(),
+                 ", ", column, ") is ", by_columns.coeff(e.row(), column),
+                 " and its mirror image ", by_columns.coeff(column, e.row()),
+                 ", they may differ by ", 1e-10 * largest,
+                 " (are both of its triangles there?)");
+      }
+      const double diagonal = by_columns.coeff(column, column);
+      require(diagonal >= 0, "assembled body: entry (", column, ", ", column,
+              ") of the stiffness is ", diagonal, ", its diagonal must not be negative");
+   }
    require(places.x.size() == size && places.y.size() == size &&
               static_cast<int>(places.component.size()) == size,
            "assembled body: places of ", places.x.size(), ", ", places.y.size(), " and ",

@@ -34,6 +34,10 @@ MarchTrace trace_march(const ReducedProblem &problem, const LoadHistory &history
       trace.states.push_back({now, at.point, share, record.event});
    };
    trace.report = march(problem, history, state, settings, observe);
+   require(trace.report.taken_up_clearance == 0,
+           "trace of march: what is free touches nothing at rest, and was moved by ",
+           trace.report.taken_up_clearance,
+           " before the march, which has no derivatives: it must touch, or be held");
    return trace;
 }
 

@@ -3,6 +3,7 @@
 #include <cattaneo/friction/methods.hpp>
 #include <cattaneo/friction/state_equations.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/progress_report.hpp>
 #include <cattaneo/wear/worn_derivative.hpp>
 #include <cmath>
 
@@ -420,7 +421,22 @@ long Sensitivity::updates() const
    return s.updates + s.as_given.updates() + (s.as_held ? s.as_held->updates() : 0);
 }
 
-TraceChange Sensitivity::along(const Parameters &change)
+namespace
+{
+
+/// Tells of states that are done, of all; true, and why, if that is to be all.
+bool stopped(const Monitor &monitor, ProgressReport &progress, Index done, Index all,
+             std::string &why)
+{
+   progress.note(static_cast<double>(done) / static_cast<double>(all), done);
+   if (!monitor.stopped()) { return false; }
+   why = "it was asked to stop";
+   return true;
+}
+
+} // namespace
+
+TraceChange Sensitivity::along(const Parameters &change, const Monitor &monitor)
 {
    System &s = *system_;
    const Index n = s.n, m = s.m, count = s.F.cols(), points = s.trace.history.times.size(),
@@ -447,8 +463,10 @@ TraceChange Sensitivity::along(const Parameters &change)
    VectorXd gap = change.gap.size() > 0 ? change.gap : VectorXd(VectorXd::Zero(n));
    Index in_gap = 0; // the last state up to which wear is part of it
    double share_change = 0;
+   ProgressReport progress(monitor);
    for (Index k = 1; k < states; ++k)
    {
+      if (stopped(monitor, progress, k - 1, states - 1, result.message)) { return result; }
       const TracedState &traced = s.trace.states[k];
       const ContactState &now = traced.state;
       if (!s.set(k))
@@ -523,7 +541,7 @@ TraceChange Sensitivity::along(const Parameters &change)
    return result;
 }
 
-Gradient Sensitivity::gradient(const Response &response)
+Gradient Sensitivity::gradient(const Response &response, const Monitor &monitor)
 {
    System &s = *system_;
    const Index n = s.n, m = s.m, count = s.F.cols(),
@@ -580,8 +598,13 @@ Gradient Sensitivity::gradient(const Response &response)
    }
    double by_share = 0;
    VectorXd by_worn = VectorXd::Zero(n); // that the gap of later states has taken in
+   ProgressReport progress(monitor);
    for (Index k = states - 1; k > 0; --k)
    {
+      if (stopped(monitor, progress, states - 1 - k, states - 1, result.message))
+      {
+         return result;
+      }
       const TracedState &traced = s.trace.states[k];
       const ContactState &now = traced.state;
       if (s.wears() && s.updates_gap_after(k)) { by_worn = by.gap; }

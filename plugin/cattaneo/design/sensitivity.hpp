@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cattaneo/design/response.hpp>
+#include <cattaneo/monitor.hpp>
 #include <memory>
 #include <string>
 #include <vector>
@@ -104,10 +105,11 @@ public:
    /// Can be moved, not copied.
    Sensitivity(Sensitivity &&) noexcept;
 
-   /// InputError if the response is none of the trace.
-   Gradient gradient(const Response &response);
+   /// InputError if the response is none of the trace. The monitor is asked between states; a
+   /// gradient that it stops is not found.
+   Gradient gradient(const Response &response, const Monitor &monitor = {});
    /// InputError if sizes do not fit the problem and the history.
-   TraceChange along(const Parameters &change);
+   TraceChange along(const Parameters &change, const Monitor &monitor = {});
 
    /// Dense factorisations so far, and unknowns bordered to them instead.
    long factorisations() const;

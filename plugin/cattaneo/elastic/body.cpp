@@ -329,11 +329,19 @@ std::vector<int> ElasticBody::nodes_on(const BoundaryPart &part, const std::stri
    mfem::Mesh &mesh = *space_->GetMesh();
    std::vector<int> nodes;
    mfem::Array<int> dofs;
+   bool turns = true; // but for what lies on the axis
    for (int i : boundary_elements(mesh, part, where))
    {
       BoundaryEdge edge(mesh, i);
       const double slack = interval_tolerance * edge.size();
       space_->GetBdrElementDofs(i, dofs);
+      // u_θ = r ψ vanishes there by itself; the angle ψ does not.
+      if (formulation_ == Formulation::torsion &&
+          std::all_of(dofs.begin(), dofs.end(), [this](int node) { return on_axis(node); }))
+      {
+         turns = false;
+         continue;
+      }
       for (int node : dofs)
       {
          const double coordinate = coordinates_(part.axis, node);
@@ -360,7 +368,8 @@ std::vector<int> ElasticBody::nodes_on(const BoundaryPart &part, const std::stri
 #endif
    std::sort(nodes.begin(), nodes.end());
    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-   require(ranks_.any(!nodes.empty()), where, ": there are no nodes on the ", describe(part));
+   require(ranks_.any(!nodes.empty() || !turns), where, ": there are no nodes on the ",
+           describe(part));
    return nodes;
 }
 
@@ -394,7 +403,8 @@ void ElasticBody::fix_node(double x, double y, int component)
    // The first of the ranks that have a node as near.
    const std::vector<double> distances = ranks_.gather({distance});
    const auto first = std::min_element(distances.begin(), distances.end());
-   if (first - distances.begin() == ranks_.rank())
+   const bool moves = formulation_ != Formulation::torsion || nearest < 0 || !on_axis(nearest);
+   if (first - distances.begin() == ranks_.rank() && moves)
    {
       essential_[true_dof(nearest, component)] = true;
    }

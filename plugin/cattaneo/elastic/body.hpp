@@ -76,7 +76,7 @@ public:
    /// A body can be moved, not copied.
    ElasticBody &operator=(ElasticBody &&) = default;
 
-   /// No displacement of this component on the nodes of a boundary part.
+   /// No displacement of this component on the nodes of a boundary part (the axis may twist).
    void fix(const BoundaryPart &part, int component);
    /// No displacement of this component at the node of the space nearest to (x, y).
    void fix_node(double x, double y, int component);

@@ -414,6 +414,8 @@ void ElasticBody::add_displacement(const std::string &pattern, const BoundaryPar
    const std::string where = "displacement '" + pattern + "'";
    check_component(where, component);
    const std::vector<int> nodes = nodes_on(part, where);
+   require(ranks_.any(!nodes.empty()), where, ": the ", describe(part),
+           " lies on the axis, around which nothing moves there");
    load(pattern, Control::displacement);
    for (int node : nodes)
    {

@@ -25,13 +25,15 @@ struct Keyword
    }
 };
 
-/// Corners of an element by its type in capitals and its number of nodes: of CPE4, CAX8R, CPS3
-/// or a truss T3D2, which is what programs write that name lines; 0 of another.
+/// Corners of an element by its type in capitals: of CPE4, CAX8R, CPS3, of M3D9, which is what
+/// Gmsh calls its quadrilaterals of 9 nodes, or of a truss T3D2, which is what programs write
+/// that name lines; 0 of another.
 std::size_t corners_of(const std::string &type)
 {
    const std::string family = type.substr(0, 3);
    const std::size_t nodes = type.size() > 3 ? static_cast<std::size_t>(type[3] - '0') : 0;
    if (family == "T2D" || family == "T3D") { return 2; }
+   if (type == "M3D9") { return 4; }
    if (family != "CPE" && family != "CPS" && family != "CAX") { return 0; }
    return nodes == 3 || nodes == 6 ? 3 : nodes == 4 || nodes == 8 ? 4 : 0;
 }
@@ -43,7 +45,7 @@ public:
 
    void read(const std::string &file, int depth);
    /// What can be said of all of it.
-   void finish();
+   void finish(const std::string &file);
 
 private:
    void begin(LineReader &in, int depth);
@@ -109,6 +111,10 @@ void DeckReader::read(const std::string &file, int depth)
    while (in.next())
    {
       const std::string_view line = trimmed(in.line());
+      if (upper_case(line) == "** AXISYMMETRIC")
+      {
+         deck.formulation = Formulation::axisymmetric;
+      }
       if (line.substr(0, 2) == "**") { continue; }
       if (line[0] == '*') { begin(in, depth); }
       else { data(in); }
@@ -395,7 +401,7 @@ void DeckReader::surface(const LineReader &in, const std::vector<std::string_vie
    }
 }
 
-void DeckReader::finish()
+void DeckReader::finish(const std::string &file)
 {
    std::vector<InputDeck::Nodes> plane;
    std::vector<int> numbers;
@@ -405,7 +411,14 @@ void DeckReader::finish()
       plane.push_back(element.nodes);
       numbers.push_back(element.number);
    }
-   deck.edges = outer_edges(plane, deck.places, numbers);
+   try
+   {
+      deck.edges = outer_edges(plane, deck.places, numbers);
+   }
+   catch (const InputError &error)
+   {
+      throw InputError("file '" + file + "': " + error.what());
+   }
    std::map<std::pair<int, int>, const InputDeck::Nodes *> outer;
    for (const InputDeck::Nodes &edge : deck.edges)
    {
@@ -485,7 +498,7 @@ InputDeck read_input_deck(const std::string &file)
    DeckReader reader;
    reader.read(file, 0);
    require(!reader.deck.places.empty(), "file '", file, "': there is no *NODE, must be");
-   reader.finish();
+   reader.finish(file);
    return std::move(reader.deck);
 }
 

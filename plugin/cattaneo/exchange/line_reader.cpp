@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cattaneo/exchange/line_reader.hpp>
+#include <cattaneo/words.hpp>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -20,6 +21,19 @@ bool parse(std::string_view field, Number &value)
    if (!field.empty() && field.front() == '+') { field.remove_prefix(1); }
    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
    return error == std::errc() && end == field.data() + field.size();
+}
+
+/// Latin-1, the alphabet of older programs, in UTF-8.
+std::string from_latin_1(const std::string &text)
+{
+   std::string result;
+   for (const char each : text)
+   {
+      const auto letter = static_cast<unsigned char>(each);
+      if (letter >= 0x80) { result += static_cast<char>(0xC0 | letter >> 6); }
+      result += static_cast<char>(letter < 0x80 ? letter : 0x80 | (letter & 0x3F));
+   }
+   return result;
 }
 
 } // namespace
@@ -52,6 +66,11 @@ bool LineReader::next()
    while (std::getline(in_, line_))
    {
       ++number_;
+      // What Windows puts before UTF-8.
+      if (number_ == 1 && line_.rfind("\xEF\xBB\xBF", 0) == 0) { line_.erase(0, 3); }
+      const bool ascii =
+         std::all_of(line_.begin(), line_.end(), [](char c) { return (c & 0x80) == 0; });
+      if (!ascii && !is_utf8(line_)) { line_ = from_latin_1(line_); }
       if (!trimmed(line_).empty()) { return true; }
    }
    return false;

@@ -242,7 +242,7 @@ AssembledBody NodalStiffness::body() const
    validate();
    AssembledBody body;
    const auto size = static_cast<Index>(dofs.size());
-   body.K = SharedMatrix(K);
+   body.K = SharedMatrix(K.pruned()); // what is stored connects
    body.loads = loads;
    body.grounded = supports_left_out;
    body.places = {Eigen::VectorXd(size), Eigen::VectorXd(size), {}, formulation};
@@ -375,7 +375,8 @@ std::vector<NodalStiffness> NodalStiffness::parts() const
    Matrix linked(K.rows(), K.cols());
    linked.setFromTriplets(links.begin(), links.end());
    const std::vector<std::vector<int>> groups =
-      SharedMatrix(K + linked + Matrix(linked.transpose())).connected_parts();
+      SharedMatrix(K.cwiseAbs().pruned() + linked + Matrix(linked.transpose()))
+         .connected_parts();
    std::map<int, std::size_t> owner; // of nodes
    for (std::size_t g = 0; g < groups.size(); ++g)
    {
@@ -434,6 +435,7 @@ NodalStiffness NodalStiffness::part(const std::vector<int> &rows,
    {
       for (Matrix::InnerIterator entry(K, row); entry; ++entry)
       {
+         if (entry.value() == 0) { continue; } // also between bodies, of a dense matrix
          entries.emplace_back(number[row], number[entry.col()], entry.value());
       }
    }

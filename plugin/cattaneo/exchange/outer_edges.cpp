@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cattaneo/exchange/outer_edges.hpp>
 #include <cattaneo/input_error.hpp>
+#include <limits>
+#include <numeric>
 
 namespace cattaneo
 {
@@ -12,6 +14,7 @@ outer_edges(const std::vector<NodalStiffness::Nodes> &elements,
             const NodalStiffness::Places &places, const std::vector<int> &numbers)
 {
    std::map<std::pair<int, int>, std::vector<NodalStiffness::Nodes>> edges;
+   std::map<std::pair<int, int>, std::string> seen; // by which element, on the left of the way
    for (std::size_t e = 0; e < elements.size(); ++e)
    {
       const NodalStiffness::Nodes &nodes = elements[e];
@@ -33,28 +36,47 @@ outer_edges(const std::vector<NodalStiffness::Nodes> &elements,
          const Vector2d &x = place(a), &y = place((a + 1) % corners);
          area += x[0] * y[1] - x[1] * y[0];
       }
+      if (count > 4)
+      {
+         // Each node in the middle of a side is nearer to it than in any other order of them:
+         // the sum over all, since one alone may be far off a side that is bent much.
+         std::vector<std::size_t> sides(corners), best;
+         std::iota(sides.begin(), sides.end(), 0);
+         double least = std::numeric_limits<double>::infinity();
+         do {
+            double off = 0;
+            for (std::size_t a = 0; a < corners; ++a)
+            {
+               const Vector2d &x = place(sides[a]), &y = place((sides[a] + 1) % corners);
+               off += (place(corners + a) - 0.5 * (x + y)).squaredNorm();
+            }
+            if (off >= least) { continue; }
+            least = off;
+            best = sides;
+         } while (std::next_permutation(sides.begin(), sides.end()));
+         for (std::size_t a = 0; a < corners; ++a)
+         {
+            const int from = nodes[a], to = nodes[(a + 1) % corners],
+                      middle = nodes[corners + a];
+            const bool between = from == to || (middle != from && middle != to);
+            require(best[a] == a && between, which, ": node ", nodes[corners + a],
+                    " is not between its corners ", nodes[a], " and ", nodes[(a + 1) % corners],
+                    ", must be: corners come first, then the middle of each side from the "
+                    "first on");
+         }
+      }
       for (std::size_t a = 0; a < corners; ++a)
       {
          const std::size_t b = (a + 1) % corners;
+         if (nodes[a] == nodes[b]) { continue; } // collapsed to a triangle
          NodalStiffness::Nodes edge{nodes[a], nodes[b]};
-         if (count > 4)
-         {
-            // Nearer to the middle of its own side than to that of any other.
-            const auto distance = [&](std::size_t side)
-            {
-               const Vector2d middle = 0.5 * (place(side) + place((side + 1) % corners));
-               return (place(corners + a) - middle).norm();
-            };
-            for (std::size_t other = 0; other < corners; ++other)
-            {
-               require(distance(a) <= distance(other), which, ": node ", nodes[corners + a],
-                       " is not between its corners ", nodes[a], " and ", nodes[b],
-                       ", must be: corners come first, then the middle of each side from the "
-                       "first on");
-            }
-            edge.insert(edge.begin() + 1, nodes[corners + a]);
-         }
+         if (count > 4) { edge.insert(edge.begin() + 1, nodes[corners + a]); }
          if (area < 0) { std::reverse(edge.begin(), edge.end()); }
+         const auto [other, first] = seen.insert({{edge.front(), edge.back()}, which});
+         require(first, which, " and ", other->second,
+                 " are on the same side of their edge from node ", nodes[a], " to ", nodes[b],
+                 ", must not lie on each other or be there twice: corners are in order around "
+                 "an element");
          edges[std::minmax(edge.front(), edge.back())].push_back(edge);
       }
    }

@@ -12,9 +12,8 @@ namespace cattaneo
    9), as ABAQUS, Gmsh and VTK number them.
 
     InputError, with the number of the element in the list or of `numbers`, for another number
-   of nodes, a node without a place, or one that is not between the corners it should be
-   between.
- */
+   of nodes, a node without a place, one that is not between the corners it should be between,
+   or two elements on the same side of an edge. */
 std::vector<NodalStiffness::Nodes>
 outer_edges(const std::vector<NodalStiffness::Nodes> &elements,
             const NodalStiffness::Places &places, const std::vector<int> &numbers = {});

@@ -587,6 +587,12 @@ NodalStiffness read_stiffness(const std::string &matrix, const std::string &plac
       // Forces are those of the whole circumference already.
       const bool wedge = ending == ".sti" && result.formulation == Formulation::axisymmetric;
       if (wedge) { result.K *= 180.0; }
+      // Springs to the ground, or along an axis between nodes that are apart.
+      result.supports_left_out =
+         result.supports_left_out ||
+         std::any_of(said.elements.begin(), said.elements.end(),
+                     [](const InputDeck::Element &element)
+                     { return element.type == "SPRING1" || element.type == "SPRING2"; });
       add_cards(said.cards, deck, result);
    }
    result.validate();

@@ -17,16 +17,16 @@ SymmetricEntries::matrix(int size, const std::string &file,
    K.setFromTriplets(entries_.begin(), entries_.end());
    const auto known = static_cast<Eigen::Index>(entries_.size());
    std::set<std::pair<int, int>> seen;
-   bool upper = false, lower = false;
+   bool twice = false; // both triangles are there
    for (const Eigen::Triplet<double> &e : entries_)
    {
-      upper = upper || e.row() < e.col();
-      lower = lower || e.row() > e.col();
+      twice = twice || (e.row() != e.col() && e.value() != 0 && K.coeff(e.col(), e.row()) != 0);
       if (K.nonZeros() == known || seen.insert({e.row(), e.col()}).second) { continue; }
       require(false, place(e.row(), e.col()), " is there twice, must be there once");
    }
    const double allowed = known > 0 ? 1e-10 * K.coeffs().cwiseAbs().maxCoeff() : 0.0;
-   const Matrix skew = upper && lower ? Matrix(K - Matrix(K.transpose())) : Matrix(size, size);
+   const Matrix mirrored = K.transpose(),
+                skew = twice ? Matrix(K - mirrored) : Matrix(size, size);
    for (int row = 0; row < size; ++row)
    {
       for (Matrix::InnerIterator e(skew, row); e; ++e)
@@ -44,9 +44,7 @@ SymmetricEntries::matrix(int size, const std::string &file,
       require(false, place(row, row), " is ", K.coeff(row, row),
               ", the diagonal of a stiffness must be positive");
    }
-   if (upper && lower) { return K; }
-   return upper ? Matrix(K.selfadjointView<Eigen::Upper>())
-                : Matrix(K.selfadjointView<Eigen::Lower>());
+   return twice ? K : Matrix(K + mirrored - Matrix(K.diagonal().asDiagonal()));
 }
 
 } // namespace cattaneo

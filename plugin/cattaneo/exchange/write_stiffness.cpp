@@ -2,6 +2,7 @@
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/whole_file.hpp>
 #include <filesystem>
+#include <set>
 #include <sstream>
 
 namespace cattaneo
@@ -46,6 +47,23 @@ void require_word(const std::string &what, const std::string &name)
            name, "', must be one word without , # * and = for a file");
 }
 
+/// Sets by their names, without nodes that have no row and so no place in the file.
+NodalStiffness::Sets written_sets(const NodalStiffness &stiffness)
+{
+   std::set<int> known;
+   for (const NodeDof &dof : stiffness.dofs) { known.insert(dof.node); }
+   NodalStiffness::Sets written;
+   for (const auto &[set, nodes] : stiffness.sets)
+   {
+      require_word("set", set);
+      for (int node : nodes)
+      {
+         if (known.count(node) == 1) { written[set].push_back(node); }
+      }
+   }
+   return written;
+}
+
 } // namespace
 
 void write_npz(const std::string &file, const NodalStiffness &stiffness,
@@ -63,10 +81,14 @@ void write_npz(const std::string &file, const NodalStiffness &stiffness,
       dofs.row(row) << dof.node, dof.direction;
       places.row(row) = stiffness.places.at(dof.node).transpose();
    }
+   const Eigen::VectorXd fixed =
+      Eigen::Map<const Eigen::VectorXi>(stiffness.fixed.data(), stiffness.fixed.size())
+         .cast<double>();
    Arrays arrays = {{"K", Eigen::MatrixXd(stiffness.K)},
                     {"loads", loads},
                     {"dofs", dofs},
-                    {"places", places}};
+                    {"places", places},
+                    {"fixed", fixed}};
    add_mass(arrays, M, size);
    write_npz(file, arrays);
 }
@@ -120,9 +142,8 @@ void write_matrix_market(const std::string &file, const NodalStiffness &stiffnes
       const Eigen::Vector2d &place = stiffness.places.at(stiffness.dofs[row].node);
       dofs << called(row) << ' ' << exact_text(place[0]) << ' ' << exact_text(place[1]) << '\n';
    }
-   for (const auto &[set, nodes] : stiffness.sets)
+   for (const auto &[set, nodes] : written_sets(stiffness))
    {
-      require_word("set", set);
       dofs << "set " << set;
       for (int node : nodes) { dofs << ' ' << node; }
       dofs << '\n';
@@ -158,6 +179,7 @@ void write_abaqus(const std::string &file, const NodalStiffness &stiffness)
    }
    std::ostringstream element, deck;
    element << "*USER ELEMENT, NODES=" << rows.size() << ", TYPE=U1, LINEAR\n** ELEMENT NODES\n";
+   if (stiffness.formulation == Formulation::axisymmetric) { deck << "** AXISYMMETRIC\n"; }
    deck << "*NODE\n";
    std::ostringstream directions, connectivity;
    std::vector<int> order, last;
@@ -201,9 +223,8 @@ void write_abaqus(const std::string &file, const NodalStiffness &stiffness)
    deck << "*INCLUDE, INPUT=" << std::filesystem::path(file).filename().string()
         << "\n*ELEMENT, TYPE=U1, ELSET=CONDENSED\n1" << connectivity.str()
         << "\n*UEL PROPERTY, ELSET=CONDENSED\n";
-   for (const auto &[set, nodes] : stiffness.sets)
+   for (const auto &[set, nodes] : written_sets(stiffness))
    {
-      require_word("set", set);
       deck << "*NSET, NSET=" << set << '\n';
       for (int node : nodes) { deck << node << '\n'; }
    }

@@ -11,8 +11,9 @@ namespace cattaneo
 void write_npz(const std::string &file, const std::map<std::string, Eigen::MatrixXd> &arrays);
 
 /** For programs of joint dynamics, as arrays: `K`, `loads` (a column a load), `dofs` (a row
-   each: node, direction), `places` (of each row's node), `M` if a mass matrix is given, of the
-   same rows. InputError if M does not fit, or loads prescribe displacements. */
+   each: node, direction), `places` (of each row's node), `fixed` (rows, from 0), `M` if a mass
+   matrix is given, of the same rows. InputError if M does not fit, or loads prescribe
+   displacements. */
 void write_npz(const std::string &file, const NodalStiffness &stiffness,
                const Eigen::MatrixXd &M = {});
 
@@ -22,13 +23,14 @@ void write_npz(const std::string &file, const ReducedProblem &problem,
                const Eigen::MatrixXd &M = {});
 
 /// MatrixMarket, coordinate, symmetric, beside it the `.dofs` that read_stiffness() asks for:
-/// all of it comes back to the last bit. `file` ends with `.mtx`.
+/// all of it comes back to the last bit, but for nodes without rows, which leave their sets.
+/// `file` ends with `.mtx`.
 void write_matrix_market(const std::string &file, const NodalStiffness &stiffness);
 
 /** ABAQUS: a linear user element of all nodes (*USER ELEMENT, *MATRIX, TYPE=STIFFNESS, the
    lower triangle by rows), and beside it, `.inp` for `.mtx`, a deck with its nodes, sets,
-   element, supports and one *CLOAD card a load of forces. InputError if loads prescribe
-    displacements. */
+   element, supports and one *CLOAD card a load of forces; a comment, ** AXISYMMETRIC, says of
+    a body of revolution that it is one. InputError if loads prescribe displacements. */
 void write_abaqus(const std::string &file, const NodalStiffness &stiffness);
 
 } // namespace cattaneo

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cattaneo/friction/advance.hpp>
+#include <cattaneo/friction/clearance.hpp>
 #include <cattaneo/friction/exact_path.hpp>
 #include <cattaneo/friction/march_record.hpp>
 #include <cattaneo/input_error.hpp>
@@ -465,6 +466,27 @@ void check_loads(const FrictionSolver &solver, const LoadHistory &history,
    }
 }
 
+/// A state before any load: moves what is free and touches nothing to where the first loads
+/// that push it press it on. How far, at most.
+double take_up_clearance(const ReducedProblem &problem, const LoadHistory &history,
+                         ContactState &state)
+{
+   const bool virgin = state.time <= history.times[0] && state.multipliers.isZero(0) &&
+                       state.peak_force == 0 && state.displacements().isZero(0);
+   if (!virgin || problem.rigid_motions.cols() == 0) { return 0; }
+   const int points = static_cast<int>(history.times.size());
+   for (int k = 0; k + 1 < points; ++k)
+   {
+      const VectorXd rate = history.multipliers.col(k + 1) - history.multipliers.col(k);
+      const auto u = taken_up_clearance(problem, problem.clamped_forces(rate));
+      if (!u) { continue; }
+      state.v = state.slip_origin = u->head(problem.slips());
+      state.w = u->tail(problem.nodes());
+      return u->cwiseAbs().maxCoeff();
+   }
+   return 0;
+}
+
 } // namespace
 
 MarchReport march(FrictionSolver &solver, const LoadHistory &history, ContactState &state,
@@ -474,7 +496,17 @@ MarchReport march(FrictionSolver &solver, const LoadHistory &history, ContactSta
    state.validate(solver.problem());
    history.validate(static_cast<int>(solver.problem().patterns.size()));
    check_loads(solver, history, state);
-   return March(solver, history, state, settings, observer).run();
+   ContactState moved = state;
+   MarchReport report = March(solver, history, state, settings, observer).run();
+   // Bodies that fly freely may find no first increment, which begins with rigid motions larger
+   // than all that deforms. Where there is one friction has its say, and nothing is moved.
+   if (report.status != FrictionStatus::stalled || state.time > moved.time) { return report; }
+   const double taken_up = take_up_clearance(solver.problem(), history, moved);
+   if (taken_up == 0) { return report; }
+   state = moved;
+   report = March(solver, history, state, settings, observer).run();
+   report.taken_up_clearance = taken_up;
+   return report;
 }
 
 MarchReport march(const ReducedProblem &problem, const LoadHistory &history,

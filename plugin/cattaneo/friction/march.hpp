@@ -143,6 +143,11 @@ struct MarchReport
    /// it was so: the results are those of a line that was named too short.
    std::vector<CutOffContact> cut_off;
    double largest_residual = 0; ///< of all increments, relative
+   /// Where no first increment was found: how far, at most, bodies that nothing held and that
+   /// touched nothing were moved before the march to where the first loads that push them press
+   /// them on: as rigid bodies, without friction, the nearest such place. The slip of the march
+   /// begins there.
+   double taken_up_clearance = 0;
    Counters counters;  ///< of this march (what making the solver took is in the solver's own)
    double seconds = 0; ///< wall time
 };

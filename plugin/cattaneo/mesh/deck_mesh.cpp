@@ -99,7 +99,7 @@ DeckMesh deck_mesh(const std::string &file)
       require(element.corners > 2 || (element.corners == 2 && element.section == 0),
               element.place, ": element ", element.number, " is a ", element.type,
               element.corners == 2 ? " with a *SOLID SECTION" : "",
-              ", must be a CPS, CPE or CAX of 3, 4, 6 or 8 nodes, or be left out");
+              ", must be a CPS, CPE or CAX of 3, 4, 6 or 8 nodes, or an M3D9, or be left out");
       if (element.corners < 3) { continue; }
       require(deck.sections == 0 || element.section > 0, element.place, ": element ",
               element.number,
@@ -116,7 +116,8 @@ DeckMesh deck_mesh(const std::string &file)
    for (const InputDeck::Element &element : deck.elements)
    {
       if (element.corners < 3) { continue; }
-      static const std::map<std::size_t, long> types = {{3, 2}, {4, 3}, {6, 9}, {8, 16}};
+      static const std::map<std::size_t, long> types = {
+         {3, 2}, {4, 3}, {6, 9}, {8, 16}, {9, 10}};
       text.add_element(element.number, types.at(element.nodes.size()),
                        {std::max(element.section, 1), 1},
                        {element.nodes.begin(), element.nodes.end()});

@@ -91,7 +91,10 @@ public:
       }
       for (std::size_t k = 0; k < corners && corners > 2; ++k)
       {
-         edges_.insert(ends(vertices[k], vertices[(k + 1) % corners]));
+         const int elements = ++edges_[ends(vertices[k], vertices[(k + 1) % corners])];
+         require(elements < 3, "mesh file has ", what,
+                 " on an edge that two elements before it share, an edge must be of two at "
+                 "most: is it there twice, or over others?");
       }
    }
    /// At the end of a file.
@@ -111,7 +114,7 @@ public:
 private:
    using Ends = std::pair<long, long>;
    static Ends ends(long a, long b) { return std::minmax(a, b); }
-   std::set<Ends> edges_;
+   std::map<Ends, int> edges_; ///< and how many elements have them
    std::map<Ends, std::string> boundary_;
 };
 

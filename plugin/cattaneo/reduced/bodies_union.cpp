@@ -2,6 +2,7 @@
 #include <cattaneo/algebra/dense_algebra.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/bodies_union.hpp>
+#include <cattaneo/words.hpp>
 
 namespace cattaneo
 {
@@ -136,33 +137,25 @@ MatrixXd common_coefficients(const std::vector<CondensedBody> &bodies,
    return modes.vectors.leftCols((modes.values.array() < 1e-14).count());
 }
 
-/// What the bodies of each group may do together, orthonormal columns in U.
-MatrixXd common_motions(const std::vector<CondensedBody> &bodies,
-                        const std::vector<std::vector<int>> &groups,
+/// What the bodies of a group may do together, orthonormal columns in U.
+MatrixXd common_motions(const std::vector<CondensedBody> &bodies, const std::vector<int> &group,
                         const RelativeDisplacement &map)
 {
-   MatrixXd motions(map.size(), 0);
-   for (const std::vector<int> &group : groups)
+   Eigen::AlignedBox2d box;
+   for (int b : group)
    {
-      Eigen::AlignedBox2d box;
-      for (int b : group)
-      {
-         for (const LineNode &node : bodies[b].line.nodes) { box.extend(node.position); }
-      }
-      const double size = box.diagonal().norm() > 0 ? box.diagonal().norm() : 1;
-      const MatrixXd c = common_coefficients(bodies, group, box.center(), size);
-      if (c.cols() == 0) { continue; }
-      MatrixXd own = MatrixXd::Zero(map.size(), c.cols());
-      for (int b : group)
-      {
-         own.middleRows(map.offsets[b], static_cast<Index>(map.free[b].size())) =
-            (about(bodies[b], box.center(), size) * c)(map.free[b], Eigen::all);
-      }
-      const Index before = motions.cols();
-      motions.conservativeResize(Eigen::NoChange, before + own.cols());
-      motions.rightCols(own.cols()) = own;
+      for (const LineNode &node : bodies[b].line.nodes) { box.extend(node.position); }
    }
-   return motions.cols() > 0 ? thin_qr(motions).Q : motions;
+   const double size = box.diagonal().norm() > 0 ? box.diagonal().norm() : 1;
+   const MatrixXd c = common_coefficients(bodies, group, box.center(), size);
+   MatrixXd motions = MatrixXd::Zero(map.size(), c.cols());
+   if (c.cols() == 0) { return motions; }
+   for (int b : group)
+   {
+      motions.middleRows(map.offsets[b], static_cast<Index>(map.free[b].size())) =
+         (about(bodies[b], box.center(), size) * c)(map.free[b], Eigen::all);
+   }
+   return thin_qr(motions).Q;
 }
 
 /// Free motions of all bodies, one after the other, orthonormal columns in U.
@@ -178,6 +171,18 @@ MatrixXd free_motions(const std::vector<CondensedBody> &bodies, const RelativeDi
          own(map.free[b], Eigen::all);
    }
    return all;
+}
+
+/// Those that supports leave free, or all if there is none.
+std::vector<int> free_bodies(const std::vector<CondensedBody> &bodies)
+{
+   std::vector<int> free, all;
+   for (int b = 0; b < static_cast<int>(bodies.size()); ++b)
+   {
+      all.push_back(b);
+      if (bodies[b].free_motions.cols() > 0) { free.push_back(b); }
+   }
+   return free.empty() ? all : free;
 }
 
 /// Columns of Q without the directions of Y, which they span.
@@ -196,6 +201,13 @@ std::string called(const std::vector<CondensedBody> &bodies, int body)
    if (body < 0) { return "the rigid obstacle"; }
    const std::string &name = bodies[body].name;
    return name.empty() ? "body " + std::to_string(body) : "body '" + name + "'";
+}
+
+std::string called(const std::vector<CondensedBody> &bodies, const std::vector<int> &some)
+{
+   std::vector<std::string> names;
+   for (int b : some) { names.push_back(called(bodies, b)); }
+   return listed(names, " and ");
 }
 
 Block united(const std::vector<CondensedBody> &bodies, const std::vector<ContactRow> &rows,
@@ -229,8 +241,14 @@ Block united(const std::vector<CondensedBody> &bodies, const std::vector<Contact
    }
    K = (0.5 * (K + K.transpose())).eval();
    MatrixXd F = map.stacked(forces);
-   const MatrixXd Y = common_motions(bodies, groups, map);
-   balance(Y, F, scale, patterns);
+   MatrixXd Y(size, 0);
+   for (const std::vector<int> &group : groups)
+   {
+      const MatrixXd own = common_motions(bodies, group, map);
+      balance(own, F, scale, patterns, called(bodies, group));
+      Y.conservativeResize(Eigen::NoChange, Y.cols() + own.cols());
+      Y.rightCols(own.cols()) = own;
+   }
    const MatrixXd EF = map.E.transpose() * F, EY = map.E.transpose() * Y;
    if (Y.cols() > 0)
    {
@@ -247,8 +265,9 @@ Block united(const std::vector<CondensedBody> &bodies, const std::vector<Contact
       m >= moving.cols() && (moving.cols() == 0 || seen.minCoeff() > 1e-13 * seen.maxCoeff());
    require(all_seen && shared->minimum.compute(K.bottomRightCorner(rest, rest), V,
                                                EY.topRows(m), EY.bottomRows(rest)),
-           "reduce: the bodies can move without resistance even where every contact node is "
-           "closed and sticks: they must touch on more nodes, or a body be supported");
+           "reduce: ", called(bodies, free_bodies(bodies)),
+           " can move without resistance even where every contact node is closed and sticks: "
+           "more nodes must touch, or a body be supported");
    MatrixXd S = shared->minimum.without(K.topLeftCorner(m, m), 0, m);
    MatrixXd f = EF.topRows(m) - shared->minimum.taken(0, m, m, count);
    const MatrixXd together = shared->minimum.taken(m, count, m, count);

@@ -135,6 +135,34 @@ Side Facing::side(const InterfaceSide &given) const
    return made;
 }
 
+/// The line of a body that lies against this one with nodes at the same places.
+ContactLine other_face(const ContactLine &line)
+{
+   ContactLine made = line;
+   for (LineChain &chain : made.chains)
+   {
+      // Of a loop the first node stays the first.
+      const auto number = [first = chain.first, n = chain.nodes, loop = chain.loop](Index k)
+      { return k < 0 ? k : first + (loop ? (n - (k - first)) % n : n - 1 - (k - first)); };
+      const double end = line.nodes[chain.first + chain.nodes - 1].arc_length;
+      for (Index k = chain.first; k < chain.first + chain.nodes; ++k)
+      {
+         LineNode &node = made.nodes[number(k)] = line.nodes[k];
+         node.tangent = -node.tangent;
+         node.arc_length = end - node.arc_length;
+      }
+      std::swap(chain.ends[0], chain.ends[1]);
+      std::reverse(chain.elements.begin(), chain.elements.end());
+      for (LineElement &element : chain.elements)
+      {
+         std::reverse(element.nodes.begin(), element.nodes.end());
+         for (Index &node : element.nodes) { node = number(node); }
+         element.points = element.points.rowwise().reverse().eval();
+      }
+   }
+   return made;
+}
+
 /// One to one, in the frames of the first side.
 void Facing::pair_nodes(const std::vector<int> &without)
 {
@@ -174,13 +202,27 @@ void Facing::meet(const std::vector<int> &without)
          require(mortar_.gap[i] >= -most, what_, ": the sides overlap by ", -mortar_.gap[i],
                  " at ", slave_.line.nodes[mortar_.nodes[i]].position, ", at most ", most,
                  " is allowed (", given_.most_overlap,
-                 " of the element's length, Interface::most_overlap); for a gap that is "
-                 "meant otherwise give it");
+                 " of the element's length): allow more if they are to be pressed apart, or "
+                 "give the gap");
       }
       return;
    }
-   // An obstacle faces every node.
-   face_all(without);
+   const auto &chains = slave_.line.chains;
+   if (without.empty() || std::any_of(chains.begin(), chains.end(),
+                                      [](const LineChain &c) { return c.elements.empty(); }))
+   {
+      face_all(without);
+      return;
+   }
+   // Also on an obstacle neighbours carry the part of a node without a row: it is what lies
+   // against the line, and does not move.
+   mortar_ = mortar(slave_.line, other_face(slave_.line), without, what_);
+   for (Mortar::Matrix &other : mortar_.other)
+   {
+      other = Mortar::Matrix(mortar_.gap.size(), 0);
+   }
+   mortar_.gap.setZero();
+   mortar_.arm.setZero();
 }
 
 /// Every node of the slave is faced, by nothing yet.
@@ -287,19 +329,18 @@ void Facing::add_rows(std::vector<ContactRow> &rows,
          own.push_back(row(i));
          const NodeOfBody slave = place(mortar_.nodes[i]);
          std::vector<NodeOfBody> on;
-         bool on_itself = false; // a node that both sides have
+         // A tip, which both sides have: where they match it would face itself, and its shares
+         // cancel.
+         const bool tip =
+            slave_.body == master_.body &&
+            std::count(master_.nodes.begin(), master_.nodes.end(), slave.second) > 0;
          for (const TraceShare &share : own.back().shares)
          {
             const NodeOfBody node(share.body, share.node);
-            const bool of_slave = std::find(slave_.nodes.begin(), slave_.nodes.end(),
-                                            share.node) != slave_.nodes.end() &&
-                                  share.body == slave_.body;
             if (node != slave) { on.push_back(node); }
-            on_itself = on_itself || (node == slave && share.body == master_.body && of_slave &&
-                                      std::count(master_.nodes.begin(), master_.nodes.end(),
-                                                 share.node) > 0);
          }
          // Does anything that it depends on depend on it?
+         bool on_itself = tip;
          std::set<NodeOfBody> seen;
          std::vector<NodeOfBody> open = on;
          while (!open.empty() && !on_itself)
@@ -443,7 +484,12 @@ void Facing::add_facts(ReducedProblem &problem, Index first, bool matching) cons
       {
          const Index i = last ? end - 1 : begin;
          const Index outer = last ? chain.first + chain.nodes - 1 : chain.first;
-         const bool at_end = !chain.loop && mortar_.nodes[i] == outer;
+         bool at_end = !chain.loop; // or beyond it all nodes are others'
+         for (Index k = mortar_.nodes[i]; k != outer && at_end;)
+         {
+            k += last ? 1 : -1;
+            at_end = std::count(without_row_.begin(), without_row_.end(), int(k)) > 0;
+         }
          made.ends[last] = !at_end       ? LineEnd::smooth
                            : !slides_[i] ? LineEnd::symmetry
                                          : chain.ends[last];

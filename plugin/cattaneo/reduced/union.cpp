@@ -75,15 +75,15 @@ void add_response(const CondensedBody &body, const std::vector<int> &index, Eige
 }
 
 void balance(const Eigen::MatrixXd &motions, Eigen::MatrixXd &forces,
-             const Eigen::VectorXd &scale, const std::vector<LoadPattern> &patterns)
+             const Eigen::VectorXd &scale, const std::vector<LoadPattern> &patterns,
+             const std::string &bodies)
 {
    const Eigen::MatrixXd push = motions.transpose() * forces;
    for (Eigen::Index k = 0; k < push.cols(); ++k)
    {
       const double load = push.col(k).norm();
-      require(load <= 1e-9 * scale[k], "reduce: load pattern '", patterns[k].name,
-              "' pushes the bodies in a common rigid motion that nothing resists (part ",
-              load / scale[k],
+      require(load <= 1e-9 * scale[k], "reduce: load pattern '", patterns[k].name, "' pushes ",
+              bodies, " in a common rigid motion that nothing resists (part ", load / scale[k],
               " of it), its loads must be in equilibrium or a body be supported");
    }
    forces -= motions * push;
@@ -263,7 +263,9 @@ Block united(const CondensedBody &first, const CondensedBody &second,
    if (const Eigen::MatrixXd &Z = motions.common; Z.cols() > 0)
    {
       const Eigen::VectorXd scale = (f1.colwise().norm() + f2.colwise().norm()).transpose();
-      balance(Z, shared->difference, scale, patterns);
+      balance(Z, shared->difference, scale, patterns,
+              first.name.empty() ? "both bodies"
+                                 : "body '" + first.name + "' and body '" + second.name + "'");
       sum.noalias() += sum.diagonal().mean() * Z * Z.transpose();
    }
    require(shared->sum.compute(std::move(sum)),

@@ -16,9 +16,6 @@ namespace cattaneo
 namespace
 {
 
-using Ipopt::Index;
-using Ipopt::Number;
-
 /** The programme for Ipopt in unknowns of order one, forces over the typical force s of their
     node: x = {θ, ρ, π, t} with ρ = r / s, π = M r / s and, with two tangential components only,
     t = f p / s of every cone.
@@ -29,6 +26,9 @@ using Ipopt::Number;
    keeps it; |q| itself has no derivative at the tip, where limits by separation lie. */
 class ConeNlp : public Ipopt::TNLP
 {
+   using Index = Ipopt::Index;
+   using Number = Ipopt::Number;
+
 public:
    ConeNlp(const ConeProgramme &programme, const ConeSettings &settings, const ConeStart &start)
       : programme(programme), settings(settings), start(start), n(programme.nodes()),

@@ -3,6 +3,7 @@
 #include <cattaneo/reduced/tangential_lengths.hpp>
 #include <cattaneo/shakedown/cone_programme.hpp>
 #include <cattaneo/shakedown/estimates.hpp>
+#include <cattaneo/shakedown/infinity.hpp>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -12,8 +13,6 @@ namespace cattaneo
 
 namespace
 {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Calls visit(a, b) for every pair of vertices, and for (a, a) if there is only one.
 template <class Visitor>

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/shakedown/infinity.hpp>
 #include <cattaneo/shakedown/limit_search.hpp>
 #include <cmath>
-#include <limits>
 
 namespace cattaneo
 {
@@ -23,7 +23,7 @@ public:
         force_scale_(typical_forces(q_, p_))
    {
       report_.coupling = problem.coupling;
-      report_.upper = report_.limit = std::numeric_limits<double>::infinity();
+      report_.upper = report_.limit = infinity;
    }
    LimitReport find();
 

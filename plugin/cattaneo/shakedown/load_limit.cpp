@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/shakedown/infinity.hpp>
 #include <cattaneo/shakedown/limit_search.hpp>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <optional>
 
 namespace cattaneo
@@ -11,8 +11,6 @@ namespace cattaneo
 
 namespace
 {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Share of a node's typical force that rounding can change in a sum over all nodes.
 constexpr double round_off = 1e-12;

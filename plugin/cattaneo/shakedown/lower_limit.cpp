@@ -1,16 +1,14 @@
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/shakedown/infinity.hpp>
 #include <cattaneo/shakedown/lower_limit.hpp>
 #include <cmath>
-#include <limits>
 
 namespace cattaneo
 {
 
 namespace
 {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The half-planes normal·v + offset + λ slope ≥ 0 of the condition f p + side q ≥ 0 of one
 /// node, one for each load vertex.

@@ -1,8 +1,8 @@
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/tangential_lengths.hpp>
+#include <cattaneo/shakedown/infinity.hpp>
 #include <cattaneo/shakedown/monolith.hpp>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace cattaneo
@@ -10,8 +10,6 @@ namespace cattaneo
 
 namespace
 {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 void check_vertex(const LoadCycle &cycle, Eigen::Index vertex)
 {

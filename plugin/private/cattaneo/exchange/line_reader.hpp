@@ -9,7 +9,8 @@
 namespace cattaneo
 {
 
-/// A text file line by line. What is wrong with it is said with its name and the line.
+/// A text file line by line, in UTF-8; a line that is not is taken for Latin-1. What is wrong
+/// with it is said with its name and the line.
 class LineReader
 {
 public:

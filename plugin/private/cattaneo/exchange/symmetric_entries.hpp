@@ -8,7 +8,8 @@
 namespace cattaneo
 {
 
-/// Entries of a symmetric matrix as a file has them: of one triangle, or of both.
+/// Entries of a symmetric matrix as a file has them: all of them, or one of each two that
+/// mirror each other, in whatever order the file has its rows.
 class SymmetricEntries
 {
 public:

@@ -27,5 +27,7 @@ Block united(const std::vector<CondensedBody> &bodies, const UnionRows &rows,
 
 /// What a body is called in a sentence.
 std::string called(const std::vector<CondensedBody> &bodies, int body);
+/// What some of them are called.
+std::string called(const std::vector<CondensedBody> &bodies, const std::vector<int> &some);
 
 } // namespace cattaneo

@@ -47,9 +47,10 @@ void add_response(const CondensedBody &body, const std::vector<int> &index, Eige
 
 /// InputError if a load pattern does work on motions that nothing resists; else the rounding of
 /// that work is taken from the forces. `motions`: orthonormal columns; `forces`: a column a
-/// pattern; `scale`: their size.
+/// pattern; `scale`: their size; `bodies`: whose motions they are.
 void balance(const Eigen::MatrixXd &motions, Eigen::MatrixXd &forces,
-             const Eigen::VectorXd &scale, const std::vector<LoadPattern> &patterns);
+             const Eigen::VectorXd &scale, const std::vector<LoadPattern> &patterns,
+             const std::string &bodies);
 
 /// Stiffness, loads, motions and held components of a reduced problem of two components a node,
 /// without gaps and friction.

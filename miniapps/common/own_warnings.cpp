@@ -1,0 +1,169 @@
+#include "common/own_warnings.hpp"
+
+#include <algorithm>
+#include <cattaneo/elastic/rotation.hpp>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace miniapp
+{
+
+using namespace cattaneo;
+
+void warn_of_push(const JointCase &joint, const JointCase::Bolt &bolt,
+                  const std::array<ContactLine, 2> &ends)
+{
+   const auto middle = [](const ContactLine &line) -> Eigen::Vector2d
+   {
+      return line.each(&LineNode::position).transpose() * line.each(&LineNode::weight) /
+             line.each(&LineNode::weight).sum();
+   };
+   const Eigen::Vector2d apart = middle(ends[0]) - middle(ends[1]),
+                         along(bolt.direction[0], bolt.direction[1]);
+   if (along.dot(apart) < -1e-6 * apart.norm())
+   {
+      warn(bolt.source.called("direction") + " points from " +
+           joint.bodies[bolt.ends[0].body].name + " to " +
+           joint.bodies[bolt.ends[1].body].name +
+           ": the shank pushes them apart, to pull them together it must point the other way");
+   }
+}
+
+void warn_of_accuracy(double accuracy)
+{
+   if (accuracy <= 1e-6) { return; }
+   std::ostringstream text;
+   if (std::isfinite(accuracy))
+   {
+      text << "the stiffness of the contact may be wrong by " << accuracy
+           << " of itself (round-off of the condensation, an estimate from above)";
+   }
+   else { text << "round-off of the condensation leaves nothing of the contact's stiffness"; }
+   text << ": Young's moduli or element sizes within a body are too far apart; take a much "
+           "stiffer part for rigid, or less contrast, which changes no result that can be told";
+   warn(text.str());
+}
+
+/// An interference fit moves nodes by less than their distance; more is a body in a wrong
+/// place, or in other units.
+void warn_of_overlap(const ReducedProblem &problem, const InterfaceReport &interface)
+{
+   if (interface.tied) { return; }
+   Eigen::Index deepest = 0;
+   const auto gap = problem.gap.segment(interface.first, interface.nodes);
+   const double overlap = -gap.cwiseQuotient(interface.spacing).minCoeff(&deepest);
+   if (overlap <= 1) { return; }
+   std::ostringstream text;
+   text << "the bodies overlap by " << -gap[deepest] << " at ("
+        << interface.position(deepest, 0) << ", " << interface.position(deepest, 1)
+        << "), which is " << overlap
+        << " distances of nodes: small displacements do not open that, see that both meshes "
+           "are in "
+           "their places and in one unit";
+   warn(text.str());
+}
+
+void warn_of_loose_bodies(const OwnBodies &own)
+{
+   const Reduction &reduction = own.scene.reduction;
+   for (std::size_t b = 0; b < reduction.bodies.size(); ++b)
+   {
+      double least = std::numeric_limits<double>::infinity();
+      for (const InterfaceReport &face : reduction.interfaces)
+      {
+         const auto number = static_cast<int>(b);
+         if (face.bodies[0] != number && face.bodies[1] != number) { continue; }
+         least = std::min(
+            least,
+            face.tied ? 0 : reduction.problem.gap.segment(face.first, face.nodes).minCoeff());
+      }
+      if (reduction.bodies[b].free_motions.cols() == 0 || least <= 0) { continue; }
+      const std::string &name = reduction.bodies[b].name;
+      std::ostringstream text;
+      text
+         << "body " << (name.empty() ? std::to_string(b + 1) : name)
+         << " is free and touches nothing at rest, the least gap is " << least
+         << ": the first force moves it until it touches, all at once, and a march may not go "
+            "on from there; hold what nothing decides (a turn without friction), place it so "
+            "that it touches, or move it there by a guide";
+      warn(text.str());
+   }
+}
+
+std::vector<bool> even_sides(const JointCase &joint)
+{
+   std::vector<bool> even;
+   for (const JointCase::Face &face : joint.faces)
+   {
+      const bool rigid = face.sides[1].body < 0;
+      even.push_back(
+         (rigid && std::isnan(face.radius) && !face.curve && face.obstacle.size() < 3) ||
+         (!rigid && joint.bodies[face.sides[1].body].half_plane));
+   }
+   return even;
+}
+
+void warn_of_large_displacements(OwnBodies &own, const SmallDisplacements &noted,
+                                 const ContactState &last)
+{
+   for (const std::string &sentence : noted.warnings()) { warn(sentence); }
+   Reduction &reduction = own.scene.reduction;
+   const Counters before = reduction.counters; // of the study, which asked for no fields
+   for (std::size_t b = 0; b < own.scene.bodies.size(); ++b)
+   {
+      const Eigen::VectorXd field =
+         reduction.displacement(static_cast<int>(b), last.v, last.w, last.multipliers);
+      const Rotation most = largest_rotation(*own.scene.bodies[b], field);
+      const std::string &name = reduction.bodies[b].name,
+                        sentence = rotation_warning(name.empty() ? std::to_string(b + 1) : name,
+                                                    most.angle, most.place);
+      if (!sentence.empty()) { warn(sentence); }
+   }
+   reduction.counters = before;
+}
+
+/// Degrees.
+static double angle_of(double cosine)
+{
+   return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::acos(-1.0);
+}
+
+SidesThatBear::SidesThatBear(const InterfaceReport &interface) : face_(interface)
+{
+   Eigen::MatrixX2d normals(interface.nodes, 2);
+   normals << -interface.tangent.col(1), interface.tangent.col(0);
+   const Eigen::Vector2d mean = (normals.transpose() * interface.weights).normalized();
+   const Eigen::VectorXd cosine = normals * mean;
+   for (Eigen::Index i = 0; i < interface.nodes; ++i)
+   {
+      if (angle_of(cosine[i]) > 15) { sides_.push_back({i, angle_of(cosine[i])}); }
+   }
+}
+
+void SidesThatBear::note(const ContactState &state)
+{
+   for (const Node &side : sides_)
+   {
+      const Eigen::Index i = face_.first + side.index;
+      if (closed(state.status[i]) && state.p[i] > 1e-9 * state.p.maxCoeff() &&
+          side.angle > worst_.angle)
+      {
+         worst_ = side;
+      }
+   }
+}
+
+void SidesThatBear::warn() const
+{
+   if (worst_.index < 0) { return; }
+   std::ostringstream text;
+   text << "node " << worst_.index << " at (" << face_.position(worst_.index, 0) << ", "
+        << face_.position(worst_.index, 1) << ") bears although its normal is "
+        << std::lround(worst_.angle)
+        << " degrees off that of the rigid line: forces and zones are wrong there, name no "
+           "boundary around a corner as contact";
+   miniapp::warn(text.str());
+}
+
+} // namespace miniapp

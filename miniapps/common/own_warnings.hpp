@@ -1,0 +1,52 @@
+#pragma once
+
+#include "common/own_bodies.hpp"
+
+#include <cattaneo/readout/small_displacements.hpp>
+#include <vector>
+
+namespace miniapp
+{
+
+/// Warns of a shank that pushes its ends apart: most likely a direction the wrong way.
+void warn_of_push(const JointCase &joint, const JointCase::Bolt &bolt,
+                  const std::array<cattaneo::ContactLine, 2> &ends);
+/// Warns of bodies that overlap by more than the length of a node's part of the line.
+void warn_of_overlap(const cattaneo::ReducedProblem &problem,
+                     const cattaneo::InterfaceReport &interface);
+/// Of a march that found no equilibrium: warns of bodies that nothing holds and that touch
+/// nothing at rest.
+void warn_of_loose_bodies(const OwnBodies &own);
+/// Warns of a stiffness with few right digits.
+void warn_of_accuracy(double accuracy);
+
+/// Warns of what lies beyond small displacements: what was noted of the march, and rotations of
+/// bodies with elements in its last state.
+void warn_of_large_displacements(OwnBodies &own, const cattaneo::SmallDisplacements &noted,
+                                 const cattaneo::ContactState &last);
+/// Of each interface whether its second side is a straight rigid line, or a half-plane.
+std::vector<bool> even_sides(const JointCase &joint);
+
+/// Displacements are small: a node presses along its own normal. One that bears although this
+/// is far from the rigid line's, on a side beyond a corner for instance, holds the body as no
+/// line could.
+class SidesThatBear
+{
+public:
+   explicit SidesThatBear(const cattaneo::InterfaceReport &interface);
+   /// A state that the march has reached.
+   void note(const cattaneo::ContactState &state);
+   void warn() const;
+
+private:
+   struct Node
+   {
+      Eigen::Index index = -1;
+      double angle = 0; ///< degrees between its normal and the line's
+   };
+   const cattaneo::InterfaceReport &face_; ///< must outlive it
+   std::vector<Node> sides_;
+   Node worst_;
+};
+
+} // namespace miniapp

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <limits>
+
+namespace cattaneo
+{
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+} // namespace cattaneo
