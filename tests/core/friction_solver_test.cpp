@@ -3,6 +3,7 @@
 #include "random_problem.hpp"
 
 #include <cattaneo/algebra/semidefinite.hpp>
+#include <cattaneo/friction/contact_law.hpp>
 #include <cattaneo/friction/critical_friction.hpp>
 #include <cattaneo/friction/friction_solver.hpp>
 #include <cattaneo/friction/mechanism.hpp>
@@ -556,6 +557,31 @@ TEST(Semidefinite, SolvesOnTheRangeAndFindsRigidMotions)
    EXPECT_LT((A * solver.solve(b + A.diagonal()) - b).norm(), 1e-14);
    EXPECT_TRUE(solver.definite());
    EXPECT_FALSE(SemidefiniteSolver(A, Eigen::MatrixXd(3, 0)).definite());
+}
+
+/// Where friction has nothing to say a node is called by how it moves, else by what it bears.
+TEST(ContactLaw, SolutionsAreCalledByTheStateTheyBreakLeast)
+{
+   ContactNode node{
+      NodeVector::Constant(1, -1.0), NodeVector::Zero(1), 0, 0, 1, 1, FrictionBound(0.3)};
+   for (NodeState state : {NodeState::forward_slip, NodeState::stick, NodeState::backward_slip})
+   {
+      EXPECT_EQ(fitting_state(node, state, 1e-12), NodeState::backward_slip);
+   }
+   EXPECT_EQ(fitting_state(node, NodeState::separation, 1e-12), NodeState::separation);
+   node.p = 1;
+   node.q[0] = -0.3;
+   node.slip[0] = -1e-15; // round-off
+   EXPECT_EQ(fitting_state(node, NodeState::forward_slip, 1e-12), NodeState::forward_slip);
+   EXPECT_EQ(fitting_state(node, NodeState::stick, 1e-12), NodeState::stick);
+   node.slip[0] = 0.1;
+   EXPECT_EQ(fitting_state(node, NodeState::stick, 1e-12), NodeState::forward_slip);
+   // In the disc: a slip that friction opposes, at its bound.
+   ContactNode disc{Eigen::Vector2d(3, 4), Eigen::Vector2d(-0.3, -0.4), 0, 1, 1, 1,
+                    FrictionBound(0.5)};
+   EXPECT_EQ(fitting_state(disc, NodeState::stick, 1e-12), NodeState::slip);
+   disc.slip.setZero();
+   EXPECT_EQ(fitting_state(disc, NodeState::slip, 1e-12), NodeState::slip);
 }
 
 } // namespace

@@ -310,14 +310,59 @@ TEST(March, LossInTheDiscByHand)
    after.v << 5.3, 6.4;
    const double turned = 2 + 2 * 7.6 / 10.84;
    EXPECT_NEAR(frictional_loss(problem, before, after)[0], 0.25 * (turned + 4) * 0.5, 1e-13);
-   for (NodeState stuck : {NodeState::stick, NodeState::separation})
-   {
-      before.status[0] = stuck;
-      EXPECT_NEAR(frictional_loss(problem, before, after)[0], 0.25 * (2 + 4) * 0.5, 1e-13);
-   }
+   // A node that stuck begins to slip where 8.29 s² - 4.3 s - 0.75 = 0, likewise.
+   before.status[0] = NodeState::stick;
+   before.q << 0.5, 0;
+   const double began = 2 + 2 * (4.3 + std::sqrt(4.3 * 4.3 + 4 * 8.29 * 0.75)) / (2 * 8.29);
+   EXPECT_NEAR(frictional_loss(problem, before, after)[0], 0.25 * (began + 4) * 0.5, 1e-13);
+   // One that was open bears more and more as it slips.
+   before.status[0] = NodeState::separation;
+   before.q.setZero();
+   before.p[0] = 0;
+   EXPECT_NEAR(frictional_loss(problem, before, after)[0], 0.25 * 4 * 0.5, 1e-13);
+   // What goes on slips all the way, but for a moment where its friction grows sooner than the
+   // force: 3.64 s² - 0.4 s = 0.
    before.status[0] = NodeState::slip;
-   before.q << -1, 0; // goes on
+   before.p[0] = 2;
+   before.q << -1, 0;
+   EXPECT_NEAR(frictional_loss(problem, before, after)[0],
+               0.25 * (2 + 2 * 0.4 / 3.64 + 4) * 0.5, 1e-13);
+   before.q << -0.6, -0.8;
    EXPECT_NEAR(frictional_loss(problem, before, after)[0], 0.25 * (2 + 4) * 0.5, 1e-13);
+}
+
+/// A block on a spring, pressed and sheared in one increment, loses what it does in many: by
+/// hand, from where its friction is exhausted, and the same however near it was to slipping.
+TEST(March, LossOfWhatStuckBeginsWhereItSlips)
+{
+   ReducedProblem problem;
+   const Eigen::MatrixXd one = Eigen::MatrixXd::Ones(1, 1), zero = Eigen::MatrixXd::Zero(1, 1);
+   problem.set_stiffness(one, zero, one);
+   problem.patterns = {{"P", Control::force, zero, one}, {"Q", Control::force, one, zero}};
+   problem.H = Eigen::Matrix2d::Zero();
+   problem.gap = VectorXd::Zero(1);
+   set_friction(problem, 0.3);
+   for (const double shear : {0.2, 0.3 - 1e-9, 0.3})
+   {
+      // From (1, Q) to (1.5, -0.6): Q + s (-0.6 - Q) = -0.3 (1 + 0.5 s); then it slips by 0.15.
+      const double s = (shear + 0.3) / (0.6 + shear - 0.15),
+                   lost = 0.5 * 0.3 * (1 + 0.5 * s + 1.5) * 0.15;
+      for (const int increments : {1, 7})
+      {
+         ContactState state = ContactState::virgin(problem);
+         MarchSettings settings;
+         settings.stepping = Stepping::fixed;
+         settings.increments = increments;
+         settings.single_increment_if_exact = false;
+         const MarchReport report =
+            march(problem,
+                  LoadHistory::through(
+                     {Vector2d(0, 0), Vector2d(1, 0), Vector2d(1, shear), Vector2d(1.5, -0.6)}),
+                  state, settings);
+         ASSERT_EQ(report.status, FrictionStatus::converged);
+         EXPECT_NEAR(state.dissipation, lost, 1e-14) << shear << ", " << increments;
+      }
+   }
 }
 
 /// Where a node's slip began: only that beyond it vanishes at an advancing front.

@@ -262,20 +262,14 @@ std::pair<ComplexVector, Complex> complex_march(const MarchCase &c, const MarchT
       const ComplexVector u = M.partialPivLu().solve(rhs), F = b + K * u;
       for (Index i = 0; i < n; ++i)
       {
-         // What slips both before and after, and has turned, sticks first while forces change
-         // linearly; friction is exhausted at the root of |q0 + s (trial - q0)| = f (p0 + s dp)
-         // beyond the one at s = 0.
+         // What stuck, or turns, sticks first while forces change linearly: friction is
+         // exhausted at the share s of the increment where q0 + s dq = -way f (p0 + s dp).
          Complex step = u[i] - v[i];
          if (step.real() == 0) { continue; }
-         Complex p_from = p[i];
-         const NodeState before = trace.states[k - 1].state.status[i], now = at.state.status[i];
-         if (slips(before) && slips(now) && before != now)
-         {
-            const Complex dq = F[i] - K(i, i) * step - q[i], dp = F[n + i] - p[i],
-                          to = Complex(
-                             -sense(before)); // q0 = to f p0, s dq = -to f (2 p0 + s dp)
-            p_from += dp * (-to * Complex(2) * f(i, 0) * p[i] / (dq + to * f(i, 0) * dp));
-         }
+         const Complex way(step.real() > 0 ? 1 : -1),
+            dq = F[i] - K(i, i) * step - q[i], dp = F[n + i] - p[i],
+            start = -(q[i] + way * f(i, 0) * p[i]) / (dq + way * f(i, 0) * dp),
+            p_from = p[i] + start * dp;
          if (step.real() < 0) { step = -step; }
          lost += Complex(0.5L) * f(i, 0) * (p_from + F[n + i]) * step;
       }

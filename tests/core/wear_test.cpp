@@ -268,8 +268,10 @@ TEST(Wear, OneIncrementWearsWhatThePressureAlongItsSlipSays)
    ContactState before = ContactState::virgin(problem), after = before;
    before.p[0] = 3;
    after.p[0] = 1;
+   before.q[0] = 1.5;
+   after.q[0] = 0.5;
    after.v[0] = -0.4;
-   after.status[0] = NodeState::backward_slip;
+   before.status[0] = after.status[0] = NodeState::backward_slip;
    WearLaw law = WearLaw::uniform(problem, 10);
    EXPECT_NEAR(worn_depth(problem, law, before, after)[0], 10 * 1.0 * 0.4, 1e-14);
    law.threshold = VectorXd::Constant(1, 0.25); // all above it

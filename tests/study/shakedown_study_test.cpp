@@ -198,7 +198,9 @@ TEST(ShakedownStudy, ReadsWhatItSaves)
    const Outcome closed = run_miniapp(
       "shakedown", "-reduced '" + file + "' -closed -lambda-max 0.2 -reversal -0.5");
    EXPECT_EQ(closed.results["closed_nodes"], 33) << closed.output;
-   EXPECT_EQ(closed.results["load_limit"], saved.results["load_limit"]);
+   // The part is a problem of its own, whose sums are rounded elsewhere.
+   EXPECT_NEAR(closed.results["load_limit"].get<double>(),
+               saved.results["load_limit"].get<double>(), 1e-13);
    std::remove(file.c_str());
 }
 

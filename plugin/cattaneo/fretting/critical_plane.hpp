@@ -26,8 +26,8 @@ enum class PlaneCriterion
 /// (Fatemi–Socie).
 struct PlaneWeights
 {
-   double findley = 0.3;
-   double fatemi_socie = 1.0;
+   double findley = 0.3;      ///< of Findley's criterion
+   double fatemi_socie = 1.0; ///< of that of Fatemi and Socie
 };
 
 /// Where a criterion is largest; of planes that tie, the one of the smallest angle.

@@ -99,6 +99,35 @@ NodeState wanted_state(const ContactNode &node, NodeState now, double tiny, doub
    return friction_state(node, slips(now) ? -tiny_along : tiny_along);
 }
 
+NodeState fitting_state(const ContactNode &node, NodeState now, double allowed)
+{
+   if (!closed(now) || node.q.size() == 0) { return now; }
+   const auto broken = [&](NodeState state)
+   {
+      if (state == NodeState::stick)
+      {
+         return std::max(magnitude(node.q) - bound_against(node, -node.q),
+                         node.kt * magnitude(node.slip));
+      }
+      if (state == NodeState::slip) { return slip_violation(node); }
+      const double way = sense(state);
+      return std::max(std::abs(node.q[0] + way * node.bound.at(node.p, way)),
+                      -way * node.kt * node.slip[0]);
+   };
+   double least = broken(now);
+   if (least <= allowed) { return now; }
+   const bool plane = node.q.size() == 1;
+   for (const NodeState state :
+        {NodeState::stick, plane ? NodeState::forward_slip : NodeState::slip,
+         plane ? NodeState::backward_slip : NodeState::slip})
+   {
+      if (broken(state) >= least) { continue; }
+      least = broken(state);
+      now = state;
+   }
+   return now;
+}
+
 NodeState natural_state(const ContactNode &node)
 {
    if (node.kn * node.gap > node.p) { return NodeState::separation; }

@@ -13,38 +13,63 @@ double work(const LoadPattern &pattern, const ContactState &state)
    return pattern.q.dot(state.v) + pattern.p.dot(state.w);
 }
 
+namespace
+{
+
+/// One node over an increment, from which it follows where in it the node begins to slip.
+struct NodePath
+{
+   NodePath(const ReducedProblem &problem, const ContactState &before,
+            const ContactState &after, Index node);
+
+   NodeVector q0, q1, slip, own; ///< own: tangential stiffness of the node
+   double p0, p1, friction;
+   /// Of the force as if the node stuck to the end, which changes linearly.
+   NodeVector turning;
+   /// (|force|² less the square of the bound) over the share s of the increment: c + b s + a
+   /// s².
+   double a, b, c;
+   double start = 0; ///< the share where it begins to be positive
+   double steepness() const { return 2 * a * start + b; }
+};
+
+NodePath::NodePath(const ReducedProblem &problem, const ContactState &before,
+                   const ContactState &after, Index node)
+   : q0(problem.components()), q1(q0), slip(q0), own(q0), p0(std::max(before.p[node], 0.0)),
+     p1(std::max(after.p[node], 0.0)), friction(problem.friction[node])
+{
+   for (Index k = 0; k < q0.size(); ++k)
+   {
+      const Index row = k * problem.nodes() + node;
+      q0[k] = before.q[row];
+      q1[k] = after.q[row];
+      slip[k] = after.v[row] - before.v[row];
+      own[k] = problem.A()(row, row);
+   }
+   turning = q1 - own.cwiseProduct(slip) - q0;
+   const FrictionBound bound(friction);
+   const double g0 = bound.at(p0), dg = bound.at(p1) - g0, size = magnitude(q0);
+   a = turning.squaredNorm() - dg * dg;
+   b = 2 * q0.dot(turning) - 2 * g0 * dg;
+   c = std::min((size - g0) * (size + g0), 0.0); // friction is not exhausted yet, or just so
+   const double root = std::sqrt(std::max(b * b - 4 * a * c, 0.0));
+   if (b > 0) { start = -2 * c / (b + root); }
+   else if (a > 0) { start = (root - b) / (2 * a); }
+   start = std::min(start, 1.0);
+}
+
+} // namespace
+
 Rubbing rubbing(const ReducedProblem &problem, const ContactState &before,
                 const ContactState &after)
 {
-   const Index n = problem.nodes(), c = problem.components();
-   Rubbing result{VectorXd::Zero(c > 0 ? n : 0), before.p.cwiseMax(0.0), after.p.cwiseMax(0.0)};
-   for (Index i = 0; i < result.way.size(); ++i)
+   const Index nodes = problem.components() > 0 ? problem.nodes() : 0;
+   Rubbing result{VectorXd::Zero(nodes), before.p.cwiseMax(0.0), after.p.cwiseMax(0.0)};
+   for (Index i = 0; i < nodes; ++i)
    {
-      double &way = result.way[i], along = 0;
-      for (Index k = i; k < c * n; k += n)
-      {
-         const double step = after.v[k] - before.v[k];
-         way = k == i ? std::abs(step) : std::hypot(way, step);
-         along += before.q[k] * after.q[k];
-      }
-      if (way == 0) { continue; }
-      if (slips(before.status[i]) && slips(after.status[i]) && along < 0)
-      {
-         // |q0 + s (trial - q0)|² = (g0 + s (g1 - g0))², g the bounds: the root in 0…1 beyond
-         // s = 0, where friction was exhausted the other way.
-         const FrictionBound bound(problem.friction[i]);
-         const double g0 = bound.at(before.p[i]), g1 = bound.at(after.p[i]);
-         double a = -(g1 - g0) * (g1 - g0), b = -2 * g0 * (g1 - g0);
-         for (Index k = i; k < c * n; k += n)
-         {
-            const double trial = after.q[k] - problem.A()(k, k) * (after.v[k] - before.v[k]);
-            const double turning = trial - before.q[k];
-            a += turning * turning;
-            b += 2 * before.q[k] * turning;
-         }
-         const double turn = a > 0 ? std::clamp(-b / a, 0.0, 1.0) : 0.0;
-         result.p_from[i] += turn * (result.p_to[i] - result.p_from[i]);
-      }
+      const NodePath path(problem, before, after, i);
+      result.way[i] = magnitude(path.slip);
+      if (result.way[i] > 0) { result.p_from[i] += path.start * (path.p1 - path.p0); }
    }
    return result;
 }
@@ -66,46 +91,28 @@ RubbingDerivative rubbing_derivative(const ReducedProblem &problem, const Contac
                                      const ContactState &after, Index node, double by_way,
                                      double by_from, double by_to)
 {
-   const Index n = problem.nodes(), c = problem.components();
-   const double f = problem.friction[node], p0 = std::max(before.p[node], 0.0),
-                p1 = std::max(after.p[node], 0.0), dp = p1 - p0;
-   const NodeVector none = NodeVector::Zero(c);
+   const NodePath path(problem, before, after, node);
+   const double way = magnitude(path.slip), s = path.start, f = path.friction,
+                dp = path.p1 - path.p0;
+   const NodeVector none = NodeVector::Zero(path.slip.size());
    RubbingDerivative by{none, none, none, none};
-   NodeVector q0(c), q1(c), slip(c), own(c);
-   for (Index k = 0; k < c; ++k)
-   {
-      const Index row = k * n + node;
-      q0[k] = before.q[row];
-      q1[k] = after.q[row];
-      slip[k] = after.v[row] - before.v[row];
-      own[k] = problem.A()(row, row);
-   }
-   const double way = magnitude(slip);
    if (way == 0) { return by; }
-   // p_from = p0 + turn dp, with the share `turn` = -b/a of rubbing().
-   double turn = 0;
-   const NodeVector turning = q1 - own.cwiseProduct(slip) - q0;
-   const double a = turning.squaredNorm() - f * f * dp * dp,
-                b = 2 * q0.dot(turning) - 2 * f * f * p0 * dp;
-   if (slips(before.status[node]) && slips(after.status[node]) && q0.dot(q1) < 0 && a > 0)
+   by.slip = by_way / way * path.slip;
+   by.p0 = by_from * (1 - s);
+   by.p1 = by_from * s + by_to;
+   if (s > 0 && s < 1 && path.steepness() > 0)
    {
-      turn = std::clamp(-b / a, 0.0, 1.0);
-   }
-   by.slip = by_way / way * slip;
-   by.p0 = by_from * (1 - turn);
-   by.p1 = by_from * turn + by_to;
-   if (turn > 0 && turn < 1)
-   {
-      // d turn = -(db + turn da)/a
-      const double by_both = -by_from * dp / a;
-      const NodeVector by_turning = 2 * by_both * (q0 + turn * turning);
-      by.q1 = by_turning;
-      by.q0 = 2 * by_both * turning - by_turning;
-      by.slip -= own.cwiseProduct(by_turning);
-      by.stiffness = -slip.cwiseProduct(by_turning);
-      by.friction -= 2 * by_both * f * dp * (2 * p0 + turn * dp);
-      by.p0 += 2 * by_both * f * f * (p0 - (1 - turn) * dp);
-      by.p1 -= 2 * by_both * f * f * (p0 + turn * dp);
+      // p_from = p0 + s dp, and ds = -(dc + s db + s² da)/steepness.
+      const double by_root = -by_from * dp / path.steepness();
+      const NodeVector by_force = 2 * by_root * (path.q0 + s * path.turning);
+      by.q1 = s * by_force;
+      by.q0 = (1 - s) * by_force;
+      by.slip -= s * path.own.cwiseProduct(by_force);
+      by.stiffness = -s * path.slip.cwiseProduct(by_force);
+      const double p = path.p0 + s * dp, by_bound = -2 * by_root * f * p; // of f p there
+      by.friction = by_bound * p;
+      by.p0 += by_bound * f * (1 - s);
+      by.p1 += by_bound * f * s;
    }
    // Nothing is borne in tension.
    if (before.p[node] <= 0) { by.p0 = 0; }

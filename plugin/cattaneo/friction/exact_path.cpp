@@ -151,6 +151,24 @@ double ExactPath::way_to_event()
    return way;
 }
 
+namespace
+{
+
+/// Does a correction of a step turn the slip of a node against its state?
+bool turns(const VectorXd &step, const VectorXd &correction,
+           const std::vector<NodeState> &states)
+{
+   for (std::size_t i = 0; i < states.size(); ++i)
+   {
+      const double way = closed(states[i]) ? sense(states[i]) : 0;
+      const auto row = static_cast<Index>(i);
+      if (way * step[row] >= 0 && way * (step[row] + correction[row]) < 0) { return true; }
+   }
+   return false;
+}
+
+} // namespace
+
 bool ExactPath::starts_from(const ContactState &state) const
 {
    const Index n = problem_.nodes();
@@ -207,7 +225,8 @@ bool ExactPath::advance(ContactState &state, double time, const VectorXd &multip
       failure_ = "the present states do not hold the bodies";
       return false;
    }
-   u_ += way * u_rate_;
+   const VectorXd step = way * u_rate_;
+   u_ += step;
    F_ += way * F_rate_;
    u_rate_ *= 1 - way; // the rest of the piece is shorter now
    F_rate_ *= 1 - way;
@@ -220,10 +239,15 @@ bool ExactPath::advance(ContactState &state, double time, const VectorXd &multip
    const VectorXd clamped = problem_.clamped_forces(state.multipliers),
                   forces = clamped + K_ * u_;
    const VectorXd drift = (forces - F_).cwiseAbs() - 0.5 * equations_.round_off(clamped, u_);
-   VectorXd correction;
-   if ((arrived || drift.maxCoeff() > 0) && equations_.solve(forces, correction, F_))
+   const bool drifted = drift.maxCoeff() > 0;
+   VectorXd correction, corrected;
+   // A step may be so short that what is removed would turn its slip, which is an error of
+   // displacements that are as right without it.
+   if ((arrived || drifted) && equations_.solve(forces, correction, corrected) &&
+       (drifted || !turns(step, correction, states)))
    {
       u_ += correction;
+      F_ = corrected;
    }
    reached_ = state.multipliers;
    target_ = multipliers;

@@ -185,6 +185,7 @@ IncrementReport FrictionSystem::solve(ContactState &state, const VectorXd &multi
       explain_failure(at);
       return report;
    }
+   if (!frictionless) { at.name_states(next); }
    state = std::move(next);
    const IncrementReport unique = uniqueness(state.status);
    report.status = unique.status;

@@ -128,6 +128,20 @@ ContactState Increment::end() const
    return next;
 }
 
+void Increment::name_states(ContactState &next) const
+{
+   const double allowed = system.settings.tolerance * scale();
+   const VectorXd slips = next.v - v_old;
+   for (Index i = 0; i < system.n; ++i)
+   {
+      ContactNode at = node(i);
+      at.slip = along(slips, i);
+      at.q = along(next.q, i);
+      at.p = next.p[i];
+      next.status[i] = fitting_state(at, next.status[i], allowed);
+   }
+}
+
 bool Increment::residuals()
 {
    const FrictionSystem &s = system;

@@ -22,7 +22,8 @@ double magnitude(const NodeVector &x);
 
 /** What the tangential force of a node is bounded by at its normal force p: Coulomb's f p. The
     solvers and their checks multiply f by p nowhere else; zones() does for its
-    read-out, and the estimates and programmes of shakedown for the linear cones they need.
+    read-out, the losses and derivatives of Coulomb's law for theirs, and the estimates and
+    programmes of shakedown for the linear cones they need.
 
     Everyone asks for the bound at a p and in a sense of slip (+1 forward, -1 backward, 0: any
     direction of the disc), and linearises it by its slope there, so that a bound that differs
@@ -79,6 +80,11 @@ NodeState friction_state(const ContactNode &node, double margin = 0);
     the node has `now`. Violations up to `tiny` (normal) and `tiny_along` (tangential) change
     nothing, lest states flicker where two of them meet. */
 NodeState wanted_state(const ContactNode &node, NodeState now, double tiny, double tiny_along);
+
+/// The state that a solution is given: its own, or, where the node breaks that by more than
+/// `allowed` (a force), the one it breaks least. Where friction has nothing to say, the laws
+/// hold whichever way a node is called to slip.
+NodeState fitting_state(const ContactNode &node, NodeState now, double allowed);
 
 /// The state in which the natural map takes the node, whatever it was.
 NodeState natural_state(const ContactNode &node);

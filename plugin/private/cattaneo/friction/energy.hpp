@@ -9,9 +9,9 @@ namespace cattaneo
 double work(const LoadPattern &pattern, const ContactState &state);
 
 /** How each node (size n) rubs over an increment: the way |Δv| that it slips, and its nodal
-    pressures at the beginning and the end of that way. Where slip has turned round since the
-    last increment the node sticks first: the way then begins at the pressure at which friction
-    is exhausted again, if the forces of the node that does not slip yet change linearly. */
+    pressures at the beginning and the end of that way. A node that stuck, or whose slip turns
+    round, sticks first: the way begins at the pressure at which friction is exhausted, if the
+    forces of the node that does not slip yet change linearly. */
 struct Rubbing
 {
    Eigen::VectorXd way, p_from, p_to;
@@ -25,9 +25,9 @@ Rubbing rubbing(const ReducedProblem &problem, const ContactState &before,
 Eigen::VectorXd frictional_loss(const ReducedProblem &problem, const ContactState &before,
                                 const ContactState &after);
 
-/// Derivatives of a number that depends on the rubbing() of one node, as its way is cut where
-/// slip turns: by its forces before (0) and after (1), its slip Δv, its friction and its own
-/// tangential stiffness.
+/// Derivatives of a number that depends on the rubbing() of one node, as its way begins
+/// where friction is exhausted: by its forces before (0) and after (1), its slip Δv, its
+/// friction and its own tangential stiffness.
 struct RubbingDerivative
 {
    NodeVector q0, q1, slip, stiffness;

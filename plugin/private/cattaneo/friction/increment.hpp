@@ -53,6 +53,8 @@ struct Increment
    void go_back() { take(u_swept, status_swept); }
    /// The state at the end, with exact zeros where the node states say zero.
    ContactState end() const;
+   /// Gives the nodes of an accepted end states that fit how they slip and what they bear.
+   void name_states(ContactState &next) const;
    /// Fills the report with the residuals of where it stands. False if one is too large.
    bool residuals();
    /// residuals() of a solution: false too where it moves so far that its forces cannot be told
