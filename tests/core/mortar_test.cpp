@@ -215,6 +215,56 @@ TEST(Mortar, OfNodesWithoutRowsKeepsTheirPressure)
    }
 }
 
+/// A slave over two masters whose joint lies anywhere, also within one of its elements, and of
+/// the second interface the nodes that the first has carry no row: a constant pressure is one
+/// on all three lines, and linear displacements open nothing.
+TEST(Mortar, OverTwoNeighboursKeepsTheirPressure)
+{
+   std::mt19937 random(11);
+   for (int order = 1; order <= 8; ++order)
+   {
+      for (const Formulation formulation : {Formulation::plane, Formulation::axisymmetric})
+      {
+         const auto measure = [=](double x)
+         { return formulation == Formulation::plane ? 1.0 : 2 * pi * x; };
+         const ContactLine slave = above(random_grid(1, 3, 5, random), order, formulation);
+         const auto &element = slave.chains[0].elements[2].points;
+         for (double share : {0.001, 0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 0.98, 0.999})
+         {
+            const double joint = element(0, 0) + share * (element(0, order) - element(0, 0));
+            const ContactLine left = below(random_grid(1, joint, 4, random), 2, formulation),
+                              right = below(random_grid(joint, 3, 6, random), 1, formulation);
+            for (bool right_first : {false, true})
+            {
+               const ContactLine &one = right_first ? right : left,
+                                 &two = right_first ? left : right;
+               const Mortar first = mortar(slave, one),
+                            second = mortar(slave, two, first.nodes);
+               VectorXd carried = -integrals(slave, measure, 1, 3);
+               for (const Mortar *made : {&first, &second})
+               {
+                  const ContactLine &master = made == &first ? one : two;
+                  carried += made->own[1].transpose() * made->weights;
+                  EXPECT_EQ(made->left_out, 0);
+                  EXPECT_GT(made->weights.minCoeff(), 0);
+                  const VectorXd on_master = made->other[1].transpose() * made->weights;
+                  EXPECT_LT(largest(on_master - integrals(master, measure, 1, 3)), 1e-11)
+                     << order << " " << share;
+                  for (int c : {0, 1})
+                  {
+                     const auto x = [](double x) { return x; };
+                     EXPECT_LT(largest(made->own[c] * of_nodes(slave, x) -
+                                       made->other[c] * of_nodes(master, x)),
+                               1e-12);
+                  }
+               }
+               EXPECT_LT(largest(carried), 1e-11) << order << " " << share;
+            }
+         }
+      }
+   }
+}
+
 /// Bodies of revolution: weights over the circumference, and displacements that are even or odd
 /// in r to the axis, where there is no node.
 TEST(Mortar, OfBodiesOfRevolutionHasTheWeightOfTheCircumference)

@@ -125,12 +125,22 @@ private:
                       std::vector<int> nodes) const;
    std::vector<int> functions_of(const Trace &trace, std::size_t element,
                                  const std::vector<Point> &points);
+   void add_rows(const Trace &trace, std::size_t element, const std::vector<Point> &points,
+                 const std::vector<Index> &rows, const std::array<MatrixXd, 2> &psi);
+   struct Neighbour
+   {
+      Index row = -1;   ///< a node of the slave; -1: none
+      int elements = 0; ///< without functions between it and this one
+   };
+   Neighbour neighbour(std::size_t element, bool after) const;
+   void extend(std::size_t element);
 
    const ContactLine &slave_, &master_;
    const std::string &what_;
    std::vector<bool> without_, faced_, has_row_;
    FacingLines lines_;
    std::vector<std::vector<FacingPart>> parts_; ///< of each slave element
+   std::vector<std::vector<Index>> functions_;  ///< rows on each slave element, along it
    std::vector<Trace> master_traces_;
    std::array<std::map<std::pair<Index, Index>, double>, 2> own_, other_;
    Eigen::MatrixX2d apart_; ///< ∫ψ (x_s - x_m) of each slave node
@@ -143,8 +153,8 @@ Assembly::Assembly(const ContactLine &slave, const ContactLine &master,
    : slave_(slave), master_(master), what_(what), without_(slave.size(), false),
      faced_(slave.size(), false), has_row_(slave.size(), false),
      lines_(facing(slave, master, what)), parts_(lines_.first.size()),
-     apart_(Eigen::MatrixX2d::Zero(slave.size(), 2)), weights_(VectorXd::Zero(slave.size())),
-     size_(VectorXd::Zero(slave.size()))
+     functions_(lines_.first.size()), apart_(Eigen::MatrixX2d::Zero(slave.size(), 2)),
+     weights_(VectorXd::Zero(slave.size())), size_(VectorXd::Zero(slave.size()))
 {
    for (int node : without)
    {
@@ -161,6 +171,7 @@ Assembly::Assembly(const ContactLine &slave, const ContactLine &master,
            extent(slave_), ", the other ", extent(master_),
            "), one must lie over the other, with outward normals that are opposite");
    for (std::size_t e = 0; e < lines_.first.size(); ++e) { add(e); }
+   for (std::size_t e = 0; e < lines_.first.size(); ++e) { extend(e); }
 }
 
 double Assembly::covered(std::size_t element) const
@@ -297,23 +308,33 @@ void Assembly::add(std::size_t element)
    }
    const std::vector<Point> points = points_of(element);
    const std::vector<int> nodes = functions_of(trace, element, points);
-   if (nodes.empty())
+   if (nodes.empty()) { return; }
+   std::vector<Index> &rows = functions_[element];
+   for (int node : nodes) { rows.push_back(trace.nodes[node]); }
+   for (Index row : rows)
    {
-      for (const Point &point : points) { left_out_ += point.weight; }
-      return;
+      has_row_[row] = true;
+      size_[row] = std::max(size_[row], lines_.first[element].length());
    }
+   add_rows(trace, element, points, rows,
+            {dual(trace, points, 0, nodes).weighted, dual(trace, points, 1, nodes).weighted});
+}
+
+/// Adds functions (times the weights of the points) on an element to rows.
+void Assembly::add_rows(const Trace &trace, std::size_t element,
+                        const std::vector<Point> &points, const std::vector<Index> &rows,
+                        const std::array<MatrixXd, 2> &psi)
+{
+   const std::vector<Index> &dual_to = functions_[element];
    for (int component : {0, 1})
    {
-      const MatrixXd psi = dual(trace, points, component, nodes).weighted;
-      for (std::size_t i = 0; i < nodes.size(); ++i)
+      for (std::size_t i = 0; i < rows.size(); ++i)
       {
-         const Index row = trace.nodes[nodes[i]];
-         has_row_[row] = true;
-         size_[row] = std::max(size_[row], lines_.first[element].length());
+         const Index row = rows[i];
          for (std::size_t p = 0; p < points.size(); ++p)
          {
             const Point &point = points[p];
-            const double value = psi(static_cast<Index>(i), static_cast<Index>(p));
+            const double value = psi[component](static_cast<Index>(i), static_cast<Index>(p));
             if (component == 1) { weights_[row] += value; }
             apart_(row, component) += value * point.apart[component];
             const Trace &other = master_traces_[point.other];
@@ -327,12 +348,72 @@ void Assembly::add(std::size_t element)
             for (std::size_t j = 0; j < trace.nodes.size(); ++j)
             {
                // Zero but for round-off among nodes with functions.
-               const bool dual_to = std::count(nodes.begin(), nodes.end(), int(j)) > 0;
-               if (dual_to && j != std::size_t(nodes[i])) { continue; }
-               own_[component][{row, trace.nodes[j]}] += value * own[static_cast<Index>(j)];
+               const Index node = trace.nodes[j];
+               if (node != row && std::count(dual_to.begin(), dual_to.end(), node))
+               {
+                  continue;
+               }
+               own_[component][{row, node}] += value * own[static_cast<Index>(j)];
             }
          }
       }
+   }
+}
+
+/// The nearest row along the line before or after an element, if all up to there is faced.
+Assembly::Neighbour Assembly::neighbour(std::size_t element, bool after) const
+{
+   const std::vector<ElementCurve> &all = lines_.first;
+   Neighbour found;
+   for (std::size_t at = element; found.elements < static_cast<int>(all.size());
+        ++found.elements)
+   {
+      const auto end = [](const ElementCurve &curve, bool last)
+      { return last ? curve.element->nodes.back() : curve.element->nodes.front(); };
+      const Index node = end(all[at], after);
+      std::size_t next = 0;
+      while (next < all.size() && (node < 0 || end(all[next], !after) != node)) { ++next; }
+      if (next == all.size() || !is_faced(at, after ? 1 : 0) || !is_faced(next, after ? 0 : 1))
+      {
+         break;
+      }
+      const std::vector<Index> &rows = functions_[next];
+      if (!rows.empty())
+      {
+         found.row = after ? rows.front() : rows.back();
+         break;
+      }
+      at = next;
+   }
+   return found;
+}
+
+/** What is faced of an element without functions (its nodes carry rows of another interface, or
+    lie beyond what is faced): the rows beside it see it too, with functions that go on from
+    theirs, so that a constant pressure is one there as well. */
+void Assembly::extend(std::size_t element)
+{
+   if (covered(element) < near || !functions_[element].empty()) { return; }
+   const std::vector<Point> points = points_of(element);
+   const Neighbour before = neighbour(element, false), after = neighbour(element, true);
+   std::vector<Index> rows;
+   if (before.row >= 0) { rows.push_back(before.row); }
+   if (after.row >= 0 && after.row != before.row) { rows.push_back(after.row); }
+   MatrixXd psi(static_cast<Index>(rows.size()), static_cast<Index>(points.size()));
+   for (std::size_t p = 0; p < points.size(); ++p)
+   {
+      const Point &point = points[p];
+      if (rows.empty()) { left_out_ += point.weight; }
+      else { psi.col(static_cast<Index>(p)).setConstant(point.weight); }
+      if (rows.size() < 2) { continue; }
+      const double length = before.elements + 1 + after.elements,
+                   along = (before.elements + point.s) / length;
+      psi(0, static_cast<Index>(p)) *= 1 - along;
+      psi(1, static_cast<Index>(p)) *= along;
+   }
+   if (!rows.empty())
+   {
+      add_rows(Trace(*lines_.first[element].element), element, points, rows, {psi, psi});
    }
 }
 

@@ -20,7 +20,8 @@ namespace cattaneo
 
     On an element that is faced in part, nodes that are left less than a quarter of their weight
     there have no function on it: those within the part share it, with positive weights, and
-    own has entries beside its diagonal. */
+    own has entries beside its diagonal. What is faced of an element whose nodes have none goes
+    to the rows beside it along the line. */
 struct Mortar
 {
    /// By rows.
@@ -45,7 +46,7 @@ struct Mortar
    Eigen::VectorXd arm;
    std::vector<int> free_surface; ///< nodes of the slave that nothing faces
    /// Length (area, about an axis) that is faced but that no contact node stands for: a master
-   /// that ends between two nodes of the slave.
+   /// between two nodes of the slave, beside no row.
    double left_out = 0;
 };
 
