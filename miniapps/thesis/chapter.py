@@ -15,6 +15,7 @@ class Figure:
     wrong: str = ""             # where the thesis is wrong: the reason, ...
     proof: str = ""             # ... and the command that proves it
     missing: str = ""           # why it cannot be made
+    stated: list = field(default_factory=list)  # values of its text alone: (quantity, reference or None, its ±, thesis, computed(*runs))
 
     @property
     def name(self):
@@ -27,6 +28,11 @@ class Figure:
             for row in run.references():
                 if self.rows and re.search(self.rows, row["quantity"]):
                     found.setdefault((row["quantity"], row["reference"]), row)
+        for quantity, reference, spread, thesis, computed in self.stated:
+            value = computed(*runs)
+            outside = reference is not None and value is not None and abs(value - reference) > spread
+            found[quantity] = {"quantity": quantity, "reference": reference, "spread": spread, "thesis": thesis, "computed": value, "tolerance": None,
+                               "outside": outside}
         return list(found.values())
 
 

@@ -38,6 +38,8 @@ def critical(run, frictions):
         f.curves(axes, {"bonded" if friction is None else f"f = {friction:g}": ([f.nan(row["load_radius"]) for row in rows], [row["disc_radius"] for row in rows])}, "radius of the load a/t",
                  "radius of the disc b/t", marker="o", markersize=4)
     axes.text(6.4, 4.2, "no separation\nto the right of a line", ha="center", fontsize=8.5)
+    if not frictions:
+        f.thesis(axes, [(2.1, 5)])
     return sheet
 
 
@@ -53,6 +55,13 @@ def extents(run):
         f.curves(axes, {None: (a, c)}, "radius of the load a/t", "separation d/t (upper), stick c/t (lower)", **style)
     f.thesis(axes, [(2.5, 3.75)])
     return sheet
+
+
+def first_tension(run):
+    """Radius over that of the disc at which the pressure under a = 0.5 first changes its sign."""
+    radii, pressures = run.series("bonded_pressure")["a = 0.5"]
+    k = next(k for k, p in enumerate(pressures) if p < 0)
+    return (radii[k - 1] + (radii[k] - radii[k - 1]) * pressures[k - 1] / (pressures[k - 1] - pressures[k])) / 5
 
 
 def arrows(run):
@@ -86,8 +95,9 @@ def kinds(run, name, drop, y, **limits):
 
 
 CHAPTER.sketch("7.1", "Disc and half-space", "The disc may be as wide or narrow as one likes; the load acts on its middle.", sketches.disc)
-figure("7.2", "The mesh", "axisymmetric_receding --check", """
-The disc in a plane through its axis, with its loads and supports, as the program is given it. The half-space below needs no mesh.""",
+figure("7.2", "Disc, load and supports", "axisymmetric_receding --check", """
+The disc in a plane through its axis, with its loads and supports, as the program is given it. Arrows are forces of nodes: they grow with the radius as the ring that a node
+stands for, the pressure is uniform. The half-space below needs no mesh.""",
        lambda run: f.panels((run, "scene", {"title": ""})))
 figure("7.3", "Pressure under a bonded disc", BONDED, """
 Disc and half-space bonded together: a load on r < a leaves hardly any pressure beyond about a + t.""",
@@ -97,13 +107,15 @@ The thesis finds a = 2.1 t to be the least radius of load without tension. The p
 the number is ill-conditioned, and the profile is compared instead. (Where tension first goes is a = 0.80 t.)""", proof='axisymmetric_receding -bonded "0.8 2.1"')
 figure("7.4", "Where a bonded disc separates", CRITICAL, """
 Radius of the load below which the bonded disc pulls somewhere, against the radius of the disc: the line EF of figure 7.8. As said with figure 7.3 it is ill-conditioned: a thousandth of the
-pressure moves it by more than t. Bonded discs of less than about 4.9 t don't pull at all.""", lambda run: critical(run, []))
+pressure moves it by more than t. Bonded discs of less than about 4.9 t don't pull at all.""", lambda run: critical(run, []),
+       stated=[("bonded critical a/t, b = 5", 0.80, 0.05, 2.1, lambda run: run.rows("bonded_critical", disc_radius=5)[0]["load_radius"])])
 CHAPTER.sketch("7.5", "Names", "d: radius of separation; c: border of stick.", lambda: sketches.disc(radii=True))
 figure("7.6", "Tractions under a bonded disc, a = 0.5", BONDED, """
 Pressure and shear of the monolith under a small load.""",
        lambda run: f.panels((run, "bonded_pressure", {"title": "", "only": lambda s: s.endswith("a = 0.5"), "limits_x": "0,5", "limits_y": "-0.12,0.32",
                                                       "rename": lambda s: s.replace("q: a = 0.5", "shear q").replace("a = 0.5", "pressure p")})), wrong="""
-That the monolith pulls from 0.65 b on can't be confirmed: its pressure there is ten thousandths of p0; here it pulls first at 0.97 b.""", proof=BONDED)
+That the monolith pulls from 0.65 b on can't be confirmed: its pressure there is ten thousandths of p0; here it pulls first at 0.97 b.""", proof=BONDED,
+       stated=[("first tension of the bonded disc at r/b, a = 0.5", 0.971, 0.005, 0.65, first_tension)])
 figure("7.7", "Tractions with contact, a = 0.5", SMALL, "The same with contact and f = 0.9: the pressure ends at d, and slip begins at c.",
        lambda run: f.panels((run, "tractions", {"title": "", "limits_x": "0,5"})), rows="a = 0.5", wrong=DOMAIN, proof=SMALL + " -domain 100")
 figure("7.8", "When nothing separates", [CRITICAL, ADHESION], """
@@ -114,13 +126,15 @@ adhesion asks for the values in the table.""", proof=ADHESION)
 figure("7.9", "Pressure during loading", LOADING, "a = 2.5 t, f = 0.5: pressures at four loads are proportional, and the disc separates at the same radius.",
        lambda run: kinds(run, "loading_tractions", "q/f: ", ("p/p0", "q/(f p0)")), rows="loaded, a = 2.5, f = 0.5", wrong=DOMAIN, proof=LOADING + " -domain 100")
 figure("7.10", "Separation and stick against the load's radius", MAP, """
-Radii of separation and of stick for f = 0.5 and 0.8. When nothing separates any more (d = b) slip remains at the rim.""", extents, rows="loaded, a = 2.5")
+Radii of separation and of stick for f = 0.5 and 0.8. When nothing separates any more (d = b) slip remains at the rim.""", extents, rows="loaded, a = 2.5", wrong="""
+The thesis says that with f = 0.8 the disc adheres all over as soon as nothing separates. The rim's own ratio of tractions is below 0.8 then, but close to it the ratio is higher: here
+slip remains from a = 3.6 to 4.4 t, and full adhesion begins between 4.4 and 4.6 t.""", proof=ADHESION)
 figure("7.11", "Tractions during unloading", UNLOADING, "a = 2.5 t, f = 0.5: pressure and shear over f at 1, 0.9, 0.5, 0.3 and 0.1 of the load.",
        lambda run: kinds(run, "unloading_tractions", "q/f: ", ("p/p0", "q/(f p0)")), rows="^d/t at")
 figure("7.12", "Zones during unloading", UNLOADING, """
 As the strip's (figure 5.6): the contact recedes, reverse slip follows from the edge, and forward slip grows inward. Diamonds: the thesis at half of the load.""",
        lambda run: f.panels((run, "zones", {"title": ""})), rows="border", wrong="""
-The thesis reads its borders off a figure, without saying ν or the extent of its half-space.""", proof=UNLOADING)
+The thesis reads its borders off a figure, without saying ν or the extent of its half-space.""")
 CHAPTER.sketch("7.13", "The torque", "P is held while the top of the disc is turned.", lambda: sketches.disc(torque=True))
 figure("7.14", "Tractions under torsion", TORSION, "Pressure, and resultant shear over f, for growing torque. Slip spreads inward, and separation moves inward with it.",
        lambda run: kinds(run, "torsion_tractions", "|q|/f: ", ("p/p0", "|q|/(f p0)")), rows="T_s|without friction|T/T_s|T_max")

@@ -112,7 +112,8 @@ def section(figure, runs, fault):
     if rows:
         parts.append(comparison(rows))
     if figure.wrong and not fault:
-        proof = f' Proven by <code>./run {html.escape(figure.proof)}</code>.' if figure.proof else ""
+        command = figure.proof if figure.proof.startswith("./") else "./run " + figure.proof
+        proof = f' Proven by <code>{html.escape(command)}</code>.' if figure.proof else ""
         parts.append('<div class="wrong">' + prose("*Where the thesis differs.* " + figure.wrong)[:-4] + proof + "</p></div>")
     return "\n".join(parts) + "</section>", fault
 

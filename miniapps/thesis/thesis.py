@@ -33,23 +33,28 @@ wrong, the reason stands below the table. Quantities are dimensionless as each c
 
 
 def chosen(parts):
-    """Chapters with the figures that were asked for."""
+    """Chapters with the figures that were asked for: by number, as the page calls them, or by what their numbers begin with
+    (2.2 is 2.2a and 2.2b)."""
     chapters = [importlib.import_module(f"chapter{number}").CHAPTER for number in CHAPTERS]
-    if not parts:
-        return chapters
+    figures = [(chapter, figure) for chapter in chapters for figure in chapter.figures]
+    wanted = []
     for part in parts:
-        known = {str(chapter.number) for chapter in chapters} | {f.number for chapter in chapters for f in chapter.figures}
-        if part not in known:
-            sys.exit(f"cattaneo: the thesis has no chapter or figure '{part}'; there are " + ", ".join(sorted(known)))
-    for chapter in chapters:
-        if str(chapter.number) not in parts:
-            chapter.figures = [figure for figure in chapter.figures if figure.number in parts]
+        name = part.removeprefix("Figure ").removeprefix("Chapter ")
+        found = [figure for chapter, figure in figures if name in (str(chapter.number), figure.number, figure.name)]
+        found = found or [figure for _, figure in figures if re.match(re.escape(name) + r"(?!\d)", figure.number)]
+        if not found:
+            known = [str(chapter.number) for chapter in chapters] + [figure.number for _, figure in figures]
+            sys.exit(f"cattaneo: the thesis has no chapter or figure '{part}'; there are " + ", ".join(known))
+        wanted += found
+    if parts:
+        for chapter in chapters:
+            chapter.figures = [figure for figure in chapter.figures if figure in wanted]
     return [chapter for chapter in chapters if chapter.figures]
 
 
 def main():
     parser = argparse.ArgumentParser(prog="./run thesis", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("parts", nargs="*", metavar="PART", help="a chapter (4) or a figure (4.5)")
+    parser.add_argument("parts", nargs="*", metavar="PART", help="a chapter (4), a figure (4.5), or all whose numbers begin so (2.2)")
     parser.add_argument("--only", action="append", default=[], metavar="PART", help="the same")
     parser.add_argument("--list", action="store_true", help="figures and commands, without running anything")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="runs at a time (default: the processors)")
@@ -69,6 +74,11 @@ def main():
     def say(text):
         print(text, file=sys.stderr, flush=True)
 
+    lost = sorted({command.split()[0] for chapter in chapters for figure in chapter.figures for command in figure.commands
+                   if not (pathlib.Path(options.programs) / command.split()[0]).is_file()})
+    if lost:
+        sys.exit(f"cattaneo: --programs is '{options.programs}', which has no {', '.join(lost)}: must be the folder of the built miniapps; "
+                 "without it ./run thesis builds them")
     begun = time.monotonic()
     folder = pathlib.Path(options.folder)
     runs = Runs(pathlib.Path(options.programs).resolve(), folder.resolve() / "runs", max(1, options.jobs), say)
@@ -90,8 +100,8 @@ def main():
         say(f"missing: {figure.name}: {fault}")
     count = sum(len(chapter.figures) for chapter in chapters)
     say(f"{count - len(faults)} of {count} figures and tables are in {file}, after {time.monotonic() - begun:.0f} s")
-    # A figure that is declared as missing is said so; one that should have been made and was not is a failure.
-    return 2 if any(not figure.missing for figure, _ in faults) else 0
+    # In the whole a figure that is declared as missing is said so; one that was asked for, or should have been made, is a failure.
+    return 2 if any(parts or not figure.missing for figure, _ in faults) else 0
 
 
 if __name__ == "__main__":
