@@ -55,6 +55,30 @@ double crossing(const VectorXd &s, const VectorXd &value, Index from, int way)
    return s[way > 0 ? s.size() - 1 : 0];
 }
 
+/// Frames, weights and stiffness are those of the unworn bodies.
+void warn_of_depth(const ReducedProblem &problem, const VectorXd &depth,
+                   const ContactState &contact)
+{
+   Index deepest = 0;
+   const double most = depth.maxCoeff(&deepest);
+   for (const ContactChain &chain : problem.chains)
+   {
+      if (deepest < chain.first || deepest >= chain.first + chain.nodes) { continue; }
+      double from = problem.arc_length[deepest], to = from;
+      for (Index i = chain.first; i < chain.first + chain.nodes; ++i)
+      {
+         if (depth[i] <= 0 && contact.p[i] <= 0) { continue; }
+         from = std::min(from, problem.arc_length[i]);
+         to = std::max(to, problem.arc_length[i]);
+      }
+      if (most <= 0.1 * (to - from)) { return; }
+      miniapp::warn(text("the largest depth, %.3g, is not small against what touches or is "
+                         "worn, %.3g long: the stiffness is that of the unworn bodies. Where "
+                         "the problem's units are scaled (E = 1) both have to be scaled back",
+                         most, to - from));
+   }
+}
+
 /// The state in which wear ends, solved for directly.
 void report_end(miniapp::Study &study, const WearCase &scene, const WornOut &end,
                 miniapp::Panel &profiles, miniapp::Panel &pressures)
@@ -130,14 +154,17 @@ void wear_contact(miniapp::Study &study)
                                    load_state;
    double shear = miniapp::none, friction = miniapp::none, coefficient = 1e-2, threshold = 0;
    bool of_energy = false;
-   int cycles = 1000, cycle_start = -1;
+   double cycles = 1000;
+   int cycle_start = -1;
    WearSettings settings;
    settings.tolerance = 1e-3;
    settings.march.increments = 1;
    study.option(&pad.profile, "profile",
-                "Pad: parabola, or flat with rounded edges (a = 1, R = 1).",
+                "Pad: parabola, or flat with rounded edges; R = 1 of both, units of the "
+                "parabola's half-width under P = 1.",
                 {"parabola", "flat"});
-   study.option(&pad.flat, "flat", "Pad: half-width that is flat, in a.",
+   study.option(&pad.flat, "flat",
+                "Pad: half-width that is flat (at 0.5 contact is 1.36 wide under P).",
                 miniapp::between(0, 1));
    study.option(&shear, "shear", "Pad: amplitude of Q/fP; default: 0.5.",
                 miniapp::between(0, 1));
@@ -145,9 +172,12 @@ void wear_contact(miniapp::Study &study)
                 "Coefficient of friction; default: 0.5, of --reduced the file's.",
                 miniapp::positive);
    study.option(&pad.poisson, "poisson", "Pad: Poisson's ratio.");
-   study.option(&pad.nodes, "nodes", "Pad: contact nodes.", miniapp::at_least(25));
+   study.option(&pad.nodes, "nodes",
+                "Pad: contact nodes, one more than a multiple of twice the order.",
+                miniapp::at_least(25));
    study.option(&pad.order, "order", "Pad: order of the elements.", miniapp::within(1, 8));
-   study.option(&cycles, "cycles", "Cycles that wear.", miniapp::not_negative);
+   study.option(&cycles, "cycles", "Cycles at the end, those of --load-state among them.",
+                miniapp::within(0, 1e15));
    study.option(&coefficient, "wear", "Archard's k, of both bodies together, 1/pressure.",
                 miniapp::not_negative);
    study.option(&threshold, "threshold", "Pressure below which nothing wears.",
@@ -262,6 +292,7 @@ void wear_contact(miniapp::Study &study)
       settings.march.monitor = {};
    }
    study.counters += report.counters;
+   miniapp::warn_of_cut_off(report.cut_off);
    study.results["cycles_worn"] = state.cycles;
    study.results["cycles_marched"] = report.marched;
    study.results["jumps"] = report.jumps;
@@ -296,9 +327,31 @@ void wear_contact(miniapp::Study &study)
    draw_loop(loops, exact_text("cycle ", state.cycles), scene, state, settings.march);
    borders.add("from", times, from);
    borders.add("to", times, to);
+   // Across the pad lengths have another unit than along it: a²/R.
+   if (!file.empty()) { warn_of_depth(problem, state.depth, state.contact); }
+   if (coefficient == 0 || threshold > 0)
+   {
+      study.title("Worn out");
+      return study.say(coefficient == 0
+                          ? "   none: with k = 0 nothing wears"
+                          : "   not solved for: what presses less than the threshold does not "
+                            "wear, and wear ends earlier than where slip carries nothing");
+   }
+   miniapp::Watch watch("worn out");
+   settings.march.monitor = watch.monitor();
    const WornOut end =
       worn_out(problem, scene.history, ContactState::virgin(problem), settings.march);
+   miniapp::warn_of_cut_off(end.cut_off);
    report_end(study, scene, end, profiles, pressures);
+   if (end.status == FrictionStatus::stopped)
+   {
+      study.code = 2;
+      study.results["status"] = name(end.status);
+   }
+   if (!file.empty() && end.status == FrictionStatus::converged)
+   {
+      warn_of_depth(problem, end.depth, end.contact);
+   }
    if (end.status == FrictionStatus::converged && end.depth.maxCoeff() > 0 && state.cycles > 0)
    {
       study.value("distance_to_end",

@@ -2,6 +2,7 @@
 
 #include "common/hertz_scene.hpp"
 
+#include <cattaneo/fretting/calibration.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
 
@@ -14,17 +15,37 @@ using Eigen::VectorXd;
 namespace
 {
 
-/// How far a parabola wears in the end, over the half-width c of stick: ξ √(ξ² - 1) = (P/P*)
-/// arccosh ξ.
-double worn_extent(double P_over_held)
+constexpr double modulus = 4 / M_PI; ///< E*, with which a = 1 under P = 1 if R = 1
+
+/** How far a pad with the half-width `flat` between radii 1 wears in the end, where |x| < c
+    sticks: what slips carries nothing, so that the load that c does not carry by itself, the
+    share `shear` of P = 1, presses as under a rigid punch. Contact grows as a row of such
+    punches (Jäger 1998), dP = E* a arccos(flat/a) da, each of which lifts the surface beyond
+    it by (2/πE*) arccosh(x/a) dP; at the border what both lift is the same. */
+double worn_extent(double flat, double c, double shear)
 {
-   double low = 1 + 1e-9, high = 1e3;
-   for (int k = 0; k < 200; ++k)
+   const auto left = [&](double x) // of the gap that wear must take, over 2/πE*
    {
-      const double x = std::sqrt(low * high);
-      (x * std::sqrt(x * x - 1) > P_over_held * std::acosh(x) ? high : low) = x;
+      // The integrand ends like a root: an angle has no corner there.
+      double gap = 0;
+      constexpr int steps = 400;
+      for (int k = 0; k < steps; ++k)
+      {
+         const double angle = M_PI / 2 * (k + 0.5) / steps,
+                      a = x - (x - c) * std::cos(angle) * std::cos(angle),
+                      da = (x - c) * std::sin(2 * angle) * M_PI / 2 / steps;
+         gap += modulus * a * std::acos(flat / a) * std::acosh(x / a) * da;
+      }
+      return shear * std::acosh(x / c) - gap;
+   };
+   double low = c, high = 2 * c;
+   while (left(high) > 0) { high *= 2; }
+   for (int k = 0; k < 60; ++k)
+   {
+      const double x = 0.5 * (low + high);
+      (x > c && left(x) <= 0 ? high : low) = x;
    }
-   return low;
+   return high;
 }
 
 /// Grid of a contact line |x| < span of so many elements, finer toward ±c, where slip begins.
@@ -49,14 +70,17 @@ WearCase pad_on_half_plane(Study &study, const WearingPad &pad, double shear, do
    const auto &[profile, flat, poisson, nodes, order] = pad;
    require((nodes - 1) % (2 * order) == 0, "option --nodes is ", nodes,
            ", must be one more than a multiple of twice the order ", order);
-   const bool parabola = profile == "parabola";
-   const double c = parabola ? std::sqrt(1 - shear) : 1.0,
-                span = parabola ? std::max(1.15, 1.1 * c * worn_extent(1 / (1 - shear)))
-                                : 1 + 2 * (1 - flat);
+   const double b = profile == "parabola" ? 0.0 : flat;
+   const auto half_width = [b = b](double P)
+   { return fretting::flat_rounded_contact(P, 1, b, modulus).half_width; };
+   // What sticks is the contact of the load that shear leaves over (Cattaneo, Jäger).
+   const double c = half_width(1 - shear), a = half_width(1);
+   const double span = std::max(1.15 * a, 1.1 * worn_extent(b, c, shear));
    HalfPlanes planes;
    planes.order = order;
    planes.nodes = nodes;
-   planes.material = Material{8 / M_PI * (1 - poisson * poisson), poisson, PlaneState::strain};
+   planes.material =
+      Material{2 * modulus * (1 - poisson * poisson), poisson, PlaneState::strain};
    planes.grid = grid_about(c, span, (nodes - 1) / order);
    Scene scene = make_scene(planes);
    WearCase result;
@@ -65,9 +89,7 @@ WearCase pad_on_half_plane(Study &study, const WearingPad &pad, double shear, do
    join_coupling(problem);
    set_friction(problem, friction);
    const VectorXd x = problem.position.col(0);
-   problem.gap = parabola
-                    ? VectorXd(0.5 * x.cwiseAbs2())
-                    : VectorXd(0.5 * (x.cwiseAbs().array() - flat).cwiseMax(0.0).square());
+   problem.gap = 0.5 * (x.cwiseAbs().array() - b).cwiseMax(0.0).square();
    study.condensed(problem, scene.dofs);
    const double Q = shear * friction;
    result.history = LoadHistory::through(

@@ -34,7 +34,8 @@ struct WearingPad
    }
 };
 
-/// P = 1, of a half-width a = 1 unworn if it is a parabola with R = 1; Q between ±shear f P.
+/// P = 1 and R = 1, so that a = 1 unworn if it is a parabola; Q between ±shear f P. The line is
+/// longer than contact and wear ever are.
 WearCase pad_on_half_plane(Study &study, const WearingPad &pad, double shear, double friction);
 
 } // namespace miniapp

@@ -4,6 +4,7 @@
 #include "random_problem.hpp"
 #include "same_state.hpp"
 
+#include <atomic>
 #include <cattaneo/halfplane/half_plane.hpp>
 #include <cattaneo/readout/zones.hpp>
 #include <cattaneo/wear/worn_out.hpp>
@@ -482,4 +483,92 @@ TEST(Wear, BadInputIsNamed)
    law.threshold = VectorXd::Ones(3);
    expect_input_error([&] { run(1); }, "threshold");
    expect_input_error([&] { law.set(problem, "nowhere", 1); }, "nowhere");
+}
+
+// Contact |x| < 1 on a line |x| < 0.8, and on one that ends within what wears, |x| < 1.17.
+TEST(Wear, ALineThatIsTooShortIsNamed)
+{
+   for (const double span : {0.8, 1.05, 1.3})
+   {
+      const Pad pad = hertz_pad(grid_about(std::min(0.7, std::sqrt(0.5)), span, 8, 8), 0.5);
+      const WornOut end =
+         worn_out(pad.problem, pad.history, ContactState::virgin(pad.problem), one_increment());
+      ASSERT_EQ(end.status, FrictionStatus::converged) << end.message;
+      ASSERT_EQ(end.cut_off.size(), span < 1.17 ? 2u : 0u) << span;
+      WearState state = WearState::virgin(pad.problem);
+      WearSettings settings;
+      settings.march = one_increment();
+      const WearReport report = wear(pad.problem, WearLaw::uniform(pad.problem, 1e-2),
+                                     pad.history, 3, state, settings);
+      EXPECT_EQ(report.cut_off.size(), span < 1 ? 2u : 0u) << span;
+      if (span > 1) { continue; }
+      EXPECT_NEAR(std::abs(end.cut_off[0].x), span, 1e-12);
+   }
+}
+
+// Cycles that are looked at repeat themselves to a twentieth of the tolerance, and not at once:
+// what is left of it, and what passes, is an error also where jumps of any length come to the
+// same.
+TEST(Wear, ErrorsOfJumpsAreBounded)
+{
+   std::mt19937 random(5);
+   int jumped = 0;
+   for (int k = 0; k < 40; ++k)
+   {
+      ReducedProblem problem = cattaneo_test::random_problem(4 + k % 6, 0.1, 0.4, random);
+      problem.weights = VectorXd::Ones(problem.nodes());
+      LoadHistory history = LoadHistory::through(problem, {{},
+                                                           {{"press", 1}},
+                                                           {{"press", 1}, {"shear", 0.15}},
+                                                           {{"press", 1.2}, {"shear", -0.1}},
+                                                           {{"press", 1}, {"shear", 0.15}}});
+      history.cycle_start = 2;
+      const WearLaw law = WearLaw::uniform(problem, 1e-3);
+      WearSettings settings;
+      settings.march.increments = 1 + k % 4;
+      WearState all = WearState::virgin(problem), some = all;
+      if (wear(problem, law, history, 300, all, settings).status != FrictionStatus::converged)
+      {
+         continue;
+      }
+      settings.tolerance = 0.1;
+      const WearReport report = wear(problem, law, history, 300, some, settings);
+      jumped += report.jumps > 0;
+      EXPECT_LE((all.depth - some.depth).cwiseAbs().maxCoeff(),
+                report.error + 1e-9 * all.depth.maxCoeff())
+         << k;
+   }
+   EXPECT_GT(jumped, 10);
+}
+
+// Asked to stop in the middle of a cycle, nothing more is marched, and the state stands where
+// the cycle began.
+TEST(Wear, StopsWithinACycle)
+{
+   const Pad pad = small_pad();
+   for (const int when : {3, 20, 130})
+   {
+      std::atomic<bool> stop{false};
+      WearSettings settings;
+      settings.march.increments = 10;
+      settings.march.stepping = Stepping::fixed;
+      settings.march.single_increment_if_exact = false;
+      settings.march.monitor.stop = &stop;
+      WearState state = WearState::virgin(pad.problem);
+      int marched = 0;
+      const auto watch =
+         [&](const ContactState &, const IncrementRecord &, const VectorXd &) // 20 an opening
+      { stop = ++marched >= when; };
+      const WearReport report = wear(pad.problem, WearLaw::uniform(pad.problem, 1e-4),
+                                     pad.history, 1000, state, settings, {}, watch);
+      EXPECT_EQ(report.status, FrictionStatus::stopped);
+      EXPECT_EQ(marched, when);
+      EXPECT_EQ(state.cycles, std::max(0, (when - 20) / 20));
+      stop = false;
+      settings.march.monitor = {};
+      EXPECT_EQ(wear(pad.problem, WearLaw::uniform(pad.problem, 1e-4), pad.history,
+                     state.cycles + 1, state, settings)
+                   .status,
+                FrictionStatus::converged);
+   }
 }

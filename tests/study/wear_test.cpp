@@ -22,4 +22,49 @@ TEST(WearStudy, OptionsOfThePadAreNotForAReducedProblem)
    }
 }
 
+// Closed form by quadrature: contact of a flat with rounded edges grows as a row of flat
+// punches, what wears is lifted as by the punch of the load that stick does not carry by
+// itself.
+TEST(WearStudy, FlatPadsOfAnyWidthWearWithinTheirLine)
+{
+   struct
+   {
+      double flat, stick, extent, volume, depth;
+   } const closed_forms[] = {{0.5, 1.077145, 1.509827, 0.053944, 0.089260},
+                             {0.9, 1.416307, 1.821895, 0.042860, 0.075610}};
+   for (const auto &[flat, stick, extent, volume, depth] : closed_forms)
+   {
+      const auto run =
+         run_miniapp("wear", "--profile flat --cycles 1 --flat " + std::to_string(flat));
+      ASSERT_EQ(run.code, 0) << run.output;
+      EXPECT_NEAR(run.results["final_stick"], stick, 0.003 * stick);
+      EXPECT_NEAR(run.results["final_extent"], extent, 0.003 * extent);
+      EXPECT_NEAR(run.results["final_volume"], volume, 0.02 * volume);
+      EXPECT_NEAR(run.results["final_depth"], depth, 0.01 * depth);
+      EXPECT_EQ(run.results["warnings"].size(), 0u) << run.output;
+   }
+}
+
+TEST(WearStudy, ThereIsNoWornOutStateOfAThresholdOrWithoutWear)
+{
+   for (const char *law : {"--threshold 0.4", "--wear 0"})
+   {
+      const auto run = run_miniapp("wear", std::string("--cycles 10 --nodes 49 ") + law);
+      EXPECT_EQ(run.code, 0) << run.output;
+      EXPECT_FALSE(run.results.contains("final_depth")) << run.output;
+      EXPECT_FALSE(run.results.contains("worn_out")) << run.output;
+   }
+}
+
+// Names that a study wrote are said in quotes; units t = p0 = E' = 1 make displacements large.
+TEST(WearStudy, LoadsWithNamesOfStudiesAndDepthsThatAreNotSmall)
+{
+   const auto run =
+      run_miniapp("wear", "--reduced problems/lap_joint.json --cycles 1e9 --wear 1e-9 "
+                          "--history \"'bolt 1, w = 1'=0; 'bolt 1, w = 1'=1; T=0.01; T=0; "
+                          "T=0.01\" --cycle-start 2");
+   EXPECT_NE(run.code, 1) << run.output;
+   EXPECT_EQ(run.results["cycles_worn"], 1e9) << run.output;
+}
+
 } // namespace

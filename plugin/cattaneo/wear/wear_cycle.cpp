@@ -27,7 +27,7 @@ WearCycles::WearCycles(const ReducedProblem &problem, const WearLaw &law,
      history_(history), start_(history.times[history.cycle_start]), watch_(watch)
 {
    history_.cycles = 1;
-   settings_.monitor = {};
+   settings_.monitor.progress = {}; // of all of them it is another's; each may be stopped
    settings_.keep_increments = false;
    counters += solver_.counters();
 }
@@ -37,7 +37,7 @@ WearCycle WearCycles::none() const
    const VectorXd zero = VectorXd::Zero(problem_.nodes());
    const double infinity = std::numeric_limits<double>::infinity();
    return {zero, zero, zero, VectorXd::Constant(zero.size(), infinity), 0, SlipRange(problem_),
-           {}};
+           {},   0};
 }
 
 WearCycle WearCycles::march(const LoadHistory &part, ContactState &contact,
@@ -110,13 +110,21 @@ WearCycle WearCycles::repeated(ContactState &contact, const VectorXd &depth, dou
                                double least)
 {
    WearCycle before = march(contact, depth, false);
+   std::vector<VectorXd> passed;
    for (int k = 0; k < 30 && before.found(); ++k)
    {
+      passed.push_back(before.depth);
       WearCycle cycle = march(contact, depth, false);
       if (!cycle.found()) { return cycle; }
       const double most = std::max(cycle.depth.maxCoeff(), least),
                    change = (cycle.depth - before.depth).cwiseAbs().maxCoeff();
-      if (change <= share * most || cycle.idle()) { return cycle; }
+      if (change <= share * most || cycle.idle())
+      {
+         VectorXd off = VectorXd::Zero(depth.size());
+         for (const VectorXd &lost : passed) { off += (lost - cycle.depth).cwiseAbs(); }
+         cycle.passing = off.maxCoeff();
+         return cycle;
+      }
       before = std::move(cycle);
    }
    if (before.found()) { before.report.status = FrictionStatus::stalled; }

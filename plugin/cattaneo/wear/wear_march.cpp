@@ -135,6 +135,7 @@ private:
    double step_ = least_jump;     // cycles of the next jump
    double rest_ = 0;              // no jump is tried before this cycle,
    double patience_ = least_jump; // which is so many on
+   bool jumped_ = false;          // the last cycles were jumped over
    VectorXd mark_;                // depth of a cycle, a while ago
    double marked_at_ = 0;
 };
@@ -142,6 +143,13 @@ private:
 bool WearMarch::fails(const WearCycle &cycle)
 {
    report_.last = cycle.report;
+   for (const CutOffContact &end : cycle.report.cut_off)
+   {
+      const auto same = [&](const CutOffContact &other)
+      { return other.node == end.node && other.at_first == end.at_first; };
+      std::vector<CutOffContact> &all = report_.cut_off;
+      if (std::none_of(all.begin(), all.end(), same)) { all.push_back(end); }
+   }
    if (cycle.report.status != FrictionStatus::converged)
    {
       report_.status = cycle.report.status;
@@ -224,6 +232,7 @@ bool WearMarch::march_one()
    if (fails(cycle)) { return false; }
    notice(cycle);
    state_.contact = std::move(contact);
+   jumped_ = false;
    return take(cycle, 1);
 }
 
@@ -313,17 +322,23 @@ bool WearMarch::jump()
       best.depth[i] = three.depth[i];
       best.loss[i] = three.loss[i];
    }
-   const double error =
+   const double bend =
       (best.depth + too_much - extrapolated({{2, &two.depth}, {3, &three.depth}}))
          .cwiseAbs()
          .maxCoeff() +
       0.5 * too_much.cwiseAbs().maxCoeff();
+   // What passes is no wear of the jump: after marched cycles it is lost, after a jump it comes
+   // of the gap that has changed at once.
+   const double passing = jumped_ ? 0.0 : first.passing;
+   // The cycles that were looked at repeat themselves to this, however short the jump is.
+   const double error =
+      bend + passing + repeats_to() * std::max(best.depth.maxCoeff(), slow() * cycles);
    // Half by what the jump adds, half by its share of all cycles.
    const double allowed = 0.5 * settings_.tolerance * (best.depth.maxCoeff() + slow() * cycles);
-   const double factor = error > 0 ? std::cbrt(0.5 * allowed / error) : 4.0;
+   const double factor = bend > 0 ? std::cbrt(0.5 * allowed / bend) : 4.0;
    if (error > allowed)
    {
-      if (cycles <= least_jump) { return give_up(); }
+      if (cycles <= least_jump || passing > 0.5 * allowed) { return give_up(); }
       step_ = std::max(least_jump, cycles * std::clamp(factor, 0.2, 0.7));
       return true;
    }
@@ -333,6 +348,7 @@ bool WearMarch::jump()
    notice(first);
    take(best, cycles, first.loss.sum(), error);
    ++report_.jumps;
+   jumped_ = true;
    patience_ = least_jump;
    return true;
 }
@@ -342,8 +358,14 @@ WearReport WearMarch::run()
    bool goes_on = true;
    if (cycles_.begins(state_.contact))
    {
-      const WearCycle opening = cycles_.opening(state_.contact, state_.depth);
-      goes_on = !fails(opening) && take(opening, 0);
+      ContactState contact = state_.contact; // a state stands before the opening part or after
+      const WearCycle opening = cycles_.opening(contact, state_.depth);
+      goes_on = !fails(opening);
+      if (goes_on)
+      {
+         state_.contact = std::move(contact);
+         goes_on = take(opening, 0);
+      }
    }
    rest_ = state_.cycles + 2;
    while (goes_on && state_.cycles < end_ && !report_.final_cycle)

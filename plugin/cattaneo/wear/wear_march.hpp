@@ -88,8 +88,11 @@ struct WearReport
    long implicit_cycles = 0;
    double steady_cycle = 0; ///< from which each cycle wears as the next does; 0: none
    double final_cycle = 0;  ///< at which wear had come to its end; 0: it has not
-   Counters counters;       ///< of all marches
-   double seconds = 0;      ///< wall time
+   /// Ends of the line that the contact reached in any cycle although the bodies go on there:
+   /// what is worn is too little then.
+   std::vector<CutOffContact> cut_off;
+   Counters counters;  ///< of all marches
+   double seconds = 0; ///< wall time
 };
 
 /// Called after every cycle that was marched and every jump.

@@ -73,7 +73,7 @@ WornOut worn_out(const ReducedProblem &problem, const LoadHistory &history,
    by_increments.stepping = Stepping::fixed;
    WearCycles cycles(problem, law, history, settings),
       check(problem, law, history, by_increments);
-   WornOut result{{}, {}, {}, {}, {}, contact, SlipRange(problem), {}};
+   WornOut result{{}, {}, {}, {}, {}, contact, SlipRange(problem), {}, 0, 0, {}};
    const auto fails = [&](const WearCycle &cycle)
    {
       if (cycle.found()) { return false; }
@@ -86,6 +86,7 @@ WornOut worn_out(const ReducedProblem &problem, const LoadHistory &history,
    const WearCycle first = cycles.repeated(result.contact, none, 1e-8);
    if (fails(first)) { return result; }
    result.unworn = result.contact;
+   result.cut_off = cut_off_contact(problem, result.unworn);
    result.range = first.range;
    const auto moved = [&](const WearCycle &cycle)
    {
@@ -129,6 +130,13 @@ WornOut worn_out(const ReducedProblem &problem, const LoadHistory &history,
       if (result.loss <= 1e-8)
       {
          result.status = FrictionStatus::converged;
+         if (result.cut_off.empty()) // what overlaps would press, were it not worn off
+         {
+            ContactState unworn = result.contact;
+            unworn.p = result.depth;
+            std::fill(unworn.status.begin(), unworn.status.end(), NodeState::stick);
+            result.cut_off = cut_off_contact(problem, unworn);
+         }
          return result;
       }
       const std::vector<bool> slips_worn = moved(worn);

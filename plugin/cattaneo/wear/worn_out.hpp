@@ -22,6 +22,9 @@ struct WornOut
    ContactState unworn;     ///< at its end
    double loss = 0;         ///< energy of a cycle, over that of the unworn contact
    int searches = 0;        ///< sets of sticking nodes that were tried
+   /// Ends of the line that contact or wear reaches although the bodies go on there: depth and
+   /// volume are too small then, and may be zero.
+   std::vector<CutOffContact> cut_off;
 };
 
 /** The fully worn state of partial slip, without the cycles that lead there: nodes that slip

@@ -17,6 +17,8 @@ struct WearCycle
    double negligible = 0;   ///< depth that round-off may wear
    SlipRange range;
    MarchReport report;
+   /// Of repeated(): how much more or less a node lost in the cycles on the way there, at most.
+   double passing = 0;
 
    bool found() const
    {
