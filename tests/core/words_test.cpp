@@ -57,4 +57,28 @@ TEST(HistoryStatements, MistakesAreQuoted)
    refused("press=1; press=2", "--history: press is 1 at the first point");
 }
 
+// Studies name loads "bolt 1, w = 1": in quotes every name can be said, and a quote within a
+// name is a letter of it.
+TEST(HistoryStatements, NamesInQuotes)
+{
+   ReducedProblem problem = cattaneo_test::one_block(0.5);
+   problem.patterns[0].name = "bolt 1, w = 1; outer";
+   problem.patterns[1].name = "a='2";
+   const Eigen::Matrix<double, 2, 3> wanted{{0, 1, 2}, {0, 0.5, -0.5}};
+   for (const char *text :
+        {"'bolt 1, w = 1; outer'=0; \"a='2\"=0.5, 'bolt 1, w = 1; outer'=1;"
+         "'bolt 1, w = 1; outer'=2 \"a='2\"=-0.5",
+         "; ;'bolt 1, w = 1; outer'=0;\"bolt 1, w = 1; outer\"=1\t\"a='2\"=.5"
+         ";\"a='2\"=-.5\n\"bolt 1, w = 1; outer\"=2"})
+   {
+      EXPECT_EQ(load_history("history", text, problem).multipliers, wanted) << text;
+   }
+   problem.patterns[1].name = "d'";
+   EXPECT_EQ(load_history("history", "d'=0; d'=3", problem).multipliers(1, 1), 3);
+   expect_input_error([&] { load_history("--history", "d'=0; 'bolt 1=1", problem); },
+                      "the quote ' that begins a name has no end");
+   expect_input_error([&] { load_history("--history", "d'=0; 'bolt 1' 1", problem); },
+                      "''bolt 1'', must be PATTERN=number");
+}
+
 } // namespace
