@@ -113,6 +113,26 @@ std::vector<DesignCase> make_cases(const Chosen &chosen, const ReducedProblem &p
    return cases;
 }
 
+/// Bodies that nothing keeps from moving apart, all nodes alike: only differences of gaps
+/// count.
+bool moves_apart(const ReducedProblem &problem)
+{
+   const VectorXd forces = problem.C() * VectorXd::Ones(problem.nodes());
+   return forces.cwiseAbs().maxCoeff() <= 1e-6 * problem.C().cwiseAbs().maxCoeff();
+}
+
+/// The node amid those with the least gap.
+Index touching_node(const VectorXd &x, const VectorXd &gap)
+{
+   Index node = 0;
+   for (Index i = 1; i < gap.size(); ++i)
+   {
+      const bool as_near = gap[i] == gap[node] && std::abs(x[i]) < std::abs(x[node]);
+      if (gap[i] < gap[node] || as_near) { node = i; }
+   }
+   return node;
+}
+
 /// What a case comes to, by a march alone.
 struct Marched
 {
@@ -203,10 +223,15 @@ void design_contact(miniapp::Study &study)
    study.option(&chosen.shear, "shear", "Amplitude of Q/fP.", miniapp::at_least_below(0, 1));
    study.option(&chosen.friction, "friction", "Default: 0.3, of --reduced the file's.",
                 miniapp::positive);
-   study.option(&chosen.most, "most", "Largest gap, or x_k of the crown.", miniapp::positive);
+   study.option(
+      &chosen.most, "most",
+      "Most that a gap changes by against the node that touches (of bodies that are held: that "
+      "is added to it), or largest x_k of the crown.",
+      miniapp::positive);
    study.option(&chosen.curvature, "curvature", "Largest of the gap; default: no limit.",
                 miniapp::positive);
-   study.option(&chosen.nodes, "nodes", "Contact nodes.", at_least(9));
+   study.option(&chosen.nodes, "nodes", "Contact nodes, one more than a multiple of 4.",
+                at_least(9));
    study.option(&settings.march.increments, "increments",
                 "Increments between two points of the history.", at_least(1));
    study.option(&stepping, "stepping", miniapp::stepping_help, miniapp::stepping_choices);
@@ -244,19 +269,25 @@ void design_contact(miniapp::Study &study)
    const VectorXd &s = flat.arc_length, x = s.array() - 0.5 * (s.minCoeff() + s.maxCoeff());
    const bool free = chosen.profile == "free";
    require(!free || lines == 0, "option --lines is of the crown, whose variables are few");
-   Index centre = 0;
-   x.cwiseAbs().minCoeff(&centre);
-   MatrixXd G(n, free ? n - 1 : chosen.terms);
-   if (free)
+   // Where bodies can move apart a node that touches stays: only differences of gaps count.
+   const bool apart = moves_apart(flat);
+   MatrixXd G = MatrixXd::Identity(n, free ? n : chosen.terms);
+   if (free && apart)
    {
-      G << MatrixXd::Identity(n, centre), MatrixXd::Identity(n, n).rightCols(n - centre - 1);
+      const Index node = touching_node(x, flat.gap);
+      G.middleCols(node, n - 1 - node) = G.rightCols(n - 1 - node).eval();
+      G.conservativeResize(n, n - 1);
    }
    for (Index j = 0; !free && j < G.cols(); ++j)
    {
       G.col(j) = (x / x.cwiseAbs().maxCoeff()).array().square().pow(static_cast<double>(j + 1));
    }
    problem.variables = gap_variables(G);
-   problem.low = VectorXd::Zero(G.cols());
+   const VectorXd none = VectorXd::Zero(G.cols());
+   problem.low = none;
+   // What begins flat is crowned. What has a gap may also be too round: other nodes come before
+   // the one that stays, so that no shape is left out; of bodies that are held, by their gaps.
+   if (apart && !chosen.file.empty()) { problem.low.setConstant(-chosen.most); }
    problem.high = VectorXd::Constant(G.cols(), chosen.most);
    if (!std::isnan(chosen.curvature))
    {
@@ -274,22 +305,28 @@ void design_contact(miniapp::Study &study)
    {
       miniapp::Watch watch("design");
       settings.march.monitor = watch.monitor();
-      report = design(problem, problem.low, settings);
+      report = design(problem, none, settings);
       settings.march.monitor = {};
    }
    study.results["design"] = name(report.status);
    study.results["message"] = report.message;
    study.results["ties"] = report.ties.size();
-   study.save(problem.with(report.x));
-   if (report.traces.empty())
+   if (report.status != DesignStatus::optimal && report.status != DesignStatus::improved)
    {
       study.code = 2;
+      study.results["status"] = name(report.status);
+   }
+   if (report.traces.empty())
+   {
       study.say("   no design: " + report.message);
       throw miniapp::Outcome();
    }
+   study.save(problem.with(report.x));
    if (report.status != DesignStatus::optimal)
    {
-      miniapp::warn("this is the best design of those tried, " + report.message);
+      miniapp::warn("this is the best design of those that were tried, it need not be an "
+                    "optimum: " +
+                    report.message);
    }
    study.value("objective_at_start", std::abs(report.objective_at_start),
                chosen.goal + " of the start");
@@ -317,16 +354,18 @@ void design_contact(miniapp::Study &study)
                                                  {"lost_after", "after", "%.4g"}});
    for (const DesignCase &load_case : problem.cases)
    {
-      const Marched before = march_case(problem, problem.low, load_case, settings.march),
+      const Marched before = march_case(problem, none, load_case, settings.march),
                     after = march_case(problem, report.x, load_case, settings.march);
       study.row(table, {load_case.name, before.peak, after.peak, before.lost, after.lost});
       pressures.add(load_case.name + ", before", x, tractions(flat, before.at_peak.p),
                     "dashed");
       pressures.add(load_case.name + ", after", x, tractions(flat, after.at_peak.p));
    }
-   if (lines > 0) { draw_lines(study, problem, report, chosen, settings.march, lines); }
+   const bool sweeps = lines > 0 && report.status != DesignStatus::stopped;
+   if (sweeps) { draw_lines(study, problem, report, chosen, settings.march, lines); }
    if (chosen.file.empty() && chosen.scene == "pad" && free && !chosen.loses() &&
-       chosen.loads.size() == 1 && std::isnan(chosen.curvature))
+       chosen.loads.size() == 1 && std::isnan(chosen.curvature) &&
+       uniform_profile(1, chosen.loads[0]) < chosen.most)
    {
       const double P = chosen.loads[0];
       const VectorXd exact = x.unaryExpr([P](double at) { return uniform_profile(at, P); });

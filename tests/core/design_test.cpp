@@ -1,6 +1,7 @@
 #include "expect_input_error.hpp"
 #include "small_problems.hpp"
 
+#include <atomic>
 #include <cattaneo/design/design.hpp>
 #include <cattaneo/halfplane/half_plane.hpp>
 #include <cmath>
@@ -289,4 +290,33 @@ TEST(Design, RefusesWhatDoesNotFitAndSaysWhatHasNoEquilibrium)
    const DesignReport stopped = design(problem, start, settings);
    EXPECT_EQ(stopped.status, DesignStatus::stopped);
    EXPECT_LE(stopped.objective, stopped.objective_at_start);
+}
+
+// What is not known of a design is not reported as zero.
+TEST(Design, ThatDidNotEndKnowsNoConditions)
+{
+   const ReducedProblem flat = flat_pad(16, 0.3);
+   DesignProblem problem = free_profile(flat, 2);
+   problem.cases = {{"pressed", LoadHistory::through(flat, {{}, {{"P", 1}}})}};
+   DesignSettings settings;
+   settings.max_iterations = 1;
+   const DesignReport report = design(problem, VectorXd::Zero(problem.low.size()), settings);
+   EXPECT_EQ(report.status, DesignStatus::improved);
+   EXPECT_NE(report.message.find("not done after"), std::string::npos) << report.message;
+   EXPECT_TRUE(std::isnan(report.stationarity) && std::isnan(report.complementarity));
+   EXPECT_EQ(report.violation, 0); // there is no limit
+}
+
+// A start outside of a limit is no design to be returned, whether or not the limits can hold.
+TEST(Design, StartsWhereLimitsHold)
+{
+   DesignProblem problem = crowned_pad();
+   problem.limits = MatrixXd::Ones(1, 2);
+   for (const double least : {1.5, 1000.0})
+   {
+      problem.least = VectorXd::Constant(1, least);
+      problem.most = VectorXd::Constant(1, 2000);
+      expect_input_error([&] { design(problem, Eigen::Vector2d(0.5, 0.1)); },
+                         "limit 0 is 0.6 at the start, must be from");
+   }
 }

@@ -555,3 +555,26 @@ TEST(Sensitivity, RefusesWhatDoesNotFit)
       },
       "stiffness change");
 }
+
+// A response of another march has states of the same sizes, and derivatives that mean nothing.
+TEST(Sensitivity, ResponsesAreOfTheirOwnMarch)
+{
+   const MarchCase one = random_case(1, Stepping::fixed);
+   MarchCase two = one;
+   two.problem.gap *= 2;
+   const MarchTrace mine = trace_march(one.problem, one.history, one.settings),
+                    theirs = trace_march(two.problem, two.history, two.settings), copy = mine;
+   ASSERT_EQ(mine.states.size(), theirs.states.size());
+   const Response own = Responses(one.problem, copy).peak_pressure(mine.last()),
+                  other = Responses(two.problem, theirs).peak_pressure(theirs.last());
+   Sensitivity sensitivity(one.problem, mine);
+   EXPECT_TRUE(sensitivity.gradient(own).found);
+   expect_input_error([&] { sensitivity.gradient(other); }, "of another march");
+   expect_input_error([&] { sensitivity.gradient(2 * (other * other)); }, "of another march");
+   expect_input_error([&] { own + other; }, "of another march");
+   Parameters change;
+   change.gap = VectorXd::Ones(one.problem.nodes());
+   const TraceChange along = sensitivity.along(change);
+   EXPECT_TRUE(std::isfinite(along.of(own)));
+   expect_input_error([&] { along.of(other); }, "of another march");
+}

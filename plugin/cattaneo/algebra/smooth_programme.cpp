@@ -136,6 +136,37 @@ private:
    const VectorXd &start;
 };
 
+/// What it means that a programme was not solved.
+std::string in_words(Ipopt::ApplicationReturnStatus status, int max_iterations)
+{
+   using namespace Ipopt;
+   switch (status)
+   {
+   case Solved_To_Acceptable_Level:
+      return "the tolerance was nearly reached, and no more";
+   case Infeasible_Problem_Detected:
+      return "no values of the variables were found that hold all limits: they may contradict "
+             "each other or the bounds";
+   case Search_Direction_Becomes_Too_Small:
+   case Restoration_Failed:
+   case Error_In_Step_Computation:
+      return "no step from there is better, though the conditions of optimality do not hold: "
+             "derivatives may jump there";
+   case Diverging_Iterates:
+      return "the variables grow without end";
+   case Maximum_Iterations_Exceeded:
+      return "not done after " + std::to_string(max_iterations) + " iterations, which is all";
+   case Not_Enough_Degrees_Of_Freedom:
+      return "more limits hold as equations than there are variables";
+   case Invalid_Number_Detected:
+      return "a value or a derivative is not known or not finite";
+   case Insufficient_Memory:
+      return "there is not enough memory";
+   default:
+      return "Ipopt ended with its return status " + std::to_string(status);
+   }
+}
+
 } // namespace
 
 SmoothSolution solve(const SmoothProgramme &programme, const VectorXd &start, double tolerance,
@@ -172,7 +203,7 @@ SmoothSolution solve(const SmoothProgramme &programme, const VectorXd &start, do
                                                       : SmoothOutcome::failed;
    if (solution.outcome == SmoothOutcome::failed)
    {
-      solution.message = "Ipopt ended with return status " + std::to_string(status);
+      solution.message = in_words(status, max_iterations);
    }
    return solution;
 }

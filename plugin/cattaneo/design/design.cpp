@@ -51,6 +51,10 @@ void add(VectorXd &sum, double factor, const VectorXd &x)
    if (x.size() > 0) { sum += factor * x; }
 }
 
+/// Iterations without a better design after which none is expected: where responses bend at
+/// the optimum Ipopt looks for a smooth one until it is stopped.
+constexpr int patience = 25;
+
 /// All that a choice of variables comes to.
 struct Trial
 {
@@ -73,7 +77,7 @@ public:
         limits_(given.limits.rows() > 0 ? given.limits : MatrixXd(0, variables_))
    {
       march_.stop_at_steady_state = false;
-      march_.monitor = {};
+      march_.monitor.progress = {};
    }
 
    DesignReport run(const VectorXd &start);
@@ -87,6 +91,7 @@ private:
    }
    bool largest() const { return given_.goal == DesignGoal::least_largest; }
    bool allowed(const VectorXd &x) const;
+   bool stopped() const { return settings_.march.monitor.stopped(); }
    void find_scales(const Trial &trial);
    SmoothProgramme programme(const Trial *about = nullptr, double radius = 0);
    SmoothSolution descend();
@@ -102,14 +107,16 @@ private:
    const Index variables_;
    const MatrixXd limits_; // a column a variable, also where there is none
    std::optional<Trial> trial_, best_;
-   double unit_ = 1;           // of the objective
-   VectorXd scale_, row_unit_; // of each variable, and of each limit
+   int iteration_ = 0, bettered_ = 0; // now, and when a trial was better than all before
+   double unit_ = 1;                  // of the objective
+   VectorXd scale_, row_unit_;        // of each variable, and of each limit
    DesignReport report_;
 };
 
 Trial &Design::at(const VectorXd &x)
 {
    if (trial_ && trial_->x == x) { return *trial_; }
+   if (best_ && best_->x == x) { return trial_.emplace(*best_); }
    trial_.emplace();
    Trial &trial = *trial_;
    trial.x = x;
@@ -150,6 +157,9 @@ Trial &Design::at(const VectorXd &x)
    trial.known = trial.values.allFinite();
    if (trial.known && allowed(x) && (!best_ || objective(trial) < objective(*best_)))
    {
+      bettered_ = !best_ || objective(trial) < objective(*best_) - settings_.tolerance * unit_
+                     ? iteration_
+                     : bettered_;
       best_ = trial;
    }
    return trial;
@@ -174,7 +184,7 @@ void Design::differentiate(Trial &trial)
       // Whichever are fewer, marched forward or backward.
       for (Index j = 0; count >= variables_ && j < variables_ && trial.known; ++j)
       {
-         const TraceChange change = sensitivity.along(given_.variables[j]);
+         const TraceChange change = sensitivity.along(given_.variables[j], march_.monitor);
          if (!change.found) { not_found(change.message); }
          for (Index i = 0; i < count && trial.known; ++i)
          {
@@ -183,7 +193,7 @@ void Design::differentiate(Trial &trial)
       }
       for (Index i = 0; count < variables_ && i < count && trial.known; ++i)
       {
-         const Gradient gradient = sensitivity.gradient(responses[i]);
+         const Gradient gradient = sensitivity.gradient(responses[i], march_.monitor);
          if (!gradient.found) { not_found(gradient.message); }
          for (Index j = 0; j < variables_; ++j)
          {
@@ -287,8 +297,12 @@ SmoothProgramme Design::programme(const Trial *about, double radius)
    };
    p.goes_on = [this, about](int iteration)
    {
-      if (!about) { progress_.note(std::nan(""), iteration); }
-      return !settings_.march.monitor.stopped();
+      if (!about)
+      {
+         progress_.note(std::nan(""), iteration);
+         iteration_ = iteration;
+      }
+      return !stopped() && (about || iteration_ - bettered_ < patience);
    };
    return p;
 }
@@ -345,6 +359,7 @@ SmoothSolution Design::descend()
 /// The conditions of optimality with the multipliers that were found, at the x of the report.
 void Design::check_optimality(const SmoothSolution &solution)
 {
+   report_.stationarity = report_.complementarity = 0;
    Trial &trial = at(report_.x);
    differentiate(trial);
    const Index limits = limits_.rows(), count = solution.lambda.size() - limits;
@@ -376,11 +391,8 @@ void Design::check_optimality(const SmoothSolution &solution)
    const VectorXd at_limits = limits_ * report_.x;
    for (Index r = 0; r < limits; ++r)
    {
-      const double below = at_limits[r] - given_.least[r],
-                   above = given_.most[r] - at_limits[r];
-      note(report_.limit_multipliers[r], below, above);
-      report_.violation =
-         std::max({report_.violation, -below / row_unit_[r], -above / row_unit_[r]});
+      note(report_.limit_multipliers[r], at_limits[r] - given_.least[r],
+           given_.most[r] - at_limits[r]);
    }
    std::size_t c = 0, index = 0;
    for (Index i = 0; i < count; ++i, ++index)
@@ -402,7 +414,7 @@ void Design::check_optimality(const SmoothSolution &solution)
 
 void Design::take(const SmoothSolution &solution)
 {
-   const bool solved = solution.outcome == SmoothOutcome::solved;
+   const bool solved = solution.outcome == SmoothOutcome::solved && !stopped();
    const VectorXd last = solved ? x_of(solution.y) : best_->x;
    const Trial &trial = at(last);
    // What violates a limit by less than the tolerance may be better than all that does not.
@@ -411,10 +423,22 @@ void Design::take(const SmoothSolution &solution)
    report_.x = kept ? last : best_->x;
    report_.objective = objective(at(report_.x));
    report_.iterations = solution.iterations;
+   report_.violation = 0;
+   const VectorXd at_limits = limits_ * report_.x;
+   for (Index r = 0; r < limits_.rows(); ++r)
+   {
+      const double off =
+         std::max(given_.least[r] - at_limits[r], at_limits[r] - given_.most[r]);
+      report_.violation = std::max(report_.violation, off / row_unit_[r]);
+   }
    if (solved && kept) { check_optimality(solution); }
    const double most = 10 * settings_.tolerance;
-   if (solution.outcome == SmoothOutcome::stopped) { report_.status = DesignStatus::stopped; }
-   else if (solved && kept && report_.stationarity <= most && report_.complementarity <= most &&
+   if (stopped())
+   {
+      report_.status = DesignStatus::stopped;
+      report_.message = "the design was asked to stop";
+   }
+   else if (report_.stationarity <= most && report_.complementarity <= most &&
             report_.violation <= most)
    {
       report_.status = DesignStatus::optimal;
@@ -422,9 +446,14 @@ void Design::take(const SmoothSolution &solution)
    else
    {
       report_.status = DesignStatus::improved;
-      report_.message = solution.message.empty()
-                           ? "the conditions of optimality do not hold to the tolerance"
-                           : solution.message;
+      report_.message =
+         solution.outcome == SmoothOutcome::stopped
+            ? "no iteration of the last " + std::to_string(patience) +
+                 " found a better one: nodes may change their states there, where derivatives "
+                 "jump"
+         : solution.message.empty()
+            ? "the conditions of optimality do not hold to the tolerance"
+            : solution.message;
    }
    const Trial &found = at(report_.x);
    report_.traces = found.traces;
@@ -442,7 +471,7 @@ DesignReport Design::run(const VectorXd &start)
    differentiate(first);
    if (!first.known)
    {
-      report_.status = DesignStatus::no_equilibrium;
+      report_.status = stopped() ? DesignStatus::stopped : DesignStatus::no_equilibrium;
       report_.message = first.message;
       report_.seconds = progress_.seconds();
       return report_;
@@ -601,6 +630,18 @@ DesignReport design(const DesignProblem &problem, const VectorXd &start,
       require(start[j] >= problem.low[j] && start[j] <= problem.high[j], "design: variable ", j,
               " starts at ", start[j], ", must lie between ", problem.low[j], " and ",
               problem.high[j]);
+   }
+   const VectorXd at_limits =
+      problem.limits.rows() > 0 ? VectorXd(problem.limits * start) : VectorXd();
+   for (Index r = 0; r < at_limits.size(); ++r)
+   {
+      const double leave =
+         settings.tolerance * problem.limits.row(r).cwiseAbs().dot(start.cwiseAbs());
+      require(at_limits[r] >= problem.least[r] - leave &&
+                 at_limits[r] <= problem.most[r] + leave,
+              "design: limit ", r, " is ", at_limits[r], " at the start, must be from ",
+              problem.least[r], " to ", problem.most[r],
+              " there: start where all limits hold, or widen it");
    }
    return Design(problem, settings).run(start);
 }

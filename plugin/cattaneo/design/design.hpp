@@ -71,7 +71,7 @@ enum class DesignStatus
    improved,       ///< the best that was found, but they do not: see the message
    no_equilibrium, ///< no march at the start comes to its end
    unavailable,    ///< built without Ipopt
-   stopped         ///< the monitor asked for it: the best so far
+   stopped         ///< the monitor asked for it: the best so far (no traces: none)
 };
 
 /// As it is printed, in words.
@@ -110,11 +110,12 @@ struct DesignReport
    /// The conditions of optimality (Karush, Kuhn and Tucker), as they hold there, formed anew
    /// from the derivatives. Largest entry of the gradient of the Lagrangian, over the largest
    /// derivative of a response by that variable at the start; product of a multiplier with the
-   /// distance from what it belongs to, over the objective at the start; violation of a limit,
-   /// over what a variable of that change of the objective does to it.
-   double stationarity = 0;
-   double complementarity = 0; ///< see above
-   double violation = 0;       ///< see above
+   /// distance from what it belongs to, over the objective at the start. NaN: not known, as the
+   /// search ended without multipliers.
+   double stationarity = std::nan("");
+   double complementarity = std::nan(""); ///< see above
+   /// Of a limit, over what a variable of that change of the objective does to it.
+   double violation = std::nan("");
    /// Least-largest goal: the responses with multipliers above 1e-6.
    std::vector<ActiveResponse> active;
    Eigen::VectorXd bound_multipliers; ///< of each variable; positive: of the upper bound
@@ -134,7 +135,7 @@ struct DesignReport
    where that happens at the optimum its conditions need not hold, and it is `improved`: the
    best design of all that were tried, never worse than the start.
 
-    `start`: a value of each variable; limits hold there. InputError as
+    `start`: a value of each variable. InputError if it is outside of a bound or a limit, and as
    DesignProblem::validate() and march(). */
 DesignReport design(const DesignProblem &problem, const Eigen::VectorXd &start,
                     const DesignSettings &settings = {});

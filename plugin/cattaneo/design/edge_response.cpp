@@ -26,7 +26,8 @@ struct Near
 {
    Near(const ReducedProblem &problem, const MarchTrace &trace, std::size_t k,
         const ContactEdge &edge, CrackedBody cracked)
-      : problem(problem), k(k), sign(cracked == CrackedBody::first ? 1 : -1),
+      : problem(problem), trace(trace.number), k(k),
+        sign(cracked == CrackedBody::first ? 1 : -1),
         tractions(edge_tractions(problem, state_of(trace, k), edge, cracked))
    {
       for (Index i = edge.first; i <= edge.last; ++i)
@@ -41,6 +42,7 @@ struct Near
       const Index m = problem.slips();
       Response result;
       result.value = value;
+      result.trace = trace;
       VectorXd &by = result.weights[k].forces = VectorXd::Zero(problem.K.rows());
       for (std::size_t j = 0; j < nodes.size(); ++j)
       {
@@ -75,6 +77,7 @@ struct Near
    }
 
    const ReducedProblem &problem;
+   const std::uint64_t trace;
    const std::size_t k;
    const double sign;
    const EdgeTractions tractions;

@@ -1,3 +1,4 @@
+#include <atomic>
 #include <cattaneo/design/march_trace.hpp>
 #include <cattaneo/friction/contact_law.hpp>
 #include <cattaneo/input_error.hpp>
@@ -8,6 +9,17 @@ namespace cattaneo
 
 using Eigen::Index;
 using Eigen::VectorXd;
+
+namespace
+{
+
+std::uint64_t next_number()
+{
+   static std::atomic<std::uint64_t> last{0};
+   return ++last;
+}
+
+} // namespace
 
 std::size_t MarchTrace::at(double time) const
 {
@@ -23,6 +35,7 @@ MarchTrace trace_march(const ReducedProblem &problem, const LoadHistory &history
                        ContactState &state, const MarchSettings &settings)
 {
    MarchTrace trace;
+   trace.number = next_number();
    trace.history = history;
    trace.states.push_back({state});
    int piece = 0;
@@ -55,6 +68,7 @@ MarchTrace trace_wear(const ReducedProblem &problem, const WearLaw &law,
    require(settings.tolerance == 0, "trace of wear: the tolerance is ", settings.tolerance,
            ", must be 0: cycles that are jumped over have no states");
    MarchTrace trace;
+   trace.number = next_number();
    trace.history = history;
    trace.history.cycles = static_cast<int>(std::clamp(cycles, 1.0, 1e9));
    trace.wear = law;

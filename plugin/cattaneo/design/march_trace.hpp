@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cattaneo/wear/wear_march.hpp>
+#include <cstdint>
 #include <vector>
 
 namespace cattaneo
@@ -26,6 +27,9 @@ struct MarchTrace
    LoadHistory history;             ///< that was marched
    std::vector<TracedState> states; ///< the first is the one at its start, which is given
    MarchReport report;              ///< of the march
+   /// Tells traces apart, whose responses are no others': each that was marched has another.
+   /// Copies have the same. 0: not known.
+   std::uint64_t number = 0;
    /// By which the depth of the states follows from those before, and worn_depth() of Responses
    /// is; no coefficients: nothing wears.
    WearLaw wear;

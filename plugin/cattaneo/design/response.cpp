@@ -29,6 +29,9 @@ Response &Response::operator*=(double factor)
 
 Response &Response::add(const Response &other, double factor)
 {
+   require(trace == 0 || other.trace == 0 || trace == other.trace,
+           "response: it is of another march than the one that it is combined with");
+   trace = std::max(trace, other.trace);
    value += factor * other.value;
    for (const auto &[k, weight] : other.weights)
    {
@@ -102,6 +105,7 @@ Response Responses::entry(std::size_t k, VectorXd StateWeights::*what, const Vec
                           const VectorXd &weights) const
 {
    Response response;
+   response.trace = trace_.number;
    response.value = weights.dot(of);
    response.weights[k].*what = weights;
    return response;

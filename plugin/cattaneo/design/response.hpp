@@ -24,8 +24,10 @@ struct Response
 {
    double value = 0;                            ///< the number itself
    std::map<std::size_t, StateWeights> weights; ///< by index of the state in the trace
+   std::uint64_t trace = 0;                     ///< MarchTrace::number of that; 0: not known
 
-   /// Value and derivatives of the sum.
+   /// Value and derivatives of the sum. InputError here and below if both are known to be of
+   /// different traces.
    Response &operator+=(const Response &other) { return add(other, 1); }
    /// Value and derivatives of the difference.
    Response &operator-=(const Response &other) { return add(other, -1); }

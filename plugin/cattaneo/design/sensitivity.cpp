@@ -56,6 +56,8 @@ double Parameters::dot(const Parameters &change) const
 double TraceChange::of(const Response &response) const
 {
    require(found, "trace change: it is not known, ", message);
+   require(response.trace == 0 || trace == 0 || response.trace == trace,
+           "trace change: the response is of another march than this trace's");
    double sum = 0;
    for (const auto &[k, weight] : response.weights)
    {
@@ -537,6 +539,7 @@ TraceChange Sensitivity::along(const Parameters &change, const Monitor &monitor)
       if (s.problem.knows_loads()) { result.conjugates.col(k) += s.problem.H * loads; }
       s.note_rubbing(k, change, result);
    }
+   result.trace = s.trace.number;
    result.found = true;
    return result;
 }
@@ -554,6 +557,8 @@ Gradient Sensitivity::gradient(const Response &response, const Monitor &monitor)
    by.stiffness = VectorXd::Zero(static_cast<Index>(s.stiffness.size()));
    MatrixXd by_u = MatrixXd::Zero(m + n, states), by_F = by_u,
             by_loads = MatrixXd::Zero(count, states);
+   require(response.trace == 0 || s.trace.number == 0 || response.trace == s.trace.number,
+           "sensitivity: the response is of another march than this trace's");
    for (const auto &[k, weight] : response.weights)
    {
       const auto size = [&](const VectorXd &x, Index expected)

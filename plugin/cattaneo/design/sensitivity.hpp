@@ -60,6 +60,7 @@ struct TraceChange
    Eigen::MatrixXd conjugates;    ///< of these
    Eigen::MatrixXd loss; ///< of each node over the increment that ends in the state, n × states
    Eigen::MatrixXd worn; ///< of the depth that it wears off; no columns: the trace has no law
+   std::uint64_t trace = 0; ///< MarchTrace::number
 
    /// Derivative of a response along the change. InputError if it is not known, or the response
    /// is none of the trace.
