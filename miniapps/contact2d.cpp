@@ -129,8 +129,8 @@ struct Options
                  "option matrix goes without meshes and without the options young and poisson, "
                  "which the matrix has in itself");
       }
-      require(order == 2 && !plane_stress, "option matrix goes without the options order and "
-                                           "plane-stress, which the matrix has in itself");
+      require(!plane_stress, "option matrix goes without the option plane-stress, which the "
+                             "matrix has in itself");
       require(edges.empty(), "option matrix goes without the option edges: materials are not "
                              "known");
    }
@@ -175,8 +175,8 @@ struct Options
       }
    }
 
-   /// What they come to.
-   miniapp::JointCase all() const
+   /// What they come to. A matrix may know the order of its elements, if none is said.
+   miniapp::JointCase all(bool order_said) const
    {
       check_edges();
       if (joint.given()) { return miniapp::joint_case(joint, order); }
@@ -199,6 +199,7 @@ struct Options
          added.source = {"option ", number};
          added.mesh = body.mesh;
          added.matrix = matrix;
+         if (!matrix.empty() && order_said) { added.order = order; }
          added.young = body.young;
          added.poisson = body.poisson;
          added.support = body.support;
@@ -227,7 +228,7 @@ void contact2d(miniapp::Study &study)
    Options options(study);
    miniapp::OwnHistory history(study);
    study.parse();
-   const miniapp::JointCase joint = options.all();
+   const miniapp::JointCase joint = options.all(study.options().says("order"));
    history.check_options();
    if (!options.convert.empty()) { miniapp::convert(study, joint, options.convert); }
    Snapshots snapshots{options.edges, {}};
@@ -251,18 +252,17 @@ void contact2d(miniapp::Study &study)
    study.say(text("   gap %g to %g; stiffness right to %.2g of itself", problem.gap.minCoeff(),
                   problem.gap.maxCoeff(), own.accuracy));
    miniapp::warn_of_accuracy(own.accuracy);
-   for (const InterfaceReport &face : own.scene.reduction.interfaces)
-   {
-      miniapp::warn_of_overlap(problem, face);
-   }
-
    std::deque<miniapp::SidesThatBear> beyond_corners;
-   for (const InterfaceReport &face : own.scene.reduction.interfaces)
+   const std::vector<bool> even = even_sides(joint);
+   for (std::size_t k = 0; k < own.scene.reduction.interfaces.size(); ++k)
    {
-      if (face.bodies[1] < 0 && !face.tied) { beyond_corners.emplace_back(face); }
+      const InterfaceReport &face = own.scene.reduction.interfaces[k];
+      miniapp::warn_of_overlap(problem, face);
+      miniapp::warn_of_left_out(face);
+      if (face.bodies[1] < 0 && !face.tied && even[k]) { beyond_corners.emplace_back(face); }
    }
    miniapp::JointReport joint_report(study, joint, own.scene.reduction);
-   SmallDisplacements small(own.scene.reduction, even_sides(joint));
+   SmallDisplacements small(own.scene.reduction, even);
    std::optional<ReductionFields> fields;
    if (!options.paraview.empty())
    {

@@ -212,6 +212,13 @@ void draw_nodes(Panel &panel, const Reduction &reduction)
          panel.item("contact of " + heading(reduction, k), node.position, {0, 0});
       }
    }
+   for (const InterfaceReport &face : reduction.interfaces)
+   {
+      for (const Vector2d &at : face.free_surface)
+      {
+         panel.item("contact facing nothing", at, {0, 0});
+      }
+   }
 }
 
 void draw_normals(Panel &panel, const Reduction &reduction, double arrow)

@@ -209,8 +209,8 @@ JointCase::Body body(const Key &key, const std::string &name)
    JointCase::Body made;
    made.name = name;
    made.source = source(key);
-   key.must_be_of({"mesh", "matrix", "half-plane", "young", "poisson", "expansion", "support",
-                   "load", "guides"});
+   key.must_be_of({"mesh", "matrix", "half-plane", "young", "poisson", "order", "expansion",
+                   "support", "load", "guides"});
    const int kinds = key.has("mesh") + key.has("matrix") + key.has("half-plane");
    require(kinds == 1, key.called(), " has ", kinds,
            " of the keys mesh, matrix and half-plane, must have one");
@@ -225,7 +225,7 @@ JointCase::Body body(const Key &key, const std::string &name)
    if (key.has("half-plane"))
    {
       goes_without("half-plane",
-                   {"young", "poisson", "expansion", "support", "load", "guides"});
+                   {"young", "poisson", "order", "expansion", "support", "load", "guides"});
       const Key plane = key["half-plane"];
       plane.must_be_of({"young", "poisson", "depth"});
       made.half_plane = true;
@@ -244,6 +244,12 @@ JointCase::Body body(const Key &key, const std::string &name)
       made.mesh = key["mesh"].text();
       made.young = key["young"].numbers(positive);
       made.poisson = key["poisson"].numbers(any);
+   }
+   if (key.has("order"))
+   {
+      made.order = static_cast<int>(key["order"].number(within(1, 8)));
+      require(made.order == key["order"].number(), key["order"].called(), " is ",
+              key["order"].number(), ", must be a whole number");
    }
    if (key.has("expansion")) { made.expansion = key["expansion"].number(); }
    if (key.has("support")) { made.support = key["support"].statements(); }
@@ -516,6 +522,7 @@ ordered_json to_json(const JointCase &joint)
       }
       if (!body.matrix.empty()) { made["matrix"] = body.matrix; }
       else { made = {{"mesh", body.mesh}, {"young", young}, {"poisson", poisson}}; }
+      if (body.order > 0) { made["order"] = body.order; }
       if (!std::isnan(body.expansion)) { made["expansion"] = body.expansion; }
       if (!body.support.empty()) { made["support"] = body.support; }
       if (!body.load.empty()) { made["load"] = split(body.load, ";"); }

@@ -40,6 +40,7 @@ struct JointCase
          Source source;
       };
       std::vector<Guided> guides;
+      int order = 0;       ///< of its elements, 0: that of the case, or what a matrix knows
       double depth = none; ///< of a half-plane
       bool half_plane = false;
    };

@@ -1,5 +1,6 @@
 #include "common/joint_report.hpp"
 
+#include <algorithm>
 #include <cattaneo/readout/zones.hpp>
 #include <cattaneo/whole_file.hpp>
 #include <cmath>
@@ -172,25 +173,29 @@ void JointReport::report(const ContactState &state, const MarchReport &march)
 void JointReport::report_interfaces(const ContactState &state, const MarchReport &march)
 {
    const bool plane = joint_.formulation == Formulation::plane;
-   Table &table = study_.table("interfaces", {{"interface", "interface"},
-                                              {"on", "forces on"},
-                                              {"normal", "N (pressing)", "%.6g"},
-                                              {"tangential", "T", "%.6g"},
-                                              {"force_x", plane ? "x" : "", "%.6g"},
-                                              {"force_y", plane ? "y" : "axial", "%.6g"},
-                                              {"moment", plane ? "moment" : "", "%.4g"},
-                                              {"moment_defect"},
-                                              {"torque", twists() ? "torque" : "", "%.6g"},
-                                              {"about_x", plane ? "about x" : "", "%.5g"},
-                                              {"about_y", plane ? "y" : "", "%.5g"},
-                                              {"dissipation", "lost a cycle", "%.4e"},
-                                              {"stick", "stick", "%.4g"},
-                                              {"slip", "slip", "%.4g"},
-                                              {"separation", "open (length)", "%.4g"},
-                                              {"tied"},
-                                              {"nodes"},
-                                              {"free_surface"},
-                                              {"arm"}});
+   const bool faces_nothing =
+      std::any_of(reduction_.interfaces.begin(), reduction_.interfaces.end(),
+                  [](const InterfaceReport &face) { return !face.free_surface.empty(); });
+   Table &table =
+      study_.table("interfaces", {{"interface", "interface"},
+                                  {"on", "forces on"},
+                                  {"normal", "N (pressing)", "%.6g"},
+                                  {"tangential", "T", "%.6g"},
+                                  {"force_x", plane ? "x" : "", "%.6g"},
+                                  {"force_y", plane ? "y" : "axial", "%.6g"},
+                                  {"moment", plane ? "moment" : "", "%.4g"},
+                                  {"moment_defect"},
+                                  {"torque", twists() ? "torque" : "", "%.6g"},
+                                  {"about_x", plane ? "about x" : "", "%.5g"},
+                                  {"about_y", plane ? "y" : "", "%.5g"},
+                                  {"dissipation", "lost a cycle", "%.4e"},
+                                  {"stick", "stick", "%.4g"},
+                                  {"slip", "slip", "%.4g"},
+                                  {"separation", "open (length)", "%.4g"},
+                                  {"tied"},
+                                  {"nodes"},
+                                  {"free_surface", faces_nothing ? "face nothing" : ""},
+                                  {"arm"}});
    const std::vector<Zone> all_zones = zones(reduction_.problem, state);
    const CycleRecord *cycle = march.cycles.empty() ? nullptr : &march.cycles.back();
    for (const InterfaceReport &face : reduction_.interfaces)
@@ -255,7 +260,13 @@ void JointReport::report_bolts(const ContactState &state)
    const std::vector<double> now = shanks(state);
    for (std::size_t k = 0; k < now.size(); ++k)
    {
-      study_.row(table, {joint_.bolts[k].name, now[k], range_[k][0], range_[k][1]});
+      const JointCase::Bolt &bolt = joint_.bolts[k];
+      study_.row(table, {bolt.name, now[k], range_[k][0], range_[k][1]});
+      if (range_[k][0] >= -1e-9 * bolt.pretension) { continue; }
+      warn(text("bolt '%s' pushes its ends apart, by up to %g: a shank here resists both ways, "
+                "a real one falls loose; tighten it before what brings the ends together, or "
+                "give it more pretension",
+                bolt.name.c_str(), -range_[k][0]));
    }
 }
 

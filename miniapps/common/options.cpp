@@ -398,7 +398,11 @@ void Options::parse()
    {
       if (given.option->value == Value(&case_file_)) { read(given.text); }
    }
-   for (const Given &given : given_) { given.option->set(given.as, given.text); }
+   for (const Given &given : given_)
+   {
+      given.option->set(given.as, given.text);
+      said_.insert(given.option->names.name);
+   }
    std::printf("Options used:\n");
    for (const Option &option : options_)
    {
@@ -490,6 +494,7 @@ void Options::read(const std::string &file)
       if (option.kind == Text::input) { text = (folder / text).string(); }
       if (option.kind == Text::structure) { text = with_paths(value, folder).dump(); }
       option.set("--" + option.names.name, text);
+      said_.insert(option.names.name);
    };
    for (const auto &[name, value] : keys.items())
    {
@@ -539,7 +544,10 @@ std::string Options::Option::from_json(const json &x, const std::string &where) 
    const auto expect = [&](bool condition, const char *allowed)
    {
       // Nothing nested is shown: it may be too deep to be written.
-      require(condition, where, " is ", x.is_structured() ? x.type_name() : x.dump(),
+      const bool nested =
+         std::any_of(x.begin(), x.end(), [](const json &v) { return v.is_structured(); });
+      require(condition, where, " is ",
+              x.is_object() || nested ? "a nested " + std::string(x.type_name()) : x.dump(),
               ", must be ", allowed);
    };
    const auto is_whole = [](const json &v)

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -106,6 +107,9 @@ public:
    std::vector<std::string>
    command(const std::vector<std::pair<std::string, std::string>> &changes) const;
 
+   /// Does the command line or the case file say it?
+   bool says(const std::string &name) const { return said_.count(name) > 0; }
+
    /// What was parsed, by long names, lists as text.
    const nlohmann::ordered_json &values() const { return values_; }
 
@@ -163,6 +167,7 @@ private:
    const std::vector<std::string> words_; ///< of the command line
    std::deque<Option> options_;           ///< these stay where they are
    std::vector<Given> given_;
+   std::set<std::string> said_; ///< long names
    std::map<std::string, std::vector<std::string>> objects_; ///< with what they must have
    std::string case_file_;
    int version_ = 1;

@@ -148,6 +148,14 @@ void OwnHistory::begin(const ReducedProblem &problem)
    history_.cycle_start = cycle_start_;
    history_.cycles = cycles_;
    history_.validate(static_cast<int>(problem.patterns.size()));
+   for (std::size_t k = 0; k < problem.patterns.size(); ++k)
+   {
+      const auto values = history_.multipliers.row(static_cast<Eigen::Index>(k));
+      if (values.cwiseAbs().maxCoeff() > 0) { continue; }
+      warn("load '" + problem.patterns[k].name +
+           "' is zero throughout the history, it does nothing: name it there, as '" +
+           problem.patterns[k].name + "=1', or leave it out");
+   }
    state = ContactState::virgin(problem);
    if (!load_state_.empty())
    {

@@ -43,20 +43,31 @@ std::vector<Material> materials(const JointCase::Body &body, int attributes, boo
 OwnPart::OwnPart(OwnBodies &own, const JointCase &joint, int b)
    : joint_(joint), body_(joint.bodies[b])
 {
-   if (!body_.mesh.empty()) { make_of_mesh(own); }
+   if (!body_.mesh.empty()) { make_of_mesh(own, b); }
 }
 
-void OwnPart::make_of_mesh(OwnBodies &own)
+std::vector<int> OwnPart::of_slits(int b) const
+{
+   std::vector<int> attributes;
+   for (const JointCase::Face &face : joint_.faces)
+   {
+      if (face.sides[0].body != b || face.sides[1].body != b) { continue; }
+      for (const JointCase::Side &side : face.sides)
+      {
+         if (side.part.empty()) { continue; }
+         const BoundaryPart part = boundary_part(side.called, side.part, terms_);
+         attributes.insert(attributes.end(), part.attributes.begin(), part.attributes.end());
+      }
+   }
+   return attributes;
+}
+
+void OwnPart::make_of_mesh(OwnBodies &own, int b)
 {
    named(
       [&]
       {
          mfem::Mesh mesh = read_mesh(body_.mesh);
-         for (const std::string &warning : {unjoined_vertices(mesh, body_.mesh),
-                                            missed_curves(mesh, joint_.order, body_.mesh)})
-         {
-            if (!warning.empty()) { warn(warning); }
-         }
          const MeshNames names = mesh_names(body_.mesh);
          require(!names.axisymmetric || joint_.formulation == Formulation::axisymmetric,
                  "its elements are axisymmetric (CAX), key 'analysis' must be axisymmetric");
@@ -66,10 +77,15 @@ void OwnPart::make_of_mesh(OwnBodies &own)
                  " are passed over, supports and loads are those of the case");
          }
          terms_ = {names.boundary, names.numbered, body_.expansion};
+         for (const std::string &warning : {unjoined_vertices(mesh, body_.mesh, of_slits(b)),
+                                            missed_curves(mesh, order(), body_.mesh)})
+         {
+            if (!warning.empty()) { warn(warning); }
+         }
          const int attributes = mesh.attributes.Size() ? mesh.attributes.Max() : 1;
          own.materials.push_back(materials(body_, attributes, joint_.plane_stress));
-         elastic_ = &own.scene.add(std::move(mesh), joint_.order, own.materials.back(),
-                                   joint_.formulation);
+         elastic_ =
+            &own.scene.add(std::move(mesh), order(), own.materials.back(), joint_.formulation);
          add_supports(*elastic_, body_.source.called("support"), body_.support, terms_);
          for (const JointCase::Body::Guided &each : body_.guides)
          {
@@ -87,8 +103,16 @@ void OwnPart::make_of_matrix(NodalStiffness matrix)
            joint_.numbered ? "; bodies of revolution are in case files of version 2"
                            : ", as key 'analysis' says");
    nodal_ = std::move(matrix);
+   const std::string key = joint_.numbered ? "option order" : body_.source.called("order");
+   require(
+      nodal_->edges.empty() || body_.order == 0, key,
+      ": its elements are known, and have their orders in themselves: it must be left out");
+   require(
+      !nodal_->edges.empty() || body_.order > 0, "its elements are not known: ", key,
+      " must say the order of those along the sets, whose nodes are then in a row with the "
+      "body on their left");
    add_supports(*nodal_, body_.source.called("support"), body_.support);
-   add_loads(*nodal_, body_.source.called("load"), body_.load);
+   add_loads(*nodal_, body_.source.called("load"), body_.load, body_.order);
 }
 
 void OwnPart::add_twisting(OwnBodies &own, std::size_t b)
@@ -97,8 +121,8 @@ void OwnPart::add_twisting(OwnBodies &own, std::size_t b)
    mfem::Mesh &mesh = *own.scene.meshes[b];
    own.scene.torsion.push_back(
       its.size() == 1
-         ? std::make_unique<ElasticBody>(mesh, joint_.order, its[0], Formulation::torsion)
-         : std::make_unique<ElasticBody>(mesh, joint_.order, its, Formulation::torsion));
+         ? std::make_unique<ElasticBody>(mesh, order(), its[0], Formulation::torsion)
+         : std::make_unique<ElasticBody>(mesh, order(), its, Formulation::torsion));
    twisting_ = own.scene.torsion.back().get();
    own.scene.dofs += twisting_->dofs();
    named(
@@ -112,7 +136,7 @@ void OwnPart::add_twisting(OwnBodies &own, std::size_t b)
 ContactLine OwnPart::line(const JointCase::Side &side) const
 {
    require(!side.part.empty(), side.called, " is empty, must name boundary attributes");
-   return nodal_ ? nodal_->contact_line(nodal_->nodes_of(side.part))
+   return nodal_ ? nodal_->contact_line(nodal_->nodes_of(side.part), body_.order)
                  : contact_line(*elastic_, boundary_part(side.called, side.part, terms_));
 }
 
@@ -127,12 +151,19 @@ bool OwnPart::has_load(const std::string &load) const
 void OwnPart::pull(const std::string &load, const JointCase::Side &end,
                    const Eigen::Vector2d &F)
 {
-   const Eigen::Vector2d t = F / line(end).each(&LineNode::weight).sum();
-   if (nodal_) { nodal_->add_traction(load, nodal_->nodes_of(end.part), t); }
-   else
+   require(!end.part.empty(), end.called, " is empty, must name a part of the boundary");
+   if (nodal_)
    {
-      elastic_->add_traction(load, boundary_part(end.called, end.part, terms_), t[0], t[1]);
+      const Eigen::Vector2d t = F / line(end).each(&LineNode::weight).sum();
+      nodal_->add_traction(load, nodal_->nodes_of(end.part), t, body_.order);
+      return;
    }
+   // As long as the traction is: an interval may end within elements, which a line has whole.
+   const BoundaryPart part = boundary_part(end.called, end.part, terms_);
+   const double extent = elastic_->extent(part);
+   require(extent > 0, end.called, ": there is nothing on '", end.part,
+           "', must be a part of the boundary");
+   elastic_->add_traction(load, part, F[0] / extent, F[1] / extent);
 }
 
 CondensedBody OwnPart::condensed(const ContactLine &line, const CondensedBody *alike) const

@@ -49,7 +49,10 @@ public:
    }
 
 private:
-   void make_of_mesh(OwnBodies &own);
+   void make_of_mesh(OwnBodies &own, int b);
+   /// Boundary attributes on which the body meets itself.
+   std::vector<int> of_slits(int b) const;
+   int order() const { return body_.order > 0 ? body_.order : joint_.order; }
 
    const JointCase &joint_;
    const JointCase::Body &body_;

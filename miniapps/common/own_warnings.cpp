@@ -64,6 +64,17 @@ void warn_of_overlap(const ReducedProblem &problem, const InterfaceReport &inter
    warn(text.str());
 }
 
+void warn_of_left_out(const InterfaceReport &interface)
+{
+   if (interface.left_out <= 0) { return; }
+   std::ostringstream text;
+   text << "interface '" << interface.name << "': " << interface.left_out
+        << " of it is faced between nodes of the side that carries them, where none can bear, "
+           "and carries nothing: key 'slave' may name the other side, or elements be finer "
+           "there";
+   warn(text.str());
+}
+
 void warn_of_loose_bodies(const OwnBodies &own)
 {
    const Reduction &reduction = own.scene.reduction;

@@ -14,6 +14,8 @@ void warn_of_push(const JointCase &joint, const JointCase::Bolt &bolt,
 /// Warns of bodies that overlap by more than the length of a node's part of the line.
 void warn_of_overlap(const cattaneo::ReducedProblem &problem,
                      const cattaneo::InterfaceReport &interface);
+/// Warns of what no contact node stands for.
+void warn_of_left_out(const cattaneo::InterfaceReport &interface);
 /// Of a march that found no equilibrium: warns of bodies that nothing holds and that touch
 /// nothing at rest.
 void warn_of_loose_bodies(const OwnBodies &own);

@@ -243,8 +243,15 @@ int exit_code(const ReducedProblem &problem, const MarchReport &report)
    {
       std::cout << "\n"
                 << report.fallbacks
-                << " increments where there is no exact path: " << report.fallback_reason
-                << std::endl;
+                << " increments where there is no exact path: " << report.fallback_reason;
+      // Of a body that is free to move nothing proves that an increment has one answer.
+      if (problem.rigid_motions.cols() > 0 && problem.friction.maxCoeff() > 0)
+      {
+         std::cout << "; where friction alone holds bodies such an increment may have several "
+                      "answers, one is gone on from, and other increments or units may find "
+                      "another";
+      }
+      std::cout << std::endl;
    }
    if (report.advance_error > 1e-6)
    {

@@ -587,7 +587,7 @@ TEST_F(Contact2D, BadInputIsOneSentenceAndLeavesNoFile)
       {laps + "--contact2 UPPER_FACE", {"names the set 'UPPER_FACE'", "no other body"}},
       {laps + "--contact2 LOWER_FACE --young2 3", {"without the options young and poisson"}},
       {laps + "--mesh1 nowhere.msh", {"goes without meshes"}},
-      {laps + "--contact2 LOWER_FACE --order 1", {"without the options order"}},
+      {laps + "--contact2 LOWER_FACE --order 1", {"its elements are known"}},
       {laps + "--contact2 LOWER_FACE --edges '1 2' --friction 1", {"without the option edges"}},
       {laps + "--contact2 LOWER_FACE --support2 WALL:z",
        {"body 2 ('LOWER')", "support2 'WALL:z'", "SET:xy"}},

@@ -344,6 +344,181 @@ TEST_F(Joints, BoltsLoseWhatTheColumnsGive)
    EXPECT_NEAR(interface(got, "joint")["normal"], loaded - 10, 1e-10 * loaded);
 }
 
+/// An interval may end within elements: both ends of a shank feel its force all the same, and
+/// the joint carries what the table of bolts says.
+TEST_F(Joints, BoltsPullBothEndsAlike)
+{
+   block("low.mesh", 0, 10, 10, 0, 2, 4);
+   block("high.mesh", 0, 10, 13, 2, 4, 3);
+   for (const char *part : {"[2.5<x<7.5]", "[0<x<4.3]"})
+   {
+      json keys;
+      keys["bodies"] = {{"low", body("low.mesh", "@5,0:xy @0,0:y")},
+                        {"high", body("high.mesh", "@5,4:x")}};
+      keys["interfaces"] = {{"joint", face("high:1", "low:3")}};
+      keys["bolts"] = {
+         {"bolt",
+          {{"between", {std::string("high:3") + part, std::string("low:1") + part}},
+           {"stiffness", 1},
+           {"pretension", 10}}}};
+      keys["history"] = {"bolt=0", "bolt=1"};
+      const Result got = run(keys);
+      ASSERT_EQ(got.code, 0) << part << got.output;
+      const json bolt = json::parse(got.results["bolts"][0].dump());
+      EXPECT_NEAR(interface(got, "joint")["normal"], bolt["force"], 1e-9) << part;
+   }
+}
+
+/// A plate over two blocks whose joint lies within one of its elements: pressed evenly, ν = 0,
+/// each block carries what stands on it, whichever side has the nodes, tied or not.
+TEST_F(Joints, OfAPlateOverNeighboursPassThePatchTest)
+{
+   block("w.mesh", 0, 1.3, 5, 0, 1, 2);
+   block("e.mesh", 1.3, 3, 8, 0, 1, 2);
+   block("t.mesh", 0, 3, 7, 1, 2, 2);
+   for (int order : {1, 2, 3})
+   {
+      for (const char *slave : {"first", "second"})
+      {
+         for (bool tied : {false, true})
+         {
+            json keys{{"order", order}, {"history", {"P=0", "P=1"}}};
+            keys["bodies"] = {{"w", body("w.mesh", "1:xy")},
+                              {"e", body("e.mesh", "1:xy")},
+                              {"t", body("t.mesh", "@0,2:x", {"P pressure 3 1"})}};
+            keys["interfaces"] = {{"l", face("t:1", "w:3")}, {"r", face("t:1", "e:3")}};
+            json &left = keys["interfaces"]["l"];
+            if (tied) { left = {{"between", {"t:1", "w:3"}}, {"tied", true}}; }
+            left["slave"] = keys["interfaces"]["r"]["slave"] = slave;
+            const Result got = run(keys, "--csv '" + folder + "/plate'");
+            ASSERT_EQ(got.code, 0) << got.output;
+            EXPECT_NEAR(interface(got, "l")["normal"], 1.3, 1e-11);
+            EXPECT_NEAR(interface(got, "r")["normal"], 1.7, 1e-11);
+            for (double p : column("plate_nodes.csv", "p")) { EXPECT_NEAR(p, 1, 1e-11); }
+            EXPECT_TRUE(got.results["warnings"].empty()) << got.output;
+         }
+      }
+   }
+}
+
+/// A disc in a hole of its own size, moved up, bears wherever it faces the hole's upper half.
+TEST_F(Joints, OfADiscInAHoleAreNoCorners)
+{
+   mfem::Mesh disc = mfem::Mesh::MakeCartesian2D(8, 8, mfem::Element::QUADRILATERAL, true);
+   disc.SetCurvature(2);
+   disc.Transform(
+      [](const mfem::Vector &x, mfem::Vector &y)
+      {
+         const double u = 2 * x(0) - 1, v = 2 * x(1) - 1;
+         y.SetSize(2);
+         y(0) = u * std::sqrt(1 - v * v / 2);
+         y(1) = v * std::sqrt(1 - u * u / 2);
+      });
+   std::ofstream out(folder + "/disc.mesh");
+   out.precision(17);
+   disc.Print(out);
+   out.close();
+   json keys{{"history", {"D=0", "D=1"}}};
+   keys["bodies"] = {{"disc", body("disc.mesh", "@0,0:xy @0.2,0:y", {}, 1000, 0.3)}};
+   keys["interfaces"] = {{"hole", {{"between", {"disc:1,2,3,4"}}}}};
+   keys["interfaces"]["hole"]["obstacle"] = {
+      {"circle", {{"centre", {0, 0}}, {"radius", -1.0}}}};
+   keys["interfaces"]["hole"]["motion"] = {{"D", {{"y", 1e-3}}}};
+   const Result got = run(keys);
+   ASSERT_EQ(got.code, 0) << got.output;
+   EXPECT_GT(interface(got, "hole")["force_y"], 1e-3);
+   EXPECT_EQ(got.output.find("degrees off"), std::string::npos) << got.output;
+}
+
+/// The orders of two sides may differ: a uniform pressure is carried as it is.
+TEST_F(Joints, OrdersMayDiffer)
+{
+   block("low.mesh", 0, 1, 4, 0, 2, 4);
+   block("high.mesh", 0, 1, 3, 2, 5, 4);
+   json keys{{"history", {"P=0", "P=1"}}, {"order", 2}};
+   keys["bodies"] = {{"low", body("low.mesh", "4:x 1:y")},
+                     {"high", body("high.mesh", "4:x", {"P pressure 3 2"})}};
+   keys["interfaces"] = {{"joint", face("high:1", "low:3")}};
+   keys["interfaces"]["joint"]["slave"] = "first";
+   for (int order : {1, 3})
+   {
+      keys["bodies"]["high"]["order"] = order;
+      const Result got = run(keys, "--csv '" + folder + "/out'");
+      ASSERT_EQ(got.code, 0) << got.output;
+      const std::vector<double> p = column("out_nodes.csv", "p");
+      EXPECT_EQ(p.size(), std::size_t(3 * order + 1));
+      for (double one : p) { EXPECT_NEAR(one, 2, 1e-11); }
+   }
+   keys["bodies"]["high"]["order"] = 1.5;
+   EXPECT_NE(refused(keys).find("key 'bodies.high.order' is 1.5, must be a whole number"),
+             std::string::npos);
+}
+
+/// A bilinear square as a program of one's own writes it: 2 × 2, nodes 1 to 4 round it, of the
+/// closed form with a = E/(1 - ν²)… for ν = 0: pressed by σ its column of height 2 gives 2 σ/E.
+TEST_F(Joints, OfMatricesWithoutElementsTakeAnOrder)
+{
+   // One element of sides 2, E = 1000, ν = 0: K of its two by two functions is a product of the
+   // 1-D mass {2/3, 1/3} and stiffness {1/2, -1/2}.
+   const double place[4][2] = {{0, 0}, {2, 0}, {2, 2}, {0, 2}};
+   const auto mass = [](int i, int j) { return i == j ? 2.0 / 3 : 1.0 / 3; };
+   const auto stiff = [](int i, int j) { return i == j ? 0.5 : -0.5; };
+   const auto slope = [](int i, int) { return i == 0 ? -0.5 : 0.5; }; // ∫ φ_i' φ_j
+   std::ofstream matrix(folder + "/own.mtx"), dofs(folder + "/own.dofs");
+   matrix.precision(17);
+   std::vector<std::string> entries;
+   const auto entry = [&](int a, int c, int b, int d)
+   {
+      const int ax = place[a][0] > 1, ay = place[a][1] > 1, bx = place[b][0] > 1,
+                by = place[b][1] > 1;
+      const double xx = stiff(ax, bx) * mass(ay, by), yy = mass(ax, bx) * stiff(ay, by);
+      if (c == d) { return 1000 * (c == 0 ? xx + yy / 2 : yy + xx / 2); }
+      // ν = 0: only shear couples, G ∫ (of x) φ_a,y φ_b,x.
+      return c == 0 ? 500 * slope(ay, by) * slope(bx, ax) : 500 * slope(ax, bx) * slope(by, ay);
+   };
+   matrix << "%%MatrixMarket matrix coordinate real general\n8 8 64\n";
+   for (int a = 0; a < 4; ++a)
+   {
+      for (int c : {0, 1})
+      {
+         dofs << a + 1 << " " << c + 1 << " " << place[a][0] << " " << place[a][1] << "\n";
+         for (int b = 0; b < 4; ++b)
+         {
+            for (int d : {0, 1})
+            {
+               matrix << 2 * a + c + 1 << " " << 2 * b + d + 1 << " " << entry(a, c, b, d)
+                      << "\n";
+            }
+         }
+      }
+   }
+   dofs << "set BOTTOM 1 2\nset TOP 3 4\nset LEFT 1 4\n";
+   matrix.close();
+   dofs.close();
+   json keys{{"history", {"P=0", "P=1"}}};
+   keys["bodies"]["own"] = {
+      {"matrix", "own.mtx"}, {"support", "LEFT:x"}, {"load", {"P traction TOP 0 -3"}}};
+   keys["interfaces"] = {{"floor", {{"between", {"own:BOTTOM"}}}}};
+   const std::string without = refused(keys);
+   EXPECT_NE(without.find("its elements are not known: key 'bodies.own.order' must say"),
+             std::string::npos)
+      << without;
+   keys["bodies"]["own"]["order"] = 1;
+   const Result got = run(keys, "--csv '" + folder + "/own'");
+   ASSERT_EQ(got.code, 0) << got.output;
+   EXPECT_NEAR(interface(got, "floor")["normal"], 6, 1e-12);
+   for (double p : column("own_nodes.csv", "p")) { EXPECT_NEAR(p, 3, 1e-12); }
+   // The same without a case file 2.
+   const std::string options = "--matrix '" + folder +
+                               "/own.mtx' --contact1 BOTTOM --support1 LEFT:x --load1 "
+                               "'P traction TOP 0 -3' --history 'P=0; P=1'";
+   EXPECT_NE(run_miniapp("contact2d", options).output.find("option order must say"),
+             std::string::npos);
+   const Result first = run_miniapp("contact2d", options + " --order 1");
+   ASSERT_EQ(first.code, 0) << first.output;
+   EXPECT_NEAR(first.results["contact_force"][1], 6, 1e-12);
+}
+
 /// A column between two walls that is heated: E α ΔT.
 TEST_F(Joints, HeatedColumnsPress)
 {
@@ -596,6 +771,66 @@ TEST_F(Joints, OfASlitPassThePatchTest)
       ASSERT_EQ(slips.code, 0) << slips.output;
       EXPECT_GT(slips.results["total_dissipation"], 0);
    }
+}
+
+/// What is warned of, and what is not: a shank that pushes, a load that does nothing, nodes of
+/// the slave that face nothing are counted; a hole, a slit that is an interface and contact
+/// that goes on tied are what they should be.
+TEST_F(Joints, WarnOfWhatIsNotMeant)
+{
+   const auto warned = [](const Result &run)
+   {
+      EXPECT_EQ(run.code, 0) << run.output;
+      std::string all;
+      for (const auto &one : run.results["warnings"]) { all += one.get<std::string>() + "\n"; }
+      return all;
+   };
+   block("low.mesh", 0, 1, 4, 0, 2, 4);
+   block("high.mesh", 0, 1, 4, 2, 5, 4);
+   json keys;
+   keys["bodies"] = {
+      {"low", body("low.mesh", "4:x 1:y")},
+      {"high", body("high.mesh", "4:x", {"F pressure 3 1", "Z traction 2 0 1"})}};
+   keys["interfaces"] = {{"joint", face("high:1", "low:3")}};
+   keys["bolts"] = {
+      {"bolt", {{"between", {"high:3", "low:1"}}, {"stiffness", 1}, {"pretension", 40}}}};
+   keys["history"] = {"F=0", "F=10", "bolt=1"};
+   const Result pushed = run(keys);
+   const std::string text = warned(pushed);
+   // Pressed by 10 the columns, of compliance 5/1000, give: the shank resists by 10 s c/(1 + s
+   // c).
+   EXPECT_NEAR(pushed.results["bolts"][0]["least"], -10 * 0.005 / 1.005, 1e-10);
+   EXPECT_NE(text.find("bolt 'bolt' pushes its ends apart, by up to 0.0497"), std::string::npos)
+      << text;
+   EXPECT_NE(text.find("load 'Z' is zero throughout the history"), std::string::npos) << text;
+   EXPECT_EQ(pushed.output.find("face nothing"), std::string::npos);
+   keys["history"] = {"F=0", "bolt=1", "Z=1 F=1", "F=0 Z=0"};
+   EXPECT_EQ(warned(run(keys)), "");
+   // Two elements of the upper side stand beyond the lower one.
+   block("wide.mesh", 0, 1.5, 6, 2, 5, 4);
+   keys["bodies"]["high"] = body("wide.mesh", "4:x", {"F pressure 3 1"});
+   keys["order"] = 1;
+   keys["interfaces"]["joint"]["slave"] = "first";
+   keys["history"] = {"F=0", "F=1"};
+   keys.erase("bolts");
+   const Result wide = run(keys);
+   EXPECT_EQ(interface(wide, "joint")["free_surface"], 2);
+   EXPECT_NE(wide.output.find("face nothing"), std::string::npos) << wide.output;
+
+   keys = json{{"history", {"P=0", "P=1", "Q=1"}}};
+   slit_block(folder + "/slit.mesh");
+   keys["bodies"]["block"] =
+      body("slit.mesh", "1:xy", {"P pressure 3 1.3", "Q traction 3 0.3 0"}, 1000, 0.3);
+   keys["interfaces"] = {{"slit", face("block:6", "block:5")}};
+   EXPECT_EQ(warned(run(keys)), "");
+   block("a.mesh", 0, 4, 8, 0, 1, 2);
+   block("b.mesh", 0, 4, 8, 1, 2, 2);
+   keys["bodies"] = {{"a", body("a.mesh", "1:xy")},
+                     {"b", body("b.mesh", "", {"P pressure 3 1", "Q traction 3 0.25 0"})}};
+   keys["interfaces"] = {
+      {"weld", {{"between", {"a:3[0<x<1.5]", "b:1[0<x<1.5]"}}, {"tied", true}}},
+      {"contact", face("a:3[1.5<x<4]", "b:1[1.5<x<4]", 0.3)}};
+   EXPECT_EQ(warned(run(keys)), "");
 }
 
 /// A pin that is meshed amid its hole comes to where the shipped one is meshed, and is pressed
@@ -1072,6 +1307,7 @@ TEST_F(Joints, RefuseWhatIsWrongInOneSentence)
    says("/bodies/pad/youngs", 1, "key 'bodies.pad': unknown key 'youngs'");
    says("/bodies/pad/young", -1, "key 'bodies.pad.young' is -1, must be positive");
    says("/bodies/pad/support", "7:x", "body pad (");
+   says("/bodies/base/support", "1,3:xy", "is it the one that touches?");
    says("/bodies/pad/load", 3, "key 'bodies.pad.load' is 3, must be a string");
    says("/bodies/pad/load", "P push 3 1", "bodies.pad.load' 'P push 3 1'");
    says("/interfaces/flat/between", {"pad:1", "bass:3"},

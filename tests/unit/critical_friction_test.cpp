@@ -3,6 +3,7 @@
 #include "stress/enumeration.hpp"
 
 #include <cattaneo/contact/condense_body.hpp>
+#include <cattaneo/contact/interfaces_of_bodies.hpp>
 #include <cattaneo/friction/critical_friction.hpp>
 #include <cattaneo/friction/march.hpp>
 #include <cattaneo/mesh/graded_mesh.hpp>
@@ -124,6 +125,22 @@ TEST(CriticalFriction, AFlatContactNeverLocks)
    EXPECT_TRUE(std::isinf(of_held.locking));
    EXPECT_GT(of_held.unique_below, 0);
    EXPECT_LE(of_held.unique_below, of_held.node);
+}
+
+/// A bar between two rigid walls that hold it across: it may slide along, and at any friction
+/// the walls' pressures balance. Its directions say nothing of a lock; nor do they if supports
+/// press a free sliding block.
+TEST(CriticalFriction, PressuresThatBalanceAreNoLock)
+{
+   mfem::Mesh mesh = mfem::Mesh::MakeCartesian2D(4, 4, mfem::Element::QUADRILATERAL, true);
+   ElasticBody between(mesh, 2, Material{1.0, 0.3}), sliding(mesh, 2, Material{1.0, 0.3});
+   const CriticalFriction of_bar = critical_friction(
+      reduce({{"bar", &between}}, {{"below", {0, 1}, {}}, {"above", {0, 3}, {}}}).problem);
+   EXPECT_TRUE(std::isinf(of_bar.locking)) << of_bar.locking;
+   sliding.fix(3, 1);
+   const CriticalFriction of_block =
+      critical_friction(reduce(condense(sliding, contact_line(sliding, 1))).problem);
+   EXPECT_TRUE(std::isinf(of_block.locking)) << of_block.locking;
 }
 
 TEST(CriticalFriction, OneNodeIsSharp)

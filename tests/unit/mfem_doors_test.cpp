@@ -114,6 +114,14 @@ TEST(MfemDoors, ForcesThatDoNotFitAreRefused)
    mfem::LinearForm form(&other);
    form.Assemble();
    expect_input_error([&] { body.add_forces("P", form); }, "not the body's");
+   mfem::LinearForm forgotten(&body.space());
+   mfem::Vector pull({1.0, 0.0});
+   mfem::VectorConstantCoefficient traction(pull);
+   forgotten.AddBoundaryIntegrator(new mfem::VectorBoundaryLFIntegrator(traction));
+   forgotten = 0.0;
+   expect_input_error([&] { body.add_forces("P", forgotten); }, "must have been assembled");
+   forgotten.Assemble();
+   body.add_forces("pull", forgotten);
    body.add_displacement("u", 3, 1, -0.1);
    forces = 0.0;
    expect_input_error([&] { body.add_forces("u", forces); }, "controlled by displacement");

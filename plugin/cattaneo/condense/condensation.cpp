@@ -114,8 +114,10 @@ std::vector<int> ContactDofs::free() const
 {
    std::vector<int> dofs;
    for (int position : free_positions()) { dofs.push_back(all[position]); }
-   require(!dofs.empty(), "condense: all components of all ", all.size(),
-           " contact dofs are fixed, one at least must be free");
+   require(
+      !dofs.empty(), "condense: all components of all ", all.size(),
+      " contact dofs are fixed, one at least must be free: supports hold all of the part of "
+      "the boundary that is named as contact, is it the one that touches?");
    return dofs;
 }
 

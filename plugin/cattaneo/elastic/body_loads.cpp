@@ -67,6 +67,13 @@ void ElasticBody::add_forces(const std::string &pattern, const mfem::LinearForm 
    require(form.FESpace() == space_, "forces '", pattern,
            "': the linear form is on a space of ", form.Size(),
            " dofs that is not the body's, must be on ElasticBody::space()");
+   // What has nothing to integrate may have been filled by hand.
+   auto &parts = const_cast<mfem::LinearForm &>(form);
+   const int integrators = parts.GetDLFI()->Size() + parts.GetBLFI()->Size() +
+                           parts.GetFLFI()->Size() + parts.GetDLFI_Delta()->Size();
+   require(integrators == 0 || ranks_.any(form.Norml1() > 0), "forces '", pattern,
+           "': the linear form has ", integrators,
+           " integrators and is zero, it must have been assembled (Assemble())");
    add_to_pattern(pattern, form);
 }
 
@@ -112,6 +119,28 @@ void ElasticBody::add_boundary_load(const std::string &pattern, const BoundaryPa
    }
    require(ranks_.any(anything), where, ": there is nothing on the ", describe(part));
    add_to_pattern(pattern, forces);
+}
+
+double ElasticBody::extent(const BoundaryPart &part) const
+{
+   mfem::Mesh &mesh = *space_->GetMesh();
+   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(1, 1);
+   for (int i : boundary_elements(mesh, part, "extent"))
+   {
+      BoundaryEdge edge(mesh, i);
+      const mfem::IntegrationRule &rule = edge.rule(space_->GetBE(i)->GetOrder());
+      for (const auto &[from, to] : edge.pieces(part))
+      {
+         for (int k = 0; k < rule.GetNPoints(); ++k)
+         {
+            const double s = from + (to - from) * rule.IntPoint(k).x;
+            sum(0, 0) += (to - from) * rule.IntPoint(k).weight * edge.derivative(s).norm() *
+                         measure(formulation_, edge.point(s)[0]);
+         }
+      }
+   }
+   ranks_.sum(sum);
+   return sum(0, 0);
 }
 
 void ElasticBody::add_pressure(const std::string &pattern, const BoundaryPart &part,

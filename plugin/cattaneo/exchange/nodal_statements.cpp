@@ -20,7 +20,8 @@ void add_supports(NodalStiffness &body, const std::string &called, const std::st
    }
 }
 
-void add_loads(NodalStiffness &body, const std::string &called, const std::string &text)
+void add_loads(NodalStiffness &body, const std::string &called, const std::string &text,
+               int order)
 {
    for (const std::string &statement : split(text, ";\n"))
    {
@@ -40,7 +41,7 @@ void add_loads(NodalStiffness &body, const std::string &called, const std::strin
       if (moves) { body.add_displacement(pattern, nodes, kind.back() == 'x' ? 1 : 2, first); }
       else if (kind == "traction")
       {
-         body.add_traction(pattern, nodes, {first, number(where, words[4])});
+         body.add_traction(pattern, nodes, {first, number(where, words[4])}, order);
       }
       else
       {

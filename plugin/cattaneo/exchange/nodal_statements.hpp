@@ -13,6 +13,8 @@ void add_supports(NodalStiffness &body, const std::string &called, const std::st
 
 /// Loads, separated by semicolons: "P traction TOP 0 -1" (per length, on the outer edges whose
 /// nodes are in the set), "P force TOP 0 -1" (at each node), "D displacement-x END 0.01".
-void add_loads(NodalStiffness &body, const std::string &called, const std::string &text);
+/// `order` of the elements along a set, whose nodes are in a row, where none are known.
+void add_loads(NodalStiffness &body, const std::string &called, const std::string &text,
+               int order = 0);
 
 } // namespace cattaneo

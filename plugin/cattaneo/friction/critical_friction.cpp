@@ -18,17 +18,22 @@ namespace
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Do forces inside the cones of friction f balance each other? In the direction of each edge
-/// alike, so that zero is in the convex hull of the edges or is not.
+/// alike, so that zero is in the convex hull of the edges or is not. A node whose pressure no
+/// rigid motion feels has it balanced by supports, and then shear as well, of whatever
+/// friction: that is no lock, elasticity decides what such a node holds.
 bool locks(const ReducedProblem &problem, double f)
 {
    const MatrixXd &Z = problem.rigid_motions;
    const MatrixXd edges =
       cone_edges(Z, std::vector<FrictionBound>(problem.nodes(), FrictionBound(f)));
+   const Index n = problem.nodes(), m = problem.slips();
+   const double round_off = 1e-9 * Z.cwiseAbs().maxCoeff();
    MatrixXd G(Z.cols() + 1, edges.cols());
    Index used = 0;
-   for (const auto edge : edges.colwise())
+   for (Index k = 0; k < edges.cols(); ++k)
    {
-      // A force that no rigid motion feels is balanced by itself: by supports.
+      const auto edge = edges.col(k);
+      if (Z.row(m + k / 2 % n).norm() <= round_off) { continue; }
       if (edge.norm() > 1e-12 * (1 + f)) { G.col(used++) << edge / edge.norm(), 1; }
    }
    G.conservativeResize(Eigen::NoChange, used);
@@ -36,11 +41,16 @@ bool locks(const ReducedProblem &problem, double f)
    return used > 0 && fit_nonnegative(G, target).residual.norm() < 1e-9;
 }
 
-/// Cones grow with friction: bisection.
+/// Cones grow with friction: bisection. Where pressures balance each other without any (a pin
+/// amid its hole, a plate between two), friction is not what does, and no pressures stay
+/// without a load by their balance alone: on nodes that stay closed they do no work.
 double locking_friction(const ReducedProblem &problem)
 {
    double low = 1e-6, high = 1e6;
-   if (problem.rigid_motions.cols() == 0 || !locks(problem, high)) { return infinity; }
+   if (problem.rigid_motions.cols() == 0 || !locks(problem, high) || locks(problem, 0))
+   {
+      return infinity;
+   }
    while (high > (1 + 1e-12) * low)
    {
       const double middle = std::sqrt(low * high);

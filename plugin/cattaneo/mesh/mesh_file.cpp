@@ -425,18 +425,20 @@ MeshNames mesh_names(const std::string &file)
    return names;
 }
 
-std::string unjoined_vertices(const mfem::Mesh &mesh, const std::string &name)
+std::string unjoined_vertices(const mfem::Mesh &mesh, const std::string &name,
+                              const std::vector<int> &meeting)
 {
    struct Vertex
    {
       double along, x, y, near;
+      bool meets;
    };
    std::vector<Vertex> vertices;
    for (int v = 0; v < mesh.GetNV(); ++v)
    {
       const double *at = mesh.GetVertex(v);
       // In the order along a direction that no mesh has, few are near each other.
-      vertices.push_back({0.8191 * at[0] + 0.5736 * at[1], at[0], at[1], 0});
+      vertices.push_back({0.8191 * at[0] + 0.5736 * at[1], at[0], at[1], 0, false});
    }
    double farthest = 0;
    for (int e = 0; e < mesh.GetNEdges(); ++e)
@@ -444,12 +446,19 @@ std::string unjoined_vertices(const mfem::Mesh &mesh, const std::string &name)
       mfem::Array<int> ends;
       mesh.GetEdgeVertices(e, ends);
       Vertex &a = vertices[ends[0]], &b = vertices[ends[1]];
-      const double near = 1e-6 * std::hypot(a.x - b.x, a.y - b.y);
+      const double near = 1e-3 * std::hypot(a.x - b.x, a.y - b.y);
       for (Vertex *end : {&a, &b})
       {
          end->near = end->near > 0 ? std::min(end->near, near) : near;
       }
       farthest = std::max(farthest, near);
+   }
+   for (int i = 0; i < mesh.GetNBE(); ++i)
+   {
+      if (!std::count(meeting.begin(), meeting.end(), mesh.GetBdrAttribute(i))) { continue; }
+      mfem::Array<int> ends;
+      mesh.GetBdrElementVertices(i, ends);
+      for (int v : ends) { vertices[v].meets = true; }
    }
    std::sort(vertices.begin(), vertices.end(),
              [](const Vertex &a, const Vertex &b) { return a.along < b.along; });
@@ -463,16 +472,19 @@ std::string unjoined_vertices(const mfem::Mesh &mesh, const std::string &name)
          const Vertex &b = vertices[l];
          if (b.along - a.along > farthest) { break; }
          if (std::hypot(a.x - b.x, a.y - b.y) > std::min(a.near, b.near)) { continue; }
+         if (a.meets && b.meets) { continue; }
          ++pairs;
          if (!first) { first = &a; }
       }
    }
    if (pairs == 0) { return ""; }
    std::ostringstream text;
-   text << "mesh '" << name << "': " << pairs << " pairs of nodes lie on one another, as at ("
-        << first->x << ", " << first->y
-        << "): the body is cut there, and its faces may pass through each other; if it is one "
-           "piece, join them (in Gmsh: Coherence Mesh)";
+   text
+      << "mesh '" << name << "': " << pairs
+      << " pairs of nodes lie on one another (nearer than a thousandth of their edges), as at ("
+      << first->x << ", " << first->y
+      << "): the body is cut there, and its faces may pass through each other; if it is one "
+         "piece, join them (in Gmsh: Coherence Mesh)";
    return text.str();
 }
 

@@ -30,9 +30,11 @@ struct MeshNames
 /// Of a mesh file that read_mesh() takes.
 MeshNames mesh_names(const std::string &file);
 
-/// A sentence if vertices lie on one another, where the body is cut and its faces may pass
-/// through each other; else nothing. `name` is what the mesh is called in it.
-std::string unjoined_vertices(const mfem::Mesh &mesh, const std::string &name);
+/// A sentence if vertices lie on one another, to a thousandth of their shortest edge, where the
+/// body is cut and its faces may pass through each other; else nothing. `name` is what the mesh
+/// is called in it; on boundary attributes `meeting` the faces are kept apart by contact.
+std::string unjoined_vertices(const mfem::Mesh &mesh, const std::string &name,
+                              const std::vector<int> &meeting = {});
 
 /// A sentence if the mesh is bent more than elements of this order can be: such a body resists
 /// turning. Measured on a ring whose edges span 10 degrees each: by 1e-2 of the forces of a

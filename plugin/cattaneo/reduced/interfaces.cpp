@@ -48,7 +48,11 @@ public:
                  std::map<NodeOfBody, std::vector<NodeOfBody>> &taken);
    InterfaceReport report() const;
    /// Of an interface that is not tied, whose nodes begin at `first`.
-   void add_facts(ReducedProblem &problem, Index first, bool matching) const;
+   /// `all` are all interfaces.
+   void add_facts(ReducedProblem &problem, Index first, bool matching,
+                  const std::vector<Facing> &all) const;
+   /// Is the node of a body on one of its sides?
+   bool has(const NodeOfBody &node) const;
    bool tied() const { return given_.tied; }
    Index nodes() const { return static_cast<Index>(mortar_.nodes.size()); }
    const Side &slave() const { return slave_; }
@@ -283,7 +287,8 @@ void Facing::check_row(const ContactRow &row, Index i) const
    const Vector2d &place = slave_.line.nodes[mortar_.nodes[i]].position;
    require(!holds(bodies_[row.body], row.node, 1), what_, ": the contact node at ", place,
            " is fixed normal to the line, it must be able to open: the contact line must end "
-           "before it, or the other side be the slave");
+           "before it, or the other side be the slave (slave: ",
+           of_second_ ? "first" : "second", ")");
    if (row.slides || master_.body < 0) { return; }
    // What faces it most, if it is at the same place along the line.
    const CondensedBody &other = bodies_[master_.body];
@@ -302,7 +307,8 @@ void Facing::check_row(const ContactRow &row, Index i) const
    }
    require(nearest && holds(other, number, 0), what_, ": the contact node at ", place,
            " is fixed along the line, and what it faces is not: the other side must be the "
-           "slave, or be fixed there as well");
+           "slave (slave: ",
+           of_second_ ? "first" : "second", "), or be fixed there as well");
 }
 
 void Facing::add_rows(std::vector<ContactRow> &rows,
@@ -437,7 +443,18 @@ InterfaceReport Facing::report() const
    return report;
 }
 
-void Facing::add_facts(ReducedProblem &problem, Index first, bool matching) const
+bool Facing::has(const NodeOfBody &node) const
+{
+   const auto on = [&](const Side &side)
+   {
+      return side.body == node.first &&
+             std::count(side.nodes.begin(), side.nodes.end(), node.second) > 0;
+   };
+   return on(slave_) || on(master_);
+}
+
+void Facing::add_facts(ReducedProblem &problem, Index first, bool matching,
+                       const std::vector<Facing> &all) const
 {
    const ContactLine &line = slave_.line;
    const auto n = static_cast<Index>(mortar_.nodes.size());
@@ -490,9 +507,18 @@ void Facing::add_facts(ReducedProblem &problem, Index first, bool matching) cons
             k += last ? 1 : -1;
             at_end = std::count(without_row_.begin(), without_row_.end(), int(k)) > 0;
          }
-         made.ends[last] = !at_end       ? LineEnd::smooth
-                           : !slides_[i] ? LineEnd::symmetry
-                                         : chain.ends[last];
+         // Contact that goes on as another interface, tied or not, does not end here.
+         const bool goes_on =
+            at_end &&
+            std::any_of(
+               all.begin(), all.end(),
+               [&](const Facing &other) {
+                  return &other != this && other.has({slave_.body, slave_.nodes[outer]});
+               });
+         made.ends[last] = !at_end                                          ? LineEnd::smooth
+                           : !slides_[i]                                    ? LineEnd::symmetry
+                           : goes_on && chain.ends[last] == LineEnd::smooth ? LineEnd::unknown
+                                                                            : chain.ends[last];
          made.other_ends[last] = made.loop ? LineEnd::smooth : other_end(i, last);
       }
       problem.chains.push_back(made);
@@ -687,7 +713,7 @@ Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface>
       InterfaceReport report = facing.report();
       report.first = next[report.tied];
       next[report.tied] += report.nodes;
-      if (!report.tied) { facing.add_facts(problem, report.first, report.matching); }
+      if (!report.tied) { facing.add_facts(problem, report.first, report.matching, facings); }
       result.interfaces.push_back(std::move(report));
    }
    return result;

@@ -483,9 +483,18 @@ Mortar mortar(const ContactLine &slave, const ContactLine &master,
    slave.validate();
    master.validate();
    Mortar found = Assembly(slave, master, without, what).result();
+   const bool taken = std::any_of(
+      without.begin(), without.end(),
+      [&](int k)
+      { return !std::count(found.free_surface.begin(), found.free_surface.end(), k); });
+   require(
+      !found.nodes.empty() || !taken, what,
+      ": what lies over the master are nodes that carry rows of an interface before it: "
+      "each place where two sides meet must be named once, and a side between two nodes be "
+      "the slave (slave: first or second)");
    require(!found.nodes.empty(), what,
-           ": no node of the slave lies over the master, the other side must be the slave, or "
-           "have finer elements");
+           ": no node of the slave lies over the master, the other side must be the slave "
+           "(slave: first or second), or the slave have finer elements");
    return found;
 }
 
