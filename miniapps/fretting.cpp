@@ -241,6 +241,22 @@ void print_solution(miniapp::Study &study, const miniapp::SolvedPad &solved)
    }
 }
 
+/// Criteria on critical planes, where the mesh and the half-plane know the averaged stresses.
+void judge_planes(miniapp::Study &study, const miniapp::Pad &pad,
+                  const miniapp::PadContact &closed_form, const miniapp::SolvedPad &solved,
+                  double depth, const PlaneWeights &weights)
+{
+   // The edge of the contact lies anywhere in its element: two coarser meshes, at other places.
+   std::vector<miniapp::SolvedPad> coarser;
+   for (const int eighths : {4, 5})
+   {
+      miniapp::Pad other = pad;
+      other.nodes = pad.order * ((pad.nodes - 1) / pad.order * eighths / 8) + 1;
+      coarser.push_back(miniapp::solve(study, other, closed_form));
+   }
+   miniapp::report_critical_planes(study, pad, solved, coarser, depth, weights);
+}
+
 void assess_pad(miniapp::Study &study)
 {
    miniapp::Pad pad;
@@ -275,8 +291,8 @@ void assess_pad(miniapp::Study &study)
    study.option(&pad.order, "order", "Order of the elements (pad fe).");
    study.option(&depth, {"ad", "averaging-depth"},
                 "Criteria on critical planes along the surface, of stresses averaged over this "
-                "depth, mm (pad fe; 0: at the surface).",
-                miniapp::not_negative);
+                "depth, mm (pad fe; from a spacing of its nodes to half a contact).",
+                miniapp::positive);
    study.option(&weights.findley, "findley", "k of Findley's criterion (pad fe).",
                 miniapp::not_negative);
    study.option(&weights.fatemi_socie, "fatemi-socie", "k of Fatemi and Socie's (pad fe).",
@@ -299,14 +315,15 @@ void assess_pad(miniapp::Study &study)
                 "What drives the crack: open (part of the cycle), range, or half-range.",
                 {"open", "range", "half-range"});
    study.option(&records, {"rec", "records"},
-                "CSV of tests (P, Q, bulk, ..., cycles, runout) to correlate.",
+                "CSV of tests (P, Q, material, ..., cycles, runout) to correlate.",
                 miniapp::Text::input);
    study.parse("j");
    FrettingSettings criteria;
    criteria.criterion = criteria_by_name.at(criterion);
    study.results["criterion"] = criterion;
    FatigueMaterial &m = pad.material;
-   m = find_material(read_materials(material_file), material);
+   const std::vector<FatigueMaterial> materials = read_materials(material_file);
+   m = find_material(materials, material);
    const auto replace = [](double from, double scale, double &to)
    { to = std::isnan(from) ? to : from * scale; };
    replace(young, 1e3, m.young);
@@ -324,11 +341,19 @@ void assess_pad(miniapp::Study &study)
 
    require(std::isnan(depth) || pad.kind == "fe",
            "--averaging-depth is for the pad 'fe', whose stresses are known.");
-   miniapp::PadContact contact = calibrate(pad);
+   const miniapp::PadContact closed_form = calibrate(pad);
+   miniapp::PadContact contact = closed_form;
    std::optional<miniapp::SolvedPad> solved;
    if (pad.kind == "fe")
    {
       solved = solve(study, pad, contact);
+      // Nearer to an edge than a spacing the mesh has neither the tractions nor the peak of the
+      // stress, and deeper than the contact is wide there is nothing left of them.
+      require(std::isnan(depth) || (depth >= solved->spacing && depth <= solved->half_width),
+              "--averaging-depth is ", depth,
+              " mm, must be from the spacing of the contact nodes, ", solved->spacing,
+              " mm, to the half-width of the contact, ", solved->half_width,
+              " mm; --nodes makes the spacing smaller.");
       compare(study, pad, contact, *solved);
       contact = solved->in_place_of(contact);
    }
@@ -337,10 +362,13 @@ void assess_pad(miniapp::Study &study)
    if (solved)
    {
       print_solution(study, *solved);
-      if (!std::isnan(depth)) { report_critical_planes(study, pad, *solved, depth, weights); }
+      if (!std::isnan(depth))
+      {
+         judge_planes(study, pad, closed_form, *solved, depth, weights);
+      }
    }
    draw_design(study, pad, judged, criteria);
-   if (!records.empty()) { correlate(study, records, pad, criteria); }
+   if (!records.empty()) { correlate(study, records, pad, criteria, materials); }
 }
 
 } // namespace

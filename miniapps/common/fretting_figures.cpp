@@ -10,7 +10,9 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <set>
 #include <sstream>
+#include <utility>
 
 namespace miniapp
 {
@@ -244,10 +246,10 @@ struct Record
 {
    Pad pad;
    std::string series = "tests";
-   double cycles = none, runout = 0;
+   double cycles = none, runout = 0, yield = none, threshold_ratio = none;
 
    void read(const std::vector<std::string> &columns, const std::vector<std::string> &cells,
-             const std::string &where)
+             const std::vector<FatigueMaterial> &materials, const std::string &where)
    {
       require(cells.size() == columns.size(), where, ": there are ", cells.size(),
               " values for ", columns.size(), " columns.");
@@ -260,18 +262,39 @@ struct Record
                                                     {"load_ratio", &pad.load_ratio},
                                                     {"radius", &pad.radius},
                                                     {"flat", &pad.flat},
-                                                    {"friction", &pad.friction}};
+                                                    {"friction", &pad.friction},
+                                                    {"yield", &yield},
+                                                    {"threshold_ratio", &threshold_ratio}};
+      const double common_friction = std::exchange(pad.friction, none);
+      bool own_material = false;
       for (std::size_t i = 0; i < cells.size(); i++)
       {
-         if (columns[i] == "series")
+         const std::string &column = columns[i], &cell = cells[i];
+         const bool word = column == "series" || column == "pad" || column == "material";
+         const auto target = targets.find(column);
+         require(word || target != targets.end(), where, ": there is no column '", column,
+                 "'.");
+         if (cell.empty()) { continue; }
+         if (column == "series") { series = cell; }
+         else if (column == "pad")
          {
-            series = cells[i];
-            continue;
+            require(cell == "hertz" || cell == "flat-rounded" || cell == "fe", where,
+                    ": the pad is '", cell, "', must be hertz, flat-rounded or fe.");
+            pad.kind = cell;
          }
-         const auto target = targets.find(columns[i]);
-         require(target != targets.end(), where, ": there is no column '", columns[i], "'.");
-         *target->second = number(where + ", column " + columns[i], cells[i]);
+         else if (column == "material")
+         {
+            pad.material = find_material(materials, cell);
+            own_material = true;
+         }
+         else { *target->second = number(where + ", column " + column, cell); }
       }
+      require(!own_material || !std::isnan(pad.friction), where,
+              ": a test with a material of its own needs its friction, in a column friction.");
+      if (std::isnan(pad.friction)) { pad.friction = common_friction; }
+      if (!std::isnan(yield)) { pad.material.shear_yield = {yield, yield}; }
+      if (!std::isnan(threshold_ratio)) { pad.material.threshold_ratio = threshold_ratio; }
+      pad.material.validate();
       require(cycles > 0, where, ": the number of cycles must be given and positive.");
       require(runout == 0 || runout == 1, where, ": runout is ", runout,
               "; it must be 0 or 1.");
@@ -281,12 +304,13 @@ struct Record
 } // namespace
 
 void correlate(Study &study, const std::string &file, const Pad &common,
-               const FrettingSettings &criteria)
+               const FrettingSettings &criteria, const std::vector<FatigueMaterial> &materials)
 {
    std::ifstream stream(file);
    require(stream.good(), "cannot read the test records ", file, ".");
    study.title("Tests of " + file);
    Table &table = study.table("records", {{"series", "series"},
+                                          {"material"},
                                           {"cycles", "cycles", "%.3g"},
                                           {"runout"},
                                           {"friction"},
@@ -314,6 +338,8 @@ void correlate(Study &study, const std::string &file, const Pad &common,
          &total = lines("energy_all", "Frictional energy of the edge", "life, cycles",
                         "energy a cycle, mJ/mm");
    double least = std::numeric_limits<double>::infinity(), most = 0, furthest = 0;
+   std::map<std::string, FatigueMaterial> used;
+   std::set<std::pair<double, double>> rubbed; // friction and load ratio
    std::vector<std::string> columns;
    int number = 0;
    for (std::string line; std::getline(stream, line);)
@@ -328,19 +354,21 @@ void correlate(Study &study, const std::string &file, const Pad &common,
       }
       const std::string where = file + ", line " + std::to_string(number);
       Record test{common};
-      test.read(columns, cells, where);
       try
       {
+         test.read(columns, cells, materials, where);
          PadContact contact = calibrate(test.pad);
          if (test.pad.kind == "fe")
          {
             contact = solve(study, test.pad, contact).in_place_of(contact);
          }
          const FrettingReport r = judge(test.pad, contact, criteria).report;
-         study.row(table, {test.series, test.cycles, test.runout, test.pad.friction,
-                           r.edge_stress_range, r.abscissa, r.ordinate, r.k_t_range,
-                           r.energy_max, r.energy_total, r.yield_ratio_full / test.pad.friction,
-                           to_string(r.trust)});
+         used.emplace(test.pad.material.name, test.pad.material);
+         rubbed.insert({test.pad.friction, test.pad.load_ratio});
+         study.row(table, {test.series, test.pad.material.name, test.cycles, test.runout,
+                           test.pad.friction, r.edge_stress_range, r.abscissa, r.ordinate,
+                           r.k_t_range, r.energy_max, r.energy_total,
+                           r.yield_ratio_full / test.pad.friction, to_string(r.trust)});
          const bool trusted = r.trust != Trust::poor;
          const auto add = [&](Panel &panel, double x, double y)
          {
@@ -359,25 +387,37 @@ void correlate(Study &study, const std::string &file, const Pad &common,
       }
       catch (const InputError &error)
       {
-         throw InputError(where + ": " + error.what());
+         const std::string what = error.what();
+         throw InputError(what.rfind(where, 0) == 0 ? what : where + ": " + what);
       }
    }
    require(most > 0, "there are no tests in ", file, ".");
-   const auto level = [&](Panel &panel, const char *name, double y) {
-      panel.add(name, std::vector<double>{least, most}, {y, y}, "dashed");
-   };
-   level(stress, "plain fatigue limit", common.material.fatigue_limit.low);
-   level(mode_two, "mode II threshold",
-         criteria.mode_two_ratio * common.material.threshold / mode_two_range(1));
-   std::vector<double> x, y;
-   for (int i = 1; i <= 100; i++)
+   for (const auto &[material, properties] : used)
    {
-      x.push_back(1.4 * furthest * std::pow(0.01 * i, 2));
-      y.push_back(
-         threshold_ordinate(criteria.criterion, common.friction, x.back(), common.load_ratio));
+      const std::string of = used.size() > 1 ? ", " + material : "";
+      const auto level = [&](Panel &panel, const std::string &name, double y) {
+         panel.add(name + of, std::vector<double>{least, most}, {y, y}, "dashed");
+      };
+      level(stress, "plain fatigue limit", properties.fatigue_limit.low);
+      level(mode_two, "mode II threshold",
+            criteria.mode_two_ratio * properties.threshold / mode_two_range(1));
    }
-   tests.add("threshold", x, y, "dashed");
-   tests.limit("y", 0, 2 * y[50]);
+   double highest = 0;
+   for (const auto &[friction, load_ratio] : rubbed)
+   {
+      std::vector<double> x, y;
+      for (int i = 1; i <= 100; i++)
+      {
+         x.push_back(1.4 * furthest * std::pow(0.01 * i, 2));
+         y.push_back(threshold_ordinate(criteria.criterion, friction, x.back(), load_ratio));
+      }
+      tests.add(rubbed.size() == 1
+                   ? "threshold"
+                   : exact_text("threshold, f = ", friction) + exact_text(", R = ", load_ratio),
+                x, y, "dashed");
+      highest = std::max(highest, 2 * y[50]);
+   }
+   tests.limit("y", 0, highest);
    for (Panel *panel : {&stress, &mode_two, &energy, &total}) { panel->limit("y", 0, none); }
 }
 

@@ -126,9 +126,10 @@ SolvedPad solve(Study &study, const Pad &pad, const PadContact &closed_form)
          std::min(slip_zone(near_edge(edges[e])), edges[e].slip_zone) >= 2 * solved.spacing;
    }
    solved.positions = problem.position.col(0);
-   // Once round the steady cycle, in quarters of its ranges.
-   for (const double share : {0.75, 0.5, 0.25, 0.0, 0.25, 0.5, 0.75, 1.0})
+   // Once round the steady cycle, in eighths of its ranges.
+   for (int k = 1; k <= 16; ++k)
    {
+      const double share = std::abs(1 - k / 8.0);
       check(run.to(loads(pad.load_ratio + share * (1 - pad.load_ratio))));
       solved.cycle.push_back(
          {-run.state.q, run.state.p, options.bulk ? run.load("bulk") : 0.0});

@@ -151,11 +151,11 @@ TEST(Fretting, FiniteElementsTakeBulkInThePadAndTestRecords)
       const auto closed_form = run_miniapp("fretting", test);
       ASSERT_TRUE(std::getline(in, line));
       std::istringstream row(line);
-      // … threshold_x is the sixth, k_t_range the eighth.
+      // … threshold_x is the seventh, k_t_range the ninth.
       for (int k = 0; std::getline(row, cell, ','); ++k)
       {
-         if (k != 5 && k != 7) { continue; }
-         const double exact = closed_form.results[k == 5 ? "threshold_x" : "k_t_range"];
+         if (k != 6 && k != 8) { continue; }
+         const double exact = closed_form.results[k == 6 ? "threshold_x" : "k_t_range"];
          EXPECT_NEAR(std::stod(cell), exact, 0.01 * exact) << line;
          EXPECT_NE(std::stod(cell), exact) << "not solved";
       }
@@ -186,13 +186,14 @@ TEST(Fretting, CriticalPlanesUnderAHertzContactAreThoseOfTheClosedForms)
    {
       const Eigen::RowVector4d pressed = stress(0, x, y),
                                peak = stress(contact.Q, x, y) - pressed;
-      StressCycle result(8, 4);
-      for (int k = 0; k < 4; ++k)
+      const int parts = 20;
+      StressCycle result(2 * parts, 4);
+      for (int k = 0; k < parts; ++k)
       {
          const Eigen::RowVector4d back =
-            2 * (stress(0.25 * (k + 1) * contact.Q, x, y) - pressed);
+            2 * (stress((k + 1.0) / parts * contact.Q, x, y) - pressed);
          result.row(k) = pressed + peak - back;
-         result.row(k + 4) = pressed - peak + back;
+         result.row(k + parts) = pressed - peak + back;
       }
       return result;
    };
@@ -203,23 +204,98 @@ TEST(Fretting, CriticalPlanesUnderAHertzContactAreThoseOfTheClosedForms)
       {PlaneCriterion::findley, "findley"},
       {PlaneCriterion::smith_watson_topper, "smith_watson_topper"},
       {PlaneCriterion::fatemi_socie, "fatemi_socie"}};
-   EXPECT_EQ(run.results["planes"].size(), 61);
-   for (const auto &row : run.results["planes"])
+   const auto share = [&](PlaneCriterion criterion, double x, double below)
    {
-      StressCycle averaged = StressCycle::Zero(8, 4);
+      StressCycle averaged = StressCycle::Zero(40, 4);
       const int parts = 100;
       for (int k = 0; k < parts; ++k)
       {
-         averaged += cycle(row["x"], depth / contact.a() * (k + 0.5) / parts) / parts;
+         // Closest at the surface, where stresses change fastest.
+         const double from = std::pow(k / (1.0 * parts), 2),
+                      to = std::pow((k + 1) / (1.0 * parts), 2);
+         averaged += (to - from) * cycle(x, below / contact.a() * 0.5 * (from + to));
       }
+      return critical_plane(criterion, averaged, material).value /
+             critical_plane(criterion, plain, material).value;
+   };
+   EXPECT_GE(run.results["planes"].size(), 61);
+   for (const auto &row : run.results["planes"])
+   {
       for (const auto &[criterion, key] : criteria)
       {
-         const double expected = critical_plane(criterion, averaged, material).value /
-                                 critical_plane(criterion, plain, material).value;
+         const double expected = share(criterion, row["x"], depth);
          // Shares are up to 2; the edges of stick and contact lie inside of elements.
          EXPECT_NEAR(row[key].get<double>(), expected, 0.01) << key << " at " << row["x"];
       }
    }
+   // The severest place is found between the places of the figure, and the mesh's own ± holds.
+   const auto fine = run_miniapp("fretting", "-p fe -Q 100 -nodes 201 --averaging-depth 0.05");
+   ASSERT_EQ(fine.code, 0) << fine.output;
+   for (std::size_t c = 0; c < 3; ++c)
+   {
+      double expected = 0;
+      for (double x = -1.03; x < -0.9; x += 0.002)
+      {
+         expected = std::max(expected, share(criteria[c].first, x, 0.05));
+      }
+      const auto &row = fine.results["critical_planes"][2 * c];
+      const double error = row["error"];
+      EXPECT_LT(error, 0.05 * expected) << row;
+      EXPECT_NEAR(row["share"].get<double>(), expected, error) << row;
+   }
+   // Above the mesh's resolution, and within the contact, there is no answer to be had.
+   for (const char *strange : {"0.01", "1e6"})
+   {
+      const auto refused =
+         run_miniapp("fretting", std::string("-p fe -Q 100 --averaging-depth ") + strange);
+      EXPECT_EQ(refused.code, 1);
+      EXPECT_NE(refused.output.find("must be from the spacing of the contact nodes"),
+                std::string::npos)
+         << refused.output;
+   }
+}
+
+/// Tests of several materials, pads and frictions in one file are those of each alone.
+TEST(Fretting, RecordsHoldMaterialsAndPadsOfTheirOwn)
+{
+   const std::string folder = testing::TempDir() + "cattaneo_fretting_materials",
+                     head = "series,material,pad,friction,yield,P,radius,flat,Q,bulk,cycles\n";
+   std::filesystem::create_directories(folder);
+   const auto correlated = [&](const std::string &rows)
+   {
+      std::ofstream(folder + "/tests.csv") << head << rows;
+      return run_miniapp("fretting", "-rec '" + folder + "/tests.csv'");
+   };
+   const auto both = correlated("a,Al,,0.7,,800,200,,60,30,1e7\n"
+                                "b,Ti6Al4V,flat-rounded,0.5,500,1000,3,3,110,70,1.4e6\n");
+   ASSERT_EQ(both.code, 0) << both.output;
+   const char *alone[] = {
+      "-m Al -f 0.7 -P 800 -r 200 -Q 60 -bs 30",
+      "-m Ti6Al4V -f 0.5 -k 500 -p flat-rounded -P 1000 -r 3 -b 3 -Q 110 -bs 70"};
+   for (int k : {0, 1})
+   {
+      const auto one = run_miniapp("fretting", alone[k]);
+      const auto &row = both.results["records"][k];
+      for (const char *key : {"edge_stress_range", "threshold_x", "design_y", "k_t_range"})
+      {
+         expect_relative(row[key], one.results[key], 1e-12);
+      }
+      expect_relative(row["yield_load"],
+                      one.results["yield_ratio_full"].get<double>() /
+                         one.results["friction"].get<double>(),
+                      1e-12);
+   }
+   const std::pair<const char *, const char *> wrong[] = {
+      {"a,Al,,,,800,200,,60,30,1e7\n", "needs its friction"},
+      {"a,Al,ball,0.7,,800,200,,60,30,1e7\n", "the pad is 'ball', must be hertz"},
+      {"a,Unobtainium,,0.7,,800,200,,60,30,1e7\n", "line 2"}};
+   for (const auto &[rows, words] : wrong)
+   {
+      const auto refused = correlated(rows);
+      EXPECT_EQ(refused.code, 1);
+      EXPECT_NE(refused.output.find(words), std::string::npos) << refused.output;
+   }
+   std::filesystem::remove_all(folder);
 }
 
 TEST(Fretting, ThresholdsAreTheSheets)
