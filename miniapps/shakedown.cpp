@@ -41,7 +41,6 @@ void Shakedown::run()
 {
    options();
    prepare();
-   const Watch watch("limits"); // from here on Ctrl-C leaves what was found
    monolith();
    if (find != "load") { smallest_friction(); }
    if (find != "friction" || march || starts > 0) { largest_of_closed(); }
@@ -109,6 +108,13 @@ void Shakedown::options()
                 "Keep only the nodes that stay closed in three cycles at the largest load "
                 "(--lambda-max, or with --find load the limit).");
    study.parse();
+   saved = !reduced.empty();
+   study.options().only_if(!saved,
+                           {"obstacle", "poisson", "order", "nodes", "grading", "domain",
+                            "tractions", "mesh-study", "mismatch"},
+                           "is for the punch, not for a saved problem");
+   study.options().only_if(std::isnan(reversal), {"lambda-min"},
+                           "says the same as --reversal, say one of them");
    punch.half_plane = obstacle == "half-plane";
    if (std::isnan(reversal))
    {
@@ -120,14 +126,6 @@ void Shakedown::options()
    results["reversal"] = reversal;
    require(held != cycled, "options --held and --cycled are both '", held,
            "', must be two load patterns");
-   saved = !reduced.empty();
-   require(!saved || !steps, "option --tractions is for the punch, not for a saved problem");
-   for (const auto &[option, list] :
-        {std::pair{"--mesh-study", mesh_study}, {"--mismatch", mismatch}})
-   {
-      require(!saved || list.empty(), "option ", option,
-              " is for the punch, not for a saved problem");
-   }
    if (study.draws()) { map = adhesion = march = true; }
 }
 

@@ -146,7 +146,9 @@ void run_plot_script(const std::vector<std::string> &arguments, const std::strin
 {
    if (!writes()) { return; }
    std::string command =
-      "for python in python3 /usr/bin/python3; do command -v $python >/dev/null || continue; "
+      // Ctrl-C is for the study: a second one must not leave half a picture.
+      "trap '' INT; for python in python3 /usr/bin/python3; do command -v $python >/dev/null "
+      "|| continue; "
       "CATTANEO_TRIES_PYTHONS=1 $python " +
       argument(shipped("plot/plot.py"));
    for (const std::string &text : arguments) { command += " " + argument(text); }

@@ -1,5 +1,7 @@
 #include "common/miniapp.hpp"
 
+#include "common/watch.hpp"
+
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/whole_file.hpp>
@@ -142,6 +144,7 @@ void warn(const std::string &text)
 {
    if (std::find(given.begin(), given.end(), text) != given.end()) { return; }
    given.push_back(text);
+   ProgressLine::clear();
    std::cout << "warning: " << text << std::endl;
 }
 

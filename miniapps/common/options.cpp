@@ -396,10 +396,17 @@ void Options::parse()
    read_words();
    for (const Given &given : given_)
    {
-      if (given.option->value == Value(&case_file_)) { read(given.text); }
+      if (given.option->value != Value(&case_file_)) { continue; }
+      case_file_ = given.text;
+      read(case_file_);
    }
    for (const Given &given : given_)
    {
+      if (case_file_.empty()) { version_ = std::max(version_, given.option->version); }
+   }
+   for (const Given &given : given_)
+   {
+      check_version(*given.option, given.as);
       given.option->set(given.as, given.text);
       said_.insert(given.option->names.name);
    }
@@ -422,6 +429,29 @@ void Options::parse()
    check_files();
 }
 
+void Options::only_if(bool used, const std::vector<std::string> &names,
+                      const std::string &why) const
+{
+   for (const std::string &name : names)
+   {
+      require(used || !says(name), "option --", name, " does nothing in this run: it ", why);
+   }
+}
+
+void Options::check_version(const Option &option, const std::string &as) const
+{
+   if (option.version == 0 || option.version == version_) { return; }
+   std::vector<std::string> here;
+   for (const Option &other : options_)
+   {
+      if (other.version == version_) { here.push_back(other.names.name); }
+   }
+   const std::string file = case_file_.empty() ? "" : ", '" + case_file_ + "'";
+   throw InputError("option " + as + " is of case files " + std::to_string(option.version) +
+                    ", this run is of a case file " + std::to_string(version_) + file +
+                    ": say it in one of " + listed(here));
+}
+
 const Options::Option &Options::changeable(const std::string &key) const
 {
    const std::size_t dots = static_cast<std::size_t>(std::count(key.begin(), key.end(), '.'));
@@ -430,8 +460,12 @@ const Options::Option &Options::changeable(const std::string &key) const
    for (const Option &option : options_)
    {
       if (!option.in_cases || option.is_of_sweep()) { continue; }
-      known.push_back(option.names.name);
+      if (option.version == 0 || option.version == version_)
+      {
+         known.push_back(option.names.name);
+      }
       if (option.names.name != name) { continue; }
+      check_version(option, "--sweep: '" + key + "'");
       if (option.kind == Text::structure) { return option; }
       const std::size_t most = option.is_list() ? 1 : option.kind == Text::statements ? 2 : 0;
       require(dots <= most, "option --sweep: '", key, "': option --", name,

@@ -110,6 +110,10 @@ public:
    /// Does the command line or the case file say it?
    bool says(const std::string &name) const { return said_.count(name) > 0; }
 
+   /// InputError if one of these is said in a run that does not use it. @param why as in "goes
+   /// with --map"
+   void only_if(bool used, const std::vector<std::string> &names, const std::string &why) const;
+
    /// What was parsed, by long names, lists as text.
    const nlohmann::ordered_json &values() const { return values_; }
 
@@ -158,6 +162,8 @@ private:
    void read_words();
    void print_help() const;
    void check_files() const;
+   /// InputError for an option of the case files of another version: nothing would read it.
+   void check_version(const Option &option, const std::string &as) const;
    void read(const std::string &file);
    /// The option of a key in an object of the case file, or in none.
    const Option &of_case(const std::string &object, const std::string &key,
@@ -167,7 +173,7 @@ private:
    const std::vector<std::string> words_; ///< of the command line
    std::deque<Option> options_;           ///< these stay where they are
    std::vector<Given> given_;
-   std::set<std::string> said_; ///< long names
+   std::set<std::string> said_;                              ///< long names
    std::map<std::string, std::vector<std::string>> objects_; ///< with what they must have
    std::string case_file_;
    int version_ = 1;

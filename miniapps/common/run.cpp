@@ -71,6 +71,11 @@ const MarchReport &Run::march(const LoadHistory &history, const MarchObserver &o
    if (exit_code(solver.problem(), report) != 0 && leaves)
    {
       add_outcome(solver.problem(), report, study_.results);
+      // The cycles that were completed are results, if the study has not reported others.
+      if (!report.cycles.empty() && !study_.results.contains("dissipation"))
+      {
+         report_cycles(study_, solver.problem(), report, unit);
+      }
       throw Outcome();
    }
    return report;
@@ -238,6 +243,7 @@ std::string event_text(const ReducedProblem &problem, double time,
 
 int exit_code(const ReducedProblem &problem, const MarchReport &report)
 {
+   ProgressLine::clear();
    warn_of_cut_off(report.cut_off);
    if (report.fallbacks > 0)
    {
@@ -328,6 +334,18 @@ std::vector<double> unloading_levels(int steps, double lowest, std::vector<doubl
       if (p < 1 && (levels.empty() || levels.back() - p > 1e-9)) { levels.push_back(p); }
    }
    return levels;
+}
+
+std::size_t levels_one_way(const std::vector<double> &levels)
+{
+   std::size_t count = 0;
+   double before = 0;
+   for (; count < levels.size(); before = levels[count++])
+   {
+      const double now = levels[count];
+      if (now * levels.front() < 0 || std::abs(now) < std::abs(before)) { break; }
+   }
+   return count;
 }
 
 std::vector<double> joined_once(std::vector<double> first, const std::vector<double> &others)

@@ -40,6 +40,7 @@ public:
    /// Whether it leaves the study where there is no equilibrium; else the report says so, and
    /// nothing is noted.
    bool leaves = true;
+   double unit = 1; ///< of the energies of cycles, if it leaves the study within them
    cattaneo::ContactState state; ///< a copy put back is where the run goes on from
    cattaneo::MarchSettings settings;
    cattaneo::MarchReport report; ///< of the last march
@@ -90,6 +91,10 @@ void warn_of_cut_off(const std::vector<cattaneo::CutOffContact> &ends);
 /// that shrink with the load, and all of `wanted`. None is a round-off away from another: the
 /// states of so small a step would be noise.
 std::vector<double> unloading_levels(int steps, double lowest, std::vector<double> wanted);
+
+/// The number of levels of a load, the first of a list, that lead away from 0 without turning
+/// back: what is known of monotonic loading holds for these.
+std::size_t levels_one_way(const std::vector<double> &levels);
 
 /// Of two lists all that is in either, once, in this order.
 std::vector<double> joined_once(std::vector<double> first, const std::vector<double> &others);

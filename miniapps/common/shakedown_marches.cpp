@@ -83,12 +83,16 @@ void Shakedown::draw_optimal()
    const StuckForces stuck = stuck_forces(problem, cycle);
    const VectorXd residual_q = problem.A() * of.slip, residual_p = problem.B() * of.slip;
    const Eigen::MatrixXd q = stuck.q(at), p = stuck.p(at).colwise() + residual_p;
-   study.panel(Panel::Kind::lines, "optimal_slip", "Optimal slip", "x/a", "v E'/P")
+   study
+      .panel(Panel::Kind::lines, "optimal_slip", "Optimal slip", of_punch("x/a", "arc length"),
+             of_punch("v E'/P", "v"))
       .add("", x, of.slip);
-   Panel &residual = study.panel(Panel::Kind::lines, "residual", "Residual tractions", "x/a",
-                                 "-q a/P, p a/P"),
+   Panel &residual =
+            study.panel(Panel::Kind::lines, "residual", "Residual tractions",
+                        of_punch("x/a", "arc length"), of_punch("-q a/P, p a/P", "-q, p")),
          &band = study.panel(Panel::Kind::lines, "optimal",
-                             "Permissible residual shear, optimal pressures", "x/a", "-a q/P");
+                             "Permissible residual shear, optimal pressures",
+                             of_punch("x/a", "arc length"), of_punch("-a q/P", "-q"));
    // The thesis' shear is positive where Q is.
    residual.add("shear", x, VectorXd(-traction(residual_q)));
    residual.add("pressure", x, traction(residual_p));
@@ -113,8 +117,8 @@ void Shakedown::marches()
                                           {"opened_nodes", "nodes that open"},
                                           {"opened_loss", "loss at these", "%.1e"},
                                           {"outcome", "outcome"}});
-   Panel &losses =
-      study.panel(Panel::Kind::lines, "losses", "Loss in the cycle", "cycle", "loss × E'/P²");
+   Panel &losses = study.panel(Panel::Kind::lines, "losses", "Loss in the cycle", "cycle",
+                               of_punch("loss × E'/P²", "loss"));
    losses.say("scale: semilogy");
    FrictionSolver solver(limit.reduced);
    Watch watch("march");

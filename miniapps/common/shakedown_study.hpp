@@ -78,6 +78,12 @@ private:
    /// The limits of another punch, as a row of a table.
    void repeat(const char *table_name, const PunchOptions &other);
 
+   /// A label of the punch, in units a = P = E' = 1, or of a saved problem, in its own.
+   const char *of_punch(const char *label, const char *otherwise) const
+   {
+      return saved ? otherwise : label;
+   }
+
    Study &study;
    nlohmann::ordered_json &results;
    PunchOptions punch;

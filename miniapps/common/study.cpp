@@ -2,6 +2,7 @@
 
 #include "common/check.hpp"
 #include "common/sweep.hpp"
+#include "common/watch.hpp"
 
 #include <algorithm>
 #include <cattaneo/output/streamed_file.hpp>
@@ -52,9 +53,11 @@ void Study::parse(const char *json)
              "Most iterations for a right-hand side.");
    }
    options_.parse();
+   const bool sweeps = sweep_ != "none" && !sweep_.empty();
+   options_.only_if(sweeps, {"sweep-results"}, "goes with --sweep");
    cattaneo::require(!check_ || save_.empty(),
                      "option --save: --check stops before there is anything to save");
-   if (sweep_ == "none" || sweep_.empty()) { return; }
+   if (!sweeps) { return; }
    cattaneo::require(!check_, "option --check is of one run, a sweep has many");
    run_sweep(*this, sweep_, sweep_results_);
    throw Done();
@@ -82,22 +85,27 @@ void Study::condensed(const Scene &scene)
 void Study::condensed(const cattaneo::ReducedProblem &problem, int dofs)
 {
    nodes_ = problem.nodes();
-   dofs_ = dofs;
    seconds_ = watch.seconds();
    const auto left = static_cast<long>(problem.K.rows());
+   dofs_ = dofs > 0 ? dofs : static_cast<int>(left);
    cattaneo::require(!check_ || dofs > 0, "option --check: this run has no meshes");
-   if (dofs > 0)
+   if (dofs > 0) { say(text("Condensed %d dofs to %ld in %.3g s", dofs, left, seconds_)); }
+   else
    {
-      return say(text("Condensed %d dofs to %ld in %.3g s", dofs, left, seconds_));
+      std::vector<std::string> loads;
+      for (const cattaneo::LoadPattern &pattern : problem.patterns)
+      {
+         loads.push_back(pattern.name);
+      }
+      say(text("A reduced problem of %ld contact nodes, %ld dofs, with the loads ",
+               static_cast<long>(nodes_), left) +
+          listed(loads));
    }
-   std::vector<std::string> loads;
-   for (const cattaneo::LoadPattern &pattern : problem.patterns)
-   {
-      loads.push_back(pattern.name);
-   }
-   say(text("A reduced problem of %ld contact nodes, %ld dofs, with the loads ",
-            static_cast<long>(nodes_), left) +
-       listed(loads));
+   if (!ProgressLine::interrupted() || check_) { return; }
+   results["status"] = "stopped";
+   results["message"] = "stopped before the first load";
+   say("Stopped before the first load");
+   throw Outcome();
 }
 
 void Study::begins(const std::string &path, bool goes_on)
@@ -135,11 +143,13 @@ void Study::write_frames(const std::string &folder, Scene &scene,
 
 void Study::title(const std::string &text)
 {
+   ProgressLine::clear();
    std::printf("\n%s\n", text.c_str());
 }
 
 void Study::say(const std::string &line)
 {
+   ProgressLine::clear();
    std::printf("%s\n", line.c_str());
    std::fflush(stdout);
 }
@@ -243,7 +253,7 @@ void Study::compare_references()
                                      {"thesis", "thesis", "%.4g"},
                                      {"computed", "computed", "%.5g"},
                                      {"", "difference", "%+.2g"},
-                                     {"", "outside of its ±"},
+                                     {"verdict", "outside of its ±"},
                                      {"tolerance"},
                                      {"outside"}});
    for (const Reference &one : compared_)
@@ -334,6 +344,7 @@ int Study::run(const std::string &name, int argc, char *argv[],
    return miniapp::run(
       [&]
       {
+         const ProgressLine progress(name.c_str());
          Study study(name, argc, argv);
          try
          {

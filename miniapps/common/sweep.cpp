@@ -43,7 +43,7 @@ struct Point
 {
    std::vector<std::string> values, words;
    pid_t process = 0;
-   bool ran = false;
+   bool ran = false, ended_well = false; ///< its exit code is 0
    ordered_json results = ordered_json::object();
    std::string status, message;
 };
@@ -203,6 +203,7 @@ void finish(Point &point, int status, const std::string &json, const std::string
 {
    point.ran = true;
    point.process = 0;
+   point.ended_well = WIFEXITED(status) && WEXITSTATUS(status) == 0;
    if (std::ifstream in(json); in.good())
    {
       point.results = ordered_json::parse(in);
@@ -221,8 +222,27 @@ void finish(Point &point, int status, const std::string &json, const std::string
                      : text("ended by signal %d", WIFSIGNALED(status) ? WTERMSIG(status) : 0);
 }
 
-/// All of them, unless it is stopped.
-void run_points(std::vector<Point> &points, const cattaneo::Monitor &monitor)
+/// A result by its place: "peak_pressure", "dissipation.0"; null if there is none.
+ordered_json result(const ordered_json &results, const std::string &place)
+{
+   ordered_json at = results;
+   for (const std::string &word : split(place, "."))
+   {
+      const ordered_json k = as_number(word);
+      if (at.is_object() && at.contains(word)) { at = ordered_json(at[word]); }
+      else if (at.is_array() && k.is_number() && k >= 0 && k < at.size())
+      {
+         at = ordered_json(at[k.get<std::size_t>()]);
+      }
+      else { return nullptr; }
+   }
+   return at.is_primitive() ? at : ordered_json();
+}
+
+/// All of them, unless it is stopped. Says at the first that ends well which of the wanted
+/// results it does not have.
+void run_points(std::vector<Point> &points, std::vector<std::string> wanted,
+                const cattaneo::Monitor &monitor)
 {
    const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
    const Folder folder;
@@ -251,6 +271,15 @@ void run_points(std::vector<Point> &points, const cattaneo::Monitor &monitor)
          finish(points[k], status, folder.file(k, ".json"), folder.file(k, ".err"));
          running.erase(found);
          ++ended;
+         if (!points[k].ended_well) { continue; }
+         for (const std::string &name : wanted)
+         {
+            if (!result(points[k].results, name).is_null()) { continue; }
+            warn("option --sweep-results: the first point that ended has no number or word of "
+                 "the name '" +
+                 name + "'");
+         }
+         wanted.clear();
          continue;
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -261,23 +290,6 @@ void run_points(std::vector<Point> &points, const cattaneo::Monitor &monitor)
                            0, watch.seconds()});
       }
    }
-}
-
-/// A result by its place: "peak_pressure", "dissipation.0"; null if there is none.
-ordered_json result(const ordered_json &results, const std::string &place)
-{
-   ordered_json at = results;
-   for (const std::string &word : split(place, "."))
-   {
-      const ordered_json k = as_number(word);
-      if (at.is_object() && at.contains(word)) { at = ordered_json(at[word]); }
-      else if (at.is_array() && k.is_number() && k >= 0 && k < at.size())
-      {
-         at = ordered_json(at[k.get<std::size_t>()]);
-      }
-      else { return nullptr; }
-   }
-   return at.is_primitive() ? at : ordered_json();
 }
 
 /// Those that are single numbers in any point, but for its sizes, times, errors and residuals.
@@ -352,7 +364,7 @@ void draw(Study &study, const std::vector<SweptKey> &keys, const std::vector<Poi
             if (k != over) { series.push_back(keys[k].name + " = " + point.values[k]); }
          }
          const ordered_json y = result(point.results, name);
-         if (y.is_number() && point.status == "converged")
+         if (y.is_number() && point.ended_well)
          {
             panel.add(listed(series), std::vector<double>{as_number(point.values[over])},
                       std::vector<double>{y}, "marked");
@@ -371,7 +383,7 @@ void run_sweep(Study &study, const std::string &statements, const std::string &w
            "option --plot: no key of the sweep has two numbers to draw results over");
    std::vector<Point> points = make_points(study.options(), keys);
    Watch watch("sweep");
-   run_points(points, watch.monitor());
+   run_points(points, split(wanted, " ,"), watch.monitor());
    const std::size_t asked = points.size();
    points.erase(std::remove_if(points.begin(), points.end(),
                                [](const Point &point) { return !point.ran; }),
@@ -387,10 +399,15 @@ void run_sweep(Study &study, const std::string &statements, const std::string &w
    {
       const auto has = [&](const Point &point)
       { return !result(point.results, name).is_null(); };
-      require(std::any_of(points.begin(), points.end(), has),
-              "option --sweep-results: no point has a number or a word of the name '", name,
-              "', must be one of ", listed(single_numbers(points, keys)),
-              ", or a place as 'levels.0.slip'");
+      if (points.empty() || std::any_of(points.begin(), points.end(), has)) { continue; }
+      // What was computed stays, and the others that were asked for.
+      study.code = 2;
+      study.results["message"] = "option --sweep-results: no point has a number or a word of "
+                                 "the name '" +
+                                 name + "', must be one of " +
+                                 listed(single_numbers(points, keys)) +
+                                 ", or a place as 'levels.0.slip'";
+      study.say("\n" + study.results["message"].get<std::string>());
    }
    std::vector<Column> columns;
    for (const SweptKey &key : keys) { columns.push_back({key.name, key.name, "%g"}); }
@@ -416,7 +433,7 @@ void run_sweep(Study &study, const std::string &statements, const std::string &w
       row.insert(row.end(), {point.status, point.message});
       study.row(table, row);
       if (point.status == "refused") { refusals.insert(point.message); }
-      converged += point.status == "converged" ? 1 : 0;
+      converged += point.ended_well ? 1 : 0;
       for (const auto &warning : point.results.value("warnings", ordered_json::array()))
       {
          warn(warning);
@@ -438,6 +455,7 @@ void run_sweep(Study &study, const std::string &statements, const std::string &w
    if (shown.empty() && !names.empty()) { shown.push_back(names.front()); }
    draw(study, keys, points, shown);
    study.results["points"] = points.size();
+   if (study.code == 2) { study.results["status"] = "ended early"; }
    if (converged == static_cast<long>(asked)) { return; }
    study.code = 2;
    study.results["status"] = points.size() < asked ? "stopped" : "ended early";

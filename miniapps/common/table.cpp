@@ -1,6 +1,7 @@
 #include "common/table.hpp"
 
 #include "common/text.hpp"
+#include "common/watch.hpp"
 
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
@@ -82,7 +83,9 @@ void Table::print_headings()
    {
       if (!column.heading.empty()) { line += "  " + right(column.heading, width(column) - 2); }
    }
-   if (!line.empty()) { std::printf("\n%s\n", line.c_str()); }
+   if (line.empty()) { return; }
+   ProgressLine::clear();
+   std::printf("\n%s\n", line.c_str());
 }
 
 const ordered_json &Table::row(const std::vector<ordered_json> &values,
@@ -104,6 +107,7 @@ const ordered_json &Table::row(const std::vector<ordered_json> &values,
          line += "  " + right(cells.back(), width(column) - 2);
       }
    }
+   ProgressLine::clear();
    if (!line.empty()) { std::printf("%s\n", line.c_str()); }
    std::fflush(stdout);
    if (!more.is_null()) { row.update(more); }

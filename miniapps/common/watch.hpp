@@ -1,14 +1,33 @@
 #pragma once
 
 #include <cattaneo/monitor.hpp>
+#include <thread>
 
 namespace miniapp
 {
 
-/** Watches long work: on a terminal (not in a pipe or a file) a line says after two seconds how
-    far it has come, and goes when the work ends; Ctrl-C stops it at the end of an increment, so
-    that the study writes what it has, and a second one ends the program at once. On several
-    ranks there is no such stop: they would not stop at the same increment. */
+/** Of a whole program: on a terminal (not in a pipe or a file) a line says, once it has run for
+    two seconds, what it does, how far that has come and for how long the program has run; it
+    goes when something is printed. The first Ctrl-C stops the work that a Watch watches at the
+    end of an increment, so that the study writes what it has, and a second one ends the program
+    at once. On several ranks there is no such stop: they would not stop at the same increment.
+    One at a time. */
+class ProgressLine
+{
+public:
+   /// @param program what the line calls what no Watch watches
+   explicit ProgressLine(const char *program);
+   ~ProgressLine();
+   ProgressLine(const ProgressLine &) = delete;
+   static void clear(); ///< before something is printed
+   static bool interrupted();
+
+private:
+   void tick();
+   std::thread ticks_;
+};
+
+/// Work that may be long, in the line of the program.
 class Watch
 {
 public:
@@ -16,13 +35,8 @@ public:
    explicit Watch(const char *what);
    ~Watch();
    Watch(const Watch &) = delete;
-   /// For the settings of the work; must not outlive this.
+   /// For the settings of the work; must not outlive the program's line.
    cattaneo::Monitor monitor();
-
-private:
-   void show(const cattaneo::Progress &progress);
-   const char *what_;
-   bool shown_ = false;
 };
 
 } // namespace miniapp

@@ -82,7 +82,7 @@ class Program:
 
     def refuses(self, case):
         """The key that it does not accept as such, if there is one."""
-        found = re.match(r"error: (?:case file '.*': (?:unknown )?key '|option --(?!sweep:))([\w$-]+)", self.says(case))
+        found = re.match(r"error: (?:case file '.*': (?:unknown )?key '|option --(?!sweep:|\S+ does nothing))([\w$-]+)", self.says(case))
         return found and ("half-plane" if found[1].startswith("half-plane-") else found[1])
 
     def keys(self):

@@ -65,6 +65,9 @@ def check(programs, program, options):
             assert "topped" in out, (program, out)
             assert (" steps, " in shown and ("%" in shown or program == "shakedown")) if terminal else shown == "", (program, terminal, shown)
             assert " steps, " not in out, (program, out)
+            if program != "shakedown":  # two points of the load's history a cycle, after the tightening or from the start
+                whole = int((results["event_time"] - (program == "lap_joint")) / 2)
+                assert len(results["dissipation"]) == len(results["cycles"]) == whole > 0, (program, whole, len(results["cycles"]))
 
 
 def main():
