@@ -275,6 +275,12 @@ void axisymmetric_receding(miniapp::Study &study)
    study.option(&critical_bonded, "critical-bonded",
                 "Critical radius of the load: of the bonded disc too (ill-conditioned).");
    study.parse();
+   const bool twists = !torques.empty() || !rotations.empty() || cycles > 0;
+   study.options().only_if(!map_a.empty(), {"map-friction"}, "goes with --map");
+   study.options().only_if(!discs.empty(), {"critical-friction", "critical-bonded"},
+                           "goes with --critical");
+   study.options().only_if(cycles > 0, {"amplitude"}, "goes with --cycles");
+   study.options().only_if(twists, {"twist"}, "goes with --torque, --rotation or --cycles");
    study.results["load_radius"] = disc.a;
    require(map_a.empty() || !map_f.empty(),
            "option --map-friction is empty, must list the coefficients of the map");
@@ -282,7 +288,6 @@ void axisymmetric_receding(miniapp::Study &study)
            "option --critical-friction is empty, must list the coefficients");
    require(torques.empty() || rotations.empty(),
            "options --torque and --rotation exclude each other");
-   const bool twists = !torques.empty() || !rotations.empty() || cycles > 0;
    require(disc.f > 0 || (levels.empty() && !twists),
            "option --friction is 0: unloading is loading backwards, and nothing resists a "
            "twist");

@@ -117,23 +117,28 @@ void hertz(miniapp::Study &study)
                              {"stick_half_width", "stick c/b", "%.5f"},
                              {"cattaneo_mindlin", "Mindlin c/b", "%.5f"},
                              {"shear_deviation", "q off / f p0", "%.2e"}});
-   for (double Q : shear)
+   const std::size_t one_way = miniapp::levels_one_way(shear);
+   for (std::size_t k = 0; k < shear.size(); ++k)
    {
+      const double Q = shear[k], way = Q < 0 ? -1 : 1;
       run.to({{"Q", Q * friction}});
       const Zone stick = stick_zone(problem, run.state);
       const bool any = stick.last >= stick.first;
       const double c = any ? 0.5 * (stick.to.position - stick.from.position) / b : 0.0;
-      const double exact_c = std::sqrt(std::max(0.0, 1 - Q));
+      // Of monotonic loading: of what turned back there is no closed form here.
+      const double exact_c = k < one_way ? std::sqrt(std::max(0.0, 1 - std::abs(Q))) : none;
       // Shear +Q acts on body 1 above: the force of the contact on it is -q.
       const miniapp::Deviation off = miniapp::deviation(
          problem, run.state.q, friction * p0,
-         [&](double s) { return -friction * p0 * (ellipse(b, s) - ellipse(exact_c * b, s)); });
+         [&](double s)
+         { return -way * friction * p0 * (ellipse(b, s) - ellipse(exact_c * b, s)); });
       profiles.add(exact_text("-q/f, Q/fP = ", Q), x / b,
                    tractions(problem, run.state.q) / (-friction * p0));
-      study.row(levels, {Q, c, exact_c, off.largest});
+      study.row(levels, {Q, c, exact_c, k < one_way ? off.largest : none});
       study.results["stick_half_width"] = c;
       // A closed form has no spread: the mesh's share is the error of the read-out.
-      if (!on_block && nodes == 101 && span == 1.67 && (domain == 0 || domain >= 1e3))
+      if (k < one_way && !on_block && nodes == 101 && span == 1.67 &&
+          (domain == 0 || domain >= 1e3))
       {
          study.compare(exact_text("stick half-width / b, Q/fP = ", Q), exact_c,
                        {0, std::max(stick.from.error, stick.to.error) / b}, c);

@@ -88,6 +88,7 @@ void single(miniapp::Study &study, Joint &joint)
 {
    const ReducedProblem &problem = joint.problem();
    miniapp::Run run(study, problem, joint.settings);
+   run.unit = joint.unit();
    const double shift = problem.position(0, 0);
    const auto x = [=](double arc_length) { return arc_length + shift; };
    Panel &diagram =
@@ -232,6 +233,7 @@ void row(miniapp::Study &study, Joint &joint, const std::vector<std::vector<int>
 {
    const ReducedProblem &problem = joint.problem();
    miniapp::Run run(study, problem, joint.settings);
+   run.unit = joint.unit();
    const VectorXd x = problem.position.col(0);
    Table &table = study.table("tightening", {{"label", "order of tightening"},
                                              {"residual_shear", "largest q/fp0", "%.3e"},
@@ -282,7 +284,7 @@ void lap_joint(miniapp::Study &study)
    study.option(&options.lower_thickness, "lower-thickness",
                 "Thickness of the lower lap over the upper's (1: equal laps).");
    study.option(&joint.friction, "friction", "Coefficient of friction.", miniapp::positive);
-   study.option(&joint.load, "load", "Tmax/P0, tension positive.");
+   study.option(&joint.load, "load", "Tmax/P0, tension positive; P0 = p0 w, w of --width.");
    study.option(&joint.cycles, "cycles", "Cycles at most; the march stops when steady.",
                 miniapp::at_least(1));
    study.option(&all_cycles,
@@ -299,7 +301,8 @@ void lap_joint(miniapp::Study &study)
    study.option(&joint.snug, "snug",
                 "Pressure over p0 to which several bolts are drawn together first.",
                 miniapp::at_least_below(0, 1));
-   study.option(&loads, "sweep-load", "Sweep: list of T/P0 (empty: none).");
+   study.option(&loads, "sweep-load",
+                "Sweep: list of T/P0 (empty: none), P0 of --width in all widths.");
    study.option(&frictions, "sweep-friction", "Sweep: list of f (empty: --friction).",
                 miniapp::positive);
    study.option(&widths, "sweep-width", "Sweep: list of w/t (empty: --width).");
@@ -312,12 +315,16 @@ void lap_joint(miniapp::Study &study)
    study.option(&joint.frames, "frames", "Intervals between the frames of --paraview.",
                 miniapp::at_least(1));
    study.parse();
+   const std::size_t bolts = options.bolts.size();
+   study.options().only_if(!loads.empty(), {"sweep-friction", "sweep-width"},
+                           "goes with --sweep-load");
+   study.options().only_if(!joint.paraview.empty(), {"frames"}, "goes with --paraview");
+   study.options().only_if(bolts > 1, {"tightening", "snug"}, "is of several --bolts");
    joint.settings.stepping = miniapp::stepping(march_by);
    joint.settings.stop_at_steady_state = !all_cycles;
    if (frictions.empty()) { frictions = {joint.friction}; }
    if (widths.empty()) { widths = {options.widths[0]}; }
    options.widths = miniapp::joined_once(options.widths, widths);
-   const std::size_t bolts = options.bolts.size();
    require(bolts == 1 || joint.paraview.empty(),
            "option --paraview: frames are of one bolt, there are ", bolts);
    require(bolts == 1 || loads.empty(),

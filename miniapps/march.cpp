@@ -69,6 +69,8 @@ void march_problem(miniapp::Study &study)
    study.option(&max_sweeps, "max-sweeps", "Most sweeps of an increment by gauss-seidel.",
                 miniapp::at_least(1));
    study.parse();
+   study.options().only_if(method == "gauss-seidel", {"max-sweeps"},
+                           "goes with --method gauss-seidel");
    history.check_options();
    require(!file.empty(), "option reduced is empty, must name a reduced problem");
    solver.max_sweeps = max_sweeps;
@@ -79,6 +81,7 @@ void march_problem(miniapp::Study &study)
    fill_in(problem);
    if (!std::isnan(friction)) { set_friction(problem, friction); }
    history.begin(problem);
+   study.options().only_if(!study.csv().empty(), {"frames"}, "goes with --csv");
    study.condensed(problem, 0);
 
    history.march(problem, [](const ContactState &, bool) {});

@@ -271,6 +271,9 @@ void plane_receding(miniapp::Study &study)
    study.option(&map_f, "map-friction", "Map of s and e: list of f.", miniapp::positive);
    study.option(&study_domain, "domain-study", "Print s and e for growing domains.");
    study.parse();
+   study.options().only_if(!map_n.empty(), {"map-friction"}, "goes with --map");
+   study.options().only_if(!cycled.empty(), {"cycles"}, "goes with --cycle-to");
+   study.options().only_if(!unloading.wanted.empty(), {"slip"}, "goes with --unload");
    if (obstacle == "th0")
    {
       require(options.domain == 0 && options.side == 0,

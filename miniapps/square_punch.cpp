@@ -88,6 +88,7 @@ void square_punch(miniapp::Study &study)
                 "Load increments between two values of the shear.", miniapp::at_least(1));
    study.option(&march_by, "march", miniapp::stepping_help, miniapp::stepping_choices);
    study.parse();
+   study.options().only_if(cycles > 0, {"amplitude"}, "goes with --cycles");
    options.half_plane = obstacle == "half-plane";
    if (std::isnan(friction)) { friction = options.half_plane ? 0.4 : 0.2; }
    study.results["friction"] = friction;
@@ -132,8 +133,10 @@ void square_punch(miniapp::Study &study)
                                                    {"stick_left", "stick left"},
                                                    {"stick_right", "stick right"},
                                                    {"dissipation", "dissipation", "%.4e"}});
-   for (double Q : shear)
+   const std::size_t one_way = miniapp::levels_one_way(shear);
+   for (std::size_t k = 0; k < shear.size(); ++k)
    {
+      const double Q = shear[k];
       run.to({{"Q", Q * friction}});
       draw(Q, run.state);
       const Zone zone = stick_zone(problem, run.state);
@@ -141,7 +144,7 @@ void square_punch(miniapp::Study &study)
       study.row(levels,
                 {Q, any ? zone.from.position - 1 : none, any ? zone.to.position - 1 : none,
                  run.state.dissipation},
-                {{"stick_right", zone.to.error}});
+                {{"stick_right", zone.to.error}}, {{"monotonic", k < one_way}});
    }
 
    if (cycles == 0) { return; }

@@ -64,6 +64,15 @@ BoltedLoop pull(Run &run, std::vector<NamedLoads> points, double load, int cycle
    run.state = ContactState::virgin(problem);
    loop.report = run.march(history, note);
    if (!loop.converged()) { return loop; }
+   const auto before = settled_states(problem, loop.tightened),
+              after = settled_states(problem, loop.last_peak);
+   if ((!closed(before.front()) && closed(after.front())) ||
+       (!closed(before.back()) && closed(after.back())))
+   {
+      warn("a free end of the laps touches under the remote load (option --touch finds where "
+           "it begins): its corner presses on the other lap, and the loss there depends on the "
+           "spacing of the nodes");
+   }
    loop.contact = contact_zone(problem, loop.tightened);
    loop.pulled = contact_zone(problem, loop.first_peak);
    loop.stick_first = stick_zone(problem, loop.first_peak);

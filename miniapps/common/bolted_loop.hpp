@@ -47,11 +47,11 @@ struct BoltedLoop
    {
       return report.cycles.empty() ? none : report.cycles.back().dissipation;
    }
-   /// External work against dissipation over the last cycle, relative.
+   /// External work over the dissipation of the last cycle, less 1.
    double work_error() const
    {
       if (report.cycles.empty() || steady() == 0) { return 0.0; }
-      return std::abs(report.cycles.back().external_work - steady()) / steady();
+      return (report.cycles.back().external_work - steady()) / steady();
    }
 };
 

@@ -19,9 +19,38 @@ TEST(LapJoint, WorkErrorFallsWithTheIncrements)
       const auto run =
          run_miniapp("lap_joint", std::string("-spacing 0.02 -increments ") + increments);
       ASSERT_EQ(run.code, 0) << run.output;
-      const double now = run.results["work_error"].get<double>();
+      const double signed_error = run.results["work_error"].get<double>();
+      const auto &last = run.results["cycles"].back();
+      const double work = last["external_work"].get<double>(),
+                   loss = last["dissipation"].get<double>();
+      EXPECT_NEAR(signed_error, work / loss - 1, 1e-9) << "its sign is that of the table";
+      const double now = std::abs(signed_error);
       EXPECT_LT(now, 0.5 * error) << increments; // a third, at first order
       error = now;
+   }
+}
+
+/// By the closed sweep of --touch: beyond that compression the ends press, before it they do
+/// not.
+TEST(LapJoint, ItIsSaidWhereFreeEndsTouch)
+{
+   const std::string narrow = "-width 0.5 -friction 0.5 -spacing 0.05 -increments 10 ";
+   const auto found = run_miniapp("lap_joint", narrow + "-load -0.02 -touch");
+   ASSERT_EQ(found.code, 0) << found.output;
+   const double touch = found.results["touch_load"].get<double>();
+   ASSERT_LT(touch, -0.03);
+   const auto load = [](double T) { return "-load " + std::to_string(T); };
+   const auto sweep = [](double T) { return " -load 0.01 -sweep-load " + std::to_string(T); };
+   for (const double share : {0.8, 1.2})
+   {
+      for (const std::string &way : {load(share * touch), sweep(share * touch)})
+      {
+         const auto run = run_miniapp("lap_joint", narrow + way);
+         ASSERT_EQ(run.code, 0) << run.output;
+         EXPECT_EQ(run.output.find("free end of the laps touches") != std::string::npos,
+                   share > 1)
+            << run.output;
+      }
    }
 }
 

@@ -3,6 +3,7 @@
 
 #include "study/run_miniapp.hpp"
 
+#include <array>
 #include <filesystem>
 #include <fstream>
 
@@ -74,6 +75,43 @@ TEST_F(Options, EveryOptionHasAValue)
    }
    expect_refused("fretting", "--plot -P 3", {"option --plot has no value"});
    expect_refused("hertz", "-friction 0.1 --friction 0.2", {"option --friction", "twice"});
+}
+
+/// An option that the chosen way of running does not use would change nothing, without a word.
+TEST_F(Options, WhatARunDoesNotUseIsRefused)
+{
+   const std::string bolted = "--case meshes/bolted_joint.json ";
+   for (const char *option :
+        {"--friction 0.9", "--young1 5", "--plane-stress", "--gap closed",
+         "--mesh1 meshes/punch.msh", "--load1 'P pressure 1 2'", "--half-plane-young 3"})
+   {
+      expect_refused("contact2d", bolted + option,
+                     {std::string(option).substr(0, std::string(option).find(' ')),
+                      "case files 1", "meshes/bolted_joint.json", "interfaces"});
+   }
+   expect_refused("contact2d", bolted + "--sweep 'friction=0.4 0.6'",
+                  {"--sweep: 'friction'", "case files 1", "interfaces"});
+   expect_refused("contact2d", "--case meshes/dovetail.json --bodies '{}'",
+                  {"--bodies", "case files 2", "meshes/dovetail.json", "mesh1"});
+   for (const auto &[program, options, option, with] : std::vector<std::array<std::string, 4>>{
+           {"hertz", "--sweep-results half_width", "--sweep-results", "--sweep"},
+           {"march", "-reduced problems/hertz.json -frames all", "--frames", "--csv"},
+           {"march", "-reduced problems/hertz.json -max-sweeps 7", "--max-sweeps", "--method"},
+           {"axisymmetric_receding", "-critical-bonded", "--critical-bonded", "--critical"},
+           {"axisymmetric_receding", "-map-friction 0.5", "--map-friction", "--map"},
+           {"axisymmetric_receding", "-amplitude 0.5", "--amplitude", "--cycles"},
+           {"axisymmetric_receding", "-twist rim", "--twist", "--torque"},
+           {"plane_receding", "-map-friction 0.5", "--map-friction", "--map"},
+           {"plane_receding", "-cycles 5", "--cycles", "--cycle-to"},
+           {"square_punch", "-amplitude 0.5", "--amplitude", "--cycles"},
+           {"lap_joint", "-sweep-friction 0.5", "--sweep-friction", "--sweep-load"},
+           {"lap_joint", "-frames 3", "--frames", "--paraview"},
+           {"lap_joint", "-snug 0.1", "--snug", "--bolts"},
+           {"shakedown", "-reduced problems/square_punch.json -nodes 51", "--nodes", "punch"},
+           {"shakedown", "-reversal -1 -lambda-min -0.2", "--lambda-min", "--reversal"}})
+   {
+      expect_refused(program, options, {"option " + option + " does nothing", with});
+   }
 }
 
 /// -h lists every option with both its names and what it is, and nothing is computed.
@@ -188,7 +226,8 @@ TEST_F(Options, ListsAndChoicesSayWhatIsAllowed)
    expect_refused("lap_joint", "--remote -1", {"option --remote is -1"});
    expect_refused("lap_joint", "--sweep-load 0.01 --sweep-friction -1",
                   {"option --sweep-friction", "-1"});
-   expect_refused("lap_joint", "--sweep-width 0", {"--sweep-width", "0", "positive"});
+   expect_refused("lap_joint", "--sweep-load 0.02 --sweep-width 0",
+                  {"--sweep-width", "0", "positive"});
    expect_refused("plane_receding", "--length 1", {"--overhang", "4", "length 1"});
    expect_refused("plane_receding", "--length -1", {"--length", "-1"});
    expect_refused("plane_receding", "--unload 0.5 --slip 99", {"--slip", "99", "on the strip"});

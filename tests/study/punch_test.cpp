@@ -71,6 +71,40 @@ TEST(SquarePunch, InfinitesimalShearSticksTheBackwardSlip)
    EXPECT_NEAR(run.results["levels"][0]["stick_left"].get<double>(), -1, 1e-12);
 }
 
+/// What turned back has no reference of loading, and no closed form of it.
+TEST(SquarePunch, ReferencesKnowThePath)
+{
+   const std::string name = "right end of stick, Q/fP = 0.25";
+   for (const auto &[shear, compared] :
+        {std::pair{"0.25 0.9", true}, {"0.9 0.25", false}, {"-0.5 0.25", false}})
+   {
+      const auto run = run_miniapp("square_punch", std::string("-shear '") + shear + "'");
+      ASSERT_EQ(run.code, 0) << run.output;
+      bool found = false;
+      for (const auto &row : run.results["references"]) { found |= row["quantity"] == name; }
+      EXPECT_EQ(found, compared) << shear;
+      const auto back = run_miniapp("hertz", std::string("-shear '") + shear + "'");
+      ASSERT_EQ(back.code, 0) << back.output;
+      for (const auto &row : back.results["levels"])
+      {
+         if (row["shear"] == 0.25)
+         {
+            EXPECT_EQ(row["cattaneo_mindlin"].is_number(), compared) << row;
+         }
+      }
+   }
+   // The mirror image of a shear has the same stick, and is as far off the closed form.
+   const auto one = run_miniapp("hertz", "-shear 0.5"),
+              other = run_miniapp("hertz", "-shear -0.5");
+   ASSERT_EQ(one.code + other.code, 0) << other.output;
+   const auto &right = one.results["levels"][0], &left = other.results["levels"][0];
+   EXPECT_NEAR(left["cattaneo_mindlin"].get<double>(), std::sqrt(0.5), 1e-15);
+   for (const char *key : {"stick_half_width", "shear_deviation"})
+   {
+      EXPECT_NEAR(left[key].get<double>(), right[key].get<double>(), 1e-6) << key;
+   }
+}
+
 TEST(SquarePunch, SlipUnderPressureAloneIsOdd)
 {
    const auto run = run_miniapp("square_punch", "--shear ''");
