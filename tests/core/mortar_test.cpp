@@ -265,6 +265,30 @@ TEST(Mortar, OverTwoNeighboursKeepsTheirPressure)
    }
 }
 
+/// The same of an arc within two rings' arcs: together they carry its whole length.
+TEST(Mortar, OverTwoNeighboursOfAnArcIsWhole)
+{
+   for (int order = 1; order <= 3; ++order)
+   {
+      for (double share : {0.02, 0.3, 0.6, 0.95})
+      {
+         const double joint = 0.1 + 1.3 * (4 + share) / 10;
+         const ContactLine disc =
+                              line_along(circle({2, 3}, 1), uniform_grid(0.1, 1.4, 10), order),
+                           one = line_along(circle({2, 3}, 1, true),
+                                            uniform_grid(-joint, -0.1, 7), order),
+                           two = line_along(circle({2, 3}, 1, true),
+                                            uniform_grid(-1.4, -joint, 9), order);
+         const Mortar first = mortar(disc, one), second = mortar(disc, two, first.nodes);
+         EXPECT_EQ(first.left_out + second.left_out, 0);
+         // Chords of 0.13 are shorter than their arcs by 7e-4, and ends face across mean
+         // tangents.
+         EXPECT_NEAR(first.weights.sum(), joint - 0.1, 2e-3) << order << " " << share;
+         EXPECT_NEAR(second.weights.sum(), 1.4 - joint, 2e-3) << order << " " << share;
+      }
+   }
+}
+
 /// Bodies of revolution: weights over the circumference, and displacements that are even or odd
 /// in r to the axis, where there is no node.
 TEST(Mortar, OfBodiesOfRevolutionHasTheWeightOfTheCircumference)
