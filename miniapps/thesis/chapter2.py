@@ -67,6 +67,15 @@ def spots(*all_runs):
     return sheet
 
 
+def together(run):
+    """All tests of a file, legends where they hide none."""
+    sheet = f.panels(*((run, panel, {"title": title}) for panel, title in (("stress", "2.5: stress at the edge"), ("threshold_tests", "2.8: tests and threshold"),
+                                                                          ("mode_two", "2.9: range of K_T"), ("energy", "2.10: frictional energy"))), height=4)
+    for axes in sheet.axes:
+        axes.legend(fontsize=6.5, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncol=2, frameon=False)
+    return sheet
+
+
 def tests(panel):
     return lambda run: f.panels((run, panel, {"title": ""}))
 
@@ -101,13 +110,17 @@ Above its curve a crack still grows when it has the critical length a0 = (ΔK_th
 The thesis doesn't say which part of K_I's cycle counts. Here it is the part in which the crack is open; `--criterion range` and `half-range` are the others.""", proof="fretting --criterion range")
 for number, panel, title, text in (
         ("2.8", "threshold_tests", "Tests and threshold", "Filled: broken. The criterion says that those above the curve break and those below last. "
-         "Invented tests needn't obey it: 3 of 4 broken ones lie below the curve in (a)."),
+         "Invented tests needn't obey it: those of (a) do, of the broken ones of (b) three in four lie below the curve, of (c) all."),
         ("2.9", "mode_two", "Range of K_T against life", "The line is the mode II threshold, 0.8 ΔK_th in K_II = √(2π) K_T."),
         ("2.10", "energy", "Frictional energy against life", "Largest energy per area and cycle, 4√3 K_T²/E* for reversed loads, a quarter into the slip zone.")):
     wrong = {"2.9": "The thesis compares ΔK_T itself with 0.8 ΔK_th, which is 2.5 times too much: K_II has a factor √(2π).",
              "2.10": "(2.22) of the thesis has the wrong dimension and lacks E*."}.get(number, "")
     for letter, (command, words) in TESTS.items():
         figure(number + letter, f"{title}: {words}", command, INVENTED + text, tests(panel), wrong=wrong, proof=PROOFS.get(number, ""))
+figure("2.5 (together)", "All tests in one figure each", f"fretting -rec {DATA}_together.csv", INVENTED + """
+Figures 2.5 and 2.8 to 2.10 with all materials and pads in one, as the thesis has some of its own: the records say material, pad and friction of each test. Limits are of each material, thresholds of each
+friction. The classical stress (first) scatters over materials and pads, which the diagram of 2.7 (second) brings onto one pair of axes.""",
+       together)
 figure("2.10 (total)", "Total frictional energy against life", [command for command, _ in TESTS.values()], INVENTED + """
 The energy of the whole slip zone, (8π/3) K_T³/(f K_N E*) a cycle for reversed loads; the thesis says that it orders the tests as the largest density does.""",
        lambda *all_runs: f.panels(*((run, "energy_all", {"title": words}) for run, (_, words) in zip(all_runs, TESTS.values()))))
