@@ -212,6 +212,13 @@ TEST_F(Exchange, RowsOfAnyProgram)
    expect_input_error([]
                       { read_stiffness(folder + "rows_compressed.npz", folder + "rows.dofs"); },
                       "is compressed, must not be");
+   // Places that are no integers are neither cut to integers nor gone to.
+   expect_input_error([]
+                      { read_stiffness(folder + "damaged_index.npz", folder + "rows.dofs"); },
+                      "row 2 has index 0.5, must be an integer from 0 to 1");
+   expect_input_error([]
+                      { read_stiffness(folder + "damaged_start.npz", folder + "rows.dofs"); },
+                      "indptr and shape are no square matrix");
 }
 
 /// Zeros between bodies connect nothing: dense forms have them, sparse ones may.
@@ -679,6 +686,62 @@ TEST_F(Exchange, ADeckMayNameTheThirdCoordinateOrEndItsLinesWithAComma)
    expect_input_error([&] { twisting.validate(); }, "it is of torsion");
 }
 
+/// What holds one body is no excuse for another one: a free body's damaged matrix is seen.
+TEST_F(Exchange, AFreeBodyBesideASupportedOneMustBeFree)
+{
+   const std::vector<NodalStiffness> laps = read_stiffness(folder + "laps.sti").parts();
+   ASSERT_EQ(laps.size(), 2);
+   EXPECT_TRUE(laps[0].supports_left_out);
+   EXPECT_FALSE(laps[1].supports_left_out);
+   EXPECT_EQ(laps[1].body().fixed.size(), 0);
+   NodalStiffness damaged = laps[1];
+   int column = 0; // of a neighbour of row 0
+   for (NodalStiffness::Matrix::InnerIterator e(damaged.K, 0); e; ++e)
+   {
+      if (e.col() > 0 && std::abs(e.value()) > 1e-2 * damaged.K.coeff(0, 0))
+      {
+         column = static_cast<int>(e.col());
+      }
+   }
+   ASSERT_GT(column, 0);
+   damaged.K.coeffRef(0, column) *= 1 + 1e-6;
+   expect_input_error([&] { damaged.body(); }, "the stiffness is not symmetric: entry (");
+   damaged.K.coeffRef(column, 0) = damaged.K.coeff(0, column);
+   expect_input_error([&] { damaged.body(); }, "it resists a ");
+   // On springs it may resist, and so may all if supports may be anybody's.
+   NodalStiffness both = read_stiffness(folder + "laps.sti");
+   both.on_springs = {laps[1].dofs[0].node};
+   EXPECT_TRUE(both.parts()[1].supports_left_out);
+   both.on_springs.clear();
+   both.edges.clear();
+   EXPECT_TRUE(both.parts()[1].supports_left_out);
+}
+
+/// Of a deck beside a matrix nothing that loads is passed over.
+TEST_F(Exchange, LoadsThatARowCannotHaveAreRefused)
+{
+   write_whole("m.sti", "1 1 1.\n2 2 1.\n");
+   write_whole("m.dof", "1.1\n1.2\n");
+   for (const char *card : {"DLOAD", "DSLOAD", "Temperature"})
+   {
+      write_whole("m.inp", std::string("*NODE\n1, 0., 2.\n*") + card + "\n1, P3, 50.\n");
+      expect_input_error([&] { read_stiffness("m.sti"); },
+                         "loads elements, which is not read beside a matrix");
+   }
+   write_whole("m.inp", "*NODE\n1, 0., 2.\n*BOUNDARY\n1, 3\n*CLOAD\n1, 3, 7.\n");
+   expect_input_error([&] { read_stiffness("m.sti"); },
+                      "'CLOAD1' loads node 1 direction 3, the direction of a force must be 1");
+   // A force without a row may be on what the deck holds, nowhere else.
+   const std::string two = "*NODE\n1, 0., 2.\n2, 0., 0.\n*BOUNDARY\n2, 2\n*CLOAD\n";
+   write_whole("m.inp", two + "2, 2, 7.\n1, 2, 3.\n");
+   EXPECT_EQ(read_stiffness("m.sti").loads.at(0).values, Eigen::Vector2d(0, 3));
+   for (const char *dof : {"2, 1", "3, 2", "1, 0"})
+   {
+      write_whole("m.inp", two + dof + ", 7.\n");
+      expect_input_error([&] { read_stiffness("m.sti"); }, "'CLOAD1' loads node ");
+   }
+}
+
 TEST_F(Exchange, MistakesAreToldInOneSentence)
 {
    const std::string deck = "*NODE\n1, 0., 0.\n2, 1., 0.\n", banner = "%%MatrixMarket matrix ";
@@ -692,6 +755,10 @@ TEST_F(Exchange, MistakesAreToldInOneSentence)
            {"m.mtx", "1,1,1,1\n",
             "line 1: '1,1,1,1', must be node, direction, node, direction and"},
            {"m.mtx", "1,6,1,6,2.\n", "direction 6 of node 1, must be 1 or 2"},
+           {"m.mtx",
+            "%%MatrixMarket matrix coordinate real general\n2 2 3\n1 1 1.\n2 2 1.\n"
+            "1 -2147483648 1.\n",
+            "entry (1, -2147483648), must be within 2×2"},
            {"m.mtx", "1,3,1,3,2.\n", "plane strain with E (1 + 2ν)/(1 + ν)²"},
            {"m.mtx", "1,1,1,1,2.\n1,1,1,1,3.\n",
             "entry (node 1 direction 1, node 1 direction 1) is there twice"},

@@ -172,6 +172,7 @@ void DeckReader::begin_card(const LineReader &in)
                                                    "DISTRIBUTING COUPLING",
                                                    "KINEMATIC COUPLING",
                                                    "TIE",
+                                                   "PRE-TENSION SECTION",
                                                    "CONTACT PAIR",
                                                    "CYCLIC SYMMETRY MODEL"};
    in.require(couplings.count(name) == 0, "*", name,

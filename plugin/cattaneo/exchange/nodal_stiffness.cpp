@@ -257,8 +257,12 @@ AssembledBody NodalStiffness::body() const
       const bool on_axis = formulation == Formulation::axisymmetric && place[0] <= near_axis;
       if (on_axis && dofs[row].direction == 1) { held.insert(static_cast<int>(row)); }
    }
-   if (fixed.empty() && !supports_left_out) { require_free(body.places); }
    body.fixed.assign(held.begin(), held.end());
+   if (fixed.empty() && !supports_left_out)
+   {
+      body.validate(); // what is not symmetric resists motions too
+      require_free(body.places);
+   }
    return body;
 }
 
@@ -404,8 +408,29 @@ std::vector<NodalStiffness> NodalStiffness::parts() const
          order.push_back(group);
       }
    }
+   // Which of them are supported: unless supports are nowhere to be seen, or are on nodes that
+   // may be anybody's.
+   std::set<std::size_t> supported;
+   for (int node : on_springs)
+   {
+      supported.insert(owner.count(node) ? owner.at(node) : order.size());
+   }
+   const std::map<NodeDof, int> known = rows();
+   const double near_axis = axis();
+   for (const auto &[node, place] : places)
+   {
+      const bool on_axis = formulation == Formulation::axisymmetric && place[0] <= near_axis;
+      if ((on_axis || known.count({node, 1}) == 1) && known.count({node, 2}) == 1) { continue; }
+      supported.insert(owner.count(node) == 1 ? owner.at(node) : order.size());
+   }
+   const bool told = !supported.empty() && supported.count(order.size()) == 0;
    std::vector<NodalStiffness> found;
-   for (std::size_t group : order) { found.push_back(part(groups[group], owner, group)); }
+   for (std::size_t group : order)
+   {
+      found.push_back(part(groups[group], owner, group));
+      found.back().supports_left_out =
+         supports_left_out && (!told || supported.count(group) == 1);
+   }
    for (std::size_t b = 0; b < found.size(); ++b)
    {
       if (found[b].name.empty()) { found[b].name = "body " + std::to_string(b + 1); }
@@ -419,7 +444,6 @@ NodalStiffness NodalStiffness::part(const std::vector<int> &rows,
 {
    NodalStiffness own;
    own.formulation = formulation;
-   own.supports_left_out = supports_left_out;
    std::vector<int> number(dofs.size(), -1);
    for (int row : rows)
    {
@@ -451,6 +475,8 @@ NodalStiffness NodalStiffness::part(const std::vector<int> &rows,
       if (!values.isZero(0)) { own.loads.push_back({load.name, load.control, values}); }
    }
    const auto is_own = [&](int node) { return own.places.count(node) == 1; };
+   std::copy_if(on_springs.begin(), on_springs.end(), std::back_inserter(own.on_springs),
+                is_own);
    std::copy_if(edges.begin(), edges.end(), std::back_inserter(own.edges),
                 [&](const Nodes &edge)
                 { return std::all_of(edge.begin(), edge.end(), is_own); });

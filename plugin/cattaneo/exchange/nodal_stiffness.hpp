@@ -56,6 +56,7 @@ public:
    std::vector<Nodes> edges;
    /// The program that wrote K left out rows of supports, so that K resists motions.
    bool supports_left_out = false;
+   Nodes on_springs; ///< of a deck: where springs resist motions
 
    /// Is there a set of that name, whatever its capitals?
    bool has_set(const std::string &set) const;
@@ -82,7 +83,8 @@ public:
    /** Bodies that are connected to nothing, by the lowest number of their nodes. Each has the
        rows, places, edges, supports and loads that are its own, and of the sets what of them is
        its own; it is called by the smallest set that has all of its nodes and no other body's,
-       else "body 1", "body 2", …. */
+       else "body 1", "body 2", …. Supports were left out of those that have nodes without rows
+       or on springs, where that is known; the others must be free (see body()). */
    std::vector<NodalStiffness> parts() const;
 
    /** For condense(), with rows for dofs. Nodes on an axis do not move off it, whether a

@@ -7,6 +7,7 @@
 #include <cattaneo/whole_file.hpp>
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 namespace cattaneo
 {
@@ -281,7 +282,7 @@ Matrix read_matrix_market(const std::string &file)
    const int size = in.integer(fields[0], "the number of rows");
    in.require(size > 0 && in.integer(fields[1], "the number of columns") == size,
               "the matrix is ", fields[0], "×", fields[1], ", must be square");
-   const long stated = array ? triangle ? long(size) * (size + 1) / 2 : long(size) * size
+   const long stated = array ? triangle ? long(size) * (size + 1L) / 2 : long(size) * size
                              : in.integer(fields[2], "the number of entries");
    in.require(stated >= size, stated, " entries of ", size,
               " rows, must be one a row at least");
@@ -296,10 +297,12 @@ Matrix read_matrix_market(const std::string &file)
                  array ? "one entry" : "row, column and value");
       if (!array)
       {
-         row = in.integer(fields[0], "a row") - 1;
-         column = in.integer(fields[1], "a column") - 1;
-         in.require(std::min(row, column) >= 0 && std::max(row, column) < size, "entry (",
-                    row + 1, ", ", column + 1, "), must be within ", size, "×", size);
+         row = in.integer(fields[0], "a row");
+         column = in.integer(fields[1], "a column");
+         in.require(std::min(row, column) > 0 && std::max(row, column) <= size, "entry (", row,
+                    ", ", column, "), must be within ", size, "×", size);
+         --row;
+         --column;
       }
       entries.add(row, column, in.number(fields.back(), "an entry"));
       if (array && ++row == size) { row = triangle ? ++column : (++column, 0); }
@@ -349,9 +352,11 @@ Matrix read_numpy(const std::string &file, bool archive)
       const NumpyArray data = array("data"), indices = array("indices"),
                        start = array("indptr"), shape = array("shape");
       const std::size_t count = data.values.size(), rows = start.values.size();
+      const auto whole = [](double number) { return number == std::floor(number); };
       size = static_cast<Eigen::Index>(rows) - 1;
       require(data.shape.size() == 1 && indices.values.size() == count && rows > 1 &&
                  shape.values == std::vector<double>(2, double(size)) && start.values[0] == 0 &&
+                 std::all_of(start.values.begin(), start.values.end(), whole) &&
                  std::is_sorted(start.values.begin(), start.values.end()) &&
                  start.values.back() == double(count),
               "file '", file,
@@ -362,8 +367,8 @@ Matrix read_numpy(const std::string &file, bool archive)
          for (auto k = std::size_t(start.values[i]); k < std::size_t(start.values[i + 1]); ++k)
          {
             const double j = indices.values[k];
-            require(j >= 0 && j < double(size), "file '", file, "': row ", i + 1, " has index ",
-                    j, ", must be from 0 to ", size - 1);
+            require(whole(j) && j >= 0 && j < double(size), "file '", file, "': row ", i + 1,
+                    " has index ", j, ", must be an integer from 0 to ", size - 1);
             finite(i, static_cast<Eigen::Index>(j), data.values[k]);
          }
       }
@@ -399,19 +404,29 @@ private:
    const std::map<NodeDof, int> rows_;
 };
 
-/// What the cards of a deck say of the rows of its matrix.
+/// What the cards of a deck say of the rows of its matrix. A force may be left out only on what
+/// the deck itself holds: rows are also missing because they were eliminated, or by mistake.
 void add_cards(const std::vector<Card> &cards, const std::string &file, NodalStiffness &result)
 {
    Entries entries(result);
+   std::set<NodeDof> held;
+   for (const Card &card : cards)
+   {
+      if (card.control == Control::force) { continue; }
+      for (const Card::Value &each : card.values) { held.insert(each.at); }
+   }
    for (const Card &card : cards)
    {
       const bool moves = card.control == Control::displacement;
       for (const auto &[at, value] : card.values)
       {
+         require(at.direction == 1 || at.direction == 2 || value == 0, "file '", file, "': '",
+                 card.name, "' loads ", dof_name(at),
+                 ", the direction of a force must be 1 or 2");
          const bool there = entries.has_row(at);
          result.supports_left_out = result.supports_left_out || (moves && !there);
          require(
-            there || (moves ? value == 0 : result.supports_left_out), "file '", file, "': '",
+            there || (moves ? value == 0 : held.count(at) == 1), "file '", file, "': '",
             card.name, moves ? "' moves " : "' loads ", dof_name(at),
             ", which the matrix has no row of, it must be free in the step that writes the "
             "matrix");
@@ -588,12 +603,20 @@ NodalStiffness read_stiffness(const std::string &matrix, const std::string &plac
       const bool wedge = ending == ".sti" && result.formulation == Formulation::axisymmetric;
       if (wedge) { result.K *= 180.0; }
       // Springs to the ground, or along an axis between nodes that are apart.
-      result.supports_left_out =
-         result.supports_left_out ||
-         std::any_of(said.elements.begin(), said.elements.end(),
-                     [](const InputDeck::Element &element)
-                     { return element.type == "SPRING1" || element.type == "SPRING2"; });
+      for (const InputDeck::Element &element : said.elements)
+      {
+         if (element.type != "SPRING1" && element.type != "SPRING2") { continue; }
+         result.supports_left_out = true;
+         result.on_springs.insert(result.on_springs.end(), element.nodes.begin(),
+                                  element.nodes.end());
+      }
       add_cards(said.cards, deck, result);
+      for (const char *load : {"DLOAD", "DSLOAD", "TEMPERATURE"})
+      {
+         require(said.keywords.count(load) == 0, "file '", deck, "': *", load,
+                 " loads elements, which is not read beside a matrix, must be left out: give "
+                 "forces as *CLOAD, or tractions on nodes of the surface when it is read");
+      }
    }
    result.validate();
    return result;

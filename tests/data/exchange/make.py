@@ -154,6 +154,8 @@ def main():
     scipy.sparse.save_npz("rows_csr.npz", sparse, compressed=False)
     scipy.sparse.save_npz("rows_compressed.npz", sparse)
     np.savez("rows_dense.npz", K=K_lower)
+    for damaged, indices, start in (("index", [0, 1, 0.5, 1], [0, 2, 4]), ("start", [0, 1, 0, 1], [0, np.nan, 4])):
+        np.savez(f"damaged_{damaged}.npz", data=np.ones(4), indices=indices, indptr=start, shape=[2, 2])
     np.save("rows.npy", np.asfortranarray(K_lower))
     with open("rows.dofs", "w") as out:
         print("# node direction x y", file=out)
