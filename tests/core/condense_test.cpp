@@ -520,6 +520,40 @@ TEST(CondenseMatrix, AWeakFoundationHoldsALargeBody)
    }
 }
 
+/// Two nodes that hold on to each other hang on the contact by a weak spring: a load on them
+/// moves them by 1/weak + 1, of which K itself says as many digits as 1 + weak has of weak.
+TEST(CondenseMatrix, WhatOnlyRoundOffHoldsMustNotBeLoaded)
+{
+   const auto condensed = [](double weak)
+   {
+      std::vector<Eigen::Triplet<double>> entries;
+      AssembledBody body;
+      body.places = {VectorXd(6), VectorXd::Zero(6), {}, Formulation::plane};
+      for (int dof = 0; dof < 6; ++dof)
+      {
+         body.places.x[dof] = dof / 2;
+         body.places.component.push_back(dof % 2);
+         const double own[] = {1 + weak, 1 + weak, 1}, next[] = {weak, 1};
+         entries.emplace_back(dof, dof, own[dof / 2]);
+         if (dof >= 4) { continue; }
+         entries.emplace_back(dof, dof + 2, -next[dof / 2]);
+         entries.emplace_back(dof + 2, dof, -next[dof / 2]);
+      }
+      Eigen::SparseMatrix<double, Eigen::RowMajor> K(6, 6);
+      K.setFromTriplets(entries.begin(), entries.end());
+      body.K = SharedMatrix(std::move(K));
+      body.grounded = true;
+      body.loads = {{"pull", Control::force, VectorXd::Unit(6, 4)}};
+      ContactLine line;
+      line.chains = {{0, 1}};
+      line.nodes = {{{0, 1}, {0, 0}, {1, 0}, 1, 0, 1}};
+      return condense(body, line);
+   };
+   EXPECT_NEAR(condensed(1e-8).H(0, 0), 1e8 + 1, 1e8 * 1e-7);
+   expect_input_error([&] { condensed(1e-14); }, "condense: load 'pull' moves the node (");
+   expect_input_error([&] { condensed(1e-14); }, "at most 0.001 is allowed");
+}
+
 TEST(CondenseMatrix, NeighboursAreAtDifferentPlaces)
 {
    const Frame frame(3, 2, true);

@@ -341,7 +341,7 @@ TEST(HalfPlane, ErrorOfTheStiffnessIsRoundOff)
 }
 
 /// A pin-jointed frame of one row of cells over the nodes of a line, held by nothing.
-CondensedBody frame(const std::vector<double> &x, double push)
+CondensedBody frame(const std::vector<double> &x, double push, double height = 1)
 {
    const auto n = static_cast<int>(x.size());
    MatrixXd K = MatrixXd::Zero(4 * n, 4 * n);
@@ -351,7 +351,7 @@ CondensedBody frame(const std::vector<double> &x, double push)
    {
       const int point = dof / 2;
       body.places.x[dof] = x[point % n];
-      body.places.y[dof] = point / n;
+      body.places.y[dof] = point / n * height;
       body.places.component.push_back(dof % 2);
    }
    for (int p = 0; p < 2 * n; ++p)
@@ -410,7 +410,7 @@ TEST(HalfPlane, CurvedLineOverIt)
    {
       std::vector<double> grid = {-1, -0.4, 0, 0.7, 1.5};
       for (double &x : grid) { x *= unit; }
-      CondensedBody drawn = frame(grid, 1);
+      CondensedBody drawn = frame(grid, 1, unit);
       const MatrixXd flat = reduce(drawn, half_plane(2, 0.1)).problem.K;
       const auto lift = [=](double x) { return 0.01 * x * x / unit; };
       for (LineNode &node : drawn.line.nodes) { node.position[1] = lift(node.position[0]); }

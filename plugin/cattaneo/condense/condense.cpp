@@ -3,6 +3,7 @@
 #include <cattaneo/condense/condense.hpp>
 #include <cattaneo/condense/stiffness_error.hpp>
 #include <cattaneo/input_error.hpp>
+#include <limits>
 
 namespace cattaneo
 {
@@ -104,9 +105,35 @@ std::shared_ptr<const FactoredStiffness> factored(const AssembledBody &body,
    return made;
 }
 
-/// Loads of a body whose contact is clamped, and what is kept of them for recovery.
-ClampedLoads clamp(const std::vector<BodyLoad> &loads, FactorSolver &solver, Counters &counters)
+/// InputError for a load whose displacements are so large that their forces, sums of |K||U|,
+/// are lost in round-off: it moves what nothing holds but round-off, a part that hangs on one
+/// node, or a support left out.
+void require_held(const FactoredStiffness &of, const AssembledBody &body, const BodyLoad &load,
+                  const Eigen::VectorXd &forces, const Eigen::VectorXd &U)
 {
+   if (forces.size() == 0) { return; } // all of the body is contact
+   const double eps = std::numeric_limits<double>::epsilon(),
+                all = forces.cwiseAbs().maxCoeff(), far = U.cwiseAbs().maxCoeff();
+   const SparseView K = of.K.view();
+   const Eigen::Map<const Eigen::VectorXd> entries(K.valuePtr(), K.nonZeros());
+   // Bodies of up to some hundred entries a row need no closer look.
+   if (1e3 * eps * entries.cwiseAbs().maxCoeff() * far <= 1e-3 * all) { return; }
+   Eigen::VectorXd size = Eigen::VectorXd::Zero(of.K.size());
+   size(of.keep) = U.cwiseAbs();
+   Eigen::Index most = 0;
+   size.maxCoeff(&most);
+   const double left = eps * (K.cwiseAbs() * size).maxCoeff();
+   require(!(left > 1e-3 * all), "condense: load '", load.name, "' moves the node (",
+           body.places.x[most], ", ", body.places.y[most], ") by ", far,
+           " per unit, which leaves ", left / all,
+           " of its forces to round-off, at most 0.001 is allowed: something must hold what it "
+           "pushes (a part on a single node is free to turn)");
+}
+
+/// Loads of a body whose contact is clamped, and what is kept of them for recovery.
+ClampedLoads clamp(const AssembledBody &body, FactorSolver &solver, Counters &counters)
+{
+   const std::vector<BodyLoad> &loads = body.loads;
    // One column a load. K d is needed once more below, at contact and fixed dofs.
    const FactoredStiffness &of = *solver.stiffness;
    const auto count = static_cast<Eigen::Index>(loads.size());
@@ -135,6 +162,10 @@ ClampedLoads clamp(const std::vector<BodyLoad> &loads, FactorSolver &solver, Cou
    rhs.topRows(interior) = solver.interior;
    const Eigen::MatrixXd U = of.factor->solve(rhs);
    counters.back_substitutions += count;
+   for (Eigen::Index k = 0; k < count; ++k)
+   {
+      require_held(of, body, loads[k], solver.interior.col(k), U.col(k));
+   }
    solver.contact = U.bottomRows(of.contact);
    // With springs on the contact nodes instead of clamps: K_CI K_II⁻¹ r = -(S + shift) U_C,
    // and r'ᵀ K_II⁻¹ r = r'ᵀ U_I - U'_Cᵀ (S + shift) U_C.
@@ -218,7 +249,7 @@ Condensation condense_by_factor(const AssembledBody &body, const std::vector<int
       solver->stiffness = factored(body, contact, backend);
       ++found.counters.factorisations;
    }
-   found.clamped = clamp(body.loads, *solver, found.counters);
+   found.clamped = clamp(body, *solver, found.counters);
    found.S = solver->stiffness->S;
    found.solver = std::move(solver);
    return found;
