@@ -91,6 +91,11 @@ def kinds(run, name, drop, y, **limits):
     sheet, both = f.sheet(2)
     for axes, only, label in zip(both, (lambda s: not s.startswith(drop), lambda s: s.startswith(drop)), y):
         f.draw(axes, run, name, only=only, rename=lambda s: s.removeprefix(drop), title="", y=label, style="line", **limits)
+        # Loads follow each other, and so do the colours: there are more of them than dashes.
+        lines = [line for line in axes.get_lines() if not line.get_label().startswith("_")]
+        for k, line in enumerate(lines):
+            line.set(color=f.plt.cm.viridis(0.92 * k / max(1, len(lines) - 1)), linestyle="-")
+        axes.legend(fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.18), ncol=4, frameon=False)
     return sheet
 
 

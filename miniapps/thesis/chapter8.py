@@ -28,6 +28,7 @@ def mismatch(*all_runs):
                      color=f.COLOURS[k], linestyle=style)
     for axes in both:
         axes.set_xscale("log")
+    both[1].legend(fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.18), ncol=2, frameon=False)
     return sheet
 
 
