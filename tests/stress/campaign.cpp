@@ -198,26 +198,34 @@ private:
       state_ = state;
    }
 
-   /// ½ f (p₀ + p₁)|Δv| of every node; where the slip goes with the old friction it turned
-   /// within the increment, at a pressure between the two.
+   /// ½ f (p + p₁)|Δv| of every node, p the pressure at which it begins to slip: in the plane
+   /// where what is left of its friction, r = f p + (slip's sense) q, is used up, as it changes
+   /// linearly to what it would be had the node stuck; in the disc, between p₀ and p₁.
    void check_loss(double loss, const Vector &u, const ContactState &state, Real scale)
    {
       const Index n = laws_->n, c = laws_->c;
-      Real least = 0, most = 0, far = 0;
-      for (Index i = 0; i < n; ++i)
+      Real least = 0, most = 0, far = 0, vague = 0;
+      const Vector step = u - u_;
+      for (Index i = 0; i < n && c > 0; ++i)
       {
-         const Real p0 = std::max(state_.p[i], 0.0), p1 = std::max(state.p[i], 0.0);
-         const Vector step = u - u_;
-         const Real way = c == 0 ? 0 : laws_->tangential(step, i);
-         Real with = 0;
-         for (Index a = 0; a < c; ++a) with += state_.q[a * n + i] * step[a * n + i];
-         const bool turned = with > 0 || (c == 2 && way > 0);
-         const Real half = laws_->f[i] * way / 2;
-         least += half * ((turned ? std::min(p0, p1) : p0) + p1);
-         most += half * ((turned ? std::max(p0, p1) : p0) + p1);
-         far += laws_->f[i] * way;
+         const Real p0 = std::max(state_.p[i], 0.0), p1 = std::max(state.p[i], 0.0),
+                    f = laws_->f[i], way = laws_->tangential(step, i);
+         Real low = std::min(p0, p1), high = std::max(p0, p1);
+         if (c == 1)
+         {
+            const Real sense = step[i] > 0 ? 1 : -1, left = f * p0 + sense * state_.q[i],
+                       stuck = f * p1 + sense * (state.q[i] - laws_->K(i, i) * step[i]);
+            const Real share =
+               left > 0 && left > stuck ? std::min(left / (left - stuck), Real(1)) : 0;
+            low = high = p0 + share * (p1 - p0);
+            // Forces are known to round-off, and where they reach a bound as well.
+            vague += f * std::abs(p1 - p0) / laws_->K(i, i);
+         }
+         least += f * way / 2 * (low + p1);
+         most += f * way / 2 * (high + p1);
+         far += f * way;
       }
-      const Real leave = 1e-9 * most + 1e-13 * scale * far;
+      const Real leave = 1e-9 * most + 1e-13 * scale * (far + vague);
       if (loss >= 0 && loss >= least - leave && loss <= most + leave) return;
       char text[200];
       std::snprintf(text, sizeof text, "loss %.9g, must be %.9g ... %.9g, t %.6g", loss,
