@@ -33,7 +33,8 @@ struct WearLaw
 };
 
 /// Depth that each node (size n, ≥ 0) loses over an increment, with ½ (p₀ + p₁)|Δv| along its
-/// path, cut where slip turns; over a threshold the part of that line which is above it.
+/// path, from where it begins to slip or turns; over a threshold the part of that line which is
+/// above it.
 Eigen::VectorXd worn_depth(const ReducedProblem &problem, const WearLaw &law,
                            const ContactState &before, const ContactState &after);
 
