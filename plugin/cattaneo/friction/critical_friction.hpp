@@ -19,9 +19,9 @@ struct CriticalFriction
        not all zero, that balance each other on the bodies without any load (a wedge that stays
        where it was driven in); below it there are none, whatever the elasticity. It depends on
        the directions of the contact as the rigid motions see them: tan α for a wedge with
-       flanks at ±α to its axis, infinite for a flat contact. Infinite as well where directions do
-       not decide: if both bodies are held, supports balance any forces, and a pin amid its hole
-       has pressures that balance without friction. Elasticity decides there, as for a node.
+       flanks at ±α to its axis, infinite for a flat contact. Infinite as well where directions
+      do not decide: if both bodies are held, supports balance any forces, and a pin amid its
+      hole has pressures that balance without friction. Elasticity decides there, as for a node.
 
        By Gordan's theorem either such forces exist, or there is a rigid motion that all edges
        of all cones oppose. */
