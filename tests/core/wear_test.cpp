@@ -242,6 +242,30 @@ TEST(Wear, ABlockThatSlidesOnSpringsWearsUntilItsPressureIsUniform)
    EXPECT_EQ(end.status, FrictionStatus::gross_sliding);
 }
 
+/// Where each cycle takes as much as the one before, the tenth takes a tenth of all so far: it
+/// is where a march ends that a share of a tenth ends, and not before.
+TEST(Wear, EndsAtTheShareThatIsCalledFinal)
+{
+   const double kt = 5, f = 0.5, d = 1, k = 1e-3;
+   const Pad pad = springs(VectorXd::Zero(4), kt, 2, f, d);
+   const WearLaw law = WearLaw::uniform(pad.problem, k);
+   WearSettings settings = settings_with(0);
+   settings.final_share = 0.1;
+   WearState state = WearState::virgin(pad.problem);
+   const WearReport report = wear(pad.problem, law, pad.history, 40, state, settings);
+   ASSERT_EQ(report.status, FrictionStatus::converged) << report.message;
+   EXPECT_GE(report.final_cycle, 10);
+   EXPECT_LE(report.final_cycle, 11);
+   EXPECT_LE(state.cycles, 11);
+   // And a quarter of a cycle on the way to the first turn.
+   const double cycle = k * 4 * (d - f / kt);
+   EXPECT_LT(largest(state.depth / cycle - VectorXd::Constant(4, state.cycles + 0.25)), 1e-9);
+   settings.final_share = 0;
+   state = WearState::virgin(pad.problem);
+   EXPECT_EQ(wear(pad.problem, law, pad.history, 40, state, settings).final_cycle, 0);
+   EXPECT_EQ(state.cycles, 40);
+}
+
 TEST(Wear, WhereACycleWearsMoreThanTheContactGivesWayByItsUpdateIsImplicit)
 {
    // 4 k kn (d - f/kt) = 7.2: the explicit update multiplies differences by -6.2 a cycle.
