@@ -556,6 +556,24 @@ TEST(Sensitivity, RefusesWhatDoesNotFit)
       "stiffness change");
 }
 
+TEST(Sensitivity, DerivativesTimesChangesAreSummedOverAllParameters)
+{
+   Parameters by, change;
+   by.friction = Eigen::Vector2d(1, 2);
+   by.gap = Eigen::Vector2d(3, 4);
+   by.multipliers = Eigen::Matrix2d{{5, 6}, {7, 8}};
+   by.stiffness = Eigen::Vector3d(9, 10, 11);
+   EXPECT_EQ(by.dot(change), 0);
+   change.friction = Eigen::Vector2d(10, 1);
+   change.multipliers = Eigen::Matrix2d{{1, 0}, {0, -1}};
+   change.stiffness = Eigen::Vector3d(0, 2, 1);
+   change.wear = Eigen::Vector2d(100, 100); // of which no derivative is given
+   EXPECT_EQ(by.dot(change), (10 + 2) + (5 - 8) + (20 + 11));
+   change.stiffness = Eigen::Vector2d(1, 1);
+   expect_input_error([&] { by.dot(change); },
+                      "parameters: stiffness of 3 × 1 and of 2 × 1 entries");
+}
+
 // A response of another march has states of the same sizes, and derivatives that mean nothing.
 TEST(Sensitivity, ResponsesAreOfTheirOwnMarch)
 {

@@ -498,6 +498,9 @@ TEST(Wear, BadInputIsNamed)
    LoadHistory other = pad.history;
    other.multipliers.rightCols(3) *= 0.5;
    expect_input_error([&] { wear(problem, law, other, 3, state); }, "load multipliers");
+   // Loads that are larger than the state's differ no less than those that are smaller.
+   other.multipliers.rightCols(3) *= 4;
+   expect_input_error([&] { wear(problem, law, other, 3, state); }, "load multipliers");
    state.depth[3] = -1;
    expect_input_error([&] { run(1); }, "depth");
    state = WearState::virgin(problem);

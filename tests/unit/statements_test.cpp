@@ -37,7 +37,8 @@ TEST(Statements, ValuesAreFunctions)
    {
       expect_input_error([&] { scalar_field("load", text); },
                          "load: '" + std::string(text) +
-                            "' is not a number or a function of x and y");
+                            "' is not a number or a function of x and y such as "
+                            "1-3*x+2*sqrt(y)");
    }
 }
 
