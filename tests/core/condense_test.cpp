@@ -118,6 +118,23 @@ std::vector<int> others(int size, const std::vector<int> &a, const std::vector<i
    return rest;
 }
 
+// A contact node on a line that leans by 30 degrees: 30 from what is held along x, 60 from what
+// is held along y.
+TEST(CondenseMatrix, AHeldContactNodeOnALeaningLineIsRefusedWithItsAngle)
+{
+   const double lean = std::acos(-1.0) / 6;
+   for (const auto &[component, angle] : {std::pair{0, "30"}, std::pair{1, "60"}})
+   {
+      const Frame frame(5, 4, true);
+      AssembledBody body = frame.body(true);
+      ContactLine line = frame.line();
+      body.fixed.insert(body.fixed.begin(), line.nodes[0].dofs[component]);
+      for (LineNode &node : line.nodes) { node.tangent = {std::cos(lean), std::sin(lean)}; }
+      expect_input_error([&] { condense(body, line); },
+                         std::string("meets it at ") + angle + " degrees, must be 0 or 90");
+   }
+}
+
 TEST(CondenseMatrix, IsTheSchurComplementOfItsBlocks)
 {
    for (const bool above : {true, false})

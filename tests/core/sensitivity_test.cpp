@@ -1,3 +1,4 @@
+#include "disc_problems.hpp"
 #include "expect_input_error.hpp"
 #include "random_problem.hpp"
 #include "small_problems.hpp"
@@ -377,6 +378,25 @@ TEST(Sensitivity, TiesAreNamedAndHaveTwoSides)
    EXPECT_NEAR(std::max(one, other), 0, 1e-14);
    EXPECT_NEAR(std::min(one, other), -0.5, 1e-14);
    EXPECT_TRUE(ties(cattaneo_test::one_block(0.6), trace).size() <= 1);
+}
+
+// The same block in a disc slips, without forward and backward.
+TEST(Sensitivity, TiesOfTwoTangentialComponentsAreOfStickAndSlip)
+{
+   const ReducedProblem problem = cattaneo_test::as_disc(cattaneo_test::one_block(0.5));
+   const LoadHistory history =
+      LoadHistory::through(problem, {{}, {{"press", 1}}, {{"press", 1}, {"shear", 0.5}}});
+   MarchSettings settings;
+   settings.stepping = Stepping::fixed;
+   MarchTrace trace = trace_march(problem, history, settings);
+   for (NodeState taken : {NodeState::stick, NodeState::slip})
+   {
+      trace.states.back().state.status[0] = taken;
+      const std::vector<Tie> tied = ties(problem, trace);
+      ASSERT_EQ(tied.size(), 1u);
+      EXPECT_EQ(tied[0].taken, taken);
+      EXPECT_EQ(tied[0].other, taken == NodeState::stick ? NodeState::slip : NodeState::stick);
+   }
 }
 
 // Hertz: p0 = √(P E*/πR) and with it ∂p0/∂P = p0/2P and, R being that of the gap x²/2R,

@@ -223,6 +223,17 @@ TEST(Axisymmetric, TheAxisIsHeldAndTheOtherSideRefused)
                          "must be zero on the axis");
       expect_input_error([&] { body.fix(1, 2); }, "must be 0 (r) or 1 (z)");
       expect_input_error([&] { body.add_traction("t", 3, 1.0); }, "must be two");
+      for (Guide::Motion motion : {Guide::Motion::force, Guide::Motion::displacement})
+      {
+         const Guide::Along moves{motion, "moves"};
+         Guide sideways{moves, {}}, turning{{}, {}, moves}, along_the_axis{{}, moves};
+         for (const Guide *bad : {&sideways, &turning})
+         {
+            expect_input_error([&] { body.guide(3, *bad); }, "must not be given");
+         }
+         ElasticBody other(mesh, order, Material{}, Formulation::axisymmetric);
+         EXPECT_NO_THROW(other.guide(3, along_the_axis));
+      }
       ElasticBody torsion(mesh, order, Material{}, Formulation::torsion);
       expect_input_error([&] { torsion.fix(1, 1); }, "must be 0 (twist)");
       expect_input_error([&] { torsion.add_pressure("p", 3, 1.0); }, "must be 0 (twist)");

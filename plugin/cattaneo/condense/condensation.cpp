@@ -44,7 +44,8 @@ std::vector<int> align(ContactLine &line, const std::vector<int> &held)
       const double turn = degrees * std::asin(std::min(std::abs(along), std::abs(across)));
       require(turn <= LineChain::smooth_turn, "condense: component ",
               component_name(line.formulation, c), " of the contact node at ", node.position,
-              " is fixed, and the line meets it at ", tangential ? turn : 90 - turn,
+              " is fixed, and the line meets it at ",
+              0.1 * std::round(10 * (tangential ? turn : 90 - turn)),
               " degrees, must be 0 or 90, to ", LineChain::smooth_turn);
       node.tangent.setZero();
       node.tangent[tangential ? c : 1 - c] = std::copysign(1.0, tangential ? along
