@@ -205,6 +205,49 @@ TEST(Wear, JumpsComeToWhatAllCyclesMarchedComeTo)
    }
 }
 
+// What a cycle takes of each spring is known by hand, p (4 d - 4 f p/kt) k with pressures by
+// the gaps; jumps come to what the recurrence comes to, within what they report.
+TEST(Wear, JumpsOverSpringsFollowTheRecurrence)
+{
+   const double kt = 5, kn = 2, f = 0.5, d = 1;
+   for (const auto &[k, height, tolerance] :
+        {std::tuple{1e-4, 0.1, 1e-1}, std::tuple{1e-4, 0.3, 1e-3}, std::tuple{3e-4, 0.1, 1e-2},
+         std::tuple{1e-3, 0.1, 1e-3}, std::tuple{1e-3, 0.3, 1e-2}})
+   {
+      VectorXd gap(4);
+      gap << 0, height / 3, height, 2 * height / 3;
+      const Pad pad = springs(gap, kt, kn, f, d);
+      WearState state = WearState::virgin(pad.problem);
+      const WearReport report = wear(pad.problem, WearLaw::uniform(pad.problem, k), pad.history,
+                                     1000, state, settings_with(tolerance));
+      VectorXd depth = VectorXd::Zero(4);
+      for (int cycle = 0; cycle <= 1000; ++cycle)
+      {
+         const VectorXd g = gap + depth,
+                        p = VectorXd::Ones(4) - kn * (g.array() - g.mean()).matrix();
+         const double ways = cycle == 0 ? 1 : 4; // the opening part goes to d once
+         depth += ways * k * p.cwiseProduct((d - f / kt * p.array()).matrix());
+      }
+      EXPECT_GT(report.jumps, 2);
+      EXPECT_LE(largest(state.depth - depth), report.error);
+      EXPECT_LE(report.error, tolerance * largest(depth));
+   }
+}
+
+// What follows a state that has seen the opening part, and some cycles, comes to the same end.
+TEST(Wear, WornOutOfALaterStateIsThatOfTheVirginOne)
+{
+   const Pad pad = small_pad();
+   WearState state = WearState::virgin(pad.problem);
+   wear(pad.problem, WearLaw::uniform(pad.problem, 0), pad.history, 2, state, settings_with(0));
+   const WornOut early = worn_out(pad.problem, pad.history, ContactState::virgin(pad.problem),
+                                  one_increment()),
+                 late = worn_out(pad.problem, pad.history, state.contact, one_increment());
+   ASSERT_EQ(late.status, FrictionStatus::converged) << late.message;
+   EXPECT_EQ(late.stick, early.stick);
+   EXPECT_LT(largest(late.depth - early.depth), 1e-9 * largest(early.depth));
+}
+
 TEST(Wear, ABlockThatSlidesOnSpringsWearsUntilItsPressureIsUniform)
 {
    // Pressures p = 1 - kn (g - mean g) decay to 1: each cycle slips 4 (d - f p/kt) and takes

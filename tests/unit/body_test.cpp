@@ -398,6 +398,10 @@ TEST(GradedMesh, StepsGrowAndEndWhereTheyShould)
       }
    }
    EXPECT_EQ(graded(0, 1, 5, 1.2), (std::vector<double>{0, 1}));
+   // 1 + 10 is 4 too much, more than a quarter of both: both are scaled by 7/11.
+   const std::vector<double> scaled = graded(0, 7, 1, 10);
+   ASSERT_EQ(scaled.size(), 3u);
+   EXPECT_NEAR(scaled[1], 7.0 / 11, 1e-15);
    EXPECT_EQ(graded(2, 3, 0.25, 1.0), (std::vector<double>{2, 2.25, 2.5, 2.75, 3}));
    expect_input_error([] { graded(0, 0, 1, 1); }, "must be finite and different");
    expect_input_error([] { graded(0, 1, 0, 1); }, "first step is 0");
