@@ -59,7 +59,8 @@ void stand_on_half_plane(OwnBodies &own, std::vector<CondensedBody> bodies,
          const Eigen::Index k = number_of(node, body.line);
          const bool holds = std::any_of(body.held.begin(), body.held.end(),
                                         [&](int row) { return row % body.line.size() == k; });
-         if (holds && !held) { held = &node; }
+         // As condensed, its tangent is across what is held; the meshed edge leans there.
+         if (holds && !held) { held = &body.line.nodes[k]; }
          any = any ? any : &node;
          box.extend(node.position);
       }

@@ -414,28 +414,38 @@ TEST_F(Contact2D, DisplacementsOnAHalfPlaneAreRelativeToADepth)
    EXPECT_NE(refused.output.find("half-plane-depth must state it"), std::string::npos);
 }
 
-/// Half of the block, held on its plane of symmetry, presses as the whole does.
+/// Half of the block, held on its plane of symmetry, presses as the whole does; also where its
+/// face is curved, so that the last edge before the plane of symmetry leans.
 TEST_F(Contact2D, APlaneOfSymmetryGoesOnInTheHalfPlane)
 {
    const auto x = cattaneo::graded_to_ends(1, 20, 0.1);
    const std::vector<double> y = {0, 0.1, 0.3, 1, 2}, right(x.begin() + 10, x.end());
-   mfem::Mesh whole = cattaneo::rectangle_mesh(x, y), half = cattaneo::rectangle_mesh(right, y);
    const std::string options =
-      " -young1 0.91 -contact1 1 -friction 0.4 -load1 'P pressure 3 0.5' -half-plane-young 2 "
+      " -young1 0.91 -contact1 1 -friction 0.4 -load1 'P pressure 3 0.05' -half-plane-young 2 "
       "-half-plane-poisson 0.2 -csv '" +
       folder + "/run'";
-   std::vector<double> p[2];
-   for (const int k : {0, 1})
+   for (const double curvature : {0.0, 0.5})
    {
-      mfem::Mesh &mesh = k == 0 ? whole : half;
-      const auto run = contact2d("-mesh1 '" + write("block.mesh", mesh) + "'" +
-                                 (k == 0 ? "" : " -support1 4:x") + options);
-      ASSERT_EQ(run.code, 0) << run.output;
-      p[k] = table(folder + "/run_nodes.csv").at("p");
+      std::vector<double> p[2];
+      for (const int k : {0, 1})
+      {
+         mfem::Mesh mesh = cattaneo::rectangle_mesh(k == 0 ? x : right, y);
+         for (int v = 0; v < mesh.GetNV(); ++v)
+         {
+            double *at = mesh.GetVertex(v);
+            at[1] += 0.5 * curvature * at[0] * at[0] * (1 - at[1] / 2);
+         }
+         const auto run = contact2d("-mesh1 '" + write("block.mesh", mesh) + "'" +
+                                    (k == 0 ? "" : " -support1 4:x") + options);
+         ASSERT_EQ(run.code, 0) << run.output;
+         p[k] = table(folder + "/run_nodes.csv").at("p");
+      }
+      ASSERT_EQ(p[0].size(), 41u);
+      ASSERT_EQ(p[1].size(), 21u);
+      EXPECT_GT(p[0][20], 0.02);
+      EXPECT_EQ(p[0][0] == 0, curvature > 0);
+      for (std::size_t i = 0; i < 21; ++i) { EXPECT_NEAR(p[1][i], p[0][20 + i], 1e-6); }
    }
-   ASSERT_EQ(p[0].size(), 41u);
-   ASSERT_EQ(p[1].size(), 21u);
-   for (std::size_t i = 0; i < 21; ++i) { EXPECT_NEAR(p[1][i], p[0][20 + i], 1e-6); }
 }
 
 TEST_F(Contact2D, EqualsTheSquarePunch)
