@@ -131,6 +131,20 @@ bring_highs()
    mv "$target.part" "$target"
 }
 
+# pyNastran, which reads back what is written for Nastran. With the NumPy that it asks for, in a folder of
+# its own; the test says that it is skipped where it cannot be had.
+bring_pynastran()
+{
+   local target=$PWD/$deps/pynastran
+   [ -d "$target" ] || [ ! -x "$deps/python/bin/python" ] && return 0
+   say "bringing pyNastran (for a test of the Python package)"
+   rm -rf "$target.part"
+   "$deps/python/bin/python" -m pip install -q --disable-pip-version-check --no-deps --only-binary=:all: \
+      --target "$target.part" "pyNastran>=1.4,<1.5" cpylog docopt-ng "numpy<2" >"$deps/pynastran.log" 2>&1 ||
+      { say "it could not be had ($deps/pynastran.log says why)"; return 0; }
+   mv "$target.part" "$target"
+}
+
 # What the Python package is built and tested with, in an environment of its own. Where it cannot be had
 # the package is not built, and its tests say that they are skipped.
 bring_python()

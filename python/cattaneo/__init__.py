@@ -66,6 +66,7 @@ from ._core import (
     straight_line as straight_line,
     write_abaqus as write_abaqus,
     write_matrix_market as write_matrix_market,
+    write_nastran as write_nastran,
     write_npz as write_npz,
     version as _version,
 )

@@ -7,6 +7,7 @@
 #include <cattaneo/exchange/read_stiffness.hpp>
 #include <cattaneo/exchange/write_stiffness.hpp>
 #include <cattaneo/reduced/interfaces.hpp>
+#include <filesystem>
 #include <limits>
 #include <nanobind/stl/string.h>
 #include <set>
@@ -486,13 +487,23 @@ void bind_stiffness(nb::module_ &m)
       "read_stiffness",
       [](File matrix, MaybeFile places)
       {
-         return read_stiffness(file(matrix, "matrix"),
-                               places.is_none() ? std::string() : file(places, "places"));
+         const std::string name = file(matrix, "matrix");
+         std::string at = places.is_none() ? std::string() : file(places, "places");
+         const nb::object plain = nb::module_::import_("cattaneo._files").attr("plain")(name);
+         if (plain.is_none()) { return read_stiffness(name, at); }
+         if (at.empty() && !nb::cast<bool>(plain[2]))
+         {
+            at = std::filesystem::path(name).replace_extension(".dofs").string();
+         }
+         NodalStiffness result = read_stiffness(nb::cast<std::string>(plain[1]), at);
+         result.name = name;
+         return result;
       },
       arg("matrix"), arg("places") = nb::none(),
-      "Reads a stiffness that CalculiX (.sti), ABAQUS (.mtx) or a script (.mtx, .npy, .npz "
-      "with "
-      ".dofs) wrote; `places`: the file that says where nodes are, if that is not beside it.");
+      "Reads a stiffness that CalculiX (.sti), ABAQUS (.mtx), MATLAB (.mat with K, by SciPy) "
+      "or "
+      "a script (.mtx, .npy, .npz with .dofs; .npz of write_npz) wrote; `places`: the file "
+      "that says where nodes are, if that is not beside it.");
    m.def(
       "nodal_stiffness",
       [](Of<CondensedBody> body) { return nodal_stiffness(given(body, "body")); }, arg("body"),
@@ -508,6 +519,12 @@ void bind_stiffness(nb::module_ &m)
       { write_matrix_market(file(name), given(stiffness, "stiffness")); },
       arg("file"), arg("stiffness"),
       "An .mtx, and the .dofs beside it that read_stiffness() asks for.");
+   m.def(
+      "write_nastran",
+      [](File name, Of<Self> stiffness)
+      { write_nastran(file(name), given(stiffness, "stiffness")); },
+      arg("file"), arg("stiffness"),
+      "A bulk data file with DMIG KAAX, GRID, SPC1 and FORCE, to 10 or 11 digits.");
 }
 
 void bind_lines(nb::module_ &m)

@@ -490,6 +490,28 @@ TEST_F(Exchange, WhatIsWrittenComesBack)
    write_matrix_market("arrays.mtx", lower); // for its .dofs
    EXPECT_EQ(MatrixXd(read_stiffness("arrays.npz").K), MatrixXd(lower.K));
 
+   // Or without them, by what it has itself.
+   write_npz("whole.npz", lower);
+   const NodalStiffness whole = read_stiffness("whole.npz");
+   EXPECT_EQ(MatrixXd(whole.K), MatrixXd(lower.K));
+   ASSERT_EQ(whole.dofs.size(), lower.dofs.size());
+   for (std::size_t row = 0; row < lower.dofs.size(); ++row)
+   {
+      EXPECT_EQ(whole.dofs[row].node, lower.dofs[row].node);
+      EXPECT_EQ(whole.dofs[row].direction, lower.dofs[row].direction);
+   }
+   EXPECT_EQ(whole.fixed, lower.fixed);
+   EXPECT_EQ(whole.supports_left_out, lower.supports_left_out);
+   EXPECT_EQ(whole.formulation, lower.formulation);
+   EXPECT_EQ(whole.nodes_of("FACE"), lower.nodes_of("FACE"));
+   for (const NodeDof &dof : lower.dofs)
+   {
+      EXPECT_EQ(whole.places.at(dof.node), lower.places.at(dof.node));
+   }
+   ASSERT_EQ(whole.loads.size(), lower.loads.size());
+   EXPECT_EQ(whole.loads[0].name, lower.loads[0].name);
+   EXPECT_EQ(whole.loads[0].values, lower.loads[0].values);
+
    lower.add_displacement("U", {1}, 1, 1);
    for (auto write : {+[](const NodalStiffness &of) { write_abaqus("element.mtx", of); },
                       +[](const NodalStiffness &of) { write_npz("arrays.npz", of); }})
@@ -557,6 +579,48 @@ TEST_F(Exchange, ACondensedBodyIsASuperelement)
    EXPECT_LT((again.patterns[0].q - body.patterns[0].q).norm(), 1e-14);
 }
 
+/// By hand, by the columns of Nastran's wide fields.
+TEST_F(Exchange, NastranTakesAMatrixAsDmig)
+{
+   NodalStiffness bar;
+   bar.K.resize(2, 2);
+   bar.K.insert(0, 0) = 3;
+   bar.K.insert(0, 1) = bar.K.insert(1, 0) = -1.23456789012345;
+   bar.K.insert(1, 1) = 2e-101;
+   bar.dofs = {{7, 1}, {12, 2}};
+   bar.places = {{7, {0.25, -1}}, {12, {1.0 / 3, 0}}, {40, {9, 9}}};
+   bar.fixed = {1};
+   bar.supports_left_out = true;
+   bar.loads = {{"P", Control::force, VectorXd::Unit(2, 1) * -2.5}};
+   write_nastran("bar.bdf", bar);
+   EXPECT_EQ(read_whole("bar.bdf"),
+             "$ stiffness of a body\n"
+             "GRID*                  7               02.5000000000E-01-1.000000000E+00\n"
+             "*       0.0000000000E+00\n"
+             "GRID*                 12               03.3333333333E-010.0000000000E+00\n"
+             "*       0.0000000000E+00\n"
+             "DMIG    KAAX           0       6       2       0\n"
+             "DMIG*   KAAX                           7               1\n"
+             "*                      7               13.0000000000D+00\n"
+             "*                     12               2-1.234567890D+00\n"
+             "DMIG*   KAAX                          12               2\n"
+             "*                     12               22.000000000D-101\n"
+             "SPC1*                  1               2              12\n"
+             "*\n"
+             "$ load 1: P\n"
+             "FORCE*                 1              12               0-2.500000000E+00\n"
+             "*       0.0000000000E+001.0000000000E+000.0000000000E+00\n");
+   bar.dofs[0].node = 0; // counted from 0: 0 and 12 are 1 and 13 there, 40 has no row
+   bar.places[0] = bar.places[7];
+   write_nastran("bar.bdf", bar);
+   const std::string shifted = read_whole("bar.bdf");
+   EXPECT_NE(shifted.find("*                     13               2-1.234567890D+00"),
+             std::string::npos);
+   EXPECT_NE(shifted.find("FORCE*                 1              13"), std::string::npos);
+   bar.add_displacement("U", {0}, 1, 1);
+   expect_input_error([&] { write_nastran("bar.bdf", bar); }, "prescribes displacements");
+}
+
 /// For joint dynamics. Bodies that are held in series: K⁻¹ = L S⁻¹ Lᵀ of the united problem.
 TEST_F(Exchange, SeparateBodiesAndTheirRelativeDisplacements)
 {
@@ -603,7 +667,8 @@ TEST_F(Exchange, NumpyReadsWhatIsWritten)
       "b = numpy.load('body.npz'); p = numpy.load('problem.npz')\n"
       "held = numpy.load('lower.npz'); rows = held['dofs'][held['fixed'].astype(int).ravel()]\n"
       "assert sorted(map(tuple, rows)) == [(n, c) for n in range(1, 6) for c in (1, 2)], rows\n"
-      "assert sorted(b) == ['K', 'M', 'dofs', 'fixed', 'loads', 'places'], sorted(b)\n"
+      "assert {'K', 'M', 'dofs', 'fixed', 'loads', 'places', 'load P', 'set CONTACT'} <= "
+      "set(b), sorted(b)\n"
       "assert b['K'].shape == (10, 10) and (b['M'] == numpy.eye(10)).all()\n"
       "assert b['loads'].sum() == -2.5 and b['places'][0, 0] == 2.0\n"
       "assert abs(p['K'] - p['K'].T).max() == 0 and p['gap'].shape == (5, 1)\n"

@@ -312,30 +312,66 @@ Matrix read_matrix_market(const std::string &file)
    return entries.matrix(size, file, row_number);
 }
 
-Matrix read_numpy(const std::string &file, bool archive)
+/// The arrays of an .npz; of an .npy its one, `K`.
+class NumpyArrays
+{
+public:
+   explicit NumpyArrays(const std::string &file) : file_(file)
+   {
+      const std::string content = read_whole(file);
+      const bool archive = std::filesystem::path(file).extension() == ".npz";
+      files_ = archive ? stored_files(content, file)
+                       : std::map<std::string, std::string>{{"K.npy", content}};
+   }
+   bool has(const std::string &name) const { return files_.count(name + ".npy") == 1; }
+   NumpyArray operator()(const std::string &name) const
+   {
+      require(has(name), "file '", file_, "' has no array '", name,
+              "', must have K, or data, indices, indptr and shape (scipy's csr or csc)");
+      return numpy_array(files_.at(name + ".npy"), file_ + "/" + name);
+   }
+   /// Columns of whole numbers, one of which may be a list; InputError of others.
+   Eigen::MatrixXi whole(const std::string &name, Eigen::Index columns) const
+   {
+      NumpyArray array = (*this)(name);
+      if (array.shape.size() == 1) { array.shape.push_back(1); }
+      const Eigen::MatrixXd all = array.matrix(file_ + "/" + name);
+      require(all.cols() == columns && (all.array() == all.array().round()).all() &&
+                 (all.array().abs() < 2e9).all(),
+              "file '", file_, "': its array '", name, "' is ", all.rows(), "×", all.cols(),
+              ", must be ", columns, " columns of whole numbers");
+      return all.cast<int>();
+   }
+   /// What the names of arrays that begin with a word go on with.
+   std::vector<std::string> named(const std::string &word) const
+   {
+      std::vector<std::string> names;
+      for (const auto &[name, content] : files_)
+      {
+         if (name.rfind(word + ' ', 0) != 0) { continue; }
+         names.push_back(name.substr(word.size() + 1, name.size() - word.size() - 5));
+      }
+      return names;
+   }
+
+private:
+   const std::string file_;
+   std::map<std::string, std::string> files_;
+};
+
+Matrix read_numpy(const NumpyArrays &array, const std::string &file)
 {
    SymmetricEntries entries;
    Eigen::Index size = 0;
-   const std::string content = read_whole(file);
-   const auto files =
-      archive ? stored_files(content, file) : std::map<std::string, std::string>();
-   const auto array = [&](const std::string &name)
-   {
-      const auto found = files.find(name + ".npy");
-      require(found != files.end(), "file '", file, "' has no array '", name,
-              "', must have K, or data, indices, indptr and shape (scipy's csr or csc)");
-      return numpy_array(found->second, file + "/" + name);
-   };
    const auto finite = [&](Eigen::Index i, Eigen::Index j, double value)
    {
       require(std::isfinite(value), "file '", file, "': entry (row ", i + 1, ", row ", j + 1,
               ") is ", value, ", must be finite");
       entries.add(static_cast<int>(i), static_cast<int>(j), value);
    };
-   if (!archive || files.count("K.npy") == 1)
+   if (array.has("K"))
    {
-      const Eigen::MatrixXd K =
-         (archive ? array("K") : numpy_array(content, file)).matrix(file);
+      const Eigen::MatrixXd K = array("K").matrix(file);
       size = K.rows();
       require(size > 0 && K.cols() == size, "file '", file, "': its matrix is ", size, "×",
               K.cols(), ", must be square");
@@ -550,6 +586,66 @@ void read_dofs(const std::string &file, NodalStiffness &result)
       });
 }
 
+/// What write_npz() says of the rows of its matrix.
+void read_facts(const NumpyArrays &array, const std::string &file, NodalStiffness &result)
+{
+   const Eigen::Index size = result.K.rows();
+   const auto fits = [&](const char *name, Eigen::Index rows)
+   {
+      require(rows == size, "file '", file, "': its array '", name, "' has ", rows,
+              " rows, must have ", size, " as K");
+   };
+   const Eigen::MatrixXi dofs = array.whole("dofs", 2);
+   const Eigen::MatrixXd places = array("places").matrix(file + "/places");
+   fits("dofs", dofs.rows());
+   fits("places", places.rows());
+   require(places.cols() == 2 && places.allFinite(), "file '", file,
+           "': its array 'places' has ", places.cols(),
+           " columns, must be x and y, finite, of each row");
+   for (Eigen::Index row = 0; row < size; ++row)
+   {
+      const NodeDof dof{dofs(row, 0), dofs(row, 1)};
+      require(dof.direction == 1 || dof.direction == 2, "file '", file, "': row ", row + 1,
+              " is of direction ", dof.direction, ", must be 1 or 2");
+      const Eigen::Vector2d place = places.row(row);
+      const Eigen::Vector2d &known = result.places.emplace(dof.node, place).first->second;
+      require(known == place, "file '", file, "': node ", dof.node, " is at ", place,
+              " in row ", row + 1, ", and was at ", known, " before");
+      result.dofs.push_back(dof);
+   }
+   if (array.has("axisymmetric")) { result.formulation = Formulation::axisymmetric; }
+   result.supports_left_out = array.has("supports_left_out");
+   if (array.has("fixed"))
+   {
+      const Eigen::MatrixXi fixed = array.whole("fixed", 1);
+      result.fixed.assign(fixed.data(), fixed.data() + fixed.size());
+   }
+   for (const std::string &set : array.named("set"))
+   {
+      const Eigen::MatrixXi nodes = array.whole("set " + set, 1);
+      for (int node : nodes.reshaped())
+      {
+         require(result.places.count(node) == 1, "file '", file, "': set ", set, " has node ",
+                 node, ", which has no row");
+      }
+      result.sets[upper_case(set)].assign(nodes.data(), nodes.data() + nodes.size());
+   }
+   if (!array.has("loads")) { return; }
+   const Eigen::MatrixXd loads = array("loads").matrix(file + "/loads");
+   fits("loads", loads.rows());
+   for (Eigen::Index k = 0; k < loads.cols(); ++k)
+   {
+      result.loads.push_back({"LOAD" + std::to_string(k + 1), Control::force, loads.col(k)});
+   }
+   for (const std::string &load : array.named("load"))
+   {
+      const Eigen::MatrixXi column = array.whole("load " + load, 1);
+      require(column.size() == 1 && column(0) >= 0 && column(0) < loads.cols(), "file '", file,
+              "': its array 'load ", load, "' must be a number of a column of loads, from 0");
+      result.loads[column(0)].name = load;
+   }
+}
+
 /// The first line that is no comment of ABAQUS tells what an .mtx is.
 enum class MtxForm
 {
@@ -587,8 +683,18 @@ NodalStiffness read_stiffness(const std::string &matrix, const std::string &plac
    result.name = matrix;
    if (form == MtxForm::matrix_market && ending != ".sti")
    {
-      result.K =
-         ending == ".mtx" ? read_matrix_market(matrix) : read_numpy(matrix, ending == ".npz");
+      if (ending == ".mtx") { result.K = read_matrix_market(matrix); }
+      else
+      {
+         const NumpyArrays arrays(matrix);
+         result.K = read_numpy(arrays, matrix);
+         if (places.empty() && arrays.has("dofs"))
+         {
+            read_facts(arrays, matrix, result);
+            result.validate();
+            return result;
+         }
+      }
       read_dofs(beside(".dofs"), result);
    }
    else

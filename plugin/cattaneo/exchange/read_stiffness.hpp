@@ -14,7 +14,8 @@ namespace cattaneo
       TYPE=STIFFNESS, which CalculiX writes too
     - `.mtx`, places in `.dofs`: MatrixMarket, coordinate or array
     - `.npy`, places in `.dofs`: NumPy, a dense matrix
-    - `.npz`, places in `.dofs`: scipy.sparse.save_npz(…, compressed=False), or an array K
+    - `.npz`, places in `.dofs`: scipy.sparse.save_npz(…, compressed=False), or an array K;
+      without a `.dofs` if it has the arrays that write_npz() writes
 
     An `.inp` gives nodes, elements (so that contact lines follow outer edges), sets, and what
    its steps load: each *CLOAD card is a load of forces, "CLOAD1", …, each *BOUNDARY card with

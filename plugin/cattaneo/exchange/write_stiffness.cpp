@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <cattaneo/exchange/write_stiffness.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/whole_file.hpp>
+#include <cstdio>
 #include <filesystem>
 #include <set>
 #include <sstream>
@@ -64,6 +66,24 @@ NodalStiffness::Sets written_sets(const NodalStiffness &stiffness)
    return written;
 }
 
+/// With nodes counted from 1 where they are counted from 0, as programs have them.
+NodalStiffness numbered_from_one(NodalStiffness stiffness)
+{
+   int least = 1;
+   for (const NodeDof &dof : stiffness.dofs) { least = std::min(least, dof.node); }
+   const int more = 1 - least;
+   if (more == 0) { return stiffness; }
+   for (NodeDof &dof : stiffness.dofs) { dof.node += more; }
+   NodalStiffness::Places places;
+   for (const auto &[node, place] : stiffness.places) { places[node + more] = place; }
+   stiffness.places = std::move(places);
+   for (auto &[set, nodes] : stiffness.sets)
+   {
+      for (int &node : nodes) { node += more; }
+   }
+   return stiffness;
+}
+
 } // namespace
 
 void write_npz(const std::string &file, const NodalStiffness &stiffness,
@@ -89,6 +109,19 @@ void write_npz(const std::string &file, const NodalStiffness &stiffness,
                     {"dofs", dofs},
                     {"places", places},
                     {"fixed", fixed}};
+   const Eigen::MatrixXd so = Eigen::MatrixXd::Ones(1, 1);
+   if (stiffness.formulation == Formulation::axisymmetric) { arrays["axisymmetric"] = so; }
+   if (stiffness.supports_left_out) { arrays["supports_left_out"] = so; }
+   for (Index k = 0; k < count; ++k)
+   {
+      require_word("load", stiffness.loads[k].name);
+      arrays["load " + stiffness.loads[k].name] = k * so;
+   }
+   for (const auto &[set, nodes] : written_sets(stiffness))
+   {
+      arrays["set " + set] =
+         Eigen::Map<const Eigen::VectorXi>(nodes.data(), nodes.size()).cast<double>();
+   }
    add_mass(arrays, M, size);
    write_npz(file, arrays);
 }
@@ -166,9 +199,10 @@ void write_matrix_market(const std::string &file, const NodalStiffness &stiffnes
    write_whole(file, head.str() + matrix.str());
 }
 
-void write_abaqus(const std::string &file, const NodalStiffness &stiffness)
+void write_abaqus(const std::string &file, const NodalStiffness &given)
 {
-   stiffness.validate();
+   given.validate();
+   const NodalStiffness stiffness = numbered_from_one(given);
    require_forces(file, stiffness);
    const std::string deck_file = beside(file, ".inp");
    // Rows of a node follow each other there.
@@ -246,6 +280,87 @@ void write_abaqus(const std::string &file, const NodalStiffness &stiffness)
    }
    write_whole(deck_file, deck.str());
    write_whole(file, element.str());
+}
+
+namespace
+{
+
+/// In the 16 columns of a wide field, with as many digits as they hold.
+std::string wide(double value, char exponent)
+{
+   char text[32];
+   for (int digits = value < 0 ? 9 : 10; digits > 0; --digits)
+   {
+      if (std::snprintf(text, sizeof text, "%.*E", digits, value) <= 16) { break; }
+   }
+   std::string field = text;
+   if (const std::size_t at = field.find('E'); at != std::string::npos)
+   {
+      field[at] = exponent;
+   }
+   return std::string(16 - field.size(), ' ') + field;
+}
+
+std::string wide(int number)
+{
+   const std::string field = std::to_string(number);
+   return std::string(16 - field.size(), ' ') + field;
+}
+
+} // namespace
+
+void write_nastran(const std::string &file, const NodalStiffness &given)
+{
+   given.validate();
+   const NodalStiffness stiffness = numbered_from_one(given);
+   require_forces(file, stiffness);
+   std::ostringstream text;
+   text << "$ stiffness of a body"
+        << (stiffness.formulation == Formulation::axisymmetric
+               ? " of revolution, of the whole circumference: r, z in the place of x, y\n"
+               : "\n");
+   std::map<int, Eigen::Vector2d> places;
+   for (const NodeDof &dof : stiffness.dofs)
+   {
+      places[dof.node] = stiffness.places.at(dof.node);
+   }
+   for (const auto &[node, place] : places)
+   {
+      text << "GRID*   " << wide(node) << wide(0) << wide(place[0], 'E') << wide(place[1], 'E')
+           << "\n*       " << wide(0.0, 'E') << '\n';
+   }
+   text << "DMIG    KAAX           0       6       2       0\n";
+   for (Index column = 0; column < stiffness.K.rows(); ++column)
+   {
+      const NodeDof &of = stiffness.dofs[column];
+      text << "DMIG*   KAAX            " << wide(of.node) << wide(of.direction) << '\n';
+      for (NodalStiffness::Matrix::InnerIterator entry(stiffness.K, column); entry; ++entry)
+      {
+         if (entry.col() < column || entry.value() == 0) { continue; }
+         const NodeDof &at = stiffness.dofs[entry.col()];
+         text << "*       " << wide(at.node) << wide(at.direction) << wide(entry.value(), 'D')
+              << '\n';
+      }
+   }
+   for (int row : stiffness.fixed)
+   {
+      const NodeDof &dof = stiffness.dofs[row];
+      text << "SPC1*   " << wide(1) << wide(dof.direction) << wide(dof.node) << "\n*\n";
+   }
+   int set = 0;
+   for (const BodyLoad &load : stiffness.loads)
+   {
+      text << "$ load " << ++set << ": " << load.name << '\n';
+      for (Index row = 0; row < load.values.size(); ++row)
+      {
+         if (load.values[row] == 0) { continue; }
+         const NodeDof &dof = stiffness.dofs[row];
+         text << "FORCE*  " << wide(set) << wide(dof.node) << wide(0)
+              << wide(load.values[row], 'E') << "\n*       " << wide(dof.direction == 1, 'E')
+              << wide(dof.direction == 2, 'E') << wide(0.0, 'E') << '\n';
+      }
+   }
+   write_whole(file, text.str());
 }
 
 } // namespace cattaneo
