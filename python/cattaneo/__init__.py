@@ -71,6 +71,9 @@ from ._core import (
     version as _version,
 )
 
+from . import _core, _repr
 from . import _pickle as _pickle  # teaches pickle, and with it multiprocessing, problems and states
+
+_repr.teach(_core)
 
 __version__ = _version

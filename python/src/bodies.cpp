@@ -310,7 +310,19 @@ void bind_stiffness(nb::module_ &m)
                chosen<Formulation>(formulation, "formulation", {"plane", "axisymmetric"});
             body.supports_left_out = flag(supports_left_out, "supports_left_out");
             body.K = stiffness(K);
-            fill(body, places, dofs, elements, fixed, loads, sets);
+            try
+            {
+               fill(body, places, dofs, elements, fixed, loads, sets);
+            }
+            catch (const InputError &error)
+            {
+               const nb::object type = nb::getattr(K, "dtype", nb::str(""));
+               const std::string kind = nb::str(type).c_str();
+               if (kind != "float32" && kind != "float16") { throw; }
+               throw InputError(std::string(error.what()) + " (K is " + kind + ", of " +
+                                (kind == "float32" ? "7" : "3") +
+                                " digits: assemble it in float64)");
+            }
             new (self) Self(std::move(body));
          },
          arg("K"), arg("places"), arg("dofs") = nb::none(), arg("elements") = nb::none(),

@@ -350,8 +350,9 @@ void bind_reduced_problems(nb::module_ &m)
       arg("file"), "Reads what save() wrote of a reduced problem.");
    m.def(
       "write_npz",
-      [](File name, nb::object of, MaybeNumbers M)
+      [](File name, nb::object of, nb::object M)
       {
+         if (nb::hasattr(M, "toarray")) { M = M.attr("toarray")(); } // SciPy's sparse ones
          const Eigen::MatrixXd mass = M.is_none() ? Eigen::MatrixXd() : matrix(M, "M");
          if (nb::isinstance<Self>(of)) { write_npz(file(name), given<Self>(of, "of"), mass); }
          else if (nb::isinstance<NodalStiffness>(of))
@@ -363,7 +364,8 @@ void bind_reduced_problems(nb::module_ &m)
       arg("file"), arg("of"), arg("M") = nb::none(),
       nb::sig("def write_npz(file: str | os.PathLike[str], of: ReducedProblem | "
               "NodalStiffness, M: None | "
-              "numpy.typing.ArrayLike = None) -> None"),
+              "numpy.typing.ArrayLike | scipy.sparse.sparray | scipy.sparse.spmatrix = None) "
+              "-> None"),
       "Arrays for programs of joint dynamics: K, loads and what belongs to them.");
 
    nb::class_<CriticalFriction>(m, "CriticalFriction",

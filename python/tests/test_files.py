@@ -97,3 +97,18 @@ def test_pynastran_reads_what_write_nastran_wrote(tmp_path):
         assert np.allclose(place[:2], body.places[node - 1], rtol=1e-9, atol=0) and place[2] == 0
     assert [known[tuple(dof)] for dof in back["held"].tolist()] == list(body.fixed)
     assert back["force"].tolist() == [[6, 0, -1.5]]
+
+
+def test_a_mass_matrix_may_be_sparse(tmp_path):
+    body = strip(4)
+    M = sparse.diags_array(np.arange(1.0, body.K.shape[0] + 1))
+    for each in (M, M.tocsr(), M.toarray()):
+        cattaneo.write_npz(tmp_path / "body.npz", body, each)
+        assert np.array_equal(np.load(tmp_path / "body.npz")["M"], M.toarray())
+
+
+def test_digits_that_float32_has_not(tmp_path):
+    body = strip(9)
+    for K in (body.K.astype(np.float32), body.K.toarray().astype(np.float32)):
+        with pytest.raises(cattaneo.InputError, match=r"K is float32, of 7 digits: assemble it in float64"):
+            cattaneo.NodalStiffness(K, body.places)

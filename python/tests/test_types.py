@@ -7,6 +7,7 @@ import sys
 import cattaneo
 import pytest
 from conftest import ROOT
+from test_bodies import column
 
 
 def test_scripts_are_typed(tmp_path):
@@ -33,3 +34,23 @@ def test_stubs_say_what_may_be_none():
         assert "| None" not in text
         assert "std::" not in text  # a type of C++ that no header makes one of Python's
     assert "state: None | ContactState = None" in stubs[0].read_text(encoding="utf-8")
+
+
+def classes(module, seen):
+    """Of the module and of those within it."""
+    for each in vars(module).values():
+        if isinstance(each, type) and each.__module__.startswith("cattaneo"):
+            yield each
+        elif isinstance(each, type(module)) and each.__name__.startswith("cattaneo") and each.__name__ not in seen:
+            seen.add(each.__name__)
+            yield from classes(each, seen)
+
+
+def test_every_class_says_what_it_is():
+    """Where there is nothing better the values that it has; none its address."""
+    found = set(classes(cattaneo._core, set()))
+    assert len(found) > 60
+    assert [each.__name__ for each in found if each.__repr__ is object.__repr__] == []
+    _, lines = column(1.0, 2.0)
+    said = repr(cattaneo.pair_lines(lines[1][0], lines[0][1]))
+    assert said.startswith("<cattaneo Pairing: ") and " 0x" not in said, said
