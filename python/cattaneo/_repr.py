@@ -32,6 +32,6 @@ def teach(module: ModuleType) -> None:
     """All classes of a module and of its submodules that print an address otherwise."""
     for each in vars(module).values():
         if inspect.isclass(each) and each.__repr__ is object.__repr__:
-            each.__repr__ = _repr  # type: ignore[assignment]
+            each.__repr__ = _repr  # type: ignore[method-assign]
         elif inspect.ismodule(each) and each.__name__.startswith(module.__name__ + "."):
             teach(each)

@@ -787,12 +787,15 @@ TEST_F(Exchange, LoadsThatARowCannotHaveAreRefused)
 {
    write_whole("m.sti", "1 1 1.\n2 2 1.\n");
    write_whole("m.dof", "1.1\n1.2\n");
-   for (const char *card : {"DLOAD", "DSLOAD", "Temperature"})
+   for (const char *card : {"DLOAD", "DSLOAD", "Temperature",
+                            "Initial Conditions, user, type = stress", "INERTIA RELIEF"})
    {
       write_whole("m.inp", std::string("*NODE\n1, 0., 2.\n*") + card + "\n1, P3, 50.\n");
       expect_input_error([&] { read_stiffness("m.sti"); },
                          "loads elements, which is not read beside a matrix");
    }
+   write_whole("m.inp", "*NODE\n1, 0., 2.\n*INITIAL CONDITIONS, TYPE=TEMPERATURE\n1, 50.\n");
+   EXPECT_NO_THROW(read_stiffness("m.sti")); // of which no step makes a strain
    write_whole("m.inp", "*NODE\n1, 0., 2.\n*BOUNDARY\n1, 3\n*CLOAD\n1, 3, 7.\n");
    expect_input_error([&] { read_stiffness("m.sti"); },
                       "'CLOAD1' loads node 1 direction 3, the direction of a force must be 1");
@@ -804,6 +807,23 @@ TEST_F(Exchange, LoadsThatARowCannotHaveAreRefused)
    {
       write_whole("m.inp", two + dof + ", 7.\n");
       expect_input_error([&] { read_stiffness("m.sti"); }, "'CLOAD1' loads node ");
+   }
+}
+
+/// Distances of 1/3 have eight digits at 1e7, six at 1e9.
+TEST_F(Exchange, PlacesFarFromTheOriginAreRefused)
+{
+   NodalStiffness lower = read_stiffness(folder + "laps.sti").parts()[0];
+   const auto moved = [&](double by)
+   {
+      NodalStiffness away = lower;
+      for (auto &[node, place] : away.places) { place += Eigen::Vector2d(by, -by); }
+      return away;
+   };
+   EXPECT_NO_THROW(moved(1e7).body());
+   for (double by : {1e9, -1e9})
+   {
+      expect_input_error([&] { moved(by).body(); }, "the origin must be nearer");
    }
 }
 

@@ -161,6 +161,10 @@ void DeckReader::begin_card(const LineReader &in)
 {
    const std::string &name = keyword_.name;
    deck.keywords.insert(name);
+   if (name == "INITIAL CONDITIONS")
+   {
+      deck.keywords.insert(name + ", TYPE=" + keyword_.parameters["TYPE"]);
+   }
    in.require(name != "TRANSFORM", "*TRANSFORM turns directions of nodes, must be left out: "
                                    "everything is read in x and y");
    static const std::set<std::string> couplings = {"EQUATION",

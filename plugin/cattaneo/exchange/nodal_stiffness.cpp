@@ -7,6 +7,7 @@
 #include <cattaneo/exchange/nodal_stiffness.hpp>
 #include <cattaneo/words.hpp>
 #include <cmath>
+#include <limits>
 #include <set>
 
 namespace cattaneo
@@ -247,6 +248,15 @@ AssembledBody NodalStiffness::body() const
    body.grounded = supports_left_out;
    body.places = {Eigen::VectorXd(size), Eigen::VectorXd(size), {}, formulation};
    std::set<int> held(fixed.begin(), fixed.end());
+   Eigen::AlignedBox2d box;
+   for (const NodeDof &dof : dofs) { box.extend(places.at(dof.node)); }
+   const double away = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff(),
+                extent = box.sizes().maxCoeff();
+   require(extent == 0 || std::numeric_limits<double>::epsilon() * away <= 1e-8 * extent,
+           "stiffness '", name, "': its nodes are ", away, " away from the origin, and ",
+           extent,
+           " from one another: that leaves less than 8 digits of their distances, the origin "
+           "must be nearer");
    const double near_axis = axis();
    for (Index row = 0; row < size; ++row)
    {

@@ -717,7 +717,10 @@ NodalStiffness read_stiffness(const std::string &matrix, const std::string &plac
                                   element.nodes.end());
       }
       add_cards(said.cards, deck, result);
-      for (const char *load : {"DLOAD", "DSLOAD", "TEMPERATURE"})
+      for (const char *load :
+           {"DLOAD", "DSLOAD", "TEMPERATURE", "INITIAL CONDITIONS, TYPE=STRESS",
+            "INITIAL CONDITIONS, TYPE=PLASTIC STRAIN", "INITIAL STRAIN INCREASE",
+            "PRE-TENSION SECTION", "CONNECTOR LOAD", "CONNECTOR MOTION", "INERTIA RELIEF"})
       {
          require(said.keywords.count(load) == 0, "file '", deck, "': *", load,
                  " loads elements, which is not read beside a matrix, must be left out: give "
