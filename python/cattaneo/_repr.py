@@ -4,13 +4,11 @@ import inspect
 from types import ModuleType
 from typing import Any
 
-import numpy as np
-
 
 def _text(value: Any) -> str:
     if isinstance(value, float):
         return f"{value:.6g}"
-    if isinstance(value, np.ndarray):
+    if hasattr(value, "shape"):  # NumPy's; stubs are made where there is none
         return "×".join(map(str, value.shape)) + " values"
     if isinstance(value, (list, tuple, dict)):
         return f"{len(value)} values"
