@@ -2,14 +2,16 @@
 """This library and other programs on the same problems: runs the peers that are installed, says which are not, prints
 tables. docs/peers.md says what is compared, and how fairly.
 
-    python3 benchmarks/peers/peers.py [--build build/release] [--picture profile.png] [condensation|studies|solvers]...
+    python3 benchmarks/peers/peers.py [--build build/release] [--picture profile.png] [--times times.png]
+                                      [condensation|studies|cycles|solvers]...
 
-Peers: CalculiX (Debian: calculix-ccx), Siconos numerics (libsiconos-numerics-dev). Times are CPU seconds of whole
-processes with one thread; python3-matplotlib draws the picture."""
+Peers: CalculiX (Debian: calculix-ccx), GetFEM (python3-getfem), Siconos numerics (libsiconos-numerics-dev). Times are CPU
+seconds of whole processes with one thread; python3-matplotlib draws the pictures."""
 import argparse
 import glob
 import json
 import os
+import resource
 import shutil
 import subprocess
 import sys
@@ -23,6 +25,17 @@ import calculix  # noqa: E402
 PUNCH = {"stick half-width": 0.471, "corner slip": 0.0496, "stick end at Q": -0.203}
 LAP = {"contact half-length": 0.7011, "contact half-length at T": 0.6596, "stick half-length at T": 0.760 * 0.6596}
 LIMIT = 240  # seconds of CPU for one run of a peer
+
+# Loading and cycles, over meshes: the length that is compared after loading with its reference, the steady loss of a cycle
+# with its own (STUDIES of Hertz have none), and how the programs are asked.
+CYCLES = (0, 1, 10, 100)
+CYCLING = {
+    "punch": {"length": "stick end at Q", "reference": -0.203, "loss": 9.17e-4, "getfem": ((1, 40), (1, 80), (2, 40)),
+              "ours": ((1, 41), (1, 81), (2, 41))},
+    "lap_joint": {"length": "contact half-length at T", "reference": 0.6596, "loss": 1.938e-4,
+                  "getfem": ((1, 0.05), (1, 0.025), (2, 0.05)), "ours": ((1, 0.05), (1, 0.025), (2, 0.05))},
+    "hertz": {"length": "stick half-length", "reference": 0.4 ** 0.5, "loss": None,
+              "getfem": ((1, 40), (1, 80), (2, 40)), "ours": ((1, 41), (1, 81), (2, 41))}}
 
 
 def ours(build, program, options, keys):
@@ -97,6 +110,89 @@ def studies(build):
             line("CalculiX", mesh, result["seconds"], result["MB"], result["dofs"], values, LAP)
 
 
+def process(command, limit):
+    """CPU seconds of a process and its output; None where it fails or takes more than `limit` seconds of CPU."""
+    run = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
+                           env=dict(os.environ, OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1"),
+                           preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (limit, limit + 1)))
+    output = run.stdout.read()
+    _, status, usage = os.wait4(run.pid, 0)
+    run.returncode = status
+    return (usage.ru_utime + usage.ru_stime, output) if status == 0 else (None, output)
+
+
+def our_cycles(build, study, order, size, cycles):
+    """CPU seconds, dofs, length after loading, loss of the last cycle."""
+    program = lambda name: os.path.join(build, "miniapps", name)
+    with tempfile.TemporaryDirectory() as folder:
+        file, saved = os.path.join(folder, "r.json"), os.path.join(folder, "p.json")
+        mesh = {"punch": "square_punch -grading 0.05 -increments 10 -order %d -nodes %d -shear %s" % (order, size, 0.5 if not cycles else "") +
+                         (" -cycles %d -amplitude 0.8" % cycles if cycles else ""),
+                "lap_joint": "lap_joint -increments 10 -order %d -spacing %g -all-cycles -cycles %d" % (order, size, max(cycles, 1)),
+                "hertz": "hertz -increments 10 -order %d -nodes %d -shear 0.6" % (order, size)}[study].split(" ")
+        seconds, _ = process([program(mesh[0])] + mesh[1:] + ["--json", file] + (["--save", saved] if study == "hertz" else []), LIMIT)
+        with open(file) as f:
+            r = json.load(f)
+        if study == "hertz" and cycles:
+            history = "P=0; P=1; P=1, Q=0.24; P=1, Q=-0.24; P=1, Q=0.24"
+            more, _ = process([program("march"), "--reduced", saved, "--history", history, "--cycle-start", "2", "--cycles", str(cycles),
+                               "--increments", "20"], LIMIT)
+            seconds += more
+    losses = [c["dissipation"] for c in r.get("cycles", [])]
+    length = {"punch": lambda: r["levels"][0]["stick_right"] if not cycles else None, "lap_joint": lambda: r["a"],
+              "hertz": lambda: r["levels"][0]["stick_half_width"]}[study]()
+    return seconds, r["dofs"], length, losses[-1] if len(losses) > 1 else None
+
+
+def getfem_cycles(study, order, size, cycles):
+    seconds, output = process(["/usr/bin/python3", os.path.join(HERE, "getfem_peer.py"), study, str(order), str(size), str(cycles)], LIMIT)
+    if seconds is None:
+        return None
+    r = json.loads(output.strip().split("\n")[-1])
+    return seconds, r["dofs"], r[CYCLING[study]["length"]] if study != "punch" or not cycles else None, r["loss"] if cycles > 1 else None
+
+
+def cycles(build, picture):
+    """Error against run time of whole programs, loading alone and with cycles."""
+    has_getfem = subprocess.run(["/usr/bin/python3", "-c", "import getfem"], stderr=subprocess.DEVNULL).returncode == 0
+    if not has_getfem:
+        print("GetFEM (python3-getfem) is not installed: its rows are missing")
+    points = []
+    for study, case in CYCLING.items():
+        print("\n%s: %s %.4f%s; CPU s of loading alone and with cycles" % (study, case["length"], case["reference"],
+              ", steady loss of a cycle %g" % case["loss"] if case["loss"] else ""))
+        print("%-8s %-18s %8s %9s %9s " % ("", "mesh", "dofs", "length", "loss") + "".join("%10d" % n for n in CYCLES), flush=True)
+        for name, ask in (("ours", lambda *at: our_cycles(build, study, *at)), ("GetFEM", lambda *at: getfem_cycles(study, *at))):
+            for order, size in case["ours" if name == "ours" else "getfem"] if name == "ours" or has_getfem else ():
+                dofs, errors, times = 0, {}, []
+                for n in CYCLES:
+                    found = ask(order, size, n) if None not in times else None
+                    times.append(found[0] if found else None)
+                    if not found:
+                        continue
+                    dofs = found[1]
+                    for key, value, reference in (("length", found[2], case["reference"]), ("loss", found[3], case["loss"])):
+                        if value is not None and reference:
+                            errors[key] = 100 * (value / reference - 1)
+                    quantity = "loss" if n > 1 and case["loss"] else "length"
+                    if quantity in errors:
+                        points.append({"study": study, "program": name, "cycles": n, "seconds": found[0], "quantity": quantity,
+                                       "error": abs(errors[quantity]) / 100})
+                shown = ["%+8.2f%%" % errors[k] if k in errors else "%9s" % "" for k in ("length", "loss")]
+                print("%-8s %-18s %8d %s %s " % (name, "order %d, %g" % (order, size), dofs, *shown) +
+                      "".join("%10.3f" % t if t else "%10s" % ("> %d" % LIMIT) for t in times), flush=True)
+    if picture:
+        draw(os.path.join(HERE, "error_against_time.py"), picture, [json.dumps(points)])
+
+
+def draw(script, picture, arguments):
+    """By a Python that has matplotlib."""
+    for python in (sys.executable, "/usr/bin/python3"):
+        if subprocess.run([python, "-c", "import matplotlib"], stderr=subprocess.DEVNULL).returncode == 0:
+            break
+    subprocess.run([python, script, picture] + arguments, check=True)
+
+
 def condensation(build):
     print("\nStatic condensation: the usual way (a solve for each contact unknown) and ours", flush=True)
     subprocess.run([os.path.join(build, "benchmarks", "peers", "naive_condensation")],
@@ -118,27 +214,27 @@ def solvers(build, picture):
                            env=dict(os.environ, OPENBLAS_NUM_THREADS="1"))
             panels.append("%s=%s" % (title, file))
         print(flush=True)
-        for python in (sys.executable, "/usr/bin/python3"):
-            if not picture or subprocess.run([python, "-c", "import matplotlib"], stderr=subprocess.DEVNULL).returncode == 0:
-                break
-        subprocess.run([python, os.path.join(HERE, "performance_profile.py"), picture] + panels, check=True)
+        draw(os.path.join(HERE, "performance_profile.py"), picture, panels)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", default=os.path.join(ROOT, "build", "release"))
     parser.add_argument("--picture", default="", help="file for the performance profile")
-    parser.add_argument("what", nargs="*", default=["condensation", "studies", "solvers"])
+    parser.add_argument("--times", default="", help="file for errors against run times")
+    parser.add_argument("what", nargs="*", default=["condensation", "studies", "cycles", "solvers"])
     options = parser.parse_args()
     for what in options.what:
         if what == "condensation":
             condensation(options.build)
         elif what == "studies":
             studies(options.build)
+        elif what == "cycles":
+            cycles(options.build, options.times)
         elif what == "solvers":
             solvers(options.build, options.picture)
         else:
-            sys.exit("error: '%s' is none of condensation, studies, solvers" % what)
+            sys.exit("error: '%s' is none of condensation, studies, cycles, solvers" % what)
 
 
 if __name__ == "__main__":
