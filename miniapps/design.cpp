@@ -6,13 +6,16 @@
 //  which for one of them is the punch of uniform pressure; or the least, or the most, energy
 //  lost in a cycle of Q between ±f P times --shear. Under bounds, and limits of curvature. With
 //  --reduced any saved reduced problem, in its own units, through a history of your own; --save
-//  writes the designed one. An optimum is one among its neighbours: docs/design.md.
+//  writes the designed one. With --choose not its gap but loads of it, whose sum stays: the
+//  pretensions of a row of bolts, and where there are bolts at all. An optimum is one among its
+//  neighbours: docs/design.md.
 //
 //  Sample runs:  design
 //                design --scene punch --profile crown --shear 0.5 --lines 8
 //                design --profile crown --loads "0.3 1" --weights "2 1" --lines 24
 //                design --curvature 0.3 --nodes 41
 //                design --profile crown --terms 1 --goal damping --shear 0.8 --lines 8
+//                design --case problems/bolt_row.case.json
 
 #include "common/hertz_scene.hpp"
 #include "common/punch.hpp"
@@ -25,6 +28,7 @@
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/reduced_file.hpp>
 #include <cmath>
+#include <sstream>
 
 using namespace cattaneo;
 using Eigen::Index;
@@ -38,7 +42,7 @@ namespace
 
 struct Chosen
 {
-   std::string scene = "pad", profile = "free", goal = "pressure", file, history;
+   std::string scene = "pad", profile = "free", goal = "pressure", file, history, loads_chosen;
    std::vector<double> loads = {1}, weights;
    double shear = 0, friction = miniapp::none, from = miniapp::none, most = 1,
           curvature = miniapp::none;
@@ -133,6 +137,67 @@ Index touching_node(const VectorXd &x, const VectorXd &gap)
    return node;
 }
 
+/// Patterns by their names, separated by semicolons.
+std::vector<Index> chosen_loads(const std::string &names, const ReducedProblem &problem)
+{
+   std::vector<Index> found;
+   std::istringstream all(names);
+   for (std::string name; std::getline(all, name, ';');)
+   {
+      const std::size_t from = name.find_first_not_of(" '\""),
+                        to = name.find_last_not_of(" '\"");
+      name = from == std::string::npos ? "" : name.substr(from, to - from + 1);
+      const Index k = problem.pattern(name);
+      require(std::find(found.begin(), found.end(), k) == found.end(),
+              "option --choose names '", name, "' twice");
+      found.push_back(k);
+   }
+   require(found.size() > 1, "option --choose is '", names,
+           "', must be two loads at least, separated by semicolons: their sum stays");
+   return found;
+}
+
+/** Variables that add to the multipliers of loads wherever one of them acts, so that their sum
+    stays: none below zero, none by more than `most`. */
+void choose_loads(DesignProblem &problem, const std::vector<Index> &loads, double most)
+{
+   const MatrixXd M = problem.cases[0].history.multipliers(loads, Eigen::all);
+   const auto count = M.rows();
+   require(M.minCoeff() >= 0, "option --choose: a load is ", M.minCoeff(),
+           " in the history, must not be negative");
+   require(M.maxCoeff() > 0,
+           "option --choose: its loads are zero in the history, one must act");
+   problem.low = VectorXd::Constant(count, -most);
+   problem.high = VectorXd::Constant(count, most);
+   for (Index j = 0; j < count; ++j)
+   {
+      Parameters change;
+      change.multipliers = MatrixXd::Zero(problem.problem.patterns.size(), M.cols());
+      for (Index k = 0; k < M.cols(); ++k)
+      {
+         if (M.col(k).maxCoeff() == 0) { continue; }
+         change.multipliers(loads[j], k) = 1;
+         problem.low[j] = std::max(problem.low[j], -M(j, k));
+      }
+      problem.variables.push_back(std::move(change));
+   }
+   problem.limits = MatrixXd::Ones(1, count);
+   problem.least = problem.most = VectorXd::Zero(1);
+}
+
+/// The history of a case with what its variables add.
+LoadHistory with_variables(const DesignProblem &problem, const DesignCase &of,
+                           const VectorXd &x)
+{
+   LoadHistory history = of.history;
+   for (Index j = 0; j < x.size(); ++j)
+   {
+      const MatrixXd &change = problem.variables[j].multipliers;
+      if (change.size() > 0) { history.multipliers += x[j] * change; }
+   }
+   return history;
+}
+
 /// What a case comes to, by a march alone.
 struct Marched
 {
@@ -145,7 +210,7 @@ Marched march_case(const DesignProblem &problem, const VectorXd &x, const Design
 {
    settings.stop_at_steady_state = false;
    const ReducedProblem with = problem.with(x);
-   const MarchTrace trace = trace_march(with, of.history, settings);
+   const MarchTrace trace = trace_march(with, with_variables(problem, of, x), settings);
    const double end = of.history.times[of.history.times.size() - 1],
                 from = std::isnan(of.from) ? end : of.from;
    if (trace.report.time < end) { return {miniapp::none, miniapp::none, {}}; }
@@ -161,6 +226,37 @@ Marched march_case(const DesignProblem &problem, const VectorXd &x, const Design
    }
    result.lost += trace.states.back().state.dissipation;
    return result;
+}
+
+/// Variables of the gap, of nodes or of a crown, at places from the middle of the line.
+void choose_gap(DesignProblem &problem, const Chosen &chosen, const VectorXd &x)
+{
+   const ReducedProblem &flat = problem.problem;
+   const Index n = flat.nodes();
+   const bool free = chosen.profile == "free";
+   // Where bodies can move apart a node that touches stays: only differences of gaps count.
+   const bool apart = moves_apart(flat);
+   MatrixXd G = MatrixXd::Identity(n, free ? n : chosen.terms);
+   if (free && apart)
+   {
+      const Index node = touching_node(x, flat.gap);
+      G.middleCols(node, n - 1 - node) = G.rightCols(n - 1 - node).eval();
+      G.conservativeResize(n, n - 1);
+   }
+   for (Index j = 0; !free && j < G.cols(); ++j)
+   {
+      G.col(j) = (x / x.cwiseAbs().maxCoeff()).array().square().pow(static_cast<double>(j + 1));
+   }
+   problem.variables = gap_variables(G);
+   problem.low = VectorXd::Zero(G.cols());
+   // What begins flat is crowned. What has a gap may also be too round: other nodes come before
+   // the one that stays, so that no shape is left out; of bodies that are held, by their gaps.
+   if (apart && !chosen.file.empty()) { problem.low.setConstant(-chosen.most); }
+   problem.high = VectorXd::Constant(G.cols(), chosen.most);
+   if (!std::isnan(chosen.curvature))
+   {
+      limit_curvature(problem, -chosen.curvature, chosen.curvature);
+   }
 }
 
 /// The profile under which P presses |x| < 1 uniformly, E* = 4/π.
@@ -245,6 +341,10 @@ void design_contact(miniapp::Study &study)
                 miniapp::Text::statements);
    study.option(&chosen.from, "from",
                 "With --reduced: time from which on its points count; default: the last.");
+   study.option(
+      &chosen.loads_chosen, "choose",
+      "With --reduced: loads that are chosen in place of the gap, as 'bolt 1; bolt 2'; "
+      "their sum stays, none goes below zero.");
    study.parse();
    settings.march.stepping = miniapp::stepping(stepping);
    const Chosen usual;
@@ -267,33 +367,20 @@ void design_contact(miniapp::Study &study)
    const ReducedProblem &flat = problem.problem;
    const Index n = flat.nodes();
    const VectorXd &s = flat.arc_length, x = s.array() - 0.5 * (s.minCoeff() + s.maxCoeff());
+   const bool loads = !chosen.loads_chosen.empty();
+   require(
+      !loads || (!chosen.file.empty() && chosen.profile == usual.profile &&
+                 std::isnan(chosen.curvature)),
+      "option --choose is of --reduced, and not beside --profile or --curvature: loads are "
+      "chosen in place of the gap");
    const bool free = chosen.profile == "free";
    require(!free || lines == 0, "option --lines is of the crown, whose variables are few");
-   // Where bodies can move apart a node that touches stays: only differences of gaps count.
-   const bool apart = moves_apart(flat);
-   MatrixXd G = MatrixXd::Identity(n, free ? n : chosen.terms);
-   if (free && apart)
-   {
-      const Index node = touching_node(x, flat.gap);
-      G.middleCols(node, n - 1 - node) = G.rightCols(n - 1 - node).eval();
-      G.conservativeResize(n, n - 1);
-   }
-   for (Index j = 0; !free && j < G.cols(); ++j)
-   {
-      G.col(j) = (x / x.cwiseAbs().maxCoeff()).array().square().pow(static_cast<double>(j + 1));
-   }
-   problem.variables = gap_variables(G);
-   const VectorXd none = VectorXd::Zero(G.cols());
-   problem.low = none;
-   // What begins flat is crowned. What has a gap may also be too round: other nodes come before
-   // the one that stays, so that no shape is left out; of bodies that are held, by their gaps.
-   if (apart && !chosen.file.empty()) { problem.low.setConstant(-chosen.most); }
-   problem.high = VectorXd::Constant(G.cols(), chosen.most);
-   if (!std::isnan(chosen.curvature))
-   {
-      limit_curvature(problem, -chosen.curvature, chosen.curvature);
-   }
    problem.cases = make_cases(chosen, flat);
+   const std::vector<Index> chosen_patterns =
+      loads ? chosen_loads(chosen.loads_chosen, flat) : std::vector<Index>();
+   if (loads) { choose_loads(problem, chosen_patterns, chosen.most); }
+   else { choose_gap(problem, chosen, x); }
+   const VectorXd none = VectorXd::Zero(problem.low.size());
    if (chosen.loses())
    {
       problem.goal = DesignGoal::least_sum;
@@ -339,12 +426,27 @@ void design_contact(miniapp::Study &study)
    study.say(text("   %d iterations, %ld marches, %.2g s; %s", report.iterations,
                   report.marches, report.seconds, name(report.status)));
 
+   if (loads)
+   {
+      miniapp::Table &table = study.table(
+         "loads", {{"load", "load"}, {"before", "before", "%.6g"}, {"after", "after", "%.6g"}});
+      const LoadHistory after = with_variables(problem, problem.cases[0], report.x);
+      for (Index k : chosen_patterns)
+      {
+         study.row(table, {flat.patterns[k].name,
+                           problem.cases[0].history.multipliers.row(k).maxCoeff(),
+                           after.multipliers.row(k).maxCoeff()});
+      }
+   }
    const VectorXd gap = problem.with(report.x).gap;
    study.results["gap"] = std::vector<double>(gap.data(), gap.data() + n);
-   miniapp::Panel &profiles =
-      study.panel(miniapp::Panel::Kind::lines, "profile", "Gap", "x", "gap");
-   profiles.add("before", x, flat.gap, "dashed");
-   profiles.add("after", x, gap);
+   miniapp::Panel *profiles = nullptr;
+   if (!loads)
+   {
+      profiles = &study.panel(miniapp::Panel::Kind::lines, "profile", "Gap", "x", "gap");
+      profiles->add("before", x, flat.gap, "dashed");
+      profiles->add("after", x, gap);
+   }
    miniapp::Panel &pressures = study.panel(miniapp::Panel::Kind::lines, "pressure",
                                            "Pressure where it is largest", "x", "p");
    miniapp::Table &table = study.table("cases", {{"case", "case"},
@@ -369,7 +471,7 @@ void design_contact(miniapp::Study &study)
    {
       const double P = chosen.loads[0];
       const VectorXd exact = x.unaryExpr([P](double at) { return uniform_profile(at, P); });
-      profiles.add("uniform pressure", x, exact, "points");
+      profiles->add("uniform pressure", x, exact, "points");
       const VectorXd p = tractions(flat, report.traces[0].states.back().state.p);
       study.value("spread", (p.maxCoeff() - p.minCoeff()) / p.mean(), "p varies by");
       study.value("profile_error", (gap - exact).cwiseAbs().maxCoeff() / exact.maxCoeff(),
