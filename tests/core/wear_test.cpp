@@ -530,6 +530,8 @@ TEST(Wear, BadInputIsNamed)
    WearSettings settings;
    settings.tolerance = 0.5;
    expect_input_error([&] { run(1, settings); }, "tolerance is 0.5");
+   settings.tolerance = 5e-9;
+   expect_input_error([&] { run(1, settings); }, "tolerance is 5e-09");
    LoadHistory open = pad.history;
    open.cycle_start = -1;
    expect_input_error([&] { wear(problem, law, open, 1, state); }, "no cycle");
