@@ -773,6 +773,9 @@ TEST_F(Exchange, AFreeBodyBesideASupportedOneMustBeFree)
    expect_input_error([&] { damaged.body(); }, "the stiffness is not symmetric: entry (");
    damaged.K.coeffRef(column, 0) = damaged.K.coeff(0, column);
    expect_input_error([&] { damaged.body(); }, "it resists a ");
+   NodalStiffness free = laps[1];
+   free.supports_left_out = false;
+   write_npz("whole_laps.npz", free);
    // On springs it may resist, and so may all if supports may be anybody's.
    NodalStiffness both = read_stiffness(folder + "laps.sti");
    both.on_springs = {laps[1].dofs[0].node};
@@ -780,6 +783,9 @@ TEST_F(Exchange, AFreeBodyBesideASupportedOneMustBeFree)
    both.on_springs.clear();
    both.edges.clear();
    EXPECT_TRUE(both.parts()[1].supports_left_out);
+   // Of a matrix with all of its rows no part is without some.
+   NodalStiffness whole = read_stiffness("whole_laps.npz");
+   for (const NodalStiffness &part : whole.parts()) { EXPECT_FALSE(part.supports_left_out); }
 }
 
 /// Of a deck beside a matrix nothing that loads is passed over.

@@ -1,4 +1,5 @@
 #include "comparison.hpp"
+#include "disc_problems.hpp"
 #include "expect_input_error.hpp"
 #include "small_problems.hpp"
 
@@ -315,6 +316,16 @@ TEST(FromContact, ALineThatIsCutOffOrClosedHasNoCorners)
    chain.loop = true;
    expect_input_error([&] { contact_edges(problem, solved.pressed, solved.peak); },
                       "closed and in contact at node 0");
+   ContactState open = solved.peak; // at the first node, not at the last
+   open.status[0] = NodeState::separation;
+   open.p[0] = open.q[0] = 0;
+   open.w[0] = 1;
+   expect_input_error([&] { contact_edges(problem, open, open); },
+                      "closed and in contact at node 40");
+   const ReducedProblem disc = cattaneo_test::as_disc(four_springs());
+   const ContactState state = ContactState::virgin(disc);
+   expect_input_error([&] { contact_edges(disc, state, state); },
+                      "has 2 tangential components a node");
 }
 
 TEST(FromContact, RefusesWhatItCannotJudge)

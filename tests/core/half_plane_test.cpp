@@ -289,6 +289,11 @@ TEST(HalfPlane, TurnedWithItsLine)
    const CondensedBody one = condense(level, line), two = condense(tilted, other);
    EXPECT_LT((one.S - two.S).cwiseAbs().maxCoeff(), 1e-12 * one.S.cwiseAbs().maxCoeff());
    EXPECT_LT((two.line.nodes[0].normal() - tilted.normal).norm(), 1e-15);
+   // Also where it hangs on its forces: Maxwell's symmetry, to the last bit.
+   HalfPlane pressed = level;
+   pressed.forces = {{"P", {0, 1}}, {"Q", {1, 0}}};
+   const MatrixXd S = condense(pressed, line).S;
+   EXPECT_EQ(S, MatrixXd(S.transpose()));
 }
 
 TEST(HalfPlane, StiffnessScalesWithTheUnits)

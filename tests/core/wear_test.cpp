@@ -186,7 +186,7 @@ TEST(Wear, JumpsComeToWhatAllCyclesMarchedComeTo)
    const Pad pad = small_pad();
    const WearLaw law = WearLaw::uniform(pad.problem, 5e-4);
    WearState marched = WearState::virgin(pad.problem);
-   wear(pad.problem, law, pad.history, 4000, marched, settings_with(0));
+   EXPECT_EQ(wear(pad.problem, law, pad.history, 4000, marched, settings_with(0)).error, 0);
    for (double tolerance : {1e-1, 1e-2, 1e-3})
    {
       WearState state = WearState::virgin(pad.problem);

@@ -798,6 +798,7 @@ TEST_F(Output, FieldsBelowAHalfPlaneWithoutAMesh)
    HalfPlane below;
    below.material = {0.91, 0.3};
    below.depth = 100;
+   below.point = {0.7, 0}; // which of its surface is its point does not matter
    Reduction reduction = reduce(condense(block, contact_line(block, 1)), below);
    set_friction(reduction.problem, 0.5);
    ContactState state = ContactState::virgin(reduction.problem);
