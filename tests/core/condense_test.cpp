@@ -319,6 +319,21 @@ TEST(StiffnessError, OfAStiffnessThatIsWrongByHand)
    EXPECT_EQ(error(-S), std::numeric_limits<double>::infinity());
 }
 
+// Entries are known to half a unit of their last digit. All that is computed of these is exact,
+// and still their Schur complement 1 - 1/4 - 1/16 is known no better than 1 to its last digit.
+TEST(StiffnessError, IsNoLessThanWhatTheMatrixKnows)
+{
+   MatrixXd K(4, 4);
+   K << 4, 0, -1, 0, 0, 16, -1, 0, -1, -1, 1, 0, 0, 0, 0, 1;
+   const SharedMatrix shared(Eigen::SparseMatrix<double, Eigen::RowMajor>(K.sparseView()));
+   const std::vector<int> keep{0, 1, 2, 3};
+   const SparseFactor factor(shared.view(), keep, 2, 0);
+   const MatrixXd S = factor.schur();
+   ASSERT_EQ(S, MatrixXd(Eigen::Vector2d(0.6875, 1).asDiagonal()));
+   EXPECT_GE(stiffness_error(shared, keep, 2, 0, factor, S, S, MatrixXd(2, 0)),
+             0.5 * std::numeric_limits<double>::epsilon() / 0.6875);
+}
+
 TEST(CondenseMatrix, SaysWhatIsWrongOfALine)
 {
    const Frame frame(4, 3, true);

@@ -128,6 +128,30 @@ std::vector<int> at_places(const ContactLine &line, const std::vector<Vector2d> 
    return nodes;
 }
 
+/// Contact nodes know the dofs of their slave's nodes, and of no other body unless lines match.
+void expect_dofs_of_nodes(const Reduction &reduction, const std::vector<Interface> &interfaces,
+                          std::size_t bodies)
+{
+   const ReducedProblem &problem = reduction.problem;
+   ASSERT_EQ(problem.dofs.cols(), Index(2 * bodies));
+   for (std::size_t k = 0; k < interfaces.size(); ++k)
+   {
+      const InterfaceReport &report = reduction.interfaces[k];
+      if (report.matching) { continue; }
+      const InterfaceSide &slave =
+         interfaces[k].slave == SlaveSide::first ? interfaces[k].first : interfaces[k].second;
+      for (Index i = report.first; i < report.first + report.nodes; ++i)
+      {
+         const std::vector<int> at = at_places(slave.line, {problem.position.row(i)});
+         ASSERT_EQ(at.size(), 1u);
+         Eigen::RowVectorXi expected = Eigen::RowVectorXi::Constant(problem.dofs.cols(), -1);
+         expected[2 * slave.body] = slave.line.nodes[at[0]].dofs[0];
+         expected[2 * slave.body + 1] = slave.line.nodes[at[0]].dofs[1];
+         EXPECT_EQ(problem.dofs.row(i), expected);
+      }
+   }
+}
+
 /** The whole of all bodies by Lagrange multipliers: rows of relative displacements, made of the
     dual functions and frames, tie all dofs of all bodies. Compares stiffness, loads, energies
     and fields of the reduction with it. `flip`: sides of the interfaces as (slave, master). */
@@ -188,6 +212,7 @@ void agrees_with_multipliers(const std::vector<Truss> &bodies, Reduction &reduct
       }
    }
    ASSERT_EQ(row, n);
+   expect_dofs_of_nodes(reduction, interfaces, bodies.size());
    for (Index held : problem.held) { G.row(held).setZero(); }
    const auto patterns = static_cast<Index>(problem.patterns.size());
    MatrixXd K = MatrixXd::Zero(size, size), F = MatrixXd::Zero(size, patterns),
@@ -374,6 +399,14 @@ TEST_F(Interfaces, OnAPlaneOfSymmetryAgreeWithMultipliers)
       {
          reduce({upper.condensed("pad"), lower.condensed()},
                 {between(0, upper.lines[0], 1, lower.lines[0])});
+      },
+      "the contact node at (0, 0) is fixed along the line, and what it faces is not");
+   // In whatever order bodies come.
+   expect_input_error(
+      [&]
+      {
+         reduce({lower.condensed(), upper.condensed("pad")},
+                {between(1, upper.lines[0], 0, lower.lines[0])});
       },
       "the contact node at (0, 0) is fixed along the line, and what it faces is not");
    upper.fixed = {1};

@@ -189,4 +189,43 @@ TEST(GmshFile, RefusesWhatIsCutShort)
    expect_input_error([file = out.close()] { read_mesh(file); }, "format 4.0, must be");
 }
 
+// Where something is in the plane changes nothing of whether it is joined.
+TEST(GmshFile, NodesThatLieOnOneAnotherAreFoundAnywhere)
+{
+   for (const double away : {0.0, 1000.0, -1000.0})
+   {
+      mfem::Mesh joined = mfem::Mesh::MakeCartesian2D(3, 2, mfem::Element::QUADRILATERAL);
+      mfem::Mesh cut(2, 8, 2);
+      for (int copy : {0, 1})
+      {
+         for (int v = 0; v < 4; ++v) { cut.AddVertex(copy + v % 2 + away, v / 2 - away); }
+         cut.AddQuad(4 * copy, 4 * copy + 1, 4 * copy + 3, 4 * copy + 2);
+      }
+      cut.FinalizeQuadMesh(1);
+      for (int v = 0; v < joined.GetNV(); ++v)
+      {
+         joined.GetVertex(v)[0] += away;
+         joined.GetVertex(v)[1] -= away;
+      }
+      EXPECT_EQ(unjoined_vertices(joined, "one", {}), "");
+      EXPECT_NE(unjoined_vertices(cut, "two", {}).find("mesh 'two': 2 pairs of nodes"),
+                std::string::npos);
+   }
+}
+
+// Volumes are passed over by their number of nodes, and what they bound is no body of the
+// plane.
+TEST(GmshFile, VolumesAreRefusedAsWhatTheyAre)
+{
+   Writer out("volume.msh", true);
+   out.text("$MeshFormat\n2.2 1 8\n").integers({1}).text("\n$EndMeshFormat\n$Nodes\n8\n");
+   for (int k = 0; k < 8; ++k)
+   {
+      out.integers({k + 1}).reals({double(k % 2), double(k / 2 % 2), double(k / 4)});
+   }
+   out.text("\n$EndNodes\n$Elements\n1\n").integers({5, 1, 2});
+   out.integers({1, 1, 1, 1, 2, 4, 3, 5, 6, 8, 7}).text("\n$EndElements\n");
+   expect_input_error([file = out.close()] { read_mesh(file); }, "element 1, a hexahedron: bodies are plane");
+}
+
 } // namespace

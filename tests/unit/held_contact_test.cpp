@@ -134,6 +134,25 @@ TEST(HeldContact, HalfModelOnARigidCylinderIsHalfOfTheWhole)
    EXPECT_EQ(data.S, condensed.S);
 }
 
+TEST(HeldContact, HalfOfWhatAGuideMovesIsHalfOfTheWhole)
+{
+   mfem::Mesh mesh = whole_or_half(false, 0), half_mesh = whole_or_half(true, 0);
+   ElasticBody body(mesh, 2, Material{1.0, 0.3}), half(half_mesh, 2, Material{1.0, 0.3});
+   hold_sideways(body, false, 1);
+   hold_sideways(half, true, 1);
+   // Two blocks beside the middle, each under half of the force.
+   const Guide block{{Guide::Motion::free}, {Guide::Motion::force, "down", -0.5}};
+   body.guide({{3}, 0, -2.0, -0.3}, block);
+   for (ElasticBody *of : {&body, &half}) { of->guide({{3}, 0, 0.3, 2.0}, block); }
+   const auto solve = [](ElasticBody &of)
+   {
+      return pressed(reduce(condense(of, contact_line(of, 1)),
+                            [](double x, double) { return 0.25 * x * x; }));
+   };
+   Solved all = solve(body), part = solve(half);
+   expect_half_of(all, part, {&body}, {&half});
+}
+
 TEST(HeldContact, AHalfModelMayStandInAnyOfFourDirections)
 {
    Eigen::MatrixXd upright;

@@ -89,45 +89,39 @@ void fit_at_corner(const MarchedStates &states, SolvedEdge &solved)
 } // namespace
 
 EdgeReport read_edges(const MarchedStates &states)
+try
 {
+   const std::vector<ContactEdge> edges =
+      contact_edges(states.problem, states.pressed, states.peak, states.cracked);
+   const std::vector<ContactEdge> before =
+      contact_edges(states.problem, states.pressed, states.pressed, states.cracked);
+   // A cycle between nothing and the peak has the pressed state as its other end.
+   const std::vector<ContactEdge> opposite =
+      !states.opposite ? std::vector<ContactEdge>()
+      : states.opposite == &states.pressed
+         ? before
+         : contact_edges(states.problem, states.pressed, *states.opposite, states.cracked);
+   // Edges correspond while no stretch of contact is born or dies.
+   const auto like = [&](const std::vector<ContactEdge> &all, std::size_t e)
+   { return all.size() == edges.size() ? &all[e] : nullptr; };
    EdgeReport report;
-   try
+   for (std::size_t e = 0; e < edges.size(); e++)
    {
-      const std::vector<ContactEdge> edges =
-         contact_edges(states.problem, states.pressed, states.peak, states.cracked);
-      const std::vector<ContactEdge> before =
-         contact_edges(states.problem, states.pressed, states.pressed, states.cracked);
-      // A cycle between nothing and the peak has the pressed state as its other end.
-      const std::vector<ContactEdge> opposite =
-         !states.opposite ? std::vector<ContactEdge>()
-         : states.opposite == &states.pressed
-            ? before
-            : contact_edges(states.problem, states.pressed, *states.opposite, states.cracked);
-      for (std::size_t e = 0; e < edges.size(); e++)
-      {
-         SolvedEdge solved;
-         solved.edge = edges[e];
-         if (!solved.edge.why_not.empty()) { fit_at_corner(states, solved); }
-         else
-         {
-            // Edges correspond while no stretch of contact is born or dies.
-            const auto like = [&](const std::vector<ContactEdge> &all)
-            { return all.size() == edges.size() ? &all[e] : nullptr; };
-            predict(states, like(before), like(opposite), solved);
-         }
-         report.edges.push_back(solved);
-      }
-      if (edges.empty())
-      {
-         report.why_not = "nothing is in contact, or all between planes of symmetry";
-      }
+      SolvedEdge solved;
+      solved.edge = edges[e];
+      if (!solved.edge.why_not.empty()) { fit_at_corner(states, solved); }
+      else { predict(states, like(before, e), like(opposite, e), solved); }
+      report.edges.push_back(solved);
    }
-   catch (const InputError &error)
+   if (edges.empty())
    {
-      report = {};
-      report.why_not = error.what();
+      report.why_not = "nothing is in contact, or all between planes of symmetry";
    }
    return report;
+}
+catch (const InputError &error)
+{
+   return {{}, error.what()};
 }
 
 } // namespace cattaneo::fretting
