@@ -71,6 +71,9 @@ protected:
 
    cattaneo_test::Run run(const json &j) const
    {
+      // Of the case before, which may have failed, nothing is left.
+      fs::remove_all(folder + "/out");
+      fs::create_directories(folder + "/out");
       std::ofstream(folder + "/case.json") << j.dump(3);
       return run_miniapp("contact2d", "--case '" + folder + "/case.json' --csv '" + folder +
                                          "/out/t' --paraview '" + folder +
@@ -82,12 +85,6 @@ protected:
    {
       keep_if_it_fails(".json", act,
                        [&](const std::string &file) { std::ofstream(file) << j.dump(3); });
-   }
-
-   void empty_out() const
-   {
-      fs::remove_all(folder + "/out");
-      fs::create_directories(folder + "/out");
    }
 
    std::string folder;
@@ -110,7 +107,6 @@ TEST_F(CaseFileProperties, ValidOnesRun)
                             RC_ASSERT(fs::file_size(folder + "/out/p.json") > 0u);
                             RC_ASSERT(fs::exists(folder + "/out/fields/body1/body1.pvd"));
                          });
-                   empty_out();
                 });
 }
 
@@ -202,6 +198,8 @@ TEST_F(CaseFileProperties, SingleMistakesAreNamedAndNothingIsWritten)
                    // Only a cycle has a number of cycles, and only edges need friction.
                    RC_PRE(key != "cycles" || j.contains("cycle-start"));
                    if (key == "edges") { j["friction"] = 0.3; }
+                   // In plane stress a body may keep its volume.
+                   if (key == "poisson1") { j.erase("plane-stress"); }
                    j[key] = mistake.value;
                    check(j,
                          [&]
@@ -218,7 +216,6 @@ TEST_F(CaseFileProperties, SingleMistakesAreNamedAndNothingIsWritten)
                             const std::string named = mistake.says ? mistake.says : key;
                             RC_ASSERT(sentence.find(named) != std::string::npos);
                          });
-                   empty_out();
                 });
 }
 
