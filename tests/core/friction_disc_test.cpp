@@ -567,6 +567,36 @@ TEST(FrictionDisc, WithoutFrictionThereAreNoTangentialUnknowns)
    EXPECT_EQ(state.dissipation, 0);
 }
 
+// However a closed node without friction is called, it is the same contact.
+TEST(FrictionDisc, WithoutFrictionNamesOfStatesChangeNothing)
+{
+   std::mt19937 random(12);
+   const int n = 13;
+   const ReducedProblem problem = random_disc_problem(n, 0.0, 0.12, random);
+   FrictionSettings newton_first;
+   newton_first.sweeps = 0;
+   std::vector<VectorXd> forces;
+   for (const NodeState name : {NodeState::stick, NodeState::forward_slip, NodeState::slip})
+   {
+      ContactState state = ContactState::virgin(problem);
+      for (double press : {0.4, 1.0, 0.7})
+      {
+         for (NodeState &node : state.status)
+         {
+            if (closed(node)) { node = name; }
+         }
+         FrictionSolver solver(problem, newton_first);
+         ASSERT_EQ(solver.solve(state, Vector3d(press, 0, 0)).status,
+                   FrictionStatus::converged);
+         forces.push_back(state.p);
+      }
+   }
+   for (std::size_t k = 3; k < forces.size(); ++k)
+   {
+      EXPECT_LT((forces[k] - forces[k % 3]).cwiseAbs().maxCoeff(), 1e-12);
+   }
+}
+
 TEST(FrictionDisc, RefusesWhatNeedsThePlane)
 {
    std::mt19937 random(12);

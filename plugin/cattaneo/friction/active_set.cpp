@@ -22,7 +22,8 @@ bool update_states(Increment &at)
       const ContactNode node = at.node(i);
       const NodeState next =
          wanted_state(node, at.status[i], tiny[at.system.m(i)], at.round_off_along(tiny, i));
-      if (next == NodeState::slip)
+      // Without friction anywhere a node keeps this name, and has no tangential unknowns.
+      if (next == NodeState::slip && at.system.disc())
       {
          at.direction[i] = DiscSlip(node.trial(), node.bound.at(node.p));
       }
