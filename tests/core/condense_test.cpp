@@ -582,7 +582,8 @@ TEST(CondenseMatrix, WhatOnlyRoundOffHoldsMustNotBeLoaded)
       return condense(body, line);
    };
    EXPECT_NEAR(condensed(1e-8).H(0, 0), 1e8 + 1, 1e8 * 1e-7);
-   expect_input_error([&] { condensed(1e-14); }, "condense: load 'pull' moves the node (");
+   expect_input_error([&] { condensed(1e-14); },
+                      "condense: load 'pull' moves the node (2, 0) by 1");
    expect_input_error([&] { condensed(1e-14); }, "at most 0.001 is allowed");
 }
 

@@ -148,6 +148,22 @@ TEST(CriticalPlane, TurnsWithTheStresses)
    }
 }
 
+// Of tension along any direction, on whichever side of the planes that are tried it lies, the
+// plane of largest normal stress has that direction as its normal.
+TEST(CriticalPlane, IsFoundBetweenThePlanesThatAreTried)
+{
+   for (const double degrees : {30.1, 30.2, 30.3, 30.4, 120.6, 120.9})
+   {
+      const double angle = degrees * M_PI / 180, c = std::cos(angle), s = std::sin(angle);
+      StressCycle cycle(2, 4);
+      cycle.row(0) << c * c, s * s, 0, c * s;
+      cycle.row(1) = -cycle.row(0);
+      const CriticalPlane found =
+         critical_plane(PlaneCriterion::smith_watson_topper, cycle, steel());
+      EXPECT_LT(std::abs(std::remainder(found.angle - angle, M_PI)), 1e-6) << degrees;
+   }
+}
+
 TEST(CriticalPlane, APlainSpecimenIsAtItsLimit)
 {
    FatigueMaterial material = steel();

@@ -874,6 +874,10 @@ TEST_F(Exchange, MistakesAreToldInOneSentence)
       write_whole("m.inp", deck);
       expect_input_error([&] { read_stiffness(m.file); }, m.says);
    }
+   write_whole("m.dof", "1.1\n1.4\n");
+   write_whole("m.sti", "1 1 2.\n2 2 2.\n");
+   expect_input_error([] { read_stiffness("m.sti"); },
+                      "line 2: direction 4 of node 1, must be 1 or 2");
    for (const Mistake &m : std::vector<Mistake>{
            {"coordinate real symmetric\n", "2 3 2\n", "the matrix is 2×3, must be square"},
            {"coordinate real symmetric\n", "2 2 2\n1 1 1\n", "it has 1 of 2 entries"},

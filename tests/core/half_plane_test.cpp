@@ -726,6 +726,10 @@ TEST(HalfPlane, BadInputIsNamed)
    bad.depth = 0;
    refused(bad, line,
            "depth 0, must be stated and at least twice the length of the contact, 4");
+   bad.depth = 3.99;
+   refused(bad, line, "depth 3.99, must be stated and at least twice the length");
+   bad.depth = 4;
+   EXPECT_NO_THROW(condense(bad, line));
    bad = good;
    bad.normal = {0, -2};
    refused(bad, line, "normal of its surface is (0, -2), must be of length 1");

@@ -5,6 +5,7 @@
 #include <cattaneo/condense/condense.hpp>
 #include <cattaneo/reduced/interfaces.hpp>
 #include <cattaneo/reduced/mortar.hpp>
+#include <cattaneo/reduced/obstacle_shape.hpp>
 #include <gtest/gtest.h>
 #include <random>
 
@@ -958,6 +959,37 @@ TEST_F(Interfaces, ShanksResistWhatTheyPull)
    reduction.add_shank("bolt", 2.5);
    EXPECT_EQ(reduction.problem.rigid_motions.cols(), 2);
    reduction.problem.validate();
+}
+
+// Nodes that look straight down or down to the right, at sides that rise, are level, and rise.
+TEST(ObstacleShape, PolylinesByHand)
+{
+   const double half = std::sqrt(0.5);
+   const Vector2d level(1, 0), turned(half, half);
+   const struct
+   {
+      Vector2d at, tangent;
+      double gap;
+   } nodes[] = {{{0.2, 2}, level, 1.8},
+                {{0, 1}, turned, half},
+                {{0.5, 0.2}, level, -0.3},
+                {{-1, 0}, level, 1}, // it goes on
+                {{1.5, 1.25}, level, 0.25},
+                {{0.5, 2.5}, turned, 1.5 / half},
+                {{0.5, 0}, turned, -0.25 / half},
+                {{2.5, 3}, level, 1},
+                {{4, 9}, level, 4}};
+   InterfaceReport report;
+   report.nodes = static_cast<Index>(std::size(nodes));
+   report.position.resize(report.nodes, 2);
+   report.tangent.resize(report.nodes, 2);
+   for (Index i = 0; i < report.nodes; ++i)
+   {
+      report.position.row(i) = nodes[i].at;
+      report.tangent.row(i) = nodes[i].tangent;
+   }
+   const VectorXd gaps = gaps_to_polyline(report, {{0, 0}, {1, 1}, {2, 1}, {3, 3}});
+   for (Index i = 0; i < report.nodes; ++i) { EXPECT_NEAR(gaps[i], nodes[i].gap, 1e-14) << i; }
 }
 
 } // namespace

@@ -88,6 +88,8 @@ TEST(Root, IsFoundWhereSignsDifferOrRoundOffHidIt)
    expect_input_error([] { find_root([](double x) { return 3 - x; }, 2, -5); },
                       "between 2 and -5 the function goes from 1 to 8, its sign must change");
    EXPECT_TRUE(std::isnan(find_root([](double) { return NAN; }, 0, 1)));
+   EXPECT_TRUE(std::isnan(find_root([](double x) { return std::sqrt(x) - 2; }, -1, 9)));
+   EXPECT_TRUE(std::isnan(find_root([](double x) { return std::sqrt(x) - 2; }, 9, -1)));
 }
 
 TEST(DenseCholesky, RefusesWhatIsNotFinite)
