@@ -348,8 +348,13 @@ void Options::check_files() const
       try
       {
          const bool folder = option.kind == Text::folder;
-         require(!folder || !fs::exists(file) || fs::is_directory(file), "'", file,
-                 "' is a file, must be a folder");
+         std::error_code why_not;
+         const fs::file_type type = fs::status(file, why_not).type();
+         require(type != fs::file_type::none && type != fs::file_type::unknown, "'", file,
+                 "': ", why_not.message());
+         require(!folder || type == fs::file_type::not_found ||
+                    type == fs::file_type::directory,
+                 "'", file, "' is a file, must be a folder");
          if (option.kind == Text::prefix) { cattaneo::require_writable(file + "_.csv"); }
          else if (!folder) { cattaneo::require_writable(file); }
          else

@@ -37,7 +37,12 @@ fs::path target(const std::string &file)
 
 void require_writable(const std::string &file)
 {
-   require(!fs::is_directory(file), "cannot write file '", file,
+   // A name too long for the system, a folder that may not be looked into, a ring of links.
+   std::error_code why_not;
+   const fs::file_type type = fs::status(file, why_not).type();
+   require(type != fs::file_type::none && type != fs::file_type::unknown, "cannot write file '",
+           file, "': ", why_not.message());
+   require(type != fs::file_type::directory, "cannot write file '", file,
            "': there is a folder of that name");
    if (stands_for_no_file(file))
    {

@@ -184,6 +184,10 @@ TEST(WholeFile, ANameThatCannotBeWrittenIsRefusedBeforeTheWork)
    EXPECT_FALSE(std::filesystem::exists(folder + "/a.json"));
    expect_input_error([&] { require_writable(folder); }, "there is a folder of that name");
    expect_input_error([&] { require_writable(folder + "/none/a.json"); }, "there is no folder");
+   const std::string endless(300, 'x');
+   expect_input_error([&] { require_writable(folder + "/" + endless); }, "File name too long");
+   std::filesystem::create_symlink("ring", folder + "/ring");
+   expect_input_error([&] { require_writable(folder + "/ring"); }, "levels of symbolic links");
    std::filesystem::remove_all(folder);
 }
 

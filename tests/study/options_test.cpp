@@ -138,6 +138,15 @@ TEST_F(Options, FilesAreCheckedBeforeTheWork)
       expect_refused(program, "--save '" + folder + "'",
                      {"option --save", "a folder of that name"});
    }
+   const std::string endless(300, 'x');
+   for (const std::string option : {"save", "csv", "plot", "html"})
+   {
+      expect_refused("hertz", "--" + option + " " + endless,
+                     {"option --" + option, "File name too long"});
+   }
+   expect_refused("contact2d", "--case meshes/dovetail.json --paraview " + endless,
+                  {"option --paraview", "File name too long"});
+   expect_refused("contact2d", "--mesh1 " + endless, {"mesh file cannot be read"});
    for (const std::string program : {"fretting", "contact2d", "shakedown", "lap_joint", "hertz",
                                      "square_punch", "plane_receding", "axisymmetric_receding"})
    {

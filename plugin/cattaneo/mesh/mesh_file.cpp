@@ -351,9 +351,13 @@ public:
 
 mfem::Mesh read_mesh(const std::string &file)
 {
-   require(std::filesystem::exists(file), "mesh file cannot be read: there is no such file");
+   std::error_code why_not;
+   const auto type = std::filesystem::status(file, why_not).type();
+   require(type != std::filesystem::file_type::not_found,
+           "mesh file cannot be read: there is no such file");
    std::ifstream in(file);
-   require(in.good() && std::filesystem::is_regular_file(file), "mesh file cannot be read");
+   require(in.good() && type == std::filesystem::file_type::regular,
+           "mesh file cannot be read");
    const long size = static_cast<long>(std::filesystem::file_size(file));
    std::string line, converted;
    std::getline(in, line);
