@@ -1323,4 +1323,41 @@ TEST(ContactState, RefusesFilesThatAreNone)
    EXPECT_THROW(save(ContactState(), "/nonexistent/state.json"), InputError);
 }
 
+// Bodies are not moved once an observer has seen an increment, were it of no length:
+// interference is let go on the exact path before the loads of the history, under which it
+// finds no way on.
+TEST(March, ClearanceIsTakenUpBeforeAnyIncrementOrNotAtAll)
+{
+   MatrixXd R(8, 4), F(8, 2);
+   R << 0, 0, 0, -2, -1, 0, 0, 0, -1, 0, 0, 0, -2, 0, 3, -1, // v
+      0, 0, 0, -2, 0, 3, 0, 0, 0, -4, 3, 2, 1, 4, 2, -4;     // w
+   F << 0, -2, 0, 0, 0, 0, 3, 2, 0, 0, 0, -2, 0, -2, -4, 0;
+   ReducedProblem problem;
+   const MatrixXd K = R * R.transpose() / 16;
+   problem.set_stiffness(K.topLeftCorner(4, 4), K.bottomLeftCorner(4, 4),
+                         K.bottomRightCorner(4, 4));
+   for (int k : {0, 1})
+   {
+      problem.patterns.push_back(
+         {k ? "Q" : "P", Control::force, F.col(k).head(4) / 4, F.col(k).tail(4) / 4});
+   }
+   problem.H = MatrixXd::Zero(2, 2);
+   problem.gap = Eigen::Vector4d(0.1, 0, -0.3, 0.4);
+   problem.friction = Eigen::Vector4d(0, 0, 0.2, 0.8);
+   problem.weights = VectorXd::Ones(4);
+   problem.arc_length = VectorXd::LinSpaced(4, 0, 3);
+   problem.chains = one_chain(4);
+   MarchSettings settings;
+   settings.stepping = Stepping::exact;
+   settings.increments = 4;
+   ContactState state = ContactState::virgin(problem);
+   long seen = 0;
+   const MarchReport report =
+      march(problem, LoadHistory::through({VectorXd::Zero(2), Eigen::Vector2d(0.5, 1)}), state,
+            settings, [&](const ContactState &, const IncrementRecord &) { ++seen; });
+   EXPECT_EQ(report.status, FrictionStatus::stalled);
+   EXPECT_EQ(seen, report.counters.increments);
+   EXPECT_TRUE(seen == 0 || report.taken_up_clearance == 0);
+}
+
 } // namespace

@@ -500,7 +500,11 @@ MarchReport march(FrictionSolver &solver, const LoadHistory &history, ContactSta
    MarchReport report = March(solver, history, state, settings, observer).run();
    // Bodies that fly freely may find no first increment, which begins with rigid motions larger
    // than all that deforms. Where there is one friction has its say, and nothing is moved.
-   if (report.status != FrictionStatus::stalled || state.time > moved.time) { return report; }
+   // It may have no length, on the exact path.
+   if (report.status != FrictionStatus::stalled || report.counters.increments > 0)
+   {
+      return report;
+   }
    const double taken_up = take_up_clearance(solver.problem(), history, moved);
    if (taken_up == 0) { return report; }
    state = moved;
