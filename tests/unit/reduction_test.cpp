@@ -10,7 +10,6 @@ using namespace support;
 struct TwoBlocks
 {
    mfem::Mesh upper, lower, merged;
-   static constexpr int top = 3, right = 2, bottom = 1; // attributes of each rectangle
 
    explicit TwoBlocks(bool curved, const std::vector<double> &x = uniform(0, 2, 5))
       : upper(rectangle_mesh(x, uniform(0, 1, 3))),
