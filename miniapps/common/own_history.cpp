@@ -132,11 +132,9 @@ OwnHistory::OwnHistory(Study &study) : study_(study)
 
 void OwnHistory::check_options()
 {
-   if (cycles_ > 1 && cycle_start_ < 0)
-   {
-      warn("option cycles is " + std::to_string(cycles_) +
-           ", but the history has no cycle: option cycle-start says where it starts");
-   }
+   cattaneo::require(cycles_ <= 1 || cycle_start_ >= 0, "option --cycles is ", cycles_,
+                     ", but the history has no cycle: option --cycle-start must say at which "
+                     "of its points one starts");
    settings.stepping = stepping(stepping_);
    if (frames_ != "all") { wanted_ = numbers("--frames", frames_); }
    std::sort(wanted_.begin(), wanted_.end());

@@ -678,6 +678,7 @@ TEST_F(Contact2D, BadInputIsOneSentenceAndLeavesNoFile)
       {pressed + "--history 'P=0; P=1; P=0' --cycle-start 0 --cycles 0",
        {"cycles is 0", "at least 1"}},
       {pressed + "--cycles 0", {"cycles", "is 0", "at least 1"}},
+      {pressed + "--cycles 3", {"--cycles is 3", "no cycle", "--cycle-start"}},
       {pressed + "--friction 0.3 --edges '1 0.5'", {"edges", "0.5", "after", "1"}},
       {pressed + "--frames 2", {"frames", "time 2", "from 0 to 1"}},
       {pressed + "--load-state nowhere.json", {"nowhere.json", "cannot read"}},
