@@ -584,4 +584,32 @@ TEST(ContactLaw, SolutionsAreCalledByTheStateTheyBreakLeast)
    EXPECT_EQ(fitting_state(disc, NodeState::slip, 1e-12), NodeState::slip);
 }
 
+// Residuals are shares of the largest force, in whatever units forces are.
+TEST(FrictionSolver, ResidualsAreRelative)
+{
+   std::mt19937 random(31);
+   const ReducedProblem problem = random_problem(20, 0.3, 0.2, random);
+   IncrementReport reports[2];
+   for (int k : {0, 1})
+   {
+      const double unit = k ? std::ldexp(1.0, 40) : 1;
+      ReducedProblem scaled = problem;
+      scaled.K *= unit;
+      for (LoadPattern &pattern : scaled.patterns)
+      {
+         pattern.q *= unit;
+         pattern.p *= unit;
+      }
+      scaled.H *= unit;
+      ContactState state = ContactState::virgin(scaled);
+      FrictionSolver solver(scaled);
+      reports[k] = solver.solve(state, Eigen::Vector2d(1, 0.2));
+      EXPECT_EQ(reports[k].status, FrictionStatus::converged);
+      EXPECT_GT(std::max(reports[k].residual_normal, reports[k].residual_tangential), 0);
+   }
+   EXPECT_EQ(reports[1].residual_normal, reports[0].residual_normal);
+   EXPECT_EQ(reports[1].residual_tangential, reports[0].residual_tangential);
+   EXPECT_EQ(reports[1].round_off, reports[0].round_off);
+}
+
 } // namespace

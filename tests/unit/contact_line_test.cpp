@@ -824,6 +824,28 @@ TEST(ContactLine, KnowsHowTheBoundaryGoesOn)
    }
 }
 
+TEST(ContactLine, KnowsHowTheBoundaryGoesOnHoweverItIsTurned)
+{
+   const double degree = std::acos(-1.0) / 180;
+   for (const char *kind : {"quads", "triangles", "curved"})
+   {
+      for (const double turn : {25.0, 65.0, 160.0, -115.0})
+      {
+         for (const double angle : {-11.0, -9.0, 9.0, 11.0})
+         {
+            mfem::Mesh mesh = part_of_a_bottom(kind, std::tan(angle * degree));
+            rotate(mesh, turn * degree);
+            const ContactLine line = contact_line(ElasticBody(mesh, 1, Material{}), 5);
+            ASSERT_EQ(line.chains.size(), 1u);
+            EXPECT_EQ(line.chains[0].ends[0], LineEnd::smooth) << kind << ' ' << turn;
+            EXPECT_EQ(line.chains[0].ends[1],
+                      std::abs(angle) < 10 ? LineEnd::smooth : LineEnd::corner)
+               << kind << ' ' << turn << ' ' << angle;
+         }
+      }
+   }
+}
+
 /// Quads of the given corners, of which some edges are boundary elements, each with its
 /// attribute.
 mfem::Mesh patchwork(const std::vector<std::array<double, 2>> &corners,
