@@ -159,7 +159,7 @@ TEST_F(Contact2D, WhatHasNoMeshesCannotBeShown)
 TEST_F(Contact2D, RoundedPunchHasTheContactWidthOfTheClosedForm)
 {
    const std::string pressed = "--case meshes/rounded_punch.json --history 'P=0; P=1' "
-                               "--cycle-start -1 --csv '" +
+                               "--cycle-start -1 --cycles 1 --csv '" +
                                folder + "/punch'";
    const auto run = contact2d(pressed);
    ASSERT_EQ(run.code, 0) << run.output;
