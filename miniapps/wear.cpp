@@ -233,7 +233,7 @@ void wear_contact(miniapp::Study &study)
       scene.history = load_history("history", history_text, scene.problem);
       scene.history.cycle_start = cycle_start;
       scene.history.cycles = 1;
-      scene.history.validate(static_cast<int>(scene.problem.patterns.size()));
+      scene.history.validate(scene.problem);
       study.condensed(scene.problem, 0);
    }
    study.results["scene"] = file.empty() ? pad.profile : "reduced";

@@ -145,7 +145,7 @@ void OwnHistory::begin(const ReducedProblem &problem)
    history_ = load_history("history", text_, problem);
    history_.cycle_start = cycle_start_;
    history_.cycles = cycles_;
-   history_.validate(static_cast<int>(problem.patterns.size()));
+   history_.validate(problem);
    for (std::size_t k = 0; k < problem.patterns.size(); ++k)
    {
       const auto values = history_.multipliers.row(static_cast<Eigen::Index>(k));

@@ -88,7 +88,7 @@ LoadHistory history_through(const ReducedProblem &problem, nb::handle points,
       require(whole(cycles, "cycles", 1, std::numeric_limits<int>::max()) == 1,
               "cycles needs cycle_start, the point at which the cycle starts");
    }
-   history.validate(static_cast<int>(problem.patterns.size()));
+   history.validate(problem);
    return history;
 }
 
@@ -209,7 +209,7 @@ LoadHistory history_from(const ReducedProblem &problem, nb::handle history,
    LoadHistory loads =
       listed ? history_through(problem, history, nb::none(), nb::cast(1), nb::none())
              : given<LoadHistory>(history, "history");
-   loads.validate(static_cast<int>(problem.patterns.size()));
+   loads.validate(problem);
    if (listed) { loads.times.array() += state.time; }
    for (Index l = 0; listed && l < state.multipliers.size(); ++l)
    {

@@ -1081,7 +1081,9 @@ TEST(LoadHistory, PiecesOfRepeatedCyclesGoOnInTime)
    history.multipliers = Eigen::RowVector4d(0, 3, 7, 3);
    history.cycle_start = 1;
    history.cycles = 3;
-   history.validate(1);
+   ReducedProblem problem = one_block(0.3);
+   problem.patterns.resize(1);
+   history.validate(problem);
    ASSERT_EQ(history.pieces(), 7);
    const double starts[] = {1, 2, 4, 5, 7, 8, 10, 11};
    const double loads[] = {0, 3, 7, 3, 7, 3, 7, 3};
@@ -1179,16 +1181,18 @@ TEST(LoadHistory, RefusesBadInput)
    EXPECT_THROW(march(problem, history, state), InputError);
    history = press_then_shear(1, 2);
    history.multipliers(1, 4) = 0.5;
-   EXPECT_THROW(march(problem, history, state), InputError);
+   expect_input_error([&] { march(problem, history, state); },
+                      "load history: load '" + problem.patterns[1].name +
+                         "' is 0.5 at the end of the cycle and");
    history = LoadHistory::through({VectorXd::Zero(1), VectorXd::Ones(1)});
    EXPECT_THROW(march(problem, history, state), InputError);
    history = press_then_shear(1, 2);
    history.cycle_start = 4; // there is nothing after it
-   EXPECT_THROW(history.validate(2), InputError);
+   EXPECT_THROW(history.validate(problem), InputError);
    history = press_then_shear(1, 2);
    history.multipliers(0, 2) = NAN;
-   EXPECT_THROW(history.validate(2), InputError);
-   EXPECT_THROW(LoadHistory::through({VectorXd::Zero(2)}).validate(2), InputError);
+   EXPECT_THROW(history.validate(problem), InputError);
+   EXPECT_THROW(LoadHistory::through({VectorXd::Zero(2)}).validate(problem), InputError);
    EXPECT_THROW(LoadHistory::through({}), InputError);
    EXPECT_THROW(LoadHistory::through({VectorXd::Zero(2), VectorXd::Zero(1)}), InputError);
    EXPECT_NO_THROW(MarchSettings().validate());

@@ -590,7 +590,7 @@ void DesignProblem::validate() const
    }
    for (const DesignCase &load_case : cases)
    {
-      load_case.history.validate(static_cast<int>(problem.patterns.size()));
+      load_case.history.validate(problem);
       require(std::isfinite(load_case.weight), "design: the weight of case '", load_case.name,
               "' is ", load_case.weight, ", must be finite");
       require(!times(load_case).empty(), "design: case '", load_case.name,

@@ -191,7 +191,7 @@ Sensitivity::System::System(const ReducedProblem &problem, const MarchTrace &tra
    require(problem.components() <= 1, "sensitivity: the problem has ", problem.components(),
            " tangential components a node, at most 1 is supported");
    require(!trace.states.empty(), "sensitivity: the trace has no state");
-   trace.history.validate(static_cast<int>(count));
+   trace.history.validate(problem);
    for (const TracedState &traced : trace.states)
    {
       traced.state.validate(problem);

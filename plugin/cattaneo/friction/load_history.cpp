@@ -68,11 +68,12 @@ LoadPiece LoadHistory::piece(int k) const
    return piece;
 }
 
-void LoadHistory::validate(int patterns) const
+void LoadHistory::validate(const ReducedProblem &problem) const
 {
    require(times.size() >= 2, "load history: ", times.size(), " points, at least 2 are needed");
    require(multipliers.cols() == times.size(), "load history: ", multipliers.cols(),
            " columns of multipliers for ", times.size(), " times");
+   const auto patterns = static_cast<Eigen::Index>(problem.patterns.size());
    require(multipliers.rows() == patterns, "load history: ", multipliers.rows(),
            " multipliers a point for ", patterns, " load patterns");
    require(times.allFinite() && multipliers.allFinite(),
@@ -86,12 +87,12 @@ void LoadHistory::validate(int patterns) const
    require(cycle_start < times.size() - 1, "load history: the cycle starts at point ",
            cycle_start, ", must be one of 0 to ", times.size() - 2);
    require(cycles >= 1, "load history: ", cycles, " cycles, at least 1 is needed");
-   for (Eigen::Index k = 0; k < multipliers.rows(); ++k)
+   for (Eigen::Index k = 0; k < patterns; ++k)
    {
       const double first = multipliers(k, cycle_start), last = multipliers(k, times.size() - 1);
-      require(first == last, "load history: the multiplier of load ", k,
-              " at the end of the cycle (", last, ") differs from that at its start (", first,
-              ")");
+      require(first == last, "load history: load '", problem.patterns[k].name, "' is ", last,
+              " at the end of the cycle and ", first,
+              " at its start, must be the same: the last point closes the cycle");
    }
 }
 

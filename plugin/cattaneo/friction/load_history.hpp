@@ -54,7 +54,7 @@ struct LoadHistory
    LoadPiece piece(int k) const;
 
    /// InputError if sizes, order of times or the closing of the cycle are wrong.
-   void validate(int patterns) const;
+   void validate(const ReducedProblem &problem) const;
 };
 
 } // namespace cattaneo

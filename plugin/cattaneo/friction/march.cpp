@@ -494,7 +494,7 @@ MarchReport march(FrictionSolver &solver, const LoadHistory &history, ContactSta
 {
    settings.validate();
    state.validate(solver.problem());
-   history.validate(static_cast<int>(solver.problem().patterns.size()));
+   history.validate(solver.problem());
    check_loads(solver, history, state);
    ContactState moved = state;
    MarchReport report = March(solver, history, state, settings, observer).run();

@@ -398,7 +398,7 @@ WearReport wear(const ReducedProblem &problem, const WearLaw &law, const LoadHis
    state.validate(problem);
    LoadHistory once = history;
    once.cycles = 1;
-   once.validate(static_cast<int>(problem.patterns.size()));
+   once.validate(problem);
    require_at_least("wear: cycles", cycles, 0);
    require(cycles == std::floor(cycles) && cycles <= 1e15, "wear: cycles is ", cycles,
            ", must be a whole number up to 1e15");

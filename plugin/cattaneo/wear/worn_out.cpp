@@ -64,7 +64,7 @@ WornOut worn_out(const ReducedProblem &problem, const LoadHistory &history,
    contact.validate(problem);
    LoadHistory once = history;
    once.cycles = 1;
-   once.validate(static_cast<int>(problem.patterns.size()));
+   once.validate(problem);
    require(history.cycle_start >= 0, "worn out: the load history has no cycle");
    const Index n = problem.nodes();
    const VectorXd none = VectorXd::Zero(n);
