@@ -672,7 +672,7 @@ TEST_F(Contact2D, BadInputIsOneSentenceAndLeavesNoFile)
        {"--save", "--save-state", "state.json", "name another"}},
       {pressed + "--save meshes/rounded_punch.msh", {"--save", "rounded_punch.msh", "--mesh1"}},
       {pressed + "--history 'P=0; P=1; P=2' --cycle-start 1",
-       {"end of the cycle (2)", "start (1)"}},
+       {"load 'P' is 2 at the end of the cycle", "1 at its start"}},
       {pressed + "--cycle-start -2", {"cycle-start", "-2", "at least -1"}},
       {pressed + "--cycle-start 4", {"cycle starts at point 4", "0 to 0"}},
       {pressed + "--history 'P=0; P=1; P=0' --cycle-start 0 --cycles 0",
