@@ -348,17 +348,16 @@ void Options::check_files() const
       try
       {
          const bool folder = option.kind == Text::folder;
-         std::error_code why_not;
-         const fs::file_type type = fs::status(file, why_not).type();
-         require(type != fs::file_type::none && type != fs::file_type::unknown, "'", file,
-                 "': ", why_not.message());
-         require(!folder || type == fs::file_type::not_found ||
-                    type == fs::file_type::directory,
-                 "'", file, "' is a file, must be a folder");
          if (option.kind == Text::prefix) { cattaneo::require_writable(file + "_.csv"); }
          else if (!folder) { cattaneo::require_writable(file); }
          else
          {
+            std::error_code why_not;
+            const fs::file_type type = fs::status(file, why_not).type();
+            require(type == fs::file_type::not_found || type == fs::file_type::directory, "'",
+                    file, "' ",
+                    why_not ? "cannot be a folder: " + why_not.message()
+                            : "is a file, must be a folder");
             fs::path there = file;
             while (!there.empty() && !fs::exists(there)) { there = there.parent_path(); }
             cattaneo::require_writable(there / "file");

@@ -581,6 +581,7 @@ TEST_F(Interfaces, OfFreeBodiesKnowTheirCommonMotions)
       const std::vector<Interface> one{between(0, disc, 1, ring)};
       Reduction reduction = reduce({inner.condensed(), outer.condensed()}, one);
       EXPECT_EQ(reduction.problem.rigid_motions.cols(), 3);
+      reduction.problem.validate();
       // Nothing else is free: all other motions are resisted.
       const MatrixXd &Q = reduction.problem.rigid_motions;
       const MatrixXd K = reduction.problem.K + Q * Q.transpose() * reduction.problem.K.trace();
