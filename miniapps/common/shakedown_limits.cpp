@@ -97,15 +97,47 @@ void Shakedown::monolith()
          opens = std::min(opening.load_factor, corner_opens);
          by = "the fit";
       }
-      Table &table = study.table(
-         "adhesion", {{"load_factor", "λ", "%.1f"}, {"friction", "f, full adhesion"}});
+      Table &table = study.table("adhesion", {{"load_factor", "λ", "%.1f"},
+                                              {"friction", "f, full adhesion"},
+                                              {"x", "at x", "%.3f"}});
       for (const Adhesion &at : adhesion_map(problem, cycle, 0, {0.4, 0.6, 0.8}, inner))
       {
-         study.row(table, {at.load_factor, at.friction});
+         study.row(table, {at.load_factor, at.friction, largest_inside(at)});
       }
+      if (std::isfinite(corner_opens)) { leave_corner(opens); }
    }
    if (adhesion) { draw_adhesion(opens, by); }
    if (steps) { draw_monolith(); }
+}
+
+double Shakedown::largest_inside(const Adhesion &at) const
+{
+   const VectorXd ratio =
+      traction_ratio(problem, cycle.constant + at.load_factor * cycle.varying.col(0));
+   const auto slope = [&](Index k)
+   { return (std::abs(ratio[k + 1]) - std::abs(ratio[k])) / (x[k + 1] - x[k]); };
+   const Index i = at.node;
+   if (i == 0 || i + 1 == x.size()) { return x[i]; }
+   const double before = slope(i - 1), after = slope(i);
+   return 0.5 * (x[i - 1] + x[i] + (x[i + 1] - x[i - 1]) * before / (before - after));
+}
+
+void Shakedown::leave_corner(double opens)
+{
+   const auto of = [&](double load_factor)
+   { return adhesion_map(problem, cycle, 0, {load_factor}, inner).front(); };
+   double low = 0, high = opens;
+   if (of(low).friction > williams_ratio[0] || of(high).friction < williams_ratio[0])
+   {
+      return;
+   }
+   while (high - low > 1e-6)
+   {
+      const double middle = 0.5 * (low + high);
+      (of(middle).friction < williams_ratio[0] ? low : high) = middle;
+   }
+   study.value("corner_decides_up_to", low, "the corner decides adhesion up to λ");
+   study.value("leaves_corner_to", largest_inside(of(high)), "and then a place inside, x");
 }
 
 void Shakedown::draw_adhesion(double opens, const char *by)

@@ -49,6 +49,11 @@ private:
    void report(const std::string &what, const cattaneo::LimitReport &of, double load_factor,
                double f);
    void monolith();
+   /// Where between the nodes the ratio of tractions is largest: the summit of the parabola
+   /// through the node that it is largest at and its neighbours.
+   double largest_inside(const cattaneo::Adhesion &at) const;
+   /// The load up to which the singular corner asks for more friction than any place inside.
+   void leave_corner(double opens);
    /// Friction for full adhesion against the load (thesis figure 4.3).
    void draw_adhesion(double opens, const char *by);
    void smallest_friction();

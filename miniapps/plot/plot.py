@@ -169,7 +169,7 @@ def draw_zones(axes, comments, rows):
         for j, state in enumerate(states):
             below, above = ([(time, bounds[j][side]) for time, bounds in points] for side in (0, 1))
             colour, hatch = STATES[state]
-            axes.add_patch(Polygon(below + above[::-1], closed=True, facecolor=colour, edgecolor="none", linewidth=0))
+            axes.add_patch(Polygon(below + above[::-1], closed=True, facecolor=colour, edgecolor=colour, linewidth=0.4))
             if hatch:
                 axes.add_patch(Polygon(below + above[::-1], closed=True, facecolor="none", edgecolor="#00000044",
                                        hatch=hatch, linewidth=0))

@@ -86,13 +86,13 @@ CHAPTER.sketch("4.2", "Monotonic loading", "First P is applied and held, then Q 
 figure("4.3", "What the contact does under monotonic shear", "shakedown -find friction -adhesion-map", """
 Friction coefficients and shear loads at which everything adheres, slip starts at the corner or inside, or the block slides.
 Up to λ = 0.28 the corner decides: its tractions are singular and have the ratio 0.5431 whatever the load. Then the
-largest ratio jumps inside, to x = 0.64 a, and rises quickly.""", adhesion, rows="full adhesion|corner opens")
+largest ratio jumps inside, to x = 0.63 a, and rises quickly.""", adhesion, rows="full adhesion|corner|x/a where")
 figure("4.4", "Tractions of the monolith", STEPS, """
 Block and half-plane bonded to each other: pressure p and shear q under P alone, over the mean pressure p0 = P0/2a, and under
 Q alone, over the mean shear q0 = Qmax/2a. That P gives shear and Q pressure is the coupling.""", monolith, rows="^[pq]̃_")
 figure("4.5", "Ratio of shear to pressure in the monolith", STEPS, """
 The ratio that friction has to bear, for growing Q. All curves meet at the corner, and the maximum moves inside.""",
-       lambda run: f.panels((run, "traction_ratio", {"limits_y": "-1,1.8", "title": ""})), rows="full adhesion")
+       lambda run: f.panels((run, "traction_ratio", {"limits_y": "-1,1.8", "title": ""})), rows="full adhesion|x/a of")
 CHAPTER.sketch("4.6", "Cyclic loading", "P is held; Q goes between Qmax (point A) and Qmin (point B).",
                lambda: sketches.histories({"P": ([0, 1, 8], [0, 1, 1]), "Q": ([0, 1, 2, 4, 6, 8], [0, 0, 0.8, -0.4, 0.8, -0.4])},
                                           points=[(2, 0.8, "A"), (4, -0.4, "B")]))

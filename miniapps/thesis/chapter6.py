@@ -95,12 +95,12 @@ def widths(run):
     return sheet
 
 
-TIES = """ The load goes in steps, and states stand at their ends: borders have the steps' width, and notches and white strips of a step where nodes touch without force or lie on the
-friction limit without having moved, which is neither state."""
+TIES = """ Followed exactly, from one change of a node's state to the next, with contact nodes every 0.0025 t. Drawn are settled states: a node that touches without force is no
+contact, and one at the friction limit that hasn't moved sticks. What steps are left in the edge of the contact are of one node."""
 
 
 def zones(run):
-    return f.panels((run, "zones", {"title": "", "limits_x": "0,5", "limits_y": "0.5,0.8", "y": "x/t (the other end is its mirror image)"}))
+    return f.panels((run, "zones", {"title": "", "limits_x": "1,5", "limits_y": "0.5,0.8", "y": "x/t (the other end is its mirror image)"}))
 
 
 CHAPTER.sketch("6.1", "A receding contact", """
@@ -130,7 +130,7 @@ for number, load, friction, text in (
     if number == "6.8a":
         figure("6.7", "Tractions, compression", joint(-0.04, 0.2), """
 The states of figure 6.3 with Tmax = -0.04 P0: the contact grows with the load and falls back.""", tractions, rows="a0|peak|^a/t")
-    figure(number, f"Zones in the cycles, T = {load:g} P0, f = {friction:g}", joint(load, friction), text + TIES, zones, rows="steady")
+    figure(number, f"Zones in the cycles, T = {load:g} P0, f = {friction:g}", joint(load, friction) + " -spacing 0.0025 -march exact", text + (TIES if number == "6.6a" else ""), zones, rows="steady")
 for number, load, word in (("6.9a", 0.04, "tension"), ("6.9b", -0.04, "compression")):
     figure(number, f"Where energy is lost, {word}", [joint(load, friction) for friction in (0.2, 0.5, 0.8)], f"""
 Energy lost per unit of the contact in a steady cycle between 0 and {load:g} P0. It is zero at the edge, where the pressure is, and at the border of stick, where the slip is; friction

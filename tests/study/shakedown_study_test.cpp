@@ -20,6 +20,10 @@ TEST(ShakedownStudy, MeetsItsReferences)
                        {"full adhesion, f at λ = 0.4", 0.7256, 3e-4, mesh},
                        {"full adhesion, f at λ = 0.6", 1.1045, 3e-4, mesh},
                        {"full adhesion, f at λ = 0.8", 1.5752, 3e-4, mesh},
+                       {"corner decides up to λ", 0.2815, 3e-4, mesh},
+                       // "About": and the place of a flat maximum is of first order, half of
+                       // the distance of the nodes there, 0.023.
+                       {"x/a where the largest ratio is then", 0.635, 0.005, 0.012},
                        {"method 1, f", 0.8385, 1e-4, mesh},
                        {"exact, f", 0.805, 1e-3, 0},
                        {"exact with B transposed, f", 0.848, 5e-4, mesh},
