@@ -1,6 +1,7 @@
 #include "common/fretting_figures.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cattaneo/fretting/calibration.hpp>
 #include <cattaneo/fretting/edge_crack.hpp>
 #include <cattaneo/fretting/hertz_field.hpp>
@@ -301,6 +302,39 @@ struct Record
    }
 };
 
+/** The level of a measure that tells tests that broke from those that lasted with the fewest on
+    its wrong side; of several the one in the widest gap by ratio, in the middle of it. NaN
+   where no level is better than to call them all one. */
+struct DividingLevel
+{
+   double level = none;
+   int wrong = 0;
+
+   /// @a tests: the measure and whether it broke.
+   explicit DividingLevel(std::vector<std::pair<double, bool>> tests)
+   {
+      std::sort(tests.begin(), tests.end());
+      const auto count = static_cast<int>(tests.size());
+      int broke = 0;
+      for (const auto &test : tests) { broke += test.second; }
+      wrong = std::min(broke, count - broke);
+      // Broken ones below the level, and lasting ones above it.
+      int now = count - broke;
+      double widest = 0;
+      for (int k = 0; k + 1 < count; ++k)
+      {
+         now += tests[k].second ? 1 : -1;
+         const double below = tests[k].first, above = tests[k + 1].first, gap = above / below;
+         if (above > below && (now < wrong || (now == wrong && widest > 0 && gap > widest)))
+         {
+            wrong = now;
+            widest = gap;
+            level = std::sqrt(below * above);
+         }
+      }
+   }
+};
+
 } // namespace
 
 void correlate(Study &study, const std::string &file, const Pad &common,
@@ -339,6 +373,9 @@ void correlate(Study &study, const std::string &file, const Pad &common,
                         "energy a cycle, mJ/mm");
    double least = std::numeric_limits<double>::infinity(), most = 0, furthest = 0;
    std::map<std::string, FatigueMaterial> used;
+   std::map<std::string, std::set<double>> ratios; // load ratios of the tests of a material
+   std::vector<std::array<double, 5>> measured;
+   std::vector<bool> broke;
    std::set<std::pair<double, double>> rubbed; // friction and load ratio
    std::vector<std::string> columns;
    int number = 0;
@@ -365,6 +402,10 @@ void correlate(Study &study, const std::string &file, const Pad &common,
          const FrettingReport r = judge(test.pad, contact, criteria).report;
          used.emplace(test.pad.material.name, test.pad.material);
          rubbed.insert({test.pad.friction, test.pad.load_ratio});
+         ratios[test.pad.material.name].insert(test.pad.load_ratio);
+         measured.push_back({r.edge_stress_range, r.ordinate / r.threshold_ordinate,
+                             r.k_t_range, r.energy_max, r.energy_total});
+         broke.push_back(test.runout != 1);
          study.row(table, {test.series, test.pad.material.name, test.cycles, test.runout,
                            test.pad.friction, r.edge_stress_range, r.abscissa, r.ordinate,
                            r.k_t_range, r.energy_max, r.energy_total,
@@ -399,8 +440,49 @@ void correlate(Study &study, const std::string &file, const Pad &common,
          panel.add(name + of, std::vector<double>{least, most}, {y, y}, "dashed");
       };
       level(stress, "plain fatigue limit", properties.fatigue_limit.low);
-      level(mode_two, "mode II threshold",
-            criteria.mode_two_ratio * properties.threshold / mode_two_range(1));
+      const double threshold =
+         criteria.mode_two_ratio * properties.threshold / mode_two_range(1);
+      level(mode_two, "mode II threshold", threshold);
+      // At a higher load ratio the range falls, but not by more than to the same largest value.
+      for (const double R : ratios[material])
+      {
+         const double measured_at = properties.threshold_ratio;
+         if (R > measured_at)
+         {
+            level(mode_two, exact_text("reduced to R = ", R) + " at most",
+                  threshold * (1 - R) / (1 - measured_at));
+         }
+      }
+   }
+   const auto lasted = std::count(broke.begin(), broke.end(), false);
+   if (lasted > 0 && lasted < static_cast<long>(broke.size()))
+   {
+      study.title("Level of each measure that divides broken tests from lasting ones best");
+      Table &dividing = study.table("dividing_levels", {{"measure", "measure            "},
+                                                        {"level", "level", "%.4g"},
+                                                        {"wrong", "tests on its wrong side"},
+                                                        {"tests", "of"}});
+      const std::pair<const char *, Panel *> measures[] = {{"edge stress range", nullptr},
+                                                           {"Y over threshold", nullptr},
+                                                           {"range of K_T", nullptr},
+                                                           {"largest energy", &energy},
+                                                           {"energy of the edge", &total}};
+      for (std::size_t k = 0; k < 5; ++k)
+      {
+         std::vector<std::pair<double, bool>> of;
+         for (std::size_t i = 0; i < broke.size(); ++i)
+         {
+            of.emplace_back(measured[i][k], broke[i]);
+         }
+         const DividingLevel best(std::move(of));
+         study.row(dividing, {measures[k].first, best.level, best.wrong, broke.size()});
+         Panel *panel = measures[k].second;
+         if (panel && std::isfinite(best.level))
+         {
+            panel->add("divides broken from lasting best", std::vector<double>{least, most},
+                       {best.level, best.level}, "dashed");
+         }
+      }
    }
    double highest = 0;
    for (const auto &[friction, load_ratio] : rubbed)

@@ -19,7 +19,8 @@ void draw_design(Study &study, const Pad &pad, const JudgedEdge &judged,
    must be given), yield (in shear, MPa), threshold_ratio (R of the threshold); where a column
    is missing or a cell empty, the value of `common` holds. A table, drawn against the lives
    (thesis figures 2.5 and 2.8 to 2.10) with the limits of all materials and the threshold of
-   each friction. InputError with the line and column of what is wrong. */
+   each friction; and of each measure the level that divides broken from lasting tests best.
+   InputError with the line and column of what is wrong. */
 void correlate(Study &study, const std::string &file, const Pad &common,
                const cattaneo::fretting::FrettingSettings &criteria,
                const std::vector<cattaneo::fretting::FatigueMaterial> &materials);

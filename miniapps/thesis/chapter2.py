@@ -2,6 +2,7 @@
 
 import html
 import json
+import math
 
 import figures as f
 import runs
@@ -10,10 +11,15 @@ from chapter import Chapter
 
 EDGE = "fretting -f 0.8"
 FIELD = "./test -R NearEdgeField"  # the field against numerical integrals of its tractions
+# Edges whose crack, at the length a0, is driven just as hard as the threshold: K_N for X = 0.2, K_T for its Y.
+CRITICAL = ["fretting -p kn -kn 145.480218262 -kt 39.142037 -f 0.8", "fretting -p kn -kn 145.480218262 -kt 75.593 -f 0.3"]
 DATA = "miniapps/data/fretting_records"
 TESTS = {"a": (f"fretting -m Al -rec {DATA}.csv", "aluminium alloy, cylinders"),
          "b": (f"fretting -m Ti6Al4V -rec {DATA}_titanium.csv", "titanium alloy, cylinders"),
          "c": (f"fretting -m Ti6Al4V -p flat-rounded -r 3 -b 3 -P 1000 -Q 20 -rec {DATA}_rounded.csv", "titanium alloy, flat pads with round edges")}
+NICKEL = f"fretting -m Nickel -rec {DATA}_nickel.csv"
+TOGETHER = f"fretting -rec {DATA}_together.csv"
+REDUCED = TESTS["c"][0] + " -lr 0.5"
 PROOFS = {"2.9": "./test -R 'Measures|EdgeCrack'", "2.10": "./test -R SlipEnergy"}
 INVENTED = "The tests shown are *invented*: those of the thesis are in papers whose numbers its text doesn't give. Put your own in such a file. "
 
@@ -59,7 +65,7 @@ def spots(*all_runs):
     for name, curve in all_runs[0].series("yield").items():
         if name != "design":
             f.curves(axes, {name: curve})
-    for k, (run, (_, words)) in enumerate(zip(all_runs, TESTS.values())):
+    for k, (run, words) in enumerate(zip(all_runs, [*(words for _, words in TESTS.values()), "nickel, cylinders"])):
         rows = run.rows("records")
         axes.plot([row["friction"] for row in rows], [row["yield_load"] for row in rows], f.plot.MARKERS[k], color=f.COLOURS[2 + k], markersize=5, label=words + " (invented)")
     f.label(axes, "friction coefficient f", "K_N √d/k")
@@ -76,8 +82,56 @@ def together(run):
     return sheet
 
 
+def kitagawa(run, critical, _):
+    """Trajectories, and the boundary of Kitagawa and Takahashi for the edge whose trajectory passes its corner A."""
+    sheet, (axes,) = f.sheet(1, height=4)
+    for k, (name, curve) in enumerate(run.series("trajectory").items()):
+        if "design" not in name or name.startswith("f = 0.8"):
+            f.curves(axes, {plain(name): curve}, color=f.COLOURS[k], linestyle=f.DASHES[k])
+    d, scale = critical["slip_zone"], math.sqrt(critical["k_n"] * critical["k_t_trailing"] * critical["slip_zone"])
+    a0, threshold = critical["critical_length"] / d, critical["k_threshold"] / scale
+    depth = [k / 200 for k in range(201)]
+    boundary = [min(critical["fatigue_limit"] * math.sqrt(math.pi * c * d) / scale, threshold) for c in depth]
+    axes.fill_between(depth, boundary, color="#FBE9DC")
+    axes.plot(depth, boundary, color="#B00020", linewidth=2, label="threshold, X = 0.2")
+    axes.plot([a0], [threshold], "o", color="#B00020", markersize=7, zorder=5)
+    axes.annotate("A", (a0, threshold), xytext=(-12, 4), textcoords="offset points", fontsize=11, color="#B00020")
+    axes.plot([a0, a0], [0, threshold], color="#B00020", linewidth=0.8, linestyle=":")
+    axes.text(a0 + 0.01, 0.06, "a0", fontsize=9, color="#B00020")
+    axes.text(0.55, 0.3 * threshold, "below: cracks stop", ha="center", fontsize=8.5)
+    f.label(axes, "crack depth c/d", "K_I,max/√(K_N K_T d)")
+    axes.set_xlim(0, 1)
+    axes.set_ylim(0, None)
+    return sheet
+
+
+def drive(critical):
+    return critical["drive"] / critical["k_threshold"]
+
+
 def tests(panel):
     return lambda run: f.panels((run, panel, {"title": ""}))
+
+
+def reduced(run, other):
+    """The tests, and the same at the load ratio of the thesis' tests."""
+    sheet = f.panels((run, "mode_two", {"title": "R = -1"}), (other, "mode_two", {"title": "R = 0.5"}), height=3.8)
+    for axes in sheet.axes:
+        for line in axes.get_lines():
+            if line.get_label().startswith("reduced"):
+                line.set_color("#B00020")
+        axes.legend(fontsize=7.5, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncol=3, frameon=False)
+    return sheet
+
+
+def levels(*all_runs):
+    """How many tests are on the wrong side of the level of each measure that divides them best."""
+    names = [*(words for _, words in TESTS.values()), "all together"]
+    head = "".join(f"<th>{html.escape(name)}</th>" for name in ("measure", *names))
+    tables = [run.rows("dividing_levels") for run in all_runs]
+    body = "".join("<tr>" + f"<td>{html.escape(rows[0]['measure'])}</td>" + "".join(f"<td>{row['wrong']} of {row['tests']}</td>" for row in rows) + "</tr>"
+                   for rows in zip(*tables))
+    return f'<div class="scroll"><table><thead><tr>{head}</tr></thead><tbody class="plain">{body}</tbody></table></div>'
 
 
 CHAPTER.sketch("2.1", "The contact and its edge", """
@@ -89,7 +143,7 @@ Von Mises' stress over K_N √d below the surface; t > 0 is under the pad, 0 < t
 figure("2.3", "Equivalent stress along the surface", EDGE, """
 It is nearly constant over the slip zone, so that this yields almost at once: the smaller f, the less so.""", lambda run: f.panels((run, "surface", {"title": "", "rename": plain})), wrong="""
 The thesis' (2.12) and (2.14) have 2 for √2, and (2.17) is three times the usual invariant; the curves are of the corrected field.""", proof=FIELD)
-figure("2.4", "Load at which the slip zone yields", [command for command, _ in TESTS.values()], INVENTED + """
+figure("2.4", "Load at which the slip zone yields", [*(command for command, _ in TESTS.values()), NICKEL], INVENTED + """
 Lower curve: the load at which some point yields, upper one: the whole slip zone, 1/f whatever ν. They differ for little friction only.""", spots)
 figure("2.4 (Hertz)", "Where a Hertz contact is severest", EDGE, """
 The remark before figure 2.3: with little friction the severest point lies below the surface, with more at the edge. The friction from which on it is at the surface, for a Hertz contact
@@ -98,32 +152,45 @@ figure("Table 2.1", "Materials", "fretting -m Al", "The records that the program
 for letter, (command, words) in TESTS.items():
     figure("2.5" + letter, f"Stress at the edge against life: {words}", command, INVENTED + "Range of the stress along the surface at the contact's edge, √(8 f K_N K_T) at peak load. Hollow: not broken.",
            tests("stress"), wrong="The thesis has half of this stress: √(2 f K_N K_T). It follows from the misprint in (2.12).", proof=FIELD)
-figure("2.6", "Stress intensity of a crack at the edge", EDGE, """
-Largest K_I over √(K_N K_T d) of a crack of depth c, normal to the surface, for reversed loads (R = -1). The pressure closes longer cracks.""",
-       lambda run: f.panels((run, "trajectory", {"title": "", "rename": plain})))
+figure("2.6", "Stress intensity of a crack at the edge", [EDGE, *CRITICAL], """
+Largest K_I over √(K_N K_T d) of a crack of depth c, normal to the surface, for reversed loads (R = -1). The pressure closes longer cracks. Red: what a crack must be driven by to grow,
+after Kitagawa and Takahashi, σ_fl √(πc) for short ones and ΔK_th for long ones, which meet at the length a0. It is drawn for the edge with f = 0.8 and X = 0.2 whose trajectory passes through the
+corner A: a little less K_T, and the crack stops. (In these axes the boundary moves with the loads and the material; figure 2.7 has all of its critical cases.)""", kitagawa,
+       stated=[(f"K_I,max/ΔK_th at A, f = {friction:g}", 1, 2e-6, None, lambda *all_runs, k=k: drive(all_runs[1 + k])) for k, friction in ((0, 0.8), (1, 0.3))])
 figure("2.6 (R)", "Other load ratios", EDGE, """
 The part of the cycle of K_I in which the crack is open, for loads that go between R times their peak and the peak. Up to R = 0.3 nothing changes, since the crack is shut at the other end anyway: the weak
 dependence on R that the thesis reports. Above that less of the range is left to short cracks.""", lambda run: f.panels((run, "trajectory_ratios", {"title": ""})))
-figure("2.7", "Threshold of fretting fatigue", EDGE, """
+figure("2.7", "Threshold of fretting fatigue", [EDGE, *CRITICAL], """
 Above its curve a crack still grows when it has the critical length a0 = (ΔK_th/σ_fl)²/π; below it stops. One diagram for all contacts and materials.""",
-       lambda run: f.panels((run, "threshold", {"title": "", "only": lambda s: s != "design", "rename": plain})), wrong="""
+       lambda run, *_: f.panels((run, "threshold", {"title": "", "only": lambda s: s != "design", "rename": plain})),
+       stated=[(f"Y at X = 0.2, f = {friction:g}", value, 2e-6, None, lambda *all_runs, k=k: all_runs[1 + k]["threshold_y"])
+               for k, friction, value in ((0, 0.8, 1.178838), (1, 0.3, 2.276629))], wrong="""
 The thesis doesn't say which part of K_I's cycle counts. Here it is the part in which the crack is open; `--criterion range` and `half-range` are the others.""", proof="fretting --criterion range")
 for number, panel, title, text in (
         ("2.8", "threshold_tests", "Tests and threshold", "Filled: broken. The criterion says that those above the curve break and those below last. "
          "Invented tests needn't obey it: those of (a) do, of the broken ones of (b) three in four lie below the curve, of (c) all."),
         ("2.9", "mode_two", "Range of K_T against life", "The line is the mode II threshold, 0.8 ΔK_th in K_II = √(2π) K_T."),
-        ("2.10", "energy", "Frictional energy against life", "Largest energy per area and cycle, 4√3 K_T²/E* for reversed loads, a quarter into the slip zone.")):
+        ("2.10", "energy", "Frictional energy against life", "Largest energy per area and cycle, 4√3 K_T²/E* for reversed loads, a quarter into the slip zone. No measurement of the material says how much is endured; as in the thesis the line is put where "
+         "it divides broken tests from lasting ones best: fewest on its wrong side, and in the middle of the gap.")):
     wrong = {"2.9": "The thesis compares ΔK_T itself with 0.8 ΔK_th, which is 2.5 times too much: K_II has a factor √(2π).",
              "2.10": "(2.22) of the thesis has the wrong dimension and lacks E*."}.get(number, "")
     for letter, (command, words) in TESTS.items():
-        figure(number + letter, f"{title}: {words}", command, INVENTED + text, tests(panel), wrong=wrong, proof=PROOFS.get(number, ""))
-figure("2.5 (together)", "All tests in one figure each", f"fretting -rec {DATA}_together.csv", INVENTED + """
+        if number + letter == "2.9c":
+            figure("2.9c", f"{title}: {words}", [command, REDUCED], INVENTED + text + """ The tests of the thesis had R = 0.5 to 0.6 by a steady tension, at which thresholds are lower than at the -1
+of Table 2.1. It draws a reduced line without saying how far it reduces. Right: the same tests at R = 0.5, with the most that a reduction is known to be, to the same largest K_II in the cycle; the truth lies between the
+two dashed lines.""", reduced, wrong=wrong, proof=PROOFS[number])
+        else:
+            figure(number + letter, f"{title}: {words}", command, INVENTED + text, tests(panel), wrong=wrong, proof=PROOFS.get(number, ""))
+figure("2.5 (together)", "All tests in one figure each", TOGETHER, INVENTED + """
 Figures 2.5 and 2.8 to 2.10 with all materials and pads in one, as the thesis has some of its own: the records say material, pad and friction of each test. Limits are of each material, thresholds of each
 friction. The classical stress (first) scatters over materials and pads, which the diagram of 2.7 (second) brings onto one pair of axes.""",
        together)
 figure("2.10 (total)", "Total frictional energy against life", [command for command, _ in TESTS.values()], INVENTED + """
 The energy of the whole slip zone, (8π/3) K_T³/(f K_N E*) a cycle for reversed loads; the thesis says that it orders the tests as the largest density does.""",
        lambda *all_runs: f.panels(*((run, "energy_all", {"title": words}) for run, (_, words) in zip(all_runs, TESTS.values()))))
+figure("2.10 (levels)", "Which measure tells broken tests from lasting ones", [*(command for command, _ in TESTS.values()), TOGETHER], INVENTED + """
+The thesis compares its measures by eye. Counted here: tests on the wrong side of the level that divides them best. One series alone is divided by nearly any measure that grows with the load; the test of a measure is materials and
+pads together (last column).""", levels)
 figure("A", "A flat pad with round edges", "fretting -p flat-rounded -r 3 -b 3 -P 1000 -Q 20 -bs 20 -m Ti6Al4V", """
 Appendix A: pressure of a pad with a flat of half-width b and edges of radius R; the edge alone, of a flat without end (A.1); and what is left of both very close to the edge, K_N √t.""",
        lambda run: f.panels((run, "profile", {"title": "whole"}), (run, "profile", {"title": "at the edge", "limits_x": "-1,-0.94"})), wrong="""

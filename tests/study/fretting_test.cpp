@@ -298,6 +298,58 @@ TEST(Fretting, RecordsHoldMaterialsAndPadsOfTheirOwn)
    std::filesystem::remove_all(folder);
 }
 
+/// Without bulk stress K_T is in proportion to Q, energy to Q² (largest) and Q³ (in all).
+TEST(Fretting, LevelsDivideBrokenFromLastingTests)
+{
+   const std::string folder = testing::TempDir() + "cattaneo_fretting_levels";
+   std::filesystem::create_directories(folder);
+   const auto levels = [&](const std::string &rows, const std::string &options = "")
+   {
+      std::ofstream(folder + "/tests.csv") << "Q,cycles,runout\n" << rows;
+      return run_miniapp("fretting", "-P 400 -f 0.7 -bs 0 -rec '" + folder + "/tests.csv' " +
+                                        options + " -csv '" + folder + "/t'");
+   };
+   // Any level between 20 and 30 has the run-out of 40 on its wrong side, between 40 and 50
+   // the broken 30: the first gap is the wider one.
+   const auto run = levels("20,1e7,1\n40,1e7,1\n10,1e7,1\n30,1e6,0\n50,5e5,0\n60,4e5,0\n");
+   ASSERT_EQ(run.code, 0) << run.output;
+   const auto &tests = run.results["records"], &dividing = run.results["dividing_levels"];
+   ASSERT_EQ(dividing.size(), 5u);
+   const auto middle = [&](const char *key)
+   { return std::sqrt(tests[0][key].get<double>() * tests[3][key].get<double>()); };
+   const std::pair<int, const char *> measures[] = {
+      {0, "edge_stress_range"}, {2, "k_t_range"}, {3, "energy_max"}, {4, "energy_total"}};
+   for (const auto &[row, key] : measures)
+   {
+      expect_relative(dividing[row]["level"], middle(key), 1e-12);
+      EXPECT_EQ(dividing[row]["wrong"], 1) << key;
+      EXPECT_EQ(dividing[row]["tests"], 6) << key;
+   }
+   EXPECT_EQ(dividing[1]["wrong"], 1);
+   expect_relative(dividing[2]["level"], tests[2]["k_t_range"].get<double>() * std::sqrt(6.0),
+                   1e-12);
+   expect_relative(dividing[3]["level"], tests[2]["energy_max"].get<double>() * 6, 1e-12);
+   // The other way round no level is better than to call all tests one; of one kind none is
+   // sought.
+   const auto reversed = levels("10,1e6,0\n20,1e6,0\n30,1e7,1\n40,1e7,1\n");
+   EXPECT_TRUE(reversed.results["dividing_levels"][2]["level"].is_null());
+   EXPECT_EQ(reversed.results["dividing_levels"][2]["wrong"], 2);
+   EXPECT_FALSE(levels("10,1e6,0\n20,1e6,0\n").results.contains("dividing_levels"));
+   // The threshold of R = -1 at R = 0.5, reduced to the same largest value: by 4.
+   const auto pulsating = levels("10,1e6,0\n20,1e7,1\n", "-lr 0.5");
+   std::ifstream in(folder + "/t_mode_two.csv");
+   double measured = 0, reduced = 0;
+   for (std::string line; std::getline(in, line);)
+   {
+      const double y = std::atof(line.substr(line.rfind(',') + 1).c_str());
+      if (line.rfind("mode II threshold,", 0) == 0) { measured = y; }
+      if (line.rfind("reduced to R = 0.5 at most,", 0) == 0) { reduced = y; }
+   }
+   EXPECT_GT(measured, 0);
+   EXPECT_NEAR(reduced, measured / 4, 1e-6 * measured);
+   std::filesystem::remove_all(folder);
+}
+
 TEST(Fretting, ThresholdsAreTheSheets)
 {
    // Fig. 2.7: X = K_N a0/ΔK_th = 0.2, curve A.

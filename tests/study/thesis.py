@@ -16,9 +16,12 @@ FIGURES = {
     2: "1 2a 2b 3 4 5a 5b 5c 6 7 8a 8b 8c 9a 9b 9c 10a 10b 10c", 3: " ".join(map(str, range(1, 13))), 4: " ".join(map(str, range(1, 20))),
     5: "1 2 3a 3b 4 5 6 7a 7b 7c", 6: "1 2 3 4 5 6a 6b 7 8a 8b 9a 9b 10 11", 7: " ".join(map(str, range(1, 18)))}
 OTHERS = ["Table 2.1", *(f"8.2 ({k})" for k in range(1, 6))]
-PARTS = sys.argv[4:] or ["2.3", "3.6", "4.1", "4.4", "5.4", "6.3", "7.6", "7.7"]
-# Rows that the page itself computes: reference, its ± and value of the thesis (studies' notes D).
-STATED = {"first tension of the bonded disc at r/b, a = 0.5": (0.971, 0.005, "0.65")}
+PARTS = sys.argv[4:] or ["2.3", "2.6", "2.7", "3.6", "4.1", "4.3", "4.4", "5.4", "6.3", "7.6", "7.7"]
+# Rows that the page itself computes: reference, its ± (or half of the last digit shown) and value of the thesis (studies' notes D; notes on
+# chapter 2; A is where the threshold is just met).
+STATED = {"K_I,max/ΔK_th at A, f = 0.8": (1, 5e-5, "–"), "K_I,max/ΔK_th at A, f = 0.3": (1, 5e-5, "–"),
+          "Y at X = 0.2, f = 0.8": (1.178838, 5e-5, "–"), "Y at X = 0.2, f = 0.3": (2.276629, 5e-5, "–"),
+          "first tension of the bonded disc at r/b, a = 0.5": (0.971, 0.005, "0.65")}
 
 
 def python():
