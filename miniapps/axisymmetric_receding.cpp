@@ -20,6 +20,7 @@
 //                axisymmetric_receding -domain 100 -spacing 0.04
 
 #include "common/disc_torsion.hpp"
+#include "common/receding_cycles.hpp"
 
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
@@ -233,10 +234,10 @@ void axisymmetric_receding(miniapp::Study &study)
    Disc disc;
    miniapp::DiscOptions &options = disc.options;
    std::string twisted = "top", obstacle = "half-plane";
-   std::vector<double> on_the_way, levels, torques, rotations, bonded_a, map_a,
+   std::vector<double> on_the_way, levels, cycled, torques, rotations, bonded_a, map_a,
       map_f = {0.5, 0.8}, discs, critical_f = {0, 0.5, 0.8};
    double amplitude = 0.5;
-   int cycles = 0;
+   int cycles = 0, load_cycles = 100;
    bool critical_bonded = false;
    study.option(&options.disc_radius, "disc-radius", "b, in t.");
    study.option(&disc.a, "load-radius", "a, in t.");
@@ -252,6 +253,10 @@ void axisymmetric_receding(miniapp::Study &study)
                 miniapp::above_up_to(0, 1));
    study.option(&levels, "unload", "Unloading: list of P/P0 to report (empty: none).",
                 miniapp::between(0, 1));
+   study.option(&cycled, "cycle-to",
+                "Load cycles between P0 and less: list of P/P0 to go back to (empty: none).",
+                miniapp::between(0, 1));
+   study.option(&load_cycles, "load-cycles", "Load cycles, at most.", miniapp::at_least(1));
    study.option(&torques, "torque", "Torsion: list of T/T_s to report (empty: none).",
                 miniapp::positive);
    study.option(&rotations, "rotation",
@@ -279,6 +284,7 @@ void axisymmetric_receding(miniapp::Study &study)
    study.options().only_if(!map_a.empty(), {"map-friction"}, "goes with --map");
    study.options().only_if(!discs.empty(), {"critical-friction", "critical-bonded"},
                            "goes with --critical");
+   study.options().only_if(!cycled.empty(), {"load-cycles"}, "goes with --cycle-to");
    study.options().only_if(cycles > 0, {"amplitude"}, "goes with --cycles");
    study.options().only_if(twists, {"twist"}, "goes with --torque, --rotation or --cycles");
    study.results["load_radius"] = disc.a;
@@ -288,7 +294,7 @@ void axisymmetric_receding(miniapp::Study &study)
            "option --critical-friction is empty, must list the coefficients");
    require(torques.empty() || rotations.empty(),
            "options --torque and --rotation exclude each other");
-   require(disc.f > 0 || (levels.empty() && !twists),
+   require(disc.f > 0 || (levels.empty() && cycled.empty() && !twists),
            "option --friction is 0: unloading is loading backwards, and nothing resists a "
            "twist");
    require(rotations.empty() || twisted != "traction",
@@ -329,6 +335,14 @@ void axisymmetric_receding(miniapp::Study &study)
       return run;
    };
    if (!levels.empty()) { unload(study, disc, again(), levels); }
+   if (!cycled.empty())
+   {
+      again().settings.increments = disc.steps;
+      miniapp::cycle_the_load(study, run,
+                              {radius_load(disc.a), cycled, load_cycles,
+                               disc.radii()[0] - disc.problem().arc_length[0], "r/t",
+                               "D E/(p0² t³)"});
+   }
    if (twists) { spinning_limit(study, disc); }
    if (!torques.empty()) { twist(study, disc, again(), Turning::Stop::torque, torques); }
    if (!rotations.empty())

@@ -305,7 +305,9 @@ void plane_receding(miniapp::Study &study)
    if (!cycled.empty())
    {
       run.settings.increments = unloading.steps;
-      miniapp::cycle_the_load(study, run, overhang_load(overhang), cycled, cycles);
+      miniapp::cycle_the_load(
+         study, run,
+         {overhang_load(overhang), cycled, cycles, -overhang, "ξ/t", "D E'/(p0 t)²"});
       run.settings = {};
    }
    if (!unloading.wanted.empty())

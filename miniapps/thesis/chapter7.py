@@ -13,6 +13,7 @@ CRITICAL = 'axisymmetric_receding -critical "2 3 4 5 6 8" -critical-friction "0 
 LOADING = 'axisymmetric_receding -load-levels "0.25 0.5 0.75 1"'
 MAP = 'axisymmetric_receding -map "0.25 0.5 1 1.5 2 2.5 3 3.4 3.6 3.8 4 4.2 4.4 4.6 4.8 5"'
 UNLOADING = 'axisymmetric_receding -unload "0.9 0.5 0.3 0.1"'
+CYCLES = 'axisymmetric_receding -cycle-to "0.1 0.5 0.8 0.95" -load-cycles 40 -steps 40'
 TORSION = 'axisymmetric_receding -torque "0.1 0.2 0.3 0.4 0.5 0.6 0.7 0.8 0.9"'
 
 CHAPTER = Chapter(7, "Axisymmetric receding contact", """
@@ -140,6 +141,14 @@ figure("7.12", "Zones during unloading", UNLOADING, """
 As the strip's (figure 5.6): the contact recedes, reverse slip follows from the edge, and forward slip grows inward. Diamonds: the thesis at half of the load.""",
        lambda run: f.panels((run, "zones", {"title": ""})), rows="border", wrong="""
 The thesis reads its borders off a figure, without saying ν or the extent of its half-space.""")
+figure("7.12 (cycles)", "Unloading and reloading in cycles", CYCLES, """
+The load goes back and comes again, a = 2.5 t, f = 0.5. First: zones in the first two cycles between P0 (even steps) and 0.1 P0 (odd ones). Reloading sticks at once wherever unloading slipped, but not for long: the
+contact closes again from inside, slipping outward as it did at first, and at P0 the separation is where it was, while the border of stick stays further out: what unloading has locked in is still there.
+Third: pressure comes back and shear doesn't, quite. Second: the loss in each cycle of the load, down to 0.1, 0.5, 0.8 and 0.95 of it. It settles after some cycles, at a value that falls with the third
+power of the range of the load, for small ranges, to the fifth, for large ones, as that of the strip does (8.2 (5)). None shakes down: the edge recedes with every cycle and slips. That is observed, from this start, and
+not proven.""",
+       lambda run: f.panels((run, "load_cycle_zones", {"title": ""}), (run, "load_losses", {"title": ""}), (run, "load_cycle_tractions", {"title": "", "limits_x": "0,4"}), columns=2),
+       rows="loaded, a = 2.5, f = 0.5")
 CHAPTER.sketch("7.13", "The torque", "P is held while the top of the disc is turned.", lambda: sketches.disc(torque=True))
 figure("7.14", "Tractions under torsion", TORSION, "Pressure, and resultant shear over f, for growing torque. Slip spreads inward, and separation moves inward with it.",
        lambda run: kinds(run, "torsion_tractions", "|q|/f: ", ("p/p0", "|q|/(f p0)")), rows="T_s|without friction|T/T_s|T_max")

@@ -68,6 +68,44 @@ TEST(AxisymmetricReceding, NarrowLoadMeetsTheReferences)
                   {"c/t, loaded, a = 0.5, f = 0.9", 0.849, 5e-4, read_out}});
 }
 
+TEST(AxisymmetricReceding, CyclesOfTheLoadBeginAsUnloadingDoes)
+{
+   const std::string prefix = testing::TempDir() + "cattaneo_disc_cycles";
+   const auto result =
+      run("-cycle-to '0.5 0.9' -load-cycles 12 -steps 40 -spacing 0.04 -csv '" + prefix + "'");
+   ASSERT_EQ(result.code, 0) << result.output;
+   // Borders at half of the load, and the separation at all of it: studies' notes D.
+   std::vector<double> half, full;
+   std::ifstream in(prefix + "_load_cycle_zones.csv");
+   for (std::string line; std::getline(in, line);)
+   {
+      const double time = std::atof(line.c_str()),
+                   to = std::atof(line.substr(line.rfind(',') + 1).c_str());
+      if (std::isdigit(static_cast<unsigned char>(line[0])) == 0) { continue; }
+      if (std::abs(time - 1) < 1e-9) { half.push_back(to); }
+      if (time == 0) { full.push_back(to); }
+   }
+   const double unloaded[] = {1.715, 2.415, 3.015, 3.402, 5}, loaded[] = {1.879, 3.728, 5};
+   ASSERT_EQ(half.size(), 5u);
+   ASSERT_EQ(full.size(), 3u);
+   for (int k = 0; k < 5; ++k) { EXPECT_NEAR(half[k], unloaded[k], 0.01 + 2 * read_out) << k; }
+   for (int k = 0; k < 3; ++k) { EXPECT_NEAR(full[k], loaded[k], spread + 2 * read_out) << k; }
+   // Whatever makes the contact recede further makes its edge slip, the first time the most.
+   const auto &cycles = result.results["load_cycles"];
+   ASSERT_EQ(cycles.size(), 2u);
+   for (const auto &row : cycles)
+   {
+      EXPECT_GT(row["opening"], 0);
+      EXPECT_GT(row["last_loss"], 0);
+      EXPECT_LT(row["last_loss"], row["first_loss"]);
+   }
+   EXPECT_LT(cycles[1]["last_loss"], cycles[0]["last_loss"]);
+   for (const char *panel : {"zones", "tractions"})
+   {
+      std::remove((prefix + "_load_cycle_" + panel + ".csv").c_str());
+   }
+}
+
 TEST(AxisymmetricReceding, UnloadingMeetsTheReferencesWhateverTheSteps)
 {
    // 1 - 40/80 is not 0.5 to the last bit: that must not become a step of its own.

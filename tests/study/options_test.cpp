@@ -100,6 +100,7 @@ TEST_F(Options, WhatARunDoesNotUseIsRefused)
            {"axisymmetric_receding", "-critical-bonded", "--critical-bonded", "--critical"},
            {"axisymmetric_receding", "-map-friction 0.5", "--map-friction", "--map"},
            {"axisymmetric_receding", "-amplitude 0.5", "--amplitude", "--cycles"},
+           {"axisymmetric_receding", "-load-cycles 5", "--load-cycles", "--cycle-to"},
            {"axisymmetric_receding", "-twist rim", "--twist", "--torque"},
            {"plane_receding", "-map-friction 0.5", "--map-friction", "--map"},
            {"plane_receding", "-cycles 5", "--cycles", "--cycle-to"},
