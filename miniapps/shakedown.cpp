@@ -56,10 +56,14 @@ void Shakedown::run()
    }
    for (const double stiffness : mismatch)
    {
-      PunchOptions other = punch;
-      other.half_plane = true;
-      other.plane_stiffness = stiffness;
-      repeat("mismatch", other);
+      for (const double poisson : mismatch_poisson)
+      {
+         PunchOptions other = punch;
+         other.half_plane = true;
+         other.plane_stiffness = stiffness;
+         other.plane_poisson = poisson;
+         repeat("mismatch", other);
+      }
    }
 }
 
@@ -96,7 +100,11 @@ void Shakedown::options()
    study.option(&mesh_study, "mesh-study",
                 "Numbers of contact nodes to repeat the limits with.");
    study.option(&mismatch, "mismatch",
-                "Stiffnesses of the half-plane over the block's to repeat the limits with.");
+                "Stiffnesses E' of the half-plane over the block's to repeat the limits with.",
+                positive);
+   study.option(&mismatch_poisson, "mismatch-poisson",
+                "And Poisson's ratios of the half-plane (default: the block's).",
+                at_least_below(0, 0.5));
    study.option(&obstacle, "obstacle", "What the block stands on: rigid or half-plane.",
                 {"rigid", "half-plane"});
    add_options(study, punch);
@@ -116,6 +124,8 @@ void Shakedown::options()
    study.options().only_if(std::isnan(reversal), {"lambda-min"},
                            "says the same as --reversal, say one of them");
    punch.half_plane = obstacle == "half-plane";
+   study.options().only_if(!mismatch.empty(), {"mismatch-poisson"}, "goes with --mismatch");
+   if (mismatch_poisson.empty()) { mismatch_poisson = {punch.poisson}; }
    if (std::isnan(reversal))
    {
       require(std::abs(lambda_min) <= lambda_max, "option --lambda-min is ", lambda_min,

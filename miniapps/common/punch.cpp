@@ -6,6 +6,7 @@
 #include <cattaneo/halfplane/half_plane.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/mesh/graded_mesh.hpp>
+#include <cmath>
 
 namespace miniapp
 {
@@ -42,7 +43,8 @@ Scene make_punch(const PunchOptions &options)
    const Material material{1 - options.poisson * options.poisson, options.poisson,
                            PlaneState::strain};
    Material plane_material = material;
-   plane_material.young *= options.plane_stiffness;
+   if (!std::isnan(options.plane_poisson)) { plane_material.poisson = options.plane_poisson; }
+   plane_material.young = options.plane_stiffness * (1 - std::pow(plane_material.poisson, 2));
    const std::vector<double> contact =
       options.grid.empty()
          ? graded_to_ends(1.0, (options.nodes - 1) / options.order, options.grading)

@@ -23,7 +23,8 @@ struct PunchOptions
    int nodes = 201; ///< contact nodes; (nodes - 1) must be a multiple of the order
    double grading =
       0.01; ///< size of the contact elements at the corners over those in the middle
-   double plane_stiffness = 1; ///< E' of the half-plane over that of the block
+   double plane_stiffness = 1;  ///< E' of the half-plane over that of the block
+   double plane_poisson = none; ///< of the half-plane; NaN: that of the block
    double domain = 0; ///< half-width and depth of the half-plane's block, in a; 0: no block
    /// Of the elements away from the contact, the largest of which are 0.8 (growth - 1) a;
    /// 0: the usual (element_growth()), but 1.1 and 0.04 a where the order is 1.

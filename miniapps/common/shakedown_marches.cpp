@@ -211,6 +211,9 @@ void Shakedown::repeat(const char *table_name, const PunchOptions &other)
 {
    Table &table = study.table(table_name, {{"nodes", "nodes"},
                                            {"plane_stiffness", "plane/block", "%g"},
+                                           {"plane_poisson", "its ν", "%.3g"},
+                                           {"alpha", "Dundurs α", "%.4f"},
+                                           {"beta", "β", "%.4f"},
                                            {"dofs", "dofs"},
                                            {"coupling", "coupling"},
                                            {"friction_limit", "least f", "%.6f"},
@@ -222,8 +225,16 @@ void Shakedown::repeat(const char *table_name, const PunchOptions &other)
    set_friction(on.reduced, friction);
    const double f = smallest(on).limit, load = largest(on).limit;
    on.cycle = cycle_of(changed.problem(), -1);
-   study.row(table, {other.nodes, other.plane_stiffness, changed.dofs, on.coupling, f, load,
-                     largest(on).limit});
+   // [Dundurs 1969], the block is body 1; the rigid plane infinitely stiff.
+   const double nu = other.poisson,
+                below = std::isnan(other.plane_poisson) ? nu : other.plane_poisson,
+                share = other.half_plane ? 1 / (1 + other.plane_stiffness) : 0,
+                alpha = 2 * share - 1,
+                beta = 0.5 * (share * (1 - 2 * below) / (1 - below) -
+                              (1 - share) * (1 - 2 * nu) / (1 - nu));
+   study.row(table, {other.nodes, other.half_plane ? other.plane_stiffness : none,
+                     other.half_plane ? below : none, alpha, beta, changed.dofs, on.coupling, f,
+                     load, largest(on).limit});
 }
 
 } // namespace miniapp

@@ -96,7 +96,7 @@ private:
    std::string find = "both", reduced, held = "P", cycled = "Q";
    bool map = false, adhesion = false, march = false, closed = false, steps = false;
    int cycles = 200, starts = 0;
-   std::vector<double> mesh_study, mismatch;
+   std::vector<double> mesh_study, mismatch, mismatch_poisson;
 
    bool saved = false;    ///< the contact comes from a file
    bool standard = false; ///< the punch whose reference values are known

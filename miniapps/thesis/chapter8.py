@@ -5,7 +5,7 @@ from chapter import Chapter
 
 PAD = "design"
 FRICTIONS = (0.7, 0.85, 1)
-MISMATCH = [f'shakedown -nodes 65 -find load -friction {friction:g} -mismatch "0.01 0.03 0.1 0.3 1 3 10 30 100"' for friction in FRICTIONS]
+MISMATCH = [f'shakedown -nodes 65 -find load -friction {friction:g} -mismatch "0.01 0.1 0.3 1 3 10 100" -mismatch-poisson "0 0.15 0.3 0.4 0.49"' for friction in FRICTIONS]
 BOLTS = ['lap_joint -bolts "-1.2 0 1.2" -lower-thickness 2 -load 0.1 -spacing 0.025', 'lap_joint -bolts "-1.5 0 1.5" -friction 0.4 -load 0.2 -spacing 0.025']
 LOWER = ["shakedown -find load -nodes 65 -starts 8", "shakedown -find load -obstacle rigid -nodes 65 -friction 0.6 -starts 8"]
 RECEDING = 'plane_receding -spacing 0.04 -corner 0.01 -steps 20 -cycles 40 -cycle-to "0.2 0.4 0.6 0.8 0.9 0.95"'
@@ -17,18 +17,28 @@ figure = CHAPTER.figure
 
 
 def mismatch(*all_runs):
-    sheet, both = f.sheet(2)
+    sheet, axes = f.sheet(4, height=3.6)
+    rows = all_runs[0].rows("mismatch")
+    stiffnesses, ratios = (sorted({row[key] for row in rows}) for key in ("plane_stiffness", "plane_poisson"))
+    f.curves(axes[0], {f"E' ratio {one:g}": zip(*((row["beta"], row["coupling"]) for row in rows if row["plane_stiffness"] == one)) for one in stiffnesses},
+             "Dundurs' β", "degree of coupling", marker="o", markersize=3)
+    axes[0].plot([-0.3, 0, 0.45], [0.3, 0, 0.45], color="black", linewidth=0.8, label="|β|, two half-planes")
+    f.curves(axes[1], {f"ν = {one:g}": zip(*((row["plane_stiffness"], row["coupling"]) for row in rows if row["plane_poisson"] == one)) for one in ratios},
+             "E' of the half-plane over the block's", "degree of coupling", marker="o", markersize=3)
     for k, (run, friction) in enumerate(zip(all_runs, FRICTIONS)):
         rows = run.rows("mismatch")
-        at = [row["plane_stiffness"] for row in rows]
-        if not k:
-            f.curves(both[0], {"": (at, [row["coupling"] for row in rows])}, "E' of the half-plane over the block's", "degree of coupling", legend=False, marker="o")
         for key, word, style in (("load_limit", "-0.5", "-"), ("load_limit_reversed", "-1", (0, (5, 2)))):
-            f.curves(both[1], {f"f = {friction:g}, R = {word}": (at, [row[key] / friction for row in rows])}, "E' of the half-plane over the block's", "largest λ/f",
-                     color=f.COLOURS[k], linestyle=style)
-    for axes in both:
-        axes.set_xscale("log")
-    both[1].legend(fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.18), ncol=2, frameon=False)
+            same = [row for row in rows if row["plane_poisson"] == 0.3]
+            f.curves(axes[2], {f"f = {friction:g}, R = {word}": ([row["plane_stiffness"] for row in same], [row[key] / friction for row in same])},
+                     "E' of the half-plane over the block's, ν = 0.3", "largest λ/f", color=f.COLOURS[k], linestyle=style)
+        axes[3].plot([row["coupling"] for row in rows], [row["load_limit_reversed"] / friction for row in rows], f.plot.MARKERS[k], color=f.COLOURS[k], markersize=4,
+                     label=f"f = {friction:g}")
+    f.label(axes[3], "degree of coupling", "largest λ/f, R = -1, all pairs")
+    for one in axes[1:3]:
+        one.set_xscale("log")
+    for one in (axes[0], axes[2]):
+        f.label(one)
+        one.legend(fontsize=6.5, loc="best", ncol=2)
     return sheet
 
 
@@ -57,8 +67,12 @@ uniformly. Another objective, the energy lost in a cycle, and limits of curvatur
        rows="uniform|gap at")
 figure("8.2 (2)", "Coupling", MISMATCH, """
 The degree of coupling is the largest share of elastic energy that slip and opening can have in common, a number between 0 and 1; for two half-planes it is
-Dundurs' |β|. It needs a mesh fine enough: for equal stiffnesses it is 0.411 on 17 nodes, 0.430 on the 65 of the figure, 0.440 on 201 and 0.445 on 401, still rising, since the corner is singular. Here it and the limits, for blocks on softer and stiffer half-planes. Coupling is least on a half-plane of a tenth of the stiffness, and most on a rigid one; what the contact bears
-doesn't follow it alone. (λ = f is gross sliding.)""", mismatch)
+Dundurs' |β|. Here it and the limits, for blocks (ν = 0.3) on half-planes of other stiffness and Poisson's ratio. Above: on a soft half-plane the block is all but rigid, and its corners do little: the
+coupling follows |β| down to a rest. On stiffer ones the shape of the block decides, and β moves it little. Below: what the contact bears against three coefficients of friction (λ = f is gross sliding), and against the
+coupling: it isn't decided by that number, which knows nothing of the loads. Only α and β count, not the four constants: blocks with ν = 0, 0.2 and 1/3 on half-planes that have the same α and β bear the same to a few parts in
+ten thousand.
+
+The number needs a fine mesh: for equal bodies it is 0.411 on 17 nodes, 0.430 on the 65 of the figure, 0.440 on 201 and 0.445 on 401, still rising, since the corner is singular.""", mismatch)
 figure("8.2 (3)", "Order of tightening", BOLTS, """
 Three bolts in a row, tightened from the middle outward, and from outside inward: the shear that is left after it, and the loss in a steady cycle. With laps of different thickness the order
 matters for the shear that is left; equal laps have none (second command), since by symmetry pressing doesn't shear them.""",

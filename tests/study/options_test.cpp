@@ -109,6 +109,7 @@ TEST_F(Options, WhatARunDoesNotUseIsRefused)
            {"lap_joint", "-frames 3", "--frames", "--paraview"},
            {"lap_joint", "-snug 0.1", "--snug", "--bolts"},
            {"shakedown", "-reduced problems/square_punch.json -nodes 51", "--nodes", "punch"},
+           {"shakedown", "-mismatch-poisson 0.2", "--mismatch-poisson", "--mismatch"},
            {"shakedown", "-reversal -1 -lambda-min -0.2", "--lambda-min", "--reversal"}})
    {
       expect_refused(program, options, {"option " + option + " does nothing", with});

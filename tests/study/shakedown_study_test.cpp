@@ -1,5 +1,8 @@
 #include <extent.hpp>
+#include <sstream>
 #include <study/run_miniapp.hpp>
+#include <utility>
+#include <vector>
 
 namespace
 {
@@ -113,6 +116,46 @@ TEST(ShakedownStudy, AdhesionMapEndsWhereTheCornerOpens)
    const double at_node = run.results["corner_node_ratio"];
    EXPECT_GT(at_node, 0.59);
    EXPECT_LT(at_node, 0.77);
+}
+
+TEST(ShakedownStudy, OnlyDundursConstantsOfABlockAndItsPlaneMatter)
+{
+   // Three pairs with α = 0 and β = (1/(1-ν) - 1/(1-ν'))/4 = -1/16: by Dundurs' theorem one
+   // and the same contact. What differs is the mesh's, a tenth of its own error of 30/64².
+   std::vector<nlohmann::json> rows;
+   for (const auto &[block, plane] : {std::pair{0.0, 0.2}, {0.2, 1 / 3.0}, {1 / 3.0, 3 / 7.0}})
+   {
+      std::ostringstream options;
+      options.precision(17);
+      options << "-nodes 65 -find load -poisson " << block << " -mismatch 1 -mismatch-poisson "
+              << plane;
+      const Outcome run = run_miniapp("shakedown", options.str());
+      ASSERT_EQ(run.code, 0) << run.output;
+      rows.push_back(run.results["mismatch"][0]);
+      EXPECT_NEAR(rows.back()["alpha"].get<double>(), 0, 1e-15);
+      EXPECT_NEAR(rows.back()["beta"].get<double>(), -1 / 16.0, 1e-15);
+      for (const char *key : {"friction_limit", "load_limit", "load_limit_reversed"})
+      {
+         const double first = rows[0][key];
+         EXPECT_NEAR(rows.back()[key].get<double>(), first, 7e-4) << key;
+      }
+      const double coupling = rows[0]["coupling"];
+      EXPECT_NEAR(rows.back()["coupling"].get<double>(), coupling, 7e-3 * coupling);
+   }
+   // Another β is another contact, and a soft plane under a block is two half-planes' |β|.
+   const Outcome run = run_miniapp("shakedown", "-nodes 65 -find load -mismatch '1e-4 1' "
+                                                "-mismatch-poisson '0 0.2'");
+   ASSERT_EQ(run.code, 0) << run.output;
+   const auto &other = run.results["mismatch"];
+   EXPECT_GT(
+      std::abs(other[2]["load_limit"].get<double>() - rows[0]["load_limit"].get<double>()),
+      5e-3);
+   for (const int k : {0, 1})
+   {
+      const double beta = other[k]["beta"];
+      EXPECT_NEAR(beta, k == 0 ? 0.5 : 0.375, 2e-4); // (1-2ν)/(2-2ν) on a rigid block
+      EXPECT_NEAR(other[k]["coupling"].get<double>(), beta, 0.02);
+   }
 }
 
 TEST(ShakedownStudy, SaysWhichLimitsAreOfTheMesh)
