@@ -34,6 +34,7 @@ from ._core.design import (
     limit_curvature as limit_curvature,
     load_limit_gradient as load_limit_gradient,
     moving_edge as moving_edge,
+    spread_starts as spread_starts,
     stiffness_scale as stiffness_scale,
     ties as ties,
     trace_march as trace_march,

@@ -21,16 +21,18 @@ CATTANEO_ARGUMENT(MaybeNumbers, "None | numpy.typing.ArrayLike");
 CATTANEO_ARGUMENT(MaybeNumber, "None | float");
 CATTANEO_ARGUMENT(Cases, "collections.abc.Sequence[DesignCase]");
 CATTANEO_ARGUMENT(Variables, "numpy.typing.ArrayLike | collections.abc.Sequence[Parameters]");
+CATTANEO_ARGUMENT(Shape, "None | collections.abc.Callable[[numpy.ndarray], "
+                         "tuple[numpy.typing.ArrayLike, numpy.typing.ArrayLike]]");
 CATTANEO_ARGUMENT(Objective, "None | collections.abc.Callable[[Responses, list[int]], "
                              "collections.abc.Sequence[Response]]");
 
 constexpr int most = std::numeric_limits<int>::max();
 
-/// A problem to choose for. Python's objective is called where C++'s would be.
+/// A problem to choose for. Python's functions are called where C++'s would be.
 struct Wanted
 {
    DesignProblem problem;
-   nb::object objective;
+   nb::object objective, shape;
 };
 
 /// What a search came to, and the problem that was designed.
@@ -58,9 +60,20 @@ std::vector<Parameters> variables_of(nb::handle variables, Index nodes)
    return all;
 }
 
+/// Calls Python's shape for C++.
+Eigen::VectorXd shaped(nb::handle shape, const Eigen::VectorXd &x, Eigen::MatrixXd &by)
+{
+   const nb::gil_scoped_acquire lock;
+   const std::vector<nb::object> answer = sequence(shape(array(x)), "what the shape returned");
+   require(answer.size() == 2, "what the shape returned has ", answer.size(),
+           " entries, must be two: gaps of the nodes, and their derivatives by each variable");
+   by = matrix(answer[1], "derivatives of the shape", by.rows(), by.cols());
+   return vector(answer[0], "gaps of the shape", by.rows());
+}
+
 Wanted wanted(const ReducedProblem &problem, nb::handle cases, nb::handle variables,
               nb::handle low, nb::handle high, nb::handle limits, nb::handle least,
-              nb::handle upper, nb::handle goal, nb::handle objective)
+              nb::handle upper, nb::handle goal, nb::handle objective, nb::handle shape)
 {
    Wanted result;
    DesignProblem &of = result.problem;
@@ -82,11 +95,21 @@ Wanted wanted(const ReducedProblem &problem, nb::handle cases, nb::handle variab
    of.most = upper.is_none() ? Eigen::VectorXd(Eigen::VectorXd::Constant(rows, infinity))
                              : bounds(upper, "most", rows);
    of.goal = chosen<DesignGoal>(goal, "goal", {"least_largest", "least_sum"});
-   if (!objective.is_none() && PyCallable_Check(objective.ptr()) == 0)
+   const auto function = [](nb::handle given, const char *name)
    {
-      refuse(objective, "objective", "a function or None");
+      if (!given.is_none() && PyCallable_Check(given.ptr()) == 0)
+      {
+         refuse(given, name, "a function or None");
+      }
+      return nb::borrow(given);
+   };
+   result.objective = function(objective, "objective");
+   result.shape = function(shape, "shape");
+   if (!shape.is_none())
+   {
+      of.shape = [shape](const Eigen::VectorXd &x, Eigen::MatrixXd &by)
+      { return shaped(shape, x, by); };
    }
-   result.objective = nb::borrow(objective);
    // It decides what must be known of the problem.
    if (!objective.is_none())
    {
@@ -187,14 +210,15 @@ void bind_problem(nb::module_ &m)
          "__init__",
          [](Self *self, Of<ReducedProblem> problem, Cases cases, Variables variables,
             Numbers low, Numbers high, MaybeNumbers limits, MaybeNumbers least,
-            MaybeNumbers most, Text goal, Objective objective)
+            MaybeNumbers most, Text goal, Objective objective, Shape shape)
          {
             new (self) Self(wanted(given(problem, "problem"), cases, variables, low, high,
-                                   limits, least, most, goal, objective));
+                                   limits, least, most, goal, objective, shape));
          },
          arg("problem"), arg("cases"), arg("variables"), arg("low"), arg("high"), nb::kw_only(),
          arg("limits") = nb::none(), arg("least") = nb::none(), arg("most") = nb::none(),
          arg("goal") = "least_largest", arg("objective") = nb::none(),
+         arg("shape") = nb::none(),
          "problem: that of x = 0. variables: columns that are added to the gap, (n, number of "
          "variables), or a list of Parameters without stiffness. low, high: bounds of each, or "
          "one number. limits: a matrix L with a row a limit, least <= L x <= most, which may "
@@ -203,7 +227,9 @@ void bind_problem(nb::module_ &m)
          "objective: a function of Responses and the states that count, which returns a list "
          "of "
          "Response; None: the pressures of all nodes. goal: 'least_largest' or 'least_sum' of "
-         "all responses of all cases, each times its case's weight.")
+         "all responses of all cases, each times its case's weight. shape: a function of x "
+         "that returns a gap that is added, (n,), and its derivatives, (n, number of "
+         "variables); None: the gap is linear in x.")
       .def_prop_ro(
          "variables", [](const Self &self) { return self.problem.variables; },
          nb::sig("def variables(self) -> list[Parameters]"), "per unit of each")
@@ -231,6 +257,26 @@ void bind_problem(nb::module_ &m)
       "gap_variables", [](Numbers G) { return gap_variables(matrix(G, "G")); }, arg("G"),
       nb::sig("def gap_variables(G: numpy.typing.ArrayLike) -> list[Parameters]"),
       "Variables that are the columns of G, (n, number of variables), added to the gap.");
+   m.def(
+      "spread_starts",
+      [](Of<Self> problem, Numbers start, Number count)
+      {
+         const DesignProblem &of = given(problem, "problem").problem;
+         nb::list all;
+         for (const Eigen::VectorXd &x :
+              spread_starts(of, vector_or_number(start, "start", of.low.size()),
+                            whole(count, "count", 0, most)))
+         {
+            all.append(array(x));
+         }
+         return all;
+      },
+      arg("problem"), arg("start"), arg("count"),
+      nb::sig("def spread_starts(problem: DesignProblem, start: numpy.typing.ArrayLike, "
+              "count: int) -> list[numpy.ndarray]"),
+      "Other starts for a search: `count` points spread evenly over the box of the bounds, "
+      "each "
+      "moved toward `start` as far as the limits ask for.");
    m.def(
       "limit_curvature",
       [](Of<Self> problem, Number least, Number most)

@@ -200,6 +200,56 @@ def test_punch_of_uniform_pressure():
     assert report.objective < curved.objective < curved.objective_at_start
 
 
+def rounded_pad(shape=None):
+    """A flat pad |x| < 1 on a half-plane, flat for |x| < x[0] and of radius 1/x[1] beyond."""
+    material = cattaneo.Material(8 / np.pi * 0.91, 0.3)
+    upper = cattaneo.HalfPlane(material, depth=1e4, normal=(0, 1), forces={"P": (0, -1), "Q": (1, 0)})
+    flat = cattaneo.reduce(cattaneo.condense(upper, np.linspace(-1, 1, 33), order=1), cattaneo.HalfPlane(material, depth=1e4)).problem
+    flat.friction = 0.3
+    at = flat.position[:, 0]
+
+    def rounded(x):
+        beyond = np.maximum(0, abs(at) - x[0])
+        return x[1] * beyond**2 / 2, np.stack([-x[1] * beyond, beyond**2 / 2], axis=1)
+
+    case = design.DesignCase("pressed", cattaneo.LoadHistory.through(flat, [{}, {"P": 1}]))
+    nothing = [design.Parameters(), design.Parameters()]
+    return design.DesignProblem(flat, [case], nothing, low=0, high=[1, 4], shape=shape or rounded)
+
+
+def test_rounded_punch_of_least_pressure():
+    """From several starts: the best has no better neighbour by marches alone, and is above what no profile is below."""
+    wanted = rounded_pad()
+    starts = design.spread_starts(wanted, [0.5, 0], 3)
+    assert len(starts) == 3 and all((x >= 0).all() and (x <= [1, 4]).all() for x in starts)
+    warnings.simplefilter("ignore", cattaneo.OutcomeWarning)
+    best = min((searched(design.design(wanted, x)) for x in [[0.5, 0], *starts]), key=lambda report: report.objective)
+
+    def peak(x):
+        problem = wanted.with_(x)
+        state = cattaneo.march(problem, [{}, {"P": 1}]).state
+        return (state.p / problem.weights).max()
+
+    assert best.objective > 0.5 and peak(best.x) == pytest.approx(best.objective, rel=1e-9)
+    for way in ([1, 0], [-1, 0], [0, 1], [0, -1], [1, 1], [-1, -1], [1, -1], [-1, 1]):
+        assert peak(best.x + 1e-3 * np.array(way)) > best.objective - 1e-8
+
+
+def test_a_shape_says_what_is_wrong_with_it():
+    with pytest.raises(TypeError, match="shape is an int, must be a function or None"):
+        rounded_pad(3)
+    with pytest.raises(ValueError, match="has 1 entries, must be two"):
+        rounded_pad(lambda x: [x]).with_([0, 0])
+    with pytest.raises(ValueError, match="gaps of the shape"):
+        rounded_pad(lambda x: (x, np.zeros((33, 2)))).with_([0, 0])
+    with pytest.raises(ValueError, match="derivative by variable 1"):
+        design.design(rounded_pad(lambda x: (np.full(33, x[1]), np.zeros((33, 2)))), [0, 0])
+    with pytest.raises(ZeroDivisionError):
+        design.design(rounded_pad(lambda x: 1 / 0), [0, 0])
+    with pytest.raises(ValueError, match="not linear"):
+        design.limit_curvature(rounded_pad(), -1, 1)
+
+
 def test_what_an_objective_raises_is_raised():
     """Also from within Ipopt, as Ctrl-C and what a monitor raises."""
     searched(design.design(damped(lost_in_all), 0.0, stepping="exact"))

@@ -124,11 +124,11 @@ DesignProblem crowned_pad()
    return problem;
 }
 
-/// The peak pressures of both cases, weighted, by marches alone.
-Eigen::Vector2d peaks(const DesignProblem &problem, const VectorXd &x)
+/// The peak pressures of all cases, weighted, by marches alone.
+VectorXd peaks(const DesignProblem &problem, const VectorXd &x)
 {
-   Eigen::Vector2d result;
-   for (std::size_t c = 0; c < 2; ++c)
+   VectorXd result(problem.cases.size());
+   for (std::size_t c = 0; c < problem.cases.size(); ++c)
    {
       const ReducedProblem with = problem.with(x);
       ContactState state = ContactState::virgin(with);
@@ -319,4 +319,140 @@ TEST(Design, StartsWhereLimitsHold)
       expect_input_error([&] { design(problem, Eigen::Vector2d(0.5, 0.1)); },
                          "limit 0 is 0.6 at the start, must be from");
    }
+}
+
+namespace
+{
+
+/// Flat for |x| < b, a parabola of curvature c beyond: not linear in b.
+VectorXd rounded(const VectorXd &x, const VectorXd &values, MatrixXd &by)
+{
+   for (Index i = 0; i < x.size(); ++i)
+   {
+      const double beyond = std::max(0.0, std::abs(x[i]) - values[0]);
+      by(i, 0) = -values[1] * beyond;
+      by(i, 1) = 0.5 * beyond * beyond;
+   }
+   return values[1] * by.col(1);
+}
+
+DesignProblem rounded_pad()
+{
+   DesignProblem problem;
+   problem.problem = flat_pad(32, 0.3);
+   const VectorXd x = problem.problem.arc_length.array() - 1;
+   problem.shape = [x](const VectorXd &values, MatrixXd &by) { return rounded(x, values, by); };
+   problem.variables.resize(2);
+   problem.low = VectorXd::Zero(2);
+   problem.high = Eigen::Vector2d(1, 4);
+   problem.cases = {{"pressed", LoadHistory::through(problem.problem, {{}, {{"P", 1}}})}};
+   return problem;
+}
+
+} // namespace
+
+// Flat and radius of a rounded punch, which the gap is not linear in: none of a grid over all
+// of them presses less, nor any nearby; and there is a best one inside.
+TEST(Design, FlatAndRadiusOfARoundedPunchAgainstASweep)
+{
+   const DesignProblem problem = rounded_pad();
+   const DesignReport report = design(problem, Eigen::Vector2d(0.5, 0));
+   EXPECT_EQ(report.status, DesignStatus::optimal) << report.message;
+   EXPECT_GT(report.objective, 0.5); // what no profile is better than
+   EXPECT_GT((report.x - problem.low).minCoeff(), 0.01);
+   EXPECT_GT((problem.high - report.x).minCoeff(), 0.01);
+   EXPECT_NEAR(peaks(problem, report.x)[0], report.objective, 1e-9);
+   double best = 1e9;
+   for (int i = 0; i <= 20; ++i)
+   {
+      for (int j = 0; j <= 40; ++j)
+      {
+         const Eigen::Vector2d x(i / 20.0, j / 10.0);
+         best = std::min(best, peaks(problem, x)[0]);
+      }
+   }
+   EXPECT_LT(report.objective, best + 1e-9);
+   EXPECT_GT(report.objective, 0.97 * best); // the grid comes near
+   for (int k = 0; k < 16; ++k)
+   {
+      for (const double h : {1e-2, 1e-4})
+      {
+         const Eigen::Vector2d step(std::cos(k * M_PI / 8), std::sin(k * M_PI / 8));
+         EXPECT_GT(peaks(problem, report.x + h * step)[0], report.objective - 1e-8) << k;
+      }
+   }
+}
+
+// With derivatives that are not those of its values any design would be called optimal.
+TEST(Design, RefusesAShapeWithOtherDerivatives)
+{
+   DesignProblem problem = rounded_pad();
+   const auto good = problem.shape;
+   for (const Index column : {0, 1})
+   {
+      problem.shape = [good, column](const VectorXd &values, MatrixXd &by)
+      {
+         VectorXd gap = good(values, by);
+         by.col(column) *= 1.1;
+         return gap;
+      };
+      expect_input_error([&] { design(problem, Eigen::Vector2d(0.5, 1)); },
+                         "derivative by variable " + std::to_string(column));
+   }
+   problem.shape = [](const VectorXd &, MatrixXd &) { return VectorXd(VectorXd::Zero(3)); };
+   expect_input_error([&] { design(problem, Eigen::Vector2d(0.5, 1)); },
+                      "the shape has 3 gaps");
+   problem.shape = good;
+   expect_input_error([&] { limit_curvature(problem, -1, 1); }, "not linear");
+   EXPECT_EQ(problem.with(Eigen::Vector2d(0.25, 2)).gap[0], 0.75 * 0.75);
+}
+
+// Starts are apart from one another, spread over the box, and where all limits hold; along what
+// is fixed to one value none moves.
+TEST(Design, StartsAreSpreadWithinBoundsAndLimits)
+{
+   DesignProblem problem = crowned_pad();
+   problem.low = Eigen::Vector2d(-1, 2);
+   problem.high = Eigen::Vector2d(3, 10);
+   const Eigen::Vector2d start(0, 2.5);
+   const std::vector<VectorXd> all = spread_starts(problem, start, 64);
+   ASSERT_EQ(all.size(), 64u);
+   int quarters[4] = {};
+   for (std::size_t k = 0; k < all.size(); ++k)
+   {
+      ASSERT_GE((all[k] - problem.low).minCoeff(), 0);
+      ASSERT_GE((problem.high - all[k]).minCoeff(), 0);
+      ++quarters[(all[k][0] > 1) + 2 * (all[k][1] > 6)];
+      for (std::size_t other = 0; other < k; ++other)
+      {
+         // 64 points that share the area alike are about 1/8 of a side apart.
+         const VectorXd apart = (all[k] - all[other]).cwiseQuotient(Eigen::Vector2d(4, 8));
+         EXPECT_GT(apart.norm(), 0.05);
+      }
+   }
+   for (const int count : quarters) { EXPECT_NEAR(count, 16, 2); }
+   problem.limits = MatrixXd::Ones(2, 2);
+   problem.limits(0, 1) = 0;
+   problem.least = Eigen::Vector2d(-0.5, -1e9);
+   problem.most = Eigen::Vector2d(0.5, 6);
+   for (const VectorXd &x : spread_starts(problem, start, 64))
+   {
+      EXPECT_LE(std::abs(x[0]), 0.5 + 1e-12);
+      EXPECT_LE(x.sum(), 6 + 1e-12);
+   }
+   problem.least = problem.most = Eigen::Vector2d(0, 2.5); // both fixed
+   EXPECT_LT((spread_starts(problem, start, 1)[0] - start).cwiseAbs().maxCoeff(), 1e-12);
+   problem.limits.row(0).setOnes();
+   problem.least = problem.most = Eigen::Vector2d(2.5, 2.5); // one, said twice
+   double spread = 0;
+   for (const VectorXd &x : spread_starts(problem, start, 8))
+   {
+      EXPECT_NEAR(x.sum(), 2.5, 1e-12);
+      ASSERT_GE((x - problem.low).minCoeff(), 0);
+      ASSERT_GE((problem.high - x).minCoeff(), 0);
+      spread = std::max(spread, std::abs(x[0] - start[0]));
+   }
+   EXPECT_GT(spread, 0.1);
+   expect_input_error([&] { spread_starts(problem, Eigen::Vector2d(0, 0), 1); },
+                      "variable 1 starts at 0");
 }

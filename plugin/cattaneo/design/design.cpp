@@ -51,6 +51,74 @@ void add(VectorXd &sum, double factor, const VectorXd &x)
    if (x.size() > 0) { sum += factor * x; }
 }
 
+VectorXd shaped(const DesignProblem &of, const VectorXd &x, MatrixXd &by)
+{
+   const Index n = of.problem.nodes();
+   by = MatrixXd::Zero(n, x.size());
+   VectorXd gap = of.shape(x, by);
+   require(gap.size() == n && by.rows() == n && by.cols() == x.size(), "design: the shape has ",
+           gap.size(), " gaps and ", by.rows(), " × ", by.cols(), " derivatives for ", n,
+           " nodes and ", x.size(), " variables");
+   return gap;
+}
+
+/// Whether x is within the limits, but for what `tolerance` leaves: the limit that it is not.
+Index violated_limit(const DesignProblem &of, const VectorXd &x, double tolerance)
+{
+   for (Index r = 0; r < of.limits.rows(); ++r)
+   {
+      const double at = of.limits.row(r).dot(x),
+                   leave = tolerance * of.limits.row(r).cwiseAbs().dot(x.cwiseAbs());
+      if (!(at >= of.least[r] - leave && at <= of.most[r] + leave)) { return r; }
+   }
+   return -1;
+}
+
+void require_start(const DesignProblem &problem, const VectorXd &start, double tolerance)
+{
+   require(start.size() == problem.low.size(), "design: ", start.size(), " values for ",
+           problem.low.size(), " variables");
+   for (Index j = 0; j < start.size(); ++j)
+   {
+      require(start[j] >= problem.low[j] && start[j] <= problem.high[j], "design: variable ", j,
+              " starts at ", start[j], ", must lie between ", problem.low[j], " and ",
+              problem.high[j]);
+   }
+   const Index r = violated_limit(problem, start, tolerance);
+   if (r < 0) { return; }
+   require(false, "design: limit ", r, " is ", problem.limits.row(r).dot(start),
+           " at the start, must be from ", problem.least[r], " to ", problem.most[r],
+           " there: start where all limits hold, or widen it");
+}
+
+/** A search with derivatives that are not those of the shape would end anywhere, and call it an
+    optimum: along each variable a short way into its bounds they are compared with its
+    differences (the mean of both ends is exact to the third order of the way). */
+void require_derivatives(const DesignProblem &problem, const VectorXd &start)
+{
+   MatrixXd here, there;
+   const VectorXd gap = shaped(problem, start, here);
+   for (Index j = 0; j < start.size(); ++j)
+   {
+      const double reach = problem.high[j] - problem.low[j];
+      const bool up = problem.high[j] - start[j] >= start[j] - problem.low[j];
+      const double way = (up ? 1e-4 : -1e-4) * reach;
+      if (way == 0) { continue; }
+      VectorXd x = start;
+      x[j] += way;
+      const VectorXd change = shaped(problem, x, there) - gap,
+                     expected = 0.5 * (x[j] - start[j]) * (here.col(j) + there.col(j));
+      const double size =
+                      std::max(change.cwiseAbs().maxCoeff(), expected.cwiseAbs().maxCoeff()),
+                   digits = 1e-12 * gap.cwiseAbs().maxCoeff();
+      Index node = 0;
+      const double off = (change - expected).cwiseAbs().maxCoeff(&node);
+      require(off <= 1e-2 * size + digits, "design: the shape's derivative by variable ", j,
+              " is ", expected[node] / way, " at node ", node, ", its values change by ",
+              change[node] / way);
+   }
+}
+
 /// Iterations without a better design after which none is expected: where responses bend at
 /// the optimum Ipopt looks for a smooth one until it is stopped.
 constexpr int patience = 25;
@@ -169,6 +237,7 @@ void Design::differentiate(Trial &trial)
 {
    if (trial.by.size() > 0 || !trial.known) { return; }
    MatrixXd by(trial.values.size(), variables_);
+   const std::vector<Parameters> changes = given_.changes(trial.x);
    Index first = 0;
    for (std::size_t c = 0; c < given_.cases.size() && trial.known; ++c)
    {
@@ -184,7 +253,7 @@ void Design::differentiate(Trial &trial)
       // Whichever are fewer, marched forward or backward.
       for (Index j = 0; count >= variables_ && j < variables_ && trial.known; ++j)
       {
-         const TraceChange change = sensitivity.along(given_.variables[j], march_.monitor);
+         const TraceChange change = sensitivity.along(changes[j], march_.monitor);
          if (!change.found) { not_found(change.message); }
          for (Index i = 0; i < count && trial.known; ++i)
          {
@@ -197,7 +266,7 @@ void Design::differentiate(Trial &trial)
          if (!gradient.found) { not_found(gradient.message); }
          for (Index j = 0; j < variables_; ++j)
          {
-            by(first + i, j) = gradient.by.dot(given_.variables[j]);
+            by(first + i, j) = gradient.by.dot(changes[j]);
          }
       }
       by.middleRows(first, count) *= given_.cases[c].weight;
@@ -209,15 +278,8 @@ void Design::differentiate(Trial &trial)
 
 bool Design::allowed(const VectorXd &x) const
 {
-   const VectorXd limits = limits_ * x;
-   bool inside = (x - given_.low).minCoeff() >= 0 && (given_.high - x).minCoeff() >= 0;
-   for (Index r = 0; r < limits.size(); ++r)
-   {
-      const double leave = settings_.tolerance * limits_.row(r).cwiseAbs().dot(x.cwiseAbs());
-      inside =
-         inside && limits[r] >= given_.least[r] - leave && limits[r] <= given_.most[r] + leave;
-   }
-   return inside;
+   return (x - given_.low).minCoeff() >= 0 && (given_.high - x).minCoeff() >= 0 &&
+          violated_limit(given_, x, settings_.tolerance) < 0;
 }
 
 /// Variables in units in which the objective at the start changes by itself.
@@ -480,7 +542,7 @@ DesignReport Design::run(const VectorXd &start)
    best_ = first;
    find_scales(first);
    const SmoothSolution solution =
-      largest() && !given_.objective
+      largest() && !given_.objective && !given_.shape
          ? descend()
          : solve(programme(), y_of(first), settings_.tolerance, settings_.max_iterations);
    if (solution.outcome == SmoothOutcome::unavailable)
@@ -510,6 +572,8 @@ void limit_curvature(DesignProblem &problem, double least, double most)
    const ReducedProblem &of = problem.problem;
    const auto count = static_cast<Index>(problem.variables.size());
    require(count > 0, "curvature limits: the design has no variables yet");
+   require(!problem.shape, "curvature limits: of a gap that is not linear in its variables "
+                           "they are not linear either");
    require(of.arc_length.size() == of.nodes(), "curvature limits: ", of.arc_length.size(),
            " positions along the line for ", of.nodes(), " nodes");
    for (const ContactChain &chain : of.chains)
@@ -539,6 +603,65 @@ void limit_curvature(DesignProblem &problem, double least, double most)
    }
 }
 
+std::vector<VectorXd> spread_starts(const DesignProblem &problem, const VectorXd &start,
+                                    int count)
+{
+   problem.validate();
+   const DesignSettings usual;
+   require_start(problem, start, usual.tolerance);
+   const Index variables = start.size();
+   // The golden ratio of as many dimensions: the root of φ^(d+1) = φ + 1.
+   double phi = 2;
+   for (int k = 0; k < 60; ++k)
+   {
+      phi = std::pow(1 + phi, 1.0 / (static_cast<double>(variables) + 1));
+   }
+   // Along what limits fix to one value no start may move; of the others, which are linear,
+   // what lies between two allowed points is allowed.
+   const Index rows = problem.limits.rows();
+   MatrixXd fixed(0, variables);
+   for (Index r = 0; r < rows; ++r)
+   {
+      if (problem.least[r] < problem.most[r]) { continue; }
+      fixed.conservativeResize(fixed.rows() + 1, variables);
+      fixed.bottomRows(1) = problem.limits.row(r);
+   }
+   const auto share = [](double at, double by, double least, double most, double size)
+   {
+      if (std::abs(by) <= 1e-12 * size) { return 1.0; }
+      return std::max(0.0, (by > 0 ? most - at : least - at) / by);
+   };
+   std::vector<VectorXd> all;
+   for (int k = 1; k <= count; ++k)
+   {
+      VectorXd way(variables);
+      for (Index j = 0; j < variables; ++j)
+      {
+         const double part = 0.5 + k * std::pow(phi, -static_cast<double>(j + 1));
+         way[j] = problem.low[j] +
+                  (part - std::floor(part)) * (problem.high[j] - problem.low[j]) - start[j];
+      }
+      if (fixed.rows() > 0)
+      {
+         way -= fixed.completeOrthogonalDecomposition().solve(fixed * way).eval();
+      }
+      double least = 1;
+      for (Index j = 0; j < variables; ++j)
+      {
+         least = std::min(least, share(start[j], way[j], problem.low[j], problem.high[j],
+                                       problem.high[j] - problem.low[j]));
+      }
+      for (Index r = 0; r < rows; ++r)
+      {
+         const auto row = problem.limits.row(r);
+         least = std::min(least, share(row.dot(start), row.dot(way), problem.least[r],
+                                       problem.most[r], row.cwiseAbs().dot(way.cwiseAbs())));
+      }
+      all.emplace_back((start + least * way).cwiseMax(problem.low).cwiseMin(problem.high));
+   }
+   return all;
+}
+
 const char *name(DesignStatus status)
 {
    const char *const names[] = {"optimal", "improved", "no equilibrium", "unavailable",
@@ -564,7 +687,22 @@ ReducedProblem DesignProblem::with(const VectorXd &x) const
       add(result.gap, x[j], variables[j].gap);
       add(result.friction, x[j], variables[j].friction);
    }
+   MatrixXd by;
+   if (shape) { result.gap += shaped(*this, x, by); }
    return result;
+}
+
+std::vector<Parameters> DesignProblem::changes(const VectorXd &x) const
+{
+   std::vector<Parameters> all = variables;
+   MatrixXd by;
+   if (shape) { shaped(*this, x, by); }
+   for (Index j = 0; j < by.cols(); ++j)
+   {
+      if (all[j].gap.size() == 0) { all[j].gap.setZero(by.rows()); }
+      all[j].gap += by.col(j);
+   }
+   return all;
 }
 
 void DesignProblem::validate() const
@@ -624,25 +762,8 @@ DesignReport design(const DesignProblem &problem, const VectorXd &start,
 {
    settings.validate();
    problem.validate();
-   problem.with(start);
-   for (Index j = 0; j < start.size(); ++j)
-   {
-      require(start[j] >= problem.low[j] && start[j] <= problem.high[j], "design: variable ", j,
-              " starts at ", start[j], ", must lie between ", problem.low[j], " and ",
-              problem.high[j]);
-   }
-   const VectorXd at_limits =
-      problem.limits.rows() > 0 ? VectorXd(problem.limits * start) : VectorXd();
-   for (Index r = 0; r < at_limits.size(); ++r)
-   {
-      const double leave =
-         settings.tolerance * problem.limits.row(r).cwiseAbs().dot(start.cwiseAbs());
-      require(at_limits[r] >= problem.least[r] - leave &&
-                 at_limits[r] <= problem.most[r] + leave,
-              "design: limit ", r, " is ", at_limits[r], " at the start, must be from ",
-              problem.least[r], " to ", problem.most[r],
-              " there: start where all limits hold, or widen it");
-   }
+   require_start(problem, start, settings.tolerance);
+   if (problem.shape) { require_derivatives(problem, start); }
    return Design(problem, settings).run(start);
 }
 

@@ -33,7 +33,8 @@ enum class DesignGoal
 
         gap = G0 + Σ x_j g_j     for instance,
 
-    between bounds, and with linear limits L x of which each has its own. */
+    or a gap of any smooth shape, between bounds, and with linear limits L x of which each has
+    its own. */
 struct DesignProblem
 {
    ReducedProblem problem;        ///< of x = 0
@@ -41,6 +42,9 @@ struct DesignProblem
    /// Of each variable, per unit of it. No stiffness; multipliers of the histories of all cases
    /// alike.
    std::vector<Parameters> variables;
+   /// Adds a gap that depends on the variables as it likes, of each node; in `by` (n × number
+   /// of variables) its derivatives, continuous. None: the gap is linear in them.
+   std::function<Eigen::VectorXd(const Eigen::VectorXd &x, Eigen::MatrixXd &by)> shape;
    Eigen::VectorXd low;                         ///< lower bound of each, finite
    Eigen::VectorXd high;                        ///< upper bound of each, finite
    Eigen::MatrixXd limits;                      ///< L, a row a limit
@@ -52,6 +56,8 @@ struct DesignProblem
 
    /// Of values x of the variables. InputError of another size.
    ReducedProblem with(const Eigen::VectorXd &x) const;
+   /// What each variable changes at these values, per unit of it. InputError of another size.
+   std::vector<Parameters> changes(const Eigen::VectorXd &x) const;
    /// InputError if sizes do not fit, a bound is not finite or above the other.
    void validate() const;
 };
@@ -63,6 +69,12 @@ std::vector<Parameters> gap_variables(const Eigen::MatrixXd &G);
     each node that has two neighbours, positive where it opens to both sides, is to lie between
     `least` and `most`. InputError if variables or positions along the line are missing. */
 void limit_curvature(DesignProblem &problem, double least, double most);
+
+/** Other starts for a search: `count` points spread evenly over the box of the bounds (the
+    sequence of the generalised golden ratio), each moved toward `start` as far as the limits
+    ask for. InputError unless `start` is within bounds and limits. */
+std::vector<Eigen::VectorXd> spread_starts(const DesignProblem &problem,
+                                           const Eigen::VectorXd &start, int count);
 
 /// What a search came to.
 enum class DesignStatus
@@ -135,8 +147,9 @@ struct DesignReport
    where that happens at the optimum its conditions need not hold, and it is `improved`: the
    best design of all that were tried, never worse than the start.
 
-    `start`: a value of each variable. InputError if it is outside of a bound or a limit, and as
-   DesignProblem::validate() and march(). */
+    `start`: a value of each variable. InputError if it is outside of a bound or a limit, if the
+   derivatives of a shape are not those of its values, and as DesignProblem::validate() and
+   march(). */
 DesignReport design(const DesignProblem &problem, const Eigen::VectorXd &start,
                     const DesignSettings &settings = {});
 
