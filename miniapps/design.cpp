@@ -1,22 +1,27 @@
 //  design: the profile that presses least, or loses most or least, found by the program
 //
 //  A pad |x| < a of a half-plane's material (no mesh, P = a = 1, E* = 4/π), or the square punch
-//  on a half-plane (a = E' = 1), flat at first, is given a gap: free at every node, or a crown
-//  Σ x_k (x/a)^2k of few terms. Wanted is the least of the largest pressures under all loads,
-//  which for one of them is the punch of uniform pressure; or the least, or the most, energy
-//  lost in a cycle of Q between ±f P times --shear. Under bounds, and limits of curvature. With
-//  --reduced any saved reduced problem, in its own units, through a history of your own; --save
-//  writes the designed one. With --choose not its gap but loads of it, whose sum stays: the
-//  pretensions of a row of bolts, and where there are bolts at all. An optimum is one among its
-//  neighbours: docs/design.md.
+//  on a half-plane (a = E' = 1), flat at first, is given a gap: free at every node, a crown of
+//  few powers of x/a, or rounded, flat for |x| < b and of radius R beyond. Wanted is the least
+//  of the largest pressures under all loads, which for one of them is the punch of uniform
+//  pressure; or, in a cycle of Q between ±f P times --shear, the least or the most energy lost,
+//  or the least of what a node loses at most per area (energy, a criterion of fretting). Under
+//  bounds, and limits of curvature. With --coat not the gap is chosen but friction in zones; of
+//  a saved reduced problem (--reduced, in its own units, through a history of your own) by
+//  --choose also loads, whose sum stays: the pretensions of a row of bolts, and where there are
+//  bolts at all. --save writes the designed problem. An optimum is one among its neighbours;
+//  --starts begins elsewhere too: docs/design.md.
 //
 //  Sample runs:  design
 //                design --scene punch --profile crown --shear 0.5 --lines 8
 //                design --profile crown --loads "0.3 1" --weights "2 1" --lines 24
 //                design --curvature 0.3 --nodes 41
-//                design --profile crown --terms 1 --goal damping --shear 0.8 --lines 8
+//                design --profile crown --powers 2 --goal damping --shear 0.8 --lines 8
+//                design --profile rounded --lines 24
+//                design --scene punch --coat "0.2 0.8" --goal loss --shear 0.5 --lines 8
 //                design --case problems/bolt_row.case.json
 
+#include "common/design_choice.hpp"
 #include "common/hertz_scene.hpp"
 #include "common/punch.hpp"
 #include "common/run.hpp"
@@ -42,13 +47,12 @@ namespace
 
 struct Chosen
 {
-   std::string scene = "pad", profile = "free", goal = "pressure", file, history, loads_chosen;
+   std::string scene = "pad", goal = "pressure", file, history;
    std::vector<double> loads = {1}, weights;
-   double shear = 0, friction = miniapp::none, from = miniapp::none, most = 1,
-          curvature = miniapp::none;
-   int terms = 2, nodes = 65;
+   double shear = 0, friction = miniapp::none, from = miniapp::none;
+   int nodes = 65;
 
-   bool loses() const { return goal != "pressure"; }
+   bool cycles() const { return goal != "pressure"; }
 };
 
 ReducedProblem make_problem(miniapp::Study &study, const Chosen &chosen)
@@ -112,77 +116,9 @@ std::vector<DesignCase> make_cases(const Chosen &chosen, const ReducedProblem &p
          for (double sheared : {Q, -Q, Q}) { points.push_back({{"P", P}, {"Q", sheared}}); }
       }
       cases.push_back({exact_text("P = ", P), LoadHistory::through(problem, points),
-                       sign * chosen.weights[k], chosen.loses() ? 2.0 : 1.0});
+                       sign * chosen.weights[k], chosen.cycles() ? 2.0 : 1.0});
    }
    return cases;
-}
-
-/// Bodies that nothing keeps from moving apart, all nodes alike: only differences of gaps
-/// count.
-bool moves_apart(const ReducedProblem &problem)
-{
-   const VectorXd forces = problem.C() * VectorXd::Ones(problem.nodes());
-   return forces.cwiseAbs().maxCoeff() <= 1e-6 * problem.C().cwiseAbs().maxCoeff();
-}
-
-/// The node amid those with the least gap.
-Index touching_node(const VectorXd &x, const VectorXd &gap)
-{
-   Index node = 0;
-   for (Index i = 1; i < gap.size(); ++i)
-   {
-      const bool as_near = gap[i] == gap[node] && std::abs(x[i]) < std::abs(x[node]);
-      if (gap[i] < gap[node] || as_near) { node = i; }
-   }
-   return node;
-}
-
-/// Patterns by their names, separated by semicolons.
-std::vector<Index> chosen_loads(const std::string &names, const ReducedProblem &problem)
-{
-   std::vector<Index> found;
-   std::istringstream all(names);
-   for (std::string name; std::getline(all, name, ';');)
-   {
-      const std::size_t from = name.find_first_not_of(" '\""),
-                        to = name.find_last_not_of(" '\"");
-      name = from == std::string::npos ? "" : name.substr(from, to - from + 1);
-      const Index k = problem.pattern(name);
-      require(std::find(found.begin(), found.end(), k) == found.end(),
-              "option --choose names '", name, "' twice");
-      found.push_back(k);
-   }
-   require(found.size() > 1, "option --choose is '", names,
-           "', must be two loads at least, separated by semicolons: their sum stays");
-   return found;
-}
-
-/** Variables that add to the multipliers of loads wherever one of them acts, so that their sum
-    stays: none below zero, none by more than `most`. */
-void choose_loads(DesignProblem &problem, const std::vector<Index> &loads, double most)
-{
-   const MatrixXd M = problem.cases[0].history.multipliers(loads, Eigen::all);
-   const auto count = M.rows();
-   require(M.minCoeff() >= 0, "option --choose: a load is ", M.minCoeff(),
-           " in the history, must not be negative");
-   require(M.maxCoeff() > 0,
-           "option --choose: its loads are zero in the history, one must act");
-   problem.low = VectorXd::Constant(count, -most);
-   problem.high = VectorXd::Constant(count, most);
-   for (Index j = 0; j < count; ++j)
-   {
-      Parameters change;
-      change.multipliers = MatrixXd::Zero(problem.problem.patterns.size(), M.cols());
-      for (Index k = 0; k < M.cols(); ++k)
-      {
-         if (M.col(k).maxCoeff() == 0) { continue; }
-         change.multipliers(loads[j], k) = 1;
-         problem.low[j] = std::max(problem.low[j], -M(j, k));
-      }
-      problem.variables.push_back(std::move(change));
-   }
-   problem.limits = MatrixXd::Ones(1, count);
-   problem.least = problem.most = VectorXd::Zero(1);
 }
 
 /// The history of a case with what its variables add.
@@ -198,11 +134,32 @@ LoadHistory with_variables(const DesignProblem &problem, const DesignCase &of,
    return history;
 }
 
+/// Energy that each node loses per area, from the first state to the last.
+std::vector<Response> densities(const ReducedProblem &problem, const Responses &of,
+                                const std::vector<std::size_t> &states)
+{
+   std::vector<Response> all;
+   for (Index i = 0; i < problem.nodes(); ++i)
+   {
+      const double weight = problem.weights[i];
+      if (weight <= 0) { continue; }
+      all.push_back(1 / weight * of.dissipation(states.front(), states.back(), i));
+   }
+   return all;
+}
+
 /// What a case comes to, by a march alone.
 struct Marched
 {
-   double peak = 0, lost = 0;
+   double peak = 0, lost = 0; ///< at the points that count, and between them
+   double density = 0;        ///< the most that a node loses per area
+   VectorXd densities;        ///< of all that have a weight
    ContactState at_peak;
+
+   double of(const std::string &goal) const
+   {
+      return goal == "pressure" ? peak : goal == "energy" ? density : lost;
+   }
 };
 
 Marched march_case(const DesignProblem &problem, const VectorXd &x, const DesignCase &of,
@@ -213,8 +170,12 @@ Marched march_case(const DesignProblem &problem, const VectorXd &x, const Design
    const MarchTrace trace = trace_march(with, with_variables(problem, of, x), settings);
    const double end = of.history.times[of.history.times.size() - 1],
                 from = std::isnan(of.from) ? end : of.from;
-   if (trace.report.time < end) { return {miniapp::none, miniapp::none, {}}; }
    Marched result;
+   if (trace.report.time < end)
+   {
+      result.peak = result.lost = result.density = miniapp::none;
+      return result;
+   }
    for (double time : of.history.times)
    {
       const ContactState &state = trace.states[trace.at(time)].state;
@@ -225,38 +186,13 @@ Marched march_case(const DesignProblem &problem, const VectorXd &x, const Design
       result.at_peak = state;
    }
    result.lost += trace.states.back().state.dissipation;
+   const std::vector<Response> all =
+      densities(with, Responses(with, trace), {trace.at(from), trace.last()});
+   result.densities.resize(static_cast<Index>(all.size()));
+   std::transform(all.begin(), all.end(), result.densities.begin(),
+                  [](const Response &each) { return each.value; });
+   result.density = result.densities.maxCoeff();
    return result;
-}
-
-/// Variables of the gap, of nodes or of a crown, at places from the middle of the line.
-void choose_gap(DesignProblem &problem, const Chosen &chosen, const VectorXd &x)
-{
-   const ReducedProblem &flat = problem.problem;
-   const Index n = flat.nodes();
-   const bool free = chosen.profile == "free";
-   // Where bodies can move apart a node that touches stays: only differences of gaps count.
-   const bool apart = moves_apart(flat);
-   MatrixXd G = MatrixXd::Identity(n, free ? n : chosen.terms);
-   if (free && apart)
-   {
-      const Index node = touching_node(x, flat.gap);
-      G.middleCols(node, n - 1 - node) = G.rightCols(n - 1 - node).eval();
-      G.conservativeResize(n, n - 1);
-   }
-   for (Index j = 0; !free && j < G.cols(); ++j)
-   {
-      G.col(j) = (x / x.cwiseAbs().maxCoeff()).array().square().pow(static_cast<double>(j + 1));
-   }
-   problem.variables = gap_variables(G);
-   problem.low = VectorXd::Zero(G.cols());
-   // What begins flat is crowned. What has a gap may also be too round: other nodes come before
-   // the one that stays, so that no shape is left out; of bodies that are held, by their gaps.
-   if (apart && !chosen.file.empty()) { problem.low.setConstant(-chosen.most); }
-   problem.high = VectorXd::Constant(G.cols(), chosen.most);
-   if (!std::isnan(chosen.curvature))
-   {
-      limit_curvature(problem, -chosen.curvature, chosen.curvature);
-   }
 }
 
 /// The profile under which P presses |x| < 1 uniformly, E* = 4/π.
@@ -268,11 +204,12 @@ double uniform_profile(double x, double P)
 
 /// The goal along each variable through the optimum: it is to have its least value there.
 void draw_lines(miniapp::Study &study, const DesignProblem &problem, const DesignReport &report,
-                const Chosen &chosen, const MarchSettings &settings, int steps)
+                const miniapp::DesignVariables &variables, const std::string &goal,
+                const MarchSettings &settings, int steps)
 {
    miniapp::Panel &panel =
       study.panel(miniapp::Panel::Kind::lines, "lines", "Along each variable, others optimal",
-                  "variable", chosen.loses() ? "energy lost" : "largest pressure, weighted");
+                  "variable", goal + ", weighted");
    double best = report.objective;
    for (Index j = 0; j < report.x.size(); ++j)
    {
@@ -281,50 +218,108 @@ void draw_lines(miniapp::Study &study, const DesignProblem &problem, const Desig
       {
          VectorXd x = report.x;
          x[j] = problem.low[j] + (problem.high[j] - problem.low[j]) * k / steps;
-         double value = chosen.loses() ? 0.0 : -INFINITY;
-         for (const DesignCase &load_case : problem.cases)
+         VectorXd of(problem.cases.size());
+         for (std::size_t c = 0; c < problem.cases.size(); ++c)
          {
-            const Marched marched = march_case(problem, x, load_case, settings);
-            if (chosen.loses()) { value += load_case.weight * marched.lost; }
-            else { value = std::max(value, load_case.weight * marched.peak); }
+            const DesignCase &load_case = problem.cases[c];
+            of[static_cast<Index>(c)] =
+               load_case.weight * march_case(problem, x, load_case, settings).of(goal);
          }
-         at.push_back(x[j]);
+         const double value = !of.allFinite()                             ? miniapp::none
+                              : problem.goal == DesignGoal::least_largest ? of.maxCoeff()
+                                                                          : of.sum();
+         at.push_back(x[j] + variables.before[j]);
          values.push_back(std::abs(value));
          if (value < best) { best = value; }
       }
-      panel.add(exact_text("x", j + 1), at, values);
-      panel.add("", {report.x[j]}, {std::abs(report.objective)}, "points");
+      panel.add(variables.names[j], at, values);
+      panel.add("", {report.x[j] + variables.before[j]}, {std::abs(report.objective)},
+                "points");
    }
-   study.value("best_of_lines", (report.objective - best) / std::abs(report.objective),
+   // A loss that comes to nothing is measured by what it was.
+   const double size =
+      std::max(std::abs(report.objective), std::abs(report.objective_at_start));
+   study.value("best_of_lines", (report.objective - best) / size,
                "how much better any point of these lines is");
+}
+
+/// The best of what is found from all starts, with a table of them if there are several.
+DesignReport search(miniapp::Study &study, const DesignProblem &problem, const VectorXd &start,
+                    int starts, DesignSettings settings)
+{
+   miniapp::Watch watch("design");
+   settings.march.monitor = watch.monitor();
+   std::vector<VectorXd> from = {start};
+   for (const VectorXd &other : spread_starts(problem, start, starts - 1))
+   {
+      from.push_back(other);
+   }
+   DesignReport best;
+   double at_start = miniapp::none;
+   miniapp::Table *table = nullptr;
+   if (starts > 1)
+   {
+      table = &study.table("starts", {{"start", "start"},
+                                      {"before", "before", "%.6g"},
+                                      {"objective", "objective", "%.6g"},
+                                      {"design", "design"}});
+   }
+   for (std::size_t k = 0; k < from.size(); ++k)
+   {
+      DesignReport report = design(problem, from[k], settings);
+      const bool known = !report.traces.empty();
+      if (table)
+      {
+         study.row(*table,
+                   {k + 1, known ? std::abs(report.objective_at_start) : miniapp::none,
+                    known ? std::abs(report.objective) : miniapp::none, name(report.status)});
+      }
+      const bool better = known && (best.traces.empty() || report.objective < best.objective);
+      const bool ends = report.status == DesignStatus::stopped;
+      if (k == 0) { at_start = report.objective_at_start; }
+      if (k == 0 || better) { best = std::move(report); }
+      if (ends)
+      {
+         best.status = DesignStatus::stopped;
+         break;
+      }
+   }
+   best.objective_at_start = at_start;
+   return best;
 }
 
 void design_contact(miniapp::Study &study)
 {
    Chosen chosen;
+   miniapp::DesignChoice choice;
    std::string stepping = "advancing";
-   int lines = 0;
+   int lines = 0, starts = 1;
    DesignSettings settings;
    using miniapp::at_least;
    study.option(&chosen.scene, "scene", "Pad on a half-plane, or square punch on one.",
                 {"pad", "punch"});
-   study.option(&chosen.profile, "profile", "Gap free at nodes, or of even powers.",
-                {"free", "crown"});
-   study.option(&chosen.terms, "terms", "Crown: its powers, x², x⁴, …", miniapp::within(1, 8));
+   study.option(&choice.profile, "profile",
+                "Gap free at nodes, of few powers, or flat with rounded ends.",
+                {"free", "crown", "rounded"});
+   study.option(&choice.powers, "powers",
+                "Crown: its powers; an odd one leans to one side or the other.",
+                miniapp::within(1, 16));
    study.option(&chosen.goal, "goal",
-                "Least largest pressure; least loss in a cycle, or most (damping).",
-                {"pressure", "loss", "damping"});
+                "Least largest pressure; in a cycle the least energy lost, the most (damping), "
+                "or the least that a node loses at most per area (energy).",
+                {"pressure", "loss", "damping", "energy"});
    study.option(&chosen.loads, "loads", "Normal load P of each case.", miniapp::positive);
    study.option(&chosen.weights, "weights", "Of each case; default: 1.", miniapp::positive);
    study.option(&chosen.shear, "shear", "Amplitude of Q/fP.", miniapp::at_least_below(0, 1));
    study.option(&chosen.friction, "friction", "Default: 0.3, of --reduced the file's.",
                 miniapp::positive);
    study.option(
-      &chosen.most, "most",
+      &choice.most, "most",
       "Most that a gap changes by against the node that touches (of bodies that are held: that "
-      "is added to it), or largest x_k of the crown.",
+      "is added to it), largest part of each power of the crown, or largest 1/R; of --choose, "
+      "most that a load changes by.",
       miniapp::positive);
-   study.option(&chosen.curvature, "curvature", "Largest of the gap; default: no limit.",
+   study.option(&choice.curvature, "curvature", "Largest of the gap; default: no limit.",
                 miniapp::positive);
    study.option(&chosen.nodes, "nodes", "Contact nodes, one more than a multiple of 4.",
                 at_least(9));
@@ -334,6 +329,8 @@ void design_contact(miniapp::Study &study)
    study.option(&settings.tolerance, "tolerance", "Of the conditions of optimality.",
                 miniapp::between(0, 1));
    study.option(&lines, "lines", "Steps of a sweep along each variable.", at_least(0));
+   study.option(&starts, "starts", "Searches from so many places: the best is kept.",
+                at_least(1));
    study.option(&chosen.file, "reduced", "Reduced problem, in place of the scenes.",
                 miniapp::Text::input);
    study.option(&chosen.history, "history",
@@ -342,9 +339,13 @@ void design_contact(miniapp::Study &study)
    study.option(&chosen.from, "from",
                 "With --reduced: time from which on its points count; default: the last.");
    study.option(
-      &chosen.loads_chosen, "choose",
+      &choice.loads, "choose",
       "With --reduced: loads that are chosen in place of the gap, as 'bolt 1; bolt 2'; "
       "their sum stays, none goes below zero.");
+   study.option(&choice.coat, "coat",
+                "Friction is chosen in place of the gap, from the first number to the second.",
+                miniapp::not_negative);
+   study.option(&choice.zones, "zones", "Of --coat, of equal lengths.", at_least(1));
    study.parse();
    settings.march.stepping = miniapp::stepping(stepping);
    const Chosen usual;
@@ -356,45 +357,52 @@ void design_contact(miniapp::Study &study)
                chosen.shear == 0 && chosen.weights.empty() && chosen.nodes == usual.nodes),
            "options --scene, --loads, --weights, --shear and --nodes are of the scenes, "
            "--reduced has its own contact and --history");
-   require(!chosen.loses() || chosen.shear > 0 || !std::isnan(chosen.from), "option --goal is ",
-           chosen.goal, ", which needs a cycle: --shear, of --reduced --from");
+   require(!chosen.cycles() || chosen.shear > 0 || !std::isnan(chosen.from),
+           "option --goal is ", chosen.goal,
+           ", which needs a cycle: --shear, of --reduced --from");
    if (chosen.weights.empty()) { chosen.weights.assign(chosen.loads.size(), 1.0); }
    require(chosen.weights.size() == chosen.loads.size(), "option --weights has ",
            chosen.weights.size(), " entries, --loads has ", chosen.loads.size());
+
+   const miniapp::DesignChoice usual_choice;
+   require(choice.loads.empty() || !chosen.file.empty(),
+           "option --choose is of --reduced: the scenes have no loads to choose");
+   require(choice.loads.empty() || choice.coat.empty(),
+           "options --choose and --coat: a design chooses one of them");
+   require(choice.what() == "gap" ||
+              (choice.profile == usual_choice.profile && std::isnan(choice.curvature)),
+           "options --profile and --curvature are of a gap that is chosen, --choose and --coat "
+           "take its place");
+   require(!choice.coat.empty() || choice.zones == usual_choice.zones,
+           "option --zones is of --coat");
+   require(choice.profile == "crown" || choice.powers == usual_choice.powers,
+           "option --powers is of --profile crown");
+   require(lines == 0 || choice.what() != "gap" || choice.profile != usual_choice.profile,
+           "option --lines is not of a free profile, whose variables are many");
 
    DesignProblem problem;
    problem.problem = make_problem(study, chosen);
    const ReducedProblem &flat = problem.problem;
    const Index n = flat.nodes();
    const VectorXd &s = flat.arc_length, x = s.array() - 0.5 * (s.minCoeff() + s.maxCoeff());
-   const bool loads = !chosen.loads_chosen.empty();
-   require(
-      !loads || (!chosen.file.empty() && chosen.profile == usual.profile &&
-                 std::isnan(chosen.curvature)),
-      "option --choose is of --reduced, and not beside --profile or --curvature: loads are "
-      "chosen in place of the gap");
-   const bool free = chosen.profile == "free";
-   require(!free || lines == 0, "option --lines is of the crown, whose variables are few");
+   const bool own_gap = choice.what() == "gap",
+              free = own_gap && choice.profile == usual_choice.profile;
+   choice.begins_flat = chosen.file.empty();
    problem.cases = make_cases(chosen, flat);
-   const std::vector<Index> chosen_patterns =
-      loads ? chosen_loads(chosen.loads_chosen, flat) : std::vector<Index>();
-   if (loads) { choose_loads(problem, chosen_patterns, chosen.most); }
-   else { choose_gap(problem, chosen, x); }
-   const VectorXd none = VectorXd::Zero(problem.low.size());
-   if (chosen.loses())
+   const miniapp::DesignVariables variables = choose_variables(problem, choice);
+   if (chosen.goal == "energy")
+   {
+      problem.objective = [&flat](const Responses &of, const std::vector<std::size_t> &states)
+      { return densities(flat, of, states); };
+   }
+   else if (chosen.cycles())
    {
       problem.goal = DesignGoal::least_sum;
       problem.objective = [](const Responses &of, const std::vector<std::size_t> &states)
       { return std::vector<Response>{of.dissipation(states.front(), states.back())}; };
    }
 
-   DesignReport report;
-   {
-      miniapp::Watch watch("design");
-      settings.march.monitor = watch.monitor();
-      report = design(problem, none, settings);
-      settings.march.monitor = {};
-   }
+   const DesignReport report = search(study, problem, variables.start, starts, settings);
    study.results["design"] = name(report.status);
    study.results["message"] = report.message;
    study.results["ties"] = report.ties.size();
@@ -426,22 +434,21 @@ void design_contact(miniapp::Study &study)
    study.say(text("   %d iterations, %ld marches, %.2g s; %s", report.iterations,
                   report.marches, report.seconds, name(report.status)));
 
-   if (loads)
+   if (!free)
    {
       miniapp::Table &table = study.table(
-         "loads", {{"load", "load"}, {"before", "before", "%.6g"}, {"after", "after", "%.6g"}});
-      const LoadHistory after = with_variables(problem, problem.cases[0], report.x);
-      for (Index k : chosen_patterns)
+         "chosen",
+         {{"variable", "variable"}, {"before", "before", "%.6g"}, {"after", "after", "%.6g"}});
+      for (Index j = 0; j < report.x.size(); ++j)
       {
-         study.row(table, {flat.patterns[k].name,
-                           problem.cases[0].history.multipliers.row(k).maxCoeff(),
-                           after.multipliers.row(k).maxCoeff()});
+         study.row(table, {variables.names[j], variables.before[j] + variables.start[j],
+                           variables.before[j] + report.x[j]});
       }
    }
    const VectorXd gap = problem.with(report.x).gap;
    study.results["gap"] = std::vector<double>(gap.data(), gap.data() + n);
    miniapp::Panel *profiles = nullptr;
-   if (!loads)
+   if (own_gap)
    {
       profiles = &study.panel(miniapp::Panel::Kind::lines, "profile", "Gap", "x", "gap");
       profiles->add("before", x, flat.gap, "dashed");
@@ -449,25 +456,42 @@ void design_contact(miniapp::Study &study)
    }
    miniapp::Panel &pressures = study.panel(miniapp::Panel::Kind::lines, "pressure",
                                            "Pressure where it is largest", "x", "p");
+   miniapp::Panel *energies = nullptr;
+   if (chosen.goal == "energy")
+   {
+      energies = &study.panel(miniapp::Panel::Kind::lines, "energy", "Energy lost in the cycle",
+                              "x", "per area");
+   }
    miniapp::Table &table = study.table("cases", {{"case", "case"},
                                                  {"peak_before", "peak before", "%.6g"},
                                                  {"peak_after", "after", "%.6g"},
                                                  {"lost_before", "lost before", "%.4g"},
-                                                 {"lost_after", "after", "%.4g"}});
+                                                 {"lost_after", "after", "%.4g"},
+                                                 {"density_before", "per area", "%.4g"},
+                                                 {"density_after", "after", "%.4g"}});
    for (const DesignCase &load_case : problem.cases)
    {
-      const Marched before = march_case(problem, none, load_case, settings.march),
+      const Marched before = march_case(problem, variables.start, load_case, settings.march),
                     after = march_case(problem, report.x, load_case, settings.march);
-      study.row(table, {load_case.name, before.peak, after.peak, before.lost, after.lost});
+      study.row(table, {load_case.name, before.peak, after.peak, before.lost, after.lost,
+                        before.density, after.density});
       pressures.add(load_case.name + ", before", x, tractions(flat, before.at_peak.p),
                     "dashed");
       pressures.add(load_case.name + ", after", x, tractions(flat, after.at_peak.p));
+      if (energies && before.densities.size() == n && after.densities.size() == n)
+      {
+         energies->add(load_case.name + ", before", x, before.densities, "dashed");
+         energies->add(load_case.name + ", after", x, after.densities);
+      }
    }
    const bool sweeps = lines > 0 && report.status != DesignStatus::stopped;
-   if (sweeps) { draw_lines(study, problem, report, chosen, settings.march, lines); }
-   if (chosen.file.empty() && chosen.scene == "pad" && free && !chosen.loses() &&
-       chosen.loads.size() == 1 && std::isnan(chosen.curvature) &&
-       uniform_profile(1, chosen.loads[0]) < chosen.most)
+   if (sweeps)
+   {
+      draw_lines(study, problem, report, variables, chosen.goal, settings.march, lines);
+   }
+   if (chosen.file.empty() && chosen.scene == "pad" && free && !chosen.cycles() &&
+       chosen.loads.size() == 1 && std::isnan(choice.curvature) &&
+       uniform_profile(1, chosen.loads[0]) < choice.most)
    {
       const double P = chosen.loads[0];
       const VectorXd exact = x.unaryExpr([P](double at) { return uniform_profile(at, P); });

@@ -43,11 +43,7 @@ std::string cell(const ordered_json &value, const Column &column)
 /// As it stands in a CSV file; what is no single value does not.
 std::string field(const ordered_json &value)
 {
-   if (value.is_string())
-   {
-      const auto words = value.get<std::string>();
-      return words.find_first_of(",\"") == std::string::npos ? words : '"' + words + '"';
-   }
+   if (value.is_string()) { return cattaneo::csv_field(value.get<std::string>()); }
    if (value.is_number_float())
    {
       return std::isfinite(value.get<double>()) ? text("%.10g", value.get<double>()) : "";
@@ -156,7 +152,7 @@ std::string Table::csv() const
    std::string result = comments_, line;
    for (const Column &column : columns_)
    {
-      if (!column.key.empty()) { line += (line.empty() ? "" : ",") + column.key; }
+      if (!column.key.empty()) { line += (line.empty() ? "" : ",") + cattaneo::csv_field(column.key); }
    }
    result += line + '\n';
    for (const ordered_json &row : rows_)

@@ -31,6 +31,14 @@ std::string listed(const std::vector<std::string> &pieces, const std::string &be
    return text;
 }
 
+std::string csv_field(const std::string &text)
+{
+   if (text.find_first_of(",\"\n\r") == std::string::npos) { return text; }
+   std::string quoted = "\"";
+   for (const char c : text) { quoted += c == '"' ? "\"\"" : std::string(1, c); }
+   return quoted + '"';
+}
+
 double number(const std::string &where, const std::string &word)
 {
    char *end = nullptr;

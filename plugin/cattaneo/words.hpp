@@ -15,6 +15,9 @@ std::string listed(const std::vector<std::string> &pieces, const std::string &be
 /// A word that is a finite number and nothing else; InputError "WHERE: 'WORD' is not a number".
 double number(const std::string &where, const std::string &word);
 
+/// A field of a table in CSV (RFC 4180): in quotes if it has a comma, a quote or a line break.
+std::string csv_field(const std::string &text);
+
 /// Text that JSON can hold.
 bool is_utf8(const std::string &text);
 

@@ -21,6 +21,16 @@ TEST(Words, PiecesOfATextAndBack)
    EXPECT_EQ(listed({}), "");
 }
 
+// RFC 4180, 2.5 to 2.7.
+TEST(Words, FieldsOfATable)
+{
+   EXPECT_EQ(csv_field("bolt 1 w = 1"), "bolt 1 w = 1");
+   EXPECT_EQ(csv_field("bolt 1, w = 1"), "\"bolt 1, w = 1\"");
+   EXPECT_EQ(csv_field("a \"b\""), "\"a \"\"b\"\"\"");
+   EXPECT_EQ(csv_field("a\nb"), "\"a\nb\"");
+   EXPECT_EQ(csv_field(""), "");
+}
+
 TEST(Words, NumbersAreWholeWordsAndFinite)
 {
    EXPECT_EQ(number("here", "-.5e1"), -5);

@@ -192,7 +192,7 @@ class Guide:
         for number, line in enumerate(lines):
             marker = re.match(r" *<!-- numbers of (.*) -->$", line)
             if marker:
-                commands, columns = [c.strip() for c in marker[1].split(";")], None
+                commands, columns = listed(marker[1]), None
             elif commands and line.strip().startswith("|"):
                 cells = line.split("|")
                 if columns is None:
@@ -300,12 +300,17 @@ def commands_of(text):
         elif block is None or block in ("", "sh"):
             marker = re.match(r" *<!-- numbers of (.*) -->$", line)
             if marker:
-                found += [(clean(c), []) for c in marker[1].split(";") if c != "rows"]
+                found += [(clean(c), []) for c in listed(marker[1]) if c != "rows"]
             elif re.match(r"(    |)\./run ", line):
                 found.append((clean(line), []))
             else:
                 found += [(clean(c), []) for c in re.findall(r"`(\./run [^`]*)`", line)]
     return [(c, shown) for c, shown in found if c.split()[0] in ("./run", "python3", "gmsh")]
+
+
+def listed(comment):
+    """Of a comment, which a history may also have semicolons in."""
+    return [command.strip() for command in re.split(r"; *(?=\./run |python3 |rows)", comment)]
 
 
 def clean(command):

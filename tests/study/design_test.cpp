@@ -6,6 +6,7 @@
 #include <cattaneo/reduced/reduced_file.hpp>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <random>
 
 namespace
 {
@@ -130,6 +131,18 @@ TEST(DesignStudy, LoadsThatAreChosenKeepTheirSum)
    };
    const std::string row = "--reduced problems/lap_joint.json --history 'T=0; T=0.02' ";
    refused("--choose 'P; Q'", "--choose is of --reduced");
+   refused(row + "--choose 'T; P' --coat '0.1 0.5'", "chooses one of them");
+   refused("--coat '0.1 0.5' --profile crown", "--choose and --coat take its place");
+   refused("--coat '0.5 0.1'", "must be the least friction and the most");
+   refused("--coat '0.5 0.9'", "friction is from 0.3 to 0.3");
+   refused("--coat '0.1 0.5' --zones 1000", "no node lies");
+   refused("--zones 3", "--zones is of --coat");
+   refused("--powers 3", "--powers is of --profile crown");
+   refused("--profile crown --powers '2 2.5'", "must be whole numbers");
+   refused("--profile crown --powers '2 2'", "each once");
+   refused("--profile rounded --curvature 1", "--most is the limit of 1/R");
+   refused("--lines 4", "--lines is not of a free profile");
+   refused("--goal energy", "needs a cycle");
    refused(row + "--choose T", "must be two loads at least");
    refused(row + "--choose 'T; T'", "names 'T' twice");
    refused(row + "--choose 'T; U'", "'U'");
@@ -138,6 +151,104 @@ TEST(DesignStudy, LoadsThatAreChosenKeepTheirSum)
       "must not be negative");
    refused("--reduced problems/lap_joint.json --history 'T=0; T=0' --choose 'T; bolt 1, w = 1'",
            "one must act");
+}
+
+/// Energy that each node loses per area from the third point of the history on: the work of its
+/// traction by the trapezoidal rule over many increments, which is the law's but where slip
+/// turns within one.
+Eigen::VectorXd lost_per_area(const cattaneo::ReducedProblem &problem,
+                              const std::string &history)
+{
+   using namespace cattaneo;
+   const LoadHistory loads = load_history("history", history, problem);
+   ContactState state = ContactState::virgin(problem), before = state;
+   Eigen::VectorXd lost = Eigen::VectorXd::Zero(problem.nodes());
+   MarchSettings settings;
+   settings.increments = 200;
+   settings.stepping = Stepping::fixed;
+   const auto note = [&](const ContactState &now, const IncrementRecord &)
+   {
+      if (before.time >= 3) { lost -= 0.5 * (now.q + before.q).cwiseProduct(now.v - before.v); }
+      before = now;
+   };
+   march(problem, loads, state, settings, note);
+   return tractions(problem, lost);
+}
+
+// The criterion of fretting that asks for the largest energy per area of a cycle, on the flank
+// of the shipped dovetail: friction of four zones is chosen so that it is least. What is
+// printed is what the work of tractions in small increments comes to, and no coating that is
+// drawn at random is better.
+TEST(DesignStudy, CoatOfADovetailAgainstTheWorkOfItsTractions)
+{
+   using namespace cattaneo;
+   const std::string file = testing::TempDir() + "dovetail_to_coat.json",
+                     history = "P=0; P=1; P=0.6; P=1; P=0.6; P=1";
+   ASSERT_EQ(
+      run_miniapp("contact2d", "--case meshes/dovetail.json --cycles 1 --save '" + file + "'")
+         .code,
+      0);
+   const std::string asked = "--reduced '" + file + "' --history '" + history +
+                             "' --from 3 --goal energy --coat '0.1 0.6' --zones 2 --starts 2";
+   const auto run = run_miniapp("design", asked);
+   ASSERT_EQ(run.code, 0) << run.output;
+   ASSERT_EQ(run.results["starts"].size(), 2u);
+   const double objective = run.results["objective"];
+   for (const auto &start : run.results["starts"])
+   {
+      EXPECT_GE(start["objective"], objective * (1 - 1e-12));
+   }
+   ReducedProblem problem = load_reduced_problem(file);
+   const Eigen::VectorXd s = problem.arc_length;
+   const double half = 0.5 * (s.minCoeff() + s.maxCoeff());
+   const auto coated = [&](double first, double second)
+   {
+      ReducedProblem other = problem;
+      for (Eigen::Index i = 0; i < s.size(); ++i)
+      {
+         other.friction[i] = s[i] < half ? first : second;
+      }
+      return lost_per_area(other, history).maxCoeff();
+   };
+   const double first = run.results["chosen"][0]["after"],
+                second = run.results["chosen"][1]["after"];
+   const double start = run.results["cases"][0]["density_before"],
+                found = run.results["cases"][0]["density_after"];
+   EXPECT_NEAR(found, objective, 1e-9 * objective);
+   EXPECT_NEAR(coated(first, second), objective, 0.01 * objective);
+   EXPECT_GT(start, 1.5 * objective);
+   std::mt19937 random(5);
+   for (int k = 0; k < 10; ++k)
+   {
+      const double one = 0.1 + 0.5 * (random() % 1000) / 1000,
+                   other = 0.1 + 0.5 * (random() % 1000) / 1000;
+      EXPECT_GT(coated(one, other), 0.99 * objective) << one << ' ' << other;
+   }
+}
+
+// A rounded punch: nothing presses less than the uniform pressure of a free profile, the flat
+// punch more; on few nodes bests among their neighbours are a per cent apart, and the least of
+// them is kept.
+TEST(DesignStudy, FlatAndRadiusFromSeveralStarts)
+{
+   const auto run = run_miniapp("design", "--profile rounded --most 3 --starts 3 --nodes 33");
+   ASSERT_EQ(run.code, 0) << run.output;
+   EXPECT_EQ(run.results["design"], "optimal");
+   const double objective = run.results["objective"];
+   EXPECT_GT(objective, 0.5);
+   EXPECT_LT(objective, 0.7);
+   ASSERT_EQ(run.results["starts"].size(), 3u);
+   for (const auto &start : run.results["starts"])
+   {
+      EXPECT_NEAR(start["objective"], objective, 0.03 * objective) << run.output;
+      EXPECT_GE(start["objective"], objective);
+      EXPECT_GT(start["before"], objective);
+   }
+   EXPECT_EQ(run.results["objective_at_start"], run.results["starts"][0]["before"]);
+   // 1/R takes the flat punch away.
+   const auto flat = run_miniapp("design", "--profile rounded --most 1e-9 --nodes 33");
+   EXPECT_NEAR(flat.results["objective"], run.results["cases"][0]["peak_before"], 1e-5)
+      << flat.output;
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include <cattaneo/output/history.hpp>
 #include <cattaneo/readout/zones.hpp>
 #include <cattaneo/whole_file.hpp>
+#include <cattaneo/words.hpp>
 #include <cstdlib>
 #include <sstream>
 #include <vector>
@@ -22,13 +23,13 @@ std::string history_header(const ReducedProblem &problem)
    std::string loads, conjugates;
    for (const LoadPattern &pattern : problem.patterns)
    {
-      require(pattern.name.find_first_of(",\"\n\r") == std::string::npos,
-              "history table: load pattern '", pattern.name,
-              "' has a comma, a quote or a line break in its name");
-      loads += ",load " + pattern.name;
-      conjugates += problem.knows_loads() ? "," : ",contact ";
-      conjugates += pattern.control == Control::force ? "displacement " : "reaction ";
-      conjugates += pattern.name;
+      require(pattern.name.find_first_of("\n\r") == std::string::npos,
+              "history table: load pattern '", pattern.name, "' has a line break in its name");
+      loads += ',' + csv_field("load " + pattern.name);
+      const std::string conjugate =
+         pattern.control == Control::force ? "displacement " : "reaction ";
+      conjugates +=
+         ',' + csv_field((problem.knows_loads() ? "" : "contact ") + conjugate + pattern.name);
    }
    return "time,cycle" + loads +
           (has_disc(problem) ? ",stick,separation,slip"
@@ -155,7 +156,7 @@ std::string node_rows(const ReducedProblem &problem, const ContactState &state)
       {
          ++chain;
       }
-      if (several) { out << problem.chains[chain].interface << ','; }
+      if (several) { out << csv_field(problem.chains[chain].interface) << ','; }
       out << problem.arc_length[i] << ',' << problem.position(i, 0) << ','
           << problem.position(i, 1) << ',' << name(settled[i]) << ',' << p[i];
       for (Eigen::Index k = 0; k < columns; ++k) { out << ',' << q(i, k); }

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cattaneo/design/design.hpp>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace miniapp
+{
+
+/// What a design may choose, one of the three: the gap, loads, or friction in zones.
+struct DesignChoice
+{
+   /// Of the gap: "free" at each node; "crown", powers of the distance from the middle of the
+   /// line; "rounded", flat in the middle and a parabola on either side.
+   std::string profile = "free";
+   std::vector<double> powers = {2, 4}; ///< of the crown, whole numbers from 1
+   /// Most that a gap changes by; coefficient of each power at the ends of the line; 1/R.
+   double most = 1;
+   double curvature = std::numeric_limits<double>::quiet_NaN(); ///< most of a gap; NaN: any
+   bool begins_flat = true;  ///< a gap is taken off nowhere, it is only crowned
+   std::string loads;        ///< patterns whose sum stays, by names with semicolons between
+   std::vector<double> coat; ///< least and most friction
+   int zones = 4;            ///< of friction, of equal lengths
+
+   /// What is chosen: "gap", "loads" or "coat".
+   std::string what() const
+   {
+      return !loads.empty() ? "loads" : !coat.empty() ? "coat" : "gap";
+   }
+};
+
+/// The variables of a design by name, where they begin, and what is printed of them at a value.
+struct DesignVariables
+{
+   std::vector<std::string> names;
+   Eigen::VectorXd start;
+   /// What is added to a variable when it is printed: loads and friction are as a whole.
+   Eigen::VectorXd before;
+};
+
+/** Sets variables, bounds and limits of the design, whose problem and cases are known. Lines
+   are measured from their middle. InputError naming the option. */
+DesignVariables choose_variables(cattaneo::DesignProblem &design, const DesignChoice &choice);
+
+} // namespace miniapp
