@@ -259,7 +259,9 @@ void contact2d(miniapp::Study &study)
       const InterfaceReport &face = own.scene.reduction.interfaces[k];
       miniapp::warn_of_overlap(problem, face);
       miniapp::warn_of_left_out(face);
-      if (face.bodies[1] < 0 && !face.tied && even[k]) { beyond_corners.emplace_back(face); }
+      if (face.tied) { continue; }
+      if (face.bodies[1] < 0 && even[k]) { beyond_corners.emplace_back(face); }
+      else { beyond_corners.emplace_back(face, own.scene.reduction.bodies); }
    }
    miniapp::JointReport joint_report(study, joint, own.scene.reduction);
    SmallDisplacements small(own.scene.reduction, even);
@@ -294,6 +296,7 @@ void contact2d(miniapp::Study &study)
    study.save(problem);
    if (fields) { study.say(text("%d frames in %s", frames, options.paraview.c_str())); }
    for (const auto &side : beyond_corners) { side.warn(); }
+   miniapp::warn_of_chords(own.scene.reduction, history.state);
    warn_of_large_displacements(own, small, history.state);
    if (history.report.status != FrictionStatus::converged) { warn_of_loose_bodies(own); }
 

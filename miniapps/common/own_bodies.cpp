@@ -37,17 +37,16 @@ OwnBodies make_own_bodies(const JointCase &joint)
    }
    for (const JointCase::Bolt &bolt : joint.bolts)
    {
+      std::array<Eigen::Vector2d, 2> ends;
       for (int k : {0, 1})
       {
          const Eigen::Vector2d along(bolt.direction[0], bolt.direction[1]);
          OwnPart &part = parts[bolt.ends[k].body];
          // The shank pulls the ends together.
          const double pull = k == 0 ? -bolt.pretension : bolt.pretension;
-         part.named([&] { part.pull(bolt.name, bolt.ends[k], pull * along); });
+         ends[k] = part.named([&] { return part.pull(bolt.name, bolt.ends[k], pull * along); });
       }
-      warn_of_push(joint, bolt,
-                   {parts[bolt.ends[0].body].line(bolt.ends[0]),
-                    parts[bolt.ends[1].body].line(bolt.ends[1])});
+      warn_of_push(joint, bolt, ends);
    }
    std::vector<std::array<ContactLine, 2>> lines(joint.faces.size());
    std::vector<std::vector<ContactLine>> of_body(parts.size());

@@ -148,22 +148,24 @@ bool OwnPart::has_load(const std::string &load) const
    return (nodal_ && has(nodal_->loads)) || (elastic_ && has(elastic_->patterns()));
 }
 
-void OwnPart::pull(const std::string &load, const JointCase::Side &end,
-                   const Eigen::Vector2d &F)
+Eigen::Vector2d OwnPart::pull(const std::string &load, const JointCase::Side &end,
+                              const Eigen::Vector2d &F)
 {
    require(!end.part.empty(), end.called, " is empty, must name a part of the boundary");
    if (nodal_)
    {
-      const Eigen::Vector2d t = F / line(end).each(&LineNode::weight).sum();
-      nodal_->add_traction(load, nodal_->nodes_of(end.part), t, body_.order);
-      return;
+      const ContactLine its = line(end);
+      const Eigen::VectorXd weights = its.each(&LineNode::weight);
+      nodal_->add_traction(load, nodal_->nodes_of(end.part), F / weights.sum(), body_.order);
+      return its.each(&LineNode::position).transpose() * weights / weights.sum();
    }
    // As long as the traction is: an interval may end within elements, which a line has whole.
    const BoundaryPart part = boundary_part(end.called, end.part, terms_);
-   const double extent = elastic_->extent(part);
-   require(extent > 0, end.called, ": there is nothing on '", end.part,
+   const ElasticBody::Extent extent = elastic_->extent(part);
+   require(extent.size > 0, end.called, ": there is nothing on '", end.part,
            "', must be a part of the boundary");
-   elastic_->add_traction(load, part, F[0] / extent, F[1] / extent);
+   elastic_->add_traction(load, part, F[0] / extent.size, F[1] / extent.size);
+   return extent.middle;
 }
 
 CondensedBody OwnPart::condensed(const ContactLine &line, const CondensedBody *alike) const

@@ -24,8 +24,9 @@ public:
 
    cattaneo::ContactLine line(const JointCase::Side &side) const;
    bool has_load(const std::string &load) const;
-   /// An end of a shank: forces that add up to F, spread evenly.
-   void pull(const std::string &load, const JointCase::Side &end, const Eigen::Vector2d &F);
+   /// An end of a shank: forces that add up to F, spread evenly. The middle of the end.
+   Eigen::Vector2d pull(const std::string &load, const JointCase::Side &end,
+                        const Eigen::Vector2d &F);
    cattaneo::CondensedBody condensed(const cattaneo::ContactLine &line,
                                      const cattaneo::CondensedBody *alike) const;
    /// Is something said of what happens around the axis?

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cattaneo/elastic/rotation.hpp>
+#include <cattaneo/reduced/interfaces.hpp>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -12,21 +13,26 @@ namespace miniapp
 using namespace cattaneo;
 
 void warn_of_push(const JointCase &joint, const JointCase::Bolt &bolt,
-                  const std::array<ContactLine, 2> &ends)
+                  const std::array<Eigen::Vector2d, 2> &ends)
 {
-   const auto middle = [](const ContactLine &line) -> Eigen::Vector2d
-   {
-      return line.each(&LineNode::position).transpose() * line.each(&LineNode::weight) /
-             line.each(&LineNode::weight).sum();
-   };
-   const Eigen::Vector2d apart = middle(ends[0]) - middle(ends[1]),
-                         along(bolt.direction[0], bolt.direction[1]);
+   const Eigen::Vector2d apart = ends[0] - ends[1], along(bolt.direction[0], bolt.direction[1]);
    if (along.dot(apart) < -1e-6 * apart.norm())
    {
       warn(bolt.source.called("direction") + " points from " +
            joint.bodies[bolt.ends[0].body].name + " to " +
            joint.bodies[bolt.ends[1].body].name +
            ": the shank pushes them apart, to pull them together it must point the other way");
+   }
+   const double off = std::abs(along[0] * apart[1] - along[1] * apart[0]);
+   if (off > 0.05 * apart.norm())
+   {
+      std::ostringstream text;
+      text << bolt.source.called("direction") << " is (" << along[0] << ", " << along[1]
+           << "), and the middles of its ends lie at (" << ends[0][0] << ", " << ends[0][1]
+           << ") and (" << ends[1][0] << ", " << ends[1][1] << "): its two forces pass each "
+           << "other at a distance of " << off
+           << " and turn the bodies, a shank must lie along its direction";
+      warn(text.str());
    }
 }
 
@@ -102,6 +108,38 @@ void warn_of_loose_bodies(const OwnBodies &own)
    }
 }
 
+void warn_of_chords(const Reduction &reduction, const ContactState &last)
+{
+   const double share = chordal_error(reduction, last.p);
+   if (share <= 0.05) { return; }
+   const InterfaceReport *worst = nullptr;
+   double most = 0;
+   for (const InterfaceReport &face : reduction.interfaces)
+   {
+      for (Eigen::Index i = 0; i < face.nodes && !face.tied; ++i)
+      {
+         if (face.chords.size() != face.nodes || std::abs(face.chords[i]) <= most ||
+             (std::isfinite(share) && last.p[face.first + i] <= 0))
+         {
+            continue;
+         }
+         worst = &face;
+         most = std::abs(face.chords[i]);
+      }
+   }
+   std::ostringstream text;
+   text << "interface '" << worst->name << "': its elements are chords of curves, which leaves "
+        << "the gap unknown by about " << most << ": ";
+   if (std::isfinite(share))
+   {
+      text << "to close that takes " << share << " of the largest pressure";
+   }
+   else { text << "nothing bears, and the curves would"; }
+   text << "; a mesh of elements of a higher order (in Gmsh: -order 2) "
+           "or of more of them follows the curve, or key 'gap' may say what the gap is";
+   warn(text.str());
+}
+
 std::vector<bool> even_sides(const JointCase &joint)
 {
    std::vector<bool> even;
@@ -152,6 +190,36 @@ SidesThatBear::SidesThatBear(const InterfaceReport &interface) : face_(interface
    }
 }
 
+SidesThatBear::SidesThatBear(const InterfaceReport &interface,
+                             const std::vector<CondensedBody> &bodies)
+   : face_(interface), corners_(true)
+{
+   for (int b : interface.bodies)
+   {
+      if (b < 0) { continue; }
+      const ContactLine &line = bodies[b].line;
+      for (const LineChain &chain : line.chains)
+      {
+         const Eigen::Index n = chain.nodes;
+         for (Eigen::Index k = chain.loop ? 0 : 1; k < (chain.loop ? n : n - 1); ++k)
+         {
+            const auto place = [&](Eigen::Index node)
+            { return line.nodes[chain.first + (node + n) % n].position; };
+            const Eigen::Vector2d before = (place(k) - place(k - 1)).normalized(),
+                                  after = (place(k + 1) - place(k)).normalized();
+            const double turn = angle_of(before.dot(after));
+            // As much as a circle of twelve nodes.
+            if (turn < 30.5) { continue; }
+            for (Eigen::Index i = 0; i < interface.nodes; ++i)
+            {
+               const double away = (interface.position.row(i) - place(k).transpose()).norm();
+               if (away < 0.5 * interface.spacing[i]) { sides_.push_back({i, turn}); }
+            }
+         }
+      }
+   }
+}
+
 void SidesThatBear::note(const ContactState &state)
 {
    for (const Node &side : sides_)
@@ -169,6 +237,16 @@ void SidesThatBear::warn() const
 {
    if (worst_.index < 0) { return; }
    std::ostringstream text;
+   if (corners_)
+   {
+      text << "interface '" << face_.name << "': its side turns by "
+           << std::lround(worst_.angle) << " degrees at (" << face_.position(worst_.index, 0)
+           << ", " << face_.position(worst_.index, 1)
+           << "), where it bears: a contact node has one normal, forces and zones are wrong "
+              "there; each face must be an interface of its own, or a curve have more nodes";
+      miniapp::warn(text.str());
+      return;
+   }
    text << "node " << worst_.index << " at (" << face_.position(worst_.index, 0) << ", "
         << face_.position(worst_.index, 1) << ") bears although its normal is "
         << std::lround(worst_.angle)

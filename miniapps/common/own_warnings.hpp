@@ -8,9 +8,10 @@
 namespace miniapp
 {
 
-/// Warns of a shank that pushes its ends apart: most likely a direction the wrong way.
+/// Warns of a shank that pushes its ends apart, most likely a direction the wrong way, or whose
+/// forces turn the bodies since its ends, of which the middles are given, do not lie along it.
 void warn_of_push(const JointCase &joint, const JointCase::Bolt &bolt,
-                  const std::array<cattaneo::ContactLine, 2> &ends);
+                  const std::array<Eigen::Vector2d, 2> &ends);
 /// Warns of bodies that overlap by more than the length of a node's part of the line.
 void warn_of_overlap(const cattaneo::ReducedProblem &problem,
                      const cattaneo::InterfaceReport &interface);
@@ -26,16 +27,22 @@ void warn_of_accuracy(double accuracy);
 /// bodies with elements in its last state.
 void warn_of_large_displacements(OwnBodies &own, const cattaneo::SmallDisplacements &noted,
                                  const cattaneo::ContactState &last);
+/// Warns where chords of curved sides make more than a twentieth of the largest traction.
+void warn_of_chords(const cattaneo::Reduction &reduction, const cattaneo::ContactState &last);
 /// Of each interface whether its second side is a straight rigid line, or a half-plane.
 std::vector<bool> even_sides(const JointCase &joint);
 
 /// Displacements are small: a node presses along its own normal. One that bears although this
 /// is far from the rigid line's, on a side beyond a corner for instance, holds the body as no
-/// line could.
+/// line could. Against anything else it is corners of either side that bear so.
 class SidesThatBear
 {
 public:
+   /// On a straight rigid line.
    explicit SidesThatBear(const cattaneo::InterfaceReport &interface);
+   /// At corners of the bodies' lines.
+   SidesThatBear(const cattaneo::InterfaceReport &interface,
+                 const std::vector<cattaneo::CondensedBody> &bodies);
    /// A state that the march has reached.
    void note(const cattaneo::ContactState &state);
    void warn() const;
@@ -44,9 +51,10 @@ private:
    struct Node
    {
       Eigen::Index index = -1;
-      double angle = 0; ///< degrees between its normal and the line's
+      double angle = 0; ///< degrees between its normal and the line's; by which a corner turns
    };
    const cattaneo::InterfaceReport &face_; ///< must outlive it
+   bool corners_ = false;
    std::vector<Node> sides_;
    Node worst_;
 };

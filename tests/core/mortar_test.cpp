@@ -3,6 +3,7 @@
 #include "line_along.hpp"
 #include "quadrature.hpp"
 
+#include <cattaneo/reduced/interfaces.hpp>
 #include <cattaneo/reduced/mortar.hpp>
 #include <gtest/gtest.h>
 #include <random>
@@ -196,6 +197,23 @@ TEST(Mortar, OfAMasterBetweenTwoNodesLeavesTheLine)
    EXPECT_NEAR(found.weights[0], 0.3, 1e-14);
 }
 
+/// A part of the master between two nodes that have no row beside it is told to be left out.
+TEST(Mortar, TellsWhatItLeavesOut)
+{
+   const auto from_right = [](double x) { return Vector2d(-x, 0); };
+   const ContactLine master =
+      joined({line_along(from_right, {-2.55, -2.45}, 1),
+              line_along(from_right, {-1.2, -0.9}, 1, Formulation::plane, 100)});
+   for (bool curved : {false, true})
+   {
+      const Mortar found = mortar(above({0, 1, 2, 3}, curved ? 2 : 1), master);
+      const double weight = found.weights.sum();
+      // Quadratic elements have a node at 2.5, within the part between 2 and 3.
+      EXPECT_NEAR(weight, curved ? 0.4 : 0.3, 1e-14);
+      EXPECT_NEAR(found.left_out, curved ? 0 : 0.1, 1e-14);
+   }
+}
+
 /// Nodes without a row leave their part to their neighbours.
 TEST(Mortar, OfNodesWithoutRowsKeepsTheirPressure)
 {
@@ -334,7 +352,7 @@ TEST(Mortar, OfConcentricArcsConvergesToTheClearance)
 {
    for (int order = 1; order <= 3; ++order)
    {
-      double before = 0;
+      double before = 0, known_before = 0;
       for (int n : {8, 16, 32})
       {
          const double clearance = 0.05;
@@ -342,7 +360,7 @@ TEST(Mortar, OfConcentricArcsConvergesToTheClearance)
                               line_along(circle({2, 3}, 1), uniform_grid(0.1, 1.4, n), order),
                            ring = line_along(circle({2, 3}, 1 + clearance, true),
                                              uniform_grid(-1.4, -0.1, 3 * n / 2), order);
-         double error = 0;
+         double error = 0, known = 0;
          for (bool swapped : {false, true})
          {
             const Mortar found = swapped ? mortar(ring, disc) : mortar(disc, ring);
@@ -361,13 +379,20 @@ TEST(Mortar, OfConcentricArcsConvergesToTheClearance)
                {
                   continue;
                }
-               error = std::max(error, std::abs(found.gap[k] - clearance));
+               const double off = clearance - found.gap[k];
+               error = std::max(error, std::abs(off));
+               known = std::max(known, std::abs(found.chords[k] - off));
                EXPECT_LT(std::abs(found.arm[k]), 0.1 / n);
             }
          }
          EXPECT_LT(error, 0.3 * std::pow(1.3 / n, 2));
          if (before > 0) { EXPECT_LT(error, before / 3.5) << order << " " << n; }
          before = error;
+         // What chords are told to be off by is most of it. The rest is of curves of a higher
+         // order, and of the clearance, which is averaged over normals that turn.
+         EXPECT_LT(known, 0.2 * error) << order << " " << n;
+         if (known_before > 0) { EXPECT_LT(known, known_before / 3.5) << order << " " << n; }
+         known_before = known;
       }
    }
 }
@@ -425,9 +450,14 @@ TEST(Mortar, RefusesLinesThatDoNotFit)
       [&] {
          mortar(line, above({0, 1, 2}, 2), {}, "interface 'flank'");
       },
-      "interface 'flank': the lines face each other nowhere (one reaches from "
-      "(0, 0) to (2, 0)");
-   expect_input_error([&] { mortar(line, below({2, 3}, 2)); }, "face each other nowhere");
+      "interface 'flank': the lines face each other nowhere: their outward normals are (0, -1) "
+      "and (0, -1) in the mean, must be opposite: are these the sides that touch? (one reaches "
+      "from (0, 0) to (2, 0)");
+   expect_input_error(
+      [&] {
+         mortar(line, below({2, 3}, 2));
+      },
+      "face each other nowhere: they lie beside each other");
    expect_input_error(
       [&] {
          mortar(line, below({0, 2}, 2, Formulation::axisymmetric));

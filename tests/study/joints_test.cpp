@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <set>
 #include <sstream>
 
 /// contact2d with case files 2: any number of bodies, interfaces and bolts.
@@ -350,7 +351,8 @@ TEST_F(Joints, BoltsPullBothEndsAlike)
 {
    block("low.mesh", 0, 10, 10, 0, 2, 4);
    block("high.mesh", 0, 10, 13, 2, 4, 3);
-   for (const char *part : {"[2.5<x<7.5]", "[0<x<4.3]"})
+   // The last lies within one element of either body.
+   for (const char *part : {"[2.5<x<7.5]", "[0<x<4.3]", "[4.1<x<4.5]"})
    {
       json keys;
       keys["bodies"] = {{"low", body("low.mesh", "@5,0:xy @0,0:y")},
@@ -428,6 +430,91 @@ TEST_F(Joints, OfADiscInAHoleAreNoCorners)
    ASSERT_EQ(got.code, 0) << got.output;
    EXPECT_GT(interface(got, "hole")["force_y"], 1e-3);
    EXPECT_EQ(got.output.find("degrees off"), std::string::npos) << got.output;
+}
+
+/// A corner within an interface has one normal for two faces, which is told where it bears; a
+/// floor and a wall of their own have none.
+TEST_F(Joints, OfCornersAreTold)
+{
+   block("block.mesh", 0, 1, 5, 0, 1, 4);
+   json keys{{"history", {"P=0", "P=1"}}};
+   keys["bodies"]["block"] = body("block.mesh", "", {"P pressure 3 1", "P pressure 2 2"});
+   keys["interfaces"]["corner"] = {{"between", {"block:1,4"}},
+                                   {"obstacle", {{"line", {{0, 5}, {0, 0}, {5, 0}}}}}};
+   const Result got = run(keys);
+   ASSERT_EQ(got.code, 0) << got.output;
+   EXPECT_NE(got.output.find("interface 'corner': its side turns by 90 degrees at (0, 0)"),
+             std::string::npos)
+      << got.output;
+}
+
+/// Rings that are pressed into each other, a quarter of each: Lamé's pressure of an
+/// interference d at radius 1. Chords of elements are off the arcs by as much; how much that
+/// takes of the largest pressure is what it is wrong by, and is told.
+TEST_F(Joints, OfRingsTellWhatChordsTake)
+{
+   const double d = 1e-3, E = 1000, nu = 0.3, inner = 0.5, outer = 2;
+   const double lame =
+      d * E / (1 - nu * nu) /
+      ((outer * outer + 1) / (outer * outer - 1) + (1 + inner * inner) / (1 - inner * inner));
+   const auto ring = [&](const char *name, double from, double to, int along, int order)
+   {
+      mfem::Mesh mesh =
+         mfem::Mesh::MakeCartesian2D(8, along, mfem::Element::QUADRILATERAL, true);
+      mesh.SetCurvature(order);
+      mesh.Transform(
+         [=](const mfem::Vector &x, mfem::Vector &y)
+         {
+            const double r = from + (to - from) * x(0), angle = M_PI / 2 * x(1);
+            y.SetSize(2);
+            y(0) = r * std::cos(angle);
+            y(1) = r * std::sin(angle);
+         });
+      std::ofstream out(folder + "/" + name);
+      out.precision(17);
+      mesh.Print(out);
+   };
+   const auto press = [&](int along, int order, const json &gap, double &wrong)
+   {
+      ring("in.mesh", inner, 1 + d, along, order);
+      ring("out.mesh", 1, outer, along * 4 / 3, order);
+      json keys{{"order", order}, {"history", {"P=0", "P=1"}}};
+      keys["bodies"] = {{"in", body("in.mesh", "1:y 3:x", {}, E, nu)},
+                        {"out", body("out.mesh", "1:y 3:x", {"P pressure 2 1e-9"}, E, nu)}};
+      keys["interfaces"]["fit"] = face("in:2", "out:4", 0);
+      if (!gap.is_null()) { keys["interfaces"]["fit"]["gap"] = gap; }
+      const Result got = run(keys, "--csv '" + folder + "/fit'");
+      EXPECT_EQ(got.code, 0) << got.output;
+      wrong = 0;
+      double most = 0;
+      for (double p : column("fit_nodes.csv", "p"))
+      {
+         wrong = std::max(wrong, std::abs(p - lame));
+         most = std::max(most, p);
+      }
+      wrong /= most;
+      std::string all;
+      for (const auto &one : got.results["warnings"]) { all += one.get<std::string>(); }
+      return all;
+   };
+   const std::string phrase = "to close that takes ";
+   for (const auto &[along, order] : {std::pair(45, 1), std::pair(3, 2)})
+   {
+      double wrong = 0;
+      const std::string said = press(along, order, nullptr, wrong);
+      ASSERT_NE(said.find(phrase), std::string::npos) << said;
+      const double told = std::stod(said.substr(said.find(phrase) + phrase.size()));
+      EXPECT_GT(wrong, 0.05);
+      EXPECT_NEAR(told / wrong, 1, 0.5) << said;
+      EXPECT_EQ(press(along, order, -d, wrong), "");
+      EXPECT_LT(wrong, 0.06);
+   }
+   // Chords so long that sides that overlap are apart, and elements that follow the arcs.
+   double wrong = 0;
+   EXPECT_NE(press(9, 1, nullptr, wrong).find("nothing bears, and the curves would"),
+             std::string::npos);
+   EXPECT_EQ(press(15, 2, nullptr, wrong), "");
+   EXPECT_LT(wrong, 0.01);
 }
 
 /// The orders of two sides may differ: a uniform pressure is carried as it is.
@@ -806,6 +893,13 @@ TEST_F(Joints, WarnOfWhatIsNotMeant)
    EXPECT_EQ(pushed.output.find("face nothing"), std::string::npos);
    keys["history"] = {"F=0", "bolt=1", "Z=1 F=1", "F=0 Z=0"};
    EXPECT_EQ(warned(run(keys)), "");
+   // Forces of a shank along y that pass each other at 0.875 - 0.125.
+   keys["bolts"]["bolt"]["between"] = {"high:3[0<x<0.25]", "low:1[0.75<x<1]"};
+   keys["history"] = {"F=0 Z=0", "F=40 bolt=0.01 Z=1", "F=0 Z=0 bolt=0"};
+   EXPECT_NE(warned(run(keys)).find(
+                "lie at (0.125, 5) and (0.875, 0): its two forces pass each other at a "
+                "distance of 0.75 and turn the bodies"),
+             std::string::npos);
    // Two elements of the upper side stand beyond the lower one.
    block("wide.mesh", 0, 1.5, 6, 2, 5, 4);
    keys["bodies"]["high"] = body("wide.mesh", "4:x", {"F pressure 3 1"});
@@ -816,6 +910,15 @@ TEST_F(Joints, WarnOfWhatIsNotMeant)
    const Result wide = run(keys);
    EXPECT_EQ(interface(wide, "joint")["free_surface"], 2);
    EXPECT_NE(wide.output.find("face nothing"), std::string::npos) << wide.output;
+   // They are drawn where they are.
+   ASSERT_EQ(run(keys, "--check --csv '" + folder + "/wide'").code, 0);
+   std::ifstream drawn(folder + "/wide_contact.csv");
+   std::set<std::string> free;
+   for (std::string line; std::getline(drawn, line);)
+   {
+      if (line.rfind("contact facing nothing,", 0) == 0) { free.insert(line.substr(23)); }
+   }
+   EXPECT_EQ(free, (std::set<std::string>{"1.25,2,0,0", "1.5,2,0,0"}));
 
    keys = json{{"history", {"P=0", "P=1", "Q=1"}}};
    slit_block(folder + "/slit.mesh");

@@ -213,6 +213,22 @@ TEST(GmshFile, NodesThatLieOnOneAnotherAreFoundAnywhere)
    }
 }
 
+// MFEM turns elements that are numbered clockwise, and tells so in words that a run's output
+// has no use for.
+TEST(GmshFile, ElementsThatAreTurnedAreNothingToTell)
+{
+   const std::string file = testing::TempDir() + "clockwise.msh";
+   std::ofstream(file) << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 0 1 0\n"
+                          "3 1 0 0\n$EndNodes\n$Elements\n2\n1 1 2 1 1 2 1\n"
+                          "2 2 2 1 1 1 2 3\n$EndElements\n";
+   testing::internal::CaptureStdout();
+   mfem::Mesh mesh = read_mesh(file);
+   mfem::out << "after";
+   mfem::out.flush();
+   EXPECT_EQ(testing::internal::GetCapturedStdout(), "after");
+   EXPECT_NEAR(mesh.GetElementVolume(0), 0.5, 1e-15);
+}
+
 // Volumes are passed over by their number of nodes, and what they bound is no body of the
 // plane.
 TEST(GmshFile, VolumesAreRefusedAsWhatTheyAre)

@@ -110,9 +110,13 @@ public:
    /// Traction (t_x, t_y) on a boundary part, force per area.
    void add_traction(const std::string &pattern, const BoundaryPart &part, const Field &tx,
                      const Field &ty);
-   /// Length of a boundary part as loads see it, cut at the ends of its interval; about an axis
-   /// its area.
-   double extent(const BoundaryPart &part) const;
+   /// A boundary part as loads see it, cut at the ends of its interval.
+   struct Extent
+   {
+      double size = 0; ///< its length; about an axis its area
+      Eigen::Vector2d middle{0, 0};
+   };
+   Extent extent(const BoundaryPart &part) const;
    /// Circumferential traction t_θ on a boundary part of a torsion body, force per area.
    void add_traction(const std::string &pattern, const BoundaryPart &part, const Field &t);
    /// Body force (b_x, b_y), force per volume.

@@ -121,10 +121,10 @@ void ElasticBody::add_boundary_load(const std::string &pattern, const BoundaryPa
    add_to_pattern(pattern, forces);
 }
 
-double ElasticBody::extent(const BoundaryPart &part) const
+ElasticBody::Extent ElasticBody::extent(const BoundaryPart &part) const
 {
    mfem::Mesh &mesh = *space_->GetMesh();
-   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(1, 1);
+   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(3, 1);
    for (int i : boundary_elements(mesh, part, "extent"))
    {
       BoundaryEdge edge(mesh, i);
@@ -134,13 +134,16 @@ double ElasticBody::extent(const BoundaryPart &part) const
          for (int k = 0; k < rule.GetNPoints(); ++k)
          {
             const double s = from + (to - from) * rule.IntPoint(k).x;
-            sum(0, 0) += (to - from) * rule.IntPoint(k).weight * edge.derivative(s).norm() *
-                         measure(formulation_, edge.point(s)[0]);
+            const Eigen::Vector2d x = edge.point(s);
+            sum += (to - from) * rule.IntPoint(k).weight * edge.derivative(s).norm() *
+                   measure(formulation_, x[0]) * Eigen::Vector3d(1, x[0], x[1]);
          }
       }
    }
    ranks_.sum(sum);
-   return sum(0, 0);
+   const double size = sum(0, 0);
+   if (!(size > 0)) { return {}; }
+   return {size, Eigen::Vector2d(sum(1, 0), sum(2, 0)) / size};
 }
 
 void ElasticBody::add_pressure(const std::string &pattern, const BoundaryPart &part,

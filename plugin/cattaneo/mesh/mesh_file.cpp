@@ -339,12 +339,24 @@ std::string reason(std::string message)
    return message;
 }
 
-/// Keeps MFEM from writing to stderr what it throws as well.
-class SilentErrors
+/// Keeps MFEM from writing to stderr what it throws as well, and to stdout that elements are
+/// numbered clockwise, which it turns.
+class Silence
 {
 public:
-   SilentErrors() { mfem::err.Disable(); }
-   ~SilentErrors() { mfem::err.Enable(); }
+   Silence() : out_(mfem::out.IsEnabled())
+   {
+      mfem::err.Disable();
+      mfem::out.Disable();
+   }
+   ~Silence()
+   {
+      mfem::err.Enable();
+      if (out_) { mfem::out.Enable(); }
+   }
+
+private:
+   bool out_;
 };
 
 } // namespace
@@ -387,7 +399,7 @@ mfem::Mesh read_mesh(const std::string &file)
       check_mfem(in, size);
    }
    in.close();
-   const SilentErrors silent;
+   const Silence silence;
    mfem::Mesh mesh;
    try
    {

@@ -45,6 +45,33 @@ double ElementCurve::length() const
       .sum();
 }
 
+Vector2d ElementCurve::bulge(double s) const
+{
+   // A polynomial that is zero at the nodes, with the slopes that turn the element's own
+   // tangents to those of the line.
+   const Eigen::VectorXd &nodes = lobatto_basis(order()).nodes;
+   const Index last = order();
+   const auto factor = [&](Index end)
+   {
+      const Vector2d along = derivative(nodes[end]), t = tangents.col(end);
+      const double slope = along[0] * t[1] - along[1] * t[0], size = along.norm();
+      if (std::abs(slope) > 0.3 * size) { return 0.0; } // half of a turn by 35 degrees
+      double product = 1;
+      for (Index j = 0; j <= last; ++j)
+      {
+         if (j != end) { product *= nodes[end] - nodes[j]; }
+      }
+      return std::abs(slope) > 1e-9 * size ? slope / product : 0.0;
+   };
+   double first = factor(0), second = factor(last);
+   // The end of a line has no other tangent than the element's: it is taken to bend alike.
+   if (first == 0) { first = second; }
+   if (second == 0) { second = first; }
+   const Vector2d along = derivative(s).normalized();
+   return (s - nodes.array()).prod() * (first + s * (second - first)) *
+          Vector2d(-along[1], along[0]);
+}
+
 std::string extent(const ContactLine &line)
 {
    const auto position = line.each(&LineNode::position);

@@ -205,9 +205,10 @@ void Facing::meet(const std::vector<int> &without)
          const double most = given_.most_overlap * mortar_.size[i];
          require(mortar_.gap[i] >= -most, what_, ": the sides overlap by ", -mortar_.gap[i],
                  " at ", slave_.line.nodes[mortar_.nodes[i]].position, ", at most ", most,
-                 " is allowed (", given_.most_overlap,
-                 " of the element's length): allow more if they are to be pressed apart, or "
-                 "give the gap");
+                 " is allowed (", given_.most_overlap, " of the element's length): ",
+                 mortar_.gap[i] < -mortar_.size[i]
+                    ? "are these the sides that touch, and the bodies in their places?"
+                    : "allow more if they are to be pressed apart, or give the gap");
       }
       return;
    }
@@ -438,6 +439,11 @@ InterfaceReport Facing::report() const
    report.left_out = mortar_.left_out;
    report.arm = report.nodes ? mortar_.arm.cwiseAbs().maxCoeff() : 0;
    report.matching = master_.body >= 0 && matching_nodes(slave_.line, master_.line).has_value();
+   report.chords = mortar_.chords;
+   if (given_.gap || given_.tied || report.matching || report.chords.size() == 0)
+   {
+      report.chords = VectorXd::Zero(report.nodes);
+   }
    for (int k : mortar_.free_surface) { report.free_surface.push_back(line.nodes[k].position); }
    for (int k : without_row_) { report.without_row.push_back(line.nodes[k].position); }
    return report;
@@ -717,6 +723,40 @@ Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface>
       result.interfaces.push_back(std::move(report));
    }
    return result;
+}
+
+double chordal_error(const Reduction &reduction, const VectorXd &p)
+{
+   const ReducedProblem &problem = reduction.problem;
+   const Index n = problem.nodes();
+   require(p.size() == n, "chordal error: ", p.size(), " normal forces, must be ", n);
+   VectorXd off = VectorXd::Zero(n);
+   for (const InterfaceReport &face : reduction.interfaces)
+   {
+      if (face.tied || face.chords.size() != face.nodes) { continue; }
+      off.segment(face.first, face.nodes) = face.chords;
+   }
+   std::vector<int> bear, open;
+   for (Index i = 0; i < n; ++i) { (p[i] > 0 ? bear : open).push_back(static_cast<int>(i)); }
+   if (bear.empty())
+   {
+      // More than what round-off, or the estimate's own error, makes of sides that only touch.
+      const Eigen::Array<bool, Eigen::Dynamic, 1> meet =
+         (problem.gap + off).array() < -0.05 * off.array().abs();
+      return (meet && problem.gap.array() >= 0).any() ? HUGE_VAL : 0;
+   }
+   if (off(bear).isZero(0)) { return 0; }
+   // Open nodes move freely meanwhile.
+   const MatrixXd C = problem.C();
+   VectorXd force = C(bear, bear) * off(bear);
+   const Eigen::LDLT<MatrixXd> follows(C(open, open));
+   if (!open.empty() && follows.info() == Eigen::Success && follows.isPositive())
+   {
+      force -= C(bear, open) * follows.solve(C(open, bear) * off(bear));
+   }
+   const VectorXd weights = problem.weights(bear);
+   return force.cwiseQuotient(weights).cwiseAbs().maxCoeff() /
+          p(bear).cwiseQuotient(weights).maxCoeff();
 }
 
 SeparateBodies separate(const std::vector<CondensedBody> &bodies,

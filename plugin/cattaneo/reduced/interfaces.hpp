@@ -86,6 +86,13 @@ ContactLine joined(const std::vector<ContactLine> &lines);
     other side is not, or nothing holds the bodies together. */
 Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface> &interfaces);
 
+/** What chords of curved sides (InterfaceReport::chords) may make of tractions, as a share of
+    the largest one: the largest pressure that closes as much where nodes bear, whose normal
+    forces are p, while open nodes follow. An estimate; 0 where sides are straight or nodes
+   match. Where nothing bears it is infinite if smooth sides would overlap, else 0. InputError
+   unless there is a force for each contact node. */
+double chordal_error(const Reduction &reduction, const Eigen::VectorXd &p);
+
 /** Bodies that meet at interfaces but keep displacements of their own, for programs of joint
     dynamics. U: contact displacements of all bodies that are not held, {v; w} of each in the
     frames of its line, one body after the other; u = {v; w}: the relative ones of the contact

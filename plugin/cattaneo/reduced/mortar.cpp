@@ -5,6 +5,7 @@
 #include <cattaneo/reduced/mortar.hpp>
 #include <cmath>
 #include <map>
+#include <sstream>
 
 namespace cattaneo
 {
@@ -75,6 +76,7 @@ struct Point
    std::size_t other;    ///< element of the master
    VectorXd own, facing; ///< functions of both elements
    Vector2d apart;       ///< x_s - x_m
+   Vector2d chords;      ///< what smooth curves would add to it
 };
 
 /// Linear from each place to the next and constant beyond the outer ones, never negative, at
@@ -106,6 +108,33 @@ struct DualFunctions
    MatrixXd weighted;      ///< nodes × points
    bool positive = false;  ///< each sees enough of its own node
 };
+
+/// Of lines of which no part faces the other.
+std::string why_apart(const FacingLines &lines)
+{
+   const auto towards = [](const std::vector<ElementCurve> &line)
+   {
+      Vector2d sum(0, 0);
+      for (const ElementCurve &curve : line) { sum += curve.length() * curve.tangent(0.5); }
+      return Vector2d(sum.normalized());
+   };
+   const bool opposed =
+      std::any_of(lines.first.begin(), lines.first.end(),
+                  [&](const ElementCurve &one)
+                  {
+                     return std::any_of(lines.other.begin(), lines.other.end(),
+                                        [&](const ElementCurve &two)
+                                        { return one.tangent(0.5).dot(two.tangent(0.5)) < 0; });
+                  });
+   if (opposed) { return "they lie beside each other, one must lie over the other"; }
+   const Vector2d one = towards(lines.first), two = towards(lines.other);
+   std::ostringstream text;
+   text.precision(3);
+   text << "their outward normals are (" << one[1] << ", " << -one[0] << ") and (" << two[1]
+        << ", " << -two[0]
+        << ") in the mean, must be opposite: are these the sides that touch?";
+   return text.str();
+}
 
 /// The master's elements and the slave's, and what is summed over them.
 class Assembly
@@ -143,7 +172,7 @@ private:
    std::vector<std::vector<Index>> functions_;  ///< rows on each slave element, along it
    std::vector<Trace> master_traces_;
    std::array<std::map<std::pair<Index, Index>, double>, 2> own_, other_;
-   Eigen::MatrixX2d apart_; ///< ∫ψ (x_s - x_m) of each slave node
+   Eigen::MatrixX2d apart_, chords_; ///< ∫ψ of what points have, of each slave node
    VectorXd weights_, size_;
    double left_out_ = 0;
 };
@@ -154,7 +183,8 @@ Assembly::Assembly(const ContactLine &slave, const ContactLine &master,
      faced_(slave.size(), false), has_row_(slave.size(), false),
      lines_(facing(slave, master, what)), parts_(lines_.first.size()),
      functions_(lines_.first.size()), apart_(Eigen::MatrixX2d::Zero(slave.size(), 2)),
-     weights_(VectorXd::Zero(slave.size())), size_(VectorXd::Zero(slave.size()))
+     chords_(apart_), weights_(VectorXd::Zero(slave.size())),
+     size_(VectorXd::Zero(slave.size()))
 {
    for (int node : without)
    {
@@ -167,9 +197,9 @@ Assembly::Assembly(const ContactLine &slave, const ContactLine &master,
    {
       master_traces_.emplace_back(*curve.element);
    }
-   require(!lines_.parts.empty(), what_, ": the lines face each other nowhere (one reaches ",
-           extent(slave_), ", the other ", extent(master_),
-           "), one must lie over the other, with outward normals that are opposite");
+   require(!lines_.parts.empty(), what_,
+           ": the lines face each other nowhere: ", why_apart(lines_), " (one reaches ",
+           extent(slave_), ", the other ", extent(master_), ")");
    for (std::size_t e = 0; e < lines_.first.size(); ++e) { add(e); }
    for (std::size_t e = 0; e < lines_.first.size(); ++e) { extend(e); }
 }
@@ -210,7 +240,7 @@ std::vector<Point> Assembly::points_of(std::size_t element) const
          const double t = lines_.opposite(part, s);
          points.push_back({s, rule.weights[k] * (part.to - part.from) * weight_at(curve, s),
                            part.other, curve.functions(s), other.functions(t),
-                           curve.place(s) - other.place(t)});
+                           curve.place(s) - other.place(t), curve.bulge(s) - other.bulge(t)});
       }
    }
    return points;
@@ -337,6 +367,7 @@ void Assembly::add_rows(const Trace &trace, std::size_t element,
             const double value = psi[component](static_cast<Index>(i), static_cast<Index>(p));
             if (component == 1) { weights_[row] += value; }
             apart_(row, component) += value * point.apart[component];
+            chords_(row, component) += value * point.chords[component];
             const Trace &other = master_traces_[point.other];
             const VectorXd facing = other.x[component].transpose() * point.facing;
             for (std::size_t m = 0; m < other.nodes.size(); ++m)
@@ -434,7 +465,8 @@ Mortar Assembly::result()
    made.weights = weights_(made.nodes);
    made.size = size_(made.nodes);
    made.left_out = left_out_;
-   Eigen::MatrixX2d apart = apart_(made.nodes, Eigen::all);
+   Eigen::MatrixX2d apart = apart_(made.nodes, Eigen::all),
+                    chords = chords_(made.nodes, Eigen::all);
    Eigen::MatrixX2d normal(n, 2);
    const auto normals1 = slave_.each(&LineNode::normal),
               normals2 = master_.each(&LineNode::normal);
@@ -457,12 +489,14 @@ Mortar Assembly::result()
       made.own[c] = rows(own_[c], slave_.size());
       made.other[c] = rows(other_[c], master_.size());
       apart.col(c).array() /= sums.array();
+      chords.col(c).array() /= sums.array();
       normal.col(c) = made.own[c] * normals1.col(c) - made.other[c] * normals2.col(c);
    }
    normal.rowwise().normalize();
    made.tangent.resize(n, 2);
    made.tangent << normal.col(1), -normal.col(0);
    made.gap = normal.cwiseProduct(apart).rowwise().sum();
+   made.chords = normal.cwiseProduct(chords).rowwise().sum();
    made.arm = made.tangent.cwiseProduct(apart).rowwise().sum();
    for (Index i = 0; i < n; ++i) // round-off of coordinates
    {

@@ -36,6 +36,9 @@ struct InterfaceReport
    std::vector<Eigen::Vector2d> free_surface = {}; ///< nodes of the slave that nothing faces
    std::vector<Eigen::Vector2d> without_row = {};  ///< see above
    double left_out = 0;                            ///< Mortar::left_out
+   /// n, Mortar::chords: what the gap is off by, if it is that of the geometry; 0 of nodes that
+   /// match.
+   Eigen::VectorXd chords = {};
    double arm = 0; ///< largest size of Mortar::arm: moment left by a normal force of 1
 };
 
