@@ -20,6 +20,8 @@ TESTS = {"a": (f"fretting -m Al -rec {DATA}.csv", "aluminium alloy, cylinders"),
 NICKEL = f"fretting -m Nickel -rec {DATA}_nickel.csv"
 TOGETHER = f"fretting -rec {DATA}_together.csv"
 REDUCED = TESTS["c"][0] + " -lr 0.5"
+DEPTHS = (0.05, 0.1, 0.2)
+PLANES = [f"fretting -p fe -Q 50 -bs 0 --averaging-depth {depth}" for depth in DEPTHS]
 PROOFS = {"2.9": "./test -R 'Measures|EdgeCrack'", "2.10": "./test -R SlipEnergy"}
 INVENTED = "The tests shown are *invented*: those of the thesis are in papers whose numbers its text doesn't give. Put your own in such a file. "
 
@@ -134,6 +136,27 @@ def levels(*all_runs):
     return f'<div class="scroll"><table><thead><tr>{head}</tr></thead><tbody class="plain">{body}</tbody></table></div>'
 
 
+def planes(*all_runs):
+    """Criteria on critical planes along the surface, and against the depth that stresses are averaged over, with those of the asymptote."""
+    sheet, (along, worst) = f.sheet(2, height=3.8)
+    f.draw(along, all_runs[1], "planes", title=f"averaged over {DEPTHS[1]} mm", y="share of what a plain specimen endures", style="line")
+    names = [row["criterion"] for row in all_runs[0].rows("critical_planes") if row["edge"] == "trailing"]
+    for k, name in enumerate(names):
+        rows = [next(row for row in run.rows("critical_planes") if row["criterion"] == name and row["edge"] == "trailing") for run in all_runs]
+        worst.errorbar(DEPTHS, [row["share"] for row in rows], yerr=[row["error"] for row in rows], color=f.COLOURS[k], linestyle=f.DASHES[k], marker=f.plot.MARKERS[k],
+                       markersize=4, capsize=3, label=name)
+    run = all_runs[0]
+    for k, (words, share) in enumerate((("range of the edge stress (2.5)", run["edge_stress_range"] / run["fatigue_limit"]), ("range of K_II (2.9)", run["mode_two_utilisation"]),
+                                        ("K_I at a0 (2.8)", run["drive"] / run["k_threshold"]))):
+        worst.axhline(share, color="#555555", linewidth=1, linestyle=f.DASHES[k + 1])
+        worst.text(DEPTHS[-1], share + 0.02, words, ha="right", fontsize=7.5)
+    f.label(worst, "depth of averaging, mm", "share of what is endured, worst place", "trailing edge; grey: asymptotic")
+    worst.legend(fontsize=7.5, loc=(0.5, 0.62))
+    along.set_ylim(-0.3, None)
+    along.legend(fontsize=7.5, loc="lower center")
+    return sheet
+
+
 CHAPTER.sketch("2.1", "The contact and its edge", """
 A pad is pressed by P, sheared by Q, and the specimen below is pulled in step (σ). Zoomed in on the trailing edge: the pressure, the singular shear of full adhesion, and the shear
 with slip over the length d.""", sketches.edge)
@@ -191,6 +214,11 @@ The energy of the whole slip zone, (8π/3) K_T³/(f K_N E*) a cycle for reversed
 figure("2.10 (levels)", "Which measure tells broken tests from lasting ones", [*(command for command, _ in TESTS.values()), TOGETHER], INVENTED + """
 The thesis compares its measures by eye. Counted here: tests on the wrong side of the level that divides them best. One series alone is divided by nearly any measure that grows with the load; the test of a measure is materials and
 pads together (last column).""", levels)
+figure("2.10 (planes)", "Critical planes beside the asymptotic criteria", PLANES, """
+The thesis hopes that the asymptotes serve conventional multiaxial criteria too. Here they stand beside each other for one contact: a cylinder of aluminium alloy, R = 100 mm, pressed by 400 N/mm and sheared by 50 N/mm to and fro, solved by finite
+elements. Findley's criterion, that of Smith, Watson and Topper, and that of Fatemi and Socie, each on its critical plane and of the stresses of the whole steady cycle, averaged over a depth below the surface; each over
+its value in a plain specimen at the fatigue limit. Stresses fall so steeply that the depth decides the verdict (right; bars are of the mesh), which the asymptotic measures don't need: they have a length of the
+material, a0 = 0.09 mm here. The range of the stress at the edge asks for failure, the crack that starts there stops, and K_II is at its threshold. Any other solved body: `docs/python.md`.""", planes)
 figure("A", "A flat pad with round edges", "fretting -p flat-rounded -r 3 -b 3 -P 1000 -Q 20 -bs 20 -m Ti6Al4V", """
 Appendix A: pressure of a pad with a flat of half-width b and edges of radius R; the edge alone, of a flat without end (A.1); and what is left of both very close to the edge, K_N √t.""",
        lambda run: f.panels((run, "profile", {"title": "whole"}), (run, "profile", {"title": "at the edge", "limits_x": "-1,-0.94"})), wrong="""
