@@ -259,6 +259,10 @@ void Shakedown::lower()
    study.say("   lower limit λ1: " + proven.message);
    if (proven.kind != LowerLimitKind::none) { study.value("lower_limit", proven.value, "λ1"); }
    results["lower_limit_statement"] = proven.message;
+   if (proven.kind == LowerLimitKind::bound || proven.kind == LowerLimitKind::none)
+   {
+      lower_apart(settings);
+   }
    if (starts == 0)
    {
       if (proven.kind == LowerLimitKind::bound || proven.kind == LowerLimitKind::none)
@@ -276,7 +280,38 @@ void Shakedown::lower()
    study.value("counter_example", found.found ? found.load_factor : none,
                "smallest λ that slips on");
    study.value("quiet_up_to", found.quiet);
+   study.value("opens_at", found.opens, "smallest λ that leaves nodes opening and slipping");
    if (settings.monitor.stopped()) { stopped(found.message); }
+}
+
+void Shakedown::lower_apart(const LimitSettings &settings)
+{
+   Table &table = study.table("lower_limits_apart", {{"apart", "nodes set apart"},
+                                                     {"distance", "up to from an end", "%.4g"},
+                                                     {"load_factor", "λ"},
+                                                     {"share", "over λ2", "%.4f"}});
+   const VectorXd &arc = problem.arc_length;
+   std::size_t before = 0;
+   for (const double share : {0.0, 0.0025, 0.005, 0.01, 0.025})
+   {
+      NodeList apart, inside = nodes_away_from_ends(problem, share);
+      for (Index i = 0; i < problem.nodes(); ++i)
+      {
+         if (!std::binary_search(inside.begin(), inside.end(), i)) { apart.push_back(i); }
+      }
+      if (apart.size() == before || inside.empty()) { continue; }
+      before = apart.size();
+      const LowerLimitReport of = lower_limit(limit, most, settings, apart);
+      study.counters += of.counters;
+      if (of.status == LimitStatus::stopped)
+      {
+         stopped("the lower limits with nodes set apart were not found yet");
+      }
+      if (of.kind != LowerLimitKind::apart) { continue; }
+      if (table.json().empty()) { study.say("      " + of.message + ":"); }
+      study.row(table, {apart.size(), share * (arc[arc.size() - 1] - arc[0]), of.value,
+                        of.value / most.limit});
+   }
 }
 
 VectorXd Shakedown::traction(const VectorXd &force) const

@@ -72,6 +72,8 @@ private:
    void check_open_nodes();
    /// λ1: what is proven, and what marches from many starts show.
    void lower();
+   /// What is proven of λ1 but for slip at nodes near the ends.
+   void lower_apart(const cattaneo::LimitSettings &settings);
    Eigen::VectorXd traction(const Eigen::VectorXd &force) const;
    /// The limit whose optimal slip is drawn and marched from.
    const cattaneo::LimitReport &best() const { return find != "load" ? least : most; }

@@ -21,6 +21,7 @@ namespace
 
 CATTANEO_ARGUMENT(Vertices, "collections.abc.Sequence[collections.abc.Mapping[str, float]]");
 CATTANEO_ARGUMENT(NodeNumbers, "numpy.typing.ArrayLike");
+CATTANEO_ARGUMENT(MaybeNodeNumbers, "None | numpy.typing.ArrayLike");
 CATTANEO_ARGUMENT(MaybeReport, "None | LimitReport");
 
 constexpr int most = std::numeric_limits<int>::max();
@@ -67,10 +68,11 @@ LimitReport watched(const char *what, const Of<LimitProblem> &problem, LimitSett
    return report;
 }
 
-NodeList node_list(const ReducedProblem &problem, nb::handle nodes)
+NodeList node_list(const ReducedProblem &problem, nb::handle nodes,
+                   const char *argument = "nodes")
 {
    const std::vector<int> all =
-      indices(nodes, "nodes", 0, static_cast<long>(problem.nodes()) - 1);
+      indices(nodes, argument, 0, static_cast<long>(problem.nodes()) - 1);
    return {all.begin(), all.end()};
 }
 
@@ -214,12 +216,13 @@ void bind_limits(nb::module_ &m)
 
    nb::class_<LowerLimitReport>(
       m, "LowerLimitReport", "What is known of the limit below which every start shakes down.")
-      .def_prop_ro("kind",
-                   [](const LowerLimitReport &self)
-                   {
-                      const char *const kinds[] = {"uncoupled", "two nodes", "bound", "none"};
-                      return kinds[static_cast<int>(self.kind)];
-                   })
+      .def_prop_ro(
+         "kind",
+         [](const LowerLimitReport &self)
+         {
+            const char *const kinds[] = {"uncoupled", "two nodes", "bound", "apart", "none"};
+            return kinds[static_cast<int>(self.kind)];
+         })
       .def_ro("message", &LowerLimitReport::message)
       .def_ro("value", &LowerLimitReport::value)
       .def_prop_ro("slip", viewed(&LowerLimitReport::slip))
@@ -227,13 +230,17 @@ void bind_limits(nb::module_ &m)
            { return "<LowerLimitReport: " + self.message + ">"; });
    m.def(
       "lower_limit",
-      [](Of<LimitProblem> problem, Of<LimitReport> upper)
+      [](Of<LimitProblem> problem, Of<LimitReport> upper, MaybeNodeNumbers apart)
       {
          const LimitProblem copy = given(problem, "problem");
          const LimitReport limit = given(upper, "upper");
-         return one_at_a_time([&] { return lower_limit(copy, limit); });
+         const NodeList nodes =
+            apart.is_none() ? NodeList() : node_list(copy.reduced, apart, "apart");
+         return one_at_a_time([&] { return lower_limit(copy, limit, {}, nodes); });
       },
-      arg("problem"), arg("upper"), "upper: the report of load_limit.");
+      arg("problem"), arg("upper"), nb::kw_only(), arg("apart") = nb::none(),
+      "upper: the report of load_limit. apart: nodes without which slip cannot go on for ever "
+      "below the value, if the contact stays closed.");
 }
 
 void bind_closed(nb::module_ &m)

@@ -124,6 +124,29 @@ def test_shakedown_of_a_slider():
     assert shakedown.lower_limit(shakedown.limit_problem(problem, cycle), limit).kind == "uncoupled"
 
 
+def test_lower_limit_with_nodes_apart():
+    """Node 1 feels the slip of node 0: 0.8 ∓ 0.12 λ is its least pressure (see the core's test of this chain)."""
+    B = np.zeros((3, 3))
+    B[1, 0] = 0.8
+    problem = cattaneo.ReducedProblem(
+        2 * np.eye(3),
+        B,
+        2 * np.eye(3),
+        [cattaneo.LoadPattern("P", [0, 0, 0], [1, 1, 1]), cattaneo.LoadPattern("Q", [0.3, 1, 0], [0, 0, 0])],
+        friction=0.5,
+    )
+    contact = shakedown.limit_problem(problem, shakedown.held_and_cycled(problem, "P", 1, "Q", -1))
+    upper = shakedown.load_limit(contact)
+    if upper.status == "unavailable":
+        pytest.skip("built without Ipopt")
+    for apart, kind, value in ((None, "bound", 0.4), ([0], "apart", 0.4), ([1], "apart", 0.6 / 1.06)):
+        lower = shakedown.lower_limit(contact, upper, apart=apart)
+        assert lower.kind == kind
+        assert lower.value == pytest.approx(value, abs=1e-7)
+    with pytest.raises(cattaneo.InputError, match="apart"):
+        shakedown.lower_limit(contact, upper, apart=[3])
+
+
 def test_fretting_closed_forms():
     """Formulas of the near-edge field, with arrays as NumPy's functions take them."""
     edge = fretting.Edge(k_n=2.0, k_t=0.3, friction=0.5)

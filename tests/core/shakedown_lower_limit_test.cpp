@@ -1,3 +1,4 @@
+#include <cattaneo/input_error.hpp>
 #include <cattaneo/shakedown/lower_limit.hpp>
 #include <gtest/gtest.h>
 #include <shakedown_problems.hpp>
@@ -237,6 +238,47 @@ TEST(LowerLimit, OfTwoNodesAgreesWithMarches)
       EXPECT_GT(shaken, 0) << seed;
    }
    EXPECT_EQ(pairs, 8);
+}
+
+TEST(LowerLimit, NodesSetApartOfAChainByHand)
+{
+   // The chain, and a third node that nothing concerns. p at node 1 is 1 + 0.4 (residual shear
+   // of node 0), at least 1 - 0.4 (0.5 + q of node 0) = 0.8 ∓ 0.12 λ at Q = ±λ; node 1 then
+   // needs λ ± r ≤ 0.4 ∓ 0.06 λ with one r: λ = 0.4. Node 0 alone needs 0.3 λ ≤ 0.5, which is
+   // more than the upper limit, 0.6/1.06.
+   ReducedProblem problem;
+   Eigen::Matrix3d A = 2 * Eigen::Matrix3d::Identity(), B = Eigen::Matrix3d::Zero();
+   B(1, 0) = 0.8;
+   problem.set_stiffness(A, B, A);
+   problem.patterns = {
+      {"P", Control::force, Eigen::Vector3d::Zero(), Eigen::Vector3d(1, 1, 1)},
+      {"Q", Control::force, Eigen::Vector3d(0.3, 1, 0), Eigen::Vector3d::Zero()}};
+   problem.H = Eigen::MatrixXd::Zero(2, 2);
+   problem.gap = Eigen::Vector3d::Zero();
+   set_friction(problem, 0.5);
+   const LoadCycle cycle = held_and_cycled(problem, "P", 1, "Q", -1);
+   const LimitProblem limit = limit_problem(problem, cycle);
+   const LimitReport upper = load_limit(limit);
+   EXPECT_NEAR(upper.limit, 0.6 / 1.06, 1e-7);
+   const auto apart = [&](const NodeList &nodes)
+   { return lower_limit(limit, upper, {}, nodes); };
+   EXPECT_EQ(apart({}).kind, LowerLimitKind::bound);
+   for (const NodeList &nodes : {NodeList{}, {0}, {2}, {0, 2}})
+   {
+      EXPECT_NEAR(apart(nodes).value, 0.4, 1e-7) << nodes.size();
+   }
+   for (const NodeList &nodes : {NodeList{1}, {1, 2}, {0, 1}})
+   {
+      const LowerLimitReport report = apart(nodes);
+      EXPECT_EQ(report.kind, LowerLimitKind::apart);
+      EXPECT_NEAR(report.value, 0.6 / 1.06, 1e-7) << nodes.size();
+      EXPECT_NE(report.message.find("set apart"), std::string::npos);
+   }
+   // Between the two node 1 does slip for ever, from the lowest v0, and without any other.
+   EXPECT_GT(slip_in_the_last_cycle(problem, cycle, 0.5, Eigen::Vector3d(-1, 0, 0), 200), 1e-3);
+   EXPECT_LT(slip_in_the_last_cycle(problem, cycle, 0.39, Eigen::Vector3d(-1, 0, 0), 200),
+             1e-12);
+   EXPECT_THROW(apart({3}), InputError);
 }
 
 TEST(LowerLimit, BoundHoldsInMarches)

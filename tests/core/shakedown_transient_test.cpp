@@ -453,4 +453,36 @@ TEST(CounterExample, IsFoundBetweenTheTwoLimitsOnly)
    EXPECT_THROW(transient_bracket(limit, upper, 0), InputError);
 }
 
+TEST(CounterExample, FindsStartsThatLeaveANodeOpening)
+{
+   // Slip of node 0, held in ±0.25 by friction, moves the pressure of node 1, 1 + 3 v0, which Q
+   // moves by ∓2. So it opens from some start above λ = (1 - 0.75)/2 = 0.125, and slips as it
+   // does (see the two springs above). The limit is at 3 λ = 1 + 0.75; halved from 0.98 of it
+   // as long as it opens.
+   ReducedProblem problem;
+   problem.set_stiffness(2 * Eigen::Matrix2d::Identity(), Eigen::Matrix2d{{0, 0}, {3, 0}},
+                         20 * Eigen::Matrix2d::Identity());
+   problem.patterns = {{"P", Control::force, Eigen::Vector2d::Zero(), Eigen::Vector2d(1, 1)},
+                       {"Q", Control::force, Eigen::Vector2d(0, 1.5), Eigen::Vector2d(0, -2)}};
+   problem.H = Eigen::Matrix2d::Zero();
+   problem.gap = Eigen::Vector2d::Zero();
+   set_friction(problem, 0.5);
+   const LimitProblem limit = limit_problem(problem, held_and_cycled(problem, "P", 1, "Q", -1));
+   const LimitReport upper = load_limit(limit);
+   EXPECT_NEAR(upper.limit, 1.75 / 3, 1e-7);
+   CounterExampleSettings settings;
+   settings.starts = 2;
+   const CounterExample found = find_counter_example(limit, upper, 0, settings);
+   EXPECT_NEAR(found.opens, 0.98 * upper.limit / 4, 1e-12);
+   FrictionSolver solver(problem);
+   const TransientReport opens = transient(solver, limit, found.opens, found.opening_start);
+   EXPECT_EQ(opens.verdict, TransientVerdict::slips_and_opens);
+   EXPECT_EQ(opens.opened, NodeList{1});
+   for (const double v0 : {-0.25, 0.0, 0.25})
+   {
+      const TransientReport below = transient(solver, limit, 0.12, Eigen::Vector2d(v0, 0));
+      EXPECT_TRUE(below.opened.empty()) << v0;
+   }
+}
+
 } // namespace

@@ -161,7 +161,7 @@ LeastPressure least_pressure(const ReducedProblem &problem, const ResidualForces
 }
 
 LowerLimitReport lower_limit(const LimitProblem &problem, const LimitReport &upper,
-                             const LimitSettings &settings)
+                             const LimitSettings &settings, const NodeList &apart)
 {
    const ReducedProblem &reduced = problem.reduced;
    const ResidualForces &residual = problem.residual;
@@ -204,6 +204,12 @@ LowerLimitReport lower_limit(const LimitProblem &problem, const LimitReport &upp
    StuckForces lowest = loads;
    lowest.p0 = least.by_normal * loads.p0 + least.by_shear * loads.q0;
    lowest.p1 = least.by_normal * loads.p1 + least.by_shear * loads.q1;
+   // Nothing is asked of the nodes set apart: any force that they could ever carry is allowed.
+   for (const Eigen::Index node : apart.empty() ? apart : chosen_nodes(reduced, apart))
+   {
+      lowest.p0.row(node).setConstant(loads.p0.cwiseAbs().sum());
+      lowest.p1.row(node).setZero();
+   }
    ReducedProblem uncoupled = reduced;
    uncoupled.B().setZero();
    join_coupling(uncoupled);
@@ -237,9 +243,15 @@ LowerLimitReport lower_limit(const LimitProblem &problem, const LimitReport &upp
       }
       return report;
    }
-   report.kind = LowerLimitKind::bound;
+   report.kind = apart.empty() ? LowerLimitKind::bound : LowerLimitKind::apart;
    report.value = std::min(bound.lower, upper.limit);
    report.slip = bound.slip;
+   if (!apart.empty())
+   {
+      report.message = "in a contact that stays closed, slip that goes on for ever below this "
+                       "load factor includes slip at a node set apart (proven)";
+      return report;
+   }
    report.message =
       "every admissible closed start shakes down below this load factor (proven); "
       "the lower limit itself may be higher";

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cattaneo/shakedown/limit.hpp>
+#include <cattaneo/shakedown/monolith.hpp>
 
 namespace cattaneo
 {
@@ -11,6 +12,7 @@ enum class LowerLimitKind
    uncoupled, ///< B = 0: every start shakes down below λ2 [Klarbring 2007]
    two_nodes, ///< exact by the geometry of the constraint lines [Ahn 2008]
    bound,     ///< λ1 is at least the value
+   apart,     ///< below the value slip goes on for ever only with slip at the nodes set apart
    none       ///< no statement: coupling times friction is too large for the bound
 };
 
@@ -59,8 +61,12 @@ LeastPressure least_pressure(const ReducedProblem &problem, const ResidualForces
    limit programme, of an uncoupled contact with pressures p_low.
 
     It is the best that pressures alone can prove. Where an admissible state has a node without
-    pressure, as the corners of a square punch on a similar half-plane above f = 0.6, nothing is
-    proven, and marches (find_counter_example) are all there is. */
+    pressure, as the corners of a square punch on a similar half-plane above f = 0.6, no λ1 is
+    proven. What is then is proven with some nodes set apart: the inequality stands as long as
+    they stick, and what their slip adds is in proportion to it, so that slip of which there is
+    no end includes slip without end at one of them. Nothing is asked of q* there, and of their
+    pressure only that the contact is closed. Where slip does go on, marches show
+    (find_counter_example). */
 struct LowerLimitReport
 {
    LowerLimitKind kind = LowerLimitKind::none; ///< what is known
@@ -72,8 +78,10 @@ struct LowerLimitReport
    Counters counters; ///< of the programme behind it
 };
 
-/// @a upper is the report of load_limit for the same problem.
+/// @a upper is the report of load_limit for the same problem; @a apart: nodes that are set
+/// apart (only a bound knows of them: two nodes and uncoupled contacts have more to say).
+/// InputError if one does not exist.
 LowerLimitReport lower_limit(const LimitProblem &problem, const LimitReport &upper,
-                             const LimitSettings &settings = {});
+                             const LimitSettings &settings = {}, const NodeList &apart = {});
 
 } // namespace cattaneo

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cattaneo/friction/settled_states.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/shakedown/transient.hpp>
@@ -187,8 +188,9 @@ CounterExample find_counter_example(const LimitProblem &problem, const LimitRepo
    // Slips whose residual shear is of the size that friction can hold under the constant loads.
    std::mt19937 random(settings.seed);
    std::uniform_real_distribution<double> uniform(-1, 1);
-   const Eigen::VectorXd strength = reduced.friction.cwiseProduct(
-      reduced.clamped_forces(problem.cycle.constant).tail(n).cwiseMax(0.0));
+   const Eigen::VectorXd
+      pressed = reduced.clamped_forces(problem.cycle.constant).tail(n).cwiseMax(0.0),
+      strength = reduced.friction.cwiseProduct(pressed);
    std::vector<Eigen::VectorXd> starts;
    for (const double factor : {-1.0, -3.0, 3.0, 0.0}) { starts.push_back(factor * limit.slip); }
    for (int k = 0; k < settings.starts; ++k)
@@ -226,6 +228,11 @@ CounterExample find_counter_example(const LimitProblem &problem, const LimitRepo
          }
          // Only a steady cycle with slip at closed nodes counts; a slow decay, nodes that open
          // or a lost equilibrium do not.
+         if (report.verdict == TransientVerdict::slips_and_opens && trial < found.opens)
+         {
+            found.opens = trial;
+            found.opening_start = start;
+         }
          if (report.verdict == TransientVerdict::cyclic_slip)
          {
             cycles = found.found = true;
@@ -242,6 +249,35 @@ CounterExample find_counter_example(const LimitProblem &problem, const LimitRepo
          if (!found.found) { break; }
       }
       trial = 0.5 * (low + high);
+   }
+   if (std::isfinite(found.opens))
+   {
+      // Slips that press some nodes and take as much from others as these have, and more.
+      const Eigen::VectorXd pressure = pressed.cwiseMax(1e-6 * pressed.maxCoeff());
+      for (int k = 0; k <= 4; ++k)
+      {
+         const Eigen::VectorXd slip =
+            problem.residual.flexibility * reduced.B().row((n - 1) * k / 4).transpose();
+         const double share =
+            (reduced.B() * slip).cwiseAbs().cwiseQuotient(pressure).maxCoeff();
+         if (share == 0) { continue; }
+         for (const double factor : {3.0, -3.0}) { starts.push_back(factor / share * slip); }
+      }
+      bool opens = true;
+      for (int k = 0; k < settings.halvings && opens; ++k)
+      {
+         opens = false;
+         for (auto start = starts.begin(); start != starts.end() && !opens; ++start)
+         {
+            const TransientReport report =
+               transient(solver, problem, 0.5 * found.opens, *start, settings.transient);
+            ++found.marches;
+            found.counters += report.counters;
+            opens = report.verdict == TransientVerdict::slips_and_opens;
+            if (opens) { found.opening_start = *start; }
+         }
+         if (opens) { found.opens *= 0.5; }
+      }
    }
    found.message = found.found
                       ? "a start was found that slips for ever below the upper limit (observed)"

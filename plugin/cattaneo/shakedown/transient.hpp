@@ -3,6 +3,7 @@
 #include <cattaneo/friction/march.hpp>
 #include <cattaneo/shakedown/limit.hpp>
 #include <cattaneo/shakedown/monolith.hpp>
+#include <limits>
 
 namespace cattaneo
 {
@@ -109,9 +110,13 @@ struct CounterExample
    Eigen::VectorXd start;  ///< that start
    double dissipation = 0; ///< of its steady cycle, at nodes that stay closed
    double quiet = 0;       ///< the largest load factor tried at which every start shook down
-   int marches = 0;        ///< number of marches
-   std::string message;    ///< what is observed, in one sentence
-   Counters counters;      ///< of all marches
+   /// The smallest load factor tried at which a start ended in nodes that open and slip in
+   /// every cycle, infinite if none did: of a contact that is free to open λ1 is no more.
+   double opens = std::numeric_limits<double>::infinity();
+   Eigen::VectorXd opening_start; ///< that start
+   int marches = 0;     ///< number of marches
+   std::string message; ///< what is observed, in one sentence
+   Counters counters;   ///< of all marches
 };
 
 /// @a proven: load factor below which no start can cycle (lower_limit; 0 if nothing is known).
