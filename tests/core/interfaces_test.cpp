@@ -420,6 +420,46 @@ TEST_F(Interfaces, OnAPlaneOfSymmetryAgreeWithMultipliers)
       "the contact node at (0, 0) is fixed normal to the line");
 }
 
+/// Bodies that stand side by side, clamped where their contact ends: that end carries no row,
+/// and its neighbours its part. A node within the line that is clamped is refused as ever.
+TEST_F(Interfaces, OfAClampedEndLeaveItOut)
+{
+   for (int elements : {4, 5}) // nodes that match, and that do not
+   {
+      Truss upper({side({0, 0}, {2, 0}, 4, 2)}, {1, 1}),
+         lower({side({2, 0}, {0, 0}, elements, 2)}, {1, -1});
+      upper.load("P");
+      const int end = 4 * elements; // the last node of its line
+      lower.hold().fixed.insert(lower.fixed.begin(), {end, end + 1});
+      lower.load("P");
+      upper.fixed = {0, 1};
+      for (int dof : upper.fixed) { upper.loads[0].values[dof] = 0; }
+      for (SlaveSide slave : {SlaveSide::first, SlaveSide::second})
+      {
+         const std::vector<Interface> one{between(0, upper.lines[0], 1, lower.lines[0], slave)};
+         Reduction reduction = reduce({upper.condensed(), lower.condensed()}, one);
+         const InterfaceReport &report = reduction.interfaces[0];
+         EXPECT_EQ(report.nodes, slave == SlaveSide::first ? 8 : 2 * elements);
+         ASSERT_EQ(report.without_row.size(), 1u);
+         EXPECT_EQ(report.without_row[0].norm(), 0);
+         EXPECT_NEAR(reduction.problem.weights.sum(), 2, 1e-12);
+         EXPECT_EQ(reduction.problem.rigid_motions.cols(), 1); // about the clamped node
+         agrees_with_multipliers({upper, lower}, reduction, one);
+      }
+      // Alone on a rigid line, too.
+      const std::vector<Interface> alone{{"floor", {0, lower.lines[0]}, {}}};
+      EXPECT_EQ(reduce({lower.condensed()}, alone).interfaces[0].nodes, 2 * elements);
+      upper.fixed = {4, 5};
+      expect_input_error(
+         [&]
+         {
+            reduce({upper.condensed(), lower.condensed()},
+                   {between(0, upper.lines[0], 1, lower.lines[0])});
+         },
+         "the contact node at (0.5, 0) is fixed normal to the line");
+   }
+}
+
 /// Both lips of a slit in one body, which have their tip in common: it carries no row.
 TEST_F(Interfaces, OfABodyWithItselfLeaveOutTheTip)
 {

@@ -37,6 +37,22 @@ bool holds(const CondensedBody &body, int node, int component)
    return std::binary_search(body.held.begin(), body.held.end(), row);
 }
 
+/// Ends of a side that supports hold in both components: nodes that move nowhere carry no row.
+std::vector<int> clamped_ends(const CondensedBody &body, const ContactLine &line,
+                              const std::vector<int> &nodes)
+{
+   std::vector<int> found;
+   for (const LineChain &chain : line.chains)
+   {
+      const auto clamped = [&](Index k)
+      { return !chain.loop && holds(body, nodes[k], 0) && holds(body, nodes[k], 1); };
+      const Index last = chain.first + chain.nodes - 1;
+      if (clamped(chain.first)) { found.push_back(static_cast<int>(chain.first)); }
+      if (last > chain.first && clamped(last)) { found.push_back(static_cast<int>(last)); }
+   }
+   return found;
+}
+
 /// One interface as it is worked on.
 class Facing
 {
@@ -316,9 +332,13 @@ void Facing::add_rows(std::vector<ContactRow> &rows,
                       std::map<NodeOfBody, std::vector<NodeOfBody>> &taken)
 {
    const auto place = [this](int node) { return NodeOfBody(slave_.body, slave_.nodes[node]); };
-   for (std::size_t k = 0; k < slave_.nodes.size(); ++k)
+   without_row_ = clamped_ends(bodies_[slave_.body], slave_.line, slave_.nodes);
+   for (int k = 0; k < static_cast<int>(slave_.nodes.size()); ++k)
    {
-      if (taken.count(place(int(k)))) { without_row_.push_back(static_cast<int>(k)); }
+      if (taken.count(place(k)) && !std::count(without_row_.begin(), without_row_.end(), k))
+      {
+         without_row_.push_back(k);
+      }
    }
    // Each node without a row gives its part to its neighbours, which may close a ring then.
    while (true)
@@ -660,7 +680,10 @@ Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface>
    const auto is_all = [&](const InterfaceSide &side, int b)
    {
       const ContactLine &line = bodies[b].line;
-      return side.body == b && side.line.size() == line.size() &&
+      std::vector<int> numbers(line.size());
+      std::iota(numbers.begin(), numbers.end(), 0);
+      return side.body == b && clamped_ends(bodies[b], line, numbers).empty() &&
+             side.line.size() == line.size() &&
              std::equal(line.nodes.begin(), line.nodes.end(), side.line.nodes.begin(),
                         [](const LineNode &i, const LineNode &j) { return i.dofs == j.dofs; });
    };

@@ -68,7 +68,8 @@ ContactLine joined(const std::vector<ContactLine> &lines);
     A body is condensed once, to joined() of all its lines, whatever the number of its
     interfaces; nodes of it that no interface has are free. A node is a slave once: of a second
     interface that has it as well it carries no row, nor where rows would go in a ring (crack
-    tips of a body that touches itself, interfaces that meet at one point). Relative
+    tips of a body that touches itself, interfaces that meet at one point), nor at an end of its
+    line that supports hold in both components. Relative
     displacements of the nodes are in the common frame of both sides, (own frames where a
     component is held).
 

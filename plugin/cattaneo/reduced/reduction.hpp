@@ -32,7 +32,8 @@ struct InterfaceReport
    Eigen::VectorXd spacing; ///< of the nodes, see LineNode
    bool matching = false;   ///< its nodes are also the other body's
    /// Places of nodes of the slave that nothing faces, and of those that are faced but carry no
-   /// row: tips, nodes that are another interface's, those that close a ring of interfaces.
+   /// row: tips, nodes that are another interface's, those that close a ring of interfaces,
+   /// ends that supports hold in both components.
    std::vector<Eigen::Vector2d> free_surface = {}; ///< nodes of the slave that nothing faces
    std::vector<Eigen::Vector2d> without_row = {};  ///< see above
    double left_out = 0;                            ///< Mortar::left_out
