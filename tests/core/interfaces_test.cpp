@@ -402,6 +402,16 @@ TEST_F(Interfaces, OnAPlaneOfSymmetryAgreeWithMultipliers)
                 {between(0, upper.lines[0], 1, lower.lines[0])});
       },
       "the contact node at (0, 0) is fixed along the line, and what it faces is not");
+   // Unless it is free which side has the nodes.
+   {
+      std::vector<Interface> one{
+         between(0, upper.lines[0], 1, lower.lines[0], SlaveSide::second)};
+      const MatrixXd K = reduce({upper.condensed(), lower.condensed()}, one).problem.K;
+      one[0].slave = SlaveSide::finer; // which would be the upper one, of 9 nodes on 6
+      const Reduction reduction = reduce({upper.condensed(), lower.condensed()}, one);
+      EXPECT_EQ(reduction.interfaces[0].bodies[0], 1);
+      EXPECT_EQ(reduction.problem.K, K);
+   }
    // In whatever order bodies come.
    expect_input_error(
       [&]

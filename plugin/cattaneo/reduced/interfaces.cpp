@@ -8,6 +8,7 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <sstream>
 
 namespace cattaneo
 {
@@ -80,7 +81,8 @@ private:
    void pair_nodes(const std::vector<int> &without);
    void meet(const std::vector<int> &without);
    ContactRow row(Index i) const;
-   void check_row(const ContactRow &row, Index i) const;
+   std::string refusal(const ContactRow &row, Index i) const;
+   bool may_swap() const;
    LineEnd other_end(Index i, bool last) const;
 
    const Interface &given_;
@@ -88,6 +90,7 @@ private:
    std::string what_;
    Side slave_, master_;
    bool of_second_ = false;
+   std::string refused_; ///< why the other side was not the slave
    Mortar mortar_;
    std::vector<bool> slides_;
    std::vector<int> without_row_; ///< nodes of the slave
@@ -299,16 +302,31 @@ ContactRow Facing::row(Index i) const
    return made;
 }
 
-void Facing::check_row(const ContactRow &row, Index i) const
+/// Is it free which side is the slave, and was the other one not it yet?
+bool Facing::may_swap() const
+{
+   return refused_.empty() && master_.body >= 0 && !given_.pairing &&
+          (given_.slave == SlaveSide::coarser || given_.slave == SlaveSide::finer);
+}
+
+/// Why a contact node cannot be one, or nothing.
+std::string Facing::refusal(const ContactRow &row, Index i) const
 {
    const Vector2d &place = slave_.line.nodes[mortar_.nodes[i]].position;
-   require(!holds(bodies_[row.body], row.node, 1), what_, ": the contact node at ", place,
-           " is fixed normal to the line, it must be able to open: the contact line must end "
-           "before it, or the other side be the slave (slave: ",
-           of_second_ ? "first" : "second", ")");
-   if (row.slides || master_.body < 0) { return; }
+   const std::string other =
+      std::string("the slave (slave: ") + (of_second_ ? "first" : "second") + ")";
+   std::ostringstream text;
+   text << what_ << ": the contact node at " << as_text(place) << " is fixed ";
+   if (holds(bodies_[row.body], row.node, 1))
+   {
+      text << "normal to the line, it must be able to open: the contact line must end before "
+              "it, or the other side be "
+           << other;
+      return text.str();
+   }
+   if (row.slides || master_.body < 0) { return ""; }
    // What faces it most, if it is at the same place along the line.
-   const CondensedBody &other = bodies_[master_.body];
+   const CondensedBody &facing = bodies_[master_.body];
    const LineNode *nearest = nullptr;
    int number = 0;
    for (std::size_t m = 0; m < master_.nodes.size(); ++m)
@@ -322,10 +340,10 @@ void Facing::check_row(const ContactRow &row, Index i) const
          number = master_.nodes[m];
       }
    }
-   require(nearest && holds(other, number, 0), what_, ": the contact node at ", place,
-           " is fixed along the line, and what it faces is not: the other side must be the "
-           "slave (slave: ",
-           of_second_ ? "first" : "second", "), or be fixed there as well");
+   if (nearest && holds(facing, number, 0)) { return ""; }
+   text << "along the line, and what it faces is not: the other side must be " << other
+        << ", or be fixed there as well";
+   return text.str();
 }
 
 void Facing::add_rows(std::vector<ContactRow> &rows,
@@ -384,13 +402,26 @@ void Facing::add_rows(std::vector<ContactRow> &rows,
          else { slaves[slave] = on; }
       }
       if (without_row_.size() > before) { continue; }
+      std::string refused;
+      for (Index i = 0; i < static_cast<Index>(own.size()) && refused.empty(); ++i)
+      {
+         refused = refusal(own[i], i);
+      }
+      if (!refused.empty() && may_swap())
+      {
+         refused_ = refused;
+         std::swap(slave_, master_);
+         of_second_ = !of_second_;
+         add_rows(rows, taken);
+         return;
+      }
+      require(refused.empty(), refused_.empty() ? refused : refused_);
       taken = std::move(slaves);
       slides_.clear();
-      for (Index i = 0; i < static_cast<Index>(own.size()); ++i)
+      for (ContactRow &made : own)
       {
-         check_row(own[i], i);
-         slides_.push_back(own[i].slides);
-         rows.push_back(std::move(own[i]));
+         slides_.push_back(made.slides);
+         rows.push_back(std::move(made));
       }
       return;
    }
