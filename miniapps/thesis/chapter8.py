@@ -66,7 +66,7 @@ def lower(*all_runs):
     proven.text(0.03, all_runs[0]["load_limit"] + 0.015, "λ2, half-plane", fontsize=7.5)
     f.label(proven, "distance δ from an end, over a", "λ", "Below: slip for ever needs slip within δ")
     proven.set_ylim(0, 0.95)
-    proven.legend(fontsize=7, loc="lower right")
+    proven.legend(fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.2), ncol=1, frameon=False)
     return sheet
 
 
@@ -92,7 +92,7 @@ figure("8.2 (4)", "Lower limit of shakedown", [*LOWER, MAP], """
 Below λ1 a coupled contact shakes down from every start, between λ1 and λ2 from some. The thesis proposes to solve the constraints of all combinations of states, of which there are too many. Here is what is
 proven, and what was tried.
 
-*Proven.* For the thesis' block a positive λ1 can't be, since an admissible slip may take all pressure from the nodes at the corners under P alone, and then their friction holds nothing. But it is proven that in a contact that stays
+*Proven.* For the thesis' block no positive λ1 is known, since an admissible slip may take all pressure from the nodes at the corners under P alone, and then their friction holds nothing. But it is proven that in a contact that stays
 closed slip can go on for ever only if it does within a distance δ of a corner, below the load on the right: within 0.05 a below λ = 0.6, which is seven tenths of λ2. The proof is an energy of the slip that is
 left, which falls whenever a node slips that is sure of enough pressure.
 

@@ -114,9 +114,9 @@ struct CounterExample
    /// every cycle, infinite if none did: of a contact that is free to open λ1 is no more.
    double opens = std::numeric_limits<double>::infinity();
    Eigen::VectorXd opening_start; ///< that start
-   int marches = 0;     ///< number of marches
-   std::string message; ///< what is observed, in one sentence
-   Counters counters;   ///< of all marches
+   int marches = 0;               ///< number of marches
+   std::string message;           ///< what is observed, in one sentence
+   Counters counters;             ///< of all marches
 };
 
 /// @a proven: load factor below which no start can cycle (lower_limit; 0 if nothing is known).
