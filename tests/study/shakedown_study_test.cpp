@@ -246,8 +246,9 @@ TEST(ShakedownStudy, LowerLimitButForTheCornersIsProven)
       EXPECT_GT(row["load_factor"].get<double>(), before) << row;
       before = row["load_factor"];
       EXPECT_LE(before, run.results["load_limit"].get<double>());
-      // With the least pressures at either vertex by HiGHS, a linear programme each, the proof
-      // goes to 0.251 and 0.624; ours takes the same multipliers for both, and a sixth less.
+      // With the least pressures of each vertex by HiGHS, linear programmes of their own, the
+      // condition holds at the vertices up to 0.251 and 0.624. It must hold between them too,
+      // with multipliers that are the same for all loads: a sixth less.
       const double distance = row["distance"];
       const double sharpest = std::abs(distance - 0.005) < 1e-9  ? 0.2514
                               : std::abs(distance - 0.02) < 1e-9 ? 0.6245
