@@ -275,8 +275,8 @@ void bind_problem(nb::module_ &m)
       nb::sig("def spread_starts(problem: DesignProblem, start: numpy.typing.ArrayLike, "
               "count: int) -> list[numpy.ndarray]"),
       "Other starts for a search: `count` points spread evenly over the box of the bounds, "
-      "each "
-      "moved toward `start` as far as the limits ask for.");
+      "each of which `start` goes toward as far as the limits let it, along those that it "
+      "meets.");
    m.def(
       "limit_curvature",
       [](Of<Self> problem, Number least, Number most)

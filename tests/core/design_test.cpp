@@ -284,12 +284,14 @@ TEST(Design, RefusesWhatDoesNotFitAndSaysWhatHasNoEquilibrium)
    const DesignReport report = design(other, start);
    EXPECT_EQ(report.status, DesignStatus::no_equilibrium);
    EXPECT_NE(report.message.find("full"), std::string::npos) << report.message;
+   EXPECT_TRUE(std::isnan(report.objective) && std::isnan(report.objective_at_start));
    std::atomic<bool> stop{true};
    DesignSettings settings;
    settings.march.monitor.stop = &stop;
    const DesignReport stopped = design(problem, start, settings);
    EXPECT_EQ(stopped.status, DesignStatus::stopped);
-   EXPECT_LE(stopped.objective, stopped.objective_at_start);
+   EXPECT_TRUE(std::isnan(stopped.objective) ||
+               stopped.objective <= stopped.objective_at_start);
 }
 
 // What is not known of a design is not reported as zero.
@@ -407,6 +409,29 @@ TEST(Design, RefusesAShapeWithOtherDerivatives)
    EXPECT_EQ(problem.with(Eigen::Vector2d(0.25, 2)).gap[0], 0.75 * 0.75);
 }
 
+// Bounds that are far away, as where there are none: a cube bends along the way into them.
+TEST(Design, TakesAShapeThatBendsWithinFarBounds)
+{
+   DesignProblem problem = rounded_pad();
+   const VectorXd x = problem.problem.arc_length.array() - 1;
+   problem.high = Eigen::Vector2d(1e6, 1e6);
+   for (const double factor : {1.0, 1.1})
+   {
+      problem.shape = [x, factor](const VectorXd &values, MatrixXd &by)
+      {
+         by.col(0) = factor * 3 * values[0] * values[0] * x.cwiseAbs2();
+         by.col(1) = std::exp(-values[1]) * x.cwiseAbs2().cwiseAbs2();
+         return VectorXd(std::pow(values[0], 3) * x.cwiseAbs2() +
+                         (1 - std::exp(-values[1])) * x.cwiseAbs2().cwiseAbs2());
+      };
+      DesignSettings settings;
+      settings.max_iterations = 1;
+      const auto search = [&] { design(problem, Eigen::Vector2d(0.5, 0.5), settings); };
+      if (factor == 1) { search(); }
+      else { expect_input_error(search, "derivative by variable 0"); }
+   }
+}
+
 // Starts are apart from one another, spread over the box, and where all limits hold; along what
 // is fixed to one value none moves.
 TEST(Design, StartsAreSpreadWithinBoundsAndLimits)
@@ -455,4 +480,32 @@ TEST(Design, StartsAreSpreadWithinBoundsAndLimits)
    EXPECT_GT(spread, 0.1);
    expect_input_error([&] { spread_starts(problem, Eigen::Vector2d(0, 0), 1); },
                       "variable 1 starts at 0");
+}
+
+// From a corner of what is allowed, as where bolts are not tightened at first, straight lines
+// to most places leave it at once. Of shares that add up to one each place but those above the
+// corner has a nearest one elsewhere.
+TEST(Design, StartsAreSpreadFromACornerToo)
+{
+   DesignProblem problem = crowned_pad();
+   problem.variables.resize(4, problem.variables[0]);
+   problem.low = VectorXd::Zero(4);
+   problem.high = VectorXd::Ones(4);
+   problem.limits = MatrixXd::Ones(1, 4);
+   problem.least = problem.most = VectorXd::Ones(1);
+   for (Index corner = 0; corner < 4; ++corner)
+   {
+      const VectorXd start = VectorXd::Unit(4, corner);
+      const std::vector<VectorXd> all = spread_starts(problem, start, 32);
+      VectorXd most = VectorXd::Zero(4);
+      for (std::size_t k = 0; k < all.size(); ++k)
+      {
+         EXPECT_NEAR(all[k].sum(), 1, 1e-12);
+         ASSERT_GE((all[k] - problem.low).minCoeff(), 0);
+         ASSERT_GE((problem.high - all[k]).minCoeff(), 0);
+         EXPECT_GT((all[k] - start).norm(), 1e-3) << k;
+         most = most.cwiseMax(all[k]);
+      }
+      EXPECT_GT(most.minCoeff(), 0.4); // each of the others has much of it at times
+   }
 }

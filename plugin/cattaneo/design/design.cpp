@@ -93,7 +93,8 @@ void require_start(const DesignProblem &problem, const VectorXd &start, double t
 
 /** A search with derivatives that are not those of the shape would end anywhere, and call it an
     optimum: along each variable a short way into its bounds they are compared with its
-    differences (the mean of both ends is exact to the third order of the way). */
+    differences (the mean of both ends is exact to the third order of the way). Bounds may be
+    far: the way is shorter where derivatives change along it. */
 void require_derivatives(const DesignProblem &problem, const VectorXd &start)
 {
    MatrixXd here, there;
@@ -102,12 +103,19 @@ void require_derivatives(const DesignProblem &problem, const VectorXd &start)
    {
       const double reach = problem.high[j] - problem.low[j];
       const bool up = problem.high[j] - start[j] >= start[j] - problem.low[j];
-      const double way = (up ? 1e-4 : -1e-4) * reach;
+      double way = (up ? 1e-4 : -1e-4) * reach;
       if (way == 0) { continue; }
-      VectorXd x = start;
-      x[j] += way;
-      const VectorXd change = shaped(problem, x, there) - gap,
-                     expected = 0.5 * (x[j] - start[j]) * (here.col(j) + there.col(j));
+      VectorXd x, change, expected;
+      const auto bends = [&]
+      {
+         x = start;
+         x[j] += way;
+         change = shaped(problem, x, there) - gap;
+         expected = 0.5 * (x[j] - start[j]) * (here.col(j) + there.col(j));
+         return !((there - here).col(j).cwiseAbs().maxCoeff() <=
+                  0.1 * here.col(j).cwiseAbs().maxCoeff());
+      };
+      for (int shorter = 0; bends() && shorter < 8; ++shorter) { way *= 0.1; }
       const double size =
                       std::max(change.cwiseAbs().maxCoeff(), expected.cwiseAbs().maxCoeff()),
                    digits = 1e-12 * gap.cwiseAbs().maxCoeff();
@@ -117,6 +125,53 @@ void require_derivatives(const DesignProblem &problem, const VectorXd &start)
               " is ", expected[node] / way, " at node ", node, ", its values change by ",
               change[node] / way);
    }
+}
+
+/** From a place where all bounds and limits hold toward another, as far as they let: what
+    stops the way is followed from there on. */
+VectorXd toward(const DesignProblem &problem, const VectorXd &start, const VectorXd &end)
+{
+   const Index variables = start.size(), count = variables + problem.limits.rows();
+   const VectorXd unit = (problem.high - problem.low)
+                            .unaryExpr([](double reach) { return reach > 0 ? reach : 1.0; });
+   // Bounds are limits of one variable each.
+   MatrixXd L = MatrixXd::Identity(count, variables);
+   VectorXd least(count), most(count);
+   if (count > variables) { L.bottomRows(count - variables) = problem.limits; }
+   least << problem.low, problem.least;
+   most << problem.high, problem.most;
+   std::vector<bool> held(count);
+   for (Index r = 0; r < count; ++r) { held[r] = least[r] == most[r]; }
+   VectorXd x = start;
+   for (Index stop = 0; stop >= 0;)
+   {
+      VectorXd way = (end - x).cwiseQuotient(unit);
+      std::vector<Index> along;
+      for (Index r = 0; r < count; ++r)
+      {
+         if (held[r]) { along.push_back(r); }
+      }
+      if (!along.empty())
+      {
+         const MatrixXd kept = L(along, Eigen::all) * unit.asDiagonal();
+         way -= kept.completeOrthogonalDecomposition().solve(kept * way).eval();
+      }
+      way = way.cwiseProduct(unit);
+      stop = -1;
+      double share = 1;
+      for (Index r = 0; r < count; ++r)
+      {
+         const double at = L.row(r).dot(x), by = L.row(r).dot(way);
+         if (held[r] || std::abs(by) <= 1e-12 * L.row(r).cwiseAbs().dot(unit)) { continue; }
+         const double room = std::max(0.0, ((by > 0 ? most[r] : least[r]) - at) / by);
+         if (room >= share) { continue; }
+         share = room;
+         stop = r;
+      }
+      x += share * way;
+      if (stop >= 0) { held[stop] = true; }
+   }
+   return x.cwiseMax(problem.low).cwiseMin(problem.high);
 }
 
 /// Iterations without a better design after which none is expected: where responses bend at
@@ -616,48 +671,17 @@ std::vector<VectorXd> spread_starts(const DesignProblem &problem, const VectorXd
    {
       phi = std::pow(1 + phi, 1.0 / (static_cast<double>(variables) + 1));
    }
-   // Along what limits fix to one value no start may move; of the others, which are linear,
-   // what lies between two allowed points is allowed.
-   const Index rows = problem.limits.rows();
-   MatrixXd fixed(0, variables);
-   for (Index r = 0; r < rows; ++r)
-   {
-      if (problem.least[r] < problem.most[r]) { continue; }
-      fixed.conservativeResize(fixed.rows() + 1, variables);
-      fixed.bottomRows(1) = problem.limits.row(r);
-   }
-   const auto share = [](double at, double by, double least, double most, double size)
-   {
-      if (std::abs(by) <= 1e-12 * size) { return 1.0; }
-      return std::max(0.0, (by > 0 ? most - at : least - at) / by);
-   };
    std::vector<VectorXd> all;
    for (int k = 1; k <= count; ++k)
    {
-      VectorXd way(variables);
+      VectorXd place(variables);
       for (Index j = 0; j < variables; ++j)
       {
          const double part = 0.5 + k * std::pow(phi, -static_cast<double>(j + 1));
-         way[j] = problem.low[j] +
-                  (part - std::floor(part)) * (problem.high[j] - problem.low[j]) - start[j];
+         place[j] =
+            problem.low[j] + (part - std::floor(part)) * (problem.high[j] - problem.low[j]);
       }
-      if (fixed.rows() > 0)
-      {
-         way -= fixed.completeOrthogonalDecomposition().solve(fixed * way).eval();
-      }
-      double least = 1;
-      for (Index j = 0; j < variables; ++j)
-      {
-         least = std::min(least, share(start[j], way[j], problem.low[j], problem.high[j],
-                                       problem.high[j] - problem.low[j]));
-      }
-      for (Index r = 0; r < rows; ++r)
-      {
-         const auto row = problem.limits.row(r);
-         least = std::min(least, share(row.dot(start), row.dot(way), problem.least[r],
-                                       problem.most[r], row.cwiseAbs().dot(way.cwiseAbs())));
-      }
-      all.emplace_back((start + least * way).cwiseMax(problem.low).cwiseMin(problem.high));
+      all.push_back(toward(problem, start, place));
    }
    return all;
 }

@@ -71,8 +71,9 @@ std::vector<Parameters> gap_variables(const Eigen::MatrixXd &G);
 void limit_curvature(DesignProblem &problem, double least, double most);
 
 /** Other starts for a search: `count` points spread evenly over the box of the bounds (the
-    sequence of the generalised golden ratio), each moved toward `start` as far as the limits
-    ask for. InputError unless `start` is within bounds and limits. */
+    sequence of the generalised golden ratio), each of which `start` goes toward as far as the
+    limits let it, along those that it meets. InputError unless `start` is within bounds and
+   limits. */
 std::vector<Eigen::VectorXd> spread_starts(const DesignProblem &problem,
                                            const Eigen::VectorXd &start, int count);
 
@@ -116,9 +117,9 @@ struct DesignReport
    DesignStatus status = DesignStatus::improved; ///< what is known of x
    std::string message;                          ///< what was found, in one sentence
    Eigen::VectorXd x;                            ///< variables
-   double objective = 0;                         ///< of them
-   double objective_at_start = 0;                ///< of the variables at the start
-   std::vector<MarchTrace> traces;               ///< of each case there
+   double objective = std::nan("");              ///< of them; NaN: not known
+   double objective_at_start = std::nan(""); ///< of the variables at the start; NaN likewise
+   std::vector<MarchTrace> traces;           ///< of each case there
    /// The conditions of optimality (Karush, Kuhn and Tucker), as they hold there, formed anew
    /// from the derivatives. Largest entry of the gradient of the Lagrangian, over the largest
    /// derivative of a response by that variable at the start; product of a multiplier with the
