@@ -98,13 +98,27 @@ ReducedProblem make_problem(miniapp::Study &study, const Chosen &chosen)
    return problem;
 }
 
+/// The point of the history from which on its points count: the first one that --from does not
+/// leave out.
+double first_point(const Chosen &chosen, const LoadHistory &history)
+{
+   const Index points = history.times.size();
+   Index first = std::isnan(chosen.from) ? points - 1 : 0;
+   while (first < points && history.times[first] < chosen.from) { ++first; }
+   const Index needed = chosen.cycles() ? 2 : 1;
+   require(points - first >= needed, "option --from is ", chosen.from, ", must leave ", needed,
+           needed > 1 ? " points" : " point", " of the history at least, which ends at time ",
+           history.times[points - 1]);
+   return history.times[first];
+}
+
 std::vector<DesignCase> make_cases(const Chosen &chosen, const ReducedProblem &problem)
 {
    const double sign = chosen.goal == "damping" ? -1 : 1;
    if (!chosen.file.empty())
    {
       const LoadHistory history = load_history("history", chosen.history, problem);
-      return {{"history", history, sign, chosen.from}};
+      return {{"history", history, sign, first_point(chosen, history)}};
    }
    std::vector<DesignCase> cases;
    for (std::size_t k = 0; k < chosen.loads.size(); ++k)
@@ -168,8 +182,7 @@ Marched march_case(const DesignProblem &problem, const VectorXd &x, const Design
    settings.stop_at_steady_state = false;
    const ReducedProblem with = problem.with(x);
    const MarchTrace trace = trace_march(with, with_variables(problem, of, x), settings);
-   const double end = of.history.times[of.history.times.size() - 1],
-                from = std::isnan(of.from) ? end : of.from;
+   const double end = of.history.times[of.history.times.size() - 1], from = of.from;
    Marched result;
    if (trace.report.time < end)
    {
@@ -181,7 +194,7 @@ Marched march_case(const DesignProblem &problem, const VectorXd &x, const Design
       const ContactState &state = trace.states[trace.at(time)].state;
       const double peak = tractions(with, state.p).maxCoeff();
       if (time == from) { result.lost = -state.dissipation; }
-      if (time < from || peak <= result.peak) { continue; }
+      if (time < from || (result.at_peak.p.size() > 0 && peak <= result.peak)) { continue; }
       result.peak = peak;
       result.at_peak = state;
    }
@@ -202,7 +215,18 @@ double uniform_profile(double x, double P)
    return P / 4 * (part(1 + x) + part(1 - x));
 }
 
-/// The goal along each variable through the optimum: it is to have its least value there.
+/// Whether limits hold, but for round-off.
+bool allowed(const DesignProblem &problem, const VectorXd &x)
+{
+   if (problem.limits.rows() == 0) { return true; }
+   const VectorXd at = problem.limits * x,
+                  digits = 1e-12 * problem.limits.cwiseAbs() * x.cwiseAbs();
+   return (at + digits - problem.least).minCoeff() >= 0 &&
+          (problem.most - at + digits).minCoeff() >= 0;
+}
+
+/// The goal along each variable through the optimum, where limits hold: it is to have its
+/// least value there.
 void draw_lines(miniapp::Study &study, const DesignProblem &problem, const DesignReport &report,
                 const miniapp::DesignVariables &variables, const std::string &goal,
                 const MarchSettings &settings, int steps)
@@ -218,6 +242,7 @@ void draw_lines(miniapp::Study &study, const DesignProblem &problem, const Desig
       {
          VectorXd x = report.x;
          x[j] = problem.low[j] + (problem.high[j] - problem.low[j]) * k / steps;
+         if (!allowed(problem, x)) { continue; }
          VectorXd of(problem.cases.size());
          for (std::size_t c = 0; c < problem.cases.size(); ++c)
          {
@@ -276,7 +301,7 @@ DesignReport search(miniapp::Study &study, const DesignProblem &problem, const V
       }
       const bool better = known && (best.traces.empty() || report.objective < best.objective);
       const bool ends = report.status == DesignStatus::stopped;
-      if (k == 0) { at_start = report.objective_at_start; }
+      if (k == 0 && known) { at_start = report.objective_at_start; }
       if (k == 0 || better) { best = std::move(report); }
       if (ends)
       {
@@ -345,7 +370,8 @@ void design_contact(miniapp::Study &study)
    study.option(&choice.coat, "coat",
                 "Friction is chosen in place of the gap, from the first number to the second.",
                 miniapp::not_negative);
-   study.option(&choice.zones, "zones", "Of --coat, of equal lengths.", at_least(1));
+   study.option(&choice.zones, "zones", "Of --coat, of equal lengths, of each line.",
+                at_least(1));
    study.parse();
    settings.march.stepping = miniapp::stepping(stepping);
    const Chosen usual;
@@ -379,6 +405,8 @@ void design_contact(miniapp::Study &study)
            "option --powers is of --profile crown");
    require(lines == 0 || choice.what() != "gap" || choice.profile != usual_choice.profile,
            "option --lines is not of a free profile, whose variables are many");
+   require(lines == 0 || choice.loads.empty(),
+           "option --lines is not of --choose: the sum of the loads stays, none goes alone");
 
    DesignProblem problem;
    problem.problem = make_problem(study, chosen);
@@ -475,8 +503,11 @@ void design_contact(miniapp::Study &study)
                     after = march_case(problem, report.x, load_case, settings.march);
       study.row(table, {load_case.name, before.peak, after.peak, before.lost, after.lost,
                         before.density, after.density});
-      pressures.add(load_case.name + ", before", x, tractions(flat, before.at_peak.p),
-                    "dashed");
+      if (before.at_peak.p.size() > 0) // where the first start has an equilibrium
+      {
+         pressures.add(load_case.name + ", before", x, tractions(flat, before.at_peak.p),
+                       "dashed");
+      }
       pressures.add(load_case.name + ", after", x, tractions(flat, after.at_peak.p));
       if (energies && before.densities.size() == n && after.densities.size() == n)
       {

@@ -21,10 +21,50 @@ using Eigen::VectorXd;
 namespace
 {
 
+/// Nodes along one line, which has an arc length of its own.
+struct Line
+{
+   Index first, nodes;
+   std::string name; ///< before the names of its variables; empty if there is one line
+   double middle;    ///< its arc length; half of a line has it on its plane or axis of symmetry
+};
+
+std::vector<Line> lines_of(const ReducedProblem &problem)
+{
+   const auto middle_of = [&](Index first, Index nodes, bool from_mirror, bool to_mirror)
+   {
+      const auto s = problem.arc_length.segment(first, nodes);
+      const double start = s.minCoeff(), end = s.maxCoeff();
+      return from_mirror == to_mirror ? 0.5 * (start + end) : from_mirror ? start : end;
+   };
+   std::vector<Line> all;
+   for (const cattaneo::ContactChain &chain : problem.chains)
+   {
+      std::string name;
+      if (problem.chains.size() > 1)
+      {
+         name = "line " + std::to_string(all.size() + 1) + " (" + chain.interface + "), ";
+      }
+      all.push_back(
+         {chain.first, chain.nodes, name,
+          middle_of(chain.first, chain.nodes, chain.mirrored_at(0), chain.mirrored_at(1))});
+   }
+   if (all.empty())
+   {
+      all.push_back({0, problem.nodes(), "", middle_of(0, problem.nodes(), false, false)});
+   }
+   return all;
+}
+
+/// Of each node, from the middle of its line.
 VectorXd from_the_middle(const ReducedProblem &problem)
 {
-   const VectorXd &s = problem.arc_length;
-   return s.array() - 0.5 * (s.minCoeff() + s.maxCoeff());
+   VectorXd x = problem.arc_length;
+   for (const Line &line : lines_of(problem))
+   {
+      x.segment(line.first, line.nodes).array() -= line.middle;
+   }
+   return x;
 }
 
 /// Bodies that nothing keeps from moving apart, all nodes alike: only differences of gaps
@@ -104,69 +144,89 @@ DesignVariables choose_loads(DesignProblem &design, const DesignChoice &choice)
    return result;
 }
 
-/// Friction of zones of equal lengths, which begins as the problem has it.
+/// Friction of zones of equal lengths of each line, which begins as the problem has it.
 DesignVariables choose_coat(DesignProblem &design, const DesignChoice &choice)
 {
    const ReducedProblem &problem = design.problem;
-   require(choice.coat.size() == 2 && choice.coat[0] < choice.coat[1], "option --coat has ",
-           choice.coat.size(), " numbers, must be the least friction and the most");
-   const double first = problem.arc_length.minCoeff(),
-                length = problem.arc_length.maxCoeff() - first;
-   DesignVariables result{{}, VectorXd::Zero(choice.zones), VectorXd::Zero(choice.zones)};
-   bound(design, choice.zones, 0, 0);
-   for (int j = 0; j < choice.zones; ++j)
+   require(choice.coat.size() == 2, "option --coat has ", choice.coat.size(),
+           " numbers, must be the least friction and the most");
+   require(choice.coat[0] < choice.coat[1], "option --coat is from ", choice.coat[0], " to ",
+           choice.coat[1], ", must be the least friction and the most, which is above it");
+   const std::vector<Line> lines = lines_of(problem);
+   const auto zones = static_cast<Index>(choice.zones),
+              count = zones * static_cast<Index>(lines.size());
+   DesignVariables result{{}, VectorXd::Zero(count), VectorXd::Zero(count)};
+   bound(design, count, 0, 0);
+   for (Index v = 0; v < count; ++v)
    {
-      const double from = first + length * j / choice.zones,
-                   to = first + length * (j + 1) / choice.zones;
+      const Line &line = lines[v / zones];
+      const Index j = v % zones;
+      const auto s = problem.arc_length.segment(line.first, line.nodes);
+      const double first = s.minCoeff(), length = s.maxCoeff() - first;
+      const double from = first + length * j / zones, to = first + length * (j + 1) / zones;
       Parameters change;
       change.friction = VectorXd::Zero(problem.nodes());
       double least = INFINITY, most = -INFINITY;
-      for (Index i = 0; i < problem.nodes(); ++i)
+      for (Index i = line.first; i < line.first + line.nodes; ++i)
       {
-         const int zone =
+         const Index zone =
             length > 0
-               ? std::min(choice.zones - 1, static_cast<int>((problem.arc_length[i] - first) /
-                                                             length * choice.zones))
+               ? std::min(zones - 1,
+                          static_cast<Index>((problem.arc_length[i] - first) / length * zones))
                : 0;
          if (zone != j) { continue; }
          change.friction[i] = 1;
          least = std::min(least, problem.friction[i]);
          most = std::max(most, problem.friction[i]);
       }
-      const std::string name = "f from " + text("%.4g to %.4g", from, to);
-      require(least <= most, "option --zones is ", choice.zones, ": no node lies from ", from,
-              " to ", to);
+      const std::string place = line.name + text("f from %.4g to %.4g", from, to);
+      require(least <= most, "option --zones is ", zones, ": no node lies in ", place);
       require(least >= choice.coat[0] && most <= choice.coat[1], "option --coat is from ",
               choice.coat[0], " to ", choice.coat[1], ", friction is from ", least, " to ",
-              most, " from ", from, " to ", to, ": the design starts there");
-      require(least == most, "option --zones is ", choice.zones, ": friction is from ", least,
-              " to ", most, " from ", from, " to ", to, ", must be one number there");
-      design.low[j] = choice.coat[0] - least;
-      design.high[j] = choice.coat[1] - least;
-      result.before[j] = least;
-      result.names.push_back(name);
+              most, " in ", place, ": the design starts there");
+      require(least == most, "option --zones is ", zones, ": friction is from ", least, " to ",
+              most, " in ", place, ", must be one number there");
+      design.low[v] = choice.coat[0] - least;
+      design.high[v] = choice.coat[1] - least;
+      result.before[v] = least;
+      result.names.push_back(place);
       design.variables.push_back(std::move(change));
    }
    return result;
 }
 
-/// Flat over |x| < b, a parabola (|x| - b)²/2R beyond: b and 1/R are chosen.
+/// Flat over |x| < b of each line, a parabola (|x| - b)²/2R beyond: b and 1/R are chosen.
 DesignVariables choose_rounded(DesignProblem &design, const DesignChoice &choice)
 {
    const VectorXd x = from_the_middle(design.problem);
-   const double half = x.maxCoeff();
-   design.variables.resize(2);
-   bound(design, 2, 0, choice.most);
-   design.high[0] = half;
-   design.shape = [x](const VectorXd &values, MatrixXd &by)
+   const std::vector<Line> lines = lines_of(design.problem);
+   const auto count = 2 * static_cast<Index>(lines.size());
+   design.variables.resize(count);
+   bound(design, count, 0, choice.most);
+   DesignVariables result{{}, VectorXd::Zero(count), VectorXd::Zero(count)};
+   for (Index k = 0; k < count; k += 2)
    {
-      const Eigen::ArrayXd beyond = (x.array().abs() - values[0]).max(0.0);
-      by.col(0) = -values[1] * beyond;
-      by.col(1) = 0.5 * beyond.square();
-      return VectorXd(values[1] * by.col(1));
+      const Line &line = lines[k / 2];
+      design.high[k] = x.segment(line.first, line.nodes).cwiseAbs().maxCoeff();
+      result.start[k] = design.high[k] / 2;
+      result.names.push_back(line.name + "flat half-width");
+      result.names.push_back(line.name + "1/R");
+   }
+   design.shape = [x, lines](const VectorXd &values, MatrixXd &by)
+   {
+      VectorXd gap = VectorXd::Zero(x.size());
+      for (Index k = 0; k < values.size(); k += 2)
+      {
+         const Line &line = lines[k / 2];
+         const Eigen::ArrayXd beyond =
+            (x.segment(line.first, line.nodes).array().abs() - values[k]).max(0.0);
+         by.col(k).segment(line.first, line.nodes) = -values[k + 1] * beyond;
+         by.col(k + 1).segment(line.first, line.nodes) = 0.5 * beyond.square();
+         gap += values[k + 1] * by.col(k + 1);
+      }
+      return gap;
    };
-   const Eigen::Vector2d start(half / 2, 0);
-   return {{"flat half-width", "1/R"}, start, VectorXd::Zero(2)};
+   return result;
 }
 
 /// The gap of nodes, or a sum of powers.
@@ -186,6 +246,7 @@ DesignVariables choose_gap(DesignProblem &design, const DesignChoice &choice)
    const bool apart = moves_apart(given);
    DesignVariables result;
    MatrixXd G = MatrixXd::Identity(n, n);
+   std::vector<bool> odd; // powers of a crown
    if (free && apart)
    {
       const Index node = touching_node(x, given.gap);
@@ -194,15 +255,23 @@ DesignVariables choose_gap(DesignProblem &design, const DesignChoice &choice)
    }
    if (!free)
    {
-      G.resize(n, static_cast<Index>(choice.powers.size()));
+      const std::vector<Line> lines = lines_of(given);
+      const std::size_t powers = choice.powers.size();
+      require(powers > 0, "option --powers is empty, must be whole numbers");
+      G = MatrixXd::Zero(n, static_cast<Index>(powers * lines.size()));
       for (Index j = 0; j < G.cols(); ++j)
       {
-         const double power = choice.powers[j];
+         const Line &line = lines[j / powers];
+         const double power = choice.powers[j % powers];
          require(power == std::floor(power) &&
                     std::count(choice.powers.begin(), choice.powers.end(), power) == 1,
                  "option --powers has ", power, ", must be whole numbers, each once");
-         G.col(j) = (x / x.cwiseAbs().maxCoeff()).array().pow(static_cast<int>(power));
-         result.names.push_back("of power " + text("%g", power));
+         const Eigen::ArrayXd own = x.segment(line.first, line.nodes).array();
+         const double half = own.abs().maxCoeff();
+         G.col(j).segment(line.first, line.nodes) =
+            (own / (half > 0 ? half : 1.0)).pow(static_cast<int>(power));
+         odd.push_back(static_cast<int>(power) % 2 == 1);
+         result.names.push_back(line.name + "of power " + text("%g", power));
       }
    }
    design.variables = cattaneo::gap_variables(G);
@@ -212,8 +281,8 @@ DesignVariables choose_gap(DesignProblem &design, const DesignChoice &choice)
    // An odd power leans to one side or to the other.
    for (Index j = 0; j < G.cols(); ++j)
    {
-      const bool odd = !free && static_cast<int>(choice.powers[j]) % 2 == 1;
-      if (odd || (apart && !choice.begins_flat)) { design.low[j] = -choice.most; }
+      const bool leans = !free && odd[j];
+      if (leans || (apart && !choice.begins_flat)) { design.low[j] = -choice.most; }
    }
    if (!std::isnan(choice.curvature))
    {

@@ -11,7 +11,7 @@ namespace miniapp
 /// What a design may choose, one of the three: the gap, loads, or friction in zones.
 struct DesignChoice
 {
-   /// Of the gap: "free" at each node; "crown", powers of the distance from the middle of the
+   /// Of the gap: "free" at each node; "crown", powers of the distance from the middle of each
    /// line; "rounded", flat in the middle and a parabola on either side.
    std::string profile = "free";
    std::vector<double> powers = {2, 4}; ///< of the crown, whole numbers from 1
@@ -21,7 +21,7 @@ struct DesignChoice
    bool begins_flat = true;  ///< a gap is taken off nowhere, it is only crowned
    std::string loads;        ///< patterns whose sum stays, by names with semicolons between
    std::vector<double> coat; ///< least and most friction
-   int zones = 4;            ///< of friction, of equal lengths
+   int zones = 4;            ///< of friction, of equal lengths, of each line
 
    /// What is chosen: "gap", "loads" or "coat".
    std::string what() const
@@ -39,8 +39,9 @@ struct DesignVariables
    Eigen::VectorXd before;
 };
 
-/** Sets variables, bounds and limits of the design, whose problem and cases are known. Lines
-   are measured from their middle. InputError naming the option. */
+/** Sets variables, bounds and limits of the design, whose problem and cases are known. Each
+   line of contact has variables of its own, measured from its middle, which of a half lies on
+   its plane or axis of symmetry. InputError naming the option. */
 DesignVariables choose_variables(cattaneo::DesignProblem &design, const DesignChoice &choice);
 
 } // namespace miniapp

@@ -6,6 +6,7 @@
 
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/whole_file.hpp>
+#include <cattaneo/words.hpp>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
@@ -19,11 +20,6 @@ using Eigen::VectorXd;
 
 namespace
 {
-
-std::string quoted(const std::string &text)
-{
-   return text.find_first_of(",\"") == std::string::npos ? text : '"' + text + '"';
-}
 
 /// For the shell.
 std::string argument(const std::string &text)
@@ -62,7 +58,7 @@ Panel::Panel(Kind kind, const std::string &name, const std::string &title,
 void Panel::row(const std::vector<std::string> &words, const std::vector<double> &numbers)
 {
    std::vector<std::string> cells;
-   for (const std::string &word : words) { cells.push_back(quoted(word)); }
+   for (const std::string &word : words) { cells.push_back(csv_field(word)); }
    for (double x : numbers) { cells.push_back(std::isfinite(x) ? text("%.9g", x) : ""); }
    for (std::size_t k = 0; k < cells.size(); ++k) { rows_ += (k ? "," : "") + cells[k]; }
    rows_ += '\n';

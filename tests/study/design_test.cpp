@@ -251,4 +251,188 @@ TEST(DesignStudy, FlatAndRadiusFromSeveralStarts)
       << flat.output;
 }
 
+// From which point on a history counts is said by its time, and what lies between two points is
+// the same as from the later one; before it begins, all of it.
+TEST(DesignStudy, CountsFromAPointOfTheHistoryOn)
+{
+   const std::string hertz = "--reduced problems/hertz.json --profile crown --most 0.001 "
+                             "--history 'P=0; P=1; Q=.24; Q=-.24; Q=.24' ";
+   for (const std::string goal : {"loss", "energy"})
+   {
+      const char *column = goal == "loss" ? "lost" : "density";
+      const auto run = run_miniapp("design", hertz + "--goal " + goal + " --from 2.5"),
+                 point = run_miniapp("design", hertz + "--goal " + goal + " --from 3");
+      ASSERT_EQ(run.code, 0) << run.output;
+      EXPECT_EQ(run.results["objective"], point.results["objective"]);
+      for (const auto &[when, result] :
+           {std::pair<const char *, const char *>{"_before", "objective_at_start"},
+            {"_after", "objective"}})
+      {
+         const double printed = run.results["cases"][0][std::string(column) + when],
+                      asked = run.results[result];
+         EXPECT_NEAR(printed, asked, 1e-9 * asked) << goal << when;
+      }
+   }
+   const auto all = run_miniapp("design", hertz + "--goal pressure --from 0"),
+              before = run_miniapp("design", hertz + "--goal pressure --from -3");
+   ASSERT_EQ(before.code, 0) << before.output;
+   EXPECT_EQ(before.results["objective"], all.results["objective"]);
+   const auto none = run_miniapp("design", hertz + "--goal loss --from 4");
+   EXPECT_EQ(none.code, 1) << none.output;
+   EXPECT_NE(none.output.find("must leave 2 points"), std::string::npos) << none.output;
+}
+
+// Points of a sweep that limits do not allow are no better designs; loads whose sum stays are
+// not swept one by one.
+TEST(DesignStudy, SweepsWhereLimitsHold)
+{
+   const auto run =
+      run_miniapp("design", "--profile crown --curvature 0.3 --nodes 33 --lines 8");
+   ASSERT_EQ(run.code, 0) << run.output;
+   // Of all crowns α x² + β x⁴ of the curvature 2α + 12 β x² up to 0.3, the flatter presses
+   // more at the ends: α is 0.15.
+   EXPECT_NEAR(run.results["variables"][0], 0.15, 1e-6);
+   EXPECT_LE(run.results["best_of_lines"], 1e-6);
+   const auto sum = run_miniapp("design", "--case problems/bolt_row.case.json --lines 8");
+   EXPECT_EQ(sum.code, 1) << sum.output;
+   EXPECT_NE(sum.output.find("--lines is not of --choose"), std::string::npos) << sum.output;
+}
+
+// Friction of 0.4 does not hold Q = 0.5 P, friction of another start does: it is found, and
+// nothing is said of a start that has no equilibrium.
+TEST(DesignStudy, FirstStartWithoutEquilibrium)
+{
+   const auto run = run_miniapp(
+      "design",
+      "--reduced problems/hertz.json --history 'P=0; P=1; Q=.5; Q=-.5; Q=.5' --from 2 "
+      "--goal loss --coat '0.3 0.8' --starts 3 --lines 2");
+   ASSERT_EQ(run.code, 0) << run.output;
+   EXPECT_EQ(run.results["starts"][0]["design"], "no equilibrium");
+   EXPECT_TRUE(run.results["starts"][0]["objective"].is_null());
+   EXPECT_TRUE(run.results["objective_at_start"].is_null());
+   EXPECT_TRUE(run.results["cases"][0]["lost_before"].is_null());
+   EXPECT_EQ(run.results["cases"][0]["lost_after"], run.results["objective"]);
+}
+
+/// A problem twice, side by side: both are loaded alike and know nothing of each other. Where
+/// the arc length of the second begins is arbitrary.
+cattaneo::ReducedProblem twice(const cattaneo::ReducedProblem &one)
+{
+   using Eigen::Index;
+   using Eigen::MatrixXd;
+   using Eigen::VectorXd;
+   const Index n = one.nodes();
+   cattaneo::ReducedProblem two = one;
+   std::vector<Index> rows[2];
+   for (const Index k : {0, 1})
+   {
+      for (Index i = 0; i < 2 * n; ++i)
+      {
+         rows[k].push_back(i < n ? i + k * n : i + n + k * n);
+      }
+   }
+   two.K = MatrixXd::Zero(4 * n, 4 * n);
+   const Index motions = one.rigid_motions.cols();
+   two.rigid_motions = MatrixXd::Zero(4 * n, 2 * motions);
+   for (const Index k : {0, 1})
+   {
+      two.K(rows[k], rows[k]) = one.K;
+      two.rigid_motions(rows[k], Eigen::seqN(k * motions, motions)) = one.rigid_motions;
+   }
+   const auto join = [](const VectorXd &first, const VectorXd &second)
+   {
+      VectorXd all(first.size() + second.size());
+      all << first, second;
+      return all;
+   };
+   for (auto &pattern : two.patterns)
+   {
+      pattern.q = join(pattern.q, pattern.q);
+      pattern.p = join(pattern.p, pattern.p);
+   }
+   two.H = 2 * one.H;
+   two.gap = join(one.gap, one.gap);
+   two.friction = join(one.friction, one.friction);
+   two.weights = join(one.weights, one.weights);
+   two.arc_length = join(one.arc_length, one.arc_length.array() + 100);
+   two.position = one.position.replicate(2, 1);
+   two.dofs = one.dofs.replicate(2, 1);
+   two.chains.push_back(one.chains[0]);
+   two.chains[1].first = n;
+   two.chains[1].interface = "\"other\"";
+   return two;
+}
+
+// Two contacts side by side, each with a line of its own: each has its own zones, flat and
+// crown, which are those that it has alone.
+TEST(DesignStudy, EachLineHasVariablesOfItsOwn)
+{
+   using namespace cattaneo;
+   const std::string file = testing::TempDir() + "two_lines_to_design.json",
+                     history = " --history 'P=0; P=1; Q=.24; Q=-.24; Q=.24' --from 2 ";
+   save(twice(load_reduced_problem(CATTANEO_SOURCE_DIR "/problems/hertz.json")), file);
+   for (const std::string choice : {"--goal energy --coat '0.3 0.6' --zones 3",
+                                    "--profile crown --powers '2 4' --most 0.01",
+                                    "--goal energy --profile rounded --most 0.01"})
+   {
+      const auto one =
+                    run_miniapp("design", "--reduced problems/hertz.json" + history + choice),
+                 two = run_miniapp("design", "--reduced '" + file + "'" + history + choice);
+      ASSERT_EQ(one.code, 0) << one.output;
+      ASSERT_EQ(two.code, 0) << two.output;
+      const double objective = one.results["objective"];
+      EXPECT_NEAR(two.results["objective_at_start"], one.results["objective_at_start"],
+                  1e-9 * objective);
+      EXPECT_NEAR(two.results["objective"], objective, 1e-3 * objective) << two.output;
+      const std::size_t count = one.results["variables"].size();
+      ASSERT_EQ(two.results["variables"].size(), 2 * count) << two.output;
+      const std::string name = two.results["chosen"][count]["variable"];
+      EXPECT_EQ(name.find("line 2 (\"other\"), "), 0u) << name;
+   }
+   // Names with commas and quotes are one field of a table, and of the lines of a figure.
+   const std::string prefix = testing::TempDir() + "two_lines";
+   const auto run =
+      run_miniapp("design", "--reduced '" + file +
+                               "' --history 'P=0; P=1' --profile crown --powers 2 "
+                               "--most 0.001 --lines 1 --csv '" +
+                               prefix + "'");
+   ASSERT_EQ(run.code, 0) << run.output;
+   for (const char *table : {"_chosen.csv", "_lines.csv"})
+   {
+      std::ifstream in(prefix + table);
+      const std::string text{std::istreambuf_iterator<char>(in), {}};
+      EXPECT_NE(text.find("\n\"line 2 (\"\"other\"\"), of power 2\","), std::string::npos)
+         << table << '\n'
+         << text;
+   }
+}
+
+// Half of a contact has its middle on the plane of symmetry: of a crown x² it is the end that
+// stays, whichever that is.
+TEST(DesignStudy, MiddleOfHalfALine)
+{
+   using namespace cattaneo;
+   ReducedProblem problem = load_reduced_problem(CATTANEO_SOURCE_DIR "/problems/hertz.json");
+   problem.gap.setZero();
+   const std::string file = testing::TempDir() + "half_a_line.json";
+   const Eigen::Index last = problem.nodes() - 1;
+   for (const std::size_t end : {0, 1})
+   {
+      ContactChain &chain = problem.chains[0];
+      chain.ends = chain.other_ends = {LineEnd::smooth, LineEnd::smooth};
+      chain.ends[end] = chain.other_ends[end] = LineEnd::symmetry;
+      save(problem, file);
+      for (const std::string profile :
+           {"--profile crown --powers 2 --most 0.001", "--profile rounded --most 1e-4"})
+      {
+         const auto run =
+            run_miniapp("design", "--reduced '" + file + "' --history 'P=0; P=1' " + profile);
+         ASSERT_EQ(run.code, 0) << run.output;
+         const std::vector<double> chosen = run.results["gap"];
+         EXPECT_EQ(chosen[end == 0 ? 0 : last], 0) << profile;
+         EXPECT_GT(chosen[end == 0 ? last : 0], 1e-5) << profile;
+      }
+   }
+}
+
 } // namespace
