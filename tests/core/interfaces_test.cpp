@@ -703,6 +703,45 @@ TEST_F(Interfaces, HaveTheNodesOfTheCoarserSideUnlessTheOtherIsNamed)
    EXPECT_EQ(slave(SlaveSide::second), 1);
 }
 
+/// A plate of one element on three blocks, of which the middle one lies between its nodes: only
+/// that block's side can have the nodes, and has them where none is named. A place that is
+/// named twice is refused all the same.
+TEST_F(Interfaces, HaveTheNodesOfTheSideThatCan)
+{
+   Truss plate({side({0, 0}, {3, 0}, 3)}, {1.5, 1}), left({side({1, 0}, {0, 0}, 2)}, {0.5, -1}),
+      middle({side({1.8, 0}, {1.2, 0}, 3)}, {1.5, -1}),
+      right({side({3, 0}, {2, 0}, 2)}, {2.5, -1});
+   for (Truss *block : {&left, &middle, &right}) { block->hold(); }
+   plate.load("P");
+   const std::vector<Truss> bodies{plate, left, middle, right};
+   const std::vector<CondensedBody> condensed{plate.condensed("plate"), left.condensed("left"),
+                                              middle.condensed("middle"),
+                                              right.condensed("right")};
+   const auto on = [&](int block, SlaveSide slave)
+   {
+      Interface made = between(0, plate.lines[0], block, bodies[block].lines[0], slave);
+      made.name = condensed[block].name;
+      return made;
+   };
+   using Sides = std::vector<Interface>;
+   expect_input_error(
+      [&]
+      {
+         reduce(condensed, Sides{on(1, SlaveSide::first), on(3, SlaveSide::first),
+                                 on(2, SlaveSide::first)});
+      },
+      "interface 'middle' of body 'plate' and body 'middle': ");
+   Sides faces{on(1, SlaveSide::first), on(3, SlaveSide::first), on(2, SlaveSide::coarser)};
+   Reduction reduction = reduce(condensed, faces);
+   EXPECT_EQ(reduction.interfaces[2].bodies, (std::array<int, 2>{2, 0}));
+   EXPECT_TRUE(reduction.interfaces[2].of_second);
+   EXPECT_EQ(reduction.interfaces[2].nodes, 4);
+   faces[2].slave = SlaveSide::second;
+   agrees_with_multipliers(bodies, reduction, faces);
+   faces.push_back(on(2, SlaveSide::finer));
+   expect_input_error([&] { reduce(condensed, faces); }, "body 'middle' there carry rows of");
+}
+
 /// A side that is longer than the other: what nothing faces is counted.
 TEST_F(Interfaces, CountTheFreeSurface)
 {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cattaneo/algebra/dense_algebra.hpp>
+#include <cattaneo/algebra/dense_cholesky.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/bodies_union.hpp>
 #include <cattaneo/reduced/interfaces.hpp>
@@ -8,7 +9,6 @@
 #include <map>
 #include <numeric>
 #include <set>
-#include <sstream>
 
 namespace cattaneo
 {
@@ -23,6 +23,8 @@ namespace
 
 /// A node of a body's trace, over all bodies.
 using NodeOfBody = std::pair<int, int>;
+/// Those that are slaves, with the nodes that they depend on.
+using Slaves = std::map<NodeOfBody, std::vector<NodeOfBody>>;
 
 /// A side with the nodes of the condensed body that its own are.
 struct Side
@@ -60,9 +62,9 @@ class Facing
 public:
    Facing(const Interface &given, const std::vector<CondensedBody> &bodies);
 
-   /// Adds its rows; `taken` are slaves already, with the nodes that they depend on.
-   void add_rows(std::vector<ContactRow> &rows,
-                 std::map<NodeOfBody, std::vector<NodeOfBody>> &taken);
+   /// Adds its rows. If the side that should have the nodes cannot, and none is named, the
+   /// other one has them.
+   void add_rows(std::vector<ContactRow> &rows, Slaves &taken);
    InterfaceReport report() const;
    /// Of an interface that is not tied, whose nodes begin at `first`.
    /// `all` are all interfaces.
@@ -80,9 +82,10 @@ private:
    void face_all(const std::vector<int> &without);
    void pair_nodes(const std::vector<int> &without);
    void meet(const std::vector<int> &without);
+   /// Nothing if it throws.
+   void add_slave(std::vector<ContactRow> &rows, Slaves &taken, bool in_rings);
    ContactRow row(Index i) const;
-   std::string refusal(const ContactRow &row, Index i) const;
-   bool may_swap() const;
+   void check_row(const ContactRow &row, Index i) const;
    LineEnd other_end(Index i, bool last) const;
 
    const Interface &given_;
@@ -90,7 +93,6 @@ private:
    std::string what_;
    Side slave_, master_;
    bool of_second_ = false;
-   std::string refused_; ///< why the other side was not the slave
    Mortar mortar_;
    std::vector<bool> slides_;
    std::vector<int> without_row_; ///< nodes of the slave
@@ -302,31 +304,16 @@ ContactRow Facing::row(Index i) const
    return made;
 }
 
-/// Is it free which side is the slave, and was the other one not it yet?
-bool Facing::may_swap() const
-{
-   return refused_.empty() && master_.body >= 0 && !given_.pairing &&
-          (given_.slave == SlaveSide::coarser || given_.slave == SlaveSide::finer);
-}
-
-/// Why a contact node cannot be one, or nothing.
-std::string Facing::refusal(const ContactRow &row, Index i) const
+void Facing::check_row(const ContactRow &row, Index i) const
 {
    const Vector2d &place = slave_.line.nodes[mortar_.nodes[i]].position;
-   const std::string other =
-      std::string("the slave (slave: ") + (of_second_ ? "first" : "second") + ")";
-   std::ostringstream text;
-   text << what_ << ": the contact node at " << as_text(place) << " is fixed ";
-   if (holds(bodies_[row.body], row.node, 1))
-   {
-      text << "normal to the line, it must be able to open: the contact line must end before "
-              "it, or the other side be "
-           << other;
-      return text.str();
-   }
-   if (row.slides || master_.body < 0) { return ""; }
+   require(!holds(bodies_[row.body], row.node, 1), what_, ": the contact node at ", place,
+           " is fixed normal to the line, it must be able to open: the contact line must end "
+           "before it, or the other side be the slave (slave: ",
+           of_second_ ? "first" : "second", ")");
+   if (row.slides || master_.body < 0) { return; }
    // What faces it most, if it is at the same place along the line.
-   const CondensedBody &facing = bodies_[master_.body];
+   const CondensedBody &other = bodies_[master_.body];
    const LineNode *nearest = nullptr;
    int number = 0;
    for (std::size_t m = 0; m < master_.nodes.size(); ++m)
@@ -340,14 +327,37 @@ std::string Facing::refusal(const ContactRow &row, Index i) const
          number = master_.nodes[m];
       }
    }
-   if (nearest && holds(facing, number, 0)) { return ""; }
-   text << "along the line, and what it faces is not: the other side must be " << other
-        << ", or be fixed there as well";
-   return text.str();
+   require(nearest && holds(other, number, 0), what_, ": the contact node at ", place,
+           " is fixed along the line, and what it faces is not: the other side must be the "
+           "slave (slave: ",
+           of_second_ ? "first" : "second", "), or be fixed there as well");
 }
 
-void Facing::add_rows(std::vector<ContactRow> &rows,
-                      std::map<NodeOfBody, std::vector<NodeOfBody>> &taken)
+void Facing::add_rows(std::vector<ContactRow> &rows, Slaves &taken)
+{
+   try
+   {
+      add_slave(rows, taken, true);
+   }
+   catch (const InputError &refused)
+   {
+      const bool free = given_.slave == SlaveSide::coarser || given_.slave == SlaveSide::finer;
+      if (!free || master_.body < 0 || given_.pairing) { throw; }
+      std::swap(slave_, master_);
+      of_second_ = !of_second_;
+      try
+      {
+         // Rings would be of a place that is named twice, the other way round.
+         add_slave(rows, taken, false);
+      }
+      catch (const InputError &)
+      {
+         throw refused; // which is of the side that should be it
+      }
+   }
+}
+
+void Facing::add_slave(std::vector<ContactRow> &rows, Slaves &taken, bool in_rings)
 {
    const auto place = [this](int node) { return NodeOfBody(slave_.body, slave_.nodes[node]); };
    without_row_ = clamped_ends(bodies_[slave_.body], slave_.line, slave_.nodes);
@@ -363,8 +373,10 @@ void Facing::add_rows(std::vector<ContactRow> &rows,
    {
       require(without_row_.size() < slave_.nodes.size(), what_, ": all nodes of ",
               called(bodies_, slave_.body),
-              " there carry rows of interfaces before it, or would close a ring of them: name "
-              "each place where two sides meet once");
+              " there carry rows of interfaces before it, or would close a ring of them: "
+              "each place where two sides meet must be named once, or the other side be the "
+              "slave (slave: ",
+              of_second_ ? "first" : "second", ")");
       meet(without_row_);
       auto slaves = taken;
       const std::size_t before = without_row_.size();
@@ -398,24 +410,12 @@ void Facing::add_rows(std::vector<ContactRow> &rows,
             on_itself = std::count(found->second.begin(), found->second.end(), slave) > 0;
             open.insert(open.end(), found->second.begin(), found->second.end());
          }
+         require(!on_itself || tip || in_rings, what_, ": its rows would close a ring");
          if (on_itself) { without_row_.push_back(mortar_.nodes[i]); }
          else { slaves[slave] = on; }
       }
       if (without_row_.size() > before) { continue; }
-      std::string refused;
-      for (Index i = 0; i < static_cast<Index>(own.size()) && refused.empty(); ++i)
-      {
-         refused = refusal(own[i], i);
-      }
-      if (!refused.empty() && may_swap())
-      {
-         refused_ = refused;
-         std::swap(slave_, master_);
-         of_second_ = !of_second_;
-         add_rows(rows, taken);
-         return;
-      }
-      require(refused.empty(), refused_.empty() ? refused : refused_);
+      for (Index i = 0; i < static_cast<Index>(own.size()); ++i) { check_row(own[i], i); }
       taken = std::move(slaves);
       slides_.clear();
       for (ContactRow &made : own)
@@ -643,7 +643,7 @@ std::vector<ContactRow> rows_of(const std::vector<Interface> &interfaces,
               "reduce: the bodies must be all plane or all axisymmetric");
    }
    std::vector<ContactRow> rows;
-   std::map<NodeOfBody, std::vector<NodeOfBody>> taken;
+   Slaves taken;
    std::set<int> touched;
    for (const Interface &interface : interfaces)
    {
@@ -803,10 +803,12 @@ double chordal_error(const Reduction &reduction, const VectorXd &p)
    // Open nodes move freely meanwhile.
    const MatrixXd C = problem.C();
    VectorXd force = C(bear, bear) * off(bear);
-   const Eigen::LDLT<MatrixXd> follows(C(open, open));
-   if (!open.empty() && follows.info() == Eigen::Success && follows.isPositive())
+   DenseCholesky follows;
+   if (!open.empty() && follows.compute(C(open, open)))
    {
-      force -= C(bear, open) * follows.solve(C(open, bear) * off(bear));
+      VectorXd moved = C(open, bear) * off(bear);
+      follows.solve(moved);
+      force -= C(bear, open) * moved;
    }
    const VectorXd weights = problem.weights(bear);
    return force.cwiseQuotient(weights).cwiseAbs().maxCoeff() /

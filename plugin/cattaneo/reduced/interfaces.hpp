@@ -18,8 +18,8 @@ struct InterfaceSide
    in the (geometric) mean; the first side is taken if they are as near. The coarser one is the
     choice that is safe: it has no more forces than either body has displacements. A finer slave
     that is stiff, on a coarse soft master, has tractions that swing from node to node
-    (docs/interfaces.md has figures). Where supports hold nodes of the side that is taken, so
-    that it cannot be the slave, the other one is. */
+    (docs/interfaces.md has figures). Where the side that is taken cannot be the slave
+    (supports hold nodes of it, or all carry rows already) the other one is. */
 enum class SlaveSide
 {
    coarser,
