@@ -297,6 +297,7 @@ void contact2d(miniapp::Study &study)
    if (fields) { study.say(text("%d frames in %s", frames, options.paraview.c_str())); }
    for (const auto &side : beyond_corners) { side.warn(); }
    miniapp::warn_of_chords(own.scene.reduction, history.state);
+   miniapp::warn_of_linear_axis(own.scene.reduction, history.state);
    warn_of_large_displacements(own, small, history.state);
    if (history.report.status != FrictionStatus::converged) { warn_of_loose_bodies(own); }
 

@@ -355,6 +355,9 @@ JointCase::Face face(const Key &key, const std::string &name, const JointCase &j
    for (std::size_t k = 0; k < sides.size(); ++k) { made.sides[k] = side(sides[k], joint); }
    require(!joint.bodies[made.sides[0].body].half_plane, between_.called(),
            ": a half-plane must be the second side");
+   require(made.sides[0].body != made.sides[1].body || made.sides[0].part != made.sides[1].part,
+           between_.called(), ": both sides are '", sides[0].text(),
+           "', must be two parts that touch");
    if (key.has("tied")) { made.tied = key["tied"].flag(); }
    if (key.has("obstacle"))
    {

@@ -29,6 +29,10 @@ void warn_of_large_displacements(OwnBodies &own, const cattaneo::SmallDisplaceme
                                  const cattaneo::ContactState &last);
 /// Warns where chords of curved sides make more than a twentieth of the largest traction.
 void warn_of_chords(const cattaneo::Reduction &reduction, const cattaneo::ContactState &last);
+/// Warns where what bears next to the axis are linear elements, whose node on it takes no
+/// force.
+void warn_of_linear_axis(const cattaneo::Reduction &reduction,
+                         const cattaneo::ContactState &last);
 /// Of each interface whether its second side is a straight rigid line, or a half-plane.
 std::vector<bool> even_sides(const JointCase &joint);
 
@@ -52,6 +56,7 @@ private:
    {
       Eigen::Index index = -1;
       double angle = 0; ///< degrees between its normal and the line's; by which a corner turns
+      Eigen::Vector2d place{0, 0}; ///< its own; of the corner
    };
    const cattaneo::InterfaceReport &face_; ///< must outlive it
    bool corners_ = false;

@@ -242,6 +242,25 @@ TEST_F(Joints, AboutAnAxisCarryAUniformPressure)
    for (double p : column("out_nodes.csv", "p")) { EXPECT_NEAR(p, 0.9, 1e-9); }
    EXPECT_NEAR(interface(got, "upper")["normal"], 0.9 * std::acos(-1.0) * 4, 1e-10);
    EXPECT_NEAR(interface(got, "lower")["force_y"], 0.9 * std::acos(-1.0) * 4, 1e-10);
+   EXPECT_TRUE(got.results["warnings"].empty()) << got.output;
+   // Linear elements have some of it on the axis, where no node of the contact is: it is told.
+   keys["order"] = 1;
+   const Result linear = run(keys);
+   ASSERT_EQ(linear.code, 0) << linear.output;
+   EXPECT_NEAR(interface(linear, "lower")["force_y"], 0.9 * std::acos(-1.0) * 4, 1e-10);
+   for (const char *name : {"low", "middle", "high"})
+   {
+      EXPECT_NE(linear.output.find("body " + std::string(name) + " bears with linear elements"),
+                std::string::npos)
+         << linear.output;
+   }
+   // Rings have no axis.
+   block("low.mesh", 1, 2, 8, 0, 1, 2);
+   block("middle.mesh", 1, 2, 5, 1, 2, 2);
+   block("high.mesh", 1, 2, 7, 2, 3, 2);
+   const Result rings = run(keys, "--csv '" + folder + "/out'");
+   EXPECT_TRUE(rings.results["warnings"].empty()) << rings.output;
+   for (double p : column("out_nodes.csv", "p")) { EXPECT_NEAR(p, 0.9, 1e-9); }
 }
 
 /// A pad that is cut in two and tied is the pad.
@@ -446,6 +465,19 @@ TEST_F(Joints, OfCornersAreTold)
    EXPECT_NE(got.output.find("interface 'corner': its side turns by 90 degrees at (0, 0)"),
              std::string::npos)
       << got.output;
+   // Of the side that has no nodes of its own there: all around a block on a wider one.
+   block("wide.mesh", -0.45, 1.7, 7, -1, 0, 2);
+   keys["bodies"] = {{"block", body("block.mesh", "", {"P pressure 3 1"})},
+                     {"wide", body("wide.mesh", "1:xy")}};
+   keys["interfaces"] = {{"around", face("block:4,1,2", "wide:3")}};
+   keys["interfaces"]["around"]["slave"] = "second";
+   const Result around = run(keys);
+   ASSERT_EQ(around.code, 0) << around.output;
+   EXPECT_NE(around.output.find("interface 'around': its side turns by 90 degrees at ("),
+             std::string::npos)
+      << around.output;
+   keys["interfaces"]["around"]["between"] = {"block:1", "wide:3"};
+   EXPECT_EQ(run(keys).output.find("its side turns"), std::string::npos);
 }
 
 /// Rings that are pressed into each other, a quarter of each: Lamé's pressure of an
@@ -1417,6 +1449,11 @@ TEST_F(Joints, RefuseWhatIsWrongInOneSentence)
         "there is no body 'bass', must be one of pad, base");
    says("/interfaces/flat/between", {"pad:1"}, "body base is at no interface");
    says("/interfaces/flat/between", {"pad:1", "base:9"}, "attribute 9");
+   says("/interfaces/flat/between", {"pad:1", "pad:1"}, "both sides are 'pad:1', must be two");
+   says("/interfaces/flat/between", {"pad:2", "base:2"},
+        "outward normals are (1, 0) and (1, 0) in the mean, must be opposite");
+   says("/interfaces/flat/between", {"pad:4", "base:2"},
+        "they lie beside each other, one must lie over the other");
    says("/interfaces/flat/between", {"pad:face", "base:3"}, "'face'");
    says("/interfaces/flat/friction", -0.1, "key 'interfaces.flat.friction' is -0.1");
    says("/interfaces/flat/friction", {{1, 0.1}, {0, 0.2}}, "must increase");

@@ -128,10 +128,11 @@ std::string why_apart(const FacingLines &lines)
                   });
    if (opposed) { return "they lie beside each other, one must lie over the other"; }
    const Vector2d one = towards(lines.first), two = towards(lines.other);
+   // Outwards is to the right. Three decimals, zeros without a sign.
+   const auto rounded = [](double x) { return std::round(1e3 * x) / 1e3 + 0.0; };
    std::ostringstream text;
-   text.precision(3);
-   text << "their outward normals are (" << one[1] << ", " << -one[0] << ") and (" << two[1]
-        << ", " << -two[0]
+   text << "their outward normals are (" << rounded(one[1]) << ", " << rounded(-one[0])
+        << ") and (" << rounded(two[1]) << ", " << rounded(-two[0])
         << ") in the mean, must be opposite: are these the sides that touch?";
    return text.str();
 }
