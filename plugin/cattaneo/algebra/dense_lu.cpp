@@ -47,9 +47,15 @@ void DenseLU::solve(Eigen::Ref<Eigen::MatrixXd> x) const
    const int n = static_cast<int>(rows()), columns = static_cast<int>(x.cols());
    if (n == 0 || columns == 0) { return; }
    if (row_scale_.size()) { x = row_scale_.asDiagonal() * x; }
-   const int stride = columns > 1 ? static_cast<int>(x.outerStride()) : n;
+   // OpenBLAS copies the factors for two columns and more, which pays from a few on.
+   const int stride = columns > 1 ? static_cast<int>(x.outerStride()) : n,
+             together = columns > 8 ? columns : 1;
    int info = 0;
-   dgetrs_("N", &n, &columns, factors_.data(), &n, exchanges_.data(), x.data(), &stride, &info);
+   for (int k = 0; k < columns; k += together)
+   {
+      dgetrs_("N", &n, &together, factors_.data(), &n, exchanges_.data(), x.col(k).data(),
+              &stride, &info);
+   }
    if (column_scale_.size()) { x = column_scale_.asDiagonal() * x; }
 }
 

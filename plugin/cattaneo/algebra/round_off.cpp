@@ -1,4 +1,5 @@
 #include <cattaneo/algebra/round_off.hpp>
+#include <cmath>
 #include <limits>
 
 namespace cattaneo
@@ -30,9 +31,12 @@ VectorXd RoundOff::rows(const VectorXd &size, const VectorXd &f) const
       }
    }
    VectorXd sum = f.cwiseAbs();
-   for (Index j = 0; j < K_.cols(); ++j)
+   for (Index j = 0; j < K_.cols(); ++j) // half of K is read
    {
-      if (size[j] != 0) { sum += size[j] * K_.col(j).cwiseAbs(); }
+      const Index below = K_.rows() - j - 1;
+      const auto column = K_.col(j).tail(below).cwiseAbs();
+      sum[j] += std::abs(K_(j, j)) * size[j] + column.dot(size.tail(below));
+      if (size[j] != 0) { sum.tail(below) += size[j] * column; }
    }
    return 4 * eps * sum;
 }
