@@ -3,11 +3,13 @@
 #include <cattaneo/friction/methods.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
+#include <limits>
 
 namespace cattaneo
 {
 
 using Eigen::Index;
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 void list_changes(const ContactState &from, const std::vector<NodeState> &to,
@@ -52,12 +54,83 @@ void ExactPath::find_choices(const ContactState &state)
    }
 }
 
+/// A body that nothing but its balance keeps from turning about the node where it touches: one
+/// more node is said to touch, and shows by what it bears whether the loads turn the body.
+/// False if that is not so.
+bool ExactPath::hold_pivot(std::vector<NodeState> states)
+{
+   const Index n = problem_.nodes();
+   const MatrixXd free = free_motions(problem_, states);
+   if (free.cols() != 1) { return false; }
+   pivot_ = free.col(0);
+   double farthest = 0;
+   for (Index i = 0; i < n; ++i)
+   {
+      // What slips about would have its say.
+      if (closed(states[i]) && std::abs(pivot_[i]) > 1e-9) { return false; }
+      if (closed(states[i]) || std::abs(pivot_[n + i]) <= farthest) { continue; }
+      farthest = std::abs(pivot_[n + i]);
+      held_ = i;
+   }
+   if (held_ < 0) { return false; }
+   states[held_] = NodeState::forward_slip;
+   rates_.choice[held_] = Choice::sliding;
+   return equations_.set(states);
+}
+
+/// Rates with the node let go that held a pivot, which moves the least that it can, by the
+/// length of the contact. False if it is not balanced.
+bool ExactPath::release_pivot()
+{
+   const Index n = problem_.nodes();
+   rates_.choice[held_] = Choice::open;
+   // The open nodes share what it bears, which balances the loads then.
+   VectorXd share = VectorXd::Zero(2 * n);
+   for (Index i = 0; i < n; ++i)
+   {
+      if (!closed(equations_.states()[i]) || i == held_) { share[n + i] = pivot_[n + i]; }
+   }
+   share *= -F_rate_[n + held_] * pivot_[n + held_] / share.squaredNorm();
+   const double round_off = 1e-13 * rates_.b.cwiseAbs().maxCoeff();
+   if (share.cwiseAbs().maxCoeff() > round_off ||
+       !equations_.solve(rates_.b + share, u_rate_, F_rate_))
+   {
+      failure_ = "the loads turn a body about the node where it touches";
+      return false;
+   }
+   F_rate_[held_] = F_rate_[n + held_] = 0;
+   const VectorXd weighted = node_lengths(problem_).replicate(2, 1).cwiseProduct(pivot_);
+   u_rate_ -= pivot_ * (weighted.dot(u_rate_) / weighted.dot(pivot_));
+   // Nodes that touch without force let it turn one way.
+   double least = -std::numeric_limits<double>::infinity(), most = -least;
+   for (Index i = 0; i < n; ++i)
+   {
+      const double turned = pivot_[n + i];
+      if (rates_.choice[i] != Choice::any || closed(equations_.states()[i]) || turned == 0)
+      {
+         continue;
+      }
+      const double bound = -u_rate_[n + i] / turned;
+      if (turned > 0) { least = std::max(least, bound); }
+      else { most = std::min(most, bound); }
+   }
+   if (least > most)
+   {
+      failure_ = "no rates meet the laws of contact and friction";
+      return false;
+   }
+   u_rate_ += std::clamp(0.0, least, most) * pivot_;
+   return true;
+}
+
 bool ExactPath::find_rates(const ContactState &state, const VectorXd &multipliers)
 {
    const bool same_way = target_.size() == multipliers.size() && target_ == multipliers &&
                          reached_ == state.multipliers && equations_.states() == state.status;
    target_.resize(0);
    std::vector<NodeState> states = state.status;
+   held_ = -1;
+   ended_ = false;
    if (!equations_.set(states))
    {
       // Nodes that touch without force may hold a body that the others do not.
@@ -65,11 +138,12 @@ bool ExactPath::find_rates(const ContactState &state, const VectorXd &multiplier
       {
          if (rates_.choice[i] == Choice::any) { states[i] = NodeState::stick; }
       }
-      if (!equations_.set(states))
+      if (!equations_.set(states) && !hold_pivot(std::move(states)))
       {
          failure_ = "the equations of the present states are singular";
          return false;
       }
+      states = equations_.states();
    }
    ComplementarityReport known;
    if (same_way)
@@ -88,14 +162,25 @@ bool ExactPath::find_rates(const ContactState &state, const VectorXd &multiplier
       found = solve_by_path(equations_, rates_, rest, rest, slack, ++seed);
       counters_.pivots += found.pivots;
    }
-   if (!found.solved)
+   if (!found.solved && held_ < 0)
+   {
+      // Nodes that touch may bear nothing beside one about which a body is balanced.
+      for (std::size_t i = 0; i < states.size(); ++i)
+      {
+         if (rates_.choice[i] == Choice::any) { states[i] = NodeState::separation; }
+      }
+      found.solved =
+         hold_pivot(std::move(states)) && equations_.solve(rates_.b, found.x, found.F);
+   }
+   ended_ = !found.solved;
+   if (ended_)
    {
       failure_ = "no rates meet the laws of contact and friction";
       return false;
    }
    u_rate_ = found.x;
    F_rate_ = found.F;
-   return true;
+   return held_ < 0 || release_pivot();
 }
 
 /// Fraction of the rest of the piece until a node reaches a boundary of its state; 1: none
@@ -177,7 +262,8 @@ bool ExactPath::starts_from(const ContactState &state) const
    // Ten times the leave that an increment of the solver has.
    const double allowed = 1e-11 * std::max(state.peak_force, f.cwiseAbs().maxCoeff());
    const VectorXd round_off = 4 * equations_.round_off(f, u);
-   bool starts = check_laws(problem_, state.v, state, f + K_ * u, allowed, round_off).obeyed;
+   bool starts =
+      check_laws(problem_, state.v, state, f + equations_.forces(u), allowed, round_off).obeyed;
    for (Index i = 0; i < n; ++i)
    {
       const double limit = std::max({allowed, round_off[i], round_off[n + i]}),
@@ -201,19 +287,23 @@ bool ExactPath::advance(ContactState &state, double time, const VectorXd &multip
    u_ = state.displacements();
    F_ = state.forces();
    const VectorXd round_off = equations_.round_off(f, u_);
-   noise_ = round_off.head(n).cwiseMax(round_off.tail(n)).cwiseMax(1e-13 * peak);
+   // Of the present forces: what they grow to later says nothing about gaps of now.
+   const double present = std::max(state.peak_force, f.cwiseAbs().maxCoeff());
+   noise_ = round_off.head(n).cwiseMax(round_off.tail(n));
+   noise_ = noise_.cwiseMax(1e-13 * (present > 0 ? present : peak));
    rates_.b = f_end - f;
    find_choices(state);
    const long factored = equations_.factorisations();
    const bool found = find_rates(state, multipliers);
    counters_.dense_factorisations += equations_.factorisations() - factored;
    if (!found) { return false; }
-   if (free_motions(problem_, equations_.states()).cols() > 0)
+   std::vector<NodeState> states = equations_.states();
+   if (held_ >= 0) { states[held_] = NodeState::separation; }
+   else if (free_motions(problem_, states).cols() > 0)
    {
       failure_ = "a body slips wherever it touches";
       return false;
    }
-   const std::vector<NodeState> &states = equations_.states();
    const std::size_t listed = changes.size();
    list_changes(state, states, changes);
 
@@ -227,6 +317,11 @@ bool ExactPath::advance(ContactState &state, double time, const VectorXd &multip
    }
    const VectorXd step = way * u_rate_;
    u_ += step;
+   // A node closed where its gap was round-off; what that is goes into the forces.
+   for (Index i = 0; i < n; ++i)
+   {
+      if (closed(states[i])) { u_[n + i] = -problem_.gap[i]; }
+   }
    F_ += way * F_rate_;
    u_rate_ *= 1 - way; // the rest of the piece is shorter now
    F_rate_ *= 1 - way;
@@ -236,8 +331,8 @@ bool ExactPath::advance(ContactState &state, double time, const VectorXd &multip
               : VectorXd(state.multipliers + way * (multipliers - state.multipliers));
    // Round-off gathers over events, and where displacements have become small that of large
    // ones stays: the states' own equations remove it.
-   const VectorXd clamped = problem_.clamped_forces(state.multipliers),
-                  forces = clamped + K_ * u_;
+   const VectorXd clamped = problem_.clamped_forces(state.multipliers);
+   const VectorXd forces = clamped + equations_.forces(u_);
    const VectorXd drift = (forces - F_).cwiseAbs() - 0.5 * equations_.round_off(clamped, u_);
    const bool drifted = drift.maxCoeff() > 0;
    VectorXd correction, corrected;
@@ -263,8 +358,7 @@ bool ExactPath::advance(ContactState &state, double time, const VectorXd &multip
    state.p = F_.tail(n);
    for (Index i = 0; i < n; ++i)
    {
-      if (closed(states[i])) { state.w[i] = -problem_.gap[i]; }
-      else { state.q[i] = state.p[i] = 0; }
+      if (!closed(states[i])) { state.q[i] = state.p[i] = 0; }
    }
    return true;
 }

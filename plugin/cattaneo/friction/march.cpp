@@ -66,7 +66,7 @@ public:
 private:
    // A piece is taken up, and the march goes on in it. False: it was stopped.
    bool march_piece();
-   bool march_exactly(double until);
+   bool march_exactly(double until, bool stalled = false);
    bool increment_to(double target, bool exact);
 
    Trial attempt(double time);
@@ -241,6 +241,13 @@ bool March::increment_to(double target, bool exact)
       {
          return march_exactly(target);
       }
+      // Shorter increments would come near to where the path ends, and no further.
+      if (stalled && !exact && !following_ && problem_.components() == 1 && watches_closing())
+      {
+         ++record_.report.stalled;
+         ++record_.report.counters.rejected_increments;
+         return march_exactly(target, true);
+      }
       const bool too_far = !exact && step > smallest && watches_closing() &&
                            advances_too_far(problem_, state_, trial.state);
       if (!stalled && !too_far) { break; }
@@ -272,7 +279,10 @@ double March::first_closing(double target)
    };
    if (solver_.frictionless() || !closes_by(target)) { return target; }
    const double resolution = 1e-7 * piece_.duration();
-   double before = state_.time, after = target;
+   double before = state_.time, after = target, least = target;
+   while (least - before > resolution) { least = 0.5 * (before + least); }
+   // Most often one touches all but at once.
+   if (closes_by(least)) { after = least; }
    while (after - before > resolution)
    {
       const double middle = 0.5 * (before + after);
@@ -307,8 +317,8 @@ bool March::settles()
    return true;
 }
 
-/// From event to event.
-bool March::march_exactly(double until)
+/// From event to event. `stalled`: an increment to there was not found.
+bool March::march_exactly(double until, bool stalled)
 {
    path_end_ = until;
    bool settled = settles();
@@ -352,8 +362,11 @@ bool March::march_exactly(double until)
       if (settled && beyond < until)
       {
          const Trial trial = attempt(beyond);
-         // A stall is no proof: so small a load can be hidden in round-off.
-         if (!trial.solved() && !trial.stalled())
+         // A stall is no proof: so small a load can be hidden in round-off. Where the path ends
+         // and a larger load stalls as well, those between are no other.
+         const bool ends = trial.stalled() && path_->ended() &&
+                           (stalled || attempt(next_grid_time(until)).stalled());
+         if (!trial.solved() && (!trial.stalled() || ends))
          {
             record_.stop(trial.increment);
             return false;

@@ -124,9 +124,9 @@ struct MarchReport
    std::vector<StateChange> changes;
    int fallbacks = 0;           ///< increments taken because there was no exact path to follow
    std::string fallback_reason; ///< of the first of them
-   int stalled = 0;       ///< increments that the solver did not finish, passed by shorter ones
-   int steady_cycle = 0;  ///< first cycle of the steady state; 0: not reached
-   int steady_period = 0; ///< 1 or 2
+   int stalled = 0;             ///< increments that the solver did not finish, passed by others
+   int steady_cycle = 0;        ///< first cycle of the steady state; 0: not reached
+   int steady_period = 0;       ///< 1 or 2
    /// Energy balance of the march: external work - change of elastic energy - dissipation -
    /// normal work, over the largest of them. It measures what the increments miss of the path
    /// (of nodes that begin to slip within one, for instance) and goes to zero with them; on the

@@ -43,10 +43,15 @@ public:
    /// Node that met the boundary of its state where the last advance() ended; -1: none did.
    Eigen::Index event() const { return event_; }
    const std::string &failure() const { return failure_; }
+   /// The last advance() failed since no rates meet the laws, with equations that can be
+   /// solved.
+   bool ended() const { return ended_; }
    const Counters &counters() const { return counters_; }
 
 private:
    void find_choices(const ContactState &state);
+   bool hold_pivot(std::vector<NodeState> states);
+   bool release_pivot();
    bool find_rates(const ContactState &state, const Eigen::VectorXd &multipliers);
    double way_to_event();
 
@@ -59,6 +64,11 @@ private:
    Eigen::VectorXd reached_, target_;
    ComplementarityProblem rates_;
    Eigen::VectorXd noise_; // of each node: forces below this are round-off
+   // A motion that nothing resists and nothing drives, and the node that is said to touch while
+   // rates are found; -1: there is none.
+   Eigen::VectorXd pivot_;
+   Eigen::Index held_ = -1;
+   bool ended_ = false;
    Eigen::Index event_ = -1;
    std::string failure_;
    Counters counters_;

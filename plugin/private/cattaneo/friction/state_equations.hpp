@@ -73,6 +73,9 @@ public:
       return arithmetic_.rows(x.cwiseAbs(), b);
    }
 
+   /// K x
+   Eigen::VectorXd forces(const Eigen::VectorXd &x) const { return times_K_(x); }
+
    long factorisations() const { return factorisations_; }
    /// Unknowns bordered.
    long updates() const { return updates_; }
