@@ -91,15 +91,23 @@ void report_end(miniapp::Study &study, const WearCase &scene, const WornOut &end
       return study.say("   none: " + end.message);
    }
    const ReducedProblem &problem = scene.problem;
-   const VectorXd &s = problem.arc_length;
    const Zone stick = stick_zone(problem, zones(problem, end.unworn, end.range));
+   // Of several lines that on which the widest zone sticks.
+   Index begin = 0, nodes = problem.nodes();
+   for (const ContactChain &chain : problem.chains)
+   {
+      if (stick.first < chain.first || stick.first >= chain.first + chain.nodes) { continue; }
+      begin = chain.first;
+      nodes = chain.nodes;
+   }
+   const VectorXd s = problem.arc_length.segment(begin, nodes),
+                  overlap = end.overlap.segment(begin, nodes);
    study.value("final_stick", 0.5 * (stick.to.position - stick.from.position),
                "half-width that sticks", std::max(stick.from.error, stick.to.error));
-   VectorXd overlap = end.overlap;
-   Index first = problem.nodes() - 1, last = 0;
-   for (Index i = 0; i < problem.nodes(); ++i)
+   Index first = nodes - 1, last = 0;
+   for (Index i = 0; i < nodes; ++i)
    {
-      if (!end.stick[i] && overlap[i] <= 0) { continue; }
+      if (!end.stick[begin + i] && overlap[i] <= 0) { continue; }
       first = std::min(first, i);
       last = std::max(last, i);
    }
@@ -111,12 +119,31 @@ void report_end(miniapp::Study &study, const WearCase &scene, const WornOut &end
    const VectorXd p = tractions(problem, end.contact.p);
    Index centre = 0;
    (s.array() - 0.5 * (stick.from.position + stick.to.position)).abs().minCoeff(&centre);
-   study.value("final_pressure_centre", p[centre], "pressure amid the stick zone");
+   study.value("final_pressure_centre", p[begin + centre], "pressure amid the stick zone");
    study.value("final_loss", end.loss, "loss of a cycle, of the unworn one");
    study.results["final_depths"] =
       std::vector<double>(end.depth.data(), end.depth.data() + end.depth.size());
-   profiles.add("worn out", VectorXd(s.array() - scene.middle), end.depth, "dashed");
-   pressures.add("worn out", VectorXd(s.array() - scene.middle), p, "dashed");
+   const VectorXd x = problem.arc_length.array() - scene.middle;
+   profiles.add("worn out", x, end.depth, "dashed");
+   pressures.add("worn out", x, p, "dashed");
+}
+
+/// Whether slip goes straight from one point of the cycle to the next, where it has one
+/// direction, the normal problem does not know of it and no load presses otherwise: one
+/// increment is exact then.
+bool path_is_straight(const ReducedProblem &problem, const LoadHistory &history)
+{
+   if (problem.coupled || problem.components() > 1) { return false; }
+   const Index n = problem.nodes(), start = history.cycle_start;
+   const auto pressing = [&](Index k) -> VectorXd
+   { return problem.clamped_forces(history.multipliers.col(k)).tail(n); };
+   const VectorXd first = pressing(start);
+   for (Index k = start + 1; k < history.times.size(); ++k)
+   {
+      const double change = (pressing(k) - first).cwiseAbs().maxCoeff();
+      if (change > 1e-8 * first.cwiseAbs().maxCoeff()) { return false; } // round-off of shear
+   }
+   return true;
 }
 
 /// One cycle more in many increments, for the loop of each load that varies.
@@ -158,7 +185,7 @@ void wear_contact(miniapp::Study &study)
    int cycle_start = -1;
    WearSettings settings;
    settings.tolerance = 1e-3;
-   settings.march.increments = 1;
+   settings.march.increments = 0;
    study.option(&pad.profile, "profile",
                 "Pad: parabola, or flat with rounded edges; R = 1 of both, units of the "
                 "parabola's half-width under P = 1.",
@@ -191,7 +218,9 @@ void wear_contact(miniapp::Study &study)
                 "The gap takes in what is worn each cycle or each piece of it.",
                 {"cycle", "piece"});
    study.option(&settings.march.increments, "increments",
-                "Load increments between two points of the history.", miniapp::at_least(1));
+                "Load increments between two points of the history; 0: 1 where slip goes "
+                "straight (the pads; B = 0 and the same normal loads all cycle), else 20.",
+                miniapp::at_least(0));
    study.option(&stepping, "stepping", miniapp::stepping_help, miniapp::stepping_choices);
    study.option(&file, "reduced", "Reduced problem, in place of the pad.",
                 miniapp::Text::input);
@@ -237,6 +266,10 @@ void wear_contact(miniapp::Study &study)
       study.condensed(scene.problem, 0);
    }
    study.results["scene"] = file.empty() ? pad.profile : "reduced";
+   if (settings.march.increments == 0)
+   {
+      settings.march.increments = path_is_straight(scene.problem, scene.history) ? 1 : 20;
+   }
    const ReducedProblem &problem = scene.problem;
    study.save(problem);
    WearLaw law = WearLaw::uniform(problem, coefficient);

@@ -1,4 +1,5 @@
 #include "study/run_miniapp.hpp"
+#include "two_lines.hpp"
 
 #include <cattaneo/friction/history_statements.hpp>
 #include <cattaneo/friction/march.hpp>
@@ -314,55 +315,6 @@ TEST(DesignStudy, FirstStartWithoutEquilibrium)
    EXPECT_EQ(run.results["cases"][0]["lost_after"], run.results["objective"]);
 }
 
-/// A problem twice, side by side: both are loaded alike and know nothing of each other. Where
-/// the arc length of the second begins is arbitrary.
-cattaneo::ReducedProblem twice(const cattaneo::ReducedProblem &one)
-{
-   using Eigen::Index;
-   using Eigen::MatrixXd;
-   using Eigen::VectorXd;
-   const Index n = one.nodes();
-   cattaneo::ReducedProblem two = one;
-   std::vector<Index> rows[2];
-   for (const Index k : {0, 1})
-   {
-      for (Index i = 0; i < 2 * n; ++i)
-      {
-         rows[k].push_back(i < n ? i + k * n : i + n + k * n);
-      }
-   }
-   two.K = MatrixXd::Zero(4 * n, 4 * n);
-   const Index motions = one.rigid_motions.cols();
-   two.rigid_motions = MatrixXd::Zero(4 * n, 2 * motions);
-   for (const Index k : {0, 1})
-   {
-      two.K(rows[k], rows[k]) = one.K;
-      two.rigid_motions(rows[k], Eigen::seqN(k * motions, motions)) = one.rigid_motions;
-   }
-   const auto join = [](const VectorXd &first, const VectorXd &second)
-   {
-      VectorXd all(first.size() + second.size());
-      all << first, second;
-      return all;
-   };
-   for (auto &pattern : two.patterns)
-   {
-      pattern.q = join(pattern.q, pattern.q);
-      pattern.p = join(pattern.p, pattern.p);
-   }
-   two.H = 2 * one.H;
-   two.gap = join(one.gap, one.gap);
-   two.friction = join(one.friction, one.friction);
-   two.weights = join(one.weights, one.weights);
-   two.arc_length = join(one.arc_length, one.arc_length.array() + 100);
-   two.position = one.position.replicate(2, 1);
-   two.dofs = one.dofs.replicate(2, 1);
-   two.chains.push_back(one.chains[0]);
-   two.chains[1].first = n;
-   two.chains[1].interface = "\"other\"";
-   return two;
-}
-
 // Two contacts side by side, each with a line of its own: each has its own zones, flat and
 // crown, which are those that it has alone.
 TEST(DesignStudy, EachLineHasVariablesOfItsOwn)
@@ -370,7 +322,8 @@ TEST(DesignStudy, EachLineHasVariablesOfItsOwn)
    using namespace cattaneo;
    const std::string file = testing::TempDir() + "two_lines_to_design.json",
                      history = " --history 'P=0; P=1; Q=.24; Q=-.24; Q=.24' --from 2 ";
-   save(twice(load_reduced_problem(CATTANEO_SOURCE_DIR "/problems/hertz.json")), file);
+   save(cattaneo_test::twice(load_reduced_problem(CATTANEO_SOURCE_DIR "/problems/hertz.json")),
+        file);
    for (const std::string choice : {"--goal energy --coat '0.3 0.6' --zones 3",
                                     "--profile crown --powers '2 4' --most 0.01",
                                     "--goal energy --profile rounded --most 0.01"})

@@ -1,5 +1,7 @@
 #include "study/run_miniapp.hpp"
+#include "two_lines.hpp"
 
+#include <cattaneo/reduced/reduced_file.hpp>
 #include <gtest/gtest.h>
 
 namespace
@@ -65,6 +67,50 @@ TEST(WearStudy, LoadsWithNamesOfStudiesAndDepthsThatAreNotSmall)
                           "T=0.01\" --cycle-start 2");
    EXPECT_NE(run.code, 1) << run.output;
    EXPECT_EQ(run.results["cycles_worn"], 1e9) << run.output;
+}
+
+// Where shear moves the pressure, or the load that presses varies, slip bends on its way and
+// one increment errs by more than the share of the depth that jumps may err by, 1e-3; the
+// increments of a study that asks for none do not. The exact path has none.
+TEST(WearStudy, IncrementsWhereSlipBends)
+{
+   const std::string bent[] = {
+      "--reduced problems/punch_on_half_plane.json --history 'P=0; P=1; Q=.3; Q=-.3; Q=.3' ",
+      "--reduced problems/hertz.json --history 'P=0; P=1; P=1.3 Q=.3; P=1 Q=-.2; P=1.3 Q=.3' "};
+   for (const std::string &problem : bent)
+   {
+      const std::string asked = problem + "--cycle-start 2 --cycles 1 --wear 1e-5 ";
+      const auto usual = run_miniapp("wear", asked),
+                 exact = run_miniapp("wear", asked + "--stepping exact"),
+                 one = run_miniapp("wear", asked + "--increments 1");
+      ASSERT_EQ(usual.code, 0) << usual.output;
+      const double volume = exact.results["volume"];
+      EXPECT_NEAR(usual.results["volume"], volume, 1e-3 * volume) << problem;
+      EXPECT_GT(std::abs(one.results["volume"].get<double>() - volume), 1e-3 * volume)
+         << problem;
+   }
+}
+
+// Two contacts side by side end as each does alone: what is printed is of one of them.
+TEST(WearStudy, EndOfOneOfTwoLines)
+{
+   using namespace cattaneo;
+   const std::string file = testing::TempDir() + "two_lines_to_wear.json",
+                     asked = " --history 'P=0; P=1; Q=.2; Q=-.2; Q=.2' --cycle-start 2 "
+                             "--cycles 1 --wear 1e-5";
+   save(cattaneo_test::twice(load_reduced_problem(CATTANEO_SOURCE_DIR "/problems/hertz.json")),
+        file);
+   const auto one = run_miniapp("wear", "--reduced problems/hertz.json" + asked),
+              two = run_miniapp("wear", "--reduced '" + file + "'" + asked);
+   ASSERT_EQ(two.code, 0) << two.output;
+   for (const char *value :
+        {"final_stick", "final_extent", "final_pressure_centre", "final_depth"})
+   {
+      const double alone = one.results[value];
+      EXPECT_NEAR(two.results[value], alone, 1e-6 * alone) << value;
+   }
+   const double volume = one.results["final_volume"];
+   EXPECT_NEAR(two.results["final_volume"], 2 * volume, 1e-6 * volume);
 }
 
 } // namespace
