@@ -952,6 +952,25 @@ TEST_F(Joints, WarnOfWhatIsNotMeant)
    }
    EXPECT_EQ(free, (std::set<std::string>{"1.25,2,0,0", "1.5,2,0,0"}));
 
+   // Plates that are bolted one bolt after the other: the last one feels the others by less
+   // than a thousandth of its pretension.
+   block("low.mesh", -6, 5, 22, -1, 0, 3);
+   block("high.mesh", -5, 6, 22, 0, 1, 3);
+   keys = json{{"history", {"a=0", "a=1", "b=1", "c=1"}}};
+   keys["bodies"] = {{"low", body("low.mesh", "4:xy")}, {"high", body("high.mesh")}};
+   keys["interfaces"] = {{"joint", face("high:1", "low:3", 0.3)}};
+   for (const auto &[name, at] : {std::pair("a", "[-4<x<-3]"), std::pair("b", "[-0.5<x<0.5]"),
+                                  std::pair("c", "[3<x<4]")})
+   {
+      keys["bolts"][name] = {
+         {"between", {std::string("high:3") + at, std::string("low:1") + at}},
+         {"stiffness", 50},
+         {"pretension", 2}};
+   }
+   const Result row = run(keys);
+   EXPECT_EQ(warned(row), "");
+   EXPECT_LT(row.results["bolts"][2]["least"].get<double>(), 0);
+
    keys = json{{"history", {"P=0", "P=1", "Q=1"}}};
    slit_block(folder + "/slit.mesh");
    keys["bodies"]["block"] =
