@@ -113,9 +113,10 @@ public:
    /// A boundary part as loads see it, cut at the ends of its interval.
    struct Extent
    {
-      double size = 0; ///< its length; about an axis its area
-      Eigen::Vector2d middle{0, 0};
+      double size = 0;              ///< its length; about an axis its area
+      Eigen::Vector2d middle{0, 0}; ///< mean place of its points, (r, z) about an axis
    };
+   /// InputError if the mesh has no such part; of size 0 if an interval leaves nothing of it.
    Extent extent(const BoundaryPart &part) const;
    /// Circumferential traction t_θ on a boundary part of a torsion body, force per area.
    void add_traction(const std::string &pattern, const BoundaryPart &part, const Field &t);
