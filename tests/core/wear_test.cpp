@@ -387,6 +387,13 @@ TEST(Wear, GoesOnFromASavedStateToTheSameBits)
    expect_input_error([] { load_wear_state("nowhere.json"); }, "nowhere.json");
    save(half.contact, file);
    expect_input_error([&] { load_wear_state(file); }, "wear state");
+   // Of bodies that are twice as stiff the same displacements have other forces.
+   Pad stiff = pad;
+   stiff.problem.K *= 2;
+   expect_input_error([&]
+                      { wear(stiff.problem, law, stiff.history, 20, half, settings_with(0)); },
+                      "another reduced problem");
+   EXPECT_EQ(half.cycles, 7);
 }
 
 TEST(Wear, WithoutKNothingWears)

@@ -19,7 +19,8 @@ struct WearState
 
    /// Unworn, before any load.
    static WearState virgin(const ReducedProblem &problem);
-   /// InputError if it is none of the problem, or depth or dissipation is negative.
+   /// InputError if it is none of the problem (its forces are not those of its displacements
+   /// and loads), or depth or dissipation is negative.
    void validate(const ReducedProblem &problem) const;
 };
 
