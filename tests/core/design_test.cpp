@@ -234,6 +234,15 @@ TEST(Design, FrictionOfMostDamping)
    EXPECT_EQ(held.status, DesignStatus::optimal) << held.message;
    EXPECT_NEAR(held.x[0], 0.05, 1e-7);
    EXPECT_NEAR(held.bound_multipliers[0], 2 * 2 * (0.8 - 2 * 0.15 * 2), 1e-6);
+   // The least is without friction. Bounds that let it be negative are no reason to throw away
+   // what was found above.
+   problem.cases[0].weight = 1;
+   problem.low[0] = -1;
+   const DesignReport least = design(problem, VectorXd::Constant(1, 0.05), settings);
+   EXPECT_GE(0.1 + least.x[0], 0);
+   EXPECT_LT(least.objective, 0.1 * least.objective_at_start) << least.message;
+   expect_input_error([&] { design(problem, VectorXd::Constant(1, -0.5), settings); },
+                      "is negative");
 }
 
 // Under limits of curvature a profile is between the flat one and that of uniform pressure.

@@ -244,6 +244,11 @@ Trial &Design::at(const VectorXd &x)
    Trial &trial = *trial_;
    trial.x = x;
    trial.problem = given_.with(x);
+   if (best_ && trial.problem.friction.minCoeff() < 0)
+   {
+      trial.message = "friction is negative there"; // of a start that is an input error
+      return trial;
+   }
    std::vector<double> values;
    for (const DesignCase &load_case : given_.cases)
    {
