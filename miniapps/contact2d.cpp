@@ -278,6 +278,7 @@ void contact2d(miniapp::Study &study)
       fields.emplace(
          own.scene.fields(options.paraview, own.half_plane ? &*own.half_plane : nullptr));
    }
+   Eigen::VectorXd pressed = Eigen::VectorXd::Zero(problem.nodes()); // at the largest of all
    const Counters &spent = own.scene.reduction.counters;
    int frames = 0;
    history.march(problem,
@@ -287,6 +288,7 @@ void contact2d(miniapp::Study &study)
                     for (auto &side : beyond_corners) { side.note(reached); }
                     joint_report.note(reached, history.cycle);
                     small.note(reached);
+                    if (reached.p.maxCoeff() > pressed.maxCoeff()) { pressed = reached.p; }
                     if (!fields || !frame) { return; }
                     study.counters -= spent; // what the frame costs is added
                     fields->write(reached);
@@ -296,8 +298,8 @@ void contact2d(miniapp::Study &study)
    study.save(problem);
    if (fields) { study.say(text("%d frames in %s", frames, options.paraview.c_str())); }
    for (const auto &side : beyond_corners) { side.warn(); }
-   miniapp::warn_of_chords(own.scene.reduction, history.state);
-   miniapp::warn_of_linear_axis(own.scene.reduction, history.state);
+   miniapp::warn_of_chords(own.scene.reduction, pressed);
+   miniapp::warn_of_linear_axis(own.scene.reduction, pressed);
    warn_of_large_displacements(own, small, history.state);
    if (history.report.status != FrictionStatus::converged) { warn_of_loose_bodies(own); }
 

@@ -108,9 +108,9 @@ void warn_of_loose_bodies(const OwnBodies &own)
    }
 }
 
-void warn_of_chords(const Reduction &reduction, const ContactState &last)
+void warn_of_chords(const Reduction &reduction, const Eigen::VectorXd &p)
 {
-   const double share = chordal_error(reduction, last.p);
+   const double share = chordal_error(reduction, p);
    if (share <= 0.05) { return; }
    const InterfaceReport *worst = nullptr;
    double most = 0;
@@ -119,7 +119,7 @@ void warn_of_chords(const Reduction &reduction, const ContactState &last)
       for (Eigen::Index i = 0; i < face.nodes && !face.tied; ++i)
       {
          if (face.chords.size() != face.nodes || std::abs(face.chords[i]) <= most ||
-             (std::isfinite(share) && last.p[face.first + i] <= 0))
+             (std::isfinite(share) && p[face.first + i] <= 0))
          {
             continue;
          }
@@ -134,13 +134,13 @@ void warn_of_chords(const Reduction &reduction, const ContactState &last)
    {
       text << "to close that takes " << share << " of the largest pressure";
    }
-   else { text << "nothing bears, and the curves would"; }
+   else { text << "nothing bears, and the curves may"; }
    text << "; a mesh of elements of a higher order (in Gmsh: -order 2) "
            "or of more of them follows the curve, or key 'gap' may say what the gap is";
    warn(text.str());
 }
 
-void warn_of_linear_axis(const Reduction &reduction, const ContactState &last)
+void warn_of_linear_axis(const Reduction &reduction, const Eigen::VectorXd &p)
 {
    for (std::size_t b = 0; b < reduction.bodies.size(); ++b)
    {
@@ -164,7 +164,7 @@ void warn_of_linear_axis(const Reduction &reduction, const ContactState &last)
          if (reach == 0 || face.tied || !has) { continue; }
          for (Eigen::Index i = 0; i < face.nodes; ++i)
          {
-            bears = bears || (face.position(i, 0) < 2 * reach && last.p[face.first + i] > 0);
+            bears = bears || (face.position(i, 0) < 2 * reach && p[face.first + i] > 0);
          }
       }
       if (!bears) { continue; }

@@ -27,12 +27,12 @@ void warn_of_accuracy(double accuracy);
 /// bodies with elements in its last state.
 void warn_of_large_displacements(OwnBodies &own, const cattaneo::SmallDisplacements &noted,
                                  const cattaneo::ContactState &last);
-/// Warns where chords of curved sides make more than a twentieth of the largest traction.
-void warn_of_chords(const cattaneo::Reduction &reduction, const cattaneo::ContactState &last);
+/// Warns where chords of curved sides make more than a twentieth of the largest pressure. The
+/// nodal forces p are those of the state with the largest of a march.
+void warn_of_chords(const cattaneo::Reduction &reduction, const Eigen::VectorXd &p);
 /// Warns where what bears next to the axis are linear elements, whose node on it takes no
 /// force.
-void warn_of_linear_axis(const cattaneo::Reduction &reduction,
-                         const cattaneo::ContactState &last);
+void warn_of_linear_axis(const cattaneo::Reduction &reduction, const Eigen::VectorXd &p);
 /// Of each interface whether its second side is a straight rigid line, or a half-plane.
 std::vector<bool> even_sides(const JointCase &joint);
 

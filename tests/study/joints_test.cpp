@@ -506,9 +506,10 @@ TEST_F(Joints, OfRingsTellWhatChordsTake)
       out.precision(17);
       mesh.Print(out);
    };
-   const auto press = [&](int along, int order, const json &gap, double &wrong)
+   const auto press =
+      [&](int along, int order, const json &gap, double &wrong, double overlap = 1e-3)
    {
-      ring("in.mesh", inner, 1 + d, along, order);
+      ring("in.mesh", inner, 1 + overlap, along, order);
       ring("out.mesh", 1, outer, along * 4 / 3, order);
       json keys{{"order", order}, {"history", {"P=0", "P=1"}}};
       keys["bodies"] = {{"in", body("in.mesh", "1:y 3:x", {}, E, nu)},
@@ -543,8 +544,34 @@ TEST_F(Joints, OfRingsTellWhatChordsTake)
    }
    // Chords so long that sides that overlap are apart, and elements that follow the arcs.
    double wrong = 0;
-   EXPECT_NE(press(9, 1, nullptr, wrong).find("nothing bears, and the curves would"),
-             std::string::npos);
+   for (double overlap : {d, 0.1 * d})
+   {
+      EXPECT_NE(press(9, 1, nullptr, wrong, overlap).find("nothing bears, and the curves may"),
+                std::string::npos)
+         << overlap;
+   }
+   EXPECT_EQ(press(9, 1, nullptr, wrong, -20 * d), ""); // a clearance beyond doubt
+   // What was pressed and is no more is known by what it was.
+   block("plane.mesh", -2, 2, 24, -2, 0, 6);
+   mfem::Mesh pad = mfem::Mesh::MakeCartesian2D(32, 8, mfem::Element::QUADRILATERAL, true);
+   pad.Transform(
+      [](const mfem::Vector &x, mfem::Vector &y)
+      {
+         y.SetSize(2);
+         y(0) = 2 * x(0) - 1;
+         y(1) = x(1) + (1 - x(1)) * 0.025 * y(0) * y(0);
+      });
+   std::ofstream out(folder + "/pad.mesh");
+   out.precision(17);
+   pad.Print(out);
+   out.close();
+   json keys{{"order", 1}, {"history", {"P=0", "P=1", "P=0"}}};
+   keys["bodies"] = {{"pad", body("pad.mesh", "@0,1:x", {"P pressure 3 1"}, 1000, 0.3)},
+                     {"plane", body("plane.mesh", "1:xy", {}, 1000, 0.3)}};
+   keys["interfaces"]["hertz"] = face("pad:1", "plane:3", 0.3);
+   const Result unloaded = run(keys);
+   ASSERT_EQ(unloaded.code, 0) << unloaded.output;
+   EXPECT_TRUE(unloaded.results["warnings"].empty()) << unloaded.output;
    EXPECT_EQ(press(15, 2, nullptr, wrong), "");
    EXPECT_LT(wrong, 0.01);
 }

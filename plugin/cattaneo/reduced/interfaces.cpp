@@ -794,9 +794,9 @@ double chordal_error(const Reduction &reduction, const VectorXd &p)
    for (Index i = 0; i < n; ++i) { (p[i] > 0 ? bear : open).push_back(static_cast<int>(i)); }
    if (bear.empty())
    {
-      // More than what round-off, or the estimate's own error, makes of sides that only touch.
+      // Smooth sides may meet, as far as the estimate is known, which is to a tenth of itself.
       const Eigen::Array<bool, Eigen::Dynamic, 1> meet =
-         (problem.gap + off).array() < -0.05 * off.array().abs();
+         off.array() < 0 && (problem.gap + 1.1 * off).array() < 0;
       return (meet && problem.gap.array() >= 0).any() ? HUGE_VAL : 0;
    }
    if (off(bear).isZero(0)) { return 0; }

@@ -91,7 +91,7 @@ Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface>
 /** What chords of curved sides (InterfaceReport::chords) may make of tractions, as a share of
     the largest one: the largest pressure that closes as much where nodes bear, whose normal
     forces are p, while open nodes follow. An estimate; 0 where sides are straight or nodes
-   match. Where nothing bears it is infinite if smooth sides would overlap, else 0. InputError
+   match. Where nothing bears it is infinite if smooth sides may meet, else 0. InputError
    unless there is a force for each contact node. */
 double chordal_error(const Reduction &reduction, const Eigen::VectorXd &p);
 
