@@ -340,11 +340,32 @@ std::vector<JointCase::Motion> motions(const Key &key)
    return all;
 }
 
+/// [[pressure, shear strength], …], which grow from (0, 0).
+Eigen::MatrixX2d strength_points(const Key &key)
+{
+   if (!key.value().is_array() || key.value().empty())
+   {
+      key.refuse("a list of points [[pressure, shear strength], …]");
+   }
+   Eigen::MatrixX2d all(key.value().size(), 2);
+   Eigen::RowVector2d before(0, 0);
+   Eigen::Index k = 0;
+   for (const Key &point : key.list())
+   {
+      const std::array<double, 2> at = point.pair();
+      require(at[0] > before[0] && at[1] >= before[1], point.called(), " is (", at[0], ", ",
+              at[1], ") and follows (", before[0], ", ", before[1],
+              "): pressures must grow from above 0, strengths must not fall");
+      all.row(k++) = before = {at[0], at[1]};
+   }
+   return all;
+}
+
 JointCase::Face face(const Key &key, const std::string &name, const JointCase &joint)
 {
    check_name(key, name);
-   key.must_be_of({"between", "friction", "gap", "slave", "tied", "overlap", "pairing",
-                   "obstacle", "motion"});
+   key.must_be_of({"between", "friction", "strength", "gap", "slave", "tied", "overlap",
+                   "pairing", "obstacle", "motion"});
    JointCase::Face made;
    made.name = name;
    made.source = source(key);
@@ -371,12 +392,26 @@ JointCase::Face face(const Key &key, const std::string &name, const JointCase &j
               ": a motion is that of the rigid obstacle of one side alone");
       made.motions = motions(key["motion"]);
    }
-   for (const char *other : {"friction", "gap", "overlap", "pairing", "obstacle", "motion"})
+   for (const char *other :
+        {"friction", "strength", "gap", "overlap", "pairing", "obstacle", "motion"})
    {
       require(!made.tied || !key.has(other), key.called(), " is tied, it goes without the key ",
               other);
    }
    if (key.has("friction")) { made.friction = key["friction"].profile(not_negative); }
+   if (key.has("strength"))
+   {
+      require(!key.has("friction"), key.called(),
+              " has both friction and strength, which are two laws of friction");
+      const Key strength = key["strength"];
+      if (strength.value().is_object())
+      {
+         strength.must_be_of({"forward", "backward"});
+         made.strength = {strength_points(strength["forward"]),
+                          strength_points(strength["backward"])};
+      }
+      else { made.strength = {strength_points(strength), strength_points(strength)}; }
+   }
    if (key.has("gap"))
    {
       const Key gap = key["gap"];
@@ -444,6 +479,16 @@ void each(const std::string &text, const std::string &name, Add add)
    const Key key(all, name);
    if (!all.is_object() || all.empty()) { key.refuse("an object with at least one key"); }
    for (const auto &item : all.items()) { add(key[item.key()], item.key()); }
+}
+
+ordered_json to_json(const Eigen::MatrixX2d &points)
+{
+   ordered_json all = ordered_json::array();
+   for (const Eigen::RowVector2d &point : points.rowwise())
+   {
+      all.push_back({point[0], point[1]});
+   }
+   return all;
 }
 
 ordered_json to_json(const JointCase::Profile &profile)
@@ -552,6 +597,11 @@ ordered_json to_json(const JointCase &joint)
          if (side.body >= 0) { made["between"].push_back(word(side)); }
       }
       if (face.tied) { made["tied"] = true; }
+      else if (face.strength)
+      {
+         made["strength"] = {{"forward", to_json(face.strength->forward)},
+                             {"backward", to_json(face.strength->backward)}};
+      }
       else { made["friction"] = to_json(face.friction); }
       if (face.gap) { made["gap"] = to_json(*face.gap); }
       if (face.slave != SlaveSide::coarser)

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 
 namespace miniapp
 {
@@ -151,6 +152,7 @@ void complete(Reduction &reduction, const JointCase &joint,
               const std::vector<std::array<ContactLine, 2>> &lines)
 {
    ReducedProblem &problem = reduction.problem;
+   std::vector<std::pair<const FrictionLaw *, std::vector<Eigen::Index>>> laws;
    for (std::size_t k = 0; k < joint.faces.size(); ++k)
    {
       const JointCase::Face &face = joint.faces[k];
@@ -171,6 +173,12 @@ void complete(Reduction &reduction, const JointCase &joint,
          const double g = problem.gap[i] = face.gap->at(arc, place);
          check("gap", g, std::isfinite(g), "must be finite");
       }
+      if (face.strength && report.nodes > 0)
+      {
+         std::vector<Eigen::Index> nodes(report.nodes);
+         std::iota(nodes.begin(), nodes.end(), report.first);
+         laws.emplace_back(&*face.strength, std::move(nodes));
+      }
       if (has_shape(face))
       {
          try
@@ -187,6 +195,8 @@ void complete(Reduction &reduction, const JointCase &joint,
          check_overlap(problem, report, face, lines[k][0]);
       }
    }
+   // When the coefficients of all others are known.
+   for (const auto &[law, nodes] : laws) { set_friction_law(problem, *law, nodes); }
    for (const JointCase::Bolt &bolt : joint.bolts)
    {
       reduction.add_shank(bolt.name, bolt.stiffness / (bolt.pretension * bolt.pretension));

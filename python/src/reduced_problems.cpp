@@ -268,9 +268,51 @@ void bind_reduced_problems(nb::module_ &m)
          [](nb::handle_t<Self> self)
          { return view<double>(given<Self>(self, "self").friction, self); },
          [](Self &self, Numbers friction)
-         { set_numbers(self.friction, friction, "friction", self.nodes()); },
+         {
+            set_numbers(self.friction, friction, "friction", self.nodes());
+            self.laws.clear();
+         },
          nb::for_setter(arg("friction")),
-         "Coulomb coefficient of each node; a number sets all of them")
+         "Coulomb coefficient of each node; a number sets all of them. Of another law its "
+         "steepest "
+         "slope, which is not to be changed in place")
+      .def_prop_ro(
+         "laws",
+         [](const Self &self)
+         {
+            nb::list all;
+            for (const FrictionLaw &law : self.laws)
+            {
+               all.append(nb::make_tuple(array(law.forward), array(law.backward)));
+            }
+            return all;
+         },
+         nb::sig("def laws(self) -> list[tuple[numpy.ndarray, numpy.ndarray]]"),
+         "Of each node, points (p, bound) of nodal forces for slip forward and backward; none: "
+         "Coulomb's law")
+      .def(
+         "set_friction_law",
+         [](Self &self, Numbers points, MaybeNumbers backward, MaybeNumbers nodes)
+         {
+            const Eigen::MatrixX2d forward = matrix(points, "points", -1, 2);
+            FrictionLaw law{forward, forward};
+            if (!backward.is_none()) { law.backward = matrix(backward, "backward", -1, 2); }
+            std::vector<Index> chosen;
+            if (!nodes.is_none())
+            {
+               for (const nb::object &each : sequence(nodes, "nodes"))
+               {
+                  chosen.push_back(whole(each, "nodes", 0, self.nodes() - 1));
+               }
+               require(!chosen.empty(), "nodes is empty, must name a node, or be None for all");
+            }
+            set_friction_law(self, law, chosen);
+         },
+         arg("points"), arg("backward") = nb::none(), arg("nodes") = nb::none(),
+         "Another law of friction: points (pressure, shear strength) of tractions, (k, 2), of "
+         "a "
+         "polyline from (0, 0) that goes straight on; `backward`: of slip backward, if it is "
+         "another; of these nodes, None: of all. [[1, f]] is Coulomb's law.")
       .def_prop_ro(
          "weights", [](const Self &self) { return array(self.weights); },
          "traction = force / weight")

@@ -98,7 +98,8 @@ def of_version_2(asked, schema, definitions):
                         "other": {"matrix": "no.sti", "support": ["A:x"], "load": ["P force A 0 1"]}},
              "interfaces": {"flat": {"between": ["pad:1", "base:3"], "friction": 0.3, "gap": "geometry", "slave": "first", "overlap": 1},
                             "cut": {"between": ["pad:2", "base:2"], "tied": True},
-                            "pairs": {"between": "pad:3", "pairing": 0.1},
+                            "pairs": {"between": "pad:3", "pairing": 0.1, "strength": [[1, 0.5], [2, 0.6]]},
+                            "ways": {"between": "pad:3", "strength": {"forward": [[1, 0.5]], "backward": [[1, 0.5], [2, 0.6]]}},
                             "floor": {"between": "pad:4", "obstacle": {"line": [[0, 0], [1, 0]]}, "motion": {"D": {"y": -1, "angle": 1, "centre": [0, 1]}}}},
              "bolts": {"bolt": {"between": ["pad:1", "base:3"], "direction": [0, 1], "stiffness": 1, "pretension": 1}}}
     wrong = []
@@ -116,7 +117,7 @@ def of_version_2(asked, schema, definitions):
                 inner[key] = value
                 said = asked.says(case)
                 # What no schema says: what goes with what, names that are not there, numbers of Poisson.
-                if re.search(r"which do not go together|there is no body|must be the name|a body and a part|goes without|for one side alone|must have one of the keys|is not a number or a function|is not one of geometry|has \d of the keys", said):
+                if re.search(r"which do not go together|there is no body|must be the name|a body and a part|goes without|for one side alone|must have one of the keys|is not a number or a function|is not one of geometry|must grow from above 0|has both|has \d of the keys", said):
                     continue
                 refuses = re.match(r"error: key '", said) is not None
                 if refuses == fits(schema, case, definitions):

@@ -146,7 +146,8 @@ std::vector<Tie> ties(const ReducedProblem &problem, const MarchTrace &trace, do
          {
             if (problem.A()(i, i) * way <= tiny) { other = NodeState::stick; }
          }
-         else if (FrictionBound(problem.friction[i]).at(now.p[i]) - along <= tiny)
+         else if (friction_bound(problem, i).at(now.p[i], now.q[i] > 0 ? -1 : 1) - along <=
+                  tiny)
          {
             other = c == 2         ? NodeState::slip
                     : now.q[i] < 0 ? NodeState::forward_slip

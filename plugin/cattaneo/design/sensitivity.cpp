@@ -184,8 +184,7 @@ Sensitivity::System::System(const ReducedProblem &problem, const MarchTrace &tra
                             std::vector<StiffnessChange> changes)
    : problem(problem), trace(trace), stiffness(std::move(changes)), n(problem.nodes()),
      m(problem.slips()), K(problem.K), held(n, false),
-     frictionless(problem.friction.maxCoeff() == 0),
-     as_given(K, friction_bounds(problem.friction))
+     frictionless(problem.friction.maxCoeff() == 0), as_given(K, friction_bounds(problem))
 {
    const auto count = static_cast<Index>(problem.patterns.size());
    require(problem.components() <= 1, "sensitivity: the problem has ", problem.components(),
@@ -238,7 +237,7 @@ bool Sensitivity::System::set(std::size_t k)
       held_motions = free;
       as_held.reset();
       K_held = K + K.diagonal().mean() * free * free.transpose();
-      as_held = std::make_unique<StateEquations>(K_held, friction_bounds(problem.friction));
+      as_held = std::make_unique<StateEquations>(K_held, friction_bounds(problem));
    }
    equations = free.cols() > 0 ? as_held.get() : &as_given;
    std::vector<Index> open;
@@ -407,6 +406,7 @@ Sensitivity::Sensitivity(const ReducedProblem &problem, const MarchTrace &trace,
                          std::vector<StiffnessChange> stiffness)
    : system_(std::make_unique<System>(problem, trace, std::move(stiffness)))
 {
+   require_coulomb(problem, "sensitivities");
 }
 Sensitivity::~Sensitivity() = default;
 Sensitivity::Sensitivity(Sensitivity &&) noexcept = default;

@@ -129,6 +129,7 @@ void write_npz(const std::string &file, const NodalStiffness &stiffness,
 void write_npz(const std::string &file, const ReducedProblem &problem, const Eigen::MatrixXd &M)
 {
    problem.validate();
+   require_coulomb(problem, "write_npz");
    const auto count = static_cast<Index>(problem.patterns.size());
    Eigen::MatrixXd loads(problem.K.rows(), count);
    for (Index k = 0; k < count; ++k)

@@ -100,16 +100,20 @@ Path::Path(StateEquations &equations, const ComplementarityProblem &problem, con
          h_[i] = some();
          if (!closed(state)) { sense_[i] = x_[i] >= 0 ? 1 : -1; }
       }
-      const double bound = equations_.bound()[i].line(F_[m], sense_[i]) + h_[i];
+      const auto bound = [&](double sense)
+      { return equations_.bound()[i].line(F_[m], sense) + h_[i]; };
       if (state == NodeState::stick)
       {
          x_[i] = 0;
-         if (choice == Choice::any) { F_[i] = std::clamp(F_[i], -0.9 * bound, 0.9 * bound); }
-         if (choice == Choice::forward) { F_[i] = std::max(F_[i], -bound) + some(); }
-         if (choice == Choice::backward) { F_[i] = std::min(F_[i], bound) - some(); }
+         if (choice == Choice::any)
+         {
+            F_[i] = std::clamp(F_[i], -0.9 * bound(1), 0.9 * bound(-1));
+         }
+         if (choice == Choice::forward) { F_[i] = std::max(F_[i], -bound(1)) + some(); }
+         if (choice == Choice::backward) { F_[i] = std::min(F_[i], bound(-1)) - some(); }
          continue;
       }
-      F_[i] = -sense_[i] * bound;
+      F_[i] = -sense_[i] * bound(sense_[i]);
       if (friction_acts || choice == Choice::forward || choice == Choice::backward)
       {
          x_[i] = sense_[i] * (std::max(sense_[i] * x_[i], 0.0) + some() / stiffness[i]);

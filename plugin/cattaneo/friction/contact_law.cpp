@@ -66,6 +66,43 @@ double magnitude(const NodeVector &x)
    return x.size() == 0 ? 0.0 : other == 0 ? std::abs(x[0]) : std::hypot(x[0], other);
 }
 
+FrictionBound::FrictionBound(const FrictionLaw &law)
+   : lines_{piece_of(law.forward, 0), piece_of(law.backward, 0)},
+     law_(law.forward.rows() > 1 || law.backward.rows() > 1 ? &law : nullptr)
+{
+}
+
+FrictionBound::Line FrictionBound::piece_of(const Eigen::MatrixX2d &points, double p)
+{
+   const Index last = points.rows() - 1;
+   Index k = 0;
+   while (k < last && p > points(k, 0)) { ++k; }
+   if (k == 0) { return {0, points(0, 1) / points(0, 0)}; }
+   const double slope = (points(k, 1) - points(k - 1, 1)) / (points(k, 0) - points(k - 1, 0));
+   return {points(k, 1) - slope * points(k, 0), slope};
+}
+
+FrictionBound FrictionBound::straight(double p) const
+{
+   FrictionBound result;
+   result.lines_[0] = piece(p, 1);
+   result.lines_[1] = piece(p, -1);
+   return result;
+}
+
+FrictionBound friction_bound(const ReducedProblem &problem, Index i)
+{
+   return problem.laws.empty() ? FrictionBound(problem.friction[i])
+                               : FrictionBound(problem.laws[i]);
+}
+
+std::vector<FrictionBound> friction_bounds(const ReducedProblem &problem)
+{
+   std::vector<FrictionBound> bounds;
+   for (Index i = 0; i < problem.nodes(); ++i) { bounds.push_back(friction_bound(problem, i)); }
+   return bounds;
+}
+
 std::vector<FrictionBound> friction_bounds(const VectorXd &coefficients)
 {
    std::vector<FrictionBound> bounds;
@@ -274,13 +311,13 @@ LawCheck check_laws(const ReducedProblem &problem, const VectorXd &v_old,
    for (Index i = 0; i < n; ++i)
    {
       ContactNode node{
-         NodeVector(c), NodeVector(c),     state.w[i] + problem.gap[i],       forces[m + i],
-         0.0,           problem.C()(i, i), FrictionBound(problem.friction[i])};
+         NodeVector(c), NodeVector(c),     state.w[i] + problem.gap[i], forces[m + i],
+         0.0,           problem.C()(i, i), friction_bound(problem, i)};
       double most = std::max(allowed, round_off[m + i]), size = 0;
       note(check.normal, std::abs(node.p - state.p[i]), most);
       note(check.normal, std::abs(std::min(node.p, node.kn * node.gap)), most);
       if (c == 0) { continue; }
-      most = std::max(allowed, node.bound.slope(node.p) * round_off[m + i]);
+      most = std::max(allowed, node.bound.steepness(node.p) * round_off[m + i]);
       for (Index k = 0; k < c; ++k)
       {
          const Index row = k * n + i;

@@ -23,7 +23,9 @@ struct NodePath
             const ContactState &after, Index node);
 
    NodeVector q0, q1, slip, own; ///< own: tangential stiffness of the node
-   double p0, p1, friction;
+   double p0, p1;
+   FrictionBound bound;
+   double sense; ///< of the slip in the plane
    /// Of the force as if the node stuck to the end, which changes linearly.
    NodeVector turning;
    /// (|force|² less the square of the bound) over the share s of the increment: c + b s + a
@@ -36,7 +38,7 @@ struct NodePath
 NodePath::NodePath(const ReducedProblem &problem, const ContactState &before,
                    const ContactState &after, Index node)
    : q0(problem.components()), q1(q0), slip(q0), own(q0), p0(std::max(before.p[node], 0.0)),
-     p1(std::max(after.p[node], 0.0)), friction(problem.friction[node])
+     p1(std::max(after.p[node], 0.0)), bound(friction_bound(problem, node)), sense(0)
 {
    for (Index k = 0; k < q0.size(); ++k)
    {
@@ -47,8 +49,8 @@ NodePath::NodePath(const ReducedProblem &problem, const ContactState &before,
       own[k] = problem.A()(row, row);
    }
    turning = q1 - own.cwiseProduct(slip) - q0;
-   const FrictionBound bound(friction);
-   const double g0 = bound.at(p0), dg = bound.at(p1) - g0, size = magnitude(q0);
+   if (slip.size() == 1) { sense = slip[0] < 0 ? -1 : 1; }
+   const double g0 = bound.at(p0, sense), dg = bound.at(p1, sense) - g0, size = magnitude(q0);
    a = turning.squaredNorm() - dg * dg;
    b = 2 * q0.dot(turning) - 2 * g0 * dg;
    c = std::min((size - g0) * (size + g0), 0.0); // friction is not exhausted yet, or just so
@@ -81,8 +83,9 @@ VectorXd frictional_loss(const ReducedProblem &problem, const ContactState &befo
    VectorXd lost = rub.way;
    for (Index i = 0; i < lost.size(); ++i)
    {
-      const FrictionBound bound(problem.friction[i]);
-      lost[i] *= 0.5 * (bound.at(rub.p_from[i]) + bound.at(rub.p_to[i]));
+      const double sense = problem.components() == 2 || after.v[i] >= before.v[i] ? 1.0 : -1.0;
+      const FrictionBound bound = friction_bound(problem, i);
+      lost[i] *= 0.5 * (bound.at(rub.p_from[i], sense) + bound.at(rub.p_to[i], sense));
    }
    return lost;
 }
@@ -92,7 +95,7 @@ RubbingDerivative rubbing_derivative(const ReducedProblem &problem, const Contac
                                      double by_from, double by_to)
 {
    const NodePath path(problem, before, after, node);
-   const double way = magnitude(path.slip), s = path.start, f = path.friction,
+   const double way = magnitude(path.slip), s = path.start, f = path.bound.slope(),
                 dp = path.p1 - path.p0;
    const NodeVector none = NodeVector::Zero(path.slip.size());
    RubbingDerivative by{none, none, none, none};

@@ -24,7 +24,7 @@ void list_changes(const ContactState &from, const std::vector<NodeState> &to,
 }
 
 ExactPath::ExactPath(const ReducedProblem &problem)
-   : problem_(problem), K_(problem.K), equations_(K_, friction_bounds(problem.friction))
+   : problem_(problem), K_(problem.K), equations_(K_, friction_bounds(problem))
 {
    require(problem.components() == 1, "exact path: the reduced problem has ",
            problem.components(), " tangential components a node, must have 1");

@@ -2,6 +2,7 @@
 #include <cattaneo/friction/methods.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
+#include <set>
 #include <sstream>
 
 namespace cattaneo
@@ -59,6 +60,40 @@ bool find_end(Increment &at)
       if (search == Search::hopeless) { break; }
    }
    return false;
+}
+
+/** A law of friction that bends is taken as the lines of its pieces at the pressures of the
+    start, and then of what these lead to, until they are the pieces there. False where that
+   comes back to pieces that it began with. */
+bool find_end_on_pieces(Increment &at)
+{
+   FrictionSystem &s = at.system;
+   if (s.laws.empty()) { return find_end(at); }
+   std::set<std::vector<double>> tried;
+   VectorXd p = at.start.p;
+   while (true)
+   {
+      s.take_pieces(p);
+      std::vector<double> lines;
+      for (const FrictionBound &bound : s.bound)
+      {
+         lines.insert(lines.end(), {bound.intercept(0, 1), bound.intercept(0, -1),
+                                    bound.slope(0, 1), bound.slope(0, -1)});
+      }
+      if (!tried.insert(lines).second || !find_end(at)) { return false; }
+      bool fit = true;
+      for (Index i = 0; i < s.n; ++i)
+      {
+         p[i] = closed(at.status[i]) ? at.F[s.m(i)] : 0.0;
+         for (const double sense : {1.0, -1.0})
+         {
+            const double off = s.laws[i].at(p[i], sense) - s.bound[i].at(p[i], sense);
+            fit = fit && std::abs(off) <= 0.1 * s.settings.tolerance * at.scale();
+         }
+      }
+      if (fit) { return true; }
+      at.go_back();
+   }
 }
 
 /// Displacements so large that round-off hides the forces may be a body that slides away, with
@@ -146,7 +181,7 @@ IncrementReport FrictionSystem::solve(ContactState &state, const VectorXd &multi
       next = at.end();
       return obeys_laws(at.v_old, next, at.scale(), report);
    };
-   bool solved = find_end(at);
+   bool solved = find_end_on_pieces(at);
    if (solved && take_least_motion(at)) { at.residuals(); }
    solved = solved && !runs_away(at);
    if (solved)

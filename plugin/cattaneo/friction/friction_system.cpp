@@ -38,7 +38,13 @@ FrictionSystem::FrictionSystem(const ReducedProblem &given, const FrictionSettin
    require(problem.components() <= 2, "friction solver: the reduced problem has ",
            problem.components(), " tangential components a node, at most 2 are supported");
    c = frictionless ? 0 : problem.components();
-   bound = friction_bounds(problem.friction);
+   bound = friction_bounds(problem);
+   const auto bends = [](const FrictionBound &of) { return of.bends(); };
+   if (!frictionless && std::any_of(bound.begin(), bound.end(), bends))
+   {
+      laws = bound;
+      take_pieces(VectorXd::Zero(n));
+   }
    knn = problem.C().diagonal();
    if (!frictionless)
    {
@@ -79,6 +85,14 @@ FrictionSystem::FrictionSystem(const ReducedProblem &given, const FrictionSettin
    knn = K.diagonal();
    times_K = std::make_shared<SymmetricProduct>(K);
    times_whole_K = std::make_shared<SymmetricProduct>(problem.K);
+}
+
+void FrictionSystem::take_pieces(const VectorXd &p)
+{
+   for (Index i = 0; i < n; ++i) { bound[i] = laws[i].straight(p[i]); }
+   // These have the pieces before.
+   coupled_equations.reset();
+   tangential_equations.reset();
 }
 
 Index FrictionSystem::above_critical(const std::vector<NodeState> *states) const

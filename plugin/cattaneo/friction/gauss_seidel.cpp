@@ -27,6 +27,7 @@ void sweep(Increment &at)
       // A body that is free to slide away up a slope meets no resistance.
       if (s.frictionless && !(s.knn[i] > 0)) { continue; }
       LoneNode node = s.frictionless ? LoneNode{} : lone_node(s.problem, i);
+      if (!s.frictionless) { node.bound = s.bound[i]; }
       node.c = s.knn[i];
       const NodeVector slip = at.slip(i);
       const double gap = at.gap(i);

@@ -187,8 +187,17 @@ bool Increment::solved()
 
 bool Increment::finds_mechanism()
 {
-   mechanism = find_mechanism(system.problem, system.problem.clamped_forces(multipliers),
-                              system.settings.tolerance * reference);
+   const VectorXd clamped = system.problem.clamped_forces(multipliers);
+   const double negligible = system.settings.tolerance * reference;
+   mechanism = find_mechanism(system.problem, clamped, negligible);
+   const std::vector<FrictionLaw> &laws = system.problem.laws;
+   const auto concave = [](const FrictionLaw &law) { return law.concave(); };
+   if (!mechanism.exists && !system.laws.empty() &&
+       std::all_of(laws.begin(), laws.end(), concave))
+   {
+      // None holds more than the line of any of its pieces.
+      mechanism = find_mechanism(system.problem, system.bound, clamped, negligible);
+   }
    return mechanism.exists;
 }
 

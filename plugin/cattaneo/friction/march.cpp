@@ -401,9 +401,15 @@ bool March::march_piece()
    const bool exact = exact_in_one();
    if (!exact && settings_.stepping == Stepping::exact)
    {
-      if (problem_.components() == 1) { return march_exactly(piece_.end); }
+      const bool disc = problem_.components() == 2;
+      const std::vector<FrictionBound> laws = friction_bounds(problem_);
+      const bool bends = std::any_of(laws.begin(), laws.end(),
+                                     [](const FrictionBound &of) { return of.bends(); });
+      if (!disc && !bends && problem_.components() == 1) { return march_exactly(piece_.end); }
       ++record_.report.fallbacks;
-      record_.report.fallback_reason = "slip has a direction: two tangential components";
+      record_.report.fallback_reason = bends
+                                          ? "the law of friction bends with pressure"
+                                          : "slip has a direction: two tangential components";
    }
    while (state_.time < piece_.end)
    {

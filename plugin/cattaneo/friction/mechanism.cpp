@@ -43,6 +43,12 @@ MatrixXd cone_edges(const MatrixXd &Z, const std::vector<FrictionBound> &bound)
 Mechanism find_mechanism(const ReducedProblem &problem, const VectorXd &clamped_forces,
                          double negligible)
 {
+   return find_mechanism(problem, friction_bounds(problem.friction), clamped_forces, negligible);
+}
+
+Mechanism find_mechanism(const ReducedProblem &problem, const std::vector<FrictionBound> &bound,
+                         const VectorXd &clamped_forces, double negligible)
+{
    Mechanism mechanism;
    const MatrixXd &motions = problem.rigid_motions;
    if (motions.cols() == 0) { return mechanism; }
@@ -52,7 +58,6 @@ Mechanism find_mechanism(const ReducedProblem &problem, const VectorXd &clamped_
    const Index n = problem.nodes(), m = problem.slips();
    // Equilibrium along the rigid motions: Zᵀ{q; p} = Zᵀ f^w.
    const Index c = std::max<Index>(problem.components(), 1);
-   const std::vector<FrictionBound> bound = friction_bounds(problem.friction);
    MatrixXd G = cone_edges(Z, bound);
    const VectorXd g = Z.transpose() * clamped_forces;
    NonnegativeFit fit = fit_nonnegative(G, g);
@@ -86,6 +91,15 @@ Mechanism find_mechanism(const ReducedProblem &problem, const VectorXd &clamped_
    }
    if (!proven || r.norm() <= least || g.norm() == 0) { return mechanism; }
    mechanism.motion = Z * r;
+   // What is held without pressure works against the motion, the loads do r·g = r² along it.
+   double held = 0;
+   for (Index i = 0; i < n && m > 0; ++i)
+   {
+      double along = mechanism.motion[i];
+      if (c == 2) { along = std::hypot(along, mechanism.motion[n + i]); }
+      held += bound[i].intercept(0, along) * std::abs(along);
+   }
+   if (r.squaredNorm() <= (1 + 1e-9) * held) { return mechanism; }
    const double largest = mechanism.motion.cwiseAbs().maxCoeff();
    if (largest <= negligible) { return mechanism; }
    mechanism.exists = true;
@@ -121,7 +135,7 @@ Mechanism find_spinning(const ReducedProblem &problem, const VectorXd &frictionl
    double resistance = 0;
    for (Index i = 0; i < n; ++i)
    {
-      resistance += FrictionBound(problem.friction[i]).line(frictionless_pressure[i]) *
+      resistance += friction_bound(problem, i).line(frictionless_pressure[i]) *
                     std::hypot(Z(i, 0), Z(n + i, 0));
    }
    const double drive = Z.col(0).dot(clamped_forces.head(2 * n));

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cattaneo/algebra/dense_algebra.hpp>
+#include <cattaneo/friction/contact_law.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/readout/contact_edges.hpp>
 #include <cmath>
@@ -293,7 +294,11 @@ std::vector<ContactEdge> edges_of(const ReducedProblem &problem, const ContactSt
       edge.position = side > 0 ? stretch.from : stretch.to;
       edge.first = side > 0 ? stretch.first : middle + 1;
       edge.last = side > 0 ? middle : stretch.last;
-      edge.friction = problem.friction[side > 0 ? edge.first : edge.last];
+      const FrictionBound at = friction_bound(problem, side > 0 ? edge.first : edge.last);
+      require(at.slope(0, 1) == at.slope(0, -1), "contact edges: without pressure friction is ",
+              at.slope(0, 1), " for slip forward and ", at.slope(0, -1),
+              " backward, an edge has one of them");
+      edge.friction = at.slope();
       if (side > 0 ? stretch.first == 0 : stretch.last == problem.nodes() - 1)
       {
          refuse_at_end(problem, edge);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cattaneo/algebra/dense_algebra.hpp>
+#include <cattaneo/friction/contact_law.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/readout/zones.hpp>
 #include <cmath>
@@ -342,13 +343,19 @@ std::vector<Zone> zones(const ReducedProblem &problem, const ContactState &state
 {
    Profiles at = profiles(problem, state);
    const Index n = problem.nodes();
-   const VectorXd p = tractions(problem, state.p);
    const VectorXd q = tractions(problem, tangential_lengths(state.q, n));
    at.way = tangential_lengths(state.v - state.slip_origin, n).array().pow(2.0 / 3);
+   VectorXd limits(n);
+   for (Index i = 0; i < n; ++i)
+   {
+      const bool back = problem.components() == 1 && state.q[i] > 0;
+      limits[i] = friction_bound(problem, i).at(state.p[i], back ? -1 : 1);
+   }
+   limits = tractions(problem, limits);
    for (Index i = 0; i < n; ++i)
    {
       // Within round-off of the limit there is no reserve.
-      const double limit = problem.friction[i] * p[i], reserve = limit - q[i];
+      const double limit = limits[i], reserve = limit - q[i];
       if (reserve > 1e-8 * limit) { at.reserve2[i] = reserve * reserve; }
    }
    return Reader(problem, at, q).zones();

@@ -13,7 +13,8 @@ namespace
 {
 
 const char *const format_name = "cattaneo reduced problem 2";
-const char *const format_1 = "cattaneo reduced problem 1"; // without the facts
+const char *const format_laws = "cattaneo reduced problem 3"; // only where it has such laws
+const char *const format_1 = "cattaneo reduced problem 1";    // without the facts
 
 // "axis" is any symmetry: files keep the word that they began with.
 const std::vector<std::string> end_names = {"unknown", "smooth", "corner", "axis"};
@@ -133,6 +134,16 @@ void save(const ReducedProblem &problem, const std::string &file)
                                {"q", to_json(pattern.q)},
                                {"p", to_json(pattern.p)}});
    }
+   if (!problem.laws.empty())
+   {
+      // Whoever does not know of the laws must not take the friction for them.
+      j["format"] = format_laws;
+      for (const FrictionLaw &law : problem.laws)
+      {
+         j["laws"].push_back(
+            {{"forward", to_json(law.forward)}, {"backward", to_json(law.backward)}});
+      }
+   }
    j["held"] = problem.held;
    j["chains"] = nlohmann::json::array();
    for (const ContactChain &chain : problem.chains)
@@ -155,8 +166,9 @@ ReducedProblem load_reduced_problem(const std::string &file)
    try
    {
       const nlohmann::json j = nlohmann::json::parse(read_whole(file, "reduced problem: "));
-      require(j.at("format") == format_name || j.at("format") == format_1,
-              "reduced problem: file '", file, "' is not a '", format_name, "' (or 1)");
+      const bool first = j.at("format") == format_1, with_laws = j.at("format") == format_laws;
+      require(first || with_laws || j.at("format") == format_name, "reduced problem: file '",
+              file, "' is not a '", format_name, "' (or 1, or 3)");
       Eigen::MatrixXd A, B, C;
       from_json(j.at("A"), A);
       from_json(j.at("B"), B);
@@ -176,7 +188,17 @@ ReducedProblem load_reduced_problem(const std::string &file)
          from_json(p.at("p"), pattern.p);
          problem.patterns.push_back(pattern);
       }
-      if (j.at("format") == format_name)
+      for (const nlohmann::json &law : with_laws ? j.at("laws") : nlohmann::json::array())
+      {
+         Eigen::MatrixXd forward, backward;
+         from_json(law.at("forward"), forward);
+         from_json(law.at("backward"), backward);
+         require(forward.cols() == 2 && backward.cols() == 2,
+                 "reduced problem: a law of friction has points of ", forward.cols(), " and ",
+                 backward.cols(), " numbers, must be 2");
+         problem.laws.push_back({forward, backward});
+      }
+      if (!first)
       {
          Eigen::MatrixXd motions;
          from_json(j.at("rigid_motions"), motions);

@@ -162,7 +162,75 @@ void check_facts(const ReducedProblem &problem)
            " of the stiffness, must meet none (1e-11)");
 }
 
+/// Of the pieces of a polyline from (0, 0).
+Eigen::VectorXd slopes(const Eigen::MatrixX2d &points)
+{
+   const Eigen::Index n = points.rows();
+   Eigen::MatrixX2d before = Eigen::MatrixX2d::Zero(n, 2);
+   before.bottomRows(n - 1) = points.topRows(n - 1);
+   const Eigen::MatrixX2d step = points - before;
+   return step.col(1).cwiseQuotient(step.col(0));
+}
+
+/// @param where "reduced problem: the law of friction of node 3", for instance
+void check_law(const std::string &where, const FrictionLaw &law, Eigen::Index components)
+{
+   for (const auto &[points, way] :
+        {std::pair(&law.forward, "forward"), std::pair(&law.backward, "backward")})
+   {
+      require(points->rows() > 0 && points->allFinite(), where, " ", way,
+              " has no points, or one that is not finite");
+      Eigen::RowVector2d before(0, 0);
+      for (const Eigen::RowVector2d &point : points->rowwise())
+      {
+         require(point[0] > before[0] && point[1] >= before[1], where, " ", way, " goes from ",
+                 Eigen::Vector2d(before.transpose()), " to ",
+                 Eigen::Vector2d(point.transpose()),
+                 ", (pressure, strength) must grow from (0, 0), the strength may stay");
+         before = point;
+      }
+   }
+   require(components < 2 ||
+              (law.forward.rows() == law.backward.rows() && law.forward == law.backward),
+           where, " is another one forward than backward, but with torsion slip has no sense");
+}
+
+void check_laws_of_friction(const ReducedProblem &problem)
+{
+   const std::vector<FrictionLaw> &laws = problem.laws;
+   require(laws.empty() || static_cast<Eigen::Index>(laws.size()) == problem.nodes(),
+           "reduced problem: ", laws.size(), " laws of friction for ", problem.nodes(),
+           " nodes, must be none, or one for each");
+   for (std::size_t i = 0; i < laws.size(); ++i)
+   {
+      const std::string where =
+         "reduced problem: the law of friction of node " + std::to_string(i);
+      check_law(where, laws[i], problem.components());
+      const double steepest = laws[i].steepest(),
+                   said = problem.friction[static_cast<Eigen::Index>(i)];
+      require(std::abs(steepest - said) <= 1e-12 * steepest, where, " has the steepest slope ",
+              steepest, ", the friction there is said to be ", said,
+              ": set_friction_law() sets both, set_friction() takes the laws away");
+   }
+}
+
 } // namespace
+
+double FrictionLaw::steepest() const
+{
+   return std::max(slopes(forward).maxCoeff(), slopes(backward).maxCoeff());
+}
+
+bool FrictionLaw::concave() const
+{
+   const auto falls = [](const Eigen::VectorXd &slope)
+   {
+      const Eigen::Index pieces = slope.size() - 1;
+      return (slope.tail(pieces) - slope.head(pieces)).maxCoeff() <= 0;
+   };
+   return (forward.rows() == 1 || falls(slopes(forward))) &&
+          (backward.rows() == 1 || falls(slopes(backward)));
+}
 
 void ReducedProblem::validate() const
 {
@@ -198,6 +266,7 @@ void ReducedProblem::validate() const
       require(friction[i] >= 0, "reduced problem: friction coefficient ", friction[i],
               " at node ", i, " is negative");
    }
+   check_laws_of_friction(*this);
    const auto size = static_cast<Eigen::Index>(patterns.size());
    require(H.rows() == 0 || (H.rows() == size && H.cols() == size), "reduced problem: H is ",
            H.rows(), "×", H.cols(), ", must be square of the number of load patterns ", size,
@@ -286,10 +355,48 @@ Eigen::MatrixXd rigid_openings(const ReducedProblem &problem)
    return at_rest(Z, Z.topRows(problem.slips())).bottomRows(problem.nodes());
 }
 
+void set_friction_law(ReducedProblem &problem, const FrictionLaw &law,
+                      const std::vector<Eigen::Index> &nodes)
+{
+   const Eigen::Index n = problem.nodes();
+   check_law("law of friction:", law, problem.components());
+   require(problem.weights.size() == n,
+           "law of friction: the problem has no weights of its nodes, and so no pressures");
+   std::vector<Eigen::Index> chosen = nodes;
+   for (Eigen::Index i = 0; nodes.empty() && i < n; ++i) { chosen.push_back(i); }
+   if (problem.laws.empty())
+   {
+      for (double f : problem.friction)
+      {
+         const Eigen::RowVector2d coulomb(1, f);
+         problem.laws.push_back({coulomb, coulomb});
+      }
+   }
+   for (Eigen::Index i : chosen)
+   {
+      require(i >= 0 && i < n, "law of friction: node ", i, ", must be from 0 to ", n - 1);
+      problem.laws[i] = {problem.weights[i] * law.forward, problem.weights[i] * law.backward};
+      problem.friction[i] = law.steepest();
+   }
+}
+
+void set_friction_law(ReducedProblem &problem, const Eigen::MatrixX2d &points,
+                      const std::vector<Eigen::Index> &nodes)
+{
+   set_friction_law(problem, FrictionLaw{points, points}, nodes);
+}
+
+void require_coulomb(const ReducedProblem &problem, const char *who)
+{
+   require(problem.laws.empty(), who,
+           " knows Coulomb's law alone, and the reduced problem has another law of friction");
+}
+
 void set_friction(ReducedProblem &problem, double coefficient)
 {
    require_at_least("friction coefficient", coefficient, 0);
    problem.friction = Eigen::VectorXd::Constant(problem.nodes(), coefficient);
+   problem.laws.clear();
 }
 
 ReducedProblem absorb_gap(const ReducedProblem &problem)

@@ -32,6 +32,21 @@ struct ContactChain
    bool mirrored_at(std::size_t end) const;
 };
 
+/** What the tangential force of a node is bounded by, over its normal force p: polylines from
+    (0, 0) through points (p, bound), which go on straight beyond the last. One for slip forward
+    (v grows, q = -bound), one for slip backward. Nodal forces, as all of the reduced problem;
+    set_friction_law() makes them of tractions. */
+struct FrictionLaw
+{
+   Eigen::MatrixX2d forward;  ///< at least one point; p grows from above zero
+   Eigen::MatrixX2d backward; ///< the same
+
+   /// The largest slope of both.
+   double steepest() const;
+   /// No piece of either is steeper than the one before.
+   bool concave() const;
+};
+
 /** The narrow waist: a frictional contact problem reduced to its n contact nodes.
 
        q = A v + Bᵀ w + Σ λ_k q_k         (thesis 3.25)
@@ -63,6 +78,10 @@ struct ReducedProblem
 
    Eigen::VectorXd gap;      ///< initial gap g of each of the n nodes: closed where w + g = 0
    Eigen::VectorXd friction; ///< Coulomb coefficient f of each node, size n
+   /// None: Coulomb's law |q| <= f p. Else another one of each node, size n, of which
+   /// `friction` is the steepest slope, so that Coulomb's would hold more: see
+   /// set_friction_law().
+   std::vector<FrictionLaw> laws;
    Eigen::VectorXd weights; ///< consistent weight ∫φ_i of each node: traction = force / weight
 
    Eigen::VectorXd arc_length; ///< coordinate of each node along the contact line
@@ -125,8 +144,9 @@ struct ReducedProblem
                       const Eigen::MatrixXd &C);
 
    /// InputError if sizes disagree, entries are not finite, K is not symmetric, a diagonal
-   /// is not positive, `coupled` is wrong, a friction coefficient is negative, chains do not
-   /// cover the nodes, a rigid motion is resisted, or a held row is coupled or loaded.
+   /// is not positive, `coupled` is wrong, a friction coefficient is negative, a law of
+   /// friction is none or has another steepest slope, chains do not cover the nodes, a rigid
+   /// motion is resisted, or a held row is coupled or loaded.
    void validate() const;
 };
 
@@ -147,8 +167,22 @@ Eigen::MatrixXd rigid_slips(const ReducedProblem &problem);
 /// Those that are openings alone, n × k, see rigid_slips().
 Eigen::MatrixXd rigid_openings(const ReducedProblem &problem);
 
-/// The same friction coefficient at every node.
+/// Coulomb's law with the same friction coefficient at every node.
 void set_friction(ReducedProblem &problem, double coefficient);
+
+/** Another law of friction, of these nodes (none given: of all): points (pressure, shear
+   strength) of tractions, for slip forward and backward, from which those of nodal forces
+   follow by the nodes' weights. A single point (1, f) is Coulomb's law. InputError without
+   weights, for a node that does not exist, or if the law is none: its pressures do not grow
+   from above zero, a strength falls or is negative, or with torsion, where slip has no sense,
+   both differ. */
+void set_friction_law(ReducedProblem &problem, const FrictionLaw &law,
+                      const std::vector<Eigen::Index> &nodes = {});
+/// The same law whichever way the nodes slip.
+void set_friction_law(ReducedProblem &problem, const Eigen::MatrixX2d &points,
+                      const std::vector<Eigen::Index> &nodes = {});
+/// InputError "WHO …" for a problem with laws of friction other than Coulomb's.
+void require_coulomb(const ReducedProblem &problem, const char *who);
 
 /// Holds the given rows of A (see ReducedProblem::held), of a node on a plane of symmetry for
 /// instance. InputError if a row does not exist.

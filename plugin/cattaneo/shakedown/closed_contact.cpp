@@ -11,6 +11,7 @@ ClosedContact closed_contact(const ReducedProblem &problem,
                              const std::vector<Eigen::Index> &closed)
 {
    problem.validate();
+   require_coulomb(problem, "shakedown");
    const Eigen::Index n = problem.nodes(), c = problem.components();
    require(!closed.empty(), "closed contact: no node is closed");
    std::vector<bool> is_closed(n, false);

@@ -210,6 +210,7 @@ LimitReport friction_limit(const LimitProblem &problem, double load_factor,
 {
    require(std::isfinite(load_factor), "shakedown: the load factor is not finite");
    problem.reduced.validate();
+   require_coulomb(problem.reduced, "shakedown");
    return FrictionLimit(problem, load_factor, settings).find();
 }
 

@@ -13,6 +13,7 @@ LimitSearch::LimitSearch(const ReducedProblem &reduced, const ResidualForces &re
 {
    settings.validate();
    reduced.validate();
+   require_coulomb(reduced, "shakedown");
    const Eigen::Index m = reduced.slips();
    require(residual.flexibility.rows() == m && residual.transfer.rows() == reduced.nodes(),
            "shakedown: the residual forces do not belong to the reduced problem: ",

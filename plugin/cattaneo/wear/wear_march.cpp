@@ -405,6 +405,7 @@ WearReport wear(const ReducedProblem &problem, const WearLaw &law, const LoadHis
                 double cycles, WearState &state, const WearSettings &settings,
                 const WearObserver &observer, const WornIncrementObserver &watch)
 {
+   require_coulomb(problem, "wear");
    settings.validate();
    law.validate(problem);
    state.validate(problem);

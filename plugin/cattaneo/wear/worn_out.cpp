@@ -58,6 +58,7 @@ VectorXd overlap_of_free_nodes(const ReducedProblem &problem, const LoadHistory 
 WornOut worn_out(const ReducedProblem &problem, const LoadHistory &history,
                  const ContactState &contact, const MarchSettings &settings)
 {
+   require_coulomb(problem, "wear");
    const WearLaw law = WearLaw::uniform(problem, 1);
    law.validate(problem);
    settings.validate();

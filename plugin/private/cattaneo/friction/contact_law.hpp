@@ -20,7 +20,8 @@ using NodeMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2, 2
 /// its entries.)
 double magnitude(const NodeVector &x);
 
-/** What the tangential force of a node is bounded by at its normal force p: Coulomb's f p. The
+/** What the tangential force of a node is bounded by at its normal force p: Coulomb's f p, or
+    that of a FrictionLaw. The
     solvers and their checks multiply f by p nowhere else; zones() does for its
     read-out, the losses and derivatives of Coulomb's law for theirs, and the estimates and
     programmes of shakedown for the linear cones they need.
@@ -32,9 +33,18 @@ class FrictionBound
 {
 public:
    FrictionBound() = default;
-   explicit FrictionBound(double coefficient) : coefficient_(coefficient) {}
+   explicit FrictionBound(double coefficient)
+      : lines_{Line{0, coefficient}, Line{0, coefficient}}
+   {
+   }
+   /// The law must outlive this, if it bends.
+   explicit FrictionBound(const FrictionLaw &law);
    /// No friction at any p.
-   bool none() const { return coefficient_ == 0; }
+   bool none() const { return !law_ && lines_[0].slope == 0 && lines_[1].slope == 0; }
+   /// Has pieces, so that no one line is it.
+   bool bends() const { return law_ != nullptr; }
+   /// The lines of the pieces at p.
+   FrictionBound straight(double p) const;
    /// Nothing in tension.
    double at(double p, double sense = 0) const { return line(std::max(p, 0.0), sense); }
    /// Without the end at p = 0: the straight piece of it goes on into tension.
@@ -43,8 +53,10 @@ public:
       return intercept(p, sense) + slope(p, sense) * p;
    }
    /// Of that line: none in Coulomb's law.
-   double intercept(double /*p*/ = 0, double /*sense*/ = 0) const { return 0; }
-   double slope(double /*p*/ = 0, double /*sense*/ = 0) const { return coefficient_; }
+   double intercept(double p = 0, double sense = 0) const { return piece(p, sense).intercept; }
+   double slope(double p = 0, double sense = 0) const { return piece(p, sense).slope; }
+   /// The larger slope of both senses there.
+   double steepness(double p) const { return std::max(slope(p, 1), slope(p, -1)); }
    /// Of the bound itself, of which nothing is left in tension.
    double derivative(double p, double sense = 0) const
    {
@@ -54,9 +66,25 @@ public:
    double reserve(double q, double p, double sense) const { return line(p, sense) + sense * q; }
 
 private:
-   double coefficient_ = 0;
+   struct Line
+   {
+      double intercept = 0, slope = 0;
+   };
+   Line piece(double p, double sense) const
+   {
+      return law_ ? piece_of(sense < 0 ? law_->backward : law_->forward, p) : lines_[sense < 0];
+   }
+   static Line piece_of(const Eigen::MatrixX2d &points, double p);
+
+   Line lines_[2]; // forward and backward
+   const FrictionLaw *law_ = nullptr;
 };
 
+/// Of node i of the problem, which must outlive it.
+FrictionBound friction_bound(const ReducedProblem &problem, Eigen::Index i);
+/// Of all nodes.
+std::vector<FrictionBound> friction_bounds(const ReducedProblem &problem);
+/// Those of Coulomb's law; with ReducedProblem::friction no law of a node is above its line.
 std::vector<FrictionBound> friction_bounds(const Eigen::VectorXd &coefficients);
 
 /// One node at the end of an increment. Lengths count as forces by its own stiffness.

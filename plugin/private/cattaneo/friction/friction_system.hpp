@@ -51,7 +51,8 @@ struct FrictionSystem
 
    Index n = 0, c = 0; // nodes and tangential components (frictionless: none)
    const bool frictionless;
-   std::vector<FrictionBound> bound;     // of each node
+   std::vector<FrictionBound> bound;     // of each node, of a law that bends the pieces taken
+   std::vector<FrictionBound> laws;      // of each node, if one of them bends
    VectorXd ktt, knn;                    // each node's own stiffness (disc: ktt is its mean)
    VectorXd critical;                    // friction of each node
    MatrixXd normal;                      // frictionless: the normal stiffness, slip eliminated
@@ -83,6 +84,8 @@ struct FrictionSystem
    /// they are given, and what is reported of it, over the force `scale`.
    bool obeys_laws(const VectorXd &v_old, const ContactState &next, double scale,
                    IncrementReport &report) const;
+   /// Takes the pieces of the laws at these normal forces.
+   void take_pieces(const VectorXd &p);
    // See FrictionSolver.
    IncrementReport solve(ContactState &state, const VectorXd &multipliers);
    IncrementReport judge(const ContactState &before, const ContactState &after) const;

@@ -30,6 +30,9 @@ Eigen::MatrixXd cone_edges(const Eigen::MatrixXd &Z, const std::vector<FrictionB
     balance each other to round-off). */
 Mechanism find_mechanism(const ReducedProblem &problem, const Eigen::VectorXd &clamped_forces,
                          double negligible = 0);
+/// The same of nodes that hold no more than these lines, which may have intercepts.
+Mechanism find_mechanism(const ReducedProblem &problem, const std::vector<FrictionBound> &bound,
+                         const Eigen::VectorXd &clamped_forces, double negligible);
 
 /** Do the clamped forces drive a steady rotation about the axis? It meets f p at every node,
     with the pressure of a contact without friction: all of friction is circumferential then,

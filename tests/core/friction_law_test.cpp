@@ -1,0 +1,429 @@
+#include "expect_input_error.hpp"
+#include "small_problems.hpp"
+
+#include <cattaneo/friction/critical_friction.hpp>
+#include <cattaneo/friction/march.hpp>
+#include <cattaneo/readout/zones.hpp>
+#include <cattaneo/reduced/reduced_file.hpp>
+#include <cattaneo/shakedown/load_cycle.hpp>
+#include <cattaneo/wear/worn_out.hpp>
+#include <cmath>
+#include <random>
+
+// Laws of friction other than Coulomb's: the bound is a polyline of the pressure, of its own
+// for slip forward and backward.
+
+using namespace cattaneo;
+using Eigen::Index;
+using Eigen::MatrixX2d;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace
+{
+
+MatrixX2d points(std::initializer_list<std::pair<double, double>> all)
+{
+   MatrixX2d result(all.size(), 2);
+   Index k = 0;
+   for (const auto &[p, bound] : all) { result.row(k++) << p, bound; }
+   return result;
+}
+
+/// The block of one_block(), of weight 1, with another law.
+ReducedProblem block(const FrictionLaw &law)
+{
+   ReducedProblem problem = cattaneo_test::one_block(0);
+   problem.weights = VectorXd::Ones(1);
+   set_friction_law(problem, law);
+   return problem;
+}
+
+/// The polyline by hand.
+double strength(const MatrixX2d &law, double p)
+{
+   double p0 = 0, b0 = 0, slope = 0;
+   for (Index k = 0; k < law.rows(); ++k)
+   {
+      slope = (law(k, 1) - b0) / (law(k, 0) - p0);
+      if (p <= law(k, 0)) { return b0 + slope * (p - p0); }
+      p0 = law(k, 0);
+      b0 = law(k, 1);
+   }
+   return b0 + slope * (p - p0);
+}
+
+/// A polyline that never gets steeper than before, or that may.
+MatrixX2d some_law(std::mt19937 &random, double steepest, bool concave)
+{
+   std::uniform_real_distribution<double> u(0, 1);
+   const Index count = 1 + static_cast<Index>(random() % 3);
+   MatrixX2d law(count, 2);
+   double p = 0, b = 0, slope = steepest;
+   for (Index k = 0; k < count; ++k)
+   {
+      const double step = 0.1 + 0.6 * u(random);
+      if (k > 0) { slope = concave ? slope * u(random) : steepest * u(random); }
+      p += step;
+      b += slope * step;
+      law.row(k) << p, b;
+   }
+   return law;
+}
+
+/// Three nodes, coupled, with as much friction as leaves one answer, and a load.
+ReducedProblem some_contact(std::mt19937 &random, bool concave)
+{
+   std::normal_distribution<double> normal;
+   const auto some = [&](Index rows, Index cols)
+   { return MatrixXd(MatrixXd::NullaryExpr(rows, cols, [&] { return normal(random); })); };
+   const Index n = 3;
+   const MatrixXd M = some(2 * n, 2 * n);
+   const MatrixXd K = M * M.transpose() + 2 * MatrixXd::Identity(2 * n, 2 * n);
+   ReducedProblem problem;
+   problem.set_stiffness(K.topLeftCorner(n, n), K.bottomLeftCorner(n, n),
+                         K.bottomRightCorner(n, n));
+   problem.patterns = {{"load", Control::force, some(n, 1), some(n, 1).cwiseAbs()}};
+   problem.patterns[0].p[random() % n] *= -0.5;
+   problem.gap = VectorXd::Zero(n);
+   problem.weights = VectorXd::Ones(n);
+   set_friction(problem, 1);
+   const double most = 0.9 * critical_friction(problem).unique_below;
+   problem.laws.clear();
+   for (Index i = 0; i < n; ++i)
+   {
+      problem.laws.push_back(
+         {some_law(random, most, concave), some_law(random, most, concave)});
+      problem.friction[i] = problem.laws.back().steepest();
+   }
+   return problem;
+}
+
+/// All answers of one increment from rest, by trying what each node may do, piece by piece.
+std::vector<VectorXd> answers(const ReducedProblem &problem, double load)
+{
+   const Index n = problem.nodes();
+   const VectorXd f = problem.clamped_forces(VectorXd::Constant(1, load));
+   // 0: open, 1: sticks, then pieces forward, then pieces backward.
+   std::vector<Index> counts, now(n, 0);
+   for (const FrictionLaw &law : problem.laws)
+   {
+      counts.push_back(2 + law.forward.rows() + law.backward.rows());
+   }
+   std::vector<VectorXd> found;
+   while (true)
+   {
+      MatrixXd M = MatrixXd::Identity(2 * n, 2 * n);
+      VectorXd r = VectorXd::Zero(2 * n);
+      for (Index i = 0; i < n; ++i)
+      {
+         const Index t = i, m = n + i;
+         if (now[i] == 0)
+         {
+            M.row(t) = problem.K.row(t);
+            M.row(m) = problem.K.row(m);
+            r[t] = -f[t];
+            r[m] = -f[m];
+         }
+         if (now[i] < 2) { continue; }
+         const Index forward = problem.laws[i].forward.rows();
+         const bool back = now[i] - 2 >= forward;
+         const MatrixX2d &law = back ? problem.laws[i].backward : problem.laws[i].forward;
+         const Index k = now[i] - 2 - (back ? forward : 0);
+         const double p0 = k ? law(k - 1, 0) : 0, b0 = k ? law(k - 1, 1) : 0,
+                      slope = (law(k, 1) - b0) / (law(k, 0) - p0), way = back ? -1 : 1;
+         M.row(t) = problem.K.row(t) + way * slope * problem.K.row(m);
+         r[t] = -f[t] - way * slope * f[m] - way * (b0 - slope * p0);
+      }
+      const VectorXd u = M.fullPivLu().solve(r), F = problem.K * u + f;
+      bool obeys = true;
+      for (Index i = 0; i < n; ++i)
+      {
+         const double q = F[i], p = F[n + i], tiny = 1e-9;
+         const FrictionLaw &law = problem.laws[i];
+         if (now[i] == 0)
+         {
+            obeys = obeys && u[n + i] >= -tiny;
+            continue;
+         }
+         obeys = obeys && p >= -tiny && q >= -strength(law.forward, p) - tiny &&
+                 q <= strength(law.backward, p) + tiny;
+         if (now[i] < 2) { continue; }
+         const bool back = now[i] - 2 >= law.forward.rows();
+         obeys = obeys && (back ? -u[i] : u[i]) >= -tiny &&
+                 std::abs(q + (back ? -strength(law.backward, p) : strength(law.forward, p))) <=
+                    tiny;
+      }
+      if (obeys) { found.push_back(u); }
+      Index k = 0;
+      while (k < n && ++now[k] == counts[k]) { now[k++] = 0; }
+      if (k == n) { return found; }
+   }
+}
+
+/// Slips, and forces along the contact, as they are seen in a mirror.
+ReducedProblem mirrored(ReducedProblem problem)
+{
+   const Index n = problem.nodes();
+   VectorXd sign = VectorXd::Ones(2 * n);
+   sign.head(n).setConstant(-1);
+   problem.K = (sign.asDiagonal() * problem.K * sign.asDiagonal()).eval();
+   for (LoadPattern &pattern : problem.patterns) { pattern.q *= -1; }
+   for (FrictionLaw &law : problem.laws) { std::swap(law.forward, law.backward); }
+   return problem;
+}
+
+} // namespace
+
+// Bounds 0.6 forward and 1 backward under P = 2, on a spring of 2: from Q = 1.5 to -1.5 and
+// back the block slips by 0.7 each way.
+TEST(FrictionLaw, OneForwardAndAnotherBackwardByHand)
+{
+   const ReducedProblem problem = block({points({{1, 0.3}}), points({{1, 0.5}})});
+   EXPECT_EQ(problem.friction[0], 0.5);
+   for (const Stepping stepping : {Stepping::fixed, Stepping::advancing, Stepping::exact})
+   {
+      MarchSettings settings;
+      settings.stepping = stepping;
+      ContactState state = ContactState::virgin(problem);
+      const auto go = [&](double from, double to, double v, double q)
+      {
+         const LoadHistory history = LoadHistory::through(
+            problem, {{{"press", 2}, {"shear", from}}, {{"press", 2}, {"shear", to}}});
+         const double before = state.dissipation;
+         state.time = 0;
+         const MarchReport report = march(problem, history, state, settings);
+         EXPECT_EQ(report.status, FrictionStatus::converged) << report.message;
+         EXPECT_EQ(report.fallbacks, 0);
+         EXPECT_NEAR(state.v[0], v, 1e-12);
+         EXPECT_NEAR(state.q[0], q, 1e-12);
+         return state.dissipation - before;
+      };
+      march(problem, LoadHistory::through(problem, {{}, {{"press", 2}}}), state, settings);
+      EXPECT_NEAR(go(0, 1.5, -0.25, 1), 1 * 0.25, 1e-10);
+      EXPECT_NEAR(go(1.5, -1.5, 0.45, -0.6), 0.6 * 0.7, 1e-10);
+      EXPECT_NEAR(go(-1.5, 1.5, -0.25, 1), 1 * 0.7, 1e-10);
+   }
+}
+
+// A block that slips bears what the law allows it at its pressure, whichever piece that is.
+TEST(FrictionLaw, BendsWithPressureByHand)
+{
+   const MatrixX2d law = points({{1, 0.6}, {3, 1}, {4, 1}});
+   const ReducedProblem problem = block({law, law});
+   for (const auto &[p, bound] :
+        {std::pair(0.5, 0.3), {1.0, 0.6}, {2.0, 0.8}, {3.5, 1.0}, {10.0, 1.0}})
+   {
+      for (const double way : {-1.0, 1.0})
+      {
+         ContactState state = ContactState::virgin(problem);
+         FrictionSolver solver(problem);
+         ASSERT_EQ(solver.solve(state, Eigen::Vector2d(p, -2 * way)).status,
+                   FrictionStatus::converged);
+         EXPECT_NEAR(state.q[0], -way * bound, 1e-12) << p;
+         EXPECT_NEAR(state.v[0], way * (2 - bound) / 2, 1e-12) << p;
+         // It sticks below.
+         state = ContactState::virgin(problem);
+         solver.solve(state, Eigen::Vector2d(p, -way * 0.999 * bound));
+         EXPECT_EQ(state.status[0], NodeState::stick) << p;
+         EXPECT_NEAR(state.v[0], 0, 1e-12);
+      }
+   }
+   // Pressed by 4 and sheared by 0.9 it sticks; unloaded to 0.5 it slips from p = 2.5 on, with
+   // q = b(p) = 0.9 + 2 v: ∫ b |dv| = (0.9² - 0.3²)/4.
+   MarchSettings settings;
+   settings.increments = 400;
+   settings.stepping = Stepping::fixed;
+   ContactState state = ContactState::virgin(problem);
+   const LoadHistory history = LoadHistory::through(
+      problem,
+      {{}, {{"press", 4}}, {{"press", 4}, {"shear", 0.9}}, {{"press", 0.5}, {"shear", 0.9}}});
+   ASSERT_EQ(march(problem, history, state, settings).status, FrictionStatus::converged);
+   EXPECT_NEAR(state.v[0], -0.3, 1e-12);
+   EXPECT_NEAR(state.dissipation, 0.18, 1e-4);
+   settings.stepping = Stepping::exact;
+   state = ContactState::virgin(problem);
+   const MarchReport exact = march(problem, history, state, settings);
+   EXPECT_GT(exact.fallbacks, 0);
+   EXPECT_NE(exact.fallback_reason.find("bends"), std::string::npos);
+   EXPECT_NEAR(state.v[0], -0.3, 1e-12);
+}
+
+// Where all that three nodes may do is tried there is one answer, and it is the solver's, by
+// each method.
+TEST(FrictionLaw, AgainstAllThatNodesMayDo)
+{
+   int slipping = 0, bent = 0;
+   for (unsigned seed = 1; seed <= 150; ++seed)
+   {
+      std::mt19937 random(seed);
+      const bool concave = seed % 3 > 0;
+      const ReducedProblem problem = some_contact(random, concave);
+      const double load = seed % 2 ? 1.0 : 0.3;
+      const std::vector<VectorXd> all = answers(problem, load);
+      ASSERT_GE(all.size(), 1u) << seed;
+      for (const VectorXd &u : all) { ASSERT_LT((u - all[0]).norm(), 1e-7) << seed; }
+      for (const FrictionMethod method :
+           {FrictionMethod::automatic, FrictionMethod::gauss_seidel})
+      {
+         FrictionSettings settings;
+         settings.method = method;
+         FrictionSolver solver(problem, settings);
+         ContactState state = ContactState::virgin(problem);
+         const IncrementReport report = solver.solve(state, VectorXd::Constant(1, load));
+         ASSERT_EQ(report.status, FrictionStatus::converged) << seed << report.message;
+         ASSERT_LT((state.displacements() - all[0]).norm(), 1e-7) << seed;
+         for (Index i = 0; i < 3; ++i)
+         {
+            slipping += slips(state.status[i]);
+            const MatrixX2d &law =
+               state.q[i] > 0 ? problem.laws[i].backward : problem.laws[i].forward;
+            bent += slips(state.status[i]) && state.p[i] > law(0, 0) && law.rows() > 1;
+         }
+      }
+   }
+   EXPECT_GT(slipping, 100); // the nodes do what is to be tested
+   EXPECT_GT(bent, 30);
+}
+
+// A march in a mirror has the mirrored states, to the last bit; and a law of one point is
+// Coulomb's.
+TEST(FrictionLaw, MirrorsAndIsCoulombsOfOnePoint)
+{
+   for (unsigned seed = 1; seed <= 20; ++seed)
+   {
+      std::mt19937 random(seed);
+      const ReducedProblem problem = some_contact(random, true), other = mirrored(problem);
+      const auto marched = [](const ReducedProblem &of)
+      {
+         ContactState state = ContactState::virgin(of);
+         const MarchReport report = march(
+            of, LoadHistory::through(of, {{}, {{"load", 1}}, {{"load", 0.2}}, {{"load", 0.9}}}),
+            state);
+         EXPECT_EQ(report.status, FrictionStatus::converged) << report.message;
+         EXPECT_LT(report.energy_imbalance, 0.02);
+         return state;
+      };
+      const ContactState here = marched(problem), there = marched(other);
+      EXPECT_LT((here.v + there.v).cwiseAbs().maxCoeff(), 1e-11) << seed;
+      EXPECT_LT((here.q + there.q).cwiseAbs().maxCoeff(), 1e-11) << seed;
+      EXPECT_LT((here.w - there.w).cwiseAbs().maxCoeff(), 1e-11) << seed;
+      EXPECT_NEAR(here.dissipation, there.dissipation, 1e-11) << seed;
+      ReducedProblem coulomb = problem, said = problem;
+      set_friction(coulomb, 0.25);
+      set_friction_law(said, points({{2, 0.5}}));
+      const ContactState one = marched(coulomb), two = marched(said);
+      EXPECT_EQ(one.v, two.v);
+      EXPECT_EQ(one.q, two.q);
+      EXPECT_EQ(one.dissipation, two.dissipation);
+   }
+}
+
+// Two nodes of a body that only friction keeps from sliding, each under the pressure 1: they
+// hold 7/15 each, and not more.
+TEST(FrictionLaw, ABodySlidesBeyondWhatTheLawHolds)
+{
+   ReducedProblem problem;
+   Eigen::Matrix2d A;
+   A << 2, -2, -2, 2;
+   problem.set_stiffness(A, Eigen::Matrix2d::Zero(), 3 * Eigen::Matrix2d::Identity());
+   ASSERT_EQ(problem.rigid_motions.cols(), 1);
+   const Eigen::Vector2d none(0, 0), both(1, 1);
+   problem.patterns = {{"P", Control::force, none, both}, {"Q", Control::force, both, none}};
+   problem.gap = none;
+   problem.weights = both;
+   const MatrixX2d law = points({{0.5, 0.4}, {2, 0.6}});
+   set_friction_law(problem, law);
+   for (const double way : {-1.0, 1.0})
+   {
+      ContactState state = ContactState::virgin(problem);
+      FrictionSolver solver(problem);
+      EXPECT_EQ(solver.solve(state, Eigen::Vector2d(1, way * 0.4666)).status,
+                FrictionStatus::converged);
+      EXPECT_EQ(solver.solve(state, Eigen::Vector2d(1, way * 0.4668)).status,
+                FrictionStatus::gross_sliding);
+      state = ContactState::virgin(problem);
+      const MarchReport report =
+         march(problem, LoadHistory::through(problem, {{}, {{"P", 1}}, {{"P", 1}, {"Q", way}}}),
+               state);
+      EXPECT_EQ(report.status, FrictionStatus::gross_sliding) << report.message;
+      EXPECT_NEAR(report.event_multipliers[1], way * 7 / 15, 1e-7);
+   }
+   // One way it holds less.
+   set_friction_law(problem, FrictionLaw{law, points({{1, 0.1}})});
+   ContactState state = ContactState::virgin(problem);
+   FrictionSolver solver(problem);
+   EXPECT_EQ(solver.solve(state, Eigen::Vector2d(1, 0.11)).status,
+             FrictionStatus::gross_sliding);
+   EXPECT_EQ(solver.solve(state, Eigen::Vector2d(1, -0.46)).status, FrictionStatus::converged);
+}
+
+// With torsion the same law holds in all directions: a node on springs alike slips along its
+// load, with the force that the law has.
+TEST(FrictionLaw, HoldsInAllDirectionsWithTorsion)
+{
+   ReducedProblem problem;
+   problem.set_stiffness(2 * Eigen::Matrix2d::Identity(), MatrixXd::Zero(1, 2),
+                         MatrixXd::Constant(1, 1, 3.0));
+   problem.patterns = {{"P", Control::force, VectorXd::Zero(2), VectorXd::Ones(1)},
+                       {"T", Control::force, Eigen::Vector2d(0.6, -0.8), VectorXd::Zero(1)}};
+   problem.gap = VectorXd::Zero(1);
+   problem.weights = VectorXd::Constant(1, 2);
+   set_friction_law(problem, points({{0.5, 0.3}, {1.5, 0.5}, {2, 0.5}})); // of tractions
+   for (const auto &[p, bound] : {std::pair(0.5, 0.3), {2.0, 0.8}, {3.5, 1.0}, {10.0, 1.0}})
+   {
+      ContactState state = ContactState::virgin(problem);
+      FrictionSolver solver(problem);
+      ASSERT_EQ(solver.solve(state, Eigen::Vector2d(p, 2)).status, FrictionStatus::converged);
+      EXPECT_NEAR(state.q[0], 0.6 * bound, 1e-10) << p;
+      EXPECT_NEAR(state.q[1], -0.8 * bound, 1e-10) << p;
+      EXPECT_NEAR(state.v[0], -0.6 * (2 - bound) / 2, 1e-10) << p;
+   }
+   expect_input_error(
+      [&] {
+         set_friction_law(problem, FrictionLaw{points({{1, 0.3}}), points({{1, 0.4}})});
+      },
+      "with torsion slip has no sense");
+}
+
+// Files keep the laws, and who does not know of them cannot read these; all that knows
+// Coulomb's law alone says so.
+TEST(FrictionLaw, IsSavedAndRefusedWhereItIsNotKnown)
+{
+   std::mt19937 random(7);
+   const ReducedProblem problem = some_contact(random, true);
+   const std::string file = testing::TempDir() + "laws.json";
+   save(problem, file);
+   const ReducedProblem again = load_reduced_problem(file);
+   ASSERT_EQ(again.laws.size(), 3u);
+   for (std::size_t i = 0; i < 3; ++i)
+   {
+      EXPECT_EQ(again.laws[i].forward, problem.laws[i].forward);
+      EXPECT_EQ(again.laws[i].backward, problem.laws[i].backward);
+   }
+   ReducedProblem other = problem;
+   set_friction(other, 0.1);
+   EXPECT_TRUE(other.laws.empty());
+   other = problem;
+   other.friction.setConstant(0.1);
+   expect_input_error([&] { other.validate(); }, "has the steepest slope");
+   other = problem;
+   other.laws.pop_back();
+   expect_input_error([&] { other.validate(); }, "2 laws of friction for 3 nodes");
+   other = problem;
+   for (const auto &[law, words] : {std::pair(points({{1, 0.3}, {1, 0.4}}), "must grow"),
+                                    {points({{1, 0.3}, {2, 0.2}}), "must grow"},
+                                    {points({{0, 0.1}}), "must grow"},
+                                    {points({}), "no points"}})
+   {
+      expect_input_error([&, of = law] { set_friction_law(other, of); }, words);
+   }
+   other.weights.resize(0);
+   expect_input_error([&] { set_friction_law(other, points({{1, 0.3}})); }, "no weights");
+   const LoadHistory history = LoadHistory::through(problem, {{}, {{"load", 1}}});
+   expect_input_error([&] { worn_out(problem, history, ContactState::virgin(problem)); },
+                      "wear knows Coulomb's law alone");
+   expect_input_error(
+      [&] { stuck_forces(problem, LoadCycle::through(problem, {}, {{{"load", 1}}, {{"load", 0}}})); },
+      "shakedown knows Coulomb's law alone");
+}
