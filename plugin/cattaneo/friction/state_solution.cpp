@@ -53,7 +53,7 @@ bool solve_equations(FrictionSystem &system, std::unique_ptr<StateEquations> &eq
    {
       const VectorXd from = u;
       VectorXd x;
-      solved = equations->solve(f + stiffness * from, x, forces);
+      solved = equations->solve(f + equations->forces(from), x, forces);
       if (solved) { u += x; }
       done = again || !solved || !cancels(equations->diagonal(), from, u);
    }
