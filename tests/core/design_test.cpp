@@ -439,6 +439,16 @@ TEST(Design, TakesAShapeThatBendsWithinFarBounds)
       if (factor == 1) { search(); }
       else { expect_input_error(search, "derivative by variable 0"); }
    }
+   // Where it begins level, beside what does not depend on it, a slope is still a wrong one.
+   problem.shape = [x](const VectorXd &values, MatrixXd &by)
+   {
+      by.col(0) = 3 * values[0] * x.cwiseAbs2();
+      return VectorXd(1 + values[0] * values[0] * x.array().square());
+   };
+   problem.low = Eigen::Vector2d(-1, -1);
+   problem.high = Eigen::Vector2d(1, 1);
+   expect_input_error([&] { design(problem, Eigen::Vector2d(0, 0)); },
+                      "derivative by variable 0");
 }
 
 // Starts are apart from one another, spread over the box, and where all limits hold; along what

@@ -94,36 +94,33 @@ void require_start(const DesignProblem &problem, const VectorXd &start, double t
 /** A search with derivatives that are not those of the shape would end anywhere, and call it an
     optimum: along each variable a short way into its bounds they are compared with its
     differences (the mean of both ends is exact to the third order of the way). Bounds may be
-    far: the way is shorter where derivatives change along it. */
+    far, and the shape bend before: shorter ways are tried as long as differences have digits.
+ */
 void require_derivatives(const DesignProblem &problem, const VectorXd &start)
 {
    MatrixXd here, there;
    const VectorXd gap = shaped(problem, start, here);
+   const double digits = 1e-12 * gap.cwiseAbs().maxCoeff();
    for (Index j = 0; j < start.size(); ++j)
    {
       const double reach = problem.high[j] - problem.low[j];
       const bool up = problem.high[j] - start[j] >= start[j] - problem.low[j];
-      double way = (up ? 1e-4 : -1e-4) * reach;
-      if (way == 0) { continue; }
-      VectorXd x, change, expected;
-      const auto bends = [&]
+      for (double share = 1e-4; reach > 0; share *= 0.1)
       {
-         x = start;
-         x[j] += way;
-         change = shaped(problem, x, there) - gap;
-         expected = 0.5 * (x[j] - start[j]) * (here.col(j) + there.col(j));
-         return !((there - here).col(j).cwiseAbs().maxCoeff() <=
-                  0.1 * here.col(j).cwiseAbs().maxCoeff());
-      };
-      for (int shorter = 0; bends() && shorter < 8; ++shorter) { way *= 0.1; }
-      const double size =
-                      std::max(change.cwiseAbs().maxCoeff(), expected.cwiseAbs().maxCoeff()),
-                   digits = 1e-12 * gap.cwiseAbs().maxCoeff();
-      Index node = 0;
-      const double off = (change - expected).cwiseAbs().maxCoeff(&node);
-      require(off <= 1e-2 * size + digits, "design: the shape's derivative by variable ", j,
-              " is ", expected[node] / way, " at node ", node, ", its values change by ",
-              change[node] / way);
+         VectorXd x = start;
+         x[j] += (up ? share : -share) * reach;
+         const double way = x[j] - start[j];
+         const VectorXd change = shaped(problem, x, there) - gap,
+                        expected = 0.5 * way * (here.col(j) + there.col(j));
+         const double size =
+            std::max(change.cwiseAbs().maxCoeff(), expected.cwiseAbs().maxCoeff());
+         Index node = 0;
+         const double off = (change - expected).cwiseAbs().maxCoeff(&node);
+         if (off <= 1e-2 * size + digits) { break; }
+         require(share > 1e-12 && size > 100 * digits,
+                 "design: the shape's derivative by variable ", j, " is ", expected[node] / way,
+                 " at node ", node, ", its values change by ", change[node] / way);
+      }
    }
 }
 
