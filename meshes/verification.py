@@ -94,10 +94,15 @@ class Cases:
     def ssnp121(self):
         block(self.folder / "SSNP121_low.mesh", 0, 1, 3, 0, 1, 2)
         block(self.folder / "SSNP121_high.mesh", 0, 1, 4, 1, 2, 3)
+        # The load "probe", a pressure on the interface of the lower block, never acts: its conjugate is the sinking.
         self.pressures("SSNP121", {
-            "bodies": {"low": body("SSNP121_low.mesh", "1:y 4:x", (), 2e6),
+            "bodies": {"low": body("SSNP121_low.mesh", "1:y 4:x", ["probe pressure 3 1"], 2e6),
                        "high": body("SSNP121_high.mesh", "4:x", ["D displacement-y 3 -0.1"], 2e6)},
-            "interfaces": {"joint": {"between": ["high:1", "low:3"]}}}, 1e5)
+            "interfaces": {"joint": {"between": ["high:1", "low:3"]}},
+            "history": ["D=0", "D=1"]}, 1e5)
+        with open(self.folder / "SSNP121_history.csv", encoding="utf-8") as table:
+            sinking = float(list(csv.DictReader(table))[-1]["displacement probe"])
+        self.says("SSNP121, u_y of the interface", -0.05, -sinking)
 
     def ssnp152(self):
         """Rings about the axis x = 0."""
@@ -172,6 +177,24 @@ class Cases:
             self.says(f"patch, order {order}, shear that errs most", 0.4,
                       max((abs(float(n["q"])) for n in nodes), key=lambda q: abs(q - 0.4)))
 
+    def rigid_motion(self):
+        """The stack, pressed, is then moved and turned as a whole by its two ends: nothing else happens."""
+        def end(**also):
+            return {"x": {"displacement": "X", "value": 0.3}, "rotation": {"angle": "turn", "value": 0.1}, "centre": [0, 0], **also}
+        for order in (1, 2, 3, 4):
+            low, high = body("patch_0.mesh"), body("patch_2.mesh")
+            low["guides"] = [end(on="1", y={"displacement": "Y", "value": -0.2})]
+            high["guides"] = [end(on="3", y={"force": "P", "value": -1.8})]
+            _, nodes = self.run(f"rigid_motion_{order}", {
+                "order": order, "bodies": {"low": low, "middle": body("patch_1.mesh"), "high": high},
+                "interfaces": {"lower": {"between": ["middle:1", "low:3"], "friction": 0.5},
+                               "upper": {"between": ["high:1", "middle:3"], "friction": 0.5}},
+                "history": ["P=0", "P=1", "X=1, Y=1, turn=1"]})
+            # By so much strain as a motion is that isn't rigid: the angle, at E = 1000.
+            self.says(f"rigid motion, order {order}, tractions that come of it", 0,
+                      max(max(abs(float(n["p"]) - 0.9), abs(float(n["q"]))) for n in nodes) / (1000 * 0.1))
+            self.says(f"rigid motion, order {order}, slip that comes of it", 0, max(abs(float(n["slip"])) for n in nodes))
+
     def uniform_punch(self):
         """The profile that half-planes press on uniformly: those of the study hertz (E* = 1/2, of which P = 1
         presses a parabola of radius 100 to the half-width 1) with another gap."""
@@ -205,7 +228,7 @@ def main():
         del arguments[at:at + 2]
     cases = Cases(pathlib.Path(arguments[0] if arguments else "results/verification"))
     for case in (cases.ssnv128, cases.ssnp121, cases.ssnp152, cases.ssnp154, cases.ssnp170, cases.ssnv503, cases.patch,
-                 cases.uniform_punch):
+                 cases.rigid_motion, cases.uniform_punch):
         case()
     print(f"{'quantity':<45} {'published':>12} {'computed':>15}")
     for row in cases.rows:

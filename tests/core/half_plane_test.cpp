@@ -10,6 +10,7 @@
 #include <cattaneo/readout/zones.hpp>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <record.hpp>
 
 // Half-planes and half-spaces without a mesh, against closed solutions.
 
@@ -116,9 +117,11 @@ TEST(HalfPlane, RigidPunchesOnTheHalfPlane)
    const double sinking = 2 / (M_PI * modulus) * (std::log(2 * depth / a) - 0.5 / (1 - nu));
    EXPECT_NEAR(pressed.sum() * sinking, 1, tolerance);
    EXPECT_NEAR(pressed.dot(x.cwiseAbs2()) / (pressed.sum() * a * a / 2), 1, tolerance);
+   cattaneo_test::record("pressed", pressed.sum() * sinking);
    // Turned: M = π/4 E' a² φ.
    const VectorXd turned = without_shear(body.S, x);
    EXPECT_NEAR(turned.dot(x) / (M_PI / 4 * modulus * a * a), 1, tolerance);
+   cattaneo_test::record("turned", turned.dot(x) / (M_PI / 4 * modulus * a * a));
 
    // Bonded, turned by a moment alone (Muskhelishvili's problem with Φ⁺ + κ Φ⁻ constant, κ =
    // 3-4ν): M = 2π G a² (1+4ε²)/(1+κ) φ, ε = ln κ/2π. Tractions oscillate at the edges.
@@ -163,15 +166,19 @@ TEST(HalfSpace, RigidPunchesOnTheHalfSpace)
       condense(half_plane(E, nu), straight_line(grid, 4, Formulation::axisymmetric));
    const Index n = body.line.size();
    const VectorXd w = VectorXd::Ones(n);
-   EXPECT_NEAR(without_shear(body.S, w).sum() / (2 * modulus * a), 1, tolerance);
+   const double smooth = without_shear(body.S, w).sum() / (2 * modulus * a);
+   EXPECT_NEAR(smooth, 1, tolerance);
+   cattaneo_test::record("smooth", smooth);
    // Bonded: Mossakovskii.
    const double bonded = (body.S.bottomRightCorner(n, n) * w).sum();
    EXPECT_NEAR(bonded / (4 * G * a * std::log(3 - 4 * nu) / (1 - 2 * nu)), 1, tolerance);
+   cattaneo_test::record("bonded", bonded / (4 * G * a * std::log(3 - 4 * nu) / (1 - 2 * nu)));
    // Twisted: Reissner and Sagoci.
    const CondensedBody twisted =
       condense(half_plane(E, nu), straight_line(grid, 4, Formulation::torsion));
    const VectorXd r = twisted.line.each(&LineNode::position).col(0);
    EXPECT_NEAR(r.dot(twisted.S * r) / (16.0 / 3 * G * a * a * a), 1, tolerance);
+   cattaneo_test::record("twisted", r.dot(twisted.S * r) / (16.0 / 3 * G * a * a * a));
 }
 
 /// Of half a line beside a plane of symmetry: what the whole line does in motions that are
@@ -672,6 +679,7 @@ TEST(HalfSpace, HertzAndLubkinOfTwoHalfSpaces)
    ASSERT_EQ(solver.solve(state, Eigen::Vector2d(a * a / R, 0)).status,
              FrictionStatus::converged);
    EXPECT_NEAR(state.p.sum() / P, 1, 3e-4);
+   cattaneo_test::record("load", state.p.sum() / P);
    const VectorXd p = tractions(problem, state.p);
    for (Index i = 0; i < n; ++i)
    {
@@ -694,7 +702,9 @@ TEST(HalfSpace, HertzAndLubkinOfTwoHalfSpaces)
    torque *= 4 * f * P / (M_PI * a * a);
    ASSERT_EQ(solver.solve(state, Eigen::Vector2d(a * a / R, turn)).status,
              FrictionStatus::converged);
-   EXPECT_NEAR(std::abs(state.q.segment(n, n).dot(r)) / torque, 1, 1e-3);
+   const double reached = std::abs(state.q.segment(n, n).dot(r)) / torque;
+   EXPECT_NEAR(reached, 1, 1e-3);
+   cattaneo_test::record("torque", reached);
 }
 
 TEST(Pairing, NamesEachNodeOfTheOtherBodyOnce)

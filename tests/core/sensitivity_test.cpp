@@ -1,6 +1,7 @@
 #include "disc_problems.hpp"
 #include "expect_input_error.hpp"
 #include "random_problem.hpp"
+#include "record.hpp"
 #include "small_problems.hpp"
 
 #include <cattaneo/design/sensitivity.hpp>
@@ -433,6 +434,8 @@ TEST(Sensitivity, HertzAndCattaneo)
    ASSERT_TRUE(by.found) << by.message;
    EXPECT_NEAR(by.by.multipliers(0, 1), p0 / 2, 0.02 * p0);
    EXPECT_NEAR(by.by.gap.dot(0.5 * square), p0 / 2, 0.02 * p0);
+   cattaneo_test::record("by_load", by.by.multipliers(0, 1) / (p0 / 2));
+   cattaneo_test::record("by_curvature", by.by.gap.dot(0.5 * square) / (p0 / 2));
    // The pressure amid it is a sum of the loads; that it does not change with friction is
    // exact.
    EXPECT_EQ(by.by.friction.norm(), 0);

@@ -19,6 +19,8 @@ to run commands in. What is checked:
   rows" the command is that in code font in the row, or in one above. A row names what
   it is of: by a key of --json in code font (`final_stick`, `levels.0.stick_right`), or as the run's own table of
   references does. The number is right if it is within one unit of its last digit. --write writes them anew.
+  Behind "numbers of tests" a row, or one above, names a test, as `core_tests Suite.Name`, that records the number
+  (tests/record.hpp).
 * Tests that are named as `core_tests Suite.Name` are there.
 * docs/faq.md explains each outcome that the library has a name for.
 * Keys of citations, as [Hertz 1882] in headers, are in docs/references.md, and all that are there are cited.
@@ -123,9 +125,13 @@ class Guide:
             words[:2] = [str(self.program(words[1]))]
         elif words[0] == "python3":
             words[0] = sys.executable
+        elif words[0].endswith("_tests"):
+            if not (self.programs.parent / "tests" / words[0]).is_file():
+                return None
+            words = [str(self.programs.parent / "tests" / words[0]), f"--gtest_filter={words[1]}", "--gtest_output=json:results.json"]
         elif not shutil.which(words[0]):
             return None
-        if "-h" not in words and words[0] != "gmsh" and "--json" not in words:
+        if "-h" not in words and words[0] != "gmsh" and "--json" not in words and not command.split()[0].endswith("_tests"):
             words += ["--json", "results.json"]
         results = folder / (words[words.index("--json") + 1] if "--json" in words else "results.json")
         if self.mode is None and command not in self.quick:
@@ -136,7 +142,7 @@ class Guide:
                               check=False, env={"OPENBLAS_NUM_THREADS": "1", **os.environ, "PROGRAMS": str(self.programs)})
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
         self.measured[command] = round(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, 2)
-        return done.returncode, done.stdout, json.loads(results.read_text()) if results.exists() else {}
+        return done.returncode, done.stdout, recorded(json.loads(results.read_text())) if results.exists() else {}
 
     def choose(self, all_commands):
         """The commands of the short test: the shortest ones, as long as time is left."""
@@ -200,9 +206,9 @@ class Guide:
                     if len(columns) != len(commands):
                         self.fault(page, f"line {number + 1}: {len(columns)} columns 'computed' of {len(commands)} commands")
                 elif not re.match(r"[\s|:-]+$", line):
-                    of_row = re.findall(r"`(\./run [^`]*)`", line)
+                    of_row = re.findall(r"`(\w+_tests [^`]*)`" if commands == ["tests"] else r"`(\./run [^`]*)`", line)
                     of_rows = of_row or of_rows
-                    for command, column in zip(of_rows if commands == ["rows"] else commands, columns):
+                    for command, column in zip(of_rows if commands in (["rows"], ["tests"]) else commands, columns):
                         if done.get(command):
                             cells[column] = self.check_number(page, number + 1, cells, column, done[command][2])
                     lines[number] = "|".join(cells)
@@ -288,7 +294,11 @@ def commands_of(text):
     """(command, lines that are shown below it), in the order of the page; those of tables' comments too."""
     found = []
     block = None
+    tests = False  # in a table of numbers that tests record
     for line in text.split("\n"):
+        tests = tests and (line.startswith("|") or not line.strip()) or line == "<!-- numbers of tests -->"
+        if tests:
+            found += [(c, []) for c in re.findall(r"`(\w+_tests [^`]*)`", line)]
         fence = re.match(r" *```(\w*)", line)
         if fence:
             block = None if block is not None else fence[1]
@@ -300,12 +310,12 @@ def commands_of(text):
         elif block is None or block in ("", "sh"):
             marker = re.match(r" *<!-- numbers of (.*) -->$", line)
             if marker:
-                found += [(clean(c), []) for c in listed(marker[1]) if c != "rows"]
+                found += [(clean(c), []) for c in listed(marker[1]) if c not in ("rows", "tests")]
             elif re.match(r"(    |)\./run ", line):
                 found.append((clean(line), []))
             else:
                 found += [(clean(c), []) for c in re.findall(r"`(\./run [^`]*)`", line)]
-    return [(c, shown) for c, shown in found if c.split()[0] in ("./run", "python3", "gmsh")]
+    return [(c, shown) for c, shown in found if re.match(r"\./run |python3 |gmsh |\w+_tests ", c)]
 
 
 def listed(comment):
@@ -325,6 +335,14 @@ def stands_for_others(command):
 def runs(command, source):
     words = shlex.split(command)
     return words[0] != "./run" or (source / f"miniapps/{words[1]}.cpp").exists()
+
+
+def recorded(results):
+    """What a test of gtest recorded, as numbers; results of a program as they are."""
+    tests = [test for suite in results.get("testsuites", []) for test in suite["testsuite"]]
+    if not tests:
+        return results
+    return {key: float(value) for test in tests for key, value in test.items() if re.fullmatch(r"[-+.\de]*\d[-+.\de]*", str(value)) and key != "line"}
 
 
 def value_of(cells, results):

@@ -8,6 +8,7 @@
 #include <cattaneo/reduced/reduction.hpp>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <record.hpp>
 
 // Axisymmetric contact with a half-space and its torsion, against closed solutions.
 
@@ -104,6 +105,9 @@ TEST(HalfSpace, FlatPunchesConvergeWithTheSpacing)
    graded_to_edge.edge = 5e-4;
    const Eigen::Array3d errors = punch_errors(graded_to_edge);
    for (double error : errors) { EXPECT_NEAR(error, 0, 1e-4); }
+   cattaneo_test::record("smooth", 1 + errors[0]);
+   cattaneo_test::record("bonded", 1 + errors[1]);
+   cattaneo_test::record("twisted", 1 + errors[2]);
 }
 
 TEST(HalfSpace, StiffnessScalesWithTheUnits)
@@ -169,6 +173,8 @@ TEST(HalfSpace, HertzIndentation)
    const Hertz fine(2, 32);
    EXPECT_NEAR(fine.total / fine.load, 1, 2e-4);
    EXPECT_NEAR(fine.found_radius, fine.radius, 0.05 / 64);
+   cattaneo_test::record("load", fine.total / fine.load);
+   cattaneo_test::record("radius", fine.found_radius / fine.radius);
    for (Index i = 0; i < fine.r.size(); ++i)
    {
       const double x = fine.r[i] / fine.radius;
@@ -225,6 +231,7 @@ TEST(AxisymmetricReceding, LargeDiscsReachTheLayer)
       const double limit = (found[1][a] - share * found[0][a]) / (1 - share);
       // A tenth of the spacing.
       EXPECT_NEAR(limit, exact[a], 0.004);
+      cattaneo_test::record(std::string("radius_") + "012"[a], limit);
    }
 }
 
@@ -240,6 +247,7 @@ TEST(AxisymmetricReceding, BondedDiscCarriesLovesStresses)
    const VectorXd p = tractions(problem, problem.patterns[0].p),
                   q = tractions(problem, problem.patterns[0].q);
    const double a = 2.1;
+   double worst = 0;
    int compared = 0;
    for (Index i = 10; i < problem.nodes(); i += 25)
    {
@@ -254,11 +262,13 @@ TEST(AxisymmetricReceding, BondedDiscCarriesLovesStresses)
          shear += k * weight * std::cyl_bessel_j(1, k * r);
       }
       ++compared;
+      worst = std::max({worst, std::abs(p[i] - normal), std::abs(q[i] + shear)});
       EXPECT_NEAR(p[i], normal, 2e-4) << r;
       // The half-space pulls the disc's underside inward.
       EXPECT_NEAR(q[i], -shear, 2e-4) << r;
    }
    EXPECT_GT(compared, 7);
+   cattaneo_test::record("largest_difference", worst);
 }
 
 /// However the disc is turned, the bonded contact carries the torque.

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <gtest/gtest.h>
+#include <record.hpp>
 
 namespace
 {
@@ -169,10 +170,12 @@ TEST(Lubkin, StickRadiusAndRotationConverge)
       std::printf("%d rings: rotation %.2e, stick radius %.2e\n", n, worst_rotation,
                   worst_stick);
       EXPECT_LT(worst_stick, 0.1 / n); // in spacings, as zones() says of slip fronts
+      if (n == 200) { cattaneo_test::record("stick_error", worst_stick); }
       if (last_rotation > 0) { EXPECT_NEAR(last_rotation / worst_rotation, 4, 0.3); }
       last_rotation = worst_rotation;
    }
    EXPECT_LT(last_rotation, 2e-4); // second order in the spacing
+   cattaneo_test::record("rotation_error", last_rotation);
 }
 
 TEST(Lubkin, TorqueCycleFollowsMasing)
@@ -211,6 +214,7 @@ TEST(Lubkin, TorqueCycleFollowsMasing)
    ASSERT_EQ(report.status, FrictionStatus::converged);
    EXPECT_EQ(report.steady_cycle, 1); // already the first cycle is the steady one
    EXPECT_NEAR(report.cycles[0].dissipation, loss, 0.005 * loss); // 80 steps, 100 rings
+   cattaneo_test::record("loss", report.cycles[0].dissipation / loss);
    EXPECT_LT(std::abs(report.energy_imbalance), 1e-3); // what 80 steps miss of the work
    // Half way down (T = 0.5 T_max) the reversal has gone through a quarter of its range.
    double low = c, high = 1;
@@ -229,6 +233,7 @@ TEST(Lubkin, SpinsAtThreeSixteenthsOfPi)
    const Spheres spheres(100, f);
    const double limit = f * spheres.arm.dot(spheres.problem.patterns[0].p);
    EXPECT_NEAR(limit, 3 * pi / 16 * f, 1e-4 * limit); // T_s of Hertz' pressure
+   cattaneo_test::record("spinning_torque", limit / (3 * pi / 16 * f));
    ContactState state = ContactState::virgin(spheres.problem);
    const MarchReport report = march(
       spheres.problem,

@@ -8,6 +8,8 @@
 #include <cattaneo/readout/zones.hpp>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <record.hpp>
+#include <string>
 
 // Frictionless receding contact of layers by a Fourier integral equation, independent of finite
 // elements, against the reduced problem; and the eigenvalues of the re-entrant corner.
@@ -148,7 +150,11 @@ TEST(RecedingLayers, LapJointWithLongFreeEndsMatchesTheIntegralEquation)
       const Zone contact = contact_zone(problem, state);
       // In units of h: a fifth of the spacing.
       EXPECT_NEAR(contact.to.position - contact.from.position, exact.half_width, 0.005);
-      EXPECT_NEAR(tractions(problem, state.p).maxCoeff(), exact.peak, 1e-3);
+      const double peak = tractions(problem, state.p).maxCoeff();
+      EXPECT_NEAR(peak, exact.peak, 1e-3);
+      const std::string of = std::to_string(1 << k);
+      cattaneo_test::record("half_width_" + of, contact.to.position - contact.from.position);
+      cattaneo_test::record("peak_" + of, peak);
    }
 }
 
@@ -170,8 +176,9 @@ TEST(RecedingLayers, StripOnAHalfPlaneMatchesTheIntegralEquation)
       FrictionSolver solver(problem);
       ContactState state = ContactState::virgin(problem);
       ASSERT_EQ(solver.solve(state, VectorXd::Ones(1)).status, FrictionStatus::converged);
-      EXPECT_NEAR(7 - contact_zone(problem, state).from.position, exact.half_width,
-                  0.2 * options.spacing);
+      const double half_width = 7 - contact_zone(problem, state).from.position;
+      EXPECT_NEAR(half_width, exact.half_width, 0.2 * options.spacing);
+      cattaneo_test::record(domain == 0 ? "half_width" : "half_width_on_a_block", half_width);
       // The strip's node on the symmetry plane is free to move sideways and spoils its
       // neighbours.
       const VectorXd p = tractions(problem, state.p);
@@ -198,6 +205,9 @@ TEST(Williams, EigenvaluesAndTractionRatiosOfTheReEntrantCorner)
          ((equation(mid) > 0) == (equation(lo) > 0) ? lo : hi) = mid;
       }
       EXPECT_NEAR(lo, miniapp::williams_eigenvalue[mode], 1e-11);
+      const std::string of = std::to_string(mode + 1);
+      cattaneo_test::record("eigenvalue_" + of, miniapp::williams_eigenvalue[mode]);
+      cattaneo_test::record("traction_ratio_" + of, std::abs(miniapp::williams_ratio[mode]));
       // Airy's function r^(λ+1) F(θ), θ from the bisector of the solid, with cosines (mode I)
       // or sines (II) of (λ±1)θ; free faces at ±α. The interface is at θ = α - π/2.
       const double l = lo, t = alpha - 0.5 * M_PI;

@@ -5,6 +5,7 @@
 #include <cattaneo/readout/zones.hpp>
 #include <cattaneo/reduced/reduction.hpp>
 #include <gtest/gtest.h>
+#include <record.hpp>
 
 // Spence (1968): pressed monotonically on an elastic half-space with friction, a rigid flat
 // punch and a rigid sphere stick within the same fraction of their contact radius, at every
@@ -95,6 +96,8 @@ TEST(Spence, PunchAndSphereStickWithinTheSameFraction)
    EXPECT_LT(coarse, fine);
    EXPECT_LT(fine, fraction);
    EXPECT_NEAR(2 * fine - coarse, fraction, 0.01);
+   cattaneo_test::record("punch", fraction);
+   cattaneo_test::record("sphere", 2 * fine - coarse);
 }
 
 } // namespace
