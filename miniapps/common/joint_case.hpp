@@ -72,7 +72,7 @@ struct JointCase
       std::array<Side, 2> sides;
       Profile friction{{{0, 0}}, {}};
       std::optional<cattaneo::FrictionLaw> strength; ///< in place of friction, of tractions
-      std::optional<Profile> gap; ///< not given: the geometry's
+      std::optional<Profile> gap;                    ///< not given: the geometry's
       cattaneo::SlaveSide slave = cattaneo::SlaveSide::coarser;
       double most_overlap = cattaneo::Interface().most_overlap;
       bool tied = false;

@@ -158,7 +158,7 @@ void OwnHistory::begin(const ReducedProblem &problem)
    if (!load_state_.empty())
    {
       state = load_contact_state(load_state_);
-      state.validate(problem);
+      state.require_of(problem);
       check_start(state, history_);
    }
    check_times("frames", wanted_);

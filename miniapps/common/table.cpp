@@ -152,7 +152,10 @@ std::string Table::csv() const
    std::string result = comments_, line;
    for (const Column &column : columns_)
    {
-      if (!column.key.empty()) { line += (line.empty() ? "" : ",") + cattaneo::csv_field(column.key); }
+      if (!column.key.empty())
+      {
+         line += (line.empty() ? "" : ",") + cattaneo::csv_field(column.key);
+      }
    }
    result += line + '\n';
    for (const ordered_json &row : rows_)

@@ -47,6 +47,3 @@ class Chapter:
     def sketch(self, number, title, text, draw):
         """A figure that needs no run."""
         self.figures.append(Figure(number, title, text, [], draw))
-
-    def missing(self, number, title, why):
-        self.figures.append(Figure(number, title, "", missing=why))

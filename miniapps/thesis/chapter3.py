@@ -55,7 +55,13 @@ figure("3.11", "Case III: gap during loading", PARABOLA, "The distance of facing
 figure("3.12", "Case III: pressure during loading", [PARABOLA, "hertz"], """
 Pressures at the same loads. On a square block the contact is not Hertz's: the block is no half-plane. Where both bodies are half-planes (second row of peak pressure) it is, to
 five digits.""", lambda run, _: f.panels((run, "pressures", {"title": ""})), rows="peak|half-width")
-CHAPTER.missing("3.9 (laws)", "Other laws of friction", "the contact law has one bound |q| ≤ f p a node so far; bounds with cohesion, or that depend on pressure or direction, are not there")
+LAWS = [f'march --reduced problems/punch_on_half_plane.json --history "P=0; P=1; Q=0.25; Q=-0.25" {law}'
+        for law in ("--friction 0.4", "--strength '0.75 0.3 1 0.3'", "--strength '1 0.4' --strength-backward '1 0.28'")]
+figure("3.9 (laws)", "Other laws of friction", LAWS, """
+The method leaves the law of friction to its user, says the thesis. The square punch of 41 nodes under P and Q = −0.25 P after Q = 0.25 P, with Coulomb's law (f = 0.4); with a shear strength that ends at 0.3
+P/a, as that of a soft coating does, so that the corners bear no more; and with f = 0.4 forward and 0.28 backward. Shear (dashed) is over the steepest slope of the law, so that Coulomb's is met where both
+curves meet.""", lambda *runs: f.panels(*((run, "tractions", {"title": title}) for run, title in zip(
+    runs, ("Coulomb", "Shear strength of 0.3 P/a", "Forward 0.4, backward 0.28"))), columns=3))
 figure("3.9 (dislocations)", "Dislocation solutions", 'square_punch -obstacle half-plane -nodes 401 --shear none -dislocation "0 0.7"', """
 A by-product that the thesis names: tractions of a glide dislocation, a jump of the slip by 1 at a place of the contact with everything else bonded. They are A v and B v. Close to the jump the
 shear is that of an infinite body, E'/4πr (dashed); farther away the block's sides are felt, and there is pressure too.""", lambda run: f.panels((run, "dislocations", {"title": ""})))

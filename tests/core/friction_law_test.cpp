@@ -424,6 +424,8 @@ TEST(FrictionLaw, IsSavedAndRefusedWhereItIsNotKnown)
    expect_input_error([&] { worn_out(problem, history, ContactState::virgin(problem)); },
                       "wear knows Coulomb's law alone");
    expect_input_error(
-      [&] { stuck_forces(problem, LoadCycle::through(problem, {}, {{{"load", 1}}, {{"load", 0}}})); },
+      [&] {
+         stuck_forces(problem, LoadCycle::through(problem, {}, {{{"load", 1}}, {{"load", 0}}}));
+      },
       "shakedown knows Coulomb's law alone");
 }

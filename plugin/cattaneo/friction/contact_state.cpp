@@ -77,6 +77,18 @@ void ContactState::require_finite() const
    require(finite, "contact state: a value is not finite");
 }
 
+void ContactState::require_of(const ReducedProblem &problem) const
+{
+   validate(problem);
+   const Eigen::VectorXd u = displacements(), loads = problem.clamped_forces(multipliers),
+                         size = problem.K.cwiseAbs() * u.cwiseAbs() + loads.cwiseAbs();
+   Eigen::Index row = 0;
+   const double off = (problem.K * u + loads - forces()).cwiseAbs().maxCoeff(&row);
+   require(off <= 1e-6 * size.maxCoeff(), "contact state: the forces of node ",
+           row % problem.nodes(), " differ by ", off,
+           " from those of its displacements and loads: it is of another reduced problem");
+}
+
 void ContactState::validate(const ReducedProblem &problem) const
 {
    const Eigen::Index n = problem.nodes(), m = problem.slips();

@@ -43,7 +43,8 @@ MatrixXd cone_edges(const MatrixXd &Z, const std::vector<FrictionBound> &bound)
 Mechanism find_mechanism(const ReducedProblem &problem, const VectorXd &clamped_forces,
                          double negligible)
 {
-   return find_mechanism(problem, friction_bounds(problem.friction), clamped_forces, negligible);
+   return find_mechanism(problem, friction_bounds(problem.friction), clamped_forces,
+                         negligible);
 }
 
 Mechanism find_mechanism(const ReducedProblem &problem, const std::vector<FrictionBound> &bound,

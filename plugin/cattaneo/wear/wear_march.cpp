@@ -31,7 +31,7 @@ WearState WearState::virgin(const ReducedProblem &problem)
 
 void WearState::validate(const ReducedProblem &problem) const
 {
-   contact.validate(problem);
+   contact.require_of(problem);
    const auto check = [&](const char *what, const VectorXd &x)
    {
       require(x.size() == problem.nodes() && x.allFinite() && x.minCoeff() >= 0,
@@ -41,18 +41,6 @@ void WearState::validate(const ReducedProblem &problem) const
    check("depth", depth);
    check("dissipation", dissipation);
    require_at_least("wear state: cycles", cycles, 0);
-   // Whatever the gap, forces are those of displacements and loads: of another problem with as
-   // many nodes they are not.
-   VectorXd u(contact.v.size() + contact.w.size()), forces(u.size());
-   u << contact.v, contact.w;
-   forces << contact.q, contact.p;
-   const VectorXd loads = problem.clamped_forces(contact.multipliers),
-                  size = problem.K.cwiseAbs() * u.cwiseAbs() + loads.cwiseAbs();
-   Eigen::Index row = 0;
-   const double off = (problem.K * u + loads - forces).cwiseAbs().maxCoeff(&row);
-   require(off <= 1e-6 * size.maxCoeff(), "wear state: the forces of node ",
-           row % problem.nodes(), " differ by ", off,
-           " from those of its displacements and loads: it is of another reduced problem");
 }
 
 void save(const WearState &state, const std::string &file)
