@@ -206,7 +206,8 @@ TEST(ReducedFile, SaysWhichFactIsWrong)
       content.replace(at, from.size(), to);
       expect_input_error([&] { read(content); }, said);
    };
-   refused("problem 2", "problem 3", "is not a 'cattaneo reduced problem 2' (or 1)");
+   refused("problem 2", "problem 4", "is not a 'cattaneo reduced problem 2' (or 1, or 3)");
+   refused("problem 2", "problem 3", "'laws' not found");
    refused("[\"smooth\", \"corner\"]", "[\"smooth\", \"bend\"]", "a line that ends 'bend'");
    refused("\"held\": [1],", "", "held");
    refused("\"coupled\": true,", "", "coupled");

@@ -60,7 +60,7 @@ TEST(DesignStudy, SaysThatItWasStopped)
    // Otherwise timeout also signals its group: a second Ctrl-C, which ends a program at once.
    const auto run = run_miniapp("design",
                                 "--goal loss --shear 0.5 --scene punch --profile free "
-                                "--nodes 65 --increments 50",
+                                "--nodes 129 --increments 50",
                                 "timeout --foreground --preserve-status -s INT 4");
    EXPECT_EQ(run.code, 2) << run.output;
    EXPECT_EQ(run.results["status"], "stopped");
