@@ -180,3 +180,32 @@ def test_criteria_on_critical_planes(tmp_path):
         fretting.critical_plane("findley", material, [[1, 2, 3]])
     with pytest.raises(ValueError, match="fatemi_socie"):
         fretting.critical_plane("crossland", material, limit)
+
+
+def test_laws_of_friction_by_hand():
+    """A block on a spring of 2 slips with what its law has at its pressure, forward less than backward; Coulomb's law comes back."""
+    problem = cattaneo.ReducedProblem(
+        [[2.0]], [[0.0]], [[3.0]], [cattaneo.LoadPattern("P", [0.0], [1.0]), cattaneo.LoadPattern("Q", [1.0], [0.0])], weights=[0.5]
+    )
+
+    def sheared(P, Q):
+        return cattaneo.march(problem, [{}, {"P": P}, {"P": P, "Q": Q}]).state
+
+    problem.set_friction_law([[2, 1.2], [6, 2], [8, 2]], backward=[[1, 0.3]])  # tractions: forces are half of them
+    assert problem.friction[0] == pytest.approx(0.6)
+    (forward, backward), = problem.laws
+    assert forward == pytest.approx(np.array([[1, 0.6], [3, 1], [4, 1]])) and backward == pytest.approx(np.array([[0.5, 0.15]]))
+    for P, bound in ((0.5, 0.3), (2, 0.8), (10, 1)):
+        there, back = sheared(P, -4), sheared(P, 4)
+        assert there.q[0] == pytest.approx(-bound) and there.v[0] == pytest.approx((4 - bound) / 2)
+        assert back.q[0] == pytest.approx(0.3 * P) and back.v[0] == pytest.approx(-(4 - 0.3 * P) / 2)
+    problem.friction = 0.25
+    assert problem.laws == [] and sheared(2, 4).q[0] == pytest.approx(0.5)
+    with pytest.raises(ValueError, match="must grow from"):
+        problem.set_friction_law([[1, 0.5], [2, 0.4]])
+    with pytest.raises(ValueError, match="nodes is empty"):
+        problem.set_friction_law([[1, 0.5]], nodes=[])
+    problem.set_friction_law([[1, 0.5]])
+    problem.friction[0] = 0.1
+    with pytest.raises(ValueError, match="steepest slope"):
+        sheared(1, 1)

@@ -130,4 +130,58 @@ TEST_F(March, BadInputIsOneSentence)
    }
 }
 
+/// Of a punch with a shear strength that ends no node bears more, and its corners bear that;
+/// one way more than the other where it is said; and Q is carried all the same.
+TEST_F(March, LawsOfFrictionThatBendOrDifferByWay)
+{
+   const auto shears = [&](const std::string &law, const std::string &time)
+   {
+      const auto run = run_miniapp(
+         "march", "--reduced problems/punch_on_half_plane.json --history 'P=0; P=1; Q=0.25; "
+                  "Q=-0.25' --csv '" +
+                     folder + "m' --frames 2 " + law);
+      EXPECT_EQ(run.code, 0) << run.output;
+      EXPECT_NEAR(cattaneo_test::number(run.results["tangential_force"]), 0.25, 1e-10);
+      // q is the ninth column of the nodes, p the eighth.
+      std::istringstream rows(contents("m_nodes.csv"));
+      std::vector<std::pair<double, double>> all;
+      std::string row;
+      std::getline(rows, row);
+      EXPECT_EQ(row, "time,node,arc_length,x,y,state,p,q,slip,opening");
+      while (std::getline(rows, row))
+      {
+         std::istringstream cells(row);
+         std::vector<std::string> cell(10);
+         for (std::string &one : cell) { std::getline(cells, one, ','); }
+         if (cell[0] == time) { all.emplace_back(std::stod(cell[6]), std::stod(cell[7])); }
+      }
+      EXPECT_EQ(all.size(), 41u);
+      return all;
+   };
+   double most = 0;
+   for (const auto &[p, q] : shears("--strength '0.75 0.3 1 0.3'", "3"))
+   {
+      EXPECT_LE(std::abs(q), std::min(0.4 * p, 0.3) + 1e-9);
+      most = std::max(most, q);
+   }
+   EXPECT_NEAR(most, 0.3, 1e-9);
+   double forward = 0, backward = 0;
+   const std::string ways = "--strength '1 0.4' --strength-backward '1 0.28'";
+   for (const auto &[p, q] : shears(ways, "2")) { forward = std::max(forward, -q / p); }
+   for (const auto &[p, q] : shears(ways, "3")) { backward = std::max(backward, q / p); }
+   EXPECT_NEAR(forward, 0.4, 1e-9);
+   EXPECT_NEAR(backward, 0.28, 1e-9);
+   for (const auto &[options, words] :
+        {std::pair<std::string, std::string>("--strength '1 0.4 2'", "in turn"),
+         {"--strength '1 0.4' --friction 0.3", "two laws of friction"},
+         {"--strength-backward '1 0.4'", "goes with --strength"},
+         {"--strength '2 0.4 1 0.5'", "must grow"}})
+   {
+      const auto run =
+         run_miniapp("march", "--reduced problems/hertz.json --history 'P=0; P=1' " + options);
+      EXPECT_EQ(run.code, 1) << options;
+      EXPECT_NE(run.output.find(words), std::string::npos) << run.output;
+   }
+}
+
 } // namespace
