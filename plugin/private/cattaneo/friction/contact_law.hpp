@@ -21,10 +21,8 @@ using NodeMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2, 2
 double magnitude(const NodeVector &x);
 
 /** What the tangential force of a node is bounded by at its normal force p: Coulomb's f p, or
-    that of a FrictionLaw. The
-    solvers and their checks multiply f by p nowhere else; zones() does for its
-    read-out, the losses and derivatives of Coulomb's law for theirs, and the estimates and
-    programmes of shakedown for the linear cones they need.
+   that of a FrictionLaw. The solvers, their checks, losses and zones() ask here; derivatives,
+   wear and shakedown know Coulomb's law alone, and refuse another one (require_coulomb()).
 
     Everyone asks for the bound at a p and in a sense of slip (+1 forward, -1 backward, 0: any
     direction of the disc), and linearises it by its slope there, so that a bound that differs
