@@ -429,3 +429,19 @@ TEST(FrictionLaw, IsSavedAndRefusedWhereItIsNotKnown)
       },
       "shakedown knows Coulomb's law alone");
 }
+
+// A state is of the problem that it was solved in, and of no other of its size; one before any
+// load has no forces, whatever slip it begins with.
+TEST(ContactStates, AreOfTheProblemTheyWereSolvedIn)
+{
+   const ReducedProblem problem = cattaneo_test::four_springs();
+   ReducedProblem other = problem;
+   other.K *= 2;
+   ContactState state = ContactState::virgin(problem);
+   FrictionSolver solver(problem);
+   ASSERT_EQ(solver.solve(state, Eigen::Vector2d(1, 1)).status, FrictionStatus::converged);
+   state.require_of(problem);
+   expect_input_error([&] { state.require_of(other); }, "another reduced problem");
+   ContactState::with_slip(problem, Eigen::Vector4d(0.1, 0, -0.2, 0)).require_of(problem);
+   ContactState::virgin(problem).require_of(other);
+}

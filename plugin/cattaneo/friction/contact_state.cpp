@@ -80,6 +80,8 @@ void ContactState::require_finite() const
 void ContactState::require_of(const ReducedProblem &problem) const
 {
    validate(problem);
+   // A slip before any load, see with_slip(), has no forces yet.
+   if (peak_force == 0 && multipliers.isZero(0) && forces().isZero(0)) { return; }
    const Eigen::VectorXd u = displacements(), loads = problem.clamped_forces(multipliers),
                          size = problem.K.cwiseAbs() * u.cwiseAbs() + loads.cwiseAbs();
    Eigen::Index row = 0;

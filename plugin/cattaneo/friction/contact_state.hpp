@@ -78,7 +78,8 @@ struct ContactState
    /// the problem holds by more than 1e-9 of the largest slip (round-off).
    void validate(const ReducedProblem &problem) const;
    /// The same, and InputError if its forces are not those of its displacements and loads: of
-   /// another problem with as many nodes they are not, whatever the gap.
+   /// another problem with as many nodes they are not, whatever the gap. A state before any
+   /// load has none, and is of any.
    void require_of(const ReducedProblem &problem) const;
    /// InputError if a value is not finite.
    void require_finite() const;
