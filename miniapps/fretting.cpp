@@ -18,6 +18,7 @@
 //                fretting -p fe -Q 50
 //                fretting -p fe -Q 50 -bs 30 -nodes 201
 //                fretting -p fe -Q 100 --averaging-depth 0.1
+//                fretting -p fe -r 10 -b 2 -P 1000 -Q 100 -m Ti6Al4V
 //                fretting -Q 5 -bs 10 -plot fretting.png -csv fretting
 //                fretting -plot fretting.svg -csv f -rec miniapps/data/fretting_records.csv
 
@@ -265,12 +266,13 @@ void assess_pad(miniapp::Study &study)
    PlaneWeights weights;
    double depth = none, young = none, poisson = none, threshold = none, limit = none,
           yield = none;
-   study.option(&pad.kind, {"p", "pad"},
-                "hertz (cylinder on flat), fe (the same by finite elements), flat-rounded, or "
-                "kn (K_N and K_T given).",
-                {"hertz", "flat-rounded", "fe", "kn"});
+   study.option(
+      &pad.kind, {"p", "pad"},
+      "hertz (cylinder on flat), flat-rounded, fe (either by finite elements), or kn (K_N "
+      "and K_T given).",
+      {"hertz", "flat-rounded", "fe", "kn"});
    study.option(&pad.radius, {"r", "radius"}, "Radius of the pad or of its edges, mm.");
-   study.option(&pad.flat, {"b", "flat"}, "Half width of the flat, mm (flat-rounded).");
+   study.option(&pad.flat, {"b", "flat"}, "Half width of the flat, mm (flat-rounded, fe).");
    study.option(&pad.normal, {"P", "normal-load"},
                 "Normal force, N/mm, constant (not for kn).");
    study.option(&pad.shear, {"Q", "shear-load"},
@@ -287,7 +289,9 @@ void assess_pad(miniapp::Study &study)
    study.option(&pad.k_t, {"kt", "k-t"}, "K_T at peak load in MPa sqrt(mm) (pad kn).");
    study.option(&pad.half_width, {"a", "half-width"},
                 "Half width of the contact, mm (pad kn, for the validity only).");
-   study.option(&pad.nodes, "nodes", "Contact nodes (pad fe).");
+   study.option(
+      &pad.nodes, "nodes",
+      "Contact nodes (pad fe); with a flat those of its edges, to which those between come.");
    study.option(&pad.order, "order", "Order of the elements (pad fe).");
    study.option(&depth, {"ad", "averaging-depth"},
                 "Criteria on critical planes along the surface, of stresses averaged over this "

@@ -1,11 +1,14 @@
 #include "common/pad.hpp"
 
+#include "common/contact_grid.hpp"
 #include "common/hertz_scene.hpp"
 #include "common/run.hpp"
 
+#include <algorithm>
 #include <cattaneo/fretting/from_contact.hpp>
 #include <cattaneo/fretting/measures.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/mesh/graded_mesh.hpp>
 #include <cmath>
 
 namespace miniapp
@@ -18,6 +21,12 @@ using fretting::Edge; // not the edge of a zone
 double Pad::modulus() const
 {
    return contact_modulus(material.young, material.poisson, plane_stress);
+}
+
+double Pad::half_width_under(double load) const
+{
+   return std::isnan(flat) ? hertz_contact(load, radius, modulus()).half_width
+                           : flat_rounded_contact(load, radius, flat, modulus()).half_width;
 }
 
 PadContact calibrate(const Pad &pad)
@@ -35,16 +44,18 @@ PadContact calibrate(const Pad &pad)
    require(
       !given(pad.k_n) && !given(pad.k_t) && !given(pad.half_width),
       "--k-n, --k-t and --half-width are for the pad 'kn'; here they follow from the loads.");
-   if (pad.kind != "flat-rounded")
+   require(pad.kind != "hertz" || !given(pad.flat),
+           "--flat is for the pads 'flat-rounded' and 'fe'.");
+   require(pad.kind != "flat-rounded" || given(pad.flat),
+           "the pad 'flat-rounded' needs --flat.");
+   if (!given(pad.flat))
    {
-      require(!given(pad.flat), "--flat is for the pad 'flat-rounded'.");
       const HertzContact hertz = hertz_contact(pad.normal, pad.radius, pad.modulus());
       contact.half_width = contact.rounded_width = hertz.half_width;
       contact.k_n = hertz.k_n;
    }
    else
    {
-      require(given(pad.flat), "the pad 'flat-rounded' needs --flat.");
       const FlatRoundedContact flat =
          flat_rounded_contact(pad.normal, pad.radius, pad.flat, pad.modulus());
       contact.half_width = flat.half_width;
@@ -61,8 +72,35 @@ PadContact calibrate(const Pad &pad)
    return contact;
 }
 
+namespace
+{
+
+/** Lines of a grid for a contact with a flat: half of @a elements, of one size, on each rounded
+    part of width w and as far into the flat, and a little beyond; to them come those between,
+    which grow toward the middle. */
+std::vector<double> flat_grid(double flat, double half_width, int elements, double growth)
+{
+   const double w = half_width - flat, inner = std::max(flat - w, 0.0), outer = flat + 1.67 * w;
+   const int zone = elements / 2;
+   const double step = (outer - inner) / zone;
+   std::vector<double> half{0.0};
+   if (inner > 0)
+   {
+      half = graded(inner, 0, step, growth);
+      std::reverse(half.begin(), half.end());
+   }
+   for (int k = 1; k <= zone; ++k) { half.push_back(inner + (outer - inner) * k / zone); }
+   std::vector<double> grid;
+   for (std::size_t k = half.size() - 1; k > 0; --k) { grid.push_back(-half[k]); }
+   grid.insert(grid.end(), half.begin(), half.end());
+   return grid;
+}
+
+} // namespace
+
 SolvedPad solve(Study &study, const Pad &pad, const PadContact &closed_form)
 {
+   const double flat = std::isnan(pad.flat) ? 0 : pad.flat;
    const Stopwatch watch;
    Counters before = study.counters;
    HalfPlanes options;
@@ -76,11 +114,17 @@ SolvedPad solve(Study &study, const Pad &pad, const PadContact &closed_form)
    options.bulk_pad = pad.bulk_pad != 0;
    // The far size costs the bulk's equilibrium digits; the contact does not feel it.
    options.domain = 1e3;
+   options.validate();
+   const int elements = (pad.nodes - 1) / pad.order;
+   options.grid =
+      flat > 0 ? flat_grid(flat, options.half_width, elements, element_growth(0, pad.order))
+               : graded_to_ends(options.span * options.half_width, elements, 1);
    Scene scene = make_scene(options);
    study.counters += scene.reduction.counters;
    ReducedProblem &problem = scene.problem();
    set_friction(problem, pad.friction);
-   problem.gap = problem.position.col(0).array().square() / (2 * pad.radius);
+   problem.gap =
+      (problem.position.col(0).array().abs() - flat).max(0).square() / (2 * pad.radius);
 
    /// The normal load, and a share of the peak of what varies.
    const auto loads = [&](double share)
@@ -112,7 +156,7 @@ SolvedPad solve(Study &study, const Pad &pad, const PadContact &closed_form)
    solved.dofs = scene.dofs;
    solved.steady_cycle = run.report.steady_cycle;
    solved.half_width = edges[0].half_width;
-   solved.spacing = 2 * options.span * options.half_width / (options.nodes - 1);
+   solved.spacing = smallest_step(options.grid) / pad.order;
    for (const std::size_t e : {0, 1})
    {
       // Shear on the specimen points into the contact at its left edge if Q > 0.
@@ -142,7 +186,8 @@ SolvedPad solve(Study &study, const Pad &pad, const PadContact &closed_form)
 
 PadContact SolvedPad::in_place_of(PadContact contact) const
 {
-   contact.half_width = contact.rounded_width = half_width;
+   contact.rounded_width += half_width - contact.half_width;
+   contact.half_width = half_width;
    contact.k_n = 0.5 * (trailing.edge.k_n.value + leading.edge.k_n.value);
    contact.k_t = {trailing.edge.k_t.value, leading.edge.k_t.value};
    return contact;
@@ -153,10 +198,12 @@ void compare(Study &study, const Pad &pad, const PadContact &closed_form,
 {
    const double a = closed_form.half_width, modulus = pad.modulus();
    const double limit = pad.friction * pad.normal, x = std::abs(pad.shear) / limit;
-   const double peak_pressure = 2 * pad.normal / (M_PI * a);
-   const double stick = a * std::sqrt(1 - x);
-   const double shift = a * (pad.bulk_or_none() - pad.bulk_pad) * (pad.shear < 0 ? -1 : 1) /
-                        (4 * pad.friction * peak_pressure);
+   // What sticks is as wide as the contact under the load P - Q/f alone would be.
+   const double stick = x == 0 ? a : pad.half_width_under(pad.normal * (1 - x));
+   const double bulk = pad.bulk_or_none() - pad.bulk_pad;
+   const bool hertz = std::isnan(pad.flat);
+   const double shift = a * bulk * (pad.shear < 0 ? -1 : 1) * M_PI * a /
+                        (8 * pad.friction * pad.normal); // of a Hertz contact
    // Closed forms have no spread: what differs is the mesh's, edges by the error of their
    // read-out.
    study.compare("half width a, mm", a, {0, solved.trailing.edge.position.error},
@@ -174,22 +221,23 @@ void compare(Study &study, const Pad &pad, const PadContact &closed_form,
                     trailing ? closed_form.k_t.trailing : closed_form.k_t.leading,
                     {0, error(edge.k_t)}, edge.k_t.value);
       if (!solution.resolved) { continue; }
-      if (a - stick >= std::abs(shift))
+      if ((hertz || bulk == 0) && a - stick >= std::abs(shift))
       {
          study.compare("slip zone d, mm" + where, a - stick + (trailing ? shift : -shift),
                        {0, edge.slip_zone_error}, edge.slip_zone);
       }
       if (shift != 0 || x == 0) { continue; }
-      // The sheet's limits: d is underestimated by this factor; the energy is exact Hertz.
+      // The near edge misses d by this factor; under a Hertz contact the energy is known too.
+      const Edge exact{closed_form.k_n, closed_form.k_t.trailing, pad.friction};
       const double spread = edge.slip_zone_error / edge.slip_zone;
-      const double factor = 0.5 * (1 + std::sqrt(1 - x));
+      const double factor = slip_zone(exact) / (a - stick);
       study.compare("predicted / computed d" + where, factor, {0, factor * (0.02 + spread)},
                     slip_zone(near_edge(edge)) / edge.slip_zone);
+      if (!hertz) { continue; }
       const double energy = 0.5 * hertz_slip_energy(pad.friction, pad.normal,
                                                     0.5 * (1 - pad.load_ratio) * x, modulus);
       study.compare("energy per cycle, N" + where, energy, {0, 0.02 * energy},
                     solution.energy->computed_total);
-      const Edge exact{closed_form.k_n, closed_form.k_t.trailing, pad.friction};
       const double ratio =
          slip_energy_total(exact, (1 - pad.load_ratio) * std::abs(exact.k_t), modulus) / energy;
       study.compare("predicted / computed energy" + where, ratio, {0, 0.05 * ratio},

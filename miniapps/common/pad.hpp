@@ -17,7 +17,7 @@ namespace miniapp
 struct Pad
 {
    std::string kind = "hertz";
-   double radius = 100, flat = none;
+   double radius = 100, flat = none; ///< of the rounded edges; half width of the flat
    double normal = 400, shear = 50;
    double bulk = none, bulk_pad = 0;
    double load_ratio = -1;
@@ -29,6 +29,8 @@ struct Pad
 
    double bulk_or_none() const { return std::isnan(bulk) ? 0 : bulk; }
    double modulus() const; ///< E*
+   /// Half width of the contact under a normal force, per unit thickness, alone.
+   double half_width_under(double load) const;
 };
 
 /// Both edges of the contact, where they are known.
@@ -56,12 +58,12 @@ struct PadInstant
    double bulk = 0.0;               ///< stress, MPa
 };
 
-/// The cylinder on a half-plane, pressed and sheared by finite elements.
+/// The pad on a half-plane, pressed and sheared by finite elements.
 struct SolvedPad
 {
    Eigen::VectorXd positions;              ///< of the contact nodes along x
    std::vector<PadInstant> cycle;          ///< the steady one
-   double half_width = 0.0, spacing = 0.0; ///< of the contact and of its nodes
+   double half_width = 0.0, spacing = 0.0; ///< of the contact, and of its nodes at the edges
    PadEdge trailing, leading;
    int steady_cycle = 0, dofs = 0;
    double seconds = 0.0;
@@ -75,7 +77,8 @@ struct SolvedPad
 SolvedPad solve(Study &study, const Pad &pad, const PadContact &closed_form);
 
 /// What the finite elements give beside the closed forms of Hertz and Mindlin (with bulk
-/// stress: Nowell and Hills, as long as both edges slip in the sense of the shear).
+/// stress: Nowell and Hills, as long as both edges slip in the sense of the shear), for a pad
+/// with a flat beside those of Ciavarella, Hills and Monno, and of Jäger and Ciavarella.
 void compare(Study &study, const Pad &pad, const PadContact &closed_form,
              const SolvedPad &solved);
 
