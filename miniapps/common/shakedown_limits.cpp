@@ -38,7 +38,7 @@ void Shakedown::report(const std::string &what, const LimitReport &of, double lo
    // edge within the contact line, where the pressure falls to zero and the shear does not,
    // and at the ends of the line, if the mechanism does much of its work there.
    const StuckForces stuck = stuck_forces(problem, cycle);
-   const double share = share_of_ends(problem, stuck, of, load_factor, f);
+   const double share = share_of_ends(problem, stuck, of, load_factor);
    const Index end = singular_end(whole, part, stuck);
    std::string why;
    if (end >= 0)

@@ -75,21 +75,22 @@ TEST(LimitOfTheMesh, WorkAtTheEndsByHand)
    const ReducedProblem problem = springs(201); // two nodes at each end within 1 %
    const StuckForces stuck = stuck_forces(problem, held_and_cycled(problem, "P", 1, "Q", -1));
    LimitReport limit;
-   EXPECT_TRUE(std::isnan(share_of_ends(problem, stuck, limit, 1, 0.5)));
+   EXPECT_TRUE(std::isnan(share_of_ends(problem, stuck, limit, 1)));
    limit.slip = VectorXd::Zero(201); // nothing is locked in
    limit.mechanism.slip = Eigen::MatrixXd::Zero(201, 2);
-   limit.mechanism.slip(0, 0) = 2;    // pressure 1 + λ/2
-   limit.mechanism.slip(100, 0) = -3; // in the middle, pressure 1
-   limit.mechanism.slip(200, 1) = 4;  // at the other vertex, pressure 1 + λ/2
+   limit.mechanism.slip(0, 0) = -2;   // against 0.1 λ
+   limit.mechanism.slip(100, 0) = -3; // in the middle
+   limit.mechanism.slip(200, 1) = 4;  // at the other vertex, against -0.1 λ
    limit.mechanism.slip(2, 1) = 1;    // at 1 %, no longer at the end
-   const double ends = 2 * 1.5 + 4 * 1.5, all = ends + 3 + 1;
-   EXPECT_NEAR(share_of_ends(problem, stuck, limit, 1, 0.5), ends / all, 1e-15);
-   EXPECT_NEAR(share_of_ends(problem, stuck, limit, 1, 0.2), ends / all, 1e-15);
-   // What is pulled does no work: at λ = 4 the last node bears 1 - 2 at the first vertex.
+   EXPECT_NEAR(share_of_ends(problem, stuck, limit, 1), 6.0 / 10, 1e-15);
+   // What is locked in doubles the shear of the first node at the first vertex.
+   limit.slip[0] = 0.1;
+   EXPECT_NEAR(share_of_ends(problem, stuck, limit, 1), 8.0 / 12, 1e-15);
+   // Along the shear nothing is dissipated.
    limit.mechanism.slip.setZero();
    limit.mechanism.slip(200, 0) = 1;
-   limit.mechanism.slip(100, 0) = 1;
-   EXPECT_EQ(share_of_ends(problem, stuck, limit, 4, 0.5), 0);
+   limit.mechanism.slip(100, 0) = -1;
+   EXPECT_EQ(share_of_ends(problem, stuck, limit, 4), 0);
 }
 
 TEST(LimitOfTheMesh, ContactThatEndsWithinItsLineIsSingularWhereItIsSheared)

@@ -488,16 +488,18 @@ TEST(WeakDuality, BoundsTheLimitFromAnyMotion)
       const ResidualForces residual = residual_forces(problem);
       ConeProgramme programme;
       programme.residual = &residual;
-      programme.friction = problem.friction;
+      programme.friction = problem.friction.replicate(1, 2);
       programme.loads = stuck_forces(problem, cycle);
       programme.force_scale = Eigen::VectorXd::Ones(n);
       const double limit = brute_force_load(problem, cycle);
       std::mt19937 random(seed);
       for (int k = 0; k < 50; ++k)
       {
-         CollapseMechanism mechanism{random_matrix(random, n, 2),
-                                     0.5 * random_matrix(random, n, 2).cwiseAbs()};
-         const double bound = weak_duality_bound(programme, problem, mechanism, 0);
+         const Eigen::MatrixXd opened = 0.5 * random_matrix(random, n, 2).cwiseAbs();
+         ConeMechanism motion{random_matrix(random, n, 2),
+                              opened.cwiseQuotient(programme.friction)};
+         const double bound = weak_duality_bound(programme, problem, motion, 0);
+         const CollapseMechanism mechanism = motion.at_vertices(programme, 2);
          EXPECT_GE(bound, limit * (1 - 1e-12)) << seed << ' ' << k;
          finite += std::isfinite(bound);
          close += bound < 2 * limit;

@@ -18,6 +18,7 @@ bool take_work(const LimitProblem &problem, double load_factor, const LimitRepor
                const std::vector<StiffnessChange> &stiffness, LimitGradient &by)
 {
    const ReducedProblem &reduced = problem.reduced;
+   require_coulomb(reduced, "the gradient of a limit");
    const LoadCycle &cycle = problem.cycle;
    cycle.validate(reduced);
    const Index n = reduced.nodes(), m = reduced.slips(), vertices = cycle.vertices(),

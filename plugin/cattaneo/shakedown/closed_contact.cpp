@@ -11,7 +11,6 @@ ClosedContact closed_contact(const ReducedProblem &problem,
                              const std::vector<Eigen::Index> &closed)
 {
    problem.validate();
-   require_coulomb(problem, "shakedown");
    const Eigen::Index n = problem.nodes(), c = problem.components();
    require(!closed.empty(), "closed contact: no node is closed");
    std::vector<bool> is_closed(n, false);
@@ -89,6 +88,10 @@ ClosedContact closed_contact(const ReducedProblem &problem,
                                   F.col(k).head(m), F.col(k).tail(n_closed)});
    }
    reduced.friction = problem.friction(contact.closed);
+   if (!problem.laws.empty())
+   {
+      for (const Eigen::Index i : contact.closed) { reduced.laws.push_back(problem.laws[i]); }
+   }
    if (problem.weights.size()) { reduced.weights = problem.weights(contact.closed); }
    if (problem.arc_length.size()) { reduced.arc_length = problem.arc_length(contact.closed); }
    if (problem.position.size())

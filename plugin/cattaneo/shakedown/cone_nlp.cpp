@@ -18,7 +18,7 @@ namespace
 
 /** The programme for Ipopt in unknowns of order one, forces over the typical force s of their
     node: x = {θ, ρ, π, t} with ρ = r / s, π = M r / s and, with two tangential components only,
-    t = f p / s of every cone.
+    t = (f p + strength) / s of every cone.
 
     π as unknowns tied by one dense equation keep the cones sparse however many load vertices
    there are; an uncoupled problem has none. One component: the two rows t ± q ≥ 0 of a linear
@@ -45,8 +45,22 @@ public:
       const double unit = programme.theta_scale;
       q0 = inverse_q.asDiagonal() * programme.loads.q0;
       q1 = inverse_q.asDiagonal() * programme.loads.q1 * unit;
-      p0 = inverse.asDiagonal() * programme.loads.p0;
-      p1 = inverse.asDiagonal() * programme.loads.p1 * unit;
+      const Eigen::MatrixXd p0 = inverse.asDiagonal() * programme.loads.p0,
+                            p1 = inverse.asDiagonal() * programme.loads.p1 * unit;
+      bound0 = programme.friction.cwiseProduct(p0);
+      bound1 = programme.friction.cwiseProduct(p1);
+      if (programme.strength0.size()) { bound0 += inverse.asDiagonal() * programme.strength0; }
+      if (programme.strength1.size())
+      {
+         bound1 += inverse.asDiagonal() * programme.strength1 * unit;
+      }
+      skew = Eigen::MatrixXd::Zero(n, vertices);
+      if (programme.skew.size())
+      {
+         skew = programme.skew;
+         q0 += skew.cwiseProduct(p0);
+         q1 += skew.cwiseProduct(p1);
+      }
       if (coupled)
       {
          transfer = inverse.asDiagonal() * programme.residual->transfer *
@@ -116,15 +130,15 @@ public:
       if (init_lambda)
       {
          std::fill(lambda, lambda + constraints, 0.0);
-         const CollapseMechanism &mechanism = start.mechanism;
+         const ConeMechanism &mechanism = start.mechanism;
+         const Eigen::MatrixXd opening = mechanism.opening(programme);
          for (Eigen::Index k = 0; k < cones; ++k)
          {
             const Eigen::Index i = k % n, j = k / n;
             const double unit = programme.force_scale[i] / programme.theta_scale;
-            const double opening = mechanism.opening(i, j) * unit;
-            const double y = opening / programme.friction[i];
+            const double y = mechanism.limit(i, j) * unit;
             // Stationary in π, the multiplier of its definition is what the cones press.
-            if (coupled) { lambda[i] += opening; }
+            if (coupled) { lambda[i] += opening(i, j) * unit; }
             if (disc)
             {
                lambda[first_definition + k] = y;
@@ -207,12 +221,12 @@ public:
       for (Eigen::Index k = 0; k < cones; ++k)
       {
          const Eigen::Index i = k % n, j = k / n;
-         const double f = programme.friction[i];
+         const double f = programme.friction(i, j);
          if (disc)
          {
-            // The definition of t: t - f p = 0.
+            // The definition of t: t - f p - strength = 0.
             put(first_definition + k, first_t + k, 1);
-            put(first_definition + k, 0, -f * p1(i, j));
+            put(first_definition + k, 0, -bound1(i, j));
             if (coupled) { put(first_definition + k, first_pi + i, -f); }
             const Eigen::Vector2d u =
                values ? Eigen::Vector2d(shear(x, k) / x[first_t + k]) : Eigen::Vector2d::Zero();
@@ -225,9 +239,12 @@ public:
          for (const int side : {0, 1})
          {
             const double sign = side == 0 ? 1 : -1;
-            put(first_cone + 2 * k + side, 0, f * p1(i, j) + sign * q1(i, j));
+            put(first_cone + 2 * k + side, 0, bound1(i, j) + sign * q1(i, j));
             put(first_cone + 2 * k + side, 1 + i, sign * tangential);
-            if (coupled) { put(first_cone + 2 * k + side, first_pi + i, f); }
+            if (coupled)
+            {
+               put(first_cone + 2 * k + side, first_pi + i, f + sign * skew(i, j));
+            }
          }
       }
       return true;
@@ -299,13 +316,12 @@ public:
       const Eigen::VectorXd &s = programme.force_scale;
       solution.theta = x[0] * programme.theta_scale;
       solution.r = Eigen::Map<const Eigen::VectorXd>(x + 1, m).cwiseProduct(s.replicate(c, 1));
-      CollapseMechanism &mechanism = solution.mechanism;
+      ConeMechanism &mechanism = solution.mechanism;
       mechanism.slip.resize(m, vertices);
-      mechanism.opening.resize(n, vertices);
+      mechanism.limit.resize(n, vertices);
       for (Eigen::Index k = 0; k < cones; ++k)
       {
-         // Opening is the multiplier of p, slip that of q: what each row's multiplier does to
-         // them.
+         // The multipliers of the bound and of q: what each row's multiplier does to them.
          const Eigen::Index i = k % n, j = k / n;
          const double unit = programme.theta_scale / s[i];
          double by_limit;
@@ -324,20 +340,20 @@ public:
             by_limit = plus + minus;
             mechanism.slip(i, j) = plus - minus;
          }
-         mechanism.opening(i, j) = programme.friction[i] * by_limit;
+         mechanism.limit(i, j) = by_limit;
       }
    }
 
 private:
-   /// f p / s of cone k, that is of node k % n at vertex k / n.
+   /// The bound over s of cone k, that is of node k % n in column k / n.
    double limit(const Number *x, Eigen::Index k) const
    {
       const Eigen::Index i = k % n, j = k / n;
       const double change = coupled ? x[first_pi + i] : 0.0;
-      return programme.friction[i] * (p0(i, j) + x[0] * p1(i, j) + change);
+      return bound0(i, j) + x[0] * bound1(i, j) + programme.friction(i, j) * change;
    }
 
-   /// q / s of cone k; the second component is zero if there is but one.
+   /// (q + a p) / s of cone k; the second component is zero if there is but one.
    Eigen::Vector2d shear(const Number *x, Eigen::Index k) const
    {
       const Eigen::Index i = k % n, j = k / n;
@@ -347,6 +363,7 @@ private:
          const Eigen::Index row = d * n + i;
          q[d] = q0(row, j) + x[0] * q1(row, j) + tangential * x[1 + row];
       }
+      if (coupled) { q[0] += skew(i, j) * x[first_pi + i]; }
       return q;
    }
 
@@ -358,7 +375,7 @@ private:
    const double tangential; ///< what r does to the tangential forces: 1, or 0 if left out
    /// First unknown π and t; first row of rigidᵀ r = 0, of the definitions of t, of the cones.
    const Eigen::Index first_pi, first_t, first_balance, first_definition, first_cone;
-   Eigen::MatrixXd q0, q1, p0, p1, transfer, balance;
+   Eigen::MatrixXd q0, q1, bound0, bound1, skew, transfer, balance;
 };
 
 /// One run of Ipopt. A convex programme needs no globalisation of the barrier parameter, and is

@@ -1,19 +1,128 @@
+#include <algorithm>
 #include <cattaneo/algebra/dense_lu.hpp>
+#include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/tangential_lengths.hpp>
 #include <cattaneo/shakedown/cone_programme.hpp>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace cattaneo
 {
 
+Eigen::MatrixXd ConeProgramme::bound(double theta, const Eigen::MatrixXd &p) const
+{
+   Eigen::MatrixXd bound = friction.cwiseProduct(p);
+   if (strength0.size()) { bound += strength0; }
+   if (strength1.size()) { bound += theta * strength1; }
+   return bound;
+}
+
+Eigen::MatrixXd ConeProgramme::skewed(const Eigen::MatrixXd &q, const Eigen::MatrixXd &p) const
+{
+   return skew.size() ? Eigen::MatrixXd(q + skew.cwiseProduct(p)) : q;
+}
+
+namespace
+{
+
+/// Straight pieces of one bound, in their order.
+struct Pieces
+{
+   std::vector<double> slope, intercept;
+
+   explicit Pieces(const Eigen::MatrixX2d &points)
+   {
+      double p = 0, bound = 0;
+      for (const auto &point : points.rowwise())
+      {
+         slope.push_back((point[1] - bound) / (point[0] - p));
+         p = point[0];
+         bound = point[1];
+         intercept.push_back(bound - slope.back() * p);
+      }
+   }
+   /// The last of two that have different numbers counts again.
+   std::size_t at(std::size_t k) const { return std::min(k, slope.size() - 1); }
+};
+
+} // namespace
+
+ConeProgramme friction_cones(const ReducedProblem &problem, const StuckForces &loads)
+{
+   const Eigen::Index n = problem.nodes(), vertices = loads.vertices();
+   ConeProgramme programme;
+   if (problem.laws.empty())
+   {
+      programme.friction = problem.friction.replicate(1, vertices);
+      programme.loads = loads;
+      return programme;
+   }
+   std::vector<Pieces> forward, backward;
+   std::size_t most = 0;
+   for (Eigen::Index i = 0; i < n; ++i)
+   {
+      const FrictionLaw &law = problem.laws[i];
+      require(
+         law.concave(), "shakedown: the law of friction of node ", i,
+         " has a piece that is steeper than the one before it, must be concave: limits are "
+         "known of no other");
+      forward.emplace_back(law.forward);
+      backward.emplace_back(law.backward);
+      most = std::max({most, forward.back().slope.size(), backward.back().slope.size()});
+   }
+   const auto columns = static_cast<Eigen::Index>(most) * vertices;
+   programme.friction.resize(n, columns);
+   programme.skew.resize(n, columns);
+   programme.strength0.resize(n, columns);
+   programme.strength1 = Eigen::MatrixXd::Zero(n, columns);
+   programme.loads = {loads.q0.replicate(1, most), loads.q1.replicate(1, most),
+                      loads.p0.replicate(1, most), loads.p1.replicate(1, most)};
+   for (Eigen::Index i = 0; i < n; ++i)
+   {
+      const Pieces &f = forward[i], &b = backward[i];
+      for (std::size_t k = 0; k < most; ++k)
+      {
+         // -(slope p + intercept of forward) ≤ q ≤ the same of backward: half their sum about
+         // half their difference, of which the part without p is a force.
+         const std::size_t kf = f.at(k), kb = b.at(k);
+         const auto part = Eigen::seqN(static_cast<Eigen::Index>(k) * vertices, vertices);
+         programme.friction(i, part).setConstant(0.5 * (f.slope[kf] + b.slope[kb]));
+         programme.skew(i, part).setConstant(0.5 * (f.slope[kf] - b.slope[kb]));
+         programme.strength0(i, part).setConstant(0.5 * (f.intercept[kf] + b.intercept[kb]));
+         const double shift = 0.5 * (f.intercept[kf] - b.intercept[kb]);
+         programme.loads.q0(i, part).array() += shift;
+      }
+   }
+   return programme;
+}
+
+Eigen::MatrixXd ConeMechanism::opening(const ConeProgramme &programme) const
+{
+   const Eigen::MatrixXd by_limit = programme.friction.cwiseProduct(limit);
+   return programme.skew.size() ? by_limit + programme.skew.cwiseProduct(slip) : by_limit;
+}
+
+CollapseMechanism ConeMechanism::at_vertices(const ConeProgramme &programme,
+                                             Eigen::Index vertices) const
+{
+   const Eigen::MatrixXd openings = opening(programme);
+   CollapseMechanism sums{slip.leftCols(vertices), openings.leftCols(vertices)};
+   for (Eigen::Index first = vertices; first < slip.cols(); first += vertices)
+   {
+      sums.slip += slip.middleCols(first, vertices);
+      sums.opening += openings.middleCols(first, vertices);
+   }
+   return sums;
+}
+
 SlippedForces slipped_forces(const ReducedProblem &problem, const StuckForces &loads,
                              double theta, const Eigen::VectorXd &slip, Rounding rounding)
 {
-   const Eigen::Index n = problem.nodes();
-   const Eigen::MatrixXd q = loads.q(theta).colwise() + Eigen::VectorXd(problem.A() * slip);
-   SlippedForces forces{tangential_lengths(q, n),
-                        loads.p(theta).colwise() + Eigen::VectorXd(problem.B() * slip)};
+   SlippedForces forces{loads.q(theta).colwise() + Eigen::VectorXd(problem.A() * slip),
+                        loads.p(theta).colwise() + Eigen::VectorXd(problem.B() * slip),
+                        Eigen::MatrixXd::Zero(loads.q0.rows(), loads.vertices()),
+                        Eigen::MatrixXd::Zero(loads.p0.rows(), loads.vertices())};
    if (rounding == Rounding::ignored) { return forces; }
    // A sum of k terms is wrong by at most k units of round-off of the sum of their sizes; here
    // they are the slips, the loads' two parts and their product with θ.
@@ -27,62 +136,78 @@ SlippedForces slipped_forces(const ReducedProblem &problem, const StuckForces &l
       const Eigen::VectorXd of_slip = stiffness.cwiseAbs() * slip.cwiseAbs();
       return Eigen::MatrixXd(share * (of_loads.colwise() + of_slip));
    };
-   forces.shear += tangential_lengths(error(loads.q0, loads.q1, problem.A()), n);
-   forces.p -= error(loads.p0, loads.p1, problem.B());
+   forces.q_error = error(loads.q0, loads.q1, problem.A());
+   forces.p_error = error(loads.p0, loads.p1, problem.B());
    return forces;
 }
 
 double worst_violation(const ConeProgramme &programme, const ReducedProblem &problem,
                        double theta, const Eigen::VectorXd &slip, Rounding rounding)
 {
-   const auto [shear, p] = slipped_forces(problem, programme.loads, theta, slip, rounding);
-   const Eigen::MatrixXd excess = shear - programme.friction.asDiagonal() * p;
+   const Eigen::Index n = programme.nodes();
+   const SlippedForces at = slipped_forces(problem, programme.loads, theta, slip, rounding);
+   const Eigen::MatrixXd skew = programme.skew.cwiseAbs();
+   Eigen::MatrixXd excess = tangential_lengths(programme.skewed(at.q, at.p), n) +
+                            tangential_lengths(at.q_error, n) -
+                            programme.bound(theta, at.p - at.p_error);
+   if (skew.size()) { excess += skew.cwiseProduct(at.p_error); }
+   if (rounding == Rounding::against && programme.strength0.size())
+   {
+      excess +=
+         4 * std::numeric_limits<double>::epsilon() *
+         (programme.strength0.cwiseAbs() + std::abs(theta) * programme.strength1.cwiseAbs());
+   }
    return (excess.array().colwise() / programme.force_scale.array()).maxCoeff();
 }
 
 namespace
 {
 
-/** The inverse Hessian of the barrier -log(o² - f²|s|²) of one cone of motions, for {o; s}:
+/** The inverse Hessian of the barrier -log(t² - |s|²) of one cone of motions, for {t; s}:
    steps of length one in its norm stay inside. Nearly rank one at the surface of the cone, so
    that a motion there changes along itself only. */
-Eigen::MatrixXd room(double friction, double opening, const Eigen::VectorXd &slip)
+Eigen::MatrixXd room(double limit, const Eigen::VectorXd &slip)
 {
    Eigen::VectorXd x(1 + slip.size());
-   x << opening, friction * slip;
-   const double depth =
-      (opening - x.tail(slip.size()).norm()) * (opening + x.tail(slip.size()).norm());
+   x << limit, slip;
+   const double depth = (limit - slip.norm()) * (limit + slip.norm());
    Eigen::MatrixXd H = x * x.transpose();
    H(0, 0) -= 0.5 * depth;
    H.diagonal().tail(slip.size()).array() += 0.5 * depth;
-   H.rightCols(slip.size()) /= friction;
-   H.bottomRows(slip.size()) /= friction;
    return H;
 }
 
-/// Makes the motions of all vertices meet A Σslip + Bᵀ Σopening = 0 by the smallest changes in
+/// Makes the motions of all columns meet A Σslip + Bᵀ Σopening = 0 by the smallest changes in
 /// the norm of their cones, shortened to leave them inside. False if there is no such change.
-bool balance(const ConeProgramme &programme, CollapseMechanism &mechanism)
+bool balance(const ConeProgramme &programme, ConeMechanism &mechanism)
 {
    const Eigen::Index n = programme.nodes(), c = programme.components(), m = n * c;
-   const Eigen::Index vertices = programme.loads.vertices();
+   const Eigen::Index columns = programme.loads.vertices();
    const ResidualForces &residual = *programme.residual;
    const Eigen::Index rigid = residual.rigid.cols();
-   const auto slip_of = [&](Eigen::Index i, Eigen::Index j)
-   { return Eigen::VectorXd(mechanism.slip(Eigen::seqN(i, c, n), j)); };
+   // {opening; slip} of a column's {limit; slip}
+   const auto motion = [&](Eigen::Index i, Eigen::Index j)
+   {
+      Eigen::MatrixXd G = Eigen::MatrixXd::Identity(1 + c, 1 + c);
+      G(0, 0) = programme.friction(i, j);
+      if (programme.skew.size()) { G(0, 1) = programme.skew(i, j); }
+      return G;
+   };
 
    // In residual forces the condition is Σslip + Mᵀ Σopening = 0 but for a rigid motion.
-   std::vector<Eigen::MatrixXd> rooms;
+   std::vector<Eigen::MatrixXd> rooms; // of {limit; slip}, by pulls on {opening; slip}
    Eigen::MatrixXd by_slip = Eigen::MatrixXd::Zero(m, m); // Mᵀ times rooms of opening by slip
    Eigen::VectorXd by_opening = Eigen::VectorXd::Zero(n);
    Eigen::MatrixXd of_slip = Eigen::MatrixXd::Zero(m, m);
    for (Eigen::Index i = 0; i < n; ++i)
    {
       Eigen::MatrixXd total = Eigen::MatrixXd::Zero(1 + c, 1 + c);
-      for (Eigen::Index j = 0; j < vertices; ++j)
+      for (Eigen::Index j = 0; j < columns; ++j)
       {
-         rooms.push_back(room(programme.friction[i], mechanism.opening(i, j), slip_of(i, j)));
-         total += rooms.back();
+         const Eigen::MatrixXd G = motion(i, j);
+         rooms.push_back(room(mechanism.limit(i, j), mechanism.slip(Eigen::seqN(i, c, n), j)) *
+                         G.transpose());
+         total += G * rooms.back();
       }
       by_opening[i] = total(0, 0);
       for (Eigen::Index k = 0; k < c; ++k)
@@ -113,62 +238,63 @@ bool balance(const ConeProgramme &programme, CollapseMechanism &mechanism)
    normal.topRightCorner(m, rigid) = border;
    normal.bottomLeftCorner(rigid, m) = border.transpose();
    Eigen::MatrixXd right = Eigen::MatrixXd::Zero(m + rigid, 1);
-   right.col(0).head(m) =
-      -unit.cwiseProduct(mechanism.slip.rowwise().sum() +
-                         residual.transfer.transpose() * mechanism.opening.rowwise().sum());
+   right.col(0).head(m) = -unit.cwiseProduct(mechanism.slip.rowwise().sum() +
+                                             residual.transfer.transpose() *
+                                                mechanism.opening(programme).rowwise().sum());
    DenseLU factors;
    if (!factors.compute(normal)) { return false; }
    factors.solve(right);
    const Eigen::VectorXd force = unit.asDiagonal() * right.col(0).head(m);
    const Eigen::VectorXd pressure = residual.transfer * force;
 
-   CollapseMechanism change{Eigen::MatrixXd(m, vertices), Eigen::MatrixXd(n, vertices)};
+   ConeMechanism change{Eigen::MatrixXd(m, columns), Eigen::MatrixXd(n, columns)};
    double longest = 0;
    for (Eigen::Index i = 0; i < n; ++i)
    {
       Eigen::VectorXd pull(1 + c);
       pull << pressure[i], force(Eigen::seqN(i, c, n));
-      for (Eigen::Index j = 0; j < vertices; ++j)
+      for (Eigen::Index j = 0; j < columns; ++j)
       {
-         const Eigen::VectorXd step = rooms[i * vertices + j] * pull;
-         longest = std::max(longest, pull.dot(step));
-         change.opening(i, j) = step[0];
+         const Eigen::VectorXd step = rooms[i * columns + j] * pull;
+         longest = std::max(longest, pull.dot(motion(i, j) * step));
+         change.limit(i, j) = step[0];
          change.slip(Eigen::seqN(i, c, n), j) = step.tail(c);
       }
    }
    const double share = std::min(1.0, 0.9 / std::sqrt(longest));
    if (!std::isfinite(share)) { return false; }
    mechanism.slip += share * change.slip;
-   mechanism.opening += share * change.opening;
+   mechanism.limit += share * change.limit;
    return true;
 }
 
 } // namespace
 
 double weak_duality_bound(const ConeProgramme &programme, const ReducedProblem &problem,
-                          CollapseMechanism &mechanism, double slip_size)
+                          ConeMechanism &mechanism, double slip_size)
 {
    constexpr double none = std::numeric_limits<double>::infinity();
    constexpr double round_off = 1e-14; // of a sum, over the sum of its sizes
    const Eigen::Index n = programme.nodes();
-   const Eigen::Index vertices = programme.loads.vertices();
+   const Eigen::Index columns = programme.loads.vertices();
    Eigen::MatrixXd &slip = mechanism.slip;
-   Eigen::MatrixXd &opening = mechanism.opening;
-   if (slip.cols() != vertices || !slip.allFinite() || !opening.allFinite()) { return none; }
+   Eigen::MatrixXd &limit = mechanism.limit;
+   if (slip.cols() != columns || !slip.allFinite() || !limit.allFinite()) { return none; }
 
+   Eigen::MatrixXd opening;
    Eigen::VectorXd imbalance;
    double share = none; // of the largest imbalance in what is in balance
    constexpr double tiny = std::numeric_limits<double>::min();
    constexpr int max_rounds = 30;
    for (int round = 0;; ++round)
    {
-      const Eigen::MatrixXd least =
-         programme.friction.asDiagonal() * tangential_lengths(slip, n);
-      opening = opening.cwiseMax(least * (1 + 1e-15));
+      limit = limit.cwiseMax(tangential_lengths(slip, n) * (1 + 1e-15));
+      opening = mechanism.opening(programme);
       const Eigen::VectorXd slips = slip.rowwise().sum(), openings = opening.rowwise().sum();
       imbalance = problem.A() * slips + problem.B().transpose() * openings;
-      const Eigen::VectorXd gross = problem.A().cwiseAbs() * slip.cwiseAbs().rowwise().sum() +
-                                    problem.B().transpose().cwiseAbs() * openings;
+      const Eigen::VectorXd gross =
+         problem.A().cwiseAbs() * slip.cwiseAbs().rowwise().sum() +
+         problem.B().transpose().cwiseAbs() * opening.cwiseAbs().rowwise().sum();
       // Until it is round-off: small, and no longer halved.
       const double before = share;
       share = (imbalance.array().abs() / (gross.array() + tiny)).maxCoeff();
@@ -177,19 +303,24 @@ double weak_duality_bound(const ConeProgramme &programme, const ReducedProblem &
    }
 
    const StuckForces &loads = programme.loads;
-   const auto work = [&](const Eigen::MatrixXd &q, const Eigen::MatrixXd &p, double &gross)
+   const auto work = [&](const Eigen::MatrixXd &q, const Eigen::MatrixXd &p,
+                         const Eigen::MatrixXd &strength, double &gross)
    {
       const Eigen::MatrixXd by_slip = slip.cwiseProduct(q),
                             by_opening = opening.cwiseProduct(p);
-      gross = by_slip.cwiseAbs().sum() + by_opening.cwiseAbs().sum();
-      return by_slip.sum() + by_opening.sum();
+      Eigen::MatrixXd by_limit = Eigen::MatrixXd::Zero(n, columns);
+      if (strength.size()) { by_limit = limit.cwiseProduct(strength); }
+      gross =
+         by_slip.cwiseAbs().sum() + by_opening.cwiseAbs().sum() + by_limit.cwiseAbs().sum();
+      return by_slip.sum() + by_opening.sum() + by_limit.sum();
    };
    double gross0 = 0, gross1 = 0;
-   const double w0 = work(loads.q0, loads.p0, gross0), w1 = work(loads.q1, loads.p1, gross1);
+   const double w0 = work(loads.q0, loads.p0, programme.strength0, gross0),
+                w1 = work(loads.q1, loads.p1, programme.strength1, gross1);
    const double falls = -w1 - round_off * gross1;
    if (!(falls > 0)) { return none; }
    slip /= -w1;
-   opening /= -w1;
+   limit /= -w1;
    return (w0 + round_off * gross0 + imbalance.lpNorm<1>() * slip_size) / falls;
 }
 

@@ -84,6 +84,7 @@ double cheapest(const Eigen::VectorXd &cost, const Eigen::VectorXd &t,
 PointwiseEstimate method1_friction(const ReducedProblem &problem, const LoadCycle &cycle,
                                    double load_factor, const NodeList &nodes)
 {
+   require_coulomb(problem, "method 1");
    const StuckForces forces = stuck_forces(problem, cycle);
    return pointwise(forces.q(load_factor), forces.p(load_factor), chosen_nodes(problem, nodes));
 }
@@ -91,6 +92,7 @@ PointwiseEstimate method1_friction(const ReducedProblem &problem, const LoadCycl
 PointwiseEstimate method1_load(const ReducedProblem &problem, const LoadCycle &cycle,
                                const NodeList &nodes)
 {
+   require_coulomb(problem, "method 1");
    const NodeList looked_at = chosen_nodes(problem, nodes);
    const StuckForces forces = stuck_forces(problem, cycle);
    const Eigen::Index n = problem.nodes();
@@ -119,6 +121,7 @@ Method2Estimate method2_friction(const LimitProblem &problem, double load_factor
 {
    const ReducedProblem &reduced = problem.reduced;
    const Eigen::Index n = reduced.nodes();
+   require_coulomb(reduced, "method 2");
    require(reduced.components() == 1, "method 2: the problem has ", reduced.components(),
            " tangential components, must have 1");
    require(problem.residual.rigid.cols() <= 1, "method 2: the contact has ",
@@ -207,7 +210,7 @@ Method2Estimate method2_friction(const LimitProblem &problem, double load_factor
    constexpr int max_programmes = 20;
    for (int k = 0; k < max_programmes && estimate.low > 0; ++k)
    {
-      programme.friction = Eigen::VectorXd::Constant(n, estimate.low);
+      programme.friction.setConstant(n, pairs, estimate.low);
       const Eigen::MatrixXd pressure = loads.p0.colwise() + Eigen::VectorXd(M * start.r);
       loads.p1 = -pressure / estimate.low;
       programme.theta_scale = estimate.low;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/reduced/tangential_lengths.hpp>
 #include <cattaneo/shakedown/infinity.hpp>
 #include <cattaneo/shakedown/limit_search.hpp>
 #include <cmath>
@@ -47,8 +48,13 @@ private:
 
    ConeProgramme clearance(double friction) const
    {
-      return clearance_programme(q_, p_, Eigen::VectorXd::Constant(reduced_.nodes(), friction),
-                                 weight_, force_scale_);
+      ConeProgramme programme;
+      programme.residual = &residual_;
+      programme.friction.setConstant(p_.rows(), p_.cols(), friction);
+      programme.loads = {q_, Eigen::MatrixXd::Zero(q_.rows(), q_.cols()), p_,
+                         Eigen::MatrixXd::Zero(p_.rows(), p_.cols())};
+      programme.force_scale = force_scale_;
+      return clearance_programme(std::move(programme), weight_);
    }
    double highest() const { return std::min(settings_.largest_friction, report_.upper); }
 
@@ -70,8 +76,12 @@ void FrictionLimit::forget_best()
 /// Takes a slip over if it is the best: its largest |q| / p, if all nodes press.
 void FrictionLimit::take(const Eigen::VectorXd &slip)
 {
-   const auto [shear, least] =
+   const SlippedForces at =
       slipped_forces(reduced_, loads_, load_factor_, slip, Rounding::against);
+   const Eigen::Index n = reduced_.nodes();
+   const Eigen::MatrixXd shear =
+                            tangential_lengths(at.q, n) + tangential_lengths(at.q_error, n),
+                         least = at.p - at.p_error;
    if (least.minCoeff() <= 0) { return; }
    const double worst = shear.cwiseQuotient(least).maxCoeff();
    if (!(worst < report_.upper)) { return; }
@@ -109,7 +119,7 @@ FrictionLimit::Trial FrictionLimit::attempt(double friction)
    Trial trial{solve(programme, start_)};
    if (!usable(trial.solution)) { return trial; }
    const Eigen::VectorXd slip = residual_.flexibility * trial.solution.r;
-   CollapseMechanism mechanism = trial.solution.mechanism;
+   ConeMechanism mechanism = trial.solution.mechanism;
    const double bound = weak_duality_bound(programme, reduced_, mechanism, slip_size(slip));
    const double before = report_.upper;
    take(slip);
@@ -119,7 +129,7 @@ FrictionLimit::Trial FrictionLimit::attempt(double friction)
    if (trial.excluded)
    {
       report_.lower = friction;
-      report_.mechanism = std::move(mechanism);
+      report_.mechanism = mechanism.at_vertices(programme, loads_.vertices());
    }
    return trial;
 }
@@ -210,7 +220,7 @@ LimitReport friction_limit(const LimitProblem &problem, double load_factor,
 {
    require(std::isfinite(load_factor), "shakedown: the load factor is not finite");
    problem.reduced.validate();
-   require_coulomb(problem.reduced, "shakedown");
+   require_coulomb(problem.reduced, "the smallest friction coefficient");
    return FrictionLimit(problem, load_factor, settings).find();
 }
 

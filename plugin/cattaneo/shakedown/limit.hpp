@@ -47,7 +47,8 @@ enum class LimitStatus
 const char *name(LimitStatus status);
 
 /** Motions dual to the limit: at load vertex j node i slips by `slip` and opens by `opening`,
-   with opening ≥ f |slip| (the flow rule associated with the friction cone). */
+   with opening ≥ f |slip| (the flow rule associated with the friction cone; of another law than
+   Coulomb's, with the sum of what its pieces ask). */
 struct CollapseMechanism
 {
    Eigen::MatrixXd slip;    ///< c·n × vertices
@@ -104,7 +105,8 @@ struct LimitReport
    Counters counters;   ///< limit_solves: programmes solved
 };
 
-/** Largest λ ≥ 0 for the friction of the problem and the shape of the cycle. First the constant
+/** Largest λ ≥ 0 for the friction of the problem, Coulomb's or a concave law (InputError of one
+   that is not), and the shape of the cycle. First the constant
    loads, λ = 0: `no_solution` if they cannot be carried. */
 LimitReport load_limit(const LimitProblem &problem, const LimitSettings &settings = {});
 
@@ -114,10 +116,10 @@ LimitReport load_limit(const ReducedProblem &reduced, const ResidualForces &resi
                        const StuckForces &loads, const LimitSettings &settings = {});
 
 /** Smallest friction coefficient, the same at all nodes, for the loads constant + @a
-   load_factor × varying (the problem's own friction is not used). It is the least f of a
-   quasi-convex problem: each step asks for the state of greatest clearance from the cones of a
-   trial f, whose own largest |q|/p is the next f [Dinkelbach 1967], until duality shows that no
-   state exists at f (1 - tolerance/2). */
+   load_factor × varying (the problem's own friction is not used; InputError of a problem with
+   other laws). It is the least f of a quasi-convex problem: each step asks for the state of
+   greatest clearance from the cones of a trial f, whose own largest |q|/p is the next f
+   [Dinkelbach 1967], until duality shows that no state exists at f (1 - tolerance/2). */
 LimitReport friction_limit(const LimitProblem &problem, double load_factor,
                            const LimitSettings &settings = {});
 

@@ -8,22 +8,22 @@ namespace cattaneo
 using Eigen::Index;
 
 double share_of_ends(const ReducedProblem &problem, const StuckForces &stuck,
-                     const LimitReport &limit, double load_factor, double friction)
+                     const LimitReport &limit, double load_factor)
 {
    if (limit.mechanism.slip.size() == 0) { return std::numeric_limits<double>::quiet_NaN(); }
    const Index n = problem.nodes();
-   const Eigen::MatrixXd p =
-      stuck.p(load_factor).colwise() + Eigen::VectorXd(problem.B() * limit.slip);
+   const Eigen::MatrixXd q =
+      stuck.q(load_factor).colwise() + Eigen::VectorXd(problem.A() * limit.slip);
    const Eigen::VectorXd &arc = problem.arc_length;
    double at_ends = 0, all = 0;
    for (Index i = 0; i < n; ++i)
    {
       const double from_end = std::min(arc[i] - arc[0], arc[n - 1] - arc[i]);
-      for (Index j = 0; j < p.cols(); ++j)
+      for (Index j = 0; j < q.cols(); ++j)
       {
+         const auto of_node = Eigen::seqN(i, problem.components(), n);
          const double work =
-            friction * std::max(p(i, j), 0.0) *
-            limit.mechanism.slip(Eigen::seqN(i, problem.components(), n), j).norm();
+            std::max(-q(of_node, j).dot(limit.mechanism.slip(of_node, j)), 0.0);
          all += work;
          if (from_end < 0.01 * (arc[n - 1] - arc[0])) { at_ends += work; }
       }

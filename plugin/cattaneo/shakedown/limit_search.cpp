@@ -13,7 +13,6 @@ LimitSearch::LimitSearch(const ReducedProblem &reduced, const ResidualForces &re
 {
    settings.validate();
    reduced.validate();
-   require_coulomb(reduced, "shakedown");
    const Eigen::Index m = reduced.slips();
    require(residual.flexibility.rows() == m && residual.transfer.rows() == reduced.nodes(),
            "shakedown: the residual forces do not belong to the reduced problem: ",
@@ -69,20 +68,11 @@ double slip_size(const Eigen::VectorXd &slip)
    return 10 * slip.cwiseAbs().maxCoeff();
 }
 
-ConeProgramme LimitSearch::clearance_programme(const Eigen::MatrixXd &q,
-                                               const Eigen::MatrixXd &p,
-                                               Eigen::VectorXd friction,
-                                               const Eigen::MatrixXd &weight,
-                                               const Eigen::VectorXd &force_scale) const
+ConeProgramme clearance_programme(ConeProgramme programme, const Eigen::MatrixXd &weight)
 {
-   ConeProgramme programme;
-   programme.residual = &residual_;
-   programme.loads.q0 = q;
-   programme.loads.p0 = p;
-   programme.loads.q1 = Eigen::MatrixXd::Zero(q.rows(), q.cols());
-   programme.loads.p1 = -(friction.cwiseInverse().asDiagonal() * weight);
-   programme.friction = std::move(friction);
-   programme.force_scale = force_scale;
+   programme.loads.q1.setZero();
+   programme.loads.p1.setZero();
+   programme.strength1 = -weight;
    programme.ceiling = 10; // more clearance than ten times the friction limit is of no use
    return programme;
 }

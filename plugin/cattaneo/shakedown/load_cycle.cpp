@@ -56,7 +56,6 @@ LoadCycle held_and_cycled(const ReducedProblem &problem, const std::string &held
 
 StuckForces stuck_forces(const ReducedProblem &problem, const LoadCycle &cycle)
 {
-   require_coulomb(problem, "shakedown");
    cycle.validate(problem);
    const Eigen::Index n = problem.nodes(), m = problem.slips(), vertices = cycle.vertices();
    const Eigen::VectorXd constant = problem.clamped_forces(cycle.constant);

@@ -86,9 +86,8 @@ public:
 
 private:
    LimitReport finish(LimitStatus status, const std::string &message);
-   /// Of the loads {q; p} alone.
-   Clearance largest_clearance(const Eigen::MatrixXd &q, const Eigen::MatrixXd &p,
-                               const Eigen::VectorXd &force_scale);
+   /// Of the constant loads of a programme.
+   Clearance largest_clearance(const ConeProgramme &constant);
    /// A slip in proportion to the load factor that holds the varying loads by itself holds them
    /// however large they are: this one does, proven up to a load factor.
    LimitReport unlimited(const Eigen::VectorXd &ray, double proven, const std::string &message);
@@ -98,7 +97,7 @@ private:
    void start_from_settings();
    /// The bounds that a solution of the programme proves.
    void take_bounds(ConeSolution &solution);
-   void lower_the_upper(CollapseMechanism mechanism);
+   void lower_the_upper(ConeMechanism mechanism);
    bool closed() const;
    /// Does a slip in proportion to the load hold any load? How the search ends, if so, or if
    /// what was found shows that the bounds meet.
@@ -106,8 +105,10 @@ private:
 
    const bool nothing_constant_, nothing_varies_;
    const Eigen::VectorXd varying_scale_;
-   ConeProgramme programme_, alone_; // alone: of the varying loads
-   double sliding_ = 0;              // the load factor of gross sliding, its size
+   ConeProgramme programme_; // of the limit
+   // Of the varying loads alone, however large: without the strengths that do not grow with p.
+   ConeProgramme alone_;
+   double sliding_ = 0; // the load factor of gross sliding, its size
    ConeStart start_;
    bool held_ = false; // the constant loads are, to round-off, by
    Eigen::VectorXd first_slip_;
@@ -118,24 +119,29 @@ LoadLimit::LoadLimit(const ReducedProblem &reduced, const ResidualForces &residu
    : LimitSearch(reduced, residual, loads, settings),
      nothing_constant_(loads.q0.isZero(0) && loads.p0.isZero(0)),
      nothing_varies_(loads.q1.isZero(0) && loads.p1.isZero(0)),
-     varying_scale_(typical_forces(loads.q1, loads.p1))
+     varying_scale_(typical_forces(loads.q1, loads.p1)),
+     programme_(friction_cones(reduced, loads))
 {
    programme_.residual = &residual;
-   programme_.friction = reduced.friction;
-   programme_.loads = loads;
    programme_.ceiling = settings.largest_factor;
    programme_.force_scale =
       nothing_constant_ ? varying_scale_ : typical_forces(loads.q0, loads.p0);
    // The load factor at which the varying loads exhaust the friction of the constant ones,
    // summed over the contact.
-   const Eigen::VectorXd &f = programme_.friction;
+   const Eigen::VectorXd &f = reduced.friction;
    const double varying =
       std::max((f.asDiagonal() * loads.p1).cwiseAbs().colwise().sum().maxCoeff(),
                loads.q1.cwiseAbs().colwise().sum().maxCoeff());
-   if (varying > 0) { programme_.theta_scale = f.dot(programme_.force_scale) / varying; }
+   const Eigen::MatrixXd strength =
+      programme_.bound(0, programme_.force_scale.replicate(1, programme_.friction.cols()));
+   if (varying > 0) { programme_.theta_scale = strength.rowwise().minCoeff().sum() / varying; }
    sliding_ = programme_.theta_scale;
    alone_ = programme_;
-   alone_.loads = {loads.q1, 0 * loads.q1, loads.p1, 0 * loads.p1};
+   alone_.loads.q0 = programme_.loads.q1;
+   alone_.loads.p0 = programme_.loads.p1;
+   alone_.loads.q1.setZero();
+   alone_.loads.p1.setZero();
+   alone_.strength0.setZero();
    alone_.force_scale = varying_scale_;
    report_.upper = infinity;
 }
@@ -146,11 +152,11 @@ LimitReport LoadLimit::finish(LimitStatus status, const std::string &message)
    return ended(status, message);
 }
 
-Clearance LoadLimit::largest_clearance(const Eigen::MatrixXd &q, const Eigen::MatrixXd &p,
-                                       const Eigen::VectorXd &force_scale)
+Clearance LoadLimit::largest_clearance(const ConeProgramme &constant)
 {
-   const ConeProgramme programme = clearance_programme(
-      q, p, reduced_.friction, force_scale.replicate(1, q.cols()), force_scale);
+   ConeProgramme programme = clearance_programme(
+      constant, constant.force_scale.replicate(1, constant.loads.vertices()));
+   programme.theta_scale = 1;
    Clearance largest;
    largest.solution = solve(programme, {0, no_slip_, {}});
    if (!usable(largest.solution)) { return largest; }
@@ -187,14 +193,15 @@ std::optional<LimitReport> LoadLimit::hold_constant_loads()
    {
       const Eigen::VectorXd relief = -(residual_.flexibility * loads_.q0.col(0));
       take(relief, reduced_.A() * relief);
-      Clearance constant = largest_clearance(loads_.q0, loads_.p0, programme_.force_scale);
+      Clearance constant = largest_clearance(programme_);
       if (constant.solution.outcome == ConeOutcome::unavailable)
       {
          return finish(LimitStatus::unavailable, constant.solution.message);
       }
       if (constant.bound < 0)
       {
-         report_.mechanism = std::move(constant.solution.mechanism);
+         report_.mechanism =
+            constant.solution.mechanism.at_vertices(programme_, loads_.vertices());
          return finish(LimitStatus::no_solution,
                        "no slip keeps the contact stuck and closed under the constant loads "
                        "alone (proven by the mechanism)");
@@ -216,9 +223,11 @@ void LoadLimit::start_from_settings()
    }
    start_.theta = start->limit;
    start_.r = reduced_.A() * start->slip;
-   if (start->mechanism.slip.cols() == loads_.vertices())
+   // With laws of several pieces it is a sum over them, of which the parts are not known.
+   if (reduced_.laws.empty() && start->mechanism.slip.cols() == loads_.vertices())
    {
-      start_.mechanism = start->mechanism;
+      const CollapseMechanism &known = start->mechanism;
+      start_.mechanism = {known.slip, known.opening.cwiseQuotient(programme_.friction)};
    }
 }
 
@@ -236,13 +245,13 @@ void LoadLimit::take_bounds(ConeSolution &solution)
    lower_the_upper(std::move(solution.mechanism));
 }
 
-void LoadLimit::lower_the_upper(CollapseMechanism mechanism)
+void LoadLimit::lower_the_upper(ConeMechanism mechanism)
 {
    const double bound =
       weak_duality_bound(programme_, reduced_, mechanism, slip_size(report_.slip));
    if (!(bound < report_.upper)) { return; }
    report_.upper = bound;
-   report_.mechanism = std::move(mechanism);
+   report_.mechanism = mechanism.at_vertices(programme_, loads_.vertices());
 }
 
 bool LoadLimit::closed() const
@@ -254,7 +263,7 @@ bool LoadLimit::closed() const
 
 std::optional<LimitReport> LoadLimit::try_ray()
 {
-   Clearance ray = largest_clearance(loads_.q1, loads_.p1, varying_scale_);
+   Clearance ray = largest_clearance(alone_);
    if (held_ && ray.reached > 0)
    {
       report_.slip = first_slip_;

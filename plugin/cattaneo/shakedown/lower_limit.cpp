@@ -182,6 +182,11 @@ LowerLimitReport lower_limit(const LimitProblem &problem, const LimitReport &upp
          "uncoupled: every initial slip shakes down below the upper limit (proven)";
       return report;
    }
+   if (!reduced.laws.empty())
+   {
+      report.message = "no bound: of a coupled contact one is known with Coulomb's law alone";
+      return report;
+   }
    const StuckForces loads = stuck_forces(reduced, problem.cycle);
    if (n == 2 && reduced.components() == 1)
    {

@@ -1,5 +1,6 @@
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/tangential_lengths.hpp>
+#include <cattaneo/shakedown/cone_programme.hpp>
 #include <cattaneo/shakedown/infinity.hpp>
 #include <cattaneo/shakedown/monolith.hpp>
 #include <cmath>
@@ -121,23 +122,30 @@ Incipience incipient_slip(const ReducedProblem &problem, const LoadCycle &cycle,
 {
    check_vertex(cycle, vertex);
    const StuckForces forces = stuck_forces(problem, cycle);
+   const ConeProgramme cones = friction_cones(problem, forces);
+   const StuckForces &in = cones.loads;
+   const Eigen::MatrixXd bound0 = cones.bound(0, in.p0), q0 = cones.skewed(in.q0, in.p0),
+                         bound1 = cones.friction.cwiseProduct(in.p1),
+                         q1 = cones.skewed(in.q1, in.p1);
    const Eigen::Index n = problem.nodes(), m = problem.slips();
    Incipience first = incipient_separation(problem, cycle, vertex, nodes);
    for (const Eigen::Index i : chosen_nodes(problem, nodes))
    {
-      // |q|² - f² p² as a quadratic in λ; before separation p > 0, so the squares suffice.
-      const double f = problem.friction[i];
-      const double p0 = f * forces.p0(i, vertex), p1 = f * forces.p1(i, vertex);
-      double a = -p1 * p1, b = -p0 * p1, c = -p0 * p0;
-      for (Eigen::Index k = i; k < m; k += n)
+      for (Eigen::Index j = vertex; j < q0.cols(); j += forces.vertices())
       {
-         const double q0 = forces.q0(k, vertex), q1 = forces.q1(k, vertex);
-         a += q1 * q1;
-         b += q0 * q1;
-         c += q0 * q0;
+         // |q|² less the bound's square as a quadratic in λ; before separation the bound is
+         // positive, so the squares suffice.
+         double a = -bound1(i, j) * bound1(i, j), b = -bound0(i, j) * bound1(i, j),
+                c = -bound0(i, j) * bound0(i, j);
+         for (Eigen::Index k = i; k < m; k += n)
+         {
+            a += q1(k, j) * q1(k, j);
+            b += q0(k, j) * q1(k, j);
+            c += q0(k, j) * q0(k, j);
+         }
+         const double at = first_positive(a, b, c);
+         if (at < first.load_factor) { first = {at, i}; }
       }
-      const double at = first_positive(a, b, c);
-      if (at < first.load_factor) { first = {at, i}; }
    }
    return first;
 }

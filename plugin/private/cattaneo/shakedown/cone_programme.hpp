@@ -12,15 +12,20 @@ namespace cattaneo
        largest θ for which one residual state r, constant in time, leaves every node inside its
        friction cone at every load vertex j,
 
-       |q0_j + θ q1_j + r| ≤ f (p0_j + θ p1_j + M r),   rigidᵀ r = 0.
+       |q + a p| ≤ f p + s0 + θ s1,   q = q0_j + θ q1_j + r,   p = p0_j + θ p1_j + M r,
 
-    With one tangential component it is a linear programme, with two (torsion) a second-order
-   cone programme. p ≥ 0 is implied. */
+    rigidᵀ r = 0. Coulomb's cones have neither the skew a nor the strengths s. Of another law,
+    each pair of straight pieces of its bounds for slip forward and backward is such a cone: the
+    columns of all matrices are the vertices with the first pieces, then again with the second
+    ones, and so on. With one tangential component it is a linear programme, with two (torsion)
+   a second-order cone programme. p ≥ 0 is implied. */
 struct ConeProgramme
 {
    const ResidualForces *residual = nullptr; ///< not owned
-   Eigen::VectorXd friction;                 ///< f > 0 of each node, size n
-   StuckForces loads;                        ///< q0, q1, p0, p1 with θ for λ
+   Eigen::MatrixXd friction;                 ///< f ≥ 0, n × columns
+   Eigen::MatrixXd skew;                     ///< a, n × columns; empty: none
+   Eigen::MatrixXd strength0, strength1;     ///< s0 and s1, n × columns; empty: none
+   StuckForces loads;                        ///< q0, q1, p0, p1 with θ for λ, in columns
    /// Optional bounds r_low ≤ r ≤ r_high, size c·n; none if empty.
    Eigen::VectorXd r_low, r_high;
    /// Leave r out of the tangential forces: only the change of pressure is allowed for.
@@ -33,8 +38,28 @@ struct ConeProgramme
    Eigen::VectorXd force_scale; ///< a typical force of each node, positive, size n
    double theta_scale = 1;      ///< a typical θ, positive
 
-   Eigen::Index nodes() const { return friction.size(); }
-   Eigen::Index components() const { return loads.q0.rows() / friction.size(); }
+   Eigen::Index nodes() const { return friction.rows(); }
+   Eigen::Index components() const { return loads.q0.rows() / friction.rows(); }
+   /// What the forces {q; p} leave of the bounds' right side, f p + s0 + θ s1, and q + a p.
+   Eigen::MatrixXd bound(double theta, const Eigen::MatrixXd &p) const;
+   Eigen::MatrixXd skewed(const Eigen::MatrixXd &q, const Eigen::MatrixXd &p) const;
+};
+
+/// The cones of the friction of a problem under @a loads; residual forces and scales are left
+/// open. InputError for a law that is not concave: what holds at two vertices need not hold on
+/// the way between them.
+ConeProgramme friction_cones(const ReducedProblem &problem, const StuckForces &loads);
+
+/// Motions dual to the cones, of every column: `limit` ≥ |slip| is what multiplies the bound.
+struct ConeMechanism
+{
+   Eigen::MatrixXd slip;  ///< c·n × columns
+   Eigen::MatrixXd limit; ///< n × columns
+
+   /// f limit + a slip, what multiplies p.
+   Eigen::MatrixXd opening(const ConeProgramme &programme) const;
+   /// As motions at the load vertices, of which there are so many.
+   CollapseMechanism at_vertices(const ConeProgramme &programme, Eigen::Index vertices) const;
 };
 
 struct ConeSettings
@@ -53,8 +78,8 @@ struct ConeSettings
 struct ConeStart
 {
    double theta = 0;
-   Eigen::VectorXd r;           ///< empty: zero
-   CollapseMechanism mechanism; ///< empty: none, a cold start
+   Eigen::VectorXd r;       ///< empty: zero
+   ConeMechanism mechanism; ///< empty: none, a cold start
 };
 
 enum class ConeOutcome
@@ -73,7 +98,7 @@ struct ConeSolution
    std::string message;
    double theta = 0;
    Eigen::VectorXd r; ///< residual tangential forces, c·n
-   CollapseMechanism mechanism;
+   ConeMechanism mechanism;
    int iterations = 0;
 };
 
@@ -87,26 +112,30 @@ enum class Rounding
    against ///< at its largest and to the worse side: what is admissible all the same is proven
 };
 
-/// Forces of the stuck contact with a slip, n × vertices.
+/// Forces of the stuck contact with a slip, in the columns of the loads.
 struct SlippedForces
 {
-   Eigen::MatrixXd shear; ///< lengths of the tangential forces
-   Eigen::MatrixXd p;     ///< normal forces
+   Eigen::MatrixXd q;                ///< tangential forces
+   Eigen::MatrixXd p;                ///< normal forces
+   Eigen::MatrixXd q_error, p_error; ///< what round-off may have done to them; 0 if ignored
 };
 
 SlippedForces slipped_forces(const ReducedProblem &problem, const StuckForces &loads,
                              double theta, const Eigen::VectorXd &slip, Rounding rounding);
 
-/// Largest (|q| - f p) / force scale over all nodes and vertices: at most 0 inside every cone.
+/// Largest (|q + a p| - f p - s) / force scale over all nodes and columns: at most 0 inside
+/// every cone.
 /// Plain arithmetic from the slip and the matrices of the reduced problem.
 double worst_violation(const ConeProgramme &programme, const ReducedProblem &problem,
                        double theta, const Eigen::VectorXd &slip,
                        Rounding rounding = Rounding::ignored);
 
 /** A proven upper bound of θ by weak duality. For motions with A Σslip + Bᵀ Σopening = 0,
-   summed over the vertices, and opening ≥ f |slip|, each admissible state does work
+   summed over the columns, limit ≥ |slip| and opening = f limit + a slip, each admissible state
+   does work
 
-       0 ≤ Σ_j opening·p + slip·q = Σ_j opening·(p0 + θ p1) + slip·(q0 + θ q1),
+       0 ≤ Σ_j limit·(f p + s) + slip·(q + a p)
+         = Σ_j opening·(p0 + θ p1) + slip·(q0 + θ q1) + limit·(s0 + θ s1),
 
     so that θ ≤ W0 / (-W1) if W1 < 0. @a mechanism, which a solver leaves with small residuals,
    is first made to satisfy both conditions to round-off, by the smallest changes in the norm of
@@ -114,6 +143,6 @@ double worst_violation(const ConeProgramme &programme, const ReducedProblem &pro
    the slips, and added, as is the round-off of the works. Infinite if W1 ≥ 0 or if the
    mechanism cannot be repaired. The mechanism comes back scaled to W1 = -1. */
 double weak_duality_bound(const ConeProgramme &programme, const ReducedProblem &problem,
-                          CollapseMechanism &mechanism, double slip_size);
+                          ConeMechanism &mechanism, double slip_size);
 
 } // namespace cattaneo

@@ -19,11 +19,6 @@ protected:
    LimitReport ended(LimitStatus status, const std::string &message);
    /// One cone programme, counted in the report.
    ConeSolution solve(const ConeProgramme &programme, const ConeStart &start);
-   /// How far the loads {q; p} stay from the cones of friction @a friction: the largest θ with
-   /// f p - |q| ≥ θ weight at every node and vertex.
-   ConeProgramme clearance_programme(const Eigen::MatrixXd &q, const Eigen::MatrixXd &p,
-                                     Eigen::VectorXd friction, const Eigen::MatrixXd &weight,
-                                     const Eigen::VectorXd &force_scale) const;
 
    const ReducedProblem &reduced_;
    const ResidualForces &residual_;
@@ -33,6 +28,10 @@ protected:
    ProgressReport progress_;
    LimitReport report_;
 };
+
+/// How far the constant loads of a programme stay from its cones: the largest θ with
+/// f p + s0 - |q + a p| ≥ θ weight at every node and column.
+ConeProgramme clearance_programme(ConeProgramme programme, const Eigen::MatrixXd &weight);
 
 /// A typical force of each node: its largest under the given loads, but not less than a
 /// thousandth of the median, so that a node without force of its own still has a scale.
