@@ -115,6 +115,17 @@ TEST(KernelIntegrals, MirrorImage)
                    {0, 0, 0.059160181426936234974}});
 }
 
+/// Kernels at the same points do not know of each other.
+TEST(KernelIntegrals, SeveralAtOnceAreEachAlone)
+{
+   const SurfaceTrace trace = three_elements(0);
+   const std::vector<MatrixXd> both =
+      kernel_integrals(trace, trace, std::vector{ring_odd(), ring_even()});
+   ASSERT_EQ(both.size(), 2u);
+   EXPECT_EQ(both[0], kernel_integrals(trace, trace, ring_odd()));
+   EXPECT_EQ(both[1], kernel_integrals(trace, trace, ring_even()));
+}
+
 /// Moments ∫∫ x^m s^n G(x, s) over 0 < x, s < 1 of one element, and of parts that differ by 10⁶
 /// in length.
 TEST(KernelIntegrals, PartsOfALineAreTheLine)

@@ -31,17 +31,22 @@ LobattoBasis::LobattoBasis(int order)
    }
 }
 
-void LobattoBasis::evaluate(double t, Eigen::Ref<Eigen::VectorXd> values) const
+Eigen::MatrixXd LobattoBasis::values(const Eigen::VectorXd &t) const
 {
+   Eigen::MatrixXd all = scale.transpose().replicate(t.size(), 1);
    for (Index i = 0; i < nodes.size(); ++i)
    {
-      double product = scale[i];
       for (Index j = 0; j < nodes.size(); ++j)
       {
-         if (j != i) { product *= t - nodes[j]; }
+         if (j != i) { all.col(i).array() *= t.array() - nodes[j]; }
       }
-      values[i] = product;
    }
+   return all;
+}
+
+void LobattoBasis::evaluate(double t, Eigen::Ref<Eigen::VectorXd> values) const
+{
+   values = this->values(Eigen::VectorXd::Constant(1, t)).transpose();
 }
 
 const LobattoBasis &lobatto_basis(Index order)

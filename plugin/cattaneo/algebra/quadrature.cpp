@@ -1,6 +1,7 @@
+#include <array>
 #include <cattaneo/algebra/quadrature.hpp>
 #include <cmath>
-#include <vector>
+#include <mutex>
 
 namespace cattaneo
 {
@@ -57,13 +58,12 @@ QuadratureRule make_gauss_rule(int points)
 
 const QuadratureRule &gauss_rule(int points)
 {
-   static const std::vector<QuadratureRule> rules = []
-   {
-      std::vector<QuadratureRule> made;
-      for (int n = 1; n <= 64; ++n) { made.push_back(make_gauss_rule(n)); }
-      return made;
-   }();
-   return rules.at(points - 1);
+   // Made when they are asked for: all of them take as long as a small study.
+   static std::array<QuadratureRule, 64> rules;
+   static std::array<std::once_flag, 64> made;
+   QuadratureRule &rule = rules.at(points - 1);
+   std::call_once(made[points - 1], [&] { rule = make_gauss_rule(points); });
+   return rule;
 }
 
 const QuadratureRule &logarithmic_rule()

@@ -72,8 +72,9 @@ Flexibility axisymmetric_flexibility(const SurfaceTrace &trace, const Material &
    // ∫∫ φ_i (p s / r) φ_j ds 2πr dr over s < r
    const MatrixXd inside = trace.ordered_integral(one, [](double s) { return s; });
    const double beta = round * (0.5 - material.poisson) / material.mu();
-   return joined(scale * kernel_integrals(trace, trace, ring_odd()), side * beta * inside,
-                 scale * kernel_integrals(trace, trace, ring_even()));
+   const std::vector<MatrixXd> rings =
+      kernel_integrals(trace, trace, std::vector{ring_odd(), ring_even()});
+   return joined(scale * rings[0], side * beta * inside, scale * rings[1]);
 }
 
 Flexibility torsion_flexibility(const SurfaceTrace &trace, const Material &material)

@@ -62,39 +62,49 @@ const QuadratureRule &regular_rule(const Panel &p, const Panel &q)
 class Integrals
 {
 public:
-   Integrals(const SurfaceTrace &first, const SurfaceTrace &second, const SurfaceKernel &kernel)
-      : first_(first), second_(second),
-        kernel_(kernel), whole_{std::vector<std::map<int, Samples>>(first.elements().size()),
-                                std::vector<std::map<int, Samples>>(second.elements().size())}
+   Integrals(const SurfaceTrace &first, const SurfaceTrace &second,
+             const std::vector<SurfaceKernel> &kernels)
+      : first_(first), second_(second), kernels_(kernels), blocks_(kernels.size()),
+        about_axis_(kernels.front().about_axis), whole_{std::vector<std::map<int, Samples>>(
+                                                           first.elements().size()),
+                                                        std::vector<std::map<int, Samples>>(
+                                                           second.elements().size())}
    {
    }
 
-   MatrixXd all()
+   std::vector<MatrixXd> all()
    {
       const bool same = &first_ == &second_;
-      MatrixXd result = MatrixXd::Zero(first_.unknowns(), second_.unknowns());
+      std::vector<MatrixXd> results(kernels_.size(),
+                                    MatrixXd::Zero(first_.unknowns(), second_.unknowns()));
       const std::vector<Panel> rows = panels(first_), columns = panels(second_);
       for (const Panel &p : rows)
       {
          for (const Panel &q : columns)
          {
             const SurfaceElement &e = *p.element, &f = *q.element;
-            block_ = MatrixXd::Zero(e.x.size(), f.x.size());
+            for (MatrixXd &block : blocks_) { block.setZero(e.x.size(), f.x.size()); }
             add(p, q);
-            result(e.unknowns, f.unknowns) += block_;
-            if (!same) { continue; }
-            if (&e == &f) { break; }
-            result(f.unknowns, e.unknowns) += block_.transpose();
+            for (std::size_t m = 0; m < results.size(); ++m)
+            {
+               results[m](e.unknowns, f.unknowns) += blocks_[m];
+               if (same && &e != &f)
+               {
+                  results[m](f.unknowns, e.unknowns) += blocks_[m].transpose();
+               }
+            }
+            if (same && &e == &f) { break; }
          }
       }
-      return result;
+      return results;
    }
 
 private:
    const SurfaceTrace &first_, &second_;
-   const SurfaceKernel &kernel_;
+   const std::vector<SurfaceKernel> &kernels_;
+   std::vector<MatrixXd> blocks_; ///< of each kernel, of the pair of elements at hand
+   bool about_axis_;
    std::vector<std::map<int, Samples>> whole_[2]; ///< of whole elements, by the points
-   MatrixXd block_;
 
    static std::vector<Panel> panels(const SurfaceTrace &trace)
    {
@@ -111,8 +121,8 @@ private:
       const double distance = std::max(p.from - q.to, q.from - p.to);
       const double longer = std::max(p.size(), q.size());
       const bool even = !p.uneven && !q.uneven;
-      if (same && even && kernel_.about_axis && p.from == 0) { add_at_axis(p); }
-      else if (same && even && !(kernel_.about_axis && 2 * p.from < p.size())) { add_same(p); }
+      if (same && even && about_axis_ && p.from == 0) { add_at_axis(p); }
+      else if (same && even && !(about_axis_ && 2 * p.from < p.size())) { add_same(p); }
       else if (touches && even && longer <= 2 * std::min(p.size(), q.size()))
       {
          add_neighbours(p, q);
@@ -170,15 +180,18 @@ private:
       const Samples &x = by_gauss(p, 0, np, of_p), &s = by_gauss(q, 1, nq, of_q);
       const double xp = p.element->x[0], sq = q.element->x[0];
       MatrixXd G(np, nq);
-      for (Index l = 0; l < nq; ++l)
+      for (std::size_t m = 0; m < kernels_.size(); ++m)
       {
-         for (Index k = 0; k < np; ++k)
+         for (Index l = 0; l < nq; ++l)
          {
-            G(k, l) =
-               kernel_.value(std::abs(xp - sq + (x.x[k] - s.x[l])), xp + x.x[k], sq + s.x[l]);
+            for (Index k = 0; k < np; ++k)
+            {
+               G(k, l) = kernels_[m].value(std::abs(xp - sq + (x.x[k] - s.x[l])), xp + x.x[k],
+                                           sq + s.x[l]);
+            }
          }
+         blocks_[m].noalias() += x.phi * G * s.phi.transpose();
       }
-      block_.noalias() += x.phi * G * s.phi.transpose();
    }
 
    /// A pair of points as fractions of two panels. The distance of x from the place where it
@@ -226,23 +239,34 @@ private:
       }
       return length * slope.cwiseProduct(by);
    }
-   MatrixXd integral(const Panel &p, const Panel &q, const Pairs &pairs,
-                     const VectorXd &distance) const
+   /// Of each kernel.
+   std::vector<MatrixXd> integrals(const Panel &p, const Panel &q, const Pairs &pairs,
+                                   const VectorXd &distance) const
    {
       const Samples x = samples(p, first_, pairs.x, pairs.weights),
                     s = samples(q, second_, pairs.s, VectorXd::Ones(pairs.s.size()));
+      std::vector<MatrixXd> all;
       VectorXd G(distance.size());
-      for (Index k = 0; k < G.size(); ++k)
+      for (const SurfaceKernel &kernel : kernels_)
       {
-         G[k] = kernel_.value(distance[k], p.element->x[0] + x.x[k], q.element->x[0] + s.x[k]);
+         for (Index k = 0; k < G.size(); ++k)
+         {
+            G[k] =
+               kernel.value(distance[k], p.element->x[0] + x.x[k], q.element->x[0] + s.x[k]);
+         }
+         all.push_back(x.phi * G.asDiagonal() * s.phi.transpose());
       }
-      return x.phi * G.asDiagonal() * s.phi.transpose();
+      return all;
    }
    /// Of the half of a square of which s < x, and of the other, which mirrors it.
    void add_halves(const Panel &p, const Pairs &half)
    {
-      const MatrixXd one = integral(p, p, half, lengths(p, first_, half.s, half.x, half.x_by));
-      block_ += one + one.transpose();
+      const std::vector<MatrixXd> one =
+         integrals(p, p, half, lengths(p, first_, half.s, half.x, half.x_by));
+      for (std::size_t m = 0; m < one.size(); ++m)
+      {
+         blocks_[m] += one[m] + one[m].transpose();
+      }
    }
    void add_same(const Panel &p)
    {
@@ -275,9 +299,11 @@ private:
          };
          const Pairs all = pairs(logarithmic_rule(), regular_rule(p, q), place);
          const VectorXd ends = VectorXd::Ones(all.x.size());
-         block_ += integral(p, q, all,
-                            lengths(p, first_, p_end * ends, all.x, all.x_by) +
-                               lengths(q, second_, q_end * ends, all.s, all.s_by));
+         const std::vector<MatrixXd> one =
+            integrals(p, q, all,
+                      lengths(p, first_, p_end * ends, all.x, all.x_by) +
+                         lengths(q, second_, q_end * ends, all.s, all.s_by));
+         for (std::size_t m = 0; m < one.size(); ++m) { blocks_[m] += one[m]; }
       }
    }
 };
@@ -309,7 +335,13 @@ struct ArithmeticGeometricMean
 MatrixXd kernel_integrals(const SurfaceTrace &first, const SurfaceTrace &second,
                           const SurfaceKernel &kernel)
 {
-   return Integrals(first, second, kernel).all();
+   return kernel_integrals(first, second, std::vector{kernel}).front();
+}
+
+std::vector<MatrixXd> kernel_integrals(const SurfaceTrace &first, const SurfaceTrace &second,
+                                       const std::vector<SurfaceKernel> &kernels)
+{
+   return Integrals(first, second, kernels).all();
 }
 
 SurfaceKernel logarithm()

@@ -74,14 +74,10 @@ SurfaceTrace SurfaceTrace::mirrored() const
 SurfacePoints SurfaceTrace::points(const SurfaceElement &element, const VectorXd &t) const
 {
    const LobattoBasis &functions = lobatto_basis(element.order());
-   SurfacePoints at;
-   at.phi.resize(element.x.size(), t.size());
-   for (Index k = 0; k < t.size(); ++k) { functions.evaluate(t[k], at.phi.col(k)); }
+   const MatrixXd values = functions.values(t);
    // Differences to the first node: small elements far from the origin lose no digits.
    const VectorXd from_first = element.x.array() - element.x[0];
-   at.x = at.phi.transpose() * from_first;
-   at.dx = at.phi.transpose() * (functions.slopes * from_first);
-   return at;
+   return {values * from_first, values * (functions.slopes * from_first), values.transpose()};
 }
 
 VectorXd SurfaceTrace::integral(const Weight &w) const

@@ -16,6 +16,8 @@ struct LobattoBasis
 
    explicit LobattoBasis(int order);
    void evaluate(double t, Eigen::Ref<Eigen::VectorXd> values) const;
+   /// Of all polynomials (columns) at each t (rows).
+   Eigen::MatrixXd values(const Eigen::VectorXd &t) const;
 };
 
 /// Of an order from 1 to 8.

@@ -25,6 +25,10 @@ struct SurfaceKernel
    the longer one is halved. */
 Eigen::MatrixXd kernel_integrals(const SurfaceTrace &first, const SurfaceTrace &second,
                                  const SurfaceKernel &kernel);
+/// The same of several kernels, all about an axis or none, at the same points.
+std::vector<Eigen::MatrixXd> kernel_integrals(const SurfaceTrace &first,
+                                              const SurfaceTrace &second,
+                                              const std::vector<SurfaceKernel> &kernels);
 
 /// The logarithm of the distance.
 SurfaceKernel logarithm();
