@@ -182,7 +182,7 @@ CondensedBody in_local_frames(const ContactLine &line, const std::vector<BodyLoa
    equilibrium.impose_on_stiffness(found.S);
    equilibrium.impose_on_forces(found.clamped.forces);
    const FrameChange frames = FrameChange::of(result.line);
-   result.S = frames.both(found.S);
+   result.S = frames.both(std::move(found.S));
    // Displacements change with the frames as forces do, but for those of torsion, r times the
    // twist.
    const Eigen::MatrixXd &motions = equilibrium.motions();

@@ -151,8 +151,11 @@ void Equilibrium::impose_on_forces(Eigen::MatrixXd &f) const
 void Equilibrium::impose_on_stiffness(Eigen::MatrixXd &S) const
 {
    if (Q_.cols() == 0) { return; }
+   // S + Q W Qᵀ - Q (S Q)ᵀ - S Q Qᵀ with W = Qᵀ S Q, in two halves.
    const Eigen::MatrixXd SQ = S * Q_;
-   S += Q_ * (Q_.transpose() * SQ) * Q_.transpose() - Q_ * SQ.transpose() - SQ * Q_.transpose();
+   const Eigen::MatrixXd half = 0.5 * Q_ * (Q_.transpose() * SQ) - SQ;
+   S.noalias() += half * Q_.transpose();
+   S.noalias() += Q_ * half.transpose();
    S = (0.5 * (S + S.transpose())).eval();
 }
 

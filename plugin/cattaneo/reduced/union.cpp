@@ -298,8 +298,10 @@ Block united(const CondensedBody &first, const CondensedBody &second,
    const auto release = [&](const Eigen::MatrixXd &Q, const Eigen::MatrixXd &loads)
    {
       if (Q.cols() == 0) { return; }
-      block.S -= Q * (Q.transpose() * block.S);
-      block.S -= (block.S * Q) * Q.transpose();
+      const Eigen::MatrixXd rows = Q.transpose() * block.S;
+      block.S.noalias() -= Q * rows;
+      const Eigen::MatrixXd columns = block.S * Q;
+      block.S.noalias() -= columns * Q.transpose();
       block.S.triangularView<Eigen::StrictlyUpper>() = block.S.transpose();
       block.f -= Q * (Q.transpose() * (block.f - loads));
    };

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <cattaneo/condense/contact_line.hpp>
+#include <cmath>
 
 namespace cattaneo
 {
@@ -44,11 +45,26 @@ struct FrameChange
       return result;
    }
    /// R M Rᵀ of a symmetric M, symmetric to the last bit.
-   Eigen::MatrixXd both(const Eigen::MatrixXd &M) const
+   Eigen::MatrixXd both(Eigen::MatrixXd M) const
    {
-      Eigen::MatrixXd result = rows(rows(M).transpose());
-      result.triangularView<Eigen::StrictlyUpper>() = result.transpose();
-      return result;
+      const Eigen::Index n = a.size();
+      // Flat lines along the first axis, either way, have R = ±1.
+      const bool flat = b.size() > 0 && b.isZero(0) && c.isZero(0) && std::abs(a[0]) == 1 &&
+                        (a.array() == a[0]).all() && (d.array() == a[0]).all();
+      if (!flat) { M = rows(M); }
+      for (Eigen::Index j = 0; j < n && !flat; ++j)
+      {
+         if (b.size() == 0)
+         {
+            M.col(j) *= a[j];
+            continue;
+         }
+         const Eigen::VectorXd x = M.col(j), y = M.col(n + j);
+         M.col(j) = a[j] * x + b[j] * y;
+         M.col(n + j) = c[j] * x + d[j] * y;
+      }
+      M.triangularView<Eigen::StrictlyLower>() = M.transpose();
+      return M;
    }
 };
 
