@@ -73,7 +73,9 @@ ConeProgramme friction_cones(const ReducedProblem &problem, const StuckForces &l
    }
    const auto columns = static_cast<Eigen::Index>(most) * vertices;
    programme.friction.resize(n, columns);
-   programme.skew.resize(n, columns);
+   // With two components a law is the same to all sides.
+   const bool skewed = problem.components() == 1;
+   if (skewed) { programme.skew.resize(n, columns); }
    programme.strength0.resize(n, columns);
    programme.strength1 = Eigen::MatrixXd::Zero(n, columns);
    programme.loads = {loads.q0.replicate(1, most), loads.q1.replicate(1, most),
@@ -88,8 +90,9 @@ ConeProgramme friction_cones(const ReducedProblem &problem, const StuckForces &l
          const std::size_t kf = f.at(k), kb = b.at(k);
          const auto part = Eigen::seqN(static_cast<Eigen::Index>(k) * vertices, vertices);
          programme.friction(i, part).setConstant(0.5 * (f.slope[kf] + b.slope[kb]));
-         programme.skew(i, part).setConstant(0.5 * (f.slope[kf] - b.slope[kb]));
          programme.strength0(i, part).setConstant(0.5 * (f.intercept[kf] + b.intercept[kb]));
+         if (!skewed) { continue; }
+         programme.skew(i, part).setConstant(0.5 * (f.slope[kf] - b.slope[kb]));
          const double shift = 0.5 * (f.intercept[kf] - b.intercept[kb]);
          programme.loads.q0(i, part).array() += shift;
       }
