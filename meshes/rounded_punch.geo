@@ -9,7 +9,7 @@
 DefineConstant[ body = {1, Choices{1, 2}} ];
 Mesh.MshFileVersion = 2.2;
 Mesh.ElementOrder = 2;
-Mesh.Algorithm = 6;
+Mesh.Algorithm = 5; // Delaunay: elements grow evenly away from the fine edges
 
 a = 3; near = 0.2; radius = 5; half = 6; height = 10;
 width = 20; depth = 20;

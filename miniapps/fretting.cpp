@@ -18,7 +18,7 @@
 //                fretting -p fe -Q 50
 //                fretting -p fe -Q 50 -bs 30 -nodes 201
 //                fretting -p fe -Q 100 --averaging-depth 0.1
-//                fretting -p fe -r 10 -b 2 -P 1000 -Q 100 -m Ti6Al4V
+//                fretting -p fe -r 10 -b 2 -P 1000 -Q 100 -m Ti6Al4V -nodes 201
 //                fretting -Q 5 -bs 10 -plot fretting.png -csv fretting
 //                fretting -plot fretting.svg -csv f -rec miniapps/data/fretting_records.csv
 

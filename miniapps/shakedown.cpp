@@ -141,7 +141,14 @@ void Shakedown::options()
 
 void Shakedown::prepare()
 {
-   if (saved) { gapped = load_reduced_problem(reduced); }
+   if (saved)
+   {
+      gapped = load_reduced_problem(reduced);
+      require(
+         gapped.laws.empty(), "'", reduced,
+         "' has laws of friction other than Coulomb's, for which --friction does not stand: "
+         "load_limit() of the library and of Python computes their largest load");
+   }
    else
    {
       scene = make_punch(punch);

@@ -5,7 +5,6 @@
 #include <cattaneo/friction/march.hpp>
 #include <cattaneo/readout/zones.hpp>
 #include <cattaneo/reduced/reduced_file.hpp>
-#include <cattaneo/shakedown/load_cycle.hpp>
 #include <cattaneo/wear/worn_out.hpp>
 #include <cmath>
 #include <random>
@@ -423,11 +422,6 @@ TEST(FrictionLaw, IsSavedAndRefusedWhereItIsNotKnown)
    const LoadHistory history = LoadHistory::through(problem, {{}, {{"load", 1}}});
    expect_input_error([&] { worn_out(problem, history, ContactState::virgin(problem)); },
                       "wear knows Coulomb's law alone");
-   expect_input_error(
-      [&] {
-         stuck_forces(problem, LoadCycle::through(problem, {}, {{{"load", 1}}, {{"load", 0}}}));
-      },
-      "shakedown knows Coulomb's law alone");
 }
 
 // A state is of the problem that it was solved in, and of no other of its size; one before any

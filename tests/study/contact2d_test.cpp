@@ -215,7 +215,7 @@ TEST_F(Contact2D, RoundedPunchReachesASteadyCycle)
       k_n[e] = fitted["value"];
       error[e] = k_n[e] * fitted["relative_error"].get<double>();
       EXPECT_LT(error[e], 0.08 * k_n[e]);
-      EXPECT_NEAR(k_n[e], 3693, 0.1 * 3693);
+      EXPECT_NEAR(k_n[e], 3693, 0.03 * 3693);
    }
    EXPECT_LT(std::abs(k_n[0] - k_n[1]), std::max(error[0], error[1]));
 }

@@ -21,8 +21,9 @@ using NodeMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2, 2
 double magnitude(const NodeVector &x);
 
 /** What the tangential force of a node is bounded by at its normal force p: Coulomb's f p, or
-   that of a FrictionLaw. The solvers, their checks, losses and zones() ask here; derivatives,
-   wear and shakedown know Coulomb's law alone, and refuse another one (require_coulomb()).
+   that of a FrictionLaw. The solvers, their checks, losses and zones() ask here; the cones
+   of shakedown ask for its pieces, derivatives and wear know Coulomb's law alone, and refuse
+   another one (require_coulomb()).
 
     Everyone asks for the bound at a p and in a sense of slip (+1 forward, -1 backward, 0: any
     direction of the disc), and linearises it by its slope there, so that a bound that differs
