@@ -81,7 +81,7 @@ namespace
 std::vector<double> flat_grid(double flat, double half_width, int elements, double growth)
 {
    const double w = half_width - flat, inner = std::max(flat - w, 0.0), outer = flat + 1.67 * w;
-   const int zone = elements / 2;
+   const int zone = std::max(elements / 2, 1);
    const double step = (outer - inner) / zone;
    std::vector<double> half{0.0};
    if (inner > 0)

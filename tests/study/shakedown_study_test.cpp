@@ -1,3 +1,4 @@
+#include <cattaneo/reduced/reduced_file.hpp>
 #include <extent.hpp>
 #include <sstream>
 #include <study/run_miniapp.hpp>
@@ -192,6 +193,22 @@ TEST(ShakedownStudy, LimitOfASavedBlockOnARigidPlane)
    std::remove(file.c_str());
    EXPECT_NEAR(limits[1], limits[2], 2e-3 * limits[2]);
    EXPECT_LT(std::abs(limits[2] - limits[1]), 0.5 * std::abs(limits[1] - limits[0]));
+}
+
+TEST(ShakedownStudy, ALawOfASavedProblemIsNotReplacedWithoutAWord)
+{
+   const std::string file = testing::TempDir() + "shakedown_law.json";
+   run_miniapp("square_punch", "-obstacle rigid -nodes 9 -save '" + file + "'");
+   cattaneo::ReducedProblem problem = cattaneo::load_reduced_problem(file);
+   Eigen::MatrixX2d points(2, 2);
+   points << 1, 0.3, 2, 0.4;
+   cattaneo::set_friction_law(problem, points);
+   cattaneo::save(problem, file);
+   const Outcome run = run_miniapp("shakedown", "-reduced '" + file + "' -friction 0.8");
+   EXPECT_EQ(run.code, 1);
+   EXPECT_NE(run.output.find("laws of friction other than Coulomb's"), std::string::npos)
+      << run.output;
+   std::remove(file.c_str());
 }
 
 TEST(ShakedownStudy, ConvergesWithTheMesh)

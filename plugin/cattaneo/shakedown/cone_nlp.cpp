@@ -32,8 +32,8 @@ class ConeNlp : public Ipopt::TNLP
 public:
    ConeNlp(const ConeProgramme &programme, const ConeSettings &settings, const ConeStart &start)
       : programme(programme), settings(settings), start(start), n(programme.nodes()),
-        c(programme.components()), m(n * c), vertices(programme.loads.vertices()),
-        cones(n * vertices), rigid(programme.residual->rigid.cols()),
+        c(programme.components()), m(n * c), columns(programme.loads.vertices()),
+        cones(n * columns), rigid(programme.residual->rigid.cols()),
         coupled(!programme.residual->uncoupled), disc(c == 2),
         tangential(programme.pressure_only ? 0 : 1), first_pi(1 + m),
         first_t(first_pi + (coupled ? n : 0)), first_balance(coupled ? n : 0),
@@ -54,7 +54,7 @@ public:
       {
          bound1 += inverse.asDiagonal() * programme.strength1 * unit;
       }
-      skew = Eigen::MatrixXd::Zero(n, vertices);
+      skew = Eigen::MatrixXd::Zero(n, columns);
       if (programme.skew.size())
       {
          skew = programme.skew;
@@ -317,8 +317,8 @@ public:
       solution.theta = x[0] * programme.theta_scale;
       solution.r = Eigen::Map<const Eigen::VectorXd>(x + 1, m).cwiseProduct(s.replicate(c, 1));
       ConeMechanism &mechanism = solution.mechanism;
-      mechanism.slip.resize(m, vertices);
-      mechanism.limit.resize(n, vertices);
+      mechanism.slip.resize(m, columns);
+      mechanism.limit.resize(n, columns);
       for (Eigen::Index k = 0; k < cones; ++k)
       {
          // The multipliers of the bound and of q: what each row's multiplier does to them.
@@ -370,7 +370,7 @@ private:
    const ConeProgramme &programme;
    const ConeSettings &settings;
    const ConeStart &start;
-   const Eigen::Index n, c, m, vertices, cones, rigid;
+   const Eigen::Index n, c, m, columns, cones, rigid;
    const bool coupled, disc;
    const double tangential; ///< what r does to the tangential forces: 1, or 0 if left out
    /// First unknown π and t; first row of rigidᵀ r = 0, of the definitions of t, of the cones.

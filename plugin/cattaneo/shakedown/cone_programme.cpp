@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cattaneo/algebra/dense_lu.hpp>
+#include <cattaneo/friction/contact_law.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/tangential_lengths.hpp>
 #include <cattaneo/shakedown/cone_programme.hpp>
@@ -23,31 +24,6 @@ Eigen::MatrixXd ConeProgramme::skewed(const Eigen::MatrixXd &q, const Eigen::Mat
    return skew.size() ? Eigen::MatrixXd(q + skew.cwiseProduct(p)) : q;
 }
 
-namespace
-{
-
-/// Straight pieces of one bound, in their order.
-struct Pieces
-{
-   std::vector<double> slope, intercept;
-
-   explicit Pieces(const Eigen::MatrixX2d &points)
-   {
-      double p = 0, bound = 0;
-      for (const auto &point : points.rowwise())
-      {
-         slope.push_back((point[1] - bound) / (point[0] - p));
-         p = point[0];
-         bound = point[1];
-         intercept.push_back(bound - slope.back() * p);
-      }
-   }
-   /// The last of two that have different numbers counts again.
-   std::size_t at(std::size_t k) const { return std::min(k, slope.size() - 1); }
-};
-
-} // namespace
-
 ConeProgramme friction_cones(const ReducedProblem &problem, const StuckForces &loads)
 {
    const Eigen::Index n = problem.nodes(), vertices = loads.vertices();
@@ -58,8 +34,7 @@ ConeProgramme friction_cones(const ReducedProblem &problem, const StuckForces &l
       programme.loads = loads;
       return programme;
    }
-   std::vector<Pieces> forward, backward;
-   std::size_t most = 0;
+   Eigen::Index most = 0; // pieces
    for (Eigen::Index i = 0; i < n; ++i)
    {
       const FrictionLaw &law = problem.laws[i];
@@ -67,11 +42,9 @@ ConeProgramme friction_cones(const ReducedProblem &problem, const StuckForces &l
          law.concave(), "shakedown: the law of friction of node ", i,
          " has a piece that is steeper than the one before it, must be concave: limits are "
          "known of no other");
-      forward.emplace_back(law.forward);
-      backward.emplace_back(law.backward);
-      most = std::max({most, forward.back().slope.size(), backward.back().slope.size()});
+      most = std::max({most, law.forward.rows(), law.backward.rows()});
    }
-   const auto columns = static_cast<Eigen::Index>(most) * vertices;
+   const Eigen::Index columns = most * vertices;
    programme.friction.resize(n, columns);
    // With two components a law is the same to all sides.
    const bool skewed = problem.components() == 1;
@@ -82,19 +55,24 @@ ConeProgramme friction_cones(const ReducedProblem &problem, const StuckForces &l
                       loads.p0.replicate(1, most), loads.p1.replicate(1, most)};
    for (Eigen::Index i = 0; i < n; ++i)
    {
-      const Pieces &f = forward[i], &b = backward[i];
-      for (std::size_t k = 0; k < most; ++k)
+      const FrictionBound bound = friction_bound(problem, i);
+      const FrictionLaw &law = problem.laws[i];
+      for (Eigen::Index k = 0; k < most; ++k)
       {
          // -(slope p + intercept of forward) ≤ q ≤ the same of backward: half their sum about
-         // half their difference, of which the part without p is a force.
-         const std::size_t kf = f.at(k), kb = b.at(k);
-         const auto part = Eigen::seqN(static_cast<Eigen::Index>(k) * vertices, vertices);
-         programme.friction(i, part).setConstant(0.5 * (f.slope[kf] + b.slope[kb]));
-         programme.strength0(i, part).setConstant(0.5 * (f.intercept[kf] + b.intercept[kb]));
+         // half their difference, of which the part without p is a force. The piece before a
+         // point is the one at it; where one bound has fewer, its last counts again.
+         const double f = law.forward(std::min(k, law.forward.rows() - 1), 0),
+                      b = law.backward(std::min(k, law.backward.rows() - 1), 0);
+         const auto part = Eigen::seqN(k * vertices, vertices);
+         programme.friction(i, part).setConstant(0.5 *
+                                                 (bound.slope(f, 1) + bound.slope(b, -1)));
+         programme.strength0(i, part).setConstant(
+            0.5 * (bound.intercept(f, 1) + bound.intercept(b, -1)));
          if (!skewed) { continue; }
-         programme.skew(i, part).setConstant(0.5 * (f.slope[kf] - b.slope[kb]));
-         const double shift = 0.5 * (f.intercept[kf] - b.intercept[kb]);
-         programme.loads.q0(i, part).array() += shift;
+         programme.skew(i, part).setConstant(0.5 * (bound.slope(f, 1) - bound.slope(b, -1)));
+         programme.loads.q0(i, part).array() +=
+            0.5 * (bound.intercept(f, 1) - bound.intercept(b, -1));
       }
    }
    return programme;
