@@ -385,6 +385,55 @@ TEST(FrictionLaw, HoldsInAllDirectionsWithTorsion)
       "with torsion slip has no sense");
 }
 
+// Random coupled nodes with torsion whose laws get steeper too, so that a piece's straight line
+// lies below zero elsewhere: forces in equilibrium, within the bound, at it against the slip.
+TEST(FrictionLaw, WithTorsionNodesSlipAgainstWhatTheLawHolds)
+{
+   const Index n = 3;
+   for (unsigned seed = 0; seed < 200; ++seed)
+   {
+      SCOPED_TRACE(seed);
+      std::mt19937 random(seed);
+      std::normal_distribution<double> normal;
+      const auto some = [&](Index rows, Index cols)
+      { return MatrixXd(MatrixXd::NullaryExpr(rows, cols, [&] { return normal(random); })); };
+      const MatrixXd M = some(3 * n, 3 * n),
+                     K = M * M.transpose() + 3 * MatrixXd::Identity(3 * n, 3 * n);
+      ReducedProblem problem;
+      problem.set_stiffness(K.topLeftCorner(2 * n, 2 * n), K.bottomLeftCorner(n, 2 * n),
+                            K.bottomRightCorner(n, n));
+      problem.patterns = {{"load", Control::force, some(2 * n, 1), some(n, 1).cwiseAbs()}};
+      problem.gap = VectorXd::Zero(n);
+      problem.weights = VectorXd::Ones(n);
+      set_friction(problem, 1);
+      const CriticalFriction critical = critical_friction(problem);
+      const double most = 0.9 * std::min(critical.unique_below, critical.node);
+      std::vector<MatrixX2d> laws;
+      for (Index i = 0; i < n; ++i)
+      {
+         laws.push_back(some_law(random, most, false));
+         laws.back().col(1).array() -= 0.8 * laws.back()(0, 1);
+         set_friction_law(problem, laws.back(), {i});
+      }
+      FrictionSolver solver(problem);
+      ContactState state = ContactState::virgin(problem);
+      const IncrementReport report = solver.solve(state, VectorXd::Constant(1, 1.5));
+      ASSERT_EQ(report.status, FrictionStatus::converged) << report.message;
+      const VectorXd u = state.displacements(),
+                     F = problem.K * u + problem.clamped_forces(VectorXd::Constant(1, 1.5));
+      for (Index i = 0; i < n; ++i)
+      {
+         const double p = F[2 * n + i], gap = u[2 * n + i], tiny = 1e-8;
+         const Eigen::Vector2d q(F[i], F[n + i]), slip(u[i], u[n + i]);
+         EXPECT_GT(std::min(p, gap), -tiny);
+         EXPECT_LT(std::abs(p * gap), tiny);
+         const double bound = p > 0 ? strength(laws[i], p) : 0;
+         EXPECT_LT(q.norm(), bound + tiny);
+         if (gap < tiny) { EXPECT_LT((slip.norm() * q + bound * slip).norm(), tiny); }
+      }
+   }
+}
+
 // Files keep the laws, and who does not know of them cannot read these; all that knows
 // Coulomb's law alone says so.
 TEST(FrictionLaw, IsSavedAndRefusedWhereItIsNotKnown)

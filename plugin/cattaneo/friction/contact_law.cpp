@@ -248,7 +248,9 @@ NodeMove solve_node(const LoneNode &node)
          return move;
       }
       const SlipEquation equation{node};
-      const double t = find_root(equation, 0, 1);
+      // The straight piece that a bent law has elsewhere may lie below zero here: it holds
+      // nothing, and the node goes to where another piece is asked.
+      const double t = equation(0) < 0 ? find_root(equation, 0, 1) : 0.0;
       move.state = NodeState::slip;
       move.slip = -(1 - t) * equation.y(t);
       move.found = presses();
