@@ -250,7 +250,7 @@ NodeMove solve_node(const LoneNode &node)
       const SlipEquation equation{node};
       // The straight piece that a bent law has elsewhere may lie below zero here: it holds
       // nothing, and the node goes to where another piece is asked.
-      const double t = equation(0) < 0 ? find_root(equation, 0, 1) : 0.0;
+      const double t = equation(0) > 0 ? 0.0 : find_root(equation, 0, 1);
       move.state = NodeState::slip;
       move.slip = -(1 - t) * equation.y(t);
       move.found = presses();
