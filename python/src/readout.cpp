@@ -125,7 +125,8 @@ void bind_edges(nb::module_ &m)
    nb::class_<EdgeTractions>(m, "EdgeTractions", "Tractions near an edge, from any solution.")
       .def(
          "__init__",
-         [](EdgeTractions *self, Number edge, Numbers position, Numbers pressure, Numbers shear)
+         [](EdgeTractions *self, Number edge, Numbers position, Numbers pressure, Numbers shear,
+            Number width)
          {
             const auto list = [](nb::handle values, const char *what)
             {
@@ -133,17 +134,20 @@ void bind_edges(nb::module_ &m)
                return std::vector<double>(all.data(), all.data() + all.size());
             };
             EdgeTractions made{number(edge, "edge"), list(position, "position"),
-                               list(pressure, "pressure"), list(shear, "shear")};
+                               list(pressure, "pressure"), list(shear, "shear"),
+                               number(width, "width")};
             made.validate();
             new (self) EdgeTractions(std::move(made));
          },
          arg("edge"), arg("position"), arg("pressure"), arg("shear"),
+         arg("width") = std::numeric_limits<double>::infinity(),
          "shear: fully stuck, on the cracked body, positive in the direction of increasing "
-         "position.")
+         "position; width: from this edge to the other edge of the contact, if it is known.")
       .def_ro("edge", &EdgeTractions::edge)
       .def_ro("position", &EdgeTractions::position)
       .def_ro("pressure", &EdgeTractions::pressure)
-      .def_ro("shear", &EdgeTractions::shear);
+      .def_ro("shear", &EdgeTractions::shear)
+      .def_ro("width", &EdgeTractions::width);
    nb::class_<EdgeFit>(m, "EdgeFit")
       .def_ro("k_n", &EdgeFit::k_n)
       .def_ro("k_t", &EdgeFit::k_t)

@@ -647,6 +647,29 @@ TEST(EdgeFit, FindsTheHertzIntensitiesAtBothEdges)
    }
 }
 
+// With the other edge known both tractions are K √(t (1 - t/width)) to the power 1 and -1: few
+// nodes far from the edge give K to round-off.
+TEST(EdgeFit, TheOtherEdgeIsPartOfTheExpansion)
+{
+   FitSettings coarse;
+   coarse.window = {0.2, 1};
+   for (const double edge : {-1.0, 1.0})
+   {
+      EdgeTractions tractions = hertz_nodes(20, edge);
+      tractions.width = 2;
+      for (const FitSettings &settings : {coarse, FitSettings()})
+      {
+         const EdgeFit fit = fit_edge(tractions, settings);
+         EXPECT_NEAR(fit.k_n.value, std::sqrt(2.0), 1e-12);
+         EXPECT_NEAR(fit.k_t.value, -edge / (pi * std::sqrt(2.0)), 1e-12);
+      }
+      tractions.width = 1;
+      expect_input_error([&] { fit_edge(tractions, coarse); }, "beyond the width");
+      tractions.width = 0;
+      expect_input_error([&] { fit_edge(tractions, coarse); }, "must be positive");
+   }
+}
+
 TEST(EdgeFit, UsesTheWindowItIsGiven)
 {
    FitSettings settings;

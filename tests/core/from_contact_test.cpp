@@ -414,7 +414,7 @@ TEST(FromContact, EitherEdgeHasItsOwnFrictionAndTheMirrorImageTheSame)
       while (here.peak.p[last] == 0) { last--; }
       EXPECT_EQ(edges[0].first, first);
       EXPECT_EQ(edges[0].last, (first + last) / 2);
-      EXPECT_EQ(edges[1].first, edges[0].last + 1);
+      EXPECT_EQ(edges[1].first, (first + last + 1) / 2);
       EXPECT_EQ(edges[1].last, last);
       EXPECT_EQ(edges[0].friction, problem.friction[first]);
       EXPECT_EQ(edges[1].friction, problem.friction[last]);

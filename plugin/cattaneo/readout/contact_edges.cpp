@@ -282,9 +282,13 @@ std::vector<ContactEdge> edges_of(const ReducedProblem &problem, const ContactSt
    const Index half = stretch.last - stretch.first + 1, size = mirrors ? 2 * half - 1 : half;
    require(size >= least, "a stretch of contact has ", size,
            " nodes; the fit of its edges needs at least ", least, ": refine the contact.");
-   const Index middle = from_mirror ? stretch.first
-                        : to_mirror ? stretch.last
-                                    : (stretch.first + stretch.last) / 2;
+   // Of an odd number of nodes the one in the middle belongs to both edges, as on a plane of
+   // symmetry: either edge of a symmetric contact, whole or half, is fitted to as many nodes.
+   const Index sum = stretch.first + stretch.last,
+               left = from_mirror ? stretch.first
+                      : to_mirror ? stretch.last
+                                  : sum / 2,
+               right = mirrors ? left : sum - left;
    std::vector<ContactEdge> found;
    for (const int side : {1, -1})
    {
@@ -292,8 +296,8 @@ std::vector<ContactEdge> edges_of(const ReducedProblem &problem, const ContactSt
       ContactEdge edge;
       edge.side = side;
       edge.position = side > 0 ? stretch.from : stretch.to;
-      edge.first = side > 0 ? stretch.first : middle + 1;
-      edge.last = side > 0 ? middle : stretch.last;
+      edge.first = side > 0 ? stretch.first : right;
+      edge.last = side > 0 ? left : stretch.last;
       const FrictionBound at = friction_bound(problem, side > 0 ? edge.first : edge.last);
       require(at.slope(0, 1) == at.slope(0, -1), "contact edges: without pressure friction is ",
               at.slope(0, 1), " for slip forward and ", at.slope(0, -1),
@@ -487,6 +491,7 @@ EdgeTractions edge_tractions(const ReducedProblem &problem, const ContactState &
    const VectorXd p = tractions(problem, state.p), q = tractions(problem, state.q);
    EdgeTractions result;
    result.edge = edge.position.position;
+   if (edge.half_width > 0) { result.width = 2 * edge.half_width; }
    for (Index i = edge.first; i <= edge.last; i++)
    {
       // The nodes read as within the edge only.

@@ -25,7 +25,7 @@ struct ContactEdge
    int side = 1;            ///< +1: the contact lies at larger arc length, -1: at smaller
    double half_width = 0.0; ///< of the stretch of contact
    Eigen::Index first = 0;  ///< nodes of this edge's half of the contact,
-   Eigen::Index last = -1;  ///< in increasing order
+   Eigen::Index last = -1;  ///< in increasing order; the middle one of an odd number is both's
    /// The contact reaches the end of the contact line, where a body may end with a corner.
    bool complete = false;
    std::string why_not;    ///< why there are no intensities: complete, or cut off; else empty

@@ -66,6 +66,7 @@ void EdgeTractions::validate() const
            pressure.size(), " pressures and ", shear.size(),
            " shear tractions; the numbers must agree.");
    require(std::isfinite(edge), "the position of the edge is ", edge, "; it must be finite.");
+   require(width > 0, "the width of the contact is ", width, "; it must be positive.");
    for (std::size_t i = 0; i < n; i++)
    {
       require(std::isfinite(position[i]) && std::isfinite(pressure[i]) &&
@@ -128,7 +129,10 @@ EdgeFit fit_edge(const EdgeTractions &tractions, const FitSettings &settings)
    std::vector<double> normal, tangential;
    for (const EdgeSample &sample : usable.samples)
    {
-      const double root = std::sqrt(sample.distance);
+      const double t = sample.distance;
+      require(t < tractions.width, "a node in contact is ", t, " from the edge at ",
+              tractions.edge, ", beyond the width of the contact, ", tractions.width, ".");
+      const double root = std::sqrt(t * (1 - t / tractions.width));
       normal.push_back(sample.pressure / root);
       tangential.push_back(sample.shear * root);
    }

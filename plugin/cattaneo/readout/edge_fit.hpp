@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 namespace cattaneo
@@ -15,8 +16,12 @@ struct EdgeTractions
    std::vector<double> pressure; ///< traction (not nodal force), compression positive
    std::vector<double> shear; ///< fully stuck shear traction on the cracked body, positive in
                               ///< the direction of increasing position
+   /// Of the contact, from this edge to its other edge, where the tractions vanish or are
+   /// singular likewise; infinite: there is none, or it is not known.
+   double width = std::numeric_limits<double>::infinity();
 
-   /// InputError for arrays of unequal length and entries that are not finite.
+   /// InputError for arrays of unequal length, entries that are not finite, and a width that
+   /// is not positive.
    void validate() const;
 };
 
@@ -84,9 +89,12 @@ struct EdgeFit
       k_t; ///< signed as fretting::Edge::k_t: > 0 pulls the body in, away from the edge
 };
 
-/** K_N and K_T by least squares: p/√t = K_N + c t and q√t = K_T + c t (the next terms of both
-    expansions for a smooth profile). InputError for arrays of unequal length, entries that are
-    not finite, pressure on both sides of the edge, or fewer than 4 nodes in the window. */
+/** K_N and K_T by least squares: with r = √(t (1 - t/width)), p/r = K_N + c t and
+    q r = K_T + c t (the next terms of both expansions for a smooth profile; without them, c =
+   0, these are the tractions of Hertz and of a stuck shear force on half-planes, whose two
+   edges are alike). InputError for arrays of unequal length, entries that are not finite,
+   pressure on both sides of the edge or beyond the width, or fewer than 4 nodes in the window.
+ */
 EdgeFit fit_edge(const EdgeTractions &tractions, const FitSettings &settings = {});
 
 } // namespace cattaneo
