@@ -439,7 +439,7 @@ TEST(FrictionDisc, CriticalFrictionIsThatOfTheWeakestDirection)
    double least[2];
    const Eigen::Matrix2d blocks[] = {Eigen::Matrix2d{{2, 0.5}, {0.5, 1}},
                                      Eigen::Matrix2d{{3, -1}, {-1, 2}}};
-   const double pull[] = {0.5, std::hypot(1, 0.8)};
+   const Vector2d pull[] = {Vector2d(0.3, 0.4), Vector2d(1, -0.8)};
    for (int i : {0, 1})
    {
       least[i] = 1e9;
@@ -447,11 +447,10 @@ TEST(FrictionDisc, CriticalFrictionIsThatOfTheWeakestDirection)
       {
          const double angle = k * M_PI / 100000;
          const Vector2d s(std::cos(angle), std::sin(angle));
-         least[i] = std::min(least[i], s.dot(blocks[i] * s) / pull[i]);
+         least[i] = std::min(least[i], s.dot(blocks[i] * s) / std::abs(pull[i].dot(s)));
       }
    }
-   EXPECT_NEAR(least[0], (1.5 - std::sqrt(0.5)) / 0.5, 1e-8); // the eigenvalue by hand
-   set_friction(problem, 1.07);
+   set_friction(problem, 2.46);
    EXPECT_NEAR(critical_friction(problem).node, least[1], 1e-8);
    EXPECT_EQ(critical_friction(problem).weakest_node, 1);
    // Only a closed node counts, and it is the one that is named.
@@ -464,13 +463,55 @@ TEST(FrictionDisc, CriticalFrictionIsThatOfTheWeakestDirection)
       return FrictionSolver(problem).judge(at_rest, at_rest);
    };
    EXPECT_EQ(judged({slip, stick}).status, FrictionStatus::converged);
-   set_friction(problem, 1.08);
+   set_friction(problem, 2.47);
    EXPECT_EQ(judged({slip, open}).status, FrictionStatus::converged);
    EXPECT_EQ(judged({open, stick}).status, FrictionStatus::not_unique);
    const std::string message = judged({stick, slip}).message;
-   EXPECT_NE(message.find("friction 1.08 at node 1 is above its critical value 1.079"),
+   EXPECT_NE(message.find("friction 2.47 at node 1 is above its critical value 2.463"),
              std::string::npos)
       << message;
+}
+
+// Just above it a node that sticks may slip as well under the same loads, in the direction that
+// many others show to be the one of least mᵀA m/|bᵀm|.
+TEST(FrictionDisc, AboveItsCriticalFrictionALoneNodeHasTwoAnswers)
+{
+   std::mt19937 random(4);
+   std::normal_distribution<double> normal;
+   for (int k = 0; k < 300; ++k)
+   {
+      const Eigen::Matrix2d R{{normal(random), normal(random)},
+                              {normal(random), normal(random)}};
+      LoneNode node = {};
+      node.A = R * R.transpose() + 0.01 * Eigen::Matrix2d::Identity();
+      if (k % 10 == 0) { node.A = Vector2d(node.A(0, 0), node.A(1, 1)).asDiagonal(); }
+      node.b = Vector2d(normal(random), k % 5 == 0 ? 0.0 : normal(random));
+      Vector2d m;
+      double least = 1e300;
+      const int directions = 20000;
+      for (int i = 0; i < directions; ++i)
+      {
+         const double angle = i * M_PI / directions;
+         const Vector2d tried(std::cos(angle), std::sin(angle));
+         const double ratio = tried.dot(node.A * tried) / std::abs(node.b.dot(tried));
+         if (ratio < least)
+         {
+            least = ratio;
+            m = tried;
+         }
+      }
+      if (node.b.dot(m) > 0) { m = -m; }
+      const double critical = critical_friction(node);
+      ASSERT_LE(critical, least * (1 + 1e-12)) << k;
+      ASSERT_GT(critical, 0.999 * least) << k;
+      const double friction = 1.002 * critical, p = 1e7;
+      const Vector2d shear = -friction * p * m, held = shear - node.A * m;
+      EXPECT_LE(held.norm(), friction * (p - node.b.dot(m))) << k; // stick: |q| <= f p
+   }
+   LoneNode uncoupled = {};
+   uncoupled.A = Eigen::Matrix2d::Identity();
+   uncoupled.b = Vector2d(0, 0);
+   EXPECT_TRUE(std::isinf(critical_friction(uncoupled)));
 }
 
 TEST(FrictionDisc, AnExactPathIsSaidToBeNone)

@@ -273,10 +273,21 @@ NodeMove solve_node(const LoneNode &node)
 
 double critical_friction(const LoneNode &node)
 {
-   if (node.b.size() == 1) { return node.A(0, 0) / std::abs(node.b[0]); }
-   const double mean = 0.5 * node.A.trace();
-   const double spread = std::hypot(0.5 * (node.A(0, 0) - node.A(1, 1)), node.A(0, 1));
-   return (mean - spread) / std::hypot(node.b[0], node.b[1]);
+   const double pull = magnitude(node.b);
+   if (pull == 0) { return std::numeric_limits<double>::infinity(); }
+   if (node.b.size() == 1) { return node.A(0, 0) / pull; }
+   // With A in the axes of b and m = (1, -t)/√(1 + t²), t >= 0 on the side where A is least,
+   // the ratio is (a - 2 h t + d t²)/(|b| √(1 + t²)). It is stationary where t³ + (2 - a/d) t =
+   // 2 h/d, which has one such root.
+   const double x = node.b[0] / pull, y = node.b[1] / pull,
+                a = x * x * node.A(0, 0) + 2 * x * y * node.A(0, 1) + y * y * node.A(1, 1),
+                d = node.A(0, 0) + node.A(1, 1) - a,
+                h = std::abs(x * y * (node.A(1, 1) - node.A(0, 0)) +
+                             (x * x - y * y) * node.A(0, 1)),
+                linear = 2 - a / d, least = std::sqrt(std::max(0.0, -linear));
+   const double t = find_root([&](double t) { return t * (t * t + linear) - 2 * h / d; }, least,
+                              least + std::cbrt(2 * h / d));
+   return (a - 2 * h * t + d * t * t) / (pull * std::sqrt(1 + t * t));
 }
 
 double slip_violation(const ContactNode &node, double uncertain)

@@ -9,9 +9,9 @@ namespace cattaneo
     Properties of the stiffness alone: the loads and the problem's own friction play no part. */
 struct CriticalFriction
 {
-   /// Least A_ii/|B_ii| of any node (two components: smallest eigenvalue of the node's block of
-   /// A over |b|), and the node: above it the rate problem of that node alone has no unique
-   /// answer, or none. Infinite without coupling.
+   /// Least A_ii/|B_ii| of any node (two components: least mᵀA m/|bᵀm| over all directions m,
+   /// with the node's blocks of A and B), and the node: above it the rate problem of that node
+   /// alone has no unique answer, or none. Infinite without coupling.
    double node = 0;
    Eigen::Index weakest_node = 0; ///< at which `node` is decided
 

@@ -184,8 +184,11 @@ struct NodeMove
     stuck). */
 NodeMove solve_node(const LoneNode &node);
 
-/// Coefficient of friction above which a node's slip has no unique answer (in the disc: from
-/// which on it need not have one): smallest eigenvalue of A over |b|.
+/** Coefficient of friction above which a node alone has two answers for some loads, and below
+    which it has one for all: least mᵀA m/|bᵀm| over the directions m of slip (A/|b| where there
+    is one). Two answers, Δx their difference, have Δxᵀ Δq = Δxᵀ A Δx and, by Coulomb's law,
+    Δxᵀ Δq <= f |Δp| |Δx| with Δp = bᵀΔx. If that holds along m, stick and slip along m are both
+    answers under a pressure that is large beside them. */
 double critical_friction(const LoneNode &node);
 
 /// How far a state is from an answer of an increment, in forces.
