@@ -8,6 +8,7 @@
 //                march -method gauss-seidel -reduced problems/hertz.json -history "P=0; P=1"
 
 #include "common/own_history.hpp"
+#include "common/strength_options.hpp"
 
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/reduced_file.hpp>
@@ -48,20 +49,10 @@ void fill_in(ReducedProblem &problem)
    }
 }
 
-Eigen::MatrixX2d points(const char *option, const std::vector<double> &numbers)
-{
-   require(numbers.size() % 2 == 0, "option --", option, " has ", numbers.size(),
-           " numbers, must be a pressure and a strength in turn");
-   Eigen::MatrixX2d all(numbers.size() / 2, 2);
-   for (std::size_t k = 0; k < numbers.size(); ++k) { all(k / 2, k % 2) = numbers[k]; }
-   return all;
-}
-
 void march_problem(miniapp::Study &study)
 {
    std::string file, method = "automatic";
    double friction = miniapp::none;
-   std::vector<double> strength, backward;
    miniapp::OwnHistory history(study);
    FrictionSettings &solver = history.settings.friction;
    int max_sweeps = static_cast<int>(solver.max_sweeps);
@@ -70,12 +61,7 @@ void march_problem(miniapp::Study &study)
    study.option(&friction, "friction",
                 "Coefficient of friction of all nodes, instead of the file's.",
                 miniapp::not_negative);
-   study.option(&strength, "strength",
-                "Another law of friction: pressure and shear strength of its points in turn, "
-                "through which the bound goes from (0, 0) and beyond, as '1 0.5 3 0.8'.",
-                miniapp::not_negative);
-   study.option(&backward, "strength-backward",
-                "The same of slip backward; default: as forward.", miniapp::not_negative);
+   const miniapp::StrengthOptions strength(study);
    study.option(&method, "method",
                 "automatic, or gauss-seidel (node by node alone, as in the thesis).",
                 {"automatic", "gauss-seidel"});
@@ -88,10 +74,7 @@ void march_problem(miniapp::Study &study)
    study.options().only_if(method == "gauss-seidel", {"max-sweeps"},
                            "goes with --method gauss-seidel");
    history.check_options();
-   require(strength.empty() || std::isnan(friction),
-           "options --friction and --strength are two laws of friction, choose one");
-   require(backward.empty() || !strength.empty(),
-           "option --strength-backward goes with --strength");
+   strength.check();
    require(!file.empty(), "option reduced is empty, must name a reduced problem");
    solver.max_sweeps = max_sweeps;
    if (method == "gauss-seidel") { solver.method = FrictionMethod::gauss_seidel; }
@@ -100,13 +83,7 @@ void march_problem(miniapp::Study &study)
    require(!problem.patterns.empty(), "'", file, "' has no load pattern");
    fill_in(problem);
    if (!std::isnan(friction)) { set_friction(problem, friction); }
-   if (!strength.empty())
-   {
-      set_friction_law(problem,
-                       FrictionLaw{points("strength", strength),
-                                   backward.empty() ? points("strength", strength)
-                                                    : points("strength-backward", backward)});
-   }
+   if (strength.given()) { strength.set(problem); }
    history.begin(problem);
    study.options().only_if(!study.csv().empty(), {"frames"}, "goes with --csv");
    study.condensed(problem, 0);

@@ -11,7 +11,8 @@
 //  Also for any contact saved with --save (or save() of a reduced problem): name the pattern
 //  that is held and the one that is cycled; --closed keeps the nodes that stay closed in a
 //  march at the limit, and marches the whole contact on both sides of it. With --plot the maps
-//  and the marches are made.
+//  and the marches are made. With a law of friction other than Coulomb's, of --strength or of
+//  the file, it is the largest load that is found, which needs a law that never gets steeper.
 //
 //  Sample runs:  shakedown
 //                shakedown -nodes 101 -find load -friction 1 -reversal -1 -march -cycles 30
@@ -21,6 +22,7 @@
 //                shakedown -nodes 33 -mismatch "0.1 1 10"
 //                shakedown -obstacle rigid -nodes 65 -friction 0.6 -starts 4
 //                shakedown -march -cycles 2
+//                shakedown -nodes 33 -find load -strength ".8 .6 2 .9"
 
 #include "common/shakedown_study.hpp"
 
@@ -70,8 +72,11 @@ void Shakedown::run()
 void Shakedown::options()
 {
    std::string obstacle = "half-plane";
-   study.option(&friction, "friction",
-                "Coefficient of friction of the largest load and of the marches.", positive);
+   study.option(
+      &friction, "friction",
+      "Coefficient of friction of the largest load and of the marches; of a saved problem "
+      "if it is to be another than the file's.",
+      positive);
    study.option(&lambda_max, "lambda-max",
                 "Largest cycled load, of the smallest friction and of the marches.", positive);
    study.option(&lambda_min, "lambda-min", "Smallest cycled load.");
@@ -108,6 +113,7 @@ void Shakedown::options()
    study.option(&obstacle, "obstacle", "What the block stands on: rigid or half-plane.",
                 {"rigid", "half-plane"});
    add_options(study, punch);
+   strength.emplace(study);
    study.option(&reduced, "reduced", "A saved reduced problem instead of the punch.",
                 Text::input);
    study.option(&held, "held", "Load pattern that is held at 1.");
@@ -117,6 +123,7 @@ void Shakedown::options()
                 "(--lambda-max, or with --find load the limit).");
    study.parse();
    saved = !reduced.empty();
+   strength->check();
    study.options().only_if(!saved,
                            {"obstacle", "poisson", "order", "nodes", "grading", "domain",
                             "tractions", "mesh-study", "mismatch"},
@@ -141,20 +148,13 @@ void Shakedown::options()
 
 void Shakedown::prepare()
 {
-   if (saved)
-   {
-      gapped = load_reduced_problem(reduced);
-      require(
-         gapped.laws.empty(), "'", reduced,
-         "' has laws of friction other than Coulomb's, for which --friction does not stand: "
-         "load_limit() of the library and of Python computes their largest load");
-   }
+   if (saved) { gapped = load_reduced_problem(reduced); }
    else
    {
       scene = make_punch(punch);
       gapped = scene.problem();
    }
-   set_friction(gapped, friction);
+   take_law();
    whole = gapped.gap.isZero(0) ? gapped : absorb_gap(gapped);
    problem = whole;
    if (closed) { keep_closed(lambda_max); }
@@ -167,10 +167,36 @@ void Shakedown::prepare()
              assumption + ".");
    results["limit_assumption"] = assumption;
    results["contact_nodes"] = problem.nodes();
-   standard = !saved && punch.half_plane && punch.order > 1 && punch.unbounded();
+   standard = !saved && coulomb && punch.half_plane && punch.order > 1 && punch.unbounded();
    results["standard"] = standard;
    // What the mesh adds: the extremes lie between nodes, at second order in their spacing.
    results["mesh_error"] = 30.0 / std::pow(static_cast<double>(problem.nodes() - 1), 2);
+}
+
+void Shakedown::take_law()
+{
+   const bool of_file = saved && !strength->given() && !study.options().says("friction");
+   if (strength->given()) { strength->set(gapped); }
+   else if (!of_file || gapped.laws.empty())
+   {
+      if (of_file)
+      {
+         friction = gapped.friction.maxCoeff();
+         require(gapped.friction.minCoeff() == friction, "'", reduced,
+                 "' has coefficients of friction from ", gapped.friction.minCoeff(), " to ",
+                 friction, ", limits are of one: say --friction");
+      }
+      set_friction(gapped, friction);
+   }
+   coulomb = gapped.laws.empty();
+   if (coulomb) { return; }
+   const char *why = "knows Coulomb's law alone, and the contact has another law of friction "
+                     "(of --strength, or of its file: --friction takes its place)";
+   study.options().only_if(false, {"map", "mesh-study", "mismatch", "tractions"}, why);
+   require(find == "load" || !study.options().says("find"), "option --find is '", find,
+           "', must be load: the smallest friction coefficient ", why);
+   find = "load";
+   map = false;
 }
 
 void Shakedown::keep_closed(double load_factor)

@@ -223,9 +223,12 @@ void Shakedown::method2(double f1)
 
 void Shakedown::largest_load()
 {
-   study.title(text("Largest load for f = %g and R = %g", friction, reversal));
-   study.value("method1_load", method1_load(problem, cycle, inner).value,
-               "method 1 (4.9), λmax");
+   study.title(text("Largest load for %s and R = %g", law().c_str(), reversal));
+   if (coulomb)
+   {
+      study.value("method1_load", method1_load(problem, cycle, inner).value,
+                  "method 1 (4.9), λmax");
+   }
    report("load", most, most.limit, friction);
    results["load_limit_lower"] = most.lower;
    results["load_limit_upper"] = most.upper;
@@ -312,6 +315,11 @@ void Shakedown::lower_apart(const LimitSettings &settings)
       study.row(table, {apart.size(), share * (arc[arc.size() - 1] - arc[0]), of.value,
                         of.value / most.limit});
    }
+}
+
+std::string Shakedown::law() const
+{
+   return coulomb ? text("f = %g", friction) : "the law of friction given";
 }
 
 VectorXd Shakedown::traction(const VectorXd &force) const

@@ -91,13 +91,17 @@ void Shakedown::draw_optimal()
             study.panel(Panel::Kind::lines, "residual", "Residual tractions",
                         of_punch("x/a", "arc length"), of_punch("-q a/P, p a/P", "-q, p")),
          &band = study.panel(Panel::Kind::lines, "optimal",
-                             "Permissible residual shear, optimal pressures",
+                             coulomb ? "Permissible residual shear, optimal pressures"
+                                     : "Optimal residual shear",
                              of_punch("x/a", "arc length"), of_punch("-a q/P", "-q"));
    // The thesis' shear is positive where Q is.
    residual.add("shear", x, VectorXd(-traction(residual_q)));
    residual.add("pressure", x, traction(residual_p));
-   band.add("permissible", x, traction((-f * p + q).rowwise().maxCoeff()), "band");
-   band.add("permissible", x, traction((f * p + q).rowwise().minCoeff()), "band");
+   if (coulomb)
+   {
+      band.add("permissible", x, traction((-f * p + q).rowwise().maxCoeff()), "band");
+      band.add("permissible", x, traction((f * p + q).rowwise().minCoeff()), "band");
+   }
    band.add("optimal", x, VectorXd(-traction(residual_q)), "dashed");
    // Tractions are singular at the ends: they are not the picture's scale.
    for (Panel *panel : {&residual, &band}) { panel->say("inside: 0.1"); }
@@ -106,9 +110,9 @@ void Shakedown::draw_optimal()
 void Shakedown::marches()
 {
    if (best().slip.size() == 0) { return; }
-   study.title(text("Marches at f = %g, λ = %g … %g (shaken down: the loss decays, and is "
+   study.title(text("Marches at %s, λ = %g … %g (shaken down: the loss decays, and is "
                     "below 1e-6)",
-                    friction, lambda_max, lambda_max * reversal));
+                    law().c_str(), lambda_max, lambda_max * reversal));
    Table &table = study.table("marches", {{"start", "start"},
                                           {"first_loss", "first loss", "%.4e"},
                                           {"last_loss", "last loss", "%.4e"},

@@ -2,6 +2,7 @@
 
 #include "common/punch.hpp"
 #include "common/run.hpp"
+#include "common/strength_options.hpp"
 #include "common/watch.hpp"
 
 #include <cattaneo/shakedown/closed_contact.hpp>
@@ -9,6 +10,7 @@
 #include <cattaneo/shakedown/limit.hpp>
 #include <cattaneo/shakedown/monolith.hpp>
 #include <cattaneo/shakedown/transient.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +32,10 @@ private:
 
    void options();
    void prepare();
+   /// The law of friction that is asked for, and what cannot be asked for with it.
+   void take_law();
+   /// The law of friction in words.
+   std::string law() const;
    /// Leaves in the problem the nodes that stay closed in marches at this load.
    void keep_closed(double load_factor);
    /// What follows from the problem.
@@ -100,7 +106,10 @@ private:
    int cycles = 200, starts = 0;
    std::vector<double> mesh_study, mismatch, mismatch_poisson;
 
+   std::optional<StrengthOptions> strength;
+
    bool saved = false;    ///< the contact comes from a file
+   bool coulomb = true;   ///< its law of friction is Coulomb's
    bool standard = false; ///< the punch whose reference values are known
    Scene scene;
    cattaneo::ReducedProblem problem; ///< of the nodes that stay closed, if asked for
