@@ -17,6 +17,7 @@
 //                axisymmetric_receding -critical "1 3 5"
 //                axisymmetric_receding -map "0.5 2.5" -map-friction "0.8 0.9" -spacing 0.05
 //                axisymmetric_receding -critical 8
+//                axisymmetric_receding -cycle-to 0.5 -load-cycles 6 -steps 20 -spacing 0.05
 //                axisymmetric_receding -domain 100 -spacing 0.04
 
 #include "common/disc_torsion.hpp"

@@ -20,6 +20,7 @@
 //                shakedown -find friction -tractions
 //                shakedown -nodes 33 -mesh-study "33 65 101"
 //                shakedown -nodes 33 -mismatch "0.1 1 10"
+//                shakedown -nodes 33 -find load -mismatch 1 -mismatch-poisson "0.3 0.45"
 //                shakedown -obstacle rigid -nodes 65 -friction 0.6 -starts 4
 //                shakedown -march -cycles 2
 //                shakedown -nodes 33 -find load -strength ".8 .6 2 .9"

@@ -19,7 +19,13 @@ class Sketch:
     def box(self, x0, x1, y0, y1, colour=BODY):
         return self.body([x0, x1, x1, x0], [y0, y0, y1, y1], colour)
 
+    def reach(self, *points):
+        """What is drawn between axes' limits only, arrows and words, lies within them."""
+        self.axes.update_datalim(points)
+        self.axes.autoscale_view()
+
     def arrow(self, x, y, dx, dy, name="", colour=FORCE, at=1.25):
+        self.reach((x, y), (x + dx, y + dy))
         self.axes.annotate("", xy=(x + dx, y + dy), xytext=(x, y), arrowprops={"arrowstyle": "-|>", "color": colour, "linewidth": 1.4})
         return self.text(x + at * dx, y + at * dy, name, colour) if name else self
 
@@ -31,6 +37,7 @@ class Sketch:
         return self.text(0.5 * (x0 + x1), y + 1.35 * length, name, FORCE)
 
     def size(self, x0, y0, x1, y1, name, dx=0.0, dy=0.0):
+        self.reach((x0, y0), (x1, y1))
         self.axes.annotate("", xy=(x1, y1), xytext=(x0, y0), arrowprops={"arrowstyle": "<->", "color": "#555555", "linewidth": 0.8})
         return self.text(0.5 * (x0 + x1) + dx, 0.5 * (y0 + y1) + dy, name)
 
@@ -39,6 +46,7 @@ class Sketch:
         return self
 
     def text(self, x, y, words, colour="#222222"):
+        self.reach((x, y))
         self.axes.text(x, y, words, color=colour, ha="center", va="center", fontsize=9)
         return self
 
@@ -68,7 +76,7 @@ def block(axes, title="", lower="half-plane"):
         s.box(-2.6, 2.6, -1.6, 0, OTHER).text(0, -1.1, "half-plane of the same material")
     s.box(-1, 1, 0, 2).pressure(-1, 1, 2, 0.45, "P0, uniform")
     s.arrow(1.15, 2.0, 0.8, 0, "Q(t)", COLOURS[0])
-    s.size(-1, 0.3, 1, 0.3, "2a", dy=0.16).size(1.25, 0, 1.25, 1.85, "2a", dx=0.25)
+    s.size(-1, 1.3, 1, 1.3, "2a", dy=0.16).size(1.25, 0, 1.25, 1.85, "2a", dx=0.25)
     s.arrow(0, 0, 0.55, 0, "x", "black", 1.3).arrow(0, 0, 0, 0.8, "y", "black", 1.15)
     return s
 
@@ -99,7 +107,7 @@ def receding():
         s.body([*x, *x[::-1]], [*bent, *[b + 0.7 for b in bent[::-1]]])
         s.body([*x, *x[::-1]], [*[-b for b in bent], *[-b - 0.7 for b in bent[::-1]]], OTHER)
         if gap:
-            s.arrow(0, 1.5, 0, -0.8, "P", at=-0.3).arrow(0, -1.5, 0, 0.8, "P", at=-0.3)
+            s.arrow(0, 1.5, 0, -0.8).arrow(0, -1.5, 0, 0.8).text(0.25, 1.25, "P", FORCE).text(0.25, -1.25, "P", FORCE)
     return figure
 
 
@@ -107,9 +115,9 @@ def lap():
     figure, (axes,) = sheet(1, height=2.6)
     s = Sketch(axes)
     s.box(-6, 1.95, 0, 0.5).box(-1.95, 6, -0.5, 0, OTHER)
-    s.pressure(-0.5, 0.5, 0.5, 0.45, "p0 over w", 6).pressure(-0.5, 0.5, -0.5, -0.45, "", 6)
+    s.pressure(-0.5, 0.5, 0.5, 0.45, "", 6).pressure(-0.5, 0.5, -0.5, -0.45, "", 6).text(-2.4, 0.8, "p0 over w", FORCE)
     s.arrow(-6, 0.25, -0.9, 0, "T").arrow(6, -0.25, 0.9, 0, "T")
-    s.size(-6, -0.9, 0, -0.9, "16 t", dy=-0.25).size(0, 0.8, 1.95, 0.8, "1.95 t", dy=0.25).size(2.3, -0.5, 2.3, 0.5, "t", dx=0.2)
+    s.size(-6, -1.15, 0, -1.15, "16 t", dy=-0.25).size(0, 1.15, 1.95, 1.15, "1.95 t", dy=0.25).size(2.3, -0.5, 2.3, 0.5, "t", dx=0.2)
     s.arrow(0, 0, 0.7, 0, "x", "black", 1.3)
     return figure
 
@@ -118,8 +126,10 @@ def disc(radii=False, torque=False):
     figure, (axes,) = sheet(1, height=3)
     s = Sketch(axes)
     s.box(-4, 4, -2.2, 0, OTHER).box(-2.5, 2.5, 0, 1).text(0, -1.6, "half-space of the same material")
-    s.pressure(-1.2, 1.2, 1, 0.55, "" if torque else "p, P0 = π a² p0", 9).line([0, 0], [-1.3, 2.0], "-.")
-    s.size(0, 0.75, 2.5, 0.75, "b", dy=0.15).size(-2.75, 0, -2.75, 1, "t", dx=-0.2).size(0, 1.8, 1.2, 1.8, "a", dx=0.8)
+    s.pressure(-1.2, 1.2, 1, 0.55, "", 9).line([0, 0], [-1.3, 2.0], "-.")
+    s.size(0, 0.6, 2.5, 0.6, "b", dy=0.2).size(-2.75, 0, -2.75, 1, "t", dx=-0.2).size(0, 1.8, 1.2, 1.8, "a", dx=0.8)
+    if not torque:
+        s.text(-2.2, 1.75, "p, P0 = π a² p0", FORCE)
     if radii:
         s.size(0, -0.3, 0.9, -0.3, "c", dy=-0.2).size(0, -0.75, 1.8, -0.75, "d", dy=-0.2).line([0.9, 0.9], [-0.4, 0]).line([1.8, 1.8], [-0.85, 0])
     if torque:
@@ -137,10 +147,11 @@ def signs(displacements=False):
         s.body(x, [0, 0, 1.3 * side, 1.3 * side], BODY if side > 0 else OTHER)
         axes.plot([0], [0], "o", color="black", markersize=5)
         if displacements:
-            s.arrow(0, 0, 0.8 * side, 0, "v", COLOURS[0]).arrow(0, 0, 0, 0.8 * side, "w", COLOURS[0])
+            s.arrow(0, 0, 0.8 * side, 0, "v", COLOURS[0]).arrow(0, 0, 0, 0.8 * side, colour=COLOURS[0]).text(0.2, 0.6 * side, "w", COLOURS[0])
         else:
-            s.arrow(-0.8 * side, 0, 0.8 * side, 0, "q", at=-0.2).arrow(0, -0.8 * side, 0, 0.8 * side, "p", at=-0.2)
-        s.text(1.15, 1.05 * side, "y into the body")
+            s.arrow(-0.8 * side, 0, 0.8 * side, 0).text(-0.55 * side, 0.2 * side, "q", FORCE)
+            s.arrow(0, -0.8 * side, 0, 0.8 * side, "p", at=-0.2)
+        s.text(0, 1.08 * side, "y into the body")
         axes.set_xlim(-2, 2)
         axes.set_ylim(-1.7, 1.7)
     return figure
@@ -154,7 +165,7 @@ def gap(title="", load=False):
     s.body([*x, 2, -2], [*[a * a / 6 for a in x], 2.2 if load else 1.6, 2.2 if load else 1.6])
     for a in (-1.6, -0.8, 0.8, 1.6):
         s.size(a, 0, a, a * a / 6, "")
-    s.text(1.25, 0.12, "g").arrow(0, 0, 0.6, 0, "s, x", "black", 1.4)
+    s.text(1.8, 0.2, "g").arrow(0, 0, 0.6, 0, colour="black").text(0.5, -0.18, "s, x")
     if load:
         s.pressure(-2, 2, 2.2, 0.5, "P").text(0, 1.4, "punch, g = x²/2R").text(0, -0.6, "half-plane of the same material")
     return figure
