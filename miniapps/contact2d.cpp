@@ -264,6 +264,7 @@ void contact2d(miniapp::Study &study)
       else { beyond_corners.emplace_back(face, own.scene.reduction.bodies); }
    }
    miniapp::JointReport joint_report(study, joint, own.scene.reduction);
+   if (history.state.time > 0) { joint_report.note(history.state, 0); }
    SmallDisplacements small(own.scene.reduction, even);
    std::optional<ReductionFields> fields;
    if (!options.paraview.empty())

@@ -104,6 +104,8 @@ std::vector<double> JointReport::shanks(const ContactState &state) const
 
 void JointReport::note(const ContactState &state, int cycle)
 {
+   // Where a march is taken up: the loops of a cycle that has begun are not known.
+   if (cycle == 0 && state.cycle && !state.cycle->ended) { begun_ = state.cycle->cycle; }
    const std::vector<double> now = shanks(state);
    for (std::size_t k = 0; k < now.size(); ++k)
    {
@@ -235,8 +237,19 @@ void JointReport::report_cycles(const MarchReport &march)
                            {"slip_range", twists() ? "of mean turn" : "of mean slip", "%.4e"},
                            {"stiffness", "secant", "%.4e"},
                            {"loss_factor", "loss factor", "%.4f"}});
+   for (const ordered_json &row : study_.rows_before(table.name()))
+   {
+      study_.row(table, table.values(row));
+   }
    for (const CycleRecord &cycle : march.cycles)
    {
+      if (cycle.whole && cycle.cycle == begun_)
+      {
+         study_.say(text("cycle %d was taken up within it: the loops of its interfaces are not "
+                         "known, and left out",
+                         begun_));
+         continue;
+      }
       for (std::size_t k = 0; k < courses_.size() && cycle.whole; ++k)
       {
          const InterfaceReport &face = reduction_.interfaces[k];

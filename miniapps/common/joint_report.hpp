@@ -18,7 +18,7 @@ class JointReport
 public:
    /// All must outlive it.
    JointReport(Study &study, const JointCase &joint, const cattaneo::Reduction &reduction);
-   /// A state that the march has reached, in this cycle (0: in none).
+   /// A state that the march has reached, in this cycle (0: in none), or is taken up from (0).
    void note(const cattaneo::ContactState &state, int cycle);
    /// Forces of the contact on the first body, of a case with one interface; also in the
    /// results.
@@ -61,6 +61,7 @@ private:
       std::map<int, cattaneo::Loop> loops;
    };
    std::vector<Course> courses_;
+   int begun_ = 0;                            ///< cycle within which the march was taken up
    std::vector<std::array<double, 2>> range_; ///< of each bolt's force
 };
 

@@ -15,6 +15,7 @@ namespace miniapp
 
 using namespace cattaneo;
 using Eigen::VectorXd;
+using nlohmann::ordered_json;
 
 namespace
 {
@@ -180,10 +181,18 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
    std::optional<HistoryWriter> history;
    std::optional<NodeWriter> nodes;
    std::optional<StateSaver> saver;
+   if (goes_on)
+   {
+      int ended = 0;
+      for (int k = 0; k < history_.pieces() && history_.piece(k).end <= state.time; ++k)
+      {
+         if (history_.piece(k).ends_cycle) { ended = history_.piece(k).cycle; }
+      }
+      study_.goes_on_after(ended);
+   }
    if (tables)
    {
-      const std::string rows = study_.csv() + "_history.csv",
-                        frames = study_.csv() + "_nodes.csv";
+      const std::string rows = study_.history_file(), frames = study_.csv() + "_nodes.csv";
       for (const std::string &file : {rows, frames}) { study_.begins(file, goes_on); }
       if (goes_on)
       {
@@ -243,7 +252,8 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
    add_outcome(problem, report, study_.results);
    if (last_frame != state.time || report.increments.empty())
    {
-      if (nodes) { nodes->add(state); }
+      // A march that is to be gone on with has no frame there: the state is saved.
+      if (nodes && !(saver && report.status == FrictionStatus::stopped)) { nodes->add(state); }
       observe(state, true);
    }
    if (saver) { save(state, save_state_); }
@@ -300,10 +310,8 @@ void OwnHistory::report_state(const ReducedProblem &problem, const std::string &
 
 void OwnHistory::report_march(const ReducedProblem &problem)
 {
-   report_cycles(study_, problem, report);
-   const auto whole = std::find_if(report.cycles.begin(), report.cycles.end(),
-                                   [](const CycleRecord &cycle) { return cycle.whole; });
-   study_.results["first_cycle"] = whole == report.cycles.end() ? 0 : whole->cycle;
+   const ordered_json &cycles = report_cycles(study_, problem, report).json();
+   study_.results["first_cycle"] = cycles.empty() ? ordered_json(0) : cycles[0]["cycle"];
    study_.results["total_dissipation"] = state.dissipation;
    study_.results["advance_error"] = report.advance_error;
    study_.results["largest_residual"] = report.largest_residual;

@@ -18,10 +18,9 @@ using nlohmann::ordered_json;
 
 std::string Reference::verdict() const
 {
-   if (!outside()) { return ""; }
-   const bool explained = std::abs(difference()) <= allowed.spread + allowed.mesh;
-   if (explained && allowed.spread == 0) { return "within the mesh's ±"; }
-   return explained ? "outside, within the mesh's ±" : "outside";
+   if (!differs_by_more_than(allowed.spread)) { return ""; }
+   if (!outside()) { return "within the mesh's ±"; }
+   return differs_by_more_than(allowed.all()) ? "outside" : "outside, within the mesh's ±";
 }
 
 namespace

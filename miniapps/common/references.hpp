@@ -16,6 +16,8 @@ namespace miniapp
 struct Allowed
 {
    Allowed(double spread_, double mesh_ = 0) : spread(spread_), mesh(mesh_) {}
+   double own() const { return spread == 0 ? mesh : spread; }
+   double all() const { return spread + mesh; }
    double spread, mesh;
 };
 
@@ -28,14 +30,17 @@ struct Reference
    double computed, thesis = std::numeric_limits<double>::quiet_NaN();
 
    double difference() const { return computed - value; }
-   /// Of its own ±; what is computed as NaN is outside, and nothing of a value that only the
-   /// thesis has.
-   bool outside() const
-   {
-      return !std::isnan(value) && !(std::abs(difference()) <= allowed.spread);
-   }
-   /// Whether the mesh explains what is outside; a closed form has no ± of its own.
+   /// Of its own ±, of a closed form, which has none, of the mesh's. What is computed as NaN is
+   /// outside, and nothing of a value that only the thesis has.
+   bool outside() const { return differs_by_more_than(allowed.own()); }
+   /// In words, and whether the mesh explains what is outside.
    std::string verdict() const;
+
+private:
+   bool differs_by_more_than(double least) const
+   {
+      return !std::isnan(value) && !(std::abs(difference()) <= least);
+   }
 };
 
 /// What a name of a condition or of a mesh share stands for in a run; null for nothing.

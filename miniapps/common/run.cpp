@@ -20,6 +20,10 @@ Run::Run(Study &study, const ReducedProblem &problem, const MarchSettings &setti
      solver(problem, settings_.friction), study_(study), film_(study.film(problem))
 {
    study_.counters += solver.counters();
+   const std::string file = study_.history_file();
+   if (file.empty()) { return; }
+   study_.begins(file);
+   history_.emplace(file, problem);
 }
 
 std::vector<NamedLoads> Run::from_here(const std::vector<NamedLoads> &points) const
@@ -63,10 +67,17 @@ const MarchReport &Run::march(const LoadHistory &history, const MarchObserver &o
    const auto note = [&](const ContactState &reached, const IncrementRecord &record)
    {
       if (film_) { film_->add(solver.problem(), reached, record); }
+      if (history_)
+      {
+         IncrementRecord later = record;
+         later.time += began_;
+         history_->add(reached, later);
+      }
       if (observe) { observe(reached, record); }
    };
    report = cattaneo::march(solver, history, state, settings, note);
    settings.monitor = {};
+   began_ += report.time;
    study_.counters += report.counters;
    if (exit_code(solver.problem(), report) != 0 && leaves)
    {
@@ -151,7 +162,7 @@ void draw_loops(Study &study, const ReducedProblem &problem, const MarchReport &
 }
 
 /// The loads that varied in any whole cycle: the others have no loop.
-std::vector<std::size_t> varied_loads(const MarchReport &report)
+std::set<std::size_t> varied_loads(const MarchReport &report)
 {
    std::set<std::size_t> varied;
    for (const CycleRecord &cycle : report.cycles)
@@ -161,19 +172,27 @@ std::vector<std::size_t> varied_loads(const MarchReport &report)
          if (!std::isnan(cycle.loops[k].stiffness())) { varied.insert(k); }
       }
    }
-   return {varied.begin(), varied.end()};
+   return varied;
 }
 
 } // namespace
 
-void report_cycles(Study &study, const ReducedProblem &problem, const MarchReport &report,
-                   double unit)
+const Table &report_cycles(Study &study, const ReducedProblem &problem,
+                           const MarchReport &report, double unit)
 {
    std::vector<Column> columns = {{"cycle", "cycle"},
                                   {"dissipation", "dissipation", "%.4e"},
                                   {"external_work", "external work", "%.4e"},
                                   {"slip_change", "slip change", "%.2e"}};
-   const std::vector<std::size_t> varied = varied_loads(report);
+   const std::vector<ordered_json> before = study.rows_before("cycles");
+   std::set<std::size_t> varied = varied_loads(report);
+   for (std::size_t k = 0; k < problem.patterns.size(); ++k)
+   {
+      if (!before.empty() && before[0].contains("work " + problem.patterns[k].name))
+      {
+         varied.insert(k);
+      }
+   }
    for (std::size_t k : varied)
    {
       const std::string &load = problem.patterns[k].name;
@@ -183,6 +202,11 @@ void report_cycles(Study &study, const ReducedProblem &problem, const MarchRepor
    }
    Table &cycles = study.table("cycles", columns);
    ordered_json &losses = study.results["dissipation"] = ordered_json::array();
+   for (const ordered_json &row : before)
+   {
+      study.row(cycles, cycles.values(row));
+      losses.push_back(row["dissipation"]);
+   }
    for (const CycleRecord &cycle : report.cycles)
    {
       if (!cycle.whole)
@@ -204,6 +228,7 @@ void report_cycles(Study &study, const ReducedProblem &problem, const MarchRepor
    }
    report_steady(study, report);
    draw_loops(study, problem, report);
+   return cycles;
 }
 
 void report_steady(Study &study, const MarchReport &report)

@@ -3,6 +3,8 @@
 #include "common/study.hpp"
 
 #include <cattaneo/friction/march.hpp>
+#include <cattaneo/output/history.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,7 +12,10 @@ namespace miniapp
 {
 
 /** A contact under way: its solver, the state that it stands in, and how it got there. What it
-    counts goes to the study; where there is no equilibrium it says so, notes it in the results
+    counts goes to the study, and with --csv its increments, see HistoryWriter, to
+    PREFIX_history.csv, of another one to PREFIX_history_2.csv, …, in the order in which they
+    were marched, with a time that goes on from one march to the next; where there is no
+   equilibrium it says so, notes it in the results
     (`status`, `message`, `event_time`, `event_loads`, `not_unique`) and leaves the study. */
 class Run
 {
@@ -51,6 +56,8 @@ private:
    from_here(const std::vector<cattaneo::NamedLoads> &points) const;
    Study &study_;
    Film *film_;
+   std::optional<cattaneo::HistoryWriter> history_;
+   double began_ = 0; ///< time of the history, at the start of a march
 };
 
 extern const char *const stepping_help;
@@ -64,12 +71,13 @@ void report_exact_path(Study &study, const Run &run);
 void report_exact_path(Study &study, const cattaneo::ReducedProblem &problem,
                        const cattaneo::MarchReport &report);
 
-/// A table of the cycles of a march with the loops of the loads that vary (cattaneo::Loop),
-/// which are drawn, and from where on they are steady; `dissipation`, `steady_cycle`,
-/// `steady_period` and `energy_imbalance` of the results. Energies are printed in `unit`s. A
-/// cycle within which the march was taken up is left out, and that is said.
-void report_cycles(Study &study, const cattaneo::ReducedProblem &problem,
-                   const cattaneo::MarchReport &report, double unit = 1);
+/// A table of the cycles of a march, after those that Study::rows_before() has, with the loops
+/// of the loads that vary (cattaneo::Loop), which are drawn, and from where on they are steady;
+/// `dissipation`, `steady_cycle`, `steady_period` and `energy_imbalance` of the results.
+/// Energies are printed in `unit`s. A cycle of which the rest alone is known is left out, and
+/// that is said.
+const Table &report_cycles(Study &study, const cattaneo::ReducedProblem &problem,
+                           const cattaneo::MarchReport &report, double unit = 1);
 
 /// From where on the cycles are steady, and how well energies balance: `steady_cycle`,
 /// `steady_period` and `energy_imbalance`.

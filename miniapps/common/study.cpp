@@ -131,6 +131,24 @@ void Study::save(const cattaneo::ReducedProblem &problem)
    if (writes()) { cattaneo::save(problem, save_); }
 }
 
+std::vector<ordered_json> Study::rows_before(const std::string &table) const
+{
+   std::vector<ordered_json> rows;
+   if (csv_.empty() || cycles_before_ == 0) { return rows; }
+   for (const ordered_json &row : read_rows(csv_ + "_" + table + ".csv"))
+   {
+      if (row.value("cycle", 0) >= 1 && row["cycle"] <= cycles_before_) { rows.push_back(row); }
+   }
+   return rows;
+}
+
+std::string Study::history_file()
+{
+   if (csv_.empty() || !writes()) { return ""; }
+   const std::string more = histories_++ > 0 ? "_" + std::to_string(histories_) : "";
+   return csv_ + "_history" + more + ".csv";
+}
+
 void Study::write_frames(const std::string &folder, Scene &scene,
                          const std::vector<cattaneo::ContactState> &states)
 {
@@ -260,7 +278,7 @@ void Study::compare_references()
    {
       row(all, {one.name, padded(one.name, width), one.value, one.allowed.spread,
                 one.allowed.mesh, one.thesis, one.computed, one.difference(), one.verdict(),
-                one.allowed.spread + one.allowed.mesh, one.outside()});
+                one.allowed.all(), one.outside()});
    }
    for (const std::string &note :
         references_.notes([&](const std::string &name) { return meaning(name, {}); }))

@@ -76,6 +76,13 @@ public:
    /// input. @param goes_on with what is there: that stays
    void begins(const std::string &path, bool goes_on = false);
 
+   /// The march of the study goes on with one that ended so many cycles, and left CSV files.
+   void goes_on_after(int cycles) { cycles_before_ = cycles; }
+   /// Of these cycles the rows of a table that has a column "cycle".
+   std::vector<nlohmann::ordered_json> rows_before(const std::string &table) const;
+   /// The CSV file of another history of loads; none without --csv.
+   std::string history_file();
+
    /// Frames for ParaView, of a scene that has been reduced, see Scene::fields().
    void write_frames(const std::string &folder, Scene &scene,
                      const std::vector<cattaneo::ContactState> &states);
@@ -138,6 +145,7 @@ private:
    std::deque<Table> tables_;
    std::deque<Panel> panels_;
    std::deque<Film> films_;
+   int cycles_before_ = 0, histories_ = 0;
    int more_films_ = 0;                                              ///< not on the page
    nlohmann::ordered_json values_ = nlohmann::ordered_json::array(); ///< as they are printed
    std::vector<std::function<Sheet()>> sheets_; ///< in the order of the figure

@@ -7,6 +7,7 @@
 #include <cattaneo/input_error.hpp>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 
 namespace miniapp
 {
@@ -171,6 +172,62 @@ std::string Table::csv() const
       result += line + '\n';
    }
    return result;
+}
+
+std::vector<ordered_json> Table::values(const ordered_json &row) const
+{
+   std::vector<ordered_json> result;
+   for (const Column &column : columns_)
+   {
+      result.push_back(row.contains(column.key) ? row[column.key] : ordered_json());
+   }
+   return result;
+}
+
+namespace
+{
+
+std::vector<std::string> csv_cells(const std::string &line)
+{
+   std::vector<std::string> cells(1);
+   bool quoted = false;
+   for (std::size_t k = 0; k < line.size(); ++k)
+   {
+      const bool quote = line[k] == '"', twice = quoted && line.compare(k, 2, "\"\"") == 0;
+      if (twice) { cells.back() += line[k++]; }
+      else if (quote) { quoted = !quoted; }
+      else if (line[k] == ',' && !quoted) { cells.emplace_back(); }
+      else { cells.back() += line[k]; }
+   }
+   return cells;
+}
+
+} // namespace
+
+std::vector<ordered_json> read_rows(const std::string &file)
+{
+   std::vector<ordered_json> rows;
+   std::vector<std::string> keys;
+   std::ifstream in(file);
+   for (std::string line; std::getline(in, line);)
+   {
+      if (line[0] == '#') { continue; }
+      const std::vector<std::string> cells = csv_cells(line);
+      if (keys.empty())
+      {
+         keys = cells;
+         continue;
+      }
+      ordered_json &row = rows.emplace_back();
+      for (std::size_t k = 0; k < std::min(keys.size(), cells.size()); ++k)
+      {
+         const ordered_json number = ordered_json::parse(cells[k], nullptr, false);
+         row[keys[k]] = cells[k].empty()     ? ordered_json()
+                        : number.is_number() ? number
+                                             : ordered_json(cells[k]);
+      }
+   }
+   return rows;
 }
 
 } // namespace miniapp

@@ -50,6 +50,8 @@ public:
    const std::string &name() const { return name_; }
    const nlohmann::ordered_json &json() const { return rows_; }
    std::string csv() const; ///< nothing without rows
+   /// A row of read_rows() in the order of the columns.
+   std::vector<nlohmann::ordered_json> values(const nlohmann::ordered_json &row) const;
    /// Its headings and rows as they are printed.
    nlohmann::ordered_json printed() const;
 
@@ -59,5 +61,8 @@ private:
    nlohmann::ordered_json rows_ = nlohmann::ordered_json::array();
    std::vector<std::vector<std::string>> printed_;
 };
+
+/// Rows of a file that Table::csv() made, by the keys of its columns; none if it is not there.
+std::vector<nlohmann::ordered_json> read_rows(const std::string &file);
 
 } // namespace miniapp

@@ -564,6 +564,28 @@ TEST(March, EnergyThatIsGivenBackIsAMeasureToo)
    EXPECT_NEAR(back.energy_imbalance, (-6 + 6 - 4) / 6.0, 1e-14);
 }
 
+/// A contact that sticks goes round its cycle without a loss: taken up again in the steady
+/// state it loses, stores and receives the round-off of what it has stored from the start.
+TEST(March, EnergyOfASteadyElasticCycleBalances)
+{
+   std::mt19937 random(9);
+   for (int k = 0; k < 10; ++k)
+   {
+      ReducedProblem problem = random_problem(8, 0.2, 0.12, random);
+      set_friction(problem, 100);
+      MarchSettings settings;
+      settings.stepping = Stepping::fixed;
+      ContactState state = ContactState::virgin(problem);
+      march(problem, press_then_shear(0.01, 2), state, settings);
+      state.time = 1; // the end of a cycle is the start of the next one
+      state.cycle_slip.clear();
+      const MarchReport again = march(problem, press_then_shear(0.01, 1), state, settings);
+      ASSERT_EQ(again.cycles.size(), 1u);
+      EXPECT_LT(again.cycles[0].dissipation, 1e-14);
+      EXPECT_LT(std::abs(again.energy_imbalance), 1e-8); // over a millionth of it
+   }
+}
+
 TEST(March, ResultDoesNotDependOnTheScaleOfTime)
 {
    std::mt19937 random(6);
@@ -586,16 +608,29 @@ TEST(March, CutInTwoGivesTheSameBits)
    settings.increments = 9;
    ContactState whole = ContactState::virgin(problem);
    std::vector<ContactState> passed;
-   march(problem, history, whole, settings,
-         [&](const ContactState &state, const IncrementRecord &) { passed.push_back(state); });
+   const MarchReport all = march(problem, history, whole, settings,
+                                 [&](const ContactState &state, const IncrementRecord &)
+                                 { passed.push_back(state); });
    const std::string file = testing::TempDir() + "cattaneo_state.json";
    for (std::size_t cut : {std::size_t(3), passed.size() / 2, passed.size() - 2})
    {
       save(passed[cut], file);
       ContactState rest = load_contact_state(file);
-      march(problem, history, rest, settings);
+      const MarchReport after = march(problem, history, rest, settings);
       SCOPED_TRACE(cut);
       cattaneo_test::expect_same(rest, whole);
+      // The cycle within which it was cut is whole all the same.
+      ASSERT_FALSE(after.cycles.empty());
+      for (std::size_t k = 1; k <= after.cycles.size(); ++k)
+      {
+         const CycleRecord &mine = after.cycles[after.cycles.size() - k],
+                           &same = all.cycles[all.cycles.size() - k];
+         EXPECT_TRUE(mine.whole);
+         EXPECT_EQ(mine.cycle, same.cycle);
+         EXPECT_EQ(mine.dissipation, same.dissipation);
+         EXPECT_EQ(mine.loops[1].work(), same.loops[1].work());
+         EXPECT_EQ(mine.loops[1].stiffness(), same.loops[1].stiffness());
+      }
    }
    std::remove(file.c_str());
 }
@@ -1277,6 +1312,23 @@ TEST(ContactState, IsStoredFieldByField)
    const std::string file = testing::TempDir() + "cattaneo_all_fields.json";
    save(state, file);
    cattaneo_test::expect_same(load_contact_state(file), state);
+   CycleRecord &cycle = state.cycle.emplace();
+   cycle.cycle = 7;
+   cycle.whole = true;
+   cycle.loops = {Loop(Control::force, 1, 0.1),
+                  Loop(Control::displacement, -2, 1.0 / 3, false)};
+   for (Loop &loop : cycle.loops) { loop.add(0.7, 1e-17); }
+   cycle.dissipation = 5.5;
+   cycle.external_work = -6.6;
+   cycle.normal_work = 7.7;
+   cycle.slip_change = 8.8;
+   cycle.node_dissipation = 5 * state.v;
+   for (const bool ended : {false, true})
+   {
+      cycle.ended = ended;
+      save(state, file);
+      cattaneo_test::expect_same(load_contact_state(file), state);
+   }
    for (int wrong : {-1, 5})
    {
       state.status[2] = static_cast<NodeState>(wrong);
@@ -1318,6 +1370,14 @@ TEST(ContactState, IsRefusedWhereItDoesNotFit)
    EXPECT_THROW(bad.validate(problem), InputError);
    bad = good;
    bad.status.clear();
+   EXPECT_THROW(bad.validate(problem), InputError);
+   bad = good;
+   CycleRecord &cycle = bad.cycle.emplace();
+   EXPECT_THROW(bad.validate(problem), InputError); // of no load and no node
+   cycle.loops = {problem.patterns.size(), Loop(Control::force, 0, 0)};
+   cycle.node_dissipation = VectorXd::Zero(1);
+   EXPECT_NO_THROW(bad.validate(problem));
+   cycle.loops[0].add(NAN, 1);
    EXPECT_THROW(bad.validate(problem), InputError);
 }
 

@@ -1,7 +1,10 @@
-"""interrupt.py PROGRAMS: Ctrl-C leaves what was computed; progress is shown on a terminal and nowhere else."""
+"""interrupt.py PROGRAMS PROBLEMS: Ctrl-C leaves what was computed, and a march goes on from there as if nothing had
+happened; progress is shown on a terminal and nowhere else."""
 
 import concurrent.futures
+import csv
 import json
+import math
 import os
 import pathlib
 import pty
@@ -70,8 +73,57 @@ def check(programs, program, options):
                 assert len(results["dissipation"]) == len(results["cycles"]) == whole > 0, (program, whole, len(results["cycles"]))
 
 
+def rows(file):
+    """Of a CSV file, numbers as such."""
+    def value(cell):
+        try:
+            return float(cell)
+        except ValueError:
+            return cell
+    with open(file, encoding="utf-8") as text:
+        return [[value(cell) for cell in row] for row in csv.reader(text)]
+
+
+def check_going_on(programs, problems):
+    """A march that is interrupted within a cycle and gone on with writes the tables of one that was not."""
+    with tempfile.TemporaryDirectory() as folder:
+        folder = pathlib.Path(folder)
+
+        def march(name, *options, after=None, state="last"):
+            # The first third of the time goes by before its first cycle.
+            run = subprocess.Popen([programs / "march", "--reduced", problems / "punch_on_half_plane.json", "--history", "P=0; P=1; Q=.2; Q=-.2; Q=.2",
+                                    "--cycle-start", "2", "--cycles", "3", "--increments", "3000", "--csv", folder / name, "--json", folder / f"{name}.json",
+                                    "--save-state", folder / state, *options], stdout=subprocess.PIPE, text=True, env={**os.environ, "OPENBLAS_NUM_THREADS": "1"})
+            if after is not None:
+                time.sleep(after)
+                run.send_signal(signal.SIGINT)
+            out, _ = run.communicate(timeout=120)
+            assert run.returncode == 0 or after is not None and run.returncode in (2, -signal.SIGINT), (name, run.returncode, out)
+            return json.loads((folder / f"{name}.json").read_text(encoding="utf-8")) if run.returncode != -signal.SIGINT else {}
+
+        begun = time.monotonic()
+        whole = march("whole")
+        took = time.monotonic() - begun
+        for share in (0.55, 0.45, 0.65, 0.75, 0.35, 0.55, 0.55):  # how quickly it goes on depends on what else runs
+            cut = march("cut", after=share * took, state="first").get("event_time", 0)
+            if cut > 2 and cut % 2:
+                break
+        else:
+            raise AssertionError(f"never interrupted within a cycle, at last at {cut}")
+        rest = march("cut", "--load-state", folder / "first")
+        for key in ("first_cycle", "steady_cycle", "steady_period", "time", "zones", "total_dissipation"):
+            assert rest[key] == whole[key], (key, cut, rest[key], whole[key])
+        assert len(whole["cycles"]) > 1
+        for table in ("cycles", "history", "nodes"):
+            one, other = rows(folder / f"whole_{table}.csv"), rows(folder / f"cut_{table}.csv")
+            assert len(one) == len(other), (table, cut, len(one), len(other))
+            for a, b in zip(one, other):
+                assert len(a) == len(b) and all(x == y or math.isclose(x, y, rel_tol=1e-9, abs_tol=1e-300) for x, y in zip(a, b)), (table, cut, a, b)
+
+
 def main():
-    programs = pathlib.Path(sys.argv[1])
+    programs, problems = map(pathlib.Path, sys.argv[1:])
+    check_going_on(programs, problems)
     with concurrent.futures.ThreadPoolExecutor() as pool:  # most of the time is waiting
         for done in [pool.submit(check, programs, program, options) for program, options in LONG.items()]:
             done.result()

@@ -52,6 +52,11 @@ def main():
         print(f"{run.stdout}\nexit code {run.returncode}")
     else:
         results = json.loads((folder / "results.json").read_text(encoding="utf-8"))
+        for row in results.get("references", []):  # what is printed and what is stored say the same
+            said = row["verdict"].startswith("outside")
+            if row["outside"] != said:
+                wrong = True
+                print(f"WRONG  {row['quantity']}: outside is {row['outside']}, printed is '{row['verdict']}'")
     for one in expected if not wrong else []:
         if "file" in one:
             file = folder / one["file"]

@@ -74,6 +74,16 @@ void ContactState::require_finite() const
       finite = finite && all->allFinite();
    }
    for (const Eigen::VectorXd &slip : cycle_slip) { finite = finite && slip.allFinite(); }
+   if (cycle)
+   {
+      double sum = cycle->dissipation + cycle->external_work + cycle->normal_work +
+                   cycle->slip_change + cycle->node_dissipation.sum();
+      for (const Loop &loop : cycle->loops)
+      {
+         sum += loop.work() + loop.force_range() + loop.displacement_range();
+      }
+      finite = finite && std::isfinite(sum);
+   }
    require(finite, "contact state: a value is not finite");
 }
 
@@ -105,6 +115,15 @@ void ContactState::validate(const ReducedProblem &problem) const
    {
       require(slip.size() == m, "contact state: the slip at the end of a cycle has ",
               slip.size(), " entries, must be ", m);
+   }
+   if (cycle)
+   {
+      const auto loops = static_cast<Eigen::Index>(cycle->loops.size());
+      const Eigen::Index rubbed = m > 0 ? n : 0;
+      require(loops == patterns && cycle->node_dissipation.size() == rubbed,
+              "contact state: the cycle under way has ", loops, " loads and ",
+              cycle->node_dissipation.size(), " nodes that rub, the reduced problem ", patterns,
+              " and ", rubbed);
    }
    require_finite();
    require_held(problem, v, m > 0 ? 1e-9 * v.cwiseAbs().maxCoeff() : 0);

@@ -1,7 +1,8 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <cattaneo/reduced/reduced_problem.hpp>
+#include <cattaneo/friction/loop.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -61,6 +62,9 @@ struct ContactState
    double dissipation = 0.0;      ///< frictional energy lost so far
    /// Slip at the end of the last two cycles (the latest last), to recognise a steady state.
    std::vector<Eigen::VectorXd> cycle_slip;
+   /// What the cycle under way came to so far, or the one that ends here: a march that is taken
+   /// up within a cycle has it whole.
+   std::optional<CycleRecord> cycle;
 
    /// {v; w}.
    Eigen::VectorXd displacements() const;

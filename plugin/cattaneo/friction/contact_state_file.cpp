@@ -20,6 +20,37 @@ namespace cattaneo
 
 static const char *const format_name = "cattaneo contact state 1";
 
+template <class Json>
+void to_json(Json &json, const Loop &loop)
+{
+   json = {static_cast<int>(loop.control_),
+           loop.whole_,
+           loop.work_,
+           loop.least_.force,
+           loop.most_.force,
+           loop.last_.force,
+           loop.least_.displacement,
+           loop.most_.displacement,
+           loop.last_.displacement};
+}
+
+template <class Json>
+void from_json(const Json &json, Loop &loop)
+{
+   loop.control_ = json.at(0).template get<int>() == 0 ? Control::force : Control::displacement;
+   json.at(1).get_to(loop.whole_);
+   double *const numbers[] = {&loop.work_,
+                              &loop.least_.force,
+                              &loop.most_.force,
+                              &loop.last_.force,
+                              &loop.least_.displacement,
+                              &loop.most_.displacement,
+                              &loop.last_.displacement};
+   for (std::size_t k = 0; k < std::size(numbers); ++k) { json.at(k + 2).get_to(*numbers[k]); }
+}
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CycleRecord, cycle, whole, ended, loops, dissipation,
+                                   external_work, normal_work, slip_change, node_dissipation)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ContactState, time, step, peak_force, dissipation,
                                    multipliers, status, cycle_slip, slip_origin, v, w, q, p)
 
@@ -38,6 +69,7 @@ nlohmann::json to_json(const ContactState &state)
 {
    state.require_finite(); // else it would be written as null
    nlohmann::json j = state;
+   if (state.cycle) { j["cycle"] = *state.cycle; }
    j["format"] = format_name;
    return j;
 }
@@ -49,7 +81,9 @@ ContactState contact_state(const nlohmann::json &j, const std::string &file)
       require(s >= 0 && s <= 4, "contact state: status ", s, " in file '", file,
               "', must be 0 to 4");
    }
-   return j.get<ContactState>();
+   auto state = j.get<ContactState>();
+   if (j.contains("cycle")) { state.cycle = j["cycle"].get<CycleRecord>(); }
+   return state;
 }
 
 void read_state_file(const std::string &what, const std::string &file,

@@ -1,9 +1,12 @@
 #pragma once
 
-#include <cattaneo/friction/contact_state.hpp>
+#include <cattaneo/reduced/reduced_problem.hpp>
+#include <vector>
 
 namespace cattaneo
 {
+
+struct ContactState;
 
 /** What does work with the multiplier λ_k of each load pattern in a state (size: patterns):
 
@@ -34,6 +37,8 @@ public:
    /// Begins at a multiplier and its conjugate, see conjugates(). `whole`: false if that is the
    /// contact's part alone (ReducedProblem::knows_loads).
    Loop(Control control, double multiplier, double conjugate, bool whole = true);
+   /// One without a point yet, to be read from a file.
+   Loop() = default;
    /// The next point of the way, straight from the one before.
    void add(double multiplier, double conjugate);
 
@@ -54,19 +59,41 @@ public:
        stiffness(), and where d did not move. The energy definition of [Lazan 1968]. */
    double loss_factor() const;
 
+   /// To files of states and back, to the last bit.
+   template <class Json>
+   friend void to_json(Json &json, const Loop &loop);
+   template <class Json>
+   friend void from_json(const Json &json, Loop &loop);
+
 private:
    struct Point
    {
-      double force, displacement;
+      double force = 0, displacement = 0;
    };
    Point point(double multiplier, double conjugate) const;
    /// Is the secant known?
    bool swings() const;
 
-   Control control_;
-   bool whole_;
+   Control control_ = Control::force;
+   bool whole_ = false;
    Point least_, most_, last_;
    double work_ = 0;
+};
+
+/// One marched cycle.
+struct CycleRecord
+{
+   int cycle = 0; ///< its number, from 1
+   /// False if the march was taken up within the cycle, from a state that did not know of it:
+   /// then all here is of the rest of it.
+   bool whole = false;
+   bool ended = false;       ///< else it is under way
+   std::vector<Loop> loops;  ///< of each load pattern; their work() adds up to external_work
+   double dissipation = 0;   ///< lost by friction in the cycle
+   double external_work = 0; ///< of all loads in the cycle
+   double normal_work = 0;   ///< -½(p_old + p_new)·Δw: vanishes as increments shrink
+   double slip_change = 0;   ///< largest |v - v one cycle before|
+   Eigen::VectorXd node_dissipation; ///< size n
 };
 
 } // namespace cattaneo

@@ -3,7 +3,6 @@
 #include <cattaneo/friction/cut_off.hpp>
 #include <cattaneo/friction/friction_solver.hpp>
 #include <cattaneo/friction/load_history.hpp>
-#include <cattaneo/friction/loop.hpp>
 #include <cattaneo/monitor.hpp>
 #include <functional>
 #include <optional>
@@ -81,20 +80,6 @@ struct IncrementRecord
    Eigen::Index event = -1;
 };
 
-/// One marched cycle.
-struct CycleRecord
-{
-   int cycle = 0; ///< its number, from 1
-   /// False if the march was taken up within the cycle: then all here is of the rest of it.
-   bool whole = false;
-   std::vector<Loop> loops;  ///< of each load pattern; their work() adds up to external_work
-   double dissipation = 0;   ///< lost by friction in the cycle
-   double external_work = 0; ///< of all loads in the cycle
-   double normal_work = 0;   ///< -½(p_old + p_new)·Δw: vanishes as increments shrink
-   double slip_change = 0;   ///< largest |v - v one cycle before|
-   Eigen::VectorXd node_dissipation; ///< size n
-};
-
 /// The first state of a march of which there may be others: from there on its states are one of
 /// several.
 struct NotUnique
@@ -128,9 +113,10 @@ struct MarchReport
    int steady_cycle = 0;        ///< first cycle of the steady state; 0: not reached
    int steady_period = 0;       ///< 1 or 2
    /// Energy balance of the march: external work - change of elastic energy - dissipation -
-   /// normal work, over the largest of them. It measures what the increments miss of the path
-   /// (of nodes that begin to slip within one, for instance) and goes to zero with them; on the
-   /// exact path it is round-off.
+   /// normal work, over the largest of them, or a millionth of the elastic energy that it began
+   /// with where none is as large. It measures what the increments miss of the path (of nodes
+   /// that begin to slip within one, for instance) and goes to zero with them; on the exact
+   /// path it is round-off.
    double energy_imbalance = 0;
    /// Friction forces depend on how a contact that advances is cut into increments, since
    /// friction acts on a node from the beginning of the increment in which it closes: four

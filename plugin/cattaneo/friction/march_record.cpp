@@ -50,14 +50,14 @@ MarchRecord::MarchRecord(const ReducedProblem &problem, ContactState &state,
 
 void MarchRecord::begin_cycle(int number, bool whole)
 {
-   cycle_.emplace();
-   cycle_->cycle = number;
-   cycle_->whole = whole;
-   cycle_->node_dissipation = VectorXd::Zero(problem_.components() > 0 ? problem_.nodes() : 0);
+   CycleRecord &cycle = state_.cycle.emplace();
+   cycle.cycle = number;
+   cycle.whole = whole;
+   cycle.node_dissipation = VectorXd::Zero(problem_.components() > 0 ? problem_.nodes() : 0);
    for (std::size_t k = 0; k < problem_.patterns.size(); ++k)
    {
-      cycle_->loops.emplace_back(problem_.patterns[k].control, state_.multipliers[k],
-                                 conjugates_[k], problem_.knows_loads());
+      cycle.loops.emplace_back(problem_.patterns[k].control, state_.multipliers[k],
+                               conjugates_[k], problem_.knows_loads());
    }
 }
 
@@ -100,16 +100,21 @@ void MarchRecord::accept(ContactState &&next, const LoadPiece &piece,
    record.dissipation = lost.sum();
    record.external_work = external_work(record);
    const double normal_work = -0.5 * (state_.p + next.p).dot(next.w - state_.w);
+   next.cycle.reset();
    if (piece.cycle > 0)
    {
-      if (!cycle_) { begin_cycle(piece.cycle, false); }
-      cycle_->node_dissipation += lost;
-      cycle_->dissipation += record.dissipation;
-      cycle_->external_work += record.external_work;
-      cycle_->normal_work += normal_work;
-      for (std::size_t k = 0; k < cycle_->loops.size(); ++k)
+      const bool known =
+         state_.cycle && state_.cycle->cycle == piece.cycle && !state_.cycle->ended;
+      if (!known) { begin_cycle(piece.cycle, false); }
+      next.cycle = std::move(state_.cycle);
+      CycleRecord &cycle = *next.cycle;
+      cycle.node_dissipation += lost;
+      cycle.dissipation += record.dissipation;
+      cycle.external_work += record.external_work;
+      cycle.normal_work += normal_work;
+      for (std::size_t k = 0; k < cycle.loops.size(); ++k)
       {
-         cycle_->loops[k].add(record.multipliers[k], record.conjugates[k]);
+         cycle.loops[k].add(record.multipliers[k], record.conjugates[k]);
       }
    }
    if (!exact) { changed_ = std::max(changed_, changed_while_closing(problem_, state_, next)); }
@@ -144,19 +149,20 @@ void MarchRecord::accept(ContactState &&next, const LoadPiece &piece,
 void MarchRecord::end_cycle()
 {
    auto &past = state_.cycle_slip;
+   CycleRecord &cycle = *state_.cycle;
+   cycle.ended = true;
    for (std::size_t period = 1; period <= past.size() && !report.steady_cycle; ++period)
    {
       const VectorXd &before = past[past.size() - period];
       const double scale = std::max(largest(state_.v), largest(before));
       if (largest(state_.v - before) <= settings_.steady_tolerance * scale)
       {
-         report.steady_cycle = cycle_->cycle - static_cast<int>(period) + 1;
+         report.steady_cycle = cycle.cycle - static_cast<int>(period) + 1;
          report.steady_period = static_cast<int>(period);
       }
    }
-   cycle_->slip_change = past.empty() ? 0.0 : largest(state_.v - past.back());
-   report.cycles.push_back(std::move(*cycle_));
-   cycle_.reset();
+   cycle.slip_change = past.empty() ? 0.0 : largest(state_.v - past.back());
+   report.cycles.push_back(cycle);
    past.push_back(state_.v);
    if (past.size() > 2) { past.erase(past.begin()); }
 }
@@ -174,8 +180,10 @@ void MarchRecord::close()
    report.time = state_.time;
    if (changed_ > 0) { report.advance_error = 4 * changed_ / state_.peak_force; }
    const double stored = elastic_energy(problem_, state_) - energy_at_start_;
-   // Work that is negative is no more than what was stored.
-   const double most = std::max({external_work_, std::abs(stored), dissipation_});
+   // Work that is negative is no more than what was stored. Of a closed elastic cycle all three
+   // are round-off of the energy that it began with.
+   const double most = std::max(
+      {external_work_, std::abs(stored), dissipation_, 1e-6 * std::abs(energy_at_start_)});
    if (most > 0)
    {
       report.energy_imbalance = (external_work_ - stored - dissipation_ - normal_work_) / most;

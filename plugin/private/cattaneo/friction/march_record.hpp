@@ -35,7 +35,6 @@ private:
    ContactState &state_;
    const MarchSettings &settings_;
    const MarchObserver &observer_;
-   std::optional<CycleRecord> cycle_;
    Eigen::VectorXd conjugates_; // of the state
    double external_work_ = 0, dissipation_ = 0, normal_work_ = 0;
    const double energy_at_start_;
