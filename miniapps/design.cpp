@@ -22,18 +22,15 @@
 //                design --case problems/bolt_row.case.json
 
 #include "common/design_choice.hpp"
-#include "common/hertz_scene.hpp"
-#include "common/punch.hpp"
+#include "common/design_read_outs.hpp"
+#include "common/design_scene.hpp"
 #include "common/run.hpp"
 #include "common/watch.hpp"
 
 #include <algorithm>
 #include <cattaneo/design/design.hpp>
-#include <cattaneo/friction/history_statements.hpp>
 #include <cattaneo/input_error.hpp>
-#include <cattaneo/reduced/reduced_file.hpp>
 #include <cmath>
-#include <sstream>
 
 using namespace cattaneo;
 using Eigen::Index;
@@ -45,227 +42,11 @@ using miniapp::text;
 namespace
 {
 
-struct Chosen
-{
-   std::string scene = "pad", goal = "pressure", file, history;
-   std::vector<double> loads = {1}, weights;
-   double shear = 0, friction = miniapp::none, from = miniapp::none;
-   int nodes = 65;
-
-   bool cycles() const { return goal != "pressure"; }
-};
-
-ReducedProblem make_problem(miniapp::Study &study, const Chosen &chosen)
-{
-   if (!chosen.file.empty())
-   {
-      ReducedProblem problem = load_reduced_problem(chosen.file);
-      if (!std::isnan(chosen.friction)) { set_friction(problem, chosen.friction); }
-      require(problem.arc_length.size() > 0 && problem.weights.size() > 0, "'", chosen.file,
-              "' has no arc_length or no weights, which a design needs");
-      study.condensed(problem, 0);
-      return problem;
-   }
-   require(chosen.nodes % 4 == 1, "option --nodes is ", chosen.nodes,
-           ", must be one more than a multiple of 4");
-   miniapp::Scene scene;
-   // Finer toward the ends, where profiles and pressures are steepest.
-   const int elements = chosen.nodes / 2;
-   std::vector<double> grid;
-   for (int k = 0; k <= elements; ++k) { grid.push_back(-std::cos(M_PI * k / elements)); }
-   if (chosen.scene == "pad")
-   {
-      miniapp::HalfPlanes planes;
-      planes.nodes = chosen.nodes;
-      planes.material = Material{8 / M_PI * 0.91, 0.3, PlaneState::strain};
-      planes.grid = grid;
-      scene = make_scene(planes);
-      scene.problem().B().setZero(); // equal half-planes: what is there is round-off
-      join_coupling(scene.problem());
-   }
-   else
-   {
-      miniapp::PunchOptions punch;
-      punch.half_plane = true;
-      punch.nodes = chosen.nodes;
-      punch.grid = grid;
-      scene = make_punch(punch);
-   }
-   ReducedProblem problem = scene.problem();
-   problem.gap.setZero();
-   set_friction(problem, std::isnan(chosen.friction) ? 0.3 : chosen.friction);
-   study.condensed(problem, scene.dofs);
-   return problem;
-}
-
-/// The point of the history from which on its points count: the first one that --from does not
-/// leave out.
-double first_point(const Chosen &chosen, const LoadHistory &history)
-{
-   const Index points = history.times.size();
-   Index first = std::isnan(chosen.from) ? points - 1 : 0;
-   while (first < points && history.times[first] < chosen.from) { ++first; }
-   const Index needed = chosen.cycles() ? 2 : 1;
-   require(points - first >= needed, "option --from is ", chosen.from, ", must leave ", needed,
-           needed > 1 ? " points" : " point", " of the history at least, which ends at time ",
-           history.times[points - 1]);
-   return history.times[first];
-}
-
-std::vector<DesignCase> make_cases(const Chosen &chosen, const ReducedProblem &problem)
-{
-   const double sign = chosen.goal == "damping" ? -1 : 1;
-   if (!chosen.file.empty())
-   {
-      const LoadHistory history = load_history("history", chosen.history, problem);
-      return {{"history", history, sign, first_point(chosen, history)}};
-   }
-   std::vector<DesignCase> cases;
-   for (std::size_t k = 0; k < chosen.loads.size(); ++k)
-   {
-      const double P = chosen.loads[k], Q = chosen.shear * problem.friction[0] * P;
-      std::vector<NamedLoads> points = {{}, {{"P", P}}};
-      if (Q > 0)
-      {
-         for (double sheared : {Q, -Q, Q}) { points.push_back({{"P", P}, {"Q", sheared}}); }
-      }
-      cases.push_back({exact_text("P = ", P), LoadHistory::through(problem, points),
-                       sign * chosen.weights[k], chosen.cycles() ? 2.0 : 1.0});
-   }
-   return cases;
-}
-
-/// The history of a case with what its variables add.
-LoadHistory with_variables(const DesignProblem &problem, const DesignCase &of,
-                           const VectorXd &x)
-{
-   LoadHistory history = of.history;
-   for (Index j = 0; j < x.size(); ++j)
-   {
-      const MatrixXd &change = problem.variables[j].multipliers;
-      if (change.size() > 0) { history.multipliers += x[j] * change; }
-   }
-   return history;
-}
-
-/// Energy that each node loses per area, from the first state to the last.
-std::vector<Response> densities(const ReducedProblem &problem, const Responses &of,
-                                const std::vector<std::size_t> &states)
-{
-   std::vector<Response> all;
-   for (Index i = 0; i < problem.nodes(); ++i)
-   {
-      const double weight = problem.weights[i];
-      if (weight <= 0) { continue; }
-      all.push_back(1 / weight * of.dissipation(states.front(), states.back(), i));
-   }
-   return all;
-}
-
-/// What a case comes to, by a march alone.
-struct Marched
-{
-   double peak = 0, lost = 0; ///< at the points that count, and between them
-   double density = 0;        ///< the most that a node loses per area
-   VectorXd densities;        ///< of all that have a weight
-   ContactState at_peak;
-
-   double of(const std::string &goal) const
-   {
-      return goal == "pressure" ? peak : goal == "energy" ? density : lost;
-   }
-};
-
-Marched march_case(const DesignProblem &problem, const VectorXd &x, const DesignCase &of,
-                   MarchSettings settings)
-{
-   settings.stop_at_steady_state = false;
-   const ReducedProblem with = problem.with(x);
-   const MarchTrace trace = trace_march(with, with_variables(problem, of, x), settings);
-   const double end = of.history.times[of.history.times.size() - 1], from = of.from;
-   Marched result;
-   if (trace.report.time < end)
-   {
-      result.peak = result.lost = result.density = miniapp::none;
-      return result;
-   }
-   for (double time : of.history.times)
-   {
-      const ContactState &state = trace.states[trace.at(time)].state;
-      const double peak = tractions(with, state.p).maxCoeff();
-      if (time == from) { result.lost = -state.dissipation; }
-      if (time < from || (result.at_peak.p.size() > 0 && peak <= result.peak)) { continue; }
-      result.peak = peak;
-      result.at_peak = state;
-   }
-   result.lost += trace.states.back().state.dissipation;
-   const std::vector<Response> all =
-      densities(with, Responses(with, trace), {trace.at(from), trace.last()});
-   result.densities.resize(static_cast<Index>(all.size()));
-   std::transform(all.begin(), all.end(), result.densities.begin(),
-                  [](const Response &each) { return each.value; });
-   result.density = result.densities.maxCoeff();
-   return result;
-}
-
 /// The profile under which P presses |x| < 1 uniformly, E* = 4/π.
 double uniform_profile(double x, double P)
 {
    const auto part = [](double s) { return s > 0 ? s * std::log(s) : 0.0; };
    return P / 4 * (part(1 + x) + part(1 - x));
-}
-
-/// Whether limits hold, but for round-off.
-bool allowed(const DesignProblem &problem, const VectorXd &x)
-{
-   if (problem.limits.rows() == 0) { return true; }
-   const VectorXd at = problem.limits * x,
-                  digits = 1e-12 * problem.limits.cwiseAbs() * x.cwiseAbs();
-   return (at + digits - problem.least).minCoeff() >= 0 &&
-          (problem.most - at + digits).minCoeff() >= 0;
-}
-
-/// The goal along each variable through the optimum, where limits hold: it is to have its
-/// least value there.
-void draw_lines(miniapp::Study &study, const DesignProblem &problem, const DesignReport &report,
-                const miniapp::DesignVariables &variables, const std::string &goal,
-                const MarchSettings &settings, int steps)
-{
-   miniapp::Panel &panel =
-      study.panel(miniapp::Panel::Kind::lines, "lines", "Along each variable, others optimal",
-                  "variable", goal + ", weighted");
-   double best = report.objective;
-   for (Index j = 0; j < report.x.size(); ++j)
-   {
-      std::vector<double> at, values;
-      for (int k = 0; k <= steps; ++k)
-      {
-         VectorXd x = report.x;
-         x[j] = problem.low[j] + (problem.high[j] - problem.low[j]) * k / steps;
-         if (!allowed(problem, x)) { continue; }
-         VectorXd of(problem.cases.size());
-         for (std::size_t c = 0; c < problem.cases.size(); ++c)
-         {
-            const DesignCase &load_case = problem.cases[c];
-            of[static_cast<Index>(c)] =
-               load_case.weight * march_case(problem, x, load_case, settings).of(goal);
-         }
-         const double value = !of.allFinite()                             ? miniapp::none
-                              : problem.goal == DesignGoal::least_largest ? of.maxCoeff()
-                                                                          : of.sum();
-         at.push_back(x[j] + variables.before[j]);
-         values.push_back(std::abs(value));
-         if (value < best) { best = value; }
-      }
-      panel.add(variables.names[j], at, values);
-      panel.add("", {report.x[j] + variables.before[j]}, {std::abs(report.objective)},
-                "points");
-   }
-   // A loss that comes to nothing is measured by what it was.
-   const double size =
-      std::max(std::abs(report.objective), std::abs(report.objective_at_start));
-   study.value("best_of_lines", (report.objective - best) / size,
-               "how much better any point of these lines is");
 }
 
 /// The best of what is found from all starts, with a table of them if there are several.
@@ -315,7 +96,7 @@ DesignReport search(miniapp::Study &study, const DesignProblem &problem, const V
 
 void design_contact(miniapp::Study &study)
 {
-   Chosen chosen;
+   miniapp::DesignScene chosen;
    miniapp::DesignChoice choice;
    std::string stepping = "advancing";
    int lines = 0, starts = 1;
@@ -374,7 +155,7 @@ void design_contact(miniapp::Study &study)
                 at_least(1));
    study.parse();
    settings.march.stepping = miniapp::stepping(stepping);
-   const Chosen usual;
+   const miniapp::DesignScene usual;
    require(chosen.file.empty() == chosen.history.empty(),
            "options --reduced and --history: one needs the other");
    require(!chosen.file.empty() || std::isnan(chosen.from), "option --from is of --reduced");
@@ -412,7 +193,7 @@ void design_contact(miniapp::Study &study)
    problem.problem = make_problem(study, chosen);
    const ReducedProblem &flat = problem.problem;
    const Index n = flat.nodes();
-   const VectorXd &s = flat.arc_length, x = s.array() - 0.5 * (s.minCoeff() + s.maxCoeff());
+   const VectorXd x = miniapp::places(flat);
    const bool own_gap = choice.what() == "gap",
               free = own_gap && choice.profile == usual_choice.profile;
    choice.begins_flat = chosen.file.empty();
@@ -421,7 +202,7 @@ void design_contact(miniapp::Study &study)
    if (chosen.goal == "energy")
    {
       problem.objective = [&flat](const Responses &of, const std::vector<std::size_t> &states)
-      { return densities(flat, of, states); };
+      { return miniapp::densities(flat, of, states); };
    }
    else if (chosen.cycles())
    {
@@ -482,39 +263,7 @@ void design_contact(miniapp::Study &study)
       profiles->add("before", x, flat.gap, "dashed");
       profiles->add("after", x, gap);
    }
-   miniapp::Panel &pressures = study.panel(miniapp::Panel::Kind::lines, "pressure",
-                                           "Pressure where it is largest", "x", "p");
-   miniapp::Panel *energies = nullptr;
-   if (chosen.goal == "energy")
-   {
-      energies = &study.panel(miniapp::Panel::Kind::lines, "energy", "Energy lost in the cycle",
-                              "x", "per area");
-   }
-   miniapp::Table &table = study.table("cases", {{"case", "case"},
-                                                 {"peak_before", "peak before", "%.6g"},
-                                                 {"peak_after", "after", "%.6g"},
-                                                 {"lost_before", "lost before", "%.4g"},
-                                                 {"lost_after", "after", "%.4g"},
-                                                 {"density_before", "per area", "%.4g"},
-                                                 {"density_after", "after", "%.4g"}});
-   for (const DesignCase &load_case : problem.cases)
-   {
-      const Marched before = march_case(problem, variables.start, load_case, settings.march),
-                    after = march_case(problem, report.x, load_case, settings.march);
-      study.row(table, {load_case.name, before.peak, after.peak, before.lost, after.lost,
-                        before.density, after.density});
-      if (before.at_peak.p.size() > 0) // where the first start has an equilibrium
-      {
-         pressures.add(load_case.name + ", before", x, tractions(flat, before.at_peak.p),
-                       "dashed");
-      }
-      pressures.add(load_case.name + ", after", x, tractions(flat, after.at_peak.p));
-      if (energies && before.densities.size() == n && after.densities.size() == n)
-      {
-         energies->add(load_case.name + ", before", x, before.densities, "dashed");
-         energies->add(load_case.name + ", after", x, after.densities);
-      }
-   }
+   report_cases(study, problem, report, variables, chosen.goal, settings.march);
    const bool sweeps = lines > 0 && report.status != DesignStatus::stopped;
    if (sweeps)
    {

@@ -15,7 +15,7 @@
 
 #include "common/run.hpp"
 #include "common/watch.hpp"
-#include "common/wearing_pad.hpp"
+#include "common/wear_read_outs.hpp"
 
 #include <algorithm>
 #include <cattaneo/friction/history_statements.hpp>
@@ -35,99 +35,6 @@ using miniapp::WearingPad;
 namespace
 {
 
-ReducedProblem with_gap(ReducedProblem problem, const VectorXd &depth)
-{
-   problem.gap += depth;
-   return problem;
-}
-
-/// Where a line of values crosses zero from positive to not, going outward from a node; the end
-/// of the chain if it does not.
-double crossing(const VectorXd &s, const VectorXd &value, Index from, int way)
-{
-   for (Index i = from; i + way >= 0 && i + way < s.size(); i += way)
-   {
-      if (value[i] > 0 && value[i + way] <= 0)
-      {
-         return s[i] + (s[i + way] - s[i]) * value[i] / (value[i] - value[i + way]);
-      }
-   }
-   return s[way > 0 ? s.size() - 1 : 0];
-}
-
-/// Frames, weights and stiffness are those of the unworn bodies.
-void warn_of_depth(const ReducedProblem &problem, const VectorXd &depth,
-                   const ContactState &contact)
-{
-   Index deepest = 0;
-   const double most = depth.maxCoeff(&deepest);
-   for (const ContactChain &chain : problem.chains)
-   {
-      if (deepest < chain.first || deepest >= chain.first + chain.nodes) { continue; }
-      double from = problem.arc_length[deepest], to = from;
-      for (Index i = chain.first; i < chain.first + chain.nodes; ++i)
-      {
-         if (depth[i] <= 0 && contact.p[i] <= 0) { continue; }
-         from = std::min(from, problem.arc_length[i]);
-         to = std::max(to, problem.arc_length[i]);
-      }
-      if (most <= 0.1 * (to - from)) { return; }
-      miniapp::warn(text("the largest depth, %.3g, is not small against what touches or is "
-                         "worn, %.3g long: the stiffness is that of the unworn bodies. Where "
-                         "the problem's units are scaled (E = 1) both have to be scaled back",
-                         most, to - from));
-   }
-}
-
-/// The state in which wear ends, solved for directly.
-void report_end(miniapp::Study &study, const WearCase &scene, const WornOut &end,
-                miniapp::Panel &profiles, miniapp::Panel &pressures)
-{
-   study.title("Worn out");
-   study.results["worn_out"] = name(end.status);
-   if (end.status != FrictionStatus::converged)
-   {
-      study.results["worn_out_message"] = end.message;
-      return study.say("   none: " + end.message);
-   }
-   const ReducedProblem &problem = scene.problem;
-   const Zone stick = stick_zone(problem, zones(problem, end.unworn, end.range));
-   // Of several lines that on which the widest zone sticks.
-   Index begin = 0, nodes = problem.nodes();
-   for (const ContactChain &chain : problem.chains)
-   {
-      if (stick.first < chain.first || stick.first >= chain.first + chain.nodes) { continue; }
-      begin = chain.first;
-      nodes = chain.nodes;
-   }
-   const VectorXd s = problem.arc_length.segment(begin, nodes),
-                  overlap = end.overlap.segment(begin, nodes);
-   study.value("final_stick", 0.5 * (stick.to.position - stick.from.position),
-               "half-width that sticks", std::max(stick.from.error, stick.to.error));
-   Index first = nodes - 1, last = 0;
-   for (Index i = 0; i < nodes; ++i)
-   {
-      if (!end.stick[begin + i] && overlap[i] <= 0) { continue; }
-      first = std::min(first, i);
-      last = std::max(last, i);
-   }
-   study.value("final_extent",
-               0.5 * (crossing(s, overlap, last, 1) - crossing(s, overlap, first, -1)),
-               "half-width that is worn or sticks");
-   study.value("final_volume", worn_volume(problem, end.depth), "volume worn off");
-   study.value("final_depth", end.depth.maxCoeff(), "largest depth");
-   const VectorXd p = tractions(problem, end.contact.p);
-   Index centre = 0;
-   (s.array() - 0.5 * (stick.from.position + stick.to.position)).abs().minCoeff(&centre);
-   study.value("final_pressure_centre", p[begin + centre], "pressure amid the stick zone");
-   study.value("final_loss", end.loss, "loss of a cycle, of the unworn one");
-   study.results["final_depths"] =
-      std::vector<double>(end.depth.data(), end.depth.data() + end.depth.size());
-   const VectorXd x = problem.arc_length.array() - scene.middle;
-   profiles.add("worn out", x, end.depth, "dashed");
-   pressures.add("worn out", x, p, "dashed");
-}
-
 /// Whether slip goes straight from one point of the cycle to the next, where it has one
 /// direction, the normal problem does not know of it and no load presses otherwise: one
 /// increment is exact then.
@@ -144,34 +51,6 @@ bool path_is_straight(const ReducedProblem &problem, const LoadHistory &history)
       if (change > 1e-8 * first.cwiseAbs().maxCoeff()) { return false; } // round-off of shear
    }
    return true;
-}
-
-/// One cycle more in many increments, for the loop of each load that varies.
-void draw_loop(miniapp::Panel &panel, const std::string &label, const WearCase &scene,
-               const WearState &state, MarchSettings settings)
-{
-   const ReducedProblem worn = with_gap(scene.problem, state.depth);
-   LoadHistory cycle = scene.history;
-   cycle.cycles = 1;
-   settings.increments = std::max(settings.increments, 20);
-   ContactState contact = state.contact;
-   contact.time = cycle.times[cycle.cycle_start];
-   const MarchReport report = march(worn, cycle, contact, settings);
-   for (std::size_t k = 0; k < worn.patterns.size(); ++k)
-   {
-      const auto row = scene.history.multipliers.row(static_cast<Index>(k));
-      const auto varying = row.tail(row.size() - scene.history.cycle_start);
-      if (varying.maxCoeff() == varying.minCoeff()) { continue; }
-      std::vector<double> force, displacement;
-      for (const IncrementRecord &record : report.increments)
-      {
-         force.push_back(record.multipliers[static_cast<Index>(k)]);
-         displacement.push_back(record.conjugates[static_cast<Index>(k)]);
-      }
-      const bool is_force = worn.patterns[k].control == Control::force;
-      panel.add(worn.patterns[k].name + ", " + label, is_force ? displacement : force,
-                is_force ? force : displacement);
-   }
 }
 
 void wear_contact(miniapp::Study &study)
@@ -298,7 +177,7 @@ void wear_contact(miniapp::Study &study)
    {
       if (record.cycles < row_at && record.cycles < cycles) { return; }
       row_at = std::max(record.cycles + 1, 1.25 * record.cycles);
-      const ReducedProblem worn = with_gap(problem, now.depth);
+      const ReducedProblem worn = miniapp::with_gap(problem, now.depth);
       const Zone stick = stick_zone(worn, now.contact);
       const bool any = stick.last >= stick.first;
       const double width = any ? 0.5 * (stick.to.position - stick.from.position) : 0.0;
@@ -361,7 +240,7 @@ void wear_contact(miniapp::Study &study)
    borders.add("from", times, from);
    borders.add("to", times, to);
    // Across the pad lengths have another unit than along it: a²/R.
-   if (!file.empty()) { warn_of_depth(problem, state.depth, state.contact); }
+   if (!file.empty()) { miniapp::warn_of_depth(problem, state.depth, state.contact); }
    if (coefficient == 0 || threshold > 0)
    {
       study.title("Worn out");
@@ -383,7 +262,7 @@ void wear_contact(miniapp::Study &study)
    }
    if (!file.empty() && end.status == FrictionStatus::converged)
    {
-      warn_of_depth(problem, end.depth, end.contact);
+      miniapp::warn_of_depth(problem, end.depth, end.contact);
    }
    if (end.status == FrictionStatus::converged && end.depth.maxCoeff() > 0 && state.cycles > 0)
    {

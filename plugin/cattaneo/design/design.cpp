@@ -62,18 +62,6 @@ VectorXd shaped(const DesignProblem &of, const VectorXd &x, MatrixXd &by)
    return gap;
 }
 
-/// Whether x is within the limits, but for what `tolerance` leaves: the limit that it is not.
-Index violated_limit(const DesignProblem &of, const VectorXd &x, double tolerance)
-{
-   for (Index r = 0; r < of.limits.rows(); ++r)
-   {
-      const double at = of.limits.row(r).dot(x),
-                   leave = tolerance * of.limits.row(r).cwiseAbs().dot(x.cwiseAbs());
-      if (!(at >= of.least[r] - leave && at <= of.most[r] + leave)) { return r; }
-   }
-   return -1;
-}
-
 void require_start(const DesignProblem &problem, const VectorXd &start, double tolerance)
 {
    require(start.size() == problem.low.size(), "design: ", start.size(), " values for ",
@@ -615,6 +603,17 @@ DesignReport Design::run(const VectorXd &start)
 }
 
 } // namespace
+
+Index violated_limit(const DesignProblem &of, const VectorXd &x, double tolerance)
+{
+   for (Index r = 0; r < of.limits.rows(); ++r)
+   {
+      const double at = of.limits.row(r).dot(x),
+                   leave = tolerance * of.limits.row(r).cwiseAbs().dot(x.cwiseAbs());
+      if (!(at >= of.least[r] - leave && at <= of.most[r] + leave)) { return r; }
+   }
+   return -1;
+}
 
 std::vector<Parameters> gap_variables(const MatrixXd &G)
 {

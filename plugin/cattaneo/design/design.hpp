@@ -70,6 +70,11 @@ std::vector<Parameters> gap_variables(const Eigen::MatrixXd &G);
     `least` and `most`. InputError if variables or positions along the line are missing. */
 void limit_curvature(DesignProblem &problem, double least, double most);
 
+/// The first row of `limits` that L x breaks by more than `tolerance` times the sum of the
+/// absolute values of its terms; -1: none.
+Eigen::Index violated_limit(const DesignProblem &problem, const Eigen::VectorXd &x,
+                            double tolerance = 1e-12);
+
 /** Other starts for a search: `count` points spread evenly over the box of the bounds (the
     sequence of the generalised golden ratio), each of which `start` goes toward as far as the
     limits let it, along those that it meets. InputError unless `start` is within bounds and
