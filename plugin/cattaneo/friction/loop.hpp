@@ -59,9 +59,10 @@ public:
        stiffness(), and where d did not move. The energy definition of [Lazan 1968]. */
    double loss_factor() const;
 
-   /// To files of states and back, to the last bit.
+   /// For files of states, to the last bit.
    template <class Json>
    friend void to_json(Json &json, const Loop &loop);
+   /// Sets a loop to what to_json() has written.
    template <class Json>
    friend void from_json(const Json &json, Loop &loop);
 
