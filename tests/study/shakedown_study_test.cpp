@@ -238,6 +238,76 @@ TEST(ShakedownStudy, OtherLawsOfFrictionHaveALargestLoad)
    std::remove(file.c_str());
 }
 
+TEST(ShakedownStudy, ConvergesWithTheMesh)
+{
+   const Outcome run = run_miniapp(
+      "shakedown", "-domain 1e4 -find friction -nodes 65 -mesh-study \"65 129 257\"");
+   ASSERT_EQ(run.code, 0) << run.output;
+   const auto &study = run.results["mesh_study"];
+   // Second order in the size of the elements: differences fall by about four.
+   const auto value = [&](int k) { return study[k]["load_limit_reversed"].get<double>(); };
+   const double ratio = (value(1) - value(0)) / (value(2) - value(1));
+   EXPECT_GT(ratio, 3) << run.output;
+   EXPECT_LT(ratio, 5) << run.output;
+   const double limit = (value(2) + (value(2) - value(1)) / 3) / 0.85;
+   EXPECT_NEAR(limit, 0.8040, 3e-4);
+   // The degree of coupling does not follow the number of nodes.
+   EXPECT_NEAR(study[0]["coupling"].get<double>(), study[2]["coupling"].get<double>(), 0.01);
+   // Without a mesh below there is less error on each mesh of the block.
+   const Outcome itself =
+      run_miniapp("shakedown", "-find friction -nodes 65 -mesh-study \"65 129 257\"");
+   for (int k = 0; k < 3; ++k)
+   {
+      const double found = itself.results["mesh_study"][k]["load_limit_reversed"];
+      EXPECT_LT(std::abs(found / 0.85 - 0.8040), std::abs(value(k) / 0.85 - 0.8040) + 5e-5);
+      if (k == 2) { EXPECT_NEAR(found / 0.85, 0.8040, 3e-4); }
+   }
+}
+
+TEST(ShakedownStudy, LowerLimitIsProvenForLittleFriction)
+{
+   const Outcome run =
+      run_miniapp("shakedown", "-nodes 65 -find load -friction 0.55 -starts 2 -cycles 60");
+   ASSERT_EQ(run.code, 0) << run.output;
+   const double lower = run.results["lower_limit"];
+   EXPECT_GT(lower, 0);
+   EXPECT_LT(lower, run.results["load_limit"].get<double>());
+   // No march contradicts it.
+   EXPECT_GE(run.results["quiet_up_to"].get<double>(), lower);
+}
+
+TEST(ShakedownStudy, LowerLimitButForTheCornersIsProven)
+{
+   const Outcome run = run_miniapp("shakedown", "-nodes 33 -find load -starts 4 -cycles 60");
+   ASSERT_EQ(run.code, 0) << run.output;
+   const auto &apart = run.results["lower_limits_apart"];
+   ASSERT_GE(apart.size(), 3u) << run.output;
+   // The more is set apart, the more is proven of the rest.
+   double before = 0;
+   int compared = 0;
+   for (const auto &row : apart)
+   {
+      EXPECT_GT(row["load_factor"].get<double>(), before) << row;
+      before = row["load_factor"];
+      EXPECT_LE(before, run.results["load_limit"].get<double>());
+      // With the least pressures of each vertex by HiGHS, linear programmes of their own, the
+      // condition holds at the vertices up to 0.251 and 0.624. It must hold between them too,
+      // with multipliers that are the same for all loads: a sixth less.
+      const double distance = row["distance"];
+      const double sharpest = std::abs(distance - 0.005) < 1e-9  ? 0.2514
+                              : std::abs(distance - 0.02) < 1e-9 ? 0.6245
+                                                                 : 0;
+      if (sharpest == 0) { continue; }
+      ++compared;
+      EXPECT_LE(before, sharpest) << row;
+      EXPECT_GT(before, 0.83 * sharpest) << row;
+   }
+   EXPECT_EQ(compared, 2);
+   // Corner nodes open and slip on from some starts, far below.
+   EXPECT_LT(run.results["opens_at"].get<double>(), 0.2);
+   EXPECT_GT(run.results["opens_at"].get<double>(), 0);
+}
+
 TEST(ShakedownStudy, ReadsWhatItSaves)
 {
    const std::string file = testing::TempDir() + "shakedown_study.json";
