@@ -75,8 +75,8 @@ void Shakedown::options()
    std::string obstacle = "half-plane";
    study.option(
       &friction, "friction",
-      "Coefficient of friction of the largest load and of the marches; of a saved problem "
-      "if it is to be another than the file's.",
+      "Coefficient of friction of the largest load and of the marches; default: 0.85, "
+      "of a saved problem the file's.",
       positive);
    study.option(&lambda_max, "lambda-max",
                 "Largest cycled load, of the smallest friction and of the marches.", positive);
@@ -176,21 +176,23 @@ void Shakedown::prepare()
 
 void Shakedown::take_law()
 {
-   const bool of_file = saved && !strength->given() && !study.options().says("friction");
    if (strength->given()) { strength->set(gapped); }
-   else if (!of_file || gapped.laws.empty())
+   else if (!saved || !std::isnan(friction))
    {
-      if (of_file)
-      {
-         friction = gapped.friction.maxCoeff();
-         require(gapped.friction.minCoeff() == friction, "'", reduced,
-                 "' has coefficients of friction from ", gapped.friction.minCoeff(), " to ",
-                 friction, ", limits are of one: say --friction");
-      }
+      friction = std::isnan(friction) ? 0.85 : friction;
       set_friction(gapped, friction);
    }
    coulomb = gapped.laws.empty();
-   if (coulomb) { return; }
+   if (coulomb)
+   {
+      friction = gapped.friction.maxCoeff();
+      require(gapped.friction.minCoeff() == friction, "'", reduced,
+              "' has coefficients of friction from ", gapped.friction.minCoeff(), " to ",
+              friction, ", limits are of one: say --friction");
+      require(friction > 0, "'", reduced, "' has no friction: say --friction");
+      results["friction"] = friction;
+      return;
+   }
    const char *why = "knows Coulomb's law alone, and the contact has another law of friction "
                      "(of --strength, or of its file: --friction takes its place)";
    study.options().only_if(false, {"map", "mesh-study", "mismatch", "tractions"}, why);

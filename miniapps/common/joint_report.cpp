@@ -105,7 +105,7 @@ std::vector<double> JointReport::shanks(const ContactState &state) const
 void JointReport::note(const ContactState &state, int cycle)
 {
    // Where a march is taken up: the loops of a cycle that has begun are not known.
-   if (cycle == 0 && state.cycle && !state.cycle->ended) { begun_ = state.cycle->cycle; }
+   if (cycle == 0 && state.cycle) { begun_ = state.cycle->cycle; }
    const std::vector<double> now = shanks(state);
    for (std::size_t k = 0; k < now.size(); ++k)
    {

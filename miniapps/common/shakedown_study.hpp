@@ -100,7 +100,7 @@ private:
    Study &study;
    nlohmann::ordered_json &results;
    PunchOptions punch;
-   double friction = 0.85, lambda_max = 0.8, lambda_min = -0.4, reversal = none, corner = 0.01;
+   double friction = none, lambda_max = 0.8, lambda_min = -0.4, reversal = none, corner = 0.01;
    std::string find = "both", reduced, held = "P", cycled = "Q";
    bool map = false, adhesion = false, march = false, closed = false, steps = false;
    int cycles = 200, starts = 0;

@@ -137,7 +137,11 @@ std::vector<ordered_json> Study::rows_before(const std::string &table) const
    if (csv_.empty() || cycles_before_ == 0) { return rows; }
    for (const ordered_json &row : read_rows(csv_ + "_" + table + ".csv"))
    {
-      if (row.value("cycle", 0) >= 1 && row["cycle"] <= cycles_before_) { rows.push_back(row); }
+      const bool counted = row.contains("cycle") && row["cycle"].is_number();
+      if (counted && row["cycle"] >= 1 && row["cycle"] <= cycles_before_)
+      {
+         rows.push_back(row);
+      }
    }
    return rows;
 }

@@ -20,7 +20,7 @@ class Sketch:
         return self.body([x0, x1, x1, x0], [y0, y0, y1, y1], colour)
 
     def reach(self, *points):
-        """What is drawn between axes' limits only, arrows and words, lies within them."""
+        """Widens the limits of the axes to these points: arrows and words do not, and are left out where they lie beyond."""
         self.axes.update_datalim(points)
         self.axes.autoscale_view()
 

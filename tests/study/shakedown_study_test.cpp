@@ -235,6 +235,11 @@ TEST(ShakedownStudy, OtherLawsOfFrictionHaveALargestLoad)
    const Outcome several = run_miniapp("shakedown", of_file);
    EXPECT_EQ(several.code, 1);
    EXPECT_NE(several.output.find("from 0.4 to 0.5"), std::string::npos) << several.output;
+   cattaneo::set_friction(problem, 0);
+   cattaneo::save(problem, file);
+   const Outcome none = run_miniapp("shakedown", of_file);
+   EXPECT_EQ(none.code, 1);
+   EXPECT_NE(none.output.find("has no friction"), std::string::npos) << none.output;
    std::remove(file.c_str());
 }
 

@@ -62,8 +62,8 @@ struct ContactState
    double dissipation = 0.0;      ///< frictional energy lost so far
    /// Slip at the end of the last two cycles (the latest last), to recognise a steady state.
    std::vector<Eigen::VectorXd> cycle_slip;
-   /// What the cycle under way came to so far, or the one that ends here: a march that is taken
-   /// up within a cycle has it whole.
+   /// What the cycle under way came to so far, so that a march that is taken up within a cycle
+   /// has it whole; none between cycles.
    std::optional<CycleRecord> cycle;
 
    /// {v; w}.

@@ -49,8 +49,8 @@ void from_json(const Json &json, Loop &loop)
    for (std::size_t k = 0; k < std::size(numbers); ++k) { json.at(k + 2).get_to(*numbers[k]); }
 }
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CycleRecord, cycle, whole, ended, loops, dissipation,
-                                   external_work, normal_work, slip_change, node_dissipation)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CycleRecord, cycle, whole, loops, dissipation, external_work,
+                                   normal_work, slip_change, node_dissipation)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ContactState, time, step, peak_force, dissipation,
                                    multipliers, status, cycle_slip, slip_origin, v, w, q, p)
 

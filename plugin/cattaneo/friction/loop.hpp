@@ -88,7 +88,6 @@ struct CycleRecord
    /// False if the march was taken up within the cycle, from a state that did not know of it:
    /// then all here is of the rest of it.
    bool whole = false;
-   bool ended = false;       ///< else it is under way
    std::vector<Loop> loops;  ///< of each load pattern; their work() adds up to external_work
    double dissipation = 0;   ///< lost by friction in the cycle
    double external_work = 0; ///< of all loads in the cycle

@@ -103,8 +103,7 @@ void MarchRecord::accept(ContactState &&next, const LoadPiece &piece,
    next.cycle.reset();
    if (piece.cycle > 0)
    {
-      const bool known =
-         state_.cycle && state_.cycle->cycle == piece.cycle && !state_.cycle->ended;
+      const bool known = state_.cycle && state_.cycle->cycle == piece.cycle;
       if (!known) { begin_cycle(piece.cycle, false); }
       next.cycle = std::move(state_.cycle);
       CycleRecord &cycle = *next.cycle;
@@ -150,7 +149,6 @@ void MarchRecord::end_cycle()
 {
    auto &past = state_.cycle_slip;
    CycleRecord &cycle = *state_.cycle;
-   cycle.ended = true;
    for (std::size_t period = 1; period <= past.size() && !report.steady_cycle; ++period)
    {
       const VectorXd &before = past[past.size() - period];
@@ -162,7 +160,8 @@ void MarchRecord::end_cycle()
       }
    }
    cycle.slip_change = past.empty() ? 0.0 : largest(state_.v - past.back());
-   report.cycles.push_back(cycle);
+   report.cycles.push_back(std::move(cycle));
+   state_.cycle.reset();
    past.push_back(state_.v);
    if (past.size() > 2) { past.erase(past.begin()); }
 }

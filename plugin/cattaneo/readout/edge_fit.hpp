@@ -90,11 +90,11 @@ struct EdgeFit
 };
 
 /** K_N and K_T by least squares: with r = √(t (1 - t/width)), p/r = K_N + c t and
-    q r = K_T + c t (the next terms of both expansions for a smooth profile; without them, c =
-   0, these are the tractions of Hertz and of a stuck shear force on half-planes, whose two
-   edges are alike). InputError for arrays of unequal length, entries that are not finite,
-   pressure on both sides of the edge or beyond the width, or fewer than 4 nodes in the window.
- */
+    q r = K_T + c t, with the next terms of both expansions for a smooth profile. Without those
+    terms they are the tractions of Hertz and of a stuck shear force on half-planes, whose two
+    edges are alike. InputError for arrays of unequal length, entries that are not finite,
+    pressure on both sides of the edge or beyond the width, and fewer than 4 nodes in the
+    window. */
 EdgeFit fit_edge(const EdgeTractions &tractions, const FitSettings &settings = {});
 
 } // namespace cattaneo
