@@ -1,5 +1,6 @@
 #include <cattaneo/algebra/dense_cholesky.hpp>
 #include <cattaneo/algebra/lapack.hpp>
+#include <cattaneo/algebra/symmetric_matrix.hpp>
 
 namespace cattaneo
 {
@@ -47,7 +48,7 @@ MatrixXd DenseCholesky::inverse() const
    const int n = static_cast<int>(factor_.rows());
    int info = 0;
    if (n > 0) { dpotri_("L", &n, result.data(), &n, &info); }
-   result.triangularView<Eigen::StrictlyUpper>() = result.transpose();
+   mirror_lower(result);
    return result;
 }
 
@@ -97,7 +98,7 @@ MatrixXd minus_square(MatrixXd S, const MatrixXd &Y)
 #else
    S.selfadjointView<Eigen::Lower>().rankUpdate(Y.transpose(), -1.0);
 #endif
-   S.triangularView<Eigen::StrictlyUpper>() = S.transpose();
+   mirror_lower(S);
    return S;
 }
 

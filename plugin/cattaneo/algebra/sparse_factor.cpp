@@ -4,6 +4,7 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cattaneo/algebra/lapack.hpp>
+#include <cattaneo/algebra/symmetric_matrix.hpp>
 #include <cmath>
 #include <numeric>
 
@@ -97,7 +98,7 @@ Eigen::MatrixXd times_own_transpose(const Eigen::MatrixXd &L)
          L.block(j, 0, n - j, j + w) * L.block(j, 0, w, j + w).transpose();
 #endif
    }
-   S.triangularView<Eigen::StrictlyUpper>() = S.transpose();
+   mirror_lower(S);
    return S;
 }
 
@@ -109,9 +110,12 @@ struct SparseFactor::Implementation
    double shift = 0.0;
 
    virtual ~Implementation() = default;
-   /// L22, and for each of its rows the number of the trailing row (0 … trailing - 1) it stands
-   /// for.
-   virtual Eigen::MatrixXd trailing_factor(std::vector<int> &order) const = 0;
+   /// L22.
+   virtual Eigen::MatrixXd trailing_factor() const = 0;
+   /// For each of its rows the number of the trailing row (0 … trailing - 1) it stands for.
+   virtual std::vector<int> trailing_order() const = 0;
+   /// L22 L22ᵀ x
+   virtual Eigen::VectorXd trailing_product(const Eigen::VectorXd &x) const = 0;
    virtual Eigen::MatrixXd solve(const Eigen::MatrixXd &rhs) const = 0;
    virtual long nonzeros() const = 0;
 };
@@ -119,8 +123,61 @@ struct SparseFactor::Implementation
 namespace
 {
 
+/// Column of L22, from the diagonal down.
+struct TrailingColumn
+{
+   Eigen::Index column, count;
+   const int *rows; ///< increasing, counted as those of L22 from `first`
+   int first;
+   const double *values;
+
+   /// Of x, what the column meets: all from the diagonal down, if it is dense.
+   template <class Visitor>
+   void visit_rows(Visitor visit) const
+   {
+      for (Eigen::Index k = 0; k < count; ++k) { visit(rows[k] - first, values[k]); }
+   }
+   bool dense() const { return rows[count - 1] - rows[0] == count - 1; }
+   Eigen::Map<const Eigen::VectorXd> entries() const { return {values, count}; }
+   double dot(const Eigen::VectorXd &x) const
+   {
+      if (dense()) { return entries().dot(x.segment(rows[0] - first, count)); }
+      double sum = 0;
+      visit_rows([&](int row, double value) { sum += value * x[row]; });
+      return sum;
+   }
+   void add_to(Eigen::VectorXd &y, double times) const
+   {
+      if (dense()) { y.segment(rows[0] - first, count) += times * entries(); }
+      else { visit_rows([&](int row, double value) { y[row] += times * value; }); }
+   }
+};
+
+/// What an implementation knows by the columns that its visit_trailing(visit) goes through.
+template <class Factor>
+struct ByColumns : SparseFactor::Implementation
+{
+   Eigen::MatrixXd trailing_factor() const override
+   {
+      Eigen::MatrixXd L22 = Eigen::MatrixXd::Zero(trailing, trailing);
+      static_cast<const Factor *>(this)->visit_trailing(
+         [&](const TrailingColumn &of) {
+            of.visit_rows([&](int row, double value) { L22(row, of.column) = value; });
+         });
+      return L22;
+   }
+   Eigen::VectorXd trailing_product(const Eigen::VectorXd &x) const override
+   {
+      Eigen::VectorXd half(x.size()), whole = Eigen::VectorXd::Zero(x.size());
+      const auto *self = static_cast<const Factor *>(this);
+      self->visit_trailing([&](const TrailingColumn &of) { half[of.column] = of.dot(x); });
+      self->visit_trailing([&](const TrailingColumn &of) { of.add_to(whole, half[of.column]); });
+      return whole;
+   }
+};
+
 /// Eigen's simplicial factor in the order AMD of the interior, then the trailing rows.
-class EigenFactor : public SparseFactor::Implementation
+class EigenFactor : public ByColumns<EigenFactor>
 {
    using Sparse = Eigen::SparseMatrix<double>;
    using Natural = Eigen::NaturalOrdering<int>;
@@ -189,21 +246,24 @@ public:
       }
    }
 
-   Eigen::MatrixXd trailing_factor(std::vector<int> &order) const override
+   std::vector<int> trailing_order() const override
    {
-      order.resize(trailing);
+      std::vector<int> order(trailing);
       std::iota(order.begin(), order.end(), 0);
+      return order;
+   }
+   template <class Visitor>
+   void visit_trailing(Visitor visit) const
+   {
       const int interior = size - trailing;
-      Eigen::MatrixXd L22 = Eigen::MatrixXd::Zero(trailing, trailing);
       const Sparse &L = llt_.matrixL().nestedExpression();
       for (int c = 0; c < trailing; ++c)
       {
-         for (Sparse::InnerIterator entry(L, interior + c); entry; ++entry)
-         {
-            if (entry.row() >= interior + c) { L22(entry.row() - interior, c) = entry.value(); }
-         }
+         const int first = L.outerIndexPtr()[interior + c],
+                   end = L.outerIndexPtr()[interior + c + 1];
+         visit(TrailingColumn{c, end - first, L.innerIndexPtr() + first, interior,
+                              L.valuePtr() + first});
       }
-      return L22;
    }
 
    Eigen::MatrixXd solve(const Eigen::MatrixXd &rhs) const override
@@ -256,7 +316,7 @@ public:
 };
 
 /// CHOLMOD's supernodal factor in a constrained minimum degree order (CAMD).
-class CholmodFactor : public SparseFactor::Implementation
+class CholmodFactor : public ByColumns<CholmodFactor>
 {
    mutable cholmod_common common_; // CHOLMOD's workspace: solves write to it
    cholmod_factor *L_ = nullptr;
@@ -323,23 +383,27 @@ public:
    CholmodFactor(const CholmodFactor &) = delete;
    CholmodFactor &operator=(const CholmodFactor &) = delete;
 
-   Eigen::MatrixXd trailing_factor(std::vector<int> &order) const override
+   std::vector<int> trailing_order() const override
+   {
+      const auto *permutation = static_cast<const int *>(L_->Perm);
+      const int interior = size - trailing;
+      std::vector<int> order(trailing);
+      for (int k = 0; k < trailing; ++k) { order[k] = permutation[interior + k] - interior; }
+      if (trailing > 0 && *std::min_element(order.begin(), order.end()) < 0)
+      {
+         throw std::logic_error("sparse factor: the trailing rows were not ordered last");
+      }
+      return order;
+   }
+   template <class Visitor>
+   void visit_trailing(Visitor visit) const
    {
       const auto *super = static_cast<const int *>(L_->super);
       const auto *pi = static_cast<const int *>(L_->pi);
       const auto *px = static_cast<const int *>(L_->px);
       const auto *s = static_cast<const int *>(L_->s);
       const auto *x = static_cast<const double *>(L_->x);
-      const auto *permutation = static_cast<const int *>(L_->Perm);
       const int interior = size - trailing;
-      order.resize(trailing);
-      for (int k = 0; k < trailing; ++k) { order[k] = permutation[interior + k] - interior; }
-      if (trailing > 0 && *std::min_element(order.begin(), order.end()) < 0)
-      {
-         throw std::logic_error("sparse factor: the trailing rows were not ordered last");
-      }
-
-      Eigen::MatrixXd L22 = Eigen::MatrixXd::Zero(trailing, trailing);
       for (int k = static_cast<int>(L_->nsuper) - 1; k >= 0 && super[k + 1] > interior; --k)
       {
          const int rows = pi[k + 1] - pi[k];
@@ -348,13 +412,11 @@ public:
          for (int c = std::max(super[k], interior); c < super[k + 1]; ++c)
          {
             const double *column = x + px[k] + static_cast<std::ptrdiff_t>(c - super[k]) * rows;
-            for (int r = c - super[k]; r < rows; ++r)
-            {
-               L22(s[pi[k] + r] - interior, c - interior) = column[r];
-            }
+            const int diagonal = c - super[k];
+            visit(TrailingColumn{c - interior, rows - diagonal, s + pi[k] + diagonal, interior,
+                                 column + diagonal});
          }
       }
-      return L22;
    }
 
    Eigen::MatrixXd solve(const Eigen::MatrixXd &rhs) const override
@@ -419,8 +481,8 @@ SparseFactor::~SparseFactor() = default;
 
 Eigen::MatrixXd SparseFactor::schur() const
 {
-   std::vector<int> order;
-   const Eigen::MatrixXd permuted = times_own_transpose(impl_->trailing_factor(order));
+   const std::vector<int> order = impl_->trailing_order();
+   const Eigen::MatrixXd permuted = times_own_transpose(impl_->trailing_factor());
    Eigen::MatrixXd S(permuted.rows(), permuted.cols());
    for (Eigen::Index j = 0; j < S.cols(); ++j)
    {
@@ -429,6 +491,17 @@ Eigen::MatrixXd SparseFactor::schur() const
    }
    S.diagonal().array() -= impl_->shift;
    return S;
+}
+
+Eigen::MatrixXd SparseFactor::push(const Eigen::MatrixXd &x) const
+{
+   const std::vector<int> order = impl_->trailing_order();
+   Eigen::MatrixXd forces(x.rows(), x.cols());
+   for (Eigen::Index k = 0; k < x.cols(); ++k)
+   {
+      forces(order, k) = impl_->trailing_product(x(order, k));
+   }
+   return forces;
 }
 
 Eigen::MatrixXd SparseFactor::solve(const Eigen::MatrixXd &rhs) const

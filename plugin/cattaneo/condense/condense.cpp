@@ -20,7 +20,6 @@ struct FactoredStiffness
    int contact = 0;        ///< number of contact dofs
    double shift = 0.0;
    std::unique_ptr<SparseFactor> factor;
-   Eigen::MatrixXd S;
 
    int interior() const { return static_cast<int>(keep.size()) - contact; }
    bool stands_for(const AssembledBody &body, const std::vector<int> &contact_dofs) const
@@ -48,7 +47,7 @@ public:
       const Eigen::VectorXd moved = displacements - contact * multipliers;
       Eigen::VectorXd rhs(of.keep.size());
       rhs.head(of.interior()) = interior * multipliers;
-      rhs.tail(of.contact) = of.S * moved + of.shift * moved;
+      rhs.tail(of.contact) = of.factor->push(moved);
       Eigen::VectorXd U = of.factor->solve(rhs);
       U.tail(of.contact) = displacements; // what was put in comes out to the last bit
       Eigen::VectorXd field = Eigen::VectorXd::Zero(of.K.size());
@@ -61,7 +60,7 @@ public:
    {
       const FactoredStiffness &of = *stiffness;
       counters.back_substitutions += 6;
-      return stiffness_error(of.K, of.keep, of.contact, of.shift, *of.factor, of.S, S, motions);
+      return stiffness_error(of.K, of.keep, of.contact, *of.factor, S, motions);
    }
 };
 
@@ -101,7 +100,6 @@ std::shared_ptr<const FactoredStiffness> factored(const AssembledBody &body,
               places.x[error.row], ", ", places.y[error.row],
               "), it must be for every motion that leaves the supports at rest");
    }
-   made->S = made->factor->schur();
    return made;
 }
 
@@ -169,7 +167,7 @@ ClampedLoads clamp(const AssembledBody &body, FactorSolver &solver, Counters &co
    solver.contact = U.bottomRows(of.contact);
    // With springs on the contact nodes instead of clamps: K_CI K_II⁻¹ r = -(S + shift) U_C,
    // and r'ᵀ K_II⁻¹ r = r'ᵀ U_I - U'_Cᵀ (S + shift) U_C.
-   const Eigen::MatrixXd released = of.S * solver.contact + of.shift * solver.contact;
+   const Eigen::MatrixXd released = of.factor->push(solver.contact);
    return {-released - at_contact,
            solver.interior.transpose() * U.topRows(interior) -
               solver.contact.transpose() * released,
@@ -250,7 +248,7 @@ Condensation condense_by_factor(const AssembledBody &body, const std::vector<int
       ++found.counters.factorisations;
    }
    found.clamped = clamp(body, *solver, found.counters);
-   found.S = solver->stiffness->S;
+   found.S = solver->stiffness->factor->schur();
    found.solver = std::move(solver);
    return found;
 }

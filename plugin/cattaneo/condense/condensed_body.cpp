@@ -52,7 +52,9 @@ double CondensedBody::error_estimate()
       motions.col(0).normalize();
    }
    const std::vector<int> free = free_positions();
-   return solver->error(back.both(S)(free, free), motions(free, Eigen::all), counters);
+   Eigen::MatrixXd stiffness = back.both(S);
+   if (!held.empty()) { stiffness = stiffness(free, free).eval(); }
+   return solver->error(stiffness, motions(free, Eigen::all), counters);
 }
 
 Eigen::MatrixXd CondensedBody::rigid_motions() const

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cattaneo/algebra/dense_algebra.hpp>
+#include <cattaneo/algebra/symmetric_matrix.hpp>
 #include <cattaneo/condense/free_motions.hpp>
 #include <cattaneo/input_error.hpp>
 
@@ -150,13 +151,7 @@ void Equilibrium::impose_on_forces(Eigen::MatrixXd &f) const
 
 void Equilibrium::impose_on_stiffness(Eigen::MatrixXd &S) const
 {
-   if (Q_.cols() == 0) { return; }
-   // S + Q W Qᵀ - Q (S Q)ᵀ - S Q Qᵀ with W = Qᵀ S Q, in two halves.
-   const Eigen::MatrixXd SQ = S * Q_;
-   const Eigen::MatrixXd half = 0.5 * Q_ * (Q_.transpose() * SQ) - SQ;
-   S.noalias() += half * Q_.transpose();
-   S.noalias() += Q_ * half.transpose();
-   S = (0.5 * (S + S.transpose())).eval();
+   if (Q_.cols() > 0) { remove_motions(S, Q_); }
 }
 
 } // namespace cattaneo

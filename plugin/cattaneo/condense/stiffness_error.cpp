@@ -50,7 +50,8 @@ StiffnessProbes::StiffnessProbes(const MatrixXd &S, const MatrixXd &motions) : Q
    MatrixXd held = S;
    if (Q_.cols() > 0)
    {
-      held += (S.trace() / static_cast<double>(S.rows())) * Q_ * Q_.transpose();
+      held.selfadjointView<Eigen::Lower>().rankUpdate(
+         Q_, S.trace() / static_cast<double>(S.rows()));
    }
    if (!factor_.compute(std::move(held))) { return; }
    u_ = normal(S.rows(), probes);
@@ -70,16 +71,14 @@ double StiffnessProbes::bound(MatrixXd differences) const
 }
 
 double stiffness_error(const SharedMatrix &stiffness, const std::vector<int> &keep, int contact,
-                       double shift, const SparseFactor &factor, const MatrixXd &factored,
-                       const MatrixXd &S, const MatrixXd &motions)
+                       const SparseFactor &factor, const MatrixXd &S, const MatrixXd &motions)
 {
    const StiffnessProbes probe(S, motions);
    const MatrixXd &u = probe.motions();
    if (u.size() == 0) { return std::numeric_limits<double>::infinity(); }
    const auto size = static_cast<Index>(keep.size()), interior = size - contact;
-   const auto pushed = [&](const MatrixXd &x) -> MatrixXd { return factored * x + shift * x; };
    MatrixXd rhs = MatrixXd::Zero(size, probes);
-   rhs.bottomRows(contact) = pushed(u);
+   rhs.bottomRows(contact) = factor.push(u);
    const MatrixXd W = factor.solve(rhs); // its contact part is what is probed, u but for errors
 
    // K W in extended precision, and (δK) W.
@@ -111,10 +110,15 @@ double stiffness_error(const SharedMatrix &stiffness, const std::vector<int> &ke
    // factor to {r; 0}.
    MatrixXd rest = MatrixXd::Zero(size, probes);
    rest.topRows(interior) = force.topRows(interior).cast<double>() - change.topRows(interior);
-   const MatrixXd through = pushed(factor.solve(rest).bottomRows(contact));
+   const MatrixXd through = factor.push(factor.solve(rest).bottomRows(contact));
    const Extended moved = W.bottomRows(contact).cast<long double>();
-   const Extended difference = S.cast<long double>() * moved - force.bottomRows(contact) +
-                               (change.bottomRows(contact) - through).cast<long double>();
+   Extended difference = (change.bottomRows(contact) - through).cast<long double>() -
+                         force.bottomRows(contact);
+   for (Index i = 0; i < contact; ++i) // a column at a time: S is symmetric
+   {
+      difference.row(i) +=
+         S.col(i).cast<long double>().transpose().lazyProduct(moved);
+   }
    return probe.bound(difference.cast<double>());
 }
 

@@ -112,7 +112,7 @@ IncrementReport solve_whole(FrictionSystem &system, ContactState &state,
    std::unique_ptr<FrictionSystem> &whole = system.slippery;
    if (!whole)
    {
-      whole = std::make_unique<FrictionSystem>(system.problem, system.settings, true);
+      whole = std::make_unique<FrictionSystem>(system.shared, system.settings, true);
       system.counters += whole->counters;
    }
    const Counters before = whole->counters;
@@ -229,7 +229,13 @@ IncrementReport FrictionSystem::solve(ContactState &state, const VectorXd &multi
 }
 
 FrictionSolver::FrictionSolver(const ReducedProblem &problem, const FrictionSettings &settings)
-   : system_(std::make_unique<FrictionSystem>(problem, settings))
+   : own_(std::make_shared<ReducedProblem>(problem)),
+     system_(std::make_unique<FrictionSystem>(own_, settings))
+{
+}
+FrictionSolver::FrictionSolver(std::shared_ptr<const ReducedProblem> problem,
+                               const FrictionSettings &settings)
+   : system_(std::make_unique<FrictionSystem>(std::move(problem), settings))
 {
 }
 FrictionSolver::~FrictionSolver() = default;
@@ -259,7 +265,14 @@ void FrictionSolver::set_gap(const VectorXd &gap)
    require(gap.size() == problem().nodes() && gap.allFinite(), "friction solver: a gap of ",
            gap.size(), " entries for ", problem().nodes(),
            " contact nodes, must be one finite number for each");
-   system_->problem.gap = gap;
+   if (!own_)
+   {
+      own_ = std::make_shared<ReducedProblem>(problem());
+      const Counters before = counters();
+      system_ = std::make_unique<FrictionSystem>(own_, system_->settings);
+      system_->counters += before;
+   }
+   own_->gap = gap;
    // These have copies of the problem.
    system_->smooth.reset();
    system_->slippery.reset();

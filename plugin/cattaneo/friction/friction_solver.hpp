@@ -82,9 +82,13 @@ struct IncrementReport
 class FrictionSolver
 {
 public:
-   /// Validates both. The problem is copied where needed; friction zero at all nodes removes
-   /// the tangential unknowns once and for all.
+   /// Validates both. The problem is copied; friction zero at all nodes removes the tangential
+   /// unknowns once and for all.
    FrictionSolver(const ReducedProblem &problem, const FrictionSettings &settings = {});
+   /// The same of a problem that is shared, not copied, and must stay as it is: a stiffness of
+   /// thousands of nodes fills memory.
+   FrictionSolver(std::shared_ptr<const ReducedProblem> problem,
+                  const FrictionSettings &settings = {});
    ~FrictionSolver();
    /// Solvers can be moved, not copied.
    FrictionSolver(FrictionSolver &&) noexcept;
@@ -110,6 +114,7 @@ public:
    const Counters &counters() const;
 
 private:
+   std::shared_ptr<ReducedProblem> own_; ///< none if it is shared
    std::unique_ptr<FrictionSystem> system_;
 };
 

@@ -27,9 +27,9 @@ VectorXd node_lengths(const ReducedProblem &problem)
    return known ? problem.weights : VectorXd::Ones(problem.nodes());
 }
 
-FrictionSystem::FrictionSystem(const ReducedProblem &given, const FrictionSettings &chosen,
-                               bool tangential_unknowns)
-   : problem(valid(given)), settings(chosen), n(problem.nodes()),
+FrictionSystem::FrictionSystem(std::shared_ptr<const ReducedProblem> given,
+                               const FrictionSettings &chosen, bool tangential_unknowns)
+   : shared(std::move(given)), problem(valid(*shared)), settings(chosen), n(problem.nodes()),
      frictionless(problem.components() == 0 ||
                   (problem.friction.maxCoeff() == 0 && !tangential_unknowns)),
      K(frictionless ? normal : problem.K)

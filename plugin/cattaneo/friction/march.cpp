@@ -536,7 +536,8 @@ MarchReport march(const ReducedProblem &problem, const LoadHistory &history,
                   ContactState &state, const MarchSettings &settings,
                   const MarchObserver &observer)
 {
-   FrictionSolver solver(problem, settings.friction);
+   const std::shared_ptr<const ReducedProblem> lent(std::shared_ptr<void>(), &problem);
+   FrictionSolver solver(lent, settings.friction);
    const Counters made = solver.counters();
    MarchReport report = march(solver, history, state, settings, observer);
    report.counters += made;

@@ -53,7 +53,7 @@ bool drifts(Increment &at)
       held.rigid_motions = MatrixXd(along + n, 0);
       held.chains.clear();
       held.held.clear();
-      FrictionSystem solver(held, s.settings);
+      FrictionSystem solver(std::make_shared<ReducedProblem>(std::move(held)), s.settings);
       solver.brief = true;
       ContactState next = begin;
       const IncrementReport report = solver.solve(next, loads);

@@ -87,7 +87,8 @@ public:
    std::vector<Index> sizes; ///< of each body's S
 
    explicit BodiesUnion(RelativeDisplacement relative) : map(std::move(relative)) {}
-   VectorXd own(int b, const VectorXd &relative, const VectorXd &multipliers) const override
+   VectorXd own(const std::vector<CondensedBody> &, int b, const VectorXd &relative,
+                const VectorXd &multipliers) const override
    {
       // Motions of an obstacle, which come later, do not load the bodies.
       VectorXd z(minimum.unknowns());
@@ -318,11 +319,12 @@ public:
    std::vector<int> free;     ///< rows {v; w} of those that are not
    MatrixXd stiffness, loads; ///< forces on the tied ones
 
-   VectorXd own(int b, const VectorXd &relative, const VectorXd &multipliers) const override
+   VectorXd own(const std::vector<CondensedBody> &bodies, int b, const VectorXd &relative,
+                const VectorXd &multipliers) const override
    {
       VectorXd u = VectorXd::Zero(relative.size() + stiffness.rows());
       u(free) = relative;
-      return all->own(b, u, multipliers);
+      return all->own(bodies, b, u, multipliers);
    }
    VectorXd tied(const VectorXd &relative, const VectorXd &multipliers) const override
    {

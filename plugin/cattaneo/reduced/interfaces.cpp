@@ -763,7 +763,7 @@ Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface>
    const Block block = united(result.bodies, *rows, result.pattern_, problem.patterns);
    result.union_ = block.way_back;
    result.rows_ = std::move(rows);
-   take(block, problem);
+   take(std::move(block), problem);
    problem.weights = problem.arc_length = Eigen::VectorXd::Zero(n);
    problem.position.resize(n, 2);
    problem.dofs = Eigen::MatrixXi::Constant(n, 2 * count, -1);

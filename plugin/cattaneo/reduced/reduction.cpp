@@ -8,7 +8,7 @@ namespace cattaneo
 namespace
 {
 
-InterfaceReport fill(ReducedProblem &problem, const Block &block, const ContactLine &line)
+InterfaceReport fill(ReducedProblem &problem, Block block, const ContactLine &line)
 {
    const Eigen::Index n = line.size();
    InterfaceReport report;
@@ -28,7 +28,7 @@ InterfaceReport fill(ReducedProblem &problem, const Block &block, const ContactL
               " is fixed normal to the line, it must be able to open: the contact line must "
               "end before it");
    }
-   take(block, problem);
+   take(std::move(block), problem);
    // A rigid obstacle is known where the line is, and taken to go on.
    for (const LineChain &chain : line.chains)
    {
@@ -111,11 +111,10 @@ Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairin
    const CondensedBody &first = result.bodies[0], &second = result.bodies[1];
    ReducedProblem &problem = result.problem;
    result.pattern_ = join(result.bodies, problem.patterns);
-   const Block block =
-      united(first, second, pairing.partner, result.pattern_, problem.patterns);
+   Block block = united(first, second, pairing.partner, result.pattern_, problem.patterns);
    result.union_ = block.way_back;
    result.partner_ = pairing.partner;
-   result.interfaces = {fill(problem, block, first.line)};
+   result.interfaces = {fill(problem, std::move(block), first.line)};
    result.interfaces[0].bodies = {0, 1};
    result.interfaces[0].matching = true;
    result.interfaces[0].acts_at[1] =
@@ -170,7 +169,7 @@ Eigen::VectorXd Reduction::displacement(int b, const Eigen::VectorXd &v,
    if (obstacle_.size() > 0) { moved += obstacle_ * multipliers; }
    u << moved.head(n), moved.tail(n);
    const Eigen::VectorXd loads = acting(moved, multipliers);
-   if (union_) { u = union_->own(b, u, loads); }
+   if (union_) { u = union_->own(bodies, b, u, loads); }
    return recover(bodies[b], u, pattern_[b], loads);
 }
 
@@ -210,7 +209,7 @@ Eigen::VectorXd Reduction::twist(int b, const Eigen::VectorXd &v,
    require(shanks_.empty(), "twist: of a reduction with shanks, must be without");
    Eigen::VectorXd u = v.tail(n);
    if (obstacle_.size() > 0) { u += (obstacle_ * multipliers).segment(n, n); }
-   if (torsion_union_) { u = torsion_union_->own(b, u, multipliers); }
+   if (torsion_union_) { u = torsion_union_->own(torsion, b, u, multipliers); }
    return recover(torsion[b], u, torsion_pattern_[b], multipliers);
 }
 

@@ -133,8 +133,10 @@ public:
    {
    public:
       virtual ~Union() = default;
-      /// Contact displacements of body `b` in its own order and frames.
-      virtual Eigen::VectorXd own(int b, const Eigen::VectorXd &relative,
+      /// Contact displacements of body `b` of those that were united, in its own order and
+      /// frames.
+      virtual Eigen::VectorXd own(const std::vector<CondensedBody> &bodies, int b,
+                                  const Eigen::VectorXd &relative,
                                   const Eigen::VectorXd &multipliers) const = 0;
       /// Forces {q; p} of tied nodes.
       virtual Eigen::VectorXd tied(const Eigen::VectorXd &, const Eigen::VectorXd &) const

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cattaneo/algebra/dense_algebra.hpp>
+#include <cattaneo/algebra/symmetric_matrix.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/union.hpp>
 #include <cmath>
@@ -18,18 +19,29 @@ std::vector<int> PairUnion::order(Eigen::Index rows) const
    return result;
 }
 
-Eigen::VectorXd PairUnion::own(int b, const Eigen::VectorXd &relative,
+/// From the order and frames of body 1, in the opposite sense.
+Eigen::VectorXd PairUnion::to_second(const Eigen::VectorXd &u) const
+{
+   Eigen::VectorXd own(u.size());
+   own(order(u.size())) = frames.transposed().rows(u);
+   return own;
+}
+
+Eigen::VectorXd PairUnion::own(const std::vector<CondensedBody> &bodies, int b,
+                               const Eigen::VectorXd &relative,
                                const Eigen::VectorXd &multipliers) const
 {
-   Eigen::VectorXd u1 = pull * relative - difference * multipliers.head(difference.cols());
+   // The forces of pull() and of the loads.
+   Eigen::VectorXd moved = relative;
+   moved(held2).setZero();
+   const Eigen::VectorXd forces = bodies[1].S * to_second(moved);
+   Eigen::VectorXd u1 = frames.rows(forces(order(relative.size()))) -
+                        of_held * relative(held2) -
+                        difference * multipliers.head(difference.cols());
+   for (const std::vector<int> *held : {&held1, &held2}) { u1(*held).setZero(); }
    sum.solve(u1);
    u1(held2) = relative(held2);
-   if (b == 0) { return u1; }
-   const Eigen::VectorXd turned = frames.transposed().rows(relative - u1);
-   const std::vector<int> places = order(u1.size());
-   Eigen::VectorXd u2(u1.size());
-   for (Eigen::Index k = 0; k < u2.size(); ++k) { u2[places[k]] = turned[k]; }
-   return u2;
+   return b == 0 ? u1 : to_second(relative - u1);
 }
 
 Reduction::PatternIndex join(const std::vector<CondensedBody> &bodies,
@@ -133,23 +145,19 @@ bool mirrored(const Eigen::MatrixXd &S1, const Eigen::MatrixXd &S2, Eigen::Index
     body b alone. With F the rows that both are free to move in, and body a's displacement on F
     eliminated: K = [S_a + (S_b of what a holds)] - pullᵀ (S1 + S2)_F⁻¹ pull, pull the rows F of
     S_a - S_b (columns that a holds). Either body may be a. Where nothing is held pull is S_a.
- */
-Eigen::MatrixXd pull(const Eigen::MatrixXd &Sa, const Eigen::MatrixXd &Sb,
+    Of S_b no more is asked for than the columns that a holds. */
+Eigen::MatrixXd pull(Eigen::MatrixXd Sa, const Eigen::MatrixXd &columns_b,
                      const std::vector<int> &held_a, const std::vector<int> &held_b)
 {
-   Eigen::MatrixXd result = Sa;
-   for (int row : held_a) { result.col(row) = -Sb.col(row); }
-   for (int row : held_a) { result.row(row).setZero(); }
-   for (int row : held_b) { result.row(row).setZero(); }
-   return result;
+   Sa(Eigen::all, held_a) = -columns_b;
+   for (int row : held_a) { Sa.row(row).setZero(); }
+   for (int row : held_b) { Sa.row(row).setZero(); }
+   return Sa;
 }
-Eigen::MatrixXd with_those_of(const Eigen::MatrixXd &Sb, Eigen::MatrixXd Sa,
+Eigen::MatrixXd with_those_of(const Eigen::MatrixXd &columns_b, Eigen::MatrixXd Sa,
                               const std::vector<int> &held_a)
 {
-   for (int row : held_a)
-   {
-      for (int column : held_a) { Sa(row, column) = Sb(row, column); }
-   }
+   Sa(held_a, held_a) = columns_b(held_a, Eigen::all);
    return Sa;
 }
 
@@ -193,11 +201,11 @@ Block alone(const CondensedBody &body, const std::vector<int> &index, Eigen::Ind
    return block;
 }
 
-void take(const Block &block, ReducedProblem &problem)
+void take(Block block, ReducedProblem &problem)
 {
    const Eigen::Index n = block.S.rows() / 2;
    problem.gap = problem.friction = Eigen::VectorXd::Zero(n);
-   problem.K = block.S;
+   problem.K = std::move(block.S);
    problem.H = block.H;
    problem.rigid_motions = block.motions;
    for (int row : block.held)
@@ -237,16 +245,21 @@ Block united(const CondensedBody &first, const CondensedBody &second,
       require(frames.d[i] > 0, "reduce: the bodies do not face each other at the contact node ",
               node.position);
    }
-   const std::vector<int> order = shared->order(size), &held1 = first.held;
+   const std::vector<int> order = shared->order(size), &held1 = shared->held1 = first.held;
    const std::vector<int> &held2 = shared->held2 = held_by_second(first, second, order, frames);
-   const Eigen::MatrixXd S2 = frames.both(second.S(order, order));
+   // Made where it is needed, not kept: of so large matrices there should be few at a time.
+   const auto second_stiffness = [&] { return frames.both(second.S(order, order)); };
    const Eigen::MatrixXd forces = clamped_forces(second, index[1], count);
    const Eigen::MatrixXd f2 = frames.rows(forces(order, Eigen::all));
 
    const Eigen::MatrixXd &S1 = first.S;
    const Eigen::MatrixXd f1 = clamped_forces(first, index[0], count);
    shared->difference = f1 - f2;
-   Eigen::MatrixXd sum = S1 + S2;
+   shared->of_held = S1(Eigen::all, held2);
+   Eigen::MatrixXd sum = second_stiffness();
+   const Eigen::MatrixXd of_held1 = sum(Eigen::all, held1); // columns of S2
+   const bool images = mirrored(S1, sum, n), softer1 = S1.trace() <= sum.trace();
+   sum += S1;
    const double own = sum.diagonal().mean();
    for (const std::vector<int> *held : {&held1, &held2})
    {
@@ -266,7 +279,7 @@ Block united(const CondensedBody &first, const CondensedBody &second,
       balance(Z, shared->difference, scale, patterns,
               first.name.empty() ? "both bodies"
                                  : "body '" + first.name + "' and body '" + second.name + "'");
-      sum.noalias() += sum.diagonal().mean() * Z * Z.transpose();
+      sum.selfadjointView<Eigen::Lower>().rankUpdate(Z, sum.diagonal().mean());
    }
    require(shared->sum.compute(std::move(sum)),
            "reduce: the sum of the two condensed stiffnesses is not positive definite: the "
@@ -276,16 +289,18 @@ Block united(const CondensedBody &first, const CondensedBody &second,
    // bodies exchanged. From the softer one less is taken away, so that few digits are lost; but
    // a free one's rigid motions stay without forces only if one begins with it.
    const Eigen::Index free1 = first.free_motions.cols(), free2 = second.free_motions.cols();
-   const bool by_first = free1 != free2 ? free1 > free2 : S1.trace() <= S2.trace();
-   shared->pull = pull(S2, S1, held2, held1);
-   Eigen::MatrixXd Y = by_first ? pull(S1, S2, held1, held2) : shared->pull,
+   const bool by_first = free1 != free2 ? free1 > free2 : softer1;
+   Eigen::MatrixXd Y = by_first ? pull(S1, of_held1, held1, held2)
+                                : pull(second_stiffness(), shared->of_held, held2, held1),
                    D = shared->difference;
    Eigen::MatrixXd f = by_first ? f1 : f2;
    for (int row : by_first ? held1 : held2) { f.row(row) = (by_first ? f2 : f1).row(row); }
    shared->sum.solve_half(Y);
    shared->sum.solve_half(D);
    Block block{
-      minus_square(by_first ? with_those_of(S2, S1, held1) : with_those_of(S1, S2, held2), Y),
+      minus_square(by_first ? with_those_of(of_held1, S1, held1)
+                            : with_those_of(shared->of_held, second_stiffness(), held2),
+                   Y),
       f + (by_first ? -1.0 : 1.0) * Y.transpose() * D,
       Eigen::MatrixXd::Zero(count, count),
       {},
@@ -298,11 +313,7 @@ Block united(const CondensedBody &first, const CondensedBody &second,
    const auto release = [&](const Eigen::MatrixXd &Q, const Eigen::MatrixXd &loads)
    {
       if (Q.cols() == 0) { return; }
-      const Eigen::MatrixXd rows = Q.transpose() * block.S;
-      block.S.noalias() -= Q * rows;
-      const Eigen::MatrixXd columns = block.S * Q;
-      block.S.noalias() -= columns * Q.transpose();
-      block.S.triangularView<Eigen::StrictlyUpper>() = block.S.transpose();
+      remove_motions(block.S, Q);
       block.f -= Q * (Q.transpose() * (block.f - loads));
    };
    release(first.free_motions, f1);
@@ -315,7 +326,7 @@ Block united(const CondensedBody &first, const CondensedBody &second,
       block.f.row(row).setZero();
       block.motions.row(row).setZero();
    }
-   if (mirrored(S1, S2, n))
+   if (images)
    {
       block.S.bottomLeftCorner(n, n).setZero();
       block.S.topRightCorner(n, n).setZero();

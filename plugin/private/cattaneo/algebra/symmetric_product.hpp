@@ -5,8 +5,8 @@
 namespace cattaneo
 {
 
-/// Products K x. Half of K is read if it is symmetric to the last bit and there is LAPACK:
-/// these products take as long as memory does.
+/// Products K x. Half of K is read if it is symmetric to the last bit: these products take as
+/// long as memory does.
 class SymmetricProduct
 {
 public:
@@ -16,7 +16,7 @@ public:
 
 private:
    const Eigen::Ref<const Eigen::MatrixXd> K_;
-   bool half_ = false;
+   const bool half_;
 };
 
 } // namespace cattaneo

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <cattaneo/algebra/symmetric_matrix.hpp>
 #include <cattaneo/condense/contact_line.hpp>
 #include <cmath>
 
@@ -51,19 +52,14 @@ struct FrameChange
       // Flat lines along the first axis, either way, have R = ±1.
       const bool flat = b.size() > 0 && b.isZero(0) && c.isZero(0) && std::abs(a[0]) == 1 &&
                         (a.array() == a[0]).all() && (d.array() == a[0]).all();
-      if (!flat) { M = rows(M); }
-      for (Eigen::Index j = 0; j < n && !flat; ++j)
+      if (b.size() == 0) { M = a.asDiagonal() * M * a.asDiagonal(); }
+      for (Eigen::Index i = 0; i < n && b.size() > 0 && !flat; ++i) // two columns a node
       {
-         if (b.size() == 0)
-         {
-            M.col(j) *= a[j];
-            continue;
-         }
-         const Eigen::VectorXd x = M.col(j), y = M.col(n + j);
-         M.col(j) = a[j] * x + b[j] * y;
-         M.col(n + j) = c[j] * x + d[j] * y;
+         const Eigen::VectorXd x = M.col(i), y = M.col(n + i);
+         M.col(i) = rows(a[i] * x + b[i] * y);
+         M.col(n + i) = rows(c[i] * x + d[i] * y);
       }
-      M.triangularView<Eigen::StrictlyLower>() = M.transpose();
+      mirror_lower(M);
       return M;
    }
 };

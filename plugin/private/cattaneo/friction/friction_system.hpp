@@ -41,11 +41,12 @@ struct FrictionSystem
    };
 
    /// `tangential_unknowns`: also without friction.
-   FrictionSystem(const ReducedProblem &given, const FrictionSettings &chosen,
+   FrictionSystem(std::shared_ptr<const ReducedProblem> given, const FrictionSettings &chosen,
                   bool tangential_unknowns = false);
    FrictionSystem(const FrictionSystem &) = delete;
 
-   ReducedProblem problem;
+   const std::shared_ptr<const ReducedProblem> shared; ///< with others who solve it
+   const ReducedProblem &problem;
    FrictionSettings settings;
    Counters counters;
 

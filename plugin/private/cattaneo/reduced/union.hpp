@@ -12,16 +12,20 @@ class PairUnion : public Reduction::Union
 {
 public:
    DenseCholesky sum;    ///< of S1 + S2 (+ springs on common rigid motions) where both are free
-   Eigen::MatrixXd pull; ///< S2 in the order of body 1 and the opposite frames, see pull()
    Eigen::MatrixXd difference; ///< f1 - f2 of each pattern
-   std::vector<int> held2;     ///< rows that body 2 holds: body 1 alone moves there
+   std::vector<int> held1, held2; ///< rows that a body holds: the other alone moves there
+   Eigen::MatrixXd of_held;       ///< columns of S1 that body 2 holds
    std::vector<int> partner;
    FrameChange frames; ///< from body 2's own frames (in the order of body 1)
 
    /// Where body 2 has the rows of body 1's order.
    std::vector<int> order(Eigen::Index rows) const;
-   Eigen::VectorXd own(int b, const Eigen::VectorXd &relative,
+   Eigen::VectorXd own(const std::vector<CondensedBody> &bodies, int b,
+                       const Eigen::VectorXd &relative,
                        const Eigen::VectorXd &multipliers) const override;
+
+private:
+   Eigen::VectorXd to_second(const Eigen::VectorXd &u) const;
 };
 
 /// One or two bodies on relative displacements: f = S u + Σ λ_k f_k.
@@ -54,7 +58,7 @@ void balance(const Eigen::MatrixXd &motions, Eigen::MatrixXd &forces,
 
 /// Stiffness, loads, motions and held components of a reduced problem of two components a node,
 /// without gaps and friction.
-void take(const Block &block, ReducedProblem &problem);
+void take(Block block, ReducedProblem &problem);
 
 /// Two bodies, by the formulas of reduce().
 Block united(const CondensedBody &first, const CondensedBody &second,

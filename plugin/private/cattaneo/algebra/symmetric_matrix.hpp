@@ -1,0 +1,26 @@
+#pragma once
+
+#include <Eigen/Core>
+
+/// Passes over large matrices and their transposes, a block at a time: entry by entry one of the
+/// two would be read across its columns, which takes several times as long.
+namespace cattaneo
+{
+
+/// The upper triangle becomes that of the lower one.
+void mirror_lower(Eigen::Ref<Eigen::MatrixXd> M);
+
+/// Largest |A - Bᵀ|, NaN if one of the differences is; 0 without entries. Two matrices may be
+/// one.
+double largest_skew(const Eigen::Ref<const Eigen::MatrixXd> &A,
+                    const Eigen::Ref<const Eigen::MatrixXd> &B);
+
+/// S X for a symmetric S, of which the lower triangle is read, and few columns.
+Eigen::MatrixXd symmetric_times(const Eigen::Ref<const Eigen::MatrixXd> &S,
+                                const Eigen::Ref<const Eigen::MatrixXd> &X);
+
+/// (1 - Q Qᵀ) S (1 - Q Qᵀ) for a symmetric S and few orthonormal columns, symmetric to the last
+/// bit: the stiffness is freed of what round-off lets it resist these motions by.
+void remove_motions(Eigen::MatrixXd &S, const Eigen::MatrixXd &Q);
+
+} // namespace cattaneo
