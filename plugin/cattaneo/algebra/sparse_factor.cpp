@@ -149,7 +149,10 @@ struct TrailingColumn
    void add_to(Eigen::VectorXd &y, double times) const
    {
       if (dense()) { y.segment(rows[0] - first, count) += times * entries(); }
-      else { visit_rows([&](int row, double value) { y[row] += times * value; }); }
+      else
+      {
+         visit_rows([&](int row, double value) { y[row] += times * value; });
+      }
    }
 };
 
@@ -161,9 +164,8 @@ struct ByColumns : SparseFactor::Implementation
    {
       Eigen::MatrixXd L22 = Eigen::MatrixXd::Zero(trailing, trailing);
       static_cast<const Factor *>(this)->visit_trailing(
-         [&](const TrailingColumn &of) {
-            of.visit_rows([&](int row, double value) { L22(row, of.column) = value; });
-         });
+         [&](const TrailingColumn &of)
+         { of.visit_rows([&](int row, double value) { L22(row, of.column) = value; }); });
       return L22;
    }
    Eigen::VectorXd trailing_product(const Eigen::VectorXd &x) const override
@@ -171,7 +173,8 @@ struct ByColumns : SparseFactor::Implementation
       Eigen::VectorXd half(x.size()), whole = Eigen::VectorXd::Zero(x.size());
       const auto *self = static_cast<const Factor *>(this);
       self->visit_trailing([&](const TrailingColumn &of) { half[of.column] = of.dot(x); });
-      self->visit_trailing([&](const TrailingColumn &of) { of.add_to(whole, half[of.column]); });
+      self->visit_trailing([&](const TrailingColumn &of)
+                           { of.add_to(whole, half[of.column]); });
       return whole;
    }
 };

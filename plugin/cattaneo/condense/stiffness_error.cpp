@@ -50,8 +50,8 @@ StiffnessProbes::StiffnessProbes(const MatrixXd &S, const MatrixXd &motions) : Q
    MatrixXd held = S;
    if (Q_.cols() > 0)
    {
-      held.selfadjointView<Eigen::Lower>().rankUpdate(
-         Q_, S.trace() / static_cast<double>(S.rows()));
+      held.selfadjointView<Eigen::Lower>().rankUpdate(Q_, S.trace() /
+                                                             static_cast<double>(S.rows()));
    }
    if (!factor_.compute(std::move(held))) { return; }
    u_ = normal(S.rows(), probes);
@@ -112,12 +112,11 @@ double stiffness_error(const SharedMatrix &stiffness, const std::vector<int> &ke
    rest.topRows(interior) = force.topRows(interior).cast<double>() - change.topRows(interior);
    const MatrixXd through = factor.push(factor.solve(rest).bottomRows(contact));
    const Extended moved = W.bottomRows(contact).cast<long double>();
-   Extended difference = (change.bottomRows(contact) - through).cast<long double>() -
-                         force.bottomRows(contact);
+   Extended difference =
+      (change.bottomRows(contact) - through).cast<long double>() - force.bottomRows(contact);
    for (Index i = 0; i < contact; ++i) // a column at a time: S is symmetric
    {
-      difference.row(i) +=
-         S.col(i).cast<long double>().transpose().lazyProduct(moved);
+      difference.row(i) += S.col(i).cast<long double>().transpose().lazyProduct(moved);
    }
    return probe.bound(difference.cast<double>());
 }

@@ -1,4 +1,5 @@
-#include <cattaneo/algebra/dense_algebra.hpp>
+#include <cattaneo/algebra/dense_cholesky.hpp>
+#include <cattaneo/algebra/extreme_eigenvalues.hpp>
 #include <cattaneo/algebra/nonnegative_fit.hpp>
 #include <cattaneo/friction/critical_friction.hpp>
 #include <cattaneo/friction/mechanism.hpp>
@@ -62,20 +63,22 @@ double locking_friction(const ReducedProblem &problem)
 double uniqueness_bound(const ReducedProblem &problem)
 {
    if (!problem.coupled) { return infinity; }
+   // Nothing resists a rigid motion: C is singular, or what C leaves of A.
+   if (problem.rigid_motions.cols() > 0) { return 0; }
    const Index n = problem.nodes(), m = problem.slips();
    const VectorXd s = problem.C().diagonal().cwiseSqrt().cwiseInverse(),
                   st = s.replicate(m / n, 1);
    const MatrixXd C = s.asDiagonal() * problem.C() * s.asDiagonal();
-   const Eigen::LLT<MatrixXd> factor(C);
-   if (factor.info() != Eigen::Success || factor.rcond() < 1e-11) { return 0; }
+   const double of_C = largest_eigenvalue(C);
+   DenseCholesky factor;
+   if (smallest_eigenvalue(C) <= 1e-11 * of_C || !factor.compute(C)) { return 0; }
    MatrixXd X = s.asDiagonal() * problem.B() * st.asDiagonal();
-   factor.matrixL().solveInPlace(X);
-   const MatrixXd coupling = X.transpose() * X;
-   const MatrixXd rest = st.asDiagonal() * problem.A() * st.asDiagonal() - coupling;
-   const VectorXd of_rest = symmetric_eigenvalues(rest);
-   const double a = of_rest.minCoeff(), c = std::sqrt(symmetric_eigenvalues(C).maxCoeff()),
-                b = std::sqrt(symmetric_eigenvalues(coupling).maxCoeff());
-   if (a <= 1e-11 * of_rest.maxCoeff()) { return 0; }
+   factor.solve_half(X);
+   const MatrixXd coupling = -minus_square(MatrixXd::Zero(m, m), X),
+                  rest = st.asDiagonal() * problem.A() * st.asDiagonal() - coupling;
+   const double a = smallest_eigenvalue(rest), c = std::sqrt(of_C),
+                b = std::sqrt(largest_eigenvalue(coupling));
+   if (a <= 1e-11 * largest_eigenvalue(rest)) { return 0; }
    const double worst = std::min(b, std::sqrt(a));
    return (a + worst * worst) / (c * worst);
 }

@@ -48,7 +48,8 @@ struct CriticalFriction
    double unique_below = 0;
 };
 
-/// Validates the problem. Cost: three symmetric eigenvalue problems of its size.
+/// Validates the problem. Cost: with a coupled problem that has no rigid
+/// motions, some ten Cholesky factors of half its size.
 CriticalFriction critical_friction(const ReducedProblem &problem);
 
 /// Can the contact lock itself with the friction it has, the largest everywhere?

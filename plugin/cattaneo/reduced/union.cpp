@@ -297,15 +297,15 @@ Block united(const CondensedBody &first, const CondensedBody &second,
    for (int row : by_first ? held1 : held2) { f.row(row) = (by_first ? f2 : f1).row(row); }
    shared->sum.solve_half(Y);
    shared->sum.solve_half(D);
-   Block block{
-      minus_square(by_first ? with_those_of(of_held1, S1, held1)
-                            : with_those_of(shared->of_held, second_stiffness(), held2),
-                   Y),
-      f + (by_first ? -1.0 : 1.0) * Y.transpose() * D,
-      Eigen::MatrixXd::Zero(count, count),
-      {},
-      {},
-      nullptr};
+   Block block{minus_square(by_first
+                               ? with_those_of(of_held1, S1, held1)
+                               : with_those_of(shared->of_held, second_stiffness(), held2),
+                            Y),
+               f + (by_first ? -1.0 : 1.0) * Y.transpose() * D,
+               Eigen::MatrixXd::Zero(count, count),
+               {},
+               {},
+               nullptr};
    std::set_intersection(held1.begin(), held1.end(), held2.begin(), held2.end(),
                          std::back_inserter(block.held));
    // What moves freely relative to the other must do so to round-off of S, not of the stiffer,

@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
-/// Passes over large matrices and their transposes, a block at a time: entry by entry one of the
-/// two would be read across its columns, which takes several times as long.
+/// Passes over large matrices and their transposes, a block at a time: entry by entry one of
+/// the two would be read across its columns, which takes several times as long.
 namespace cattaneo
 {
 

@@ -45,7 +45,8 @@ private:
     - what K owes to its assembly in floating point: random changes of up to 2 ε √(K_ii K_jj) of
       every entry, seen at the contact.
 
-    @a keep, @a contact: as SparseFactor has them. Three right-hand sides are solved, twice, and a dense matrix of the size of S is factored. */
+    @a keep, @a contact: as SparseFactor has them. Three right-hand sides are solved, twice, and
+   a dense matrix of the size of S is factored. */
 double stiffness_error(const SharedMatrix &stiffness, const std::vector<int> &keep, int contact,
                        const SparseFactor &factor, const Eigen::MatrixXd &S,
                        const Eigen::MatrixXd &motions);

@@ -11,8 +11,8 @@ namespace cattaneo
 class PairUnion : public Reduction::Union
 {
 public:
-   DenseCholesky sum;    ///< of S1 + S2 (+ springs on common rigid motions) where both are free
-   Eigen::MatrixXd difference; ///< f1 - f2 of each pattern
+   DenseCholesky sum; ///< of S1 + S2 (+ springs on common rigid motions) where both are free
+   Eigen::MatrixXd difference;    ///< f1 - f2 of each pattern
    std::vector<int> held1, held2; ///< rows that a body holds: the other alone moves there
    Eigen::MatrixXd of_held;       ///< columns of S1 that body 2 holds
    std::vector<int> partner;
