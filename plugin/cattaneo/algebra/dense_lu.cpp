@@ -1,5 +1,6 @@
 #include <cattaneo/algebra/dense_lu.hpp>
 #include <cattaneo/algebra/lapack.hpp>
+#include <cattaneo/algebra/one_thread.hpp>
 #include <cmath>
 
 namespace cattaneo
@@ -38,6 +39,7 @@ bool DenseLU::compute(Eigen::MatrixXd matrix)
    const int n = static_cast<int>(factors_.rows());
    exchanges_.resize(n);
    int info = 0;
+   const OneThread alone(n);
    if (n > 0) { dgetrf_(&n, &n, factors_.data(), &n, exchanges_.data(), &info); }
    return info == 0 && pivot_ratio() > singular;
 }
