@@ -16,13 +16,26 @@ with open(os.path.join(HERE, "..", "docs", "reduced_problems.md"), encoding="utf
     exec(re.search(r"```python\n(.*?)```", f.read(), re.DOTALL).group(1))  # read_reduced
 
 
+def bounds(problem, way, p):
+    """What the friction of each node is bounded by at its normal force, for slip "forward" or "backward"."""
+    if not problem["laws"]:
+        return problem["friction"] * p
+    result = np.zeros(len(p))
+    for i, law in enumerate(problem["laws"]):
+        points = np.vstack([[0, 0], law[way]])
+        k = min(max(np.searchsorted(points[:, 0], p[i]), 1), len(points) - 1)  # of the piece's end
+        (p0, b0), (p1, b1) = points[k - 1:k + 1]
+        result[i] = b0 + (b1 - b0) / (p1 - p0) * (p[i] - p0)
+    return result
+
+
 def check(file):
     """Largest violation of each law over all increments: of forces over the largest clamped force (in
     equilibrium: over the largest sum of absolute terms), of lengths over the largest displacement or gap. A node in a wrong state violates the law of its state."""
     problem = read_reduced(file)
     with open(file.replace(".json", ".solution.json")) as f:
         increments = json.load(f)["increments"]
-    n, f, g = len(problem["gap"]), problem["friction"], problem["gap"]
+    n, g = len(problem["gap"]), problem["gap"]
     loads = [sum(l * force for l, (_, force) in zip(i["multipliers"], problem["patterns"])) for i in increments]
     force = max(np.abs(x).max() for x in loads)
     length = max(max(np.abs(i["v"]).max(), np.abs(np.add(i["w"], g)).max()) for i in increments)
@@ -45,11 +58,12 @@ def check(file):
         law("open: gap", np.minimum(w + g, 0)[opened], length)
         law("closed: no gap", (w + g)[closed], length)
         law("closed: pressure", np.minimum(p, 0)[closed], force)
-        law("friction cone", np.maximum(np.abs(q) - f * p, 0)[closed], force)
+        forth, back = (bounds(problem, way, p) for way in ("forward", "backward"))
+        law("friction bound", np.maximum(np.maximum(-q - forth, q - back), 0)[closed], force)
         law("stick: no slip", (v - v_old)[stuck], length)
-        law("forward: q = -f p", (q + f * p)[forward], force)
+        law("forward: q = -bound", (q + forth)[forward], force)
         law("forward: sense", np.minimum(v - v_old, 0)[forward], length)
-        law("backward: q = f p", (q - f * p)[backward], force)
+        law("backward: q = bound", (q - back)[backward], force)
         law("backward: sense", np.maximum(v - v_old, 0)[backward], length)
         v_old = v
     return worst

@@ -8,6 +8,7 @@ docs/reduced_problems.md describes the files."""
 import json
 import os
 import random
+import shlex
 import subprocess
 import sys
 import tempfile
@@ -25,6 +26,10 @@ SET = {
                             "0 0; 1 0; 1 0.32; 1 -0.32; 1 0.32", 5),
     # Equal half-planes, parabolic gap, f = 0.4: contact advances, then partial slip; B = 0.
     "hertz": ("hertz -domain 1e4 -nodes 41 -shear none", "0 0; 1 0; 1 0.24; 1 -0.24; 1 0.24", 5),
+    # The same with another law of friction, which saturates, and a weaker one for slip backward.
+    "hertz_two_laws": ("march -reduced %s/hertz.json -history 'P=0; P=0' -strength '0.001 0.0005 0.003 0.0011' "
+                       "-strength-backward '0.001 0.0003 0.003 0.0007'" % HERE,
+                       "0 0; 1 0; 1 0.24; 1 -0.2; 1 0.24", 5),
     # A strip that lifts off a half-plane, f = 0.7, loaded and unloaded: five zones.
     "receding_strip": ("plane_receding -overhang 2 -length 6 -domain 60 -side 24 -spacing 0.2 -corner 0.05",
                        "0; 1; 0.2", 10),
@@ -102,7 +107,7 @@ def main():
     for name, (command, history, increments) in SET.items():
         file = os.path.join(HERE, name + ".json")
         if command:
-            words = command.split()
+            words = shlex.split(command)
             subprocess.run([os.path.join(programs, words[0])] + words[1:] + ["--save", file], check=True, stdout=subprocess.DEVNULL)
         elif name == "wedge":
             wedge(programs, file)

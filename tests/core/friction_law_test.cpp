@@ -256,6 +256,53 @@ TEST(FrictionLaw, BendsWithPressureByHand)
    EXPECT_NEAR(state.v[0], -0.3, 1e-12);
 }
 
+// A law that gets steeper lets a block slip at first and holds it later, also when all loads
+// grow in proportion: one increment is not exact, and none is skipped. Shear 0.4 p meets the
+// bound 0.2 p up to p = 1, so that q = -0.2 and 2 v = 0.2 there; beyond, where the bound grows
+// by more than the shear, the block stays.
+TEST(FrictionLaw, BentByPressureIsNoSingleIncrement)
+{
+   const MatrixX2d law = points({{1, 0.2}, {2, 1.2}});
+   const ReducedProblem problem = block({law, law});
+   const LoadHistory history =
+      LoadHistory::through(problem, {{}, {{"press", 2}, {"shear", 0.8}}});
+   for (const Stepping stepping : {Stepping::fixed, Stepping::advancing, Stepping::exact})
+   {
+      MarchSettings settings;
+      settings.stepping = stepping;
+      ContactState state = ContactState::virgin(problem);
+      ASSERT_EQ(march(problem, history, state, settings).status, FrictionStatus::converged);
+      EXPECT_NEAR(state.v[0], -0.1, 1e-12);
+      EXPECT_EQ(state.status[0], NodeState::stick);
+   }
+}
+
+// Weights that round do not: a point on the line of its neighbours changes nothing of a law,
+// and the steepest slope is that of the law as it is kept, of forces.
+TEST(FrictionLaw, RoundingOfItsPointsMakesNoOther)
+{
+   std::mt19937 random(11);
+   std::uniform_real_distribution<double> u(0.1, 0.9);
+   for (int k = 0; k < 500; ++k)
+   {
+      const double p0 = u(random), p1 = p0 + u(random), between = p0 + u(random) * (p1 - p0);
+      const double slope = u(random), flatter = u(random) * slope;
+      const auto bound = [&](double p) { return slope * p0 + flatter * (p - p0); };
+      const FrictionLaw law{
+         points({{p0, bound(p0)}, {between, bound(between)}, {p1, bound(p1)}}),
+         points({{1, 1}})};
+      EXPECT_TRUE(law.concave());
+      FrictionLaw bent = law;
+      bent.forward(1, 1) -= 1e-6 * slope * (p1 - p0);
+      EXPECT_FALSE(bent.concave());
+      ReducedProblem problem = block(FrictionLaw{points({{1, 1}}), points({{1, 1}})});
+      problem.weights[0] = u(random);
+      set_friction_law(problem, FrictionLaw{points({{100, 10}, {100.001, 60}}), law.forward});
+      problem.validate();
+      EXPECT_NEAR(problem.friction[0], 5e4, 1e-3);
+   }
+}
+
 // Where all that three nodes may do is tried there is one answer, and it is the solver's, by
 // each method.
 TEST(FrictionLaw, AgainstAllThatNodesMayDo)

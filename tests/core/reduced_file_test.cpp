@@ -329,6 +329,22 @@ TEST(ReducedFile, RefusesWhatItDidNotWrite)
                 InputError);
 }
 
+// Laws of friction in a file of format 2 would be passed over, as would any misspelt key.
+TEST(ReducedFile, RefusesKeysThatItDoesNotKnow)
+{
+   const std::string file = ::testing::TempDir() + "reduced_file_test_keys.json";
+   save(shakedown_test::random_contact(1, 2, 1, false), file);
+   nlohmann::json j = nlohmann::json::parse(std::ifstream(file));
+   for (const char *key : {"laws", "frictions"})
+   {
+      nlohmann::json with = j;
+      with[key] = nlohmann::json::array();
+      std::ofstream(file) << with;
+      expect_input_error([&] { load_reduced_problem(file); },
+                         "has the key '" + std::string(key) + "'");
+   }
+}
+
 TEST(ReducedFile, RefusesWhatIsNoProblem)
 {
    const ReducedProblem good = shakedown_test::random_contact(1, 5, 1, false);

@@ -33,6 +33,14 @@ namespace
 /// Forces of a state that is handed out where another could be chosen, over the largest.
 constexpr double known_to = 1e-9;
 
+/// Is there a node whose bound of friction is no single line of the pressure?
+bool friction_bends(const ReducedProblem &problem)
+{
+   const std::vector<FrictionBound> bounds = friction_bounds(problem);
+   return std::any_of(bounds.begin(), bounds.end(),
+                      [](const FrictionBound &of) { return of.bends(); });
+}
+
 /// An increment that may be accepted.
 struct Trial
 {
@@ -55,9 +63,9 @@ public:
    March(FrictionSolver &solver, const LoadHistory &history, ContactState &state,
          const MarchSettings &settings, const MarchObserver &observer)
       : solver_(solver), problem_(solver.problem()), history_(history), state_(state),
-        settings_(settings), record_(problem_, state, settings, observer),
-        progress_(settings.monitor), began_(state.time),
-        end_(history.piece(history.pieces() - 1).end)
+        settings_(settings), friction_bends_(friction_bends(problem_)),
+        record_(problem_, state, settings, observer), progress_(settings.monitor),
+        began_(state.time), end_(history.piece(history.pieces() - 1).end)
    {
    }
 
@@ -96,6 +104,7 @@ private:
    const LoadHistory &history_;
    ContactState &state_;
    const MarchSettings &settings_;
+   const bool friction_bends_;
    MarchRecord record_;
    ProgressReport progress_;
    const double began_, end_;                                   // times of the load history
@@ -163,9 +172,13 @@ bool March::exact_in_one() const
 {
    if (!settings_.single_increment_if_exact) { return false; }
    if (solver_.frictionless()) { return true; }
-   // Self-similar: first proportional loading, no gap: everything scales with the load.
+   // Self-similar: first proportional loading, no gap: everything scales with the load, but for
+   // the pressures at which a law of friction bends.
    const bool virgin = state_.v.isZero(0) && state_.q.isZero(0) && state_.p.isZero(0);
-   if (virgin && problem_.gap.isZero(0) && piece_.from.isZero(0)) { return true; }
+   if (virgin && problem_.gap.isZero(0) && piece_.from.isZero(0) && !friction_bends_)
+   {
+      return true;
+   }
    // Normal loading of an uncoupled contact that carries no shear: nothing ever slips. Shear of
    // 1e-8 of the pressure is what round-off leaves of two equal bodies.
    if (problem_.coupled || !state_.v.isZero(0)) { return false; }
@@ -402,12 +415,12 @@ bool March::march_piece()
    if (!exact && settings_.stepping == Stepping::exact)
    {
       const bool disc = problem_.components() == 2;
-      const std::vector<FrictionBound> laws = friction_bounds(problem_);
-      const bool bends = std::any_of(laws.begin(), laws.end(),
-                                     [](const FrictionBound &of) { return of.bends(); });
-      if (!disc && !bends && problem_.components() == 1) { return march_exactly(piece_.end); }
+      if (!disc && !friction_bends_ && problem_.components() == 1)
+      {
+         return march_exactly(piece_.end);
+      }
       ++record_.report.fallbacks;
-      record_.report.fallback_reason = bends
+      record_.report.fallback_reason = friction_bends_
                                           ? "the law of friction bends with pressure"
                                           : "slip has a direction: two tangential components";
    }

@@ -15,7 +15,8 @@ namespace cattaneo
 enum class Stepping
 {
    /// Equal increments, but only one where that is exact: a first proportional loading without
-   /// a gap (self-similar), and any piece without friction.
+   /// a gap (self-similar, unless a law of friction bends with pressure), and any piece without
+   /// friction.
    fixed,
    /// As fixed, but where a node closes with friction, which then acts from there, the exact
    /// path is followed to the end of the increment. With two tangential components there is

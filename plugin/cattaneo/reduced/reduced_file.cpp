@@ -160,6 +160,28 @@ void save(const ReducedProblem &problem, const std::string &file)
    write_whole(file, j.dump() + '\n');
 }
 
+namespace
+{
+
+/// A key that is not known would be passed over without a word, laws of friction in a file of
+/// format 2 among them.
+void require_known_keys(const nlohmann::json &j, bool with_laws, const std::string &file)
+{
+   std::vector<std::string> known = {
+      "format",  "A",         "B",        "C",       "H",    "gap",    "friction",
+      "weights", "patterns",  "position", "coupled", "held", "chains", "rigid_motions",
+      "dofs",    "arc_length"};
+   if (with_laws) { known.emplace_back("laws"); }
+   for (const auto &item : j.items())
+   {
+      require(std::find(known.begin(), known.end(), item.key()) != known.end(),
+              "reduced problem: file '", file, "' has the key '", item.key(), "', of '",
+              j.at("format").get<std::string>(), "' must be one of ", cattaneo::listed(known));
+   }
+}
+
+} // namespace
+
 ReducedProblem load_reduced_problem(const std::string &file)
 {
    ReducedProblem problem;
@@ -169,6 +191,7 @@ ReducedProblem load_reduced_problem(const std::string &file)
       const bool first = j.at("format") == format_1, with_laws = j.at("format") == format_laws;
       require(first || with_laws || j.at("format") == format_name, "reduced problem: file '",
               file, "' is not a '", format_name, "' (or 1, or 3)");
+      require_known_keys(j, with_laws, file);
       Eigen::MatrixXd A, B, C;
       from_json(j.at("A"), A);
       from_json(j.at("B"), B);

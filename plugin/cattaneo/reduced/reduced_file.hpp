@@ -11,8 +11,8 @@ namespace cattaneo
 /// file cannot be written.
 void save(const ReducedProblem &problem, const std::string &file);
 
-/// Reads what save() wrote. InputError if the file is missing or is not a valid reduced
-/// problem.
+/// Reads what save() wrote. InputError if the file is missing, is not a valid reduced
+/// problem or has a key that its format does not know.
 ReducedProblem load_reduced_problem(const std::string &file);
 
 } // namespace cattaneo

@@ -223,10 +223,13 @@ double FrictionLaw::steepest() const
 
 bool FrictionLaw::concave() const
 {
+   // Where points lie on one line, rounding makes the second piece the steeper one.
+   constexpr double round_off = 1e-12;
    const auto falls = [](const Eigen::VectorXd &slope)
    {
       const Eigen::Index pieces = slope.size() - 1;
-      return (slope.tail(pieces) - slope.head(pieces)).maxCoeff() <= 0;
+      return (slope.tail(pieces) - slope.head(pieces)).maxCoeff() <=
+             round_off * slope.maxCoeff();
    };
    return (forward.rows() == 1 || falls(slopes(forward))) &&
           (backward.rows() == 1 || falls(slopes(backward)));
@@ -378,7 +381,7 @@ void set_friction_law(ReducedProblem &problem, const FrictionLaw &law,
    {
       require(i >= 0 && i < n, "law of friction: node ", i, ", must be from 0 to ", n - 1);
       problem.laws[i] = {problem.weights[i] * law.forward, problem.weights[i] * law.backward};
-      problem.friction[i] = law.steepest();
+      problem.friction[i] = problem.laws[i].steepest();
    }
 }
 

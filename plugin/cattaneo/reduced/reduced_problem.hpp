@@ -43,7 +43,7 @@ struct FrictionLaw
 
    /// The largest slope of both.
    double steepest() const;
-   /// No piece of either is steeper than the one before.
+   /// No piece of either is steeper than the one before, but for rounding of their points.
    bool concave() const;
 };
 
