@@ -106,11 +106,31 @@ ReducedProblem some_contact(std::mt19937 &random, bool concave)
    return problem;
 }
 
-/// All answers of one increment from rest, by trying what each node may do, piece by piece.
-std::vector<VectorXd> answers(const ReducedProblem &problem, double load)
+/// A second load pattern, and loads of these two.
+void add_load(ReducedProblem &problem, std::mt19937 &random)
+{
+   std::normal_distribution<double> normal;
+   LoadPattern second = problem.patterns[0];
+   second.name = "second";
+   for (double &q : second.q.reshaped()) { q = 1.5 * normal(random); }
+   for (double &p : second.p.reshaped()) { p = 0.7 * normal(random); }
+   problem.patterns.push_back(second);
+}
+VectorXd some_loads(std::mt19937 &random)
+{
+   std::normal_distribution<double> normal;
+   VectorXd loads(2);
+   loads << 0.3 + std::abs(normal(random)), normal(random);
+   return loads;
+}
+
+/// All answers of one increment from these slips, by trying what each node may do, piece by
+/// piece.
+std::vector<VectorXd> answers(const ReducedProblem &problem, const VectorXd &loads,
+                              const VectorXd &old)
 {
    const Index n = problem.nodes();
-   const VectorXd f = problem.clamped_forces(VectorXd::Constant(1, load));
+   const VectorXd f = problem.clamped_forces(loads);
    // 0: open, 1: sticks, then pieces forward, then pieces backward.
    std::vector<Index> counts, now(n, 0);
    for (const FrictionLaw &law : problem.laws)
@@ -132,6 +152,7 @@ std::vector<VectorXd> answers(const ReducedProblem &problem, double load)
             r[t] = -f[t];
             r[m] = -f[m];
          }
+         if (now[i] == 1) { r[t] = old[i]; }
          if (now[i] < 2) { continue; }
          const Index forward = problem.laws[i].forward.rows();
          const bool back = now[i] - 2 >= forward;
@@ -157,7 +178,7 @@ std::vector<VectorXd> answers(const ReducedProblem &problem, double load)
                  q <= strength(law.backward, p) + tiny;
          if (now[i] < 2) { continue; }
          const bool back = now[i] - 2 >= law.forward.rows();
-         obeys = obeys && (back ? -u[i] : u[i]) >= -tiny &&
+         obeys = obeys && (back ? -1 : 1) * (u[i] - old[i]) >= -tiny &&
                  std::abs(q + (back ? -strength(law.backward, p) : strength(law.forward, p))) <=
                     tiny;
       }
@@ -314,7 +335,8 @@ TEST(FrictionLaw, AgainstAllThatNodesMayDo)
       const bool concave = seed % 3 > 0;
       const ReducedProblem problem = some_contact(random, concave);
       const double load = seed % 2 ? 1.0 : 0.3;
-      const std::vector<VectorXd> all = answers(problem, load);
+      const std::vector<VectorXd> all =
+         answers(problem, VectorXd::Constant(1, load), VectorXd::Zero(3));
       ASSERT_GE(all.size(), 1u) << seed;
       for (const VectorXd &u : all) { ASSERT_LT((u - all[0]).norm(), 1e-7) << seed; }
       for (const FrictionMethod method :
@@ -338,6 +360,31 @@ TEST(FrictionLaw, AgainstAllThatNodesMayDo)
    }
    EXPECT_GT(slipping, 100); // the nodes do what is to be tested
    EXPECT_GT(bent, 30);
+}
+
+// Loads that change at once, three times: pieces of the laws at the start lead to no end in one
+// increment of five hundred, and there is exactly one.
+TEST(FrictionLaw, LargeIncrementsAgainstAllThatNodesMayDo)
+{
+   for (unsigned seed = 1; seed <= 700; ++seed)
+   {
+      SCOPED_TRACE(seed);
+      std::mt19937 random(seed);
+      ReducedProblem problem = some_contact(random, seed % 3 > 0);
+      add_load(problem, random);
+      FrictionSolver solver(problem);
+      ContactState state = ContactState::virgin(problem);
+      for (int k = 0; k < 3; ++k)
+      {
+         const VectorXd loads = some_loads(random);
+         const std::vector<VectorXd> all = answers(problem, loads, state.v);
+         ASSERT_GE(all.size(), 1u);
+         for (const VectorXd &u : all) { ASSERT_LT((u - all[0]).norm(), 1e-7); }
+         const IncrementReport report = solver.solve(state, loads);
+         ASSERT_EQ(report.status, FrictionStatus::converged) << report.message;
+         ASSERT_LT((state.displacements() - all[0]).norm(), 1e-7);
+      }
+   }
 }
 
 // A march in a mirror has the mirrored states, to the last bit; and a law of one point is
@@ -460,26 +507,30 @@ TEST(FrictionLaw, WithTorsionNodesSlipAgainstWhatTheLawHolds)
          laws.back().col(1).array() -= 0.8 * laws.back()(0, 1);
          set_friction_law(problem, laws.back(), {i});
       }
-      const VectorXd load = VectorXd::Constant(1, 1.5);
+      add_load(problem, random);
       FrictionSolver solver(problem);
       ContactState state = ContactState::virgin(problem);
-      const IncrementReport report = solver.solve(state, load);
-      ASSERT_EQ(report.status, FrictionStatus::converged) << report.message;
-      const VectorXd u = state.displacements(),
-                     F = problem.K * u + problem.clamped_forces(load);
-      // Forces and slips are of the size of one and solved to some twelve digits of it.
-      const double tiny = 1e-9;
-      for (Index i = 0; i < n; ++i)
+      for (int k = 0; k < 3; ++k)
       {
-         const double p = F[2 * n + i], gap = u[2 * n + i];
-         const Eigen::Vector2d q(F[i], F[n + i]), slip(u[i], u[n + i]);
-         EXPECT_GT(std::min(p, gap), -tiny);
-         EXPECT_LT(std::abs(p * gap), tiny);
-         const double bound = p > 0 ? strength(laws[i], p) : 0;
-         EXPECT_LT(q.norm(), bound + tiny);
-         if (gap > tiny) { continue; }
-         EXPECT_LT((slip.norm() * q + bound * slip).norm(), tiny);
-         slipping += slip.norm() > 1e-3;
+         const VectorXd loads = some_loads(random), old = state.v;
+         const IncrementReport report = solver.solve(state, loads);
+         ASSERT_EQ(report.status, FrictionStatus::converged) << report.message;
+         const VectorXd u = state.displacements(),
+                        F = problem.K * u + problem.clamped_forces(loads);
+         // Forces and slips are of the size of one and solved to some twelve digits of it.
+         const double tiny = 1e-9;
+         for (Index i = 0; i < n; ++i)
+         {
+            const double p = F[2 * n + i], gap = u[2 * n + i];
+            const Eigen::Vector2d q(F[i], F[n + i]), slip(u[i] - old[i], u[n + i] - old[n + i]);
+            EXPECT_GT(std::min(p, gap), -tiny);
+            EXPECT_LT(std::abs(p * gap), tiny);
+            const double bound = p > 0 ? strength(laws[i], p) : 0;
+            EXPECT_LT(q.norm(), bound + tiny);
+            if (gap > tiny) { continue; }
+            EXPECT_LT((slip.norm() * q + bound * slip).norm(), tiny);
+            slipping += slip.norm() > 1e-3;
+         }
       }
    }
    EXPECT_GT(slipping, 100);

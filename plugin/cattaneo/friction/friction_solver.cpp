@@ -62,15 +62,13 @@ bool find_end(Increment &at)
    return false;
 }
 
-/** A law of friction that bends is taken as the lines of its pieces at the pressures of the
-    start, and then of what these lead to, until they are the pieces there. False where that
-   comes back to pieces that it began with. */
-bool find_end_on_pieces(Increment &at)
+/** A law of friction that bends is taken as the lines of its pieces at the pressures p, and
+   then of what these lead to, until they are the pieces there. False where that comes back to
+    pieces that it began with. */
+bool settles_on_pieces(Increment &at, VectorXd p)
 {
    FrictionSystem &s = at.system;
-   if (s.laws.empty()) { return find_end(at); }
    std::set<std::vector<double>> tried;
-   VectorXd p = at.start.p;
    while (true)
    {
       s.take_pieces(p);
@@ -94,6 +92,40 @@ bool find_end_on_pieces(Increment &at)
       if (fit) { return true; }
       at.go_back();
    }
+}
+
+/** The end on the pieces of the laws there. Where those of the start do not lead to them, the
+    loads come in parts, each from the same start, and pieces and pressures of one lead to those
+    of the next. */
+bool find_end_on_pieces(Increment &at)
+{
+   FrictionSystem &s = at.system;
+   if (s.laws.empty()) { return find_end(at); }
+   VectorXd p = at.start.p;
+   if (settles_on_pieces(at, p)) { return true; }
+   if (s.brief || at.finds_mechanism()) { return false; }
+   const VectorXd change = at.multipliers - at.start.multipliers;
+   for (double reached = 0, step = 0.5; step > 0.01;)
+   {
+      at.go_back();
+      if (reached + step >= 1)
+      {
+         if (settles_on_pieces(at, p)) { return true; }
+         step /= 2;
+         continue;
+      }
+      const VectorXd loads = at.start.multipliers + (reached + step) * change;
+      Increment part(s, at.start, loads);
+      if (!settles_on_pieces(part, p))
+      {
+         step /= 2;
+         continue;
+      }
+      reached += step;
+      p = part.end().p;
+      step = std::min(2 * step, 1 - reached);
+   }
+   return false;
 }
 
 /// Displacements so large that round-off hides the forces may be a body that slides away, with

@@ -53,6 +53,7 @@ Search gauss_seidel(Increment &at)
       sweep(at);
       // The forces are updated by columns; now and then they are formed anew, against drift.
       if (k % 64 == 63) { at.F = at.f + (*at.system.times_K)(at.u); }
+      if (k == 63 && at.finds_mechanism()) { return Search::hopeless; }
       if (!at.u.allFinite()) { break; }
       if (!at.residuals()) { continue; }
       at.F = at.f + (*at.system.times_K)(at.u);
