@@ -419,7 +419,6 @@ bool March::march_piece()
       {
          return march_exactly(piece_.end);
       }
-      ++record_.report.fallbacks;
       record_.report.fallback_reason = friction_bends_
                                           ? "the law of friction bends with pressure"
                                           : "slip has a direction: two tangential components";
@@ -430,6 +429,7 @@ bool March::march_piece()
       {
          return false;
       }
+      record_.report.fallbacks += !exact && settings_.stepping == Stepping::exact;
    }
    return true;
 }
