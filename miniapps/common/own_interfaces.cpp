@@ -152,7 +152,7 @@ void complete(Reduction &reduction, const JointCase &joint,
               const std::vector<std::array<ContactLine, 2>> &lines)
 {
    ReducedProblem &problem = reduction.problem;
-   std::vector<std::pair<const FrictionLaw *, std::vector<Eigen::Index>>> laws;
+   std::vector<std::pair<const JointCase::Face *, std::vector<Eigen::Index>>> laws;
    for (std::size_t k = 0; k < joint.faces.size(); ++k)
    {
       const JointCase::Face &face = joint.faces[k];
@@ -177,7 +177,7 @@ void complete(Reduction &reduction, const JointCase &joint,
       {
          std::vector<Eigen::Index> nodes(report.nodes);
          std::iota(nodes.begin(), nodes.end(), report.first);
-         laws.emplace_back(&*face.strength, std::move(nodes));
+         laws.emplace_back(&face, std::move(nodes));
       }
       if (has_shape(face))
       {
@@ -196,7 +196,17 @@ void complete(Reduction &reduction, const JointCase &joint,
       }
    }
    // When the coefficients of all others are known.
-   for (const auto &[law, nodes] : laws) { set_friction_law(problem, *law, nodes); }
+   for (const auto &[face, nodes] : laws)
+   {
+      try
+      {
+         set_friction_law(problem, *face->strength, nodes);
+      }
+      catch (const InputError &error)
+      {
+         throw InputError(face->source.called("strength") + ": " + error.what());
+      }
+   }
    for (const JointCase::Bolt &bolt : joint.bolts)
    {
       reduction.add_shank(bolt.name, bolt.stiffness / (bolt.pretension * bolt.pretension));

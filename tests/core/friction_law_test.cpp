@@ -3,6 +3,7 @@
 
 #include <cattaneo/friction/critical_friction.hpp>
 #include <cattaneo/friction/march.hpp>
+#include <cattaneo/friction/mechanism.hpp>
 #include <cattaneo/readout/zones.hpp>
 #include <cattaneo/reduced/reduced_file.hpp>
 #include <cattaneo/wear/worn_out.hpp>
@@ -457,6 +458,51 @@ TEST(FrictionLaw, ABodySlidesBeyondWhatTheLawHolds)
    EXPECT_EQ(solver.solve(state, Eigen::Vector2d(1, 0.11)).status,
              FrictionStatus::gross_sliding);
    EXPECT_EQ(solver.solve(state, Eigen::Vector2d(1, -0.46)).status, FrictionStatus::converged);
+}
+
+// Two free bodies in contact at one node under P = 2: forward, q < 0, they hold 0.5 + 0.1·2,
+// and backward 0.2 + 0.3·2. A force Q pushes forward where the clamped node would need q = -Q.
+TEST(FrictionLaw, FreeBodiesAreHeldByTheWayTheyWouldSlip)
+{
+   ReducedProblem problem;
+   problem.set_stiffness(MatrixXd::Zero(1, 1), MatrixXd::Zero(1, 1), MatrixXd::Zero(1, 1));
+   problem.rigid_motions = Eigen::Matrix2d::Identity();
+   problem.patterns = {{"load", Control::force, VectorXd::Zero(1), VectorXd::Zero(1)}};
+   problem.gap = VectorXd::Zero(1);
+   problem.weights = VectorXd::Ones(1);
+   const FrictionLaw law{points({{1, 0.6}, {2, 0.7}}), points({{1, 0.5}, {2, 0.8}})};
+   set_friction_law(problem, law);
+   const std::vector<FrictionBound> pieces{FrictionBound(law).straight(2)};
+   for (const double push : {0.69, 0.71, 0.79, 0.81, -0.69, -0.71, -0.79, -0.81})
+   {
+      SCOPED_TRACE(push);
+      const Mechanism found = find_mechanism(problem, pieces, Eigen::Vector2d(-push, 2), 1e-12);
+      EXPECT_EQ(found.exists, push > 0.7 || push < -0.8);
+      if (!found.exists) { continue; }
+      EXPECT_TRUE(found.slides);
+      EXPECT_LT(push * found.motion[0], 0); // clamped forces do work along it
+   }
+}
+
+// A node on a spring of stiffness 1 whose slip of 1 changes its pressure by 1/2: critical is a
+// friction of 2. The law has a slope of 10 up to the pressure 0.1, and 1/2 beyond.
+TEST(FrictionLaw, IsCriticalByItsSlopeAtThePressure)
+{
+   ReducedProblem problem = block({points({{1, 0.5}}), points({{1, 0.5}})});
+   problem.set_stiffness(MatrixXd::Ones(1, 1), MatrixXd::Constant(1, 1, 0.5),
+                         MatrixXd::Constant(1, 1, 3));
+   const MatrixX2d law = points({{0.1, 1}, {1.1, 1.5}});
+   set_friction_law(problem, law);
+   EXPECT_DOUBLE_EQ(critical_friction(problem).node, 2);
+   for (const auto &[press, status] : {std::pair(0.05, FrictionStatus::not_unique),
+                                       std::pair(2.0, FrictionStatus::converged)})
+   {
+      FrictionSolver solver(problem);
+      ContactState state = ContactState::virgin(problem);
+      const IncrementReport report = solver.solve(state, Eigen::Vector2d(press, 0));
+      EXPECT_EQ(report.status, status) << press << report.message;
+      EXPECT_EQ(solver.judge(ContactState::virgin(problem), state).status, status) << press;
+   }
 }
 
 // With torsion the same law holds in all directions: a node on springs alike slips along its

@@ -719,6 +719,43 @@ TEST_F(Joints, GuidesAreForcesOrDisplacements)
    EXPECT_NEAR(interface(displacement, "flat")["force_x"], 3.5, 1e-3);
 }
 
+// A block that a guide presses by 2 over a length of 2 and pushes: with bounds of 0.06 + 0.1 p
+// forward and 0.1 + 0.2 p backward (but for pressures below 0.01, which no node has) it slides
+// at 0.06·2 + 0.1·2 to the right and 0.1·2 + 0.2·2 to the left, however the pressure is spread.
+// Forward is where the first side's body moves with its line on its left, which is the same of
+// either body; in a mirror the ways change places.
+TEST_F(Joints, StrengthsHoldByTheirWayOfSlip)
+{
+   block("up.mesh", -1, 1, 16, 0, 1, 6);
+   block("low.mesh", -2, 2, 20, -1, 0, 6);
+   const json weak = {{0.01, 0.061}, {100, 10.06}}, strong = {{0.01, 0.102}, {100, 20.1}};
+   json keys;
+   keys["bodies"] = {{"up", body("up.mesh", "")}, {"low", body("low.mesh", "1:xy")}};
+   keys["bodies"]["up"]["guides"] = {{{"on", "3"},
+                                      {"x", {{"force", "Q"}, {"value", 1}}},
+                                      {"y", {{"force", "P"}, {"value", -2}}}}};
+   for (const auto &[sides, mirrored] :
+        {std::pair(json{"up:1", "low:3"}, false), std::pair(json{"low:3", "up:1"}, false),
+         std::pair(json{"up:1", "low:3"}, true)})
+   {
+      SCOPED_TRACE(sides.dump() + (mirrored ? " mirrored" : ""));
+      json flat{{"between", sides}};
+      flat["strength"] = {{"forward", mirrored ? strong : weak},
+                          {"backward", mirrored ? weak : strong}};
+      keys["interfaces"] = {{"flat", flat}};
+      const double right = mirrored ? 0.6 : 0.32, left = mirrored ? 0.32 : 0.6;
+      for (const double push : {1.0, -1.0})
+      {
+         keys["history"] = {"P=0", "P=1", push > 0 ? "Q=1" : "Q=-1"};
+         const Result got = run(keys);
+         ASSERT_EQ(got.code, 2) << got.output;
+         EXPECT_EQ(got.results["status"], "gross sliding");
+         // What the march tells the last load by, 1e-10 of the way there, and round-off.
+         EXPECT_NEAR(got.results["event_loads"]["Q"], push > 0 ? right : -left, 1e-9);
+      }
+   }
+}
+
 TEST_F(Joints, GuidedBarsGiveByTheirCompliance)
 {
    block("low.mesh", 0, 2, 8, 0, 3, 6);
@@ -1494,6 +1531,18 @@ TEST_F(Joints, RefuseWhatIsWrongInOneSentence)
    says("/interfaces/flat/between", {"pad:1", "bass:3"},
         "there is no body 'bass', must be one of pad, base");
    says("/interfaces/flat/between", {"pad:1"}, "body base is at no interface");
+   keys["interfaces"]["flat"].erase("friction");
+   says("/interfaces/flat/strength", {{1, 0.5}, {2, 0.4}}, "key 'interfaces.flat.strength");
+   says("/interfaces/flat/strength", {{"forward", {{1, 0.5}}}},
+        "key 'interfaces.flat.strength");
+   json twisted = keys;
+   twisted["analysis"] = "axisymmetric";
+   twisted["bodies"] = {{"pad", body("pad.mesh", "", {"P pressure 3 1", "T traction-t 3 r"})},
+                        {"base", body("base.mesh", "1:rzt")}};
+   twisted["interfaces"]["flat"]["strength"] = {{"forward", {{1, 0.5}}},
+                                                {"backward", {{1, 0.4}}}};
+   EXPECT_NE(refused(twisted).find("key 'interfaces.flat.strength'"), std::string::npos);
+   keys["interfaces"] = {{"flat", face("pad:1", "base:3")}};
    says("/interfaces/flat/between", {"pad:1", "base:9"}, "attribute 9");
    says("/interfaces/flat/between", {"pad:1", "pad:1"}, "both sides are 'pad:1', must be two");
    says("/interfaces/flat/between", {"pad:2", "base:2"},

@@ -43,7 +43,7 @@ const Method methods[] = {{"active set", active_set, false},
                           {"weak springs", weak_springs, true},
                           {"damped Newton", damped_newton, true}};
 
-bool find_end(Increment &at)
+bool find_end(Increment &at, bool thorough = true)
 {
    if (at.system.settings.method == FrictionMethod::gauss_seidel)
    {
@@ -52,7 +52,7 @@ bool find_end(Increment &at)
    }
    for (const Method &method : methods)
    {
-      if (method.thorough && at.system.brief) { break; }
+      if (method.thorough && !thorough) { break; }
       const Search search = method.find(at);
       at.report.found_by = method.name;
       if (search == Search::found) { return true; }
@@ -65,7 +65,7 @@ bool find_end(Increment &at)
 /** A law of friction that bends is taken as the lines of its pieces at the pressures p, and
    then of what these lead to, until they are the pieces there. False where that comes back to
     pieces that it began with. */
-bool settles_on_pieces(Increment &at, VectorXd p)
+bool settles_on_pieces(Increment &at, VectorXd p, bool thorough = false)
 {
    FrictionSystem &s = at.system;
    std::set<std::vector<double>> tried;
@@ -78,7 +78,7 @@ bool settles_on_pieces(Increment &at, VectorXd p)
          lines.insert(lines.end(), {bound.intercept(0, 1), bound.intercept(0, -1),
                                     bound.slope(0, 1), bound.slope(0, -1)});
       }
-      if (!tried.insert(lines).second || !find_end(at)) { return false; }
+      if (!tried.insert(lines).second || !find_end(at, thorough)) { return false; }
       bool fit = true;
       for (Index i = 0; i < s.n; ++i)
       {
@@ -100,7 +100,7 @@ bool settles_on_pieces(Increment &at, VectorXd p)
 bool find_end_on_pieces(Increment &at)
 {
    FrictionSystem &s = at.system;
-   if (s.laws.empty()) { return find_end(at); }
+   if (s.laws.empty()) { return find_end(at, !s.brief); }
    VectorXd p = at.start.p;
    if (settles_on_pieces(at, p)) { return true; }
    if (s.brief || at.finds_mechanism()) { return false; }
@@ -125,7 +125,8 @@ bool find_end_on_pieces(Increment &at)
       p = part.end().p;
       step = std::min(2 * step, 1 - reached);
    }
-   return false;
+   at.go_back();
+   return settles_on_pieces(at, at.start.p, true);
 }
 
 /// Displacements so large that round-off hides the forces may be a body that slides away, with
@@ -180,8 +181,8 @@ void explain_failure(Increment &at)
    {
       report.status = FrictionStatus::no_solution;
       message << "no equilibrium was found, and there may be none: friction "
-              << s.problem.friction[node] << " at node " << node
-              << " is above its critical value " << s.critical[node];
+              << s.friction(node) << " at node " << node << " is above its critical value "
+              << s.critical[node];
    }
    else
    {
@@ -254,7 +255,7 @@ IncrementReport FrictionSystem::solve(ContactState &state, const VectorXd &multi
    }
    if (!frictionless) { at.name_states(next); }
    state = std::move(next);
-   const IncrementReport unique = uniqueness(state.status);
+   const IncrementReport unique = uniqueness(state);
    report.status = unique.status;
    report.message = unique.message;
    return report;

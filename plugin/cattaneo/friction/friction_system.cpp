@@ -95,11 +95,18 @@ void FrictionSystem::take_pieces(const VectorXd &p)
    tangential_equations.reset();
 }
 
-Index FrictionSystem::above_critical(const std::vector<NodeState> *states) const
+double FrictionSystem::friction(Index i, const ContactState *state) const
+{
+   if (laws.empty()) { return problem.friction[i]; }
+   return state ? laws[i].steepness(state->p[i]) : bound[i].steepness(0);
+}
+
+Index FrictionSystem::above_critical(const ContactState *state) const
 {
    for (Index i = 0; !frictionless && i < n; ++i)
    {
-      if ((!states || closed((*states)[i])) && problem.friction[i] >= critical[i]) { return i; }
+      const bool counts = !state || closed(state->status[i]);
+      if (counts && friction(i, state) >= critical[i]) { return i; }
    }
    return -1;
 }
@@ -129,7 +136,7 @@ IncrementReport FrictionSystem::judge(const ContactState &before,
    const VectorXd clamped = problem.clamped_forces(after.multipliers);
    const double reference =
       std::max({before.peak_force, after.peak_force, clamped.cwiseAbs().maxCoeff()});
-   IncrementReport report = uniqueness(after.status);
+   IncrementReport report = uniqueness(after);
    const bool obeyed = obeys_laws(before.v, after, reference > 0 ? reference : 1.0, report);
    std::ostringstream message;
    if (!(report.round_off < lost))
@@ -151,14 +158,14 @@ IncrementReport FrictionSystem::judge(const ContactState &before,
    return report;
 }
 
-IncrementReport FrictionSystem::uniqueness(const std::vector<NodeState> &states) const
+IncrementReport FrictionSystem::uniqueness(const ContactState &state) const
 {
    IncrementReport report;
    report.status = FrictionStatus::converged;
-   const Index node = above_critical(&states);
+   const Index node = above_critical(&state);
    if (node < 0) { return report; }
    std::ostringstream message;
-   message << "friction " << problem.friction[node] << " at node " << node
+   message << "friction " << friction(node, &state) << " at node " << node
            << " is above its critical value " << critical[node];
    report.status = FrictionStatus::not_unique;
    report.message = message.str();

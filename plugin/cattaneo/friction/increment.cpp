@@ -195,8 +195,15 @@ bool Increment::finds_mechanism()
    if (!mechanism.exists && !system.laws.empty() &&
        std::all_of(laws.begin(), laws.end(), concave))
    {
-      // None holds more than the line of any of its pieces.
+      // None holds more than the line of any of its pieces: of those taken, and of those where
+      // the increment starts, which is often next to the last equilibrium.
       mechanism = find_mechanism(system.problem, system.bound, clamped, negligible);
+      std::vector<FrictionBound> there = system.laws;
+      for (Index i = 0; i < system.n; ++i) { there[i] = there[i].straight(start.p[i]); }
+      if (!mechanism.exists)
+      {
+         mechanism = find_mechanism(system.problem, there, clamped, negligible);
+      }
    }
    return mechanism.exists;
 }

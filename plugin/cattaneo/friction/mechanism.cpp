@@ -92,11 +92,12 @@ Mechanism find_mechanism(const ReducedProblem &problem, const std::vector<Fricti
    }
    if (!proven || r.norm() <= least || g.norm() == 0) { return mechanism; }
    mechanism.motion = Z * r;
-   // What is held without pressure works against the motion, the loads do r·g = r² along it.
+   // Clamped forces hold the bodies, which go against this motion. What is held without
+   // pressure works against them, the loads do r·g = r² along it.
    double held = 0;
    for (Index i = 0; i < n && m > 0; ++i)
    {
-      double along = mechanism.motion[i];
+      double along = -mechanism.motion[i];
       if (c == 2) { along = std::hypot(along, mechanism.motion[n + i]); }
       held += bound[i].intercept(0, along) * std::abs(along);
    }

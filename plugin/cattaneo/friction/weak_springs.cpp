@@ -83,7 +83,7 @@ bool drifts(Increment &at)
          continue;
       }
       ++alike;
-      mechanism.motion = bears / size;
+      mechanism.motion = -bears / size;
       for (Index i = 0; i < n; ++i)
       {
          if (!closed(next.status[i])) { continue; }

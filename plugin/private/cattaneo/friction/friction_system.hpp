@@ -78,9 +78,12 @@ struct FrictionSystem
    bool disc() const { return c == 2; }                      // friction force in the disc
    Index t(Index i, Index k = 0) const { return k * n + i; } // row of a tangential entry
    Index m(Index i) const { return c * n + i; }              // row of the normal entry
-   /// The first node with friction above its critical value, closed if states are given; -1: no
+   /// Of node i; of a law that bends the slope at the pressure of a state, or of the piece
+   /// taken.
+   double friction(Index i, const ContactState *state = nullptr) const;
+   /// The first node with friction above its critical value, closed if a state is given; -1: no
    /// node.
-   Index above_critical(const std::vector<NodeState> *states = nullptr) const;
+   Index above_critical(const ContactState *state = nullptr) const;
    /// The last word on a state as the end of an increment from slip v_old, in the equations as
    /// they are given, and what is reported of it, over the force `scale`.
    bool obeys_laws(const VectorXd &v_old, const ContactState &next, double scale,
@@ -90,8 +93,8 @@ struct FrictionSystem
    // See FrictionSolver.
    IncrementReport solve(ContactState &state, const VectorXd &multipliers);
    IncrementReport judge(const ContactState &before, const ContactState &after) const;
-   /// converged, or not_unique with a closed node of these states that is above_critical().
-   IncrementReport uniqueness(const std::vector<NodeState> &states) const;
+   /// converged, or not_unique with a closed node that is above_critical().
+   IncrementReport uniqueness(const ContactState &state) const;
 };
 
 } // namespace cattaneo

@@ -9,9 +9,11 @@ namespace cattaneo
 struct Mechanism
 {
    bool exists = false;
-   Eigen::VectorXd motion; ///< {v; w} of the contact nodes, largest entry 1
-   bool slides = false;    ///< moves along the contact somewhere (else it only lifts off)
-   bool spins = false;     ///< slides in the circumferential direction somewhere
+   /// {v; w} of the contact nodes, largest entry 1. Clamped forces do positive work along it:
+   /// the bodies go the other way.
+   Eigen::VectorXd motion;
+   bool slides = false; ///< moves along the contact somewhere (else it only lifts off)
+   bool spins = false;  ///< slides in the circumferential direction somewhere
 };
 
 /// Edges of the friction cones as the motions Z = {v; w} (a column each) feel them: two columns
