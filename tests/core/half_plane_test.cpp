@@ -554,6 +554,11 @@ TEST(HalfPlane, FarForcesPressAndShear)
       EXPECT_NEAR(std::abs(loaded.patterns[1].q.sum()), P, 1e-14);
       ReducedProblem problem = reduce(loaded, lower).problem;
       const Index n = problem.nodes();
+      // Of one material pressure moves nothing along the contact, also where one body is free.
+      EXPECT_FALSE(problem.coupled);
+      HalfPlane other = lower;
+      other.material.poisson = 0.2;
+      EXPECT_TRUE(reduce(loaded, other).problem.coupled);
       problem.gap = problem.position.col(0).cwiseAbs2() / (2 * R);
       set_friction(problem, f);
       FrictionSolver solver(problem);

@@ -126,17 +126,40 @@ JoinedMotions joined(const Eigen::MatrixXd &Q1, const Eigen::MatrixXd &Q2)
 /// True if body 2 is the mirror image of body 1 in the contact line, so that tangential and
 /// normal displacements do not feel each other: A1 = A2, C1 = C2, B1 = -B2, each entry to
 /// 1e-10 of the two nodes' own stiffness, which condensation of two meshes may leave. What is
-/// taken from B then is no more than that.
-bool mirrored(const Eigen::MatrixXd &S1, const Eigen::MatrixXd &S2, Eigen::Index n)
+/// taken from B then is no more than that. Where one of them alone is free to move, along the
+/// contact or across it, the other one would be its image if it were as free: what these
+/// motions Z meet is taken from its stiffness, S - S Z (Zᵀ S Z)⁻¹ Zᵀ S.
+bool mirrored(const Eigen::MatrixXd &S1, const Eigen::MatrixXd &Z1, const Eigen::MatrixXd &S2,
+              const Eigen::MatrixXd &Z2, Eigen::Index n)
 {
    if (S1.rows() != 2 * n) { return false; }
+   const bool first_is_free = Z2.cols() == 0;
+   const Eigen::MatrixXd &Z = first_is_free ? Z1 : Z2, &held = first_is_free ? S2 : S1;
+   Eigen::MatrixXd back, share; // of Z, in the stiffness of the other body
+   if (Z1.cols() != Z2.cols())
+   {
+      // They go along the contact or across it if what they have along it is a projector.
+      const Eigen::MatrixXd along = Z.topRows(n).transpose() * Z.topRows(n);
+      if (std::min(Z1.cols(), Z2.cols()) > 0 || (along * along - along).norm() > 1e-10)
+      {
+         return false;
+      }
+      back = held * Z;
+      const Eigen::LLT<Eigen::MatrixXd> resistance(Z.transpose() * back);
+      if (resistance.info() != Eigen::Success) { return false; }
+      share = resistance.solve(back.transpose());
+   }
    const Eigen::ArrayXd own = S1.diagonal().cwiseSqrt();
    Eigen::ArrayXd sign = Eigen::ArrayXd::Ones(2 * n);
    sign.tail(n) = -1;
    for (Eigen::Index j = 0; j < 2 * n; ++j)
    {
-      const Eigen::ArrayXd off = S1.col(j).array() - sign[j] * sign * S2.col(j).array();
-      if (!(off.abs() <= 1e-10 * own[j] * own).all()) { return false; }
+      Eigen::ArrayXd one = S1.col(j), other = S2.col(j);
+      if (back.cols() > 0) { (first_is_free ? other : one) -= (back * share.col(j)).array(); }
+      if (!((one - sign[j] * sign * other).abs() <= 1e-10 * own[j] * own).all())
+      {
+         return false;
+      }
    }
    return true;
 }
@@ -258,7 +281,9 @@ Block united(const CondensedBody &first, const CondensedBody &second,
    shared->of_held = S1(Eigen::all, held2);
    Eigen::MatrixXd sum = second_stiffness();
    const Eigen::MatrixXd of_held1 = sum(Eigen::all, held1); // columns of S2
-   const bool images = mirrored(S1, sum, n), softer1 = S1.trace() <= sum.trace();
+   const Eigen::MatrixXd motions2 = frames.rows(second.free_motions(order, Eigen::all));
+   const bool images = mirrored(S1, first.free_motions, sum, motions2, n),
+              softer1 = S1.trace() <= sum.trace();
    sum += S1;
    const double own = sum.diagonal().mean();
    for (const std::vector<int> *held : {&held1, &held2})
@@ -271,7 +296,6 @@ Block united(const CondensedBody &first, const CondensedBody &second,
          shared->difference.row(row).setZero();
       }
    }
-   const Eigen::MatrixXd motions2 = frames.rows(second.free_motions(order, Eigen::all));
    const JoinedMotions motions = joined(first.free_motions, motions2);
    if (const Eigen::MatrixXd &Z = motions.common; Z.cols() > 0)
    {
