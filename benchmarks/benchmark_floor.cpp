@@ -246,27 +246,6 @@ Floor floor_of(const miniapp::Scene &scene, long increments)
    return floor;
 }
 
-/// Runs a program to its end, without what it prints.
-Measured whole_process(const std::vector<std::string> &command)
-{
-   const Measured measured = in_own_process(
-      [&]
-      {
-         std::vector<char *> words;
-         for (const std::string &word : command)
-         {
-            words.push_back(const_cast<char *>(word.c_str()));
-         }
-         words.push_back(nullptr);
-         if (std::freopen("/dev/null", "w", stdout)) { execv(words[0], words.data()); }
-         std::perror(words[0]);
-         _exit(1);
-         return std::vector<double>();
-      });
-   require(measured.ok, "the program '", command[0], "' failed, it must be built and run");
-   return measured;
-}
-
 /// What was found of a study, seconds.
 struct Found
 {
@@ -281,7 +260,7 @@ Found measured(const Studied &one, int repeats)
                                results = std::filesystem::temp_directory_path() /
                                          ("floor_" + std::to_string(getpid()) + ".json");
    std::vector<std::string> command = one.command;
-   command[0] = self.parent_path().parent_path() / "miniapps" / command[0];
+   command[0] = miniapp_program(command[0]);
    std::vector<std::string> counted = command;
    counted.insert(counted.end(), {"--json", results});
    whole_process(counted);

@@ -1,9 +1,12 @@
 #include "common/measure.hpp"
 
+#include <cattaneo/input_error.hpp>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <limits>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -50,6 +53,36 @@ Measured in_own_process(const std::function<std::vector<double>()> &work)
       std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
    result.megabytes = static_cast<double>(usage.ru_maxrss) / 1024;
    return result;
+}
+
+Measured whole_process(const std::vector<std::string> &command, int threads)
+{
+   Measured measured = in_own_process(
+      [&]
+      {
+         const std::string count = std::to_string(threads);
+         setenv("OMP_NUM_THREADS", count.c_str(), 1);
+         setenv("OPENBLAS_NUM_THREADS", count.c_str(), 1);
+         std::vector<char *> words;
+         for (const std::string &word : command)
+         {
+            words.push_back(const_cast<char *>(word.c_str()));
+         }
+         words.push_back(nullptr);
+         if (std::freopen("/dev/null", "w", stdout)) { execv(words[0], words.data()); }
+         std::perror(words[0]);
+         _exit(1);
+         return std::vector<double>();
+      });
+   cattaneo::require(measured.ok, "the program '", command[0],
+                     "' failed, it must be built and run");
+   return measured;
+}
+
+std::string miniapp_program(const std::string &name)
+{
+   const std::filesystem::path self = std::filesystem::canonical("/proc/self/exe");
+   return self.parent_path().parent_path() / "miniapps" / name;
 }
 
 double log_slope(const std::vector<double> &x, const std::vector<double> &y)

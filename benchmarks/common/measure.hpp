@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 /** What a piece of work returned and took in a process of its own: its memory is its own, and
@@ -15,6 +16,13 @@ struct Measured
 };
 
 Measured in_own_process(const std::function<std::vector<double>()> &work);
+
+/// Runs a program with its arguments to its end, without what it prints; throws InputError if
+/// it fails. @param threads of its linear algebra
+Measured whole_process(const std::vector<std::string> &command, int threads = 1);
+
+/// Path of a miniapp that was built beside this benchmark.
+std::string miniapp_program(const std::string &name);
 
 /// Slope of log(y) against log(x) by least squares: observed rates and exponents. Pairs that
 /// are not positive and finite are left out; NaN with fewer than two.

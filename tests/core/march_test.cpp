@@ -770,7 +770,8 @@ TEST(March, WhatFreeBodiesSlipBeforeTheySlideOffDoesNotDependOnTheSteps)
    }
 }
 
-TEST(March, GrossSlidingIsReportedWithItsLoad)
+/// A free body of two nodes.
+ReducedProblem free_body()
 {
    ReducedProblem problem;
    problem.set_stiffness(Eigen::Matrix2d{{1, -1}, {-1, 1}}, Eigen::Matrix2d::Zero(),
@@ -780,6 +781,35 @@ TEST(March, GrossSlidingIsReportedWithItsLoad)
    problem.H = Eigen::Matrix2d::Zero();
    problem.gap = Vector2d(0, 0);
    set_friction(problem, 0.4);
+   return problem;
+}
+
+/// Where everything scales with the loads they are too much from the beginning or not at all:
+/// no shorter increment is tried.
+TEST(March, LoadsThatAreTooMuchFromTheBeginningAreTriedOnce)
+{
+   const ReducedProblem problem = free_body();
+   MarchSettings settings;
+   for (const bool once : {true, false})
+   {
+      settings.single_increment_if_exact = once;
+      for (const double shear : {0.39, 0.41})
+      {
+         ContactState state = ContactState::virgin(problem);
+         const MarchReport report =
+            march(problem, LoadHistory::through({Vector2d(0, 0), Vector2d(1, shear)}), state,
+                  settings);
+         EXPECT_EQ(report.counters.rejected_increments, 0);
+         EXPECT_EQ(report.status,
+                   shear < 0.4 ? FrictionStatus::converged : FrictionStatus::gross_sliding);
+         EXPECT_EQ(report.time, shear < 0.4 ? 1 : 0);
+      }
+   }
+}
+
+TEST(March, GrossSlidingIsReportedWithItsLoad)
+{
+   const ReducedProblem problem = free_body();
    ContactState state = ContactState::virgin(problem);
    const MarchReport report = march(
       problem, LoadHistory::through({Vector2d(0, 0), Vector2d(1, 0), Vector2d(1, 1)}), state);

@@ -92,6 +92,7 @@ private:
    {
       return settings_.stepping != Stepping::fixed && !solver_.frictionless();
    }
+   bool self_similar() const;
    bool exact_in_one() const;
    bool settles();
 
@@ -167,18 +168,19 @@ bool March::is_stopped()
    return true;
 }
 
+/// First proportional loading, no gap: everything scales with the load, but for the pressures
+/// at which a law of friction bends.
+bool March::self_similar() const
+{
+   const bool virgin = state_.v.isZero(0) && state_.q.isZero(0) && state_.p.isZero(0);
+   return virgin && problem_.gap.isZero(0) && piece_.from.isZero(0) && !friction_bends_;
+}
+
 /// True where one increment gives the exact end of the piece, however long it is.
 bool March::exact_in_one() const
 {
    if (!settings_.single_increment_if_exact) { return false; }
-   if (solver_.frictionless()) { return true; }
-   // Self-similar: first proportional loading, no gap: everything scales with the load, but for
-   // the pressures at which a law of friction bends.
-   const bool virgin = state_.v.isZero(0) && state_.q.isZero(0) && state_.p.isZero(0);
-   if (virgin && problem_.gap.isZero(0) && piece_.from.isZero(0) && !friction_bends_)
-   {
-      return true;
-   }
+   if (solver_.frictionless() || self_similar()) { return true; }
    // Normal loading of an uncoupled contact that carries no shear: nothing ever slips. Shear of
    // 1e-8 of the pressure is what round-off leaves of two equal bodies.
    if (problem_.coupled || !state_.v.isZero(0)) { return false; }
@@ -193,7 +195,8 @@ void March::bisect_event(double failed, IncrementReport failure)
 {
    const double beyond = failed + 1e-6 * piece_.duration(),
                 resolution = 1e-10 * piece_.duration();
-   if (failure.status == FrictionStatus::stalled && beyond < piece_.end)
+   if (self_similar()) { failed = state_.time; } // no load is another
+   else if (failure.status == FrictionStatus::stalled && beyond < piece_.end)
    {
       // At the limit itself a node or two carry everything: what happens there shows beyond.
       const Trial trial = attempt(beyond);
@@ -242,7 +245,7 @@ bool March::increment_to(double target, bool exact)
       trial = attempt(target);
       const double step = target - state_.time;
       // The loads next to one that the solver cannot finish are often no trouble.
-      const bool stalled = trial.stalled() && step > smallest;
+      const bool stalled = trial.stalled() && step > smallest && !self_similar();
       if (!trial.solved() && !stalled)
       {
          bisect_event(target, trial.increment);
@@ -290,12 +293,14 @@ double March::first_closing(double target)
       const Trial trial = attempt(time);
       return !trial.solved() || closes(problem_, state_, trial.state);
    };
-   if (solver_.frictionless() || !closes_by(target)) { return target; }
+   if (solver_.frictionless()) { return target; }
    const double resolution = 1e-7 * piece_.duration();
    double before = state_.time, after = target, least = target;
    while (least - before > resolution) { least = 0.5 * (before + least); }
-   // Most often one touches all but at once.
+   // Most often one touches all but at once, which is sooner found than where all would be.
    if (closes_by(least)) { after = least; }
+   else if (!closes_by(target)) { return target; }
+   else { before = least; }
    while (after - before > resolution)
    {
       const double middle = 0.5 * (before + after);

@@ -1,0 +1,120 @@
+//  benchmark_size: time and memory of whole studies with thousands of contact nodes
+//
+//  The miniapp contact2d on two blocks of one row of quadratic elements each, of different
+//  materials, pressed together and sheared to and fro until the cycle is steady; and the
+//  miniapp hertz, a pad whose contact advances over its nodes. Everything that they do is
+//  included: meshes, condensation, march, bounds of uniqueness, critical friction, output. Each
+//  is a process of its own, run once.
+
+#include "common/measure.hpp"
+#include "common/miniapp.hpp"
+#include "common/options.hpp"
+
+#include <cattaneo/input_error.hpp>
+#include <cattaneo/whole_file.hpp>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <mfem.hpp>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <unistd.h>
+
+namespace
+{
+
+/// 2 long and 1 high on either side of y = 0; boundary 1 is below, 3 above.
+std::string block(int nodes, bool upper)
+{
+   mfem::Mesh mesh = mfem::Mesh::MakeCartesian2D((nodes - 1) / 2, 1,
+                                                 mfem::Element::QUADRILATERAL, false, 2, 1);
+   for (int v = 0; v < mesh.GetNV(); ++v) { mesh.GetVertex(v)[1] -= upper ? 0 : 1; }
+   std::ostringstream text;
+   text.precision(17);
+   mesh.Print(text);
+   return text.str();
+}
+
+/// @return the command that solves it
+std::vector<std::string> pair_of_blocks(int nodes, const std::filesystem::path &folder)
+{
+   for (const bool upper : {true, false})
+   {
+      cattaneo::write_whole(folder / (upper ? "upper.mesh" : "lower.mesh"),
+                            block(nodes, upper));
+   }
+   const nlohmann::json scene{{"mesh1", "upper.mesh"},
+                              {"young1", 1},
+                              {"poisson1", 0.3},
+                              {"contact1", 1},
+                              {"mesh2", "lower.mesh"},
+                              {"young2", 2},
+                              {"poisson2", 0.2},
+                              {"contact2", 3},
+                              {"support2", "1:xy"},
+                              {"friction", 0.5},
+                              {"load1", {"P pressure 3 0.001", "Q traction 3 0.001 0"}},
+                              {"history", {"P=0", "P=1", "Q=0.2", "Q=-0.2", "Q=0.2"}},
+                              {"cycle-start", 2},
+                              {"cycles", 2}};
+   const std::string file = folder / "case.json";
+   cattaneo::write_whole(file, scene.dump(3) + '\n');
+   return {miniapp_program("contact2d"), "--case", file};
+}
+
+void table(const std::vector<int> &nodes, const std::vector<int> &threads)
+{
+   const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("size_" + std::to_string(getpid()));
+   std::filesystem::create_directory(folder);
+   std::printf("%-16s %8s %8s %10s %12s %8s %14s\n", "study", "nodes", "threads", "seconds",
+               "processor s", "GB", "times faster");
+   for (const bool blocks : {true, false})
+   {
+      for (const int n : nodes)
+      {
+         const std::vector<std::string> command =
+            blocks ? pair_of_blocks(n, folder)
+                   : std::vector<std::string>{miniapp_program("hertz"), "-nodes",
+                                              std::to_string(n)};
+         double first = 0;
+         for (const int count : threads)
+         {
+            const Measured found = whole_process(command, count);
+            first = count == threads.front() ? found.wall : first;
+            std::printf("%-16s %8d %8d %10.2f %12.2f %8.2f %14.2f\n",
+                        blocks ? "pair of blocks" : "advancing pad", n, count, found.wall,
+                        found.cpu, found.megabytes / 1024, first / found.wall);
+            std::fflush(stdout);
+         }
+      }
+   }
+   std::filesystem::remove_all(folder);
+}
+
+} // namespace
+
+int main(int argc, char *argv[])
+{
+   return miniapp::run(
+      [&]
+      {
+         std::vector<double> nodes{1001, 2001}, threads{1, 2};
+         miniapp::Options args(argc, argv);
+         args.add(&nodes, "nodes", "Contact nodes of each study, odd numbers.");
+         args.add(&threads, "threads", "Threads of the dense linear algebra.");
+         args.parse();
+         for (const double n : nodes)
+         {
+            cattaneo::require(n >= 11 && std::fmod(n, 2) == 1, "-nodes has ", n,
+                              ", it must have odd numbers of at least 11");
+         }
+         for (const double n : threads)
+         {
+            cattaneo::require(n >= 1 && n == std::floor(n), "-threads has ", n,
+                              ", it must have positive whole numbers");
+         }
+         table({nodes.begin(), nodes.end()}, {threads.begin(), threads.end()});
+         return 0;
+      });
+}
