@@ -23,12 +23,12 @@
 namespace
 {
 
-/// 2 long and 1 high on either side of y = 0; boundary 1 is below, 3 above.
+/// 2 long and 0.2 high on either side of y = 0; boundary 1 is below, 3 above.
 std::string block(int nodes, bool upper)
 {
    mfem::Mesh mesh = mfem::Mesh::MakeCartesian2D((nodes - 1) / 2, 1,
-                                                 mfem::Element::QUADRILATERAL, false, 2, 1);
-   for (int v = 0; v < mesh.GetNV(); ++v) { mesh.GetVertex(v)[1] -= upper ? 0 : 1; }
+                                                 mfem::Element::QUADRILATERAL, false, 2, 0.2);
+   for (int v = 0; v < mesh.GetNV(); ++v) { mesh.GetVertex(v)[1] -= upper ? 0 : 0.2; }
    std::ostringstream text;
    text.precision(17);
    mesh.Print(text);
@@ -54,7 +54,7 @@ std::vector<std::string> pair_of_blocks(int nodes, const std::filesystem::path &
                               {"support2", "1:xy"},
                               {"friction", 0.5},
                               {"load1", {"P pressure 3 0.001", "Q traction 3 0.001 0"}},
-                              {"history", {"P=0", "P=1", "Q=0.2", "Q=-0.2", "Q=0.2"}},
+                              {"history", {"P=0", "P=1", "Q=0.3", "Q=-0.3", "Q=0.3"}},
                               {"cycle-start", 2},
                               {"cycles", 2}};
    const std::string file = folder / "case.json";

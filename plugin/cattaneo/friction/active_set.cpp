@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cattaneo/friction/methods.hpp>
 #include <set>
 
@@ -10,13 +11,13 @@ using Eigen::VectorXd;
 namespace
 {
 
-/// Takes the states that the present displacements and forces ask for. True if none changed.
-bool update_states(Increment &at)
+/// Takes the states that the present displacements and forces ask for. @return how many changed
+Index update_states(Increment &at)
 {
    // Violations that change nothing.
    const VectorXd tiny =
       (0.5 * at.round_off()).cwiseMax(0.1 * at.system.settings.tolerance * at.reference);
-   bool unchanged = true;
+   Index changed = 0;
    for (Index i = 0; i < at.system.n; ++i)
    {
       const ContactNode node = at.node(i);
@@ -27,10 +28,10 @@ bool update_states(Increment &at)
       {
          at.direction[i] = DiscSlip(node.trial(), node.bound.at(node.p));
       }
-      unchanged = unchanged && next == at.status[i];
+      changed += next != at.status[i];
       at.status[i] = next;
    }
-   return unchanged;
+   return changed;
 }
 
 /// In the disc the directions of slip change from step to step as well: done when the residual
@@ -44,7 +45,7 @@ bool newton_in_the_disc(Increment &at)
    {
       if (!solve_for_states(at)) { return false; }
       const bool small = at.residuals();
-      if (update_states(at) && small) { return at.solved(); }
+      if (update_states(at) == 0 && small) { return at.solved(); }
       const double size = std::max(at.report.residual_normal, at.report.residual_tangential);
       if (size < 0.5 * best)
       {
@@ -62,11 +63,18 @@ bool newton(Increment &at)
 {
    if (at.system.disc()) { return newton_in_the_disc(at); }
    std::set<std::vector<NodeState>> visited;
-   for (int k = 0; k < at.system.settings.max_newton; ++k)
+   // Steps whose changes do not get fewer seldom come to an end; with many nodes they cost more
+   // than the methods after this one.
+   const Index enough = std::max<Index>(8, 1000 / at.system.n);
+   Index fewest = at.system.n + 1, patience = enough;
+   for (int k = 0; k < at.system.settings.max_newton && patience > 0; ++k)
    {
       if (!visited.insert(at.status).second) { return false; } // it cycles
       if (!solve_for_states(at)) { return false; }
-      if (update_states(at)) { return at.solved(); }
+      const Index changed = update_states(at);
+      if (changed == 0) { return at.solved(); }
+      patience = changed < fewest ? enough : patience - 1;
+      fewest = std::min(fewest, changed);
    }
    return false;
 }
