@@ -60,9 +60,7 @@ Measured whole_process(const std::vector<std::string> &command, int threads)
    Measured measured = in_own_process(
       [&]
       {
-         const std::string count = std::to_string(threads);
-         setenv("OMP_NUM_THREADS", count.c_str(), 1);
-         setenv("OPENBLAS_NUM_THREADS", count.c_str(), 1);
+         setenv("OPENBLAS_NUM_THREADS", std::to_string(threads).c_str(), 1);
          std::vector<char *> words;
          for (const std::string &word : command)
          {

@@ -853,12 +853,10 @@ TEST(March, PassesAnIncrementThatStalls)
 }
 
 /// A rigid wedge of half the angle a, guided across, on four springs of stiffness 1 along and
-/// across its flank. Pressed by P = 1 it slips: N (sin a + f cos a) = 1. Drawn back it sticks,
-/// and moves by y until friction has turned round on all of them: f N + y cos a = -f (N + y sin
-/// a), at P = 1 + y. From there on what slips bears less, and the wedge jumps free.
-TEST(March, AWedgePulledFreeIsFollowedToItsLastLoadAndNotBisected)
+/// across its flank.
+ReducedProblem rigid_wedge(double friction, double a)
 {
-   const double f = 0.6, a = 0.2, s = std::sin(a), c = std::cos(a);
+   const double s = std::sin(a), c = std::cos(a);
    const Eigen::Index n = 4;
    VectorXd motion(2 * n);
    motion << VectorXd::Constant(n, c), VectorXd::Constant(n, -s);
@@ -871,7 +869,18 @@ TEST(March, AWedgePulledFreeIsFollowedToItsLastLoadAndNotBisected)
    problem.patterns = {{"P", Control::force, VectorXd::Constant(n, -c / double(n)),
                         VectorXd::Constant(n, s / double(n))}};
    problem.H = MatrixXd::Zero(1, 1);
-   set_friction(problem, f);
+   set_friction(problem, friction);
+   return problem;
+}
+
+/// Pressed by P = 1 the wedge slips: N (sin a + f cos a) = 1. Drawn back it sticks, and moves
+/// by y until friction has turned round on all of them: f N + y cos a = -f (N + y sin a), at P
+/// = 1
+/// + y. From there on what slips bears less, and the wedge jumps free.
+TEST(March, AWedgePulledFreeIsFollowedToItsLastLoadAndNotBisected)
+{
+   const double f = 0.6, a = 0.2, s = std::sin(a), c = std::cos(a);
+   const ReducedProblem problem = rigid_wedge(f, a);
    const double N = 1 / (s + f * c), y = -2 * f * N / (c + f * s);
    for (Stepping stepping : {Stepping::advancing, Stepping::exact})
    {
@@ -888,6 +897,29 @@ TEST(March, AWedgePulledFreeIsFollowedToItsLastLoadAndNotBisected)
       EXPECT_NEAR(report.event_multipliers[0], 1 + y, 1e-12);
       EXPECT_NEAR(state.p.sum(), N + y * s, 1e-12);
       EXPECT_LE(report.counters.rejected_increments, 1);
+   }
+}
+
+/// Nothing holds the wedge from rest, and no proof says so where it can lock itself.
+TEST(March, AWedgePulledFromRestIsTriedOnce)
+{
+   const ReducedProblem problem = rigid_wedge(0.6, 0.2);
+   for (Stepping stepping : {Stepping::fixed, Stepping::advancing})
+   {
+      for (const bool once : {true, false})
+      {
+         MarchSettings settings;
+         settings.stepping = stepping;
+         settings.single_increment_if_exact = once;
+         ContactState state = ContactState::virgin(problem);
+         const MarchReport report = march(
+            problem, LoadHistory::through({VectorXd::Zero(1), VectorXd::Constant(1, -0.1)}),
+            state, settings);
+         EXPECT_EQ(report.status, FrictionStatus::stalled) << report.message;
+         EXPECT_EQ(report.time, 0);
+         EXPECT_EQ(report.event_multipliers[0], 0);
+         EXPECT_EQ(report.counters.rejected_increments, 0);
+      }
    }
 }
 

@@ -63,17 +63,19 @@ bool newton(Increment &at)
 {
    if (at.system.disc()) { return newton_in_the_disc(at); }
    std::set<std::vector<NodeState>> visited;
-   // Steps whose changes do not get fewer seldom come to an end; with many nodes they cost more
-   // than the methods after this one.
-   const Index enough = std::max<Index>(8, 1000 / at.system.n);
-   Index fewest = at.system.n + 1, patience = enough;
+   // A few nodes of many that go on changing do so up to the last step allowed. Each step may
+   // cost a factor, of order n³: the path takes them one by one at n² each.
+   constexpr int enough = 8;
+   const Index few = at.system.n / 50;
+   Index fewest = at.system.n + 1;
+   int patience = enough;
    for (int k = 0; k < at.system.settings.max_newton && patience > 0; ++k)
    {
       if (!visited.insert(at.status).second) { return false; } // it cycles
       if (!solve_for_states(at)) { return false; }
       const Index changed = update_states(at);
       if (changed == 0) { return at.solved(); }
-      patience = changed < fewest ? enough : patience - 1;
+      patience = changed < fewest || fewest > few ? enough : patience - 1;
       fewest = std::min(fewest, changed);
    }
    return false;

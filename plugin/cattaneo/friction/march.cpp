@@ -195,7 +195,7 @@ void March::bisect_event(double failed, IncrementReport failure)
 {
    const double beyond = failed + 1e-6 * piece_.duration(),
                 resolution = 1e-10 * piece_.duration();
-   if (self_similar()) { failed = state_.time; } // no load is another
+   if (self_similar()) { failed = state_.time; } // no smaller load has one either
    else if (failure.status == FrictionStatus::stalled && beyond < piece_.end)
    {
       // At the limit itself a node or two carry everything: what happens there shows beyond.
