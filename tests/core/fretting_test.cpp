@@ -144,7 +144,6 @@ TEST(Fretting, EachNumberOfEachFormulaIsChecked)
           stress({1, 1, 0.3}, x[0], x[1]);
        }},
       {"crack_factor", "i", {1}, [](Numbers x) { crack_factor(x[0]); }},
-      {"crack_factor_slope", "+", {1}, [](Numbers x) { crack_factor_slope(x[0]); }},
       {"crack_intensity",
        "0",
        {1},
@@ -191,7 +190,6 @@ TEST(Fretting, EachNumberOfEachFormulaIsChecked)
        "++f",
        {0.3, 1, 0},
        [](Numbers x) { threshold_ordinate(Criterion::open, x[0], x[1], x[2]); }},
-      {"threshold_minimum", "+", {0.3}, [](Numbers x) { threshold_minimum(x[0]); }},
       {"assess_threshold",
        "++",
        {1, 1},

@@ -98,18 +98,6 @@ TEST(EdgeCrack, FactorAgreesWithDislocations)
    }
 }
 
-TEST(EdgeCrack, SlopeIsTheDerivative)
-{
-   for (const double c : {1e-3, 0.1, 0.9, 1.1, 30.0})
-   {
-      const double h = 1e-4 * c;
-      const double slope = (8 * (crack_factor(c + h) - crack_factor(c - h)) -
-                            (crack_factor(c + 2 * h) - crack_factor(c - 2 * h))) /
-                           (12 * h);
-      expect_relative(crack_factor_slope(c), slope, 1e-7);
-   }
-}
-
 TEST(EdgeCrack, SignOfTheShearActsOnTheShearPart)
 {
    const Edge plus{100, 7, 0.5}, minus{100, -7, 0.5}, none{100, 0, 0.5};
@@ -217,22 +205,11 @@ TEST(Threshold, PointOnTheCurveIsAtTheThreshold)
    }
 }
 
-TEST(Threshold, CurveAHasItsMinimumWhereReported)
-{
-   for (const double f : {0.3, 0.8})
-   {
-      const double x = threshold_minimum(f);
-      const auto y = [&](double at) { return threshold_ordinate(Criterion::open, f, at); };
-      EXPECT_GT(y(0.9 * x), y(x));
-      EXPECT_GT(y(1.1 * x), y(x));
-      EXPECT_NEAR((y(1.001 * x) - y(0.999 * x)) / (0.002 * x), 0, 1e-4 * y(x) / x);
-   }
-}
-
 TEST(Threshold, VerdictsFollowTheCurve)
 {
    const double threshold = 66.4, critical = 0.0913, f = 0.5;
-   const double minimum = threshold_minimum(f);
+   // Of curve A; to the right of it K_I falls at a0.
+   const double minimum = 0.3534;
    for (const double x : {0.3 * minimum, 3 * minimum})
    {
       const double y = threshold_ordinate(Criterion::open, f, x);

@@ -65,7 +65,7 @@ Complex line_stress_transform(Complex z)
           (1.0 - 0.5 * z) / (std::sqrt(M_PI) * (0.5 + z));
 }
 
-/// (1/2πi) ∫ S̃(z) h(-z) c^{-z} (½-z)^m dz along Re z = const.
+/// (1/2πi) ∫ S̃(z) h(-z) c^{-z} dz along Re z = const.
 class InverseMellin
 {
 public:
@@ -80,14 +80,13 @@ public:
       }
    }
 
-   double operator()(double c, int m) const
+   double operator()(double c) const
    {
       Complex sum = 0;
       const double log_c = std::log(c);
       for (std::size_t k = 0; k < weights_.size(); k++)
       {
-         const Complex z(abscissa_, step * k);
-         sum += weights_[k] * std::polar(1.0, -step * k * log_c) * (m ? 0.5 - z : 1.0);
+         sum += weights_[k] * std::polar(1.0, -step * k * log_c);
       }
       return std::pow(c, -abscissa_) * sum.real();
    }
@@ -109,8 +108,8 @@ double long_crack()
    return value;
 }
 
-/// κ (m = 0) or its logarithmic derivative c dκ/dc (m = 1).
-double crack_integral(double c, int m)
+/// κ of a ratio c that is neither zero nor infinite.
+double crack_integral(double c)
 {
    // The line is moved across the poles that carry the two leading terms for short or for long
    // cracks, so that what is integrated is small against them.
@@ -118,11 +117,10 @@ double crack_integral(double c, int m)
    {
       static const InverseMellin rest(-1.25);
       static const double root_term = 2.5 / std::sqrt(2.0) * power_law_factor(0.5);
-      const double uniform = (m ? 0.5 : 1.0) * short_crack();
-      return std::sqrt(M_PI * c) * (uniform - root_term * std::sqrt(c) + rest(c, m));
+      return std::sqrt(M_PI * c) * (short_crack() - root_term * std::sqrt(c) + rest(c));
    }
    static const InverseMellin rest(0.75);
-   return std::sqrt(M_PI) * ((m ? 0.0 : long_crack()) + std::sqrt(c) * rest(c, m));
+   return std::sqrt(M_PI) * (long_crack() + std::sqrt(c) * rest(c));
 }
 
 } // namespace
@@ -139,13 +137,7 @@ double crack_factor(double ratio)
    require(ratio >= 0, "the crack depth over the slip zone is ", ratio,
            "; it must not be negative.");
    if (ratio == 0) { return 0.0; }
-   return std::isinf(ratio) ? std::sqrt(M_PI) * long_crack() : crack_integral(ratio, 0);
-}
-
-double crack_factor_slope(double ratio)
-{
-   require_positive("the crack depth over the slip zone", ratio);
-   return crack_integral(ratio, 1) / ratio;
+   return std::isinf(ratio) ? std::sqrt(M_PI) * long_crack() : crack_integral(ratio);
 }
 
 double crack_closing_factor()

@@ -21,9 +21,6 @@ double power_law_factor(double exponent);
    Gamma functions, that of the crack is h. */
 double crack_factor(double ratio);
 
-/// dκ/d(c/d), for c/d > 0.
-double crack_factor_slope(double ratio);
-
 /// n = 1.56500339142: the pressure part of the near-edge field gives K_I = -n K_N c.
 double crack_closing_factor();
 

@@ -17,20 +17,18 @@ void require_ratio(double ratio)
            "; it must be at least -1 and below 1 (call the larger load the peak).");
 }
 
-/// Root in ln c of a decreasing function of the ratio c > 0.
-template <class Function>
-double decreasing_root(const Function &function)
-{
-   double low = 0, high = 0;
-   while (function(std::exp(low)) < 0) { low -= 1; }
-   while (function(std::exp(high)) > 0) { high += 1; }
-   return std::exp(find_root([&](double log) { return function(std::exp(log)); }, low, high));
-}
-
 /// The c at which κ(c)/c, which falls from infinity to zero, is @a value.
 double invert_factor(double value)
 {
-   return decreasing_root([=](double c) { return std::log(crack_factor(c) / (c * value)); });
+   const auto above = [=](double log_c)
+   {
+      const double c = std::exp(log_c);
+      return std::log(crack_factor(c) / (c * value));
+   };
+   double low = 0, high = 0;
+   while (above(low) < 0) { low -= 1; }
+   while (above(high) > 0) { high += 1; }
+   return std::exp(find_root(above, low, high));
 }
 
 } // namespace
@@ -123,15 +121,6 @@ double threshold_ordinate(Criterion criterion, double friction, double abscissa,
    // smaller.
    const double peak = 0.5 * (1 - stress_ratio) * range(1 + crack_closing_factor() * abscissa);
    return std::max(peak, range(0.5));
-}
-
-double threshold_minimum(double friction)
-{
-   require_positive("the friction coefficient", friction);
-   const double n = crack_closing_factor();
-   const double c = decreasing_root(
-      [=](double ratio) { return std::log(friction * crack_factor_slope(ratio) / n); });
-   return 1 / (friction * crack_factor(c) / c - n);
 }
 
 } // namespace cattaneo::fretting

@@ -73,7 +73,4 @@ ThresholdReport assess_threshold(const CrackedEdge &crack, double threshold, dou
 double threshold_ordinate(Criterion criterion, double friction, double abscissa,
                           double stress_ratio = -1);
 
-/// Abscissa of the minimum of curve A (R = -1). To the right of it K_I falls at a0.
-double threshold_minimum(double friction);
-
 } // namespace cattaneo::fretting
