@@ -1,10 +1,5 @@
+#include <cattaneo/algebra/ipopt.hpp>
 #include <cattaneo/algebra/smooth_programme.hpp>
-
-#ifdef CATTANEO_USE_IPOPT
-#include <IpIpoptApplication.hpp>
-#include <IpSolveStatistics.hpp>
-#include <IpTNLP.hpp>
-#endif
 
 namespace cattaneo
 {
@@ -174,27 +169,12 @@ SmoothSolution solve(const SmoothProgramme &programme, const VectorXd &start, do
 {
    using namespace Ipopt;
    SmartPtr<SmoothNlp> nlp = new SmoothNlp(programme, start);
-   SmartPtr<IpoptApplication> app = IpoptApplicationFactory();
-   // What a monitor or an objective throws ends the work; Ipopt would call it a failure.
-   app->RethrowNonIpoptException(true);
-   const SmartPtr<OptionsList> options = app->Options();
-   options->SetIntegerValue("print_level", 0);
-   options->SetStringValue("sb", "yes");
-   for (const char *name : {"tol", "constr_viol_tol", "dual_inf_tol", "compl_inf_tol"})
-   {
-      options->SetNumericValue(name, tolerance);
-   }
-   options->SetIntegerValue("acceptable_iter", 0);
-   options->SetIntegerValue("max_iter", max_iterations);
-   options->SetNumericValue("bound_relax_factor", 0);
-   options->SetStringValue("nlp_scaling_method", "none");
+   const SmartPtr<IpoptApplication> app = ipopt(tolerance, max_iterations);
    if (!programme.linear)
    {
-      options->SetStringValue("hessian_approximation", "limited-memory");
+      app->Options()->SetStringValue("hessian_approximation", "limited-memory");
    }
-   // An empty file name: otherwise a file ipopt.opt in the working directory rules.
-   ApplicationReturnStatus status = app->Initialize("");
-   if (status == Solve_Succeeded) { status = app->OptimizeTNLP(nlp); }
+   const ApplicationReturnStatus status = app->OptimizeTNLP(nlp);
    SmoothSolution solution = nlp->solution;
    const SmartPtr<SolveStatistics> statistics = app->Statistics();
    if (IsValid(statistics)) { solution.iterations = statistics->IterationCount(); }

@@ -1,12 +1,6 @@
+#include <cattaneo/algebra/ipopt.hpp>
 #include <cattaneo/shakedown/cone_programme.hpp>
-#include <cmath>
 #include <string>
-
-#ifdef CATTANEO_USE_IPOPT
-#include <IpIpoptApplication.hpp>
-#include <IpSolveStatistics.hpp>
-#include <IpTNLP.hpp>
-#endif
 
 namespace cattaneo
 {
@@ -379,26 +373,14 @@ private:
 };
 
 /// One run of Ipopt. A convex programme needs no globalisation of the barrier parameter, and is
-/// twice as fast without; @a careful adds it.
+/// twice as fast without.
 ConeSolution run_ipopt(const ConeProgramme &programme, const ConeSettings &settings,
                        const ConeStart &start)
 {
    using namespace Ipopt;
    SmartPtr<ConeNlp> nlp = new ConeNlp(programme, settings, start);
-   SmartPtr<IpoptApplication> app = IpoptApplicationFactory();
-   // What a monitor or an objective throws ends the work; Ipopt would call it a failure.
-   app->RethrowNonIpoptException(true);
+   const SmartPtr<IpoptApplication> app = ipopt(settings.tolerance, settings.max_iterations);
    const SmartPtr<OptionsList> options = app->Options();
-   options->SetIntegerValue("print_level", 0);
-   options->SetStringValue("sb", "yes");
-   for (const char *tolerance : {"tol", "constr_viol_tol", "dual_inf_tol", "compl_inf_tol"})
-   {
-      options->SetNumericValue(tolerance, settings.tolerance);
-   }
-   options->SetIntegerValue("acceptable_iter", 0);
-   options->SetIntegerValue("max_iter", settings.max_iterations);
-   options->SetNumericValue("bound_relax_factor", 0);
-   options->SetStringValue("nlp_scaling_method", "none");
    options->SetStringValue("jac_c_constant", "yes");
    if (programme.components() == 1)
    {
@@ -413,10 +395,7 @@ ConeSolution run_ipopt(const ConeProgramme &programme, const ConeSettings &setti
       // The default would push every multiplier up to 1e-3 and spoil most of what is known.
       options->SetNumericValue("warm_start_mult_bound_push", 1e-9);
    }
-   // An empty file name: otherwise the options of a file ipopt.opt in the working directory
-   // rule.
-   ApplicationReturnStatus status = app->Initialize("");
-   if (status == Solve_Succeeded) { status = app->OptimizeTNLP(nlp); }
+   const ApplicationReturnStatus status = app->OptimizeTNLP(nlp);
 
    ConeSolution solution = nlp->solution;
    const SmartPtr<SolveStatistics> statistics = app->Statistics();
