@@ -183,7 +183,7 @@ TEST(LoadCycles, MultipliersAndStuckForcesByHand)
    refused([](LoadCycle &c) { c.varying(1, 1) = INFINITY; });
 }
 
-TEST(Method1, SaysBetweenWhichVerticesAndWhenThereIsNone)
+TEST(Method1, SaysAtWhichNodeAndWhenThereIsNone)
 {
    const ReducedProblem problem = three_nodes();
    // Between the second and the third of three vertices the shear changes by 1.5.
@@ -193,8 +193,6 @@ TEST(Method1, SaysBetweenWhichVerticesAndWhenThereIsNone)
         {method1_friction(problem, cycle, 1), method1_load(problem, cycle)})
    {
       EXPECT_EQ(estimate.node, 1);
-      EXPECT_EQ(estimate.vertex_a, 1);
-      EXPECT_EQ(estimate.vertex_b, 2);
    }
    // Without node 1 it is node 2: 1.5/(1.5 + 2.25); 1.5 λ = 0.4 (4 - 0.25 λ).
    EXPECT_NEAR(method1_friction(problem, cycle, 1, {0, 2}).value, 1.5 / 3.75, 1e-15);
@@ -228,8 +226,6 @@ TEST(Method1, SaysBetweenWhichVerticesAndWhenThereIsNone)
    triangle.varying(1, 1) = triangle.varying(2, 2) = 1;
    const PointwiseEstimate longest = method1_friction(disc, triangle, 1);
    EXPECT_NEAR(longest.value, 5.0 / 20, 1e-15);
-   EXPECT_EQ(longest.vertex_a, 1);
-   EXPECT_EQ(longest.vertex_b, 2);
    EXPECT_NEAR(method1_load(disc, triangle).value, 0.5 * 20 / 5, 1e-15);
 }
 

@@ -40,7 +40,7 @@ PointwiseEstimate pointwise(const Eigen::MatrixXd &q, const Eigen::MatrixXd &p,
                     {
                        const double sum = p(i, a) + p(i, b);
                        const double f = sum > 0 ? jump[i] / sum : infinity;
-                       if (f > estimate.value) { estimate = {f, i, a, b}; }
+                       if (f > estimate.value) { estimate = {f, i}; }
                     }
                  });
    return estimate;
@@ -110,7 +110,7 @@ PointwiseEstimate method1_load(const ReducedProblem &problem, const LoadCycle &c
                        const double room = f * 2 * forces.p0(i, a);
                        const double use = jump[i] - f * (forces.p1(i, a) + forces.p1(i, b));
                        const double at = room < 0 ? 0 : use > 0 ? room / use : infinity;
-                       if (at < estimate.value) { estimate = {at, i, a, b}; }
+                       if (at < estimate.value) { estimate = {at, i}; }
                     }
                  });
    return estimate;

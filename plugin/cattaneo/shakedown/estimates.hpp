@@ -12,9 +12,7 @@ namespace cattaneo
 struct PointwiseEstimate
 {
    double value = 0;      ///< friction coefficient or load factor; infinite if there is none
-   Eigen::Index node = 0; ///< where it is decided, …
-   Eigen::Index vertex_a = 0; ///< … between this load vertex …
-   Eigen::Index vertex_b = 0; ///< … and this one
+   Eigen::Index node = 0; ///< where it is decided
 };
 
 /** Method 1 (4.9): only the shear tractions redistribute, independently at each node and
