@@ -27,7 +27,6 @@
 #include "common/run.hpp"
 #include "common/watch.hpp"
 
-#include <algorithm>
 #include <cattaneo/design/design.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>

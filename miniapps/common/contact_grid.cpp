@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
-#include <cmath>
 
 namespace miniapp
 {

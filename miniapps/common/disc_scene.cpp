@@ -11,7 +11,6 @@
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/mesh/graded_mesh.hpp>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 namespace miniapp

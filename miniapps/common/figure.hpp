@@ -3,7 +3,6 @@
 #include <Eigen/Dense>
 #include <cattaneo/friction/contact_state.hpp>
 #include <cattaneo/readout/zones.hpp>
-#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>

@@ -5,7 +5,6 @@
 #include <cattaneo/elastic/guide.hpp>
 #include <cattaneo/expression.hpp>
 #include <cattaneo/reduced/interfaces.hpp>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>

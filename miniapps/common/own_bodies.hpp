@@ -6,7 +6,6 @@
 #include <cattaneo/fretting/corner.hpp>
 #include <cattaneo/halfplane/half_plane.hpp>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace miniapp

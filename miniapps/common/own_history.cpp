@@ -7,7 +7,6 @@
 #include <cattaneo/friction/history_statements.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
-#include <cstdio>
 #include <deque>
 
 namespace miniapp

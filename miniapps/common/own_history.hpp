@@ -4,7 +4,6 @@
 
 #include <cattaneo/output/history.hpp>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 

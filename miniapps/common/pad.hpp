@@ -6,7 +6,6 @@
 #include <cattaneo/fretting/assessment.hpp>
 #include <cattaneo/fretting/calibration.hpp>
 #include <cattaneo/fretting/critical_plane.hpp>
-#include <optional>
 #include <string>
 
 namespace miniapp

@@ -13,7 +13,6 @@
 #include <deque>
 #include <functional>
 #include <limits>
-#include <optional>
 #include <string>
 
 namespace miniapp

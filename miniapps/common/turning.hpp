@@ -2,8 +2,6 @@
 
 #include "common/run.hpp"
 
-#include <string>
-
 namespace miniapp
 {
 

@@ -1,6 +1,5 @@
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/material.hpp>
-#include <cmath>
 
 namespace cattaneo
 {

@@ -3,7 +3,6 @@
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/progress_report.hpp>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 namespace cattaneo

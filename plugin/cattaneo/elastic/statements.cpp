@@ -4,10 +4,8 @@
 #include <cattaneo/expression.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/words.hpp>
-#include <cctype>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 
 namespace cattaneo
 {

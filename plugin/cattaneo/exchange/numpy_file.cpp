@@ -3,7 +3,6 @@
 #include <cattaneo/exchange/write_stiffness.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/whole_file.hpp>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 

@@ -3,7 +3,6 @@
 #include <cattaneo/algebra/dense_algebra.hpp>
 #include <cattaneo/algebra/nonnegative_fit.hpp>
 #include <cattaneo/friction/methods.hpp>
-#include <cmath>
 
 namespace cattaneo
 {

@@ -2,7 +2,6 @@
 
 #include <Eigen/Dense>
 #include <cattaneo/reduced/reduced_problem.hpp>
-#include <string>
 #include <vector>
 
 namespace cattaneo

@@ -6,7 +6,6 @@
 #include <cattaneo/shakedown/infinity.hpp>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace cattaneo
 {
