@@ -2,6 +2,7 @@
 
 #include "common/wearing_pad.hpp"
 
+#include <cattaneo/wear/wear_march.hpp>
 #include <cattaneo/wear/worn_out.hpp>
 
 namespace miniapp

@@ -37,6 +37,7 @@
 #include <cattaneo/shakedown/lower_limit.hpp>
 #include <cattaneo/shakedown/transient.hpp>
 #include <cattaneo/version.hpp>
+#include <cattaneo/wear/wear_march.hpp>
 #include <cattaneo/wear/worn_out.hpp>
 #include <cattaneo/whole_file.hpp>
 #include <cattaneo/words.hpp>

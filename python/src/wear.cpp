@@ -3,6 +3,7 @@
 #include "members.hpp"
 #include "module.hpp"
 #include "watch.hpp"
+#include <cattaneo/wear/wear_march.hpp>
 #include <cattaneo/wear/worn_out.hpp>
 #include <nanobind/stl/string.h>
 #include <sstream>

@@ -10,6 +10,7 @@
 #include <cattaneo/fretting/edge_report.hpp>
 #include <cattaneo/fretting/from_contact.hpp>
 #include <cattaneo/fretting/measures.hpp>
+#include <cattaneo/friction/march.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
 #include <expect_input_error.hpp>

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cattaneo/halfplane/half_plane.hpp>
 #include <cattaneo/readout/zones.hpp>
+#include <cattaneo/wear/wear_march.hpp>
 #include <cattaneo/wear/worn_out.hpp>
 #include <cmath>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cattaneo/fretting/near_edge.hpp>
-#include <cattaneo/friction/march.hpp>
+#include <cattaneo/friction/loop.hpp>
 #include <cattaneo/readout/contact_edges.hpp>
 
 namespace cattaneo::fretting

@@ -1,4 +1,5 @@
 #include <cattaneo/elastic/stress.hpp>
+#include <cattaneo/halfplane/half_plane_field.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/mesh/graded_mesh.hpp>
 #include <cattaneo/output/paraview_half_plane.hpp>

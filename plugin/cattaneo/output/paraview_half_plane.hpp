@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cattaneo/halfplane/half_plane_field.hpp>
+#include <cattaneo/halfplane/half_plane.hpp>
 #include <memory>
 #include <mfem.hpp>
 #include <string>

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <cattaneo/friction/march.hpp>
 #include <cattaneo/friction/settled_states.hpp>
-#include <cattaneo/wear/wear_march.hpp>
 
 namespace cattaneo
 {
