@@ -268,10 +268,8 @@ TEST(CondenseMatrix, ArraysOfAnyProgramAreTakenAsTheyAre)
    other.K = SharedMatrix(body.K.size(), start.data(), column.data(), value.data(), nullptr);
    const CondensedBody first = condense(body, frame.line()),
                        second = condense(other, frame.line()),
-                       third =
-                          condense(other, frame.line(), SparseFactor::Backend::eigen, &second),
-                       fourth =
-                          condense(other, frame.line(), SparseFactor::Backend::eigen, &first);
+                       third = condense(other, frame.line(), &second),
+                       fourth = condense(other, frame.line(), &first);
    EXPECT_LT(difference(second.S, first.S), 1e-14);
    EXPECT_EQ(third.S, second.S);
    EXPECT_EQ(third.counters.factorisations, 0);

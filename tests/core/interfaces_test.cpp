@@ -108,8 +108,7 @@ struct Truss
       }
       body.fixed = fixed;
       body.loads = loads;
-      CondensedBody made =
-         condense(body, joined(lines), SparseFactor::Backend::automatic, alike);
+      CondensedBody made = condense(body, joined(lines), alike);
       made.name = name;
       return made;
    }

@@ -117,7 +117,6 @@ struct SparseFactor::Implementation
    /// L22 L22ᵀ x
    virtual Eigen::VectorXd trailing_product(const Eigen::VectorXd &x) const = 0;
    virtual Eigen::MatrixXd solve(const Eigen::MatrixXd &rhs) const = 0;
-   virtual long nonzeros() const = 0;
 };
 
 namespace
@@ -277,8 +276,6 @@ public:
       for (int a = 0; a < size; ++a) { x.row(a) = b.row(position_[a]); }
       return x;
    }
-
-   long nonzeros() const override { return llt_.matrixL().nestedExpression().nonZeros(); }
 };
 
 #ifdef CATTANEO_USE_CHOLMOD
@@ -440,22 +437,11 @@ public:
       cholmod_free_dense(&x, &common_);
       return result;
    }
-
-   long nonzeros() const override { return static_cast<long>(L_->xsize); }
 };
 
 #endif
 
 } // namespace
-
-bool SparseFactor::has_cholmod()
-{
-#ifdef CATTANEO_USE_CHOLMOD
-   return true;
-#else
-   return false;
-#endif
-}
 
 SparseFactor::SparseFactor(const SparseView &K, const std::vector<int> &keep, int trailing,
                            double shift, Backend backend)
@@ -467,12 +453,9 @@ SparseFactor::SparseFactor(const SparseView &K, const std::vector<int> &keep, in
            "sparse factor: ", trailing, " trailing rows, must be from 0 to ", keep.size());
    require(std::isfinite(shift) && shift >= 0, "sparse factor: shift is ", shift,
            ", must be finite and not negative");
-   require(backend != Backend::cholmod || has_cholmod(),
-           "sparse factor: CHOLMOD was asked for, but this build has only Eigen "
-           "(CATTANEO_USE_CHOLMOD=OFF)");
    LowerTriangle lower(K, keep, trailing, shift);
 #ifdef CATTANEO_USE_CHOLMOD
-   if (backend != Backend::eigen) { impl_ = std::make_unique<CholmodFactor>(lower, keep); }
+   if (backend == Backend::automatic) { impl_ = std::make_unique<CholmodFactor>(lower, keep); }
 #endif
    if (!impl_) { impl_ = std::make_unique<EigenFactor>(lower, keep); }
    impl_->size = lower.size;
@@ -517,10 +500,6 @@ Eigen::MatrixXd SparseFactor::solve(const Eigen::MatrixXd &rhs) const
 int SparseFactor::rows() const
 {
    return impl_->size;
-}
-long SparseFactor::nonzeros() const
-{
-   return impl_->nonzeros();
 }
 
 } // namespace cattaneo

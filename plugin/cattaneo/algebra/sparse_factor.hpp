@@ -38,11 +38,8 @@ public:
    enum class Backend
    {
       automatic, ///< CHOLMOD if built with it
-      cholmod,
       eigen
    };
-   /// Was the library built with CHOLMOD?
-   static bool has_cholmod();
 
    /// Factors K(keep, keep) + diag(shift on the trailing rows). `keep`: rows of K in any order,
    /// of which the last `trailing` are the trailing ones. K is taken for symmetric: only one
@@ -62,8 +59,6 @@ public:
    Eigen::MatrixXd solve(const Eigen::MatrixXd &rhs) const;
    /// Number of rows that were factored.
    int rows() const;
-   /// Number of non-zeros of the factor (with CHOLMOD: stored entries of its supernodes).
-   long nonzeros() const;
 
    struct Implementation;
 

@@ -65,8 +65,7 @@ public:
 };
 
 std::shared_ptr<const FactoredStiffness> factored(const AssembledBody &body,
-                                                  const std::vector<int> &contact,
-                                                  SparseFactor::Backend backend)
+                                                  const std::vector<int> &contact)
 {
    auto made = std::make_shared<FactoredStiffness>();
    made->K = body.K;
@@ -89,8 +88,8 @@ std::shared_ptr<const FactoredStiffness> factored(const AssembledBody &body,
    }
    try
    {
-      made->factor = std::make_unique<SparseFactor>(body.K.view(), made->keep, made->contact,
-                                                    made->shift, backend);
+      made->factor =
+         std::make_unique<SparseFactor>(body.K.view(), made->keep, made->contact, made->shift);
    }
    catch (const NotPositiveDefinite &error)
    {
@@ -226,14 +225,14 @@ public:
 };
 
 Condensation with_blocks_held(AssembledBody body, const std::vector<int> &contact,
-                              SparseFactor::Backend backend, const BodySolver *alike);
+                              const BodySolver *alike);
 
 } // namespace
 
 Condensation condense_by_factor(const AssembledBody &body, const std::vector<int> &contact,
-                                SparseFactor::Backend backend, const BodySolver *alike)
+                                const BodySolver *alike)
 {
-   if (!body.blocks.empty()) { return with_blocks_held(body, contact, backend, alike); }
+   if (!body.blocks.empty()) { return with_blocks_held(body, contact, alike); }
    Condensation found;
    found.free = find_free_motions(body, contact);
    auto solver = std::make_shared<FactorSolver>();
@@ -244,7 +243,7 @@ Condensation condense_by_factor(const AssembledBody &body, const std::vector<int
    }
    else
    {
-      solver->stiffness = factored(body, contact, backend);
+      solver->stiffness = factored(body, contact);
       ++found.counters.factorisations;
    }
    found.clamped = clamp(body, *solver, found.counters);
@@ -257,7 +256,7 @@ namespace
 {
 
 Condensation with_blocks_held(AssembledBody body, const std::vector<int> &contact,
-                              SparseFactor::Backend backend, const BodySolver *alike)
+                              const BodySolver *alike)
 {
    const FreeMotions free = find_free_motions(body, contact);
    const std::vector<BlockMotion> blocks = std::move(body.blocks);
@@ -278,7 +277,7 @@ Condensation with_blocks_held(AssembledBody body, const std::vector<int> &contac
    {
       body.loads.push_back({"", Control::displacement, block.motion});
    }
-   Condensation found = condense_by_factor(body, contact, backend, alike);
+   Condensation found = condense_by_factor(body, contact, alike);
    auto solver = std::make_shared<BlockSolver>();
    solver->S = found.S;
    solver->motions = Equilibrium(found.free).motions();
@@ -304,7 +303,7 @@ Condensation with_blocks_held(AssembledBody body, const std::vector<int> &contac
 } // namespace
 
 CondensedBody condense(const AssembledBody &body, const ContactLine &line,
-                       SparseFactor::Backend backend, const CondensedBody *alike)
+                       const CondensedBody *alike)
 {
    body.validate();
    ContactDofs contact = contact_dofs(line, body.places.formulation, body.K.size());
@@ -333,7 +332,7 @@ CondensedBody condense(const AssembledBody &body, const ContactLine &line,
    }
    return in_local_frames(
       line, body.loads, contact,
-      condense_by_factor(body, contact.free(), backend, alike ? alike->solver.get() : nullptr));
+      condense_by_factor(body, contact.free(), alike ? alike->solver.get() : nullptr));
 }
 
 } // namespace cattaneo

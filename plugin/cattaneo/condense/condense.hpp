@@ -19,7 +19,6 @@ namespace cattaneo
    positive definite. Contact dofs that are fixed, on a plane of symmetry for instance, are no
    part of the trace (CondensedBody::held). */
 CondensedBody condense(const AssembledBody &body, const ContactLine &line,
-                       SparseFactor::Backend backend = SparseFactor::Backend::automatic,
                        const CondensedBody *alike = nullptr);
 
 } // namespace cattaneo

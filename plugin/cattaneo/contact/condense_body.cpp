@@ -57,7 +57,7 @@ void share(const Ranks &ranks, Condensation &found)
 }
 
 Condensation gathered(const ElasticBody &body, const std::vector<int> &contact,
-                      SparseFactor::Backend backend, const BodySolver *alike)
+                      const BodySolver *alike)
 {
    const Ranks &ranks = body.ranks();
    const AssembledBody all = assembled(body);
@@ -66,7 +66,7 @@ Condensation gathered(const ElasticBody &body, const std::vector<int> &contact,
    {
       alike = other->first.get();
    }
-   ranks.on_first([&] { found = condense_by_factor(all, contact, backend, alike); });
+   ranks.on_first([&] { found = condense_by_factor(all, contact, alike); });
    if (!ranks.distributed()) { return found; }
    if (ranks.several()) { share(ranks, found); }
    auto solver = std::make_shared<GatheredSolver>();
@@ -171,7 +171,7 @@ CondensedBody condense(const ElasticBody &body, const ContactLine &line,
    else
 #endif
    {
-      found = gathered(body, contact, settings.backend, other);
+      found = gathered(body, contact, other);
    }
    found.counters += body.counters();
    return in_local_frames(line, body.patterns(), dofs, std::move(found));

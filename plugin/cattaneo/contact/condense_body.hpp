@@ -9,7 +9,6 @@ namespace cattaneo
 /// How a body is condensed.
 struct CondenseSettings
 {
-   SparseFactor::Backend backend = SparseFactor::Backend::automatic; ///< of the sparse factor
    /// Of a body on an mfem::ParMesh: with more dofs than this it is condensed by conjugate
    /// gradients on all of them, below it is gathered and factored by the first. At the default
    /// a factor takes some 1.4 GB (docs/ranks.md).

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cattaneo/algebra/sparse_factor.hpp>
 #include <cattaneo/condense/condensed_body.hpp>
 #include <cattaneo/condense/free_motions.hpp>
 
@@ -63,6 +62,6 @@ CondensedBody in_local_frames(const ContactLine &line, const std::vector<BodyLoa
 /// What condense() finds before it turns to the frames of the line; `contact`: the free ones of
 /// contact_dofs().
 Condensation condense_by_factor(const AssembledBody &body, const std::vector<int> &contact,
-                                SparseFactor::Backend backend, const BodySolver *alike);
+                                const BodySolver *alike);
 
 } // namespace cattaneo
