@@ -6,8 +6,9 @@
 //  and checked, as a user's is). Processor seconds, the best of several; the difference is of
 //  the two condensed stiffnesses.
 
+#include "axisymmetric_integrator.hpp"
+
 #include <cattaneo/contact/condense_body.hpp>
-#include <cattaneo/elastic/axisymmetric.hpp>
 #include <cattaneo/mesh/graded_mesh.hpp>
 #include <cstdio>
 #include <ctime>

@@ -3,7 +3,6 @@
 // All of Cattaneo for programs that use MFEM.
 #include <cattaneo/contact/interfaces_of_bodies.hpp>
 #include <cattaneo/core.hpp>
-#include <cattaneo/elastic/axisymmetric.hpp>
 #include <cattaneo/elastic/point_stress.hpp>
 #include <cattaneo/elastic/rotation.hpp>
 #include <cattaneo/elastic/statements.hpp>

@@ -1,6 +1,6 @@
+#include "axisymmetric_integrator.hpp"
 #include "elastic_support.hpp"
 #include <cattaneo/elastic/assembly.hpp>
-#include <cattaneo/elastic/axisymmetric.hpp>
 
 using namespace cattaneo;
 using namespace support;
@@ -19,6 +19,8 @@ MatrixXd by_bilinear_form(mfem::FiniteElementSpace &space,
       mu(k) = materials[k].mu();
    }
    mfem::PWConstCoefficient lambda_field(lambda), mu_field(mu);
+   mfem::FunctionCoefficient moment(polar_moment);
+   mfem::ProductCoefficient torsion(mu_field, moment);
    mfem::BilinearForm form(&space);
    switch (formulation)
    {
@@ -29,7 +31,7 @@ MatrixXd by_bilinear_form(mfem::FiniteElementSpace &space,
       form.AddDomainIntegrator(new AxisymmetricElasticityIntegrator(lambda_field, mu_field));
       break;
    case Formulation::torsion:
-      form.AddDomainIntegrator(new TorsionIntegrator(mu_field));
+      form.AddDomainIntegrator(torsion_integrator(space, torsion));
       break;
    }
    form.Assemble();

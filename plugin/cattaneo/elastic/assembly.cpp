@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cattaneo/elastic/assembly.hpp>
-#include <cattaneo/elastic/axisymmetric.hpp>
 #include <cattaneo/input_error.hpp>
 #include <limits>
 
@@ -331,10 +330,15 @@ stiffness_rule(const mfem::FiniteElement &element,
                const mfem::IsoparametricTransformation &transformation, Formulation formulation,
                bool varying_material)
 {
-   const mfem::IntegrationRule &rule =
-      formulation != Formulation::plane
-         ? rule_of_revolution(element, transformation, formulation)
-         : mfem::IntRules.Get(element.GetGeomType(), 2 * transformation.OrderGrad(&element));
+   // Of a body of revolution exact on straight triangles and on quads for any gradient of a
+   // shape function times the radii of the operator (r, in torsion r³), and for the product of
+   // two of them on elements with parallel sides.
+   const int order =
+      formulation == Formulation::plane
+         ? 2 * transformation.OrderGrad(&element)
+         : 2 * element.GetOrder() +
+              (formulation == Formulation::torsion ? 4 : 2) * transformation.Order();
+   const mfem::IntegrationRule &rule = mfem::IntRules.Get(element.GetGeomType(), order);
    if (!varying_material) { return rule; }
    return mfem::IntRules.Get(element.GetGeomType(), rule.GetOrder() + 4);
 }

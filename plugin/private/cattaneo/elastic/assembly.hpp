@@ -29,8 +29,9 @@ std::unique_ptr<mfem::SparseMatrix> assemble_stiffness(const mfem::FiniteElement
                                                        const VaryingMaterial &material,
                                                        Formulation formulation);
 
-/// Where the stiffness of an element is integrated. Forces of initial strains taken at the same
-/// points let a body expand without stress, on curved elements too.
+/// Where the stiffness of an element is integrated, at points inside it, so that r > 0. Forces
+/// of initial strains taken at the same points let a body expand without stress, on curved
+/// elements too.
 const mfem::IntegrationRule &
 stiffness_rule(const mfem::FiniteElement &element,
                const mfem::IsoparametricTransformation &transformation, Formulation formulation,
