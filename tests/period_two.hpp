@@ -6,12 +6,12 @@ namespace cattaneo_test
 {
 
 /** Two nodes of unit stiffness, f = ½, each of which slips in its own direction only and
-   presses the other: f p0 = 1 + v1, f p1 = 1 - v0 under "P". Sheared to and fro one after the
-   other, first by -1.5 and then by 1, node 0 comes to v0 = v1, and after it node 1 to v1 = -v0:
-   each cycle turns the sign of v1, whatever its size up to a quarter. Of period two.
+    presses the other: f p0 = 1 + v1, f p1 = 1 - v0 under "P". Sheared to and fro one after the
+    other, first by -1.5 and then by 1, node 0 comes to v0 = v1, and after it node 1 to v1 =
+    -v0: each cycle turns the sign of v1, whatever its size up to a quarter. Of period two.
 
-    A third node, soft, is pressed and sheared by "P" and sticks: it stores the energy `stored`.
- */
+    A third node, soft, is pressed and sheared by "P" and sticks: it stores the energy
+    `stored`. */
 inline cattaneo::ReducedProblem period_two(double stored = 0)
 {
    using namespace cattaneo;

@@ -59,8 +59,8 @@ inline ReducedProblem random_contact(unsigned seed, Eigen::Index n, Eigen::Index
 }
 
 /** Like a square punch on an elastic half-plane: stiffness of the two half-planes' type on a
-   mesh that is graded to both edges, a coupling like that of dissimilar materials, tractions
-   that are smooth. Zero tangential and normal translations. */
+    mesh that is graded to both edges, a coupling like that of dissimilar materials, tractions
+    that are smooth. Zero tangential and normal translations. */
 inline ReducedProblem punch_like(Eigen::Index n, double coupling = 0.1)
 {
    Eigen::VectorXd x(n), weights(n);
@@ -187,8 +187,8 @@ inline RandomLimit random_limit(unsigned seed, Eigen::Index components)
 }
 
 /** The largest λ of a linear programme with one tangential component by brute force: every
-   corner of the admissible set of (λ, v) is the meeting of as many conditions as there are
-   unknowns.
+    corner of the admissible set of (λ, v) is the meeting of as many conditions as there are
+    unknowns.
     @a n at most 3. A rigid slip is fixed by holding node 0. */
 inline double brute_force_load(const ReducedProblem &problem, const LoadCycle &cycle)
 {

@@ -22,9 +22,9 @@ inline cattaneo::ReducedProblem one_block(double f)
 }
 
 /** Four nodes on springs of their own, 2 along and 4 across the contact, f = 1/2. P presses
-   three with 1 and lifts the last by 0.4/4; Q shears. Under both, limits being 1/2: the first
-   sticks with q = 0.1; -0.5 = 2 v - 0.8 slips forward, 0.5 = 2 v + 0.7 backward; the last moves
-    freely, 0 = 2 v + 0.3. */
+    three with 1 and lifts the last by 0.4/4; Q shears. Under both, limits being 1/2: the first
+    sticks with q = 0.1; -0.5 = 2 v - 0.8 slips forward, 0.5 = 2 v + 0.7 backward; the last
+    moves freely, 0 = 2 v + 0.3. */
 inline cattaneo::ReducedProblem four_springs()
 {
    cattaneo::ReducedProblem problem;

@@ -11,7 +11,7 @@ struct Focus
 
 /** Grid lines from `from` to `to` for elements of the given order. The distance of the nodes is
     the least that any focus asks for: its own spacing in it, and away from it `growth` (above
-   1) as much from one node to the next. */
+    1) as much from one node to the next. */
 std::vector<double> focused_grid(double from, double to, int order, double growth,
                                  const std::vector<Focus> &foci);
 

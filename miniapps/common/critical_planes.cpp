@@ -91,7 +91,7 @@ private:
 };
 
 /** Places along the surface over its half-width: a net, and ever closer ones to the edges of
-   the contact, down to half of the depth; stresses change fastest there. */
+    the contact, down to half of the depth; stresses change fastest there. */
 std::vector<double> places_along(double depth)
 {
    std::vector<double> places;

@@ -20,13 +20,13 @@ enum class Twist
 };
 
 /** The axisymmetric receding contact of thesis chapter 7: a disc 0 < r < b, 0 < z < t on a
-   half-space of the same material: the half-space itself, which has no mesh, or a cylinder r <
-   R, -R < z < 0 that is fixed on its side and bottom. Dead pressure p0 on r < a of the disc's
-   top.
+    half-space of the same material: the half-space itself, which has no mesh, or a cylinder r <
+    R, -R < z < 0 that is fixed on its side and bottom. Dead pressure p0 on r < a of the disc's
+    top.
 
     Units t = p0 = E = 1. Every load radius is a load pattern of its own, see radius_load(), on
-   one condensed pair: the end of the load need not be a mesh line. The twist is the pattern
-   "twist", of angle φ = 1 or torque 1. */
+    one condensed pair: the end of the load need not be a mesh line. The twist is the pattern
+    "twist", of angle φ = 1 or torque 1. */
 struct DiscOptions
 {
    double disc_radius = 5;                 ///< b, in t
@@ -52,8 +52,8 @@ std::string radius_load(double radius);
 Scene make_disc(const DiscOptions &options);
 
 /** Radius of the load above which no node of a disc separates, for any friction, on one
-   condensed pair. The clamped forces are smooth in the load's radius: those of a radius in
-   between are interpolated by a cubic through patterns 0.1 t apart. */
+    condensed pair. The clamped forces are smooth in the load's radius: those of a radius in
+    between are interpolated by a cubic through patterns 0.1 t apart. */
 class CriticalLoad
 {
 public:
@@ -72,8 +72,8 @@ private:
 };
 
 /** Radius of the load below which a disc that is bonded to its half-space pulls somewhere, to a
-   thousandth of b; NaN if it never does. Ill-conditioned: far from the load the pressure is a
-   thousandth of p0. */
+    thousandth of b; NaN if it never does. Ill-conditioned: far from the load the pressure is a
+    thousandth of p0. */
 double bonded_critical_radius(DiscOptions options);
 
 } // namespace miniapp

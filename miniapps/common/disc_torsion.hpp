@@ -36,7 +36,7 @@ void twist(Study &study, Disc &disc, Run &run, Turning::Stop stop,
            const std::vector<double> &wanted);
 
 /** Cycles of the twist between ± what first brings the torque to `amplitude` T_s. Rotation is
-   held between its limits, so that the torque may relax; torque is, under --twist traction. */
+    held between its limits, so that the torque may relax; torque is, under --twist traction. */
 void cycle(Study &study, Disc &disc, Run &run, double amplitude, int cycles);
 
 } // namespace miniapp

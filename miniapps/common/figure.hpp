@@ -85,9 +85,9 @@ struct Sheet
 };
 
 /** Writes what the options --csv PREFIX and --plot FILE.png ask for: PREFIX_<sheet>.csv for
-   every sheet, and the picture of those that are drawn, by miniapps/plot/plot.py. InputError if
-   there is nothing to be written, a file cannot be written or the script fails. Nothing for
-   empty names. */
+    every sheet, and the picture of those that are drawn, by miniapps/plot/plot.py. InputError
+    if there is nothing to be written, a file cannot be written or the script fails. Nothing for
+    empty names. */
 void output(const std::vector<Sheet> &sheets, const std::string &csv_prefix,
             const std::string &picture);
 

@@ -304,7 +304,7 @@ struct Record
 
 /** The level of a measure that tells tests that broke from those that lasted with the fewest on
     its wrong side; of several the one in the widest gap by ratio, in the middle of it. NaN
-   where no level is better than to call them all one. */
+    where no level is better than to call them all one. */
 struct DividingLevel
 {
    double level = none;

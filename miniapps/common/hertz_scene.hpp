@@ -11,9 +11,9 @@ namespace miniapp
 {
 
 /** Two half-planes of the same material, a pad above (body 1) and a specimen below. They have
-   no mesh: the specimen is held, the pad takes the loads. Or they are blocks, both free under
+    no mesh: the specimen is held, the pad takes the loads. Or they are blocks, both free under
     loads in equilibrium, of which body 2 is body 1 turned by 180°. Without a gap: that is set
-   in the reduced problem. Any consistent units.
+    in the reduced problem. Any consistent units.
 
     Load patterns: "P", the normal force `load`; "Q", a shear of the same resultant, +x on the
     pad, on blocks with the pressure that balances its moment; "bulk" and "bulk pad" if asked

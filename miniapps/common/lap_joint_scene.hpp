@@ -9,14 +9,14 @@ namespace miniapp
 {
 
 /** The lap joint of thesis chapter 6 and rows of bolts (thesis 8.2, item 3). t is the thickness
-   of the whole joint, each lap is t/2. With d the position of the outermost bolt: upper lap -16
-   t - d < x < d + protrusion, 0 < y < t/2, lower lap the same turned by 180° about the origin.
-   u_y = 0 at the mid-height node of both loaded ends; nothing else is held, so that both laps
-   are free bodies whose common motions (x only) do no work.
+    of the whole joint, each lap is t/2. With d the position of the outermost bolt: upper lap
+    -16 t - d < x < d + protrusion, 0 < y < t/2, lower lap the same turned by 180° about the
+    origin. u_y = 0 at the mid-height node of both loaded ends; nothing else is held, so that
+    both laps are free bodies whose common motions (x only) do no work.
 
     Units t = p0 = E' = 1, E' = E/(1-ν²). Load patterns: one pinch pressure p0 on both outer
-   faces for every bolt and every width, see pinch_load(), and "T", the uniform traction of
-   resultant 1 on both far ends, outward. */
+    faces for every bolt and every width, see pinch_load(), and "T", the uniform traction of
+    resultant 1 on both far ends, outward. */
 struct LapJointOptions
 {
    std::vector<double> widths = {1.0}; ///< of the pinch pressure, in t

@@ -13,11 +13,11 @@ namespace miniapp
 {
 
 /** Runs a miniapp's body and turns bad input into one sentence on stderr and exit code 1. The
-   body returns the exit code: 0, or 2 for an outcome that ended the study early (gross sliding,
-   …).
+    body returns the exit code: 0, or 2 for an outcome that ended the study early (gross
+    sliding, …).
 
     On several ranks all of them run the body, and the first one speaks and writes for all; an
-   error that only one rank sees ends the others too. */
+    error that only one rank sees ends the others too. */
 int run(const std::function<int()> &body);
 
 /// Leaves the body with exit code 0.

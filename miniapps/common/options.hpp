@@ -46,9 +46,9 @@ enum class Text
 extern const char *const domain_help;
 
 /** Options of a program, each declared once, with its check. Numbers that are none, or too
-   large, are refused with the name of their option, and so are options without a value. Files
-   to be read and written are known as such, so that a run does not end, after all its work,
-   with nowhere to write to, or writes over what it reads.
+    large, are refused with the name of their option, and so are options without a value. Files
+    to be read and written are known as such, so that a run does not end, after all its work,
+    with nowhere to write to, or writes over what it reads.
 
     --case FILE.json gives options as well, by their long names without dashes; the command line
     overrides it. Files that are written are named on the command line only. */

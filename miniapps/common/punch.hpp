@@ -14,7 +14,7 @@ namespace miniapp
 
     Units a = P0 = E' = 1, E' = E/(1-ν²) of each body. Load patterns: "P", a uniform pressure of
     resultant 1 on the top face; "Q", a uniform shear of resultant 1 in +x on the top face with
-   the linear pressure that balances its moment about the contact plane. */
+    the linear pressure that balances its moment about the contact plane. */
 struct PunchOptions
 {
    bool half_plane = false;

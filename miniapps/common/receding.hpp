@@ -11,13 +11,13 @@ namespace miniapp
 {
 
 /** The plane receding contact of thesis chapter 5: an elastic strip 0 < x < length, 0 < y < t
-   on a similar half-plane: the half-plane itself, which has no mesh, or the block -side < x <
-   length, -domain < y < 0, u_y = 0 at its bottom. A pressure p0 acts on the strip's top for x >
-   n t. u_x = 0 at x = length (of both).
+    on a similar half-plane: the half-plane itself, which has no mesh, or the block -side < x <
+    length, -domain < y < 0, u_y = 0 at its bottom. A pressure p0 acts on the strip's top for x
+    > n t. u_x = 0 at x = length (of both).
 
     Units t = p0 = E' = 1, E' = E/(1-ν²). Every overhang n is a load pattern of its own, see
     overhang_load(): the end of the load need not be a mesh line, so that one condensed pair
-   serves all n. */
+    serves all n. */
 struct RecedingOptions
 {
    double length = 100; ///< of the strip, in t
@@ -66,8 +66,8 @@ std::string overhang_load(double overhang);
 BondedTractions bonded_tractions(const cattaneo::ReducedProblem &problem, double overhang);
 
 /** Overhang between two at which a figure of the bonded strip changes its sign, found among
-   loads of ever closer edges; NaN if it has the same sign at both.
-   @param figure of a bonded strip */
+    loads of ever closer edges; NaN if it has the same sign at both.
+    @param figure of a bonded strip */
 double changing_overhang(RecedingOptions options, double from, double to,
                          const std::function<double(const BondedTractions &)> &figure);
 

@@ -47,7 +47,7 @@ private:
 using Meaning = std::function<nlohmann::ordered_json(const std::string &)>;
 
 /** The reference values of one study, from miniapps/data/references.json, whose head says how
-   an entry is written. */
+    an entry is written. */
 class References
 {
 public:

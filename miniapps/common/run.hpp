@@ -15,7 +15,7 @@ namespace miniapp
     counts goes to the study, and with --csv its increments, see HistoryWriter, to
     PREFIX_history.csv, of another one to PREFIX_history_2.csv, …, in the order in which they
     were marched, with a time that goes on from one march to the next; where there is no
-   equilibrium it says so, notes it in the results
+    equilibrium it says so, notes it in the results
     (`status`, `message`, `event_time`, `event_loads`, `not_unique`) and leaves the study. */
 class Run
 {

@@ -36,7 +36,7 @@ struct Done
 
     All studies have the options --case, --json, --csv, --plot, --html, --save and --sweep, and
     end with their references, sizes, times, counters and warnings. Made first: it holds the
-   clock. */
+    clock. */
 class Study
 {
 public:

@@ -18,8 +18,8 @@ struct Column
 };
 
 /** Rows that are stated once: printed, aligned, as they come; in JSON a list of objects with
-   the columns' keys; a CSV file with one column each; and, if asked for, a panel of the figure.
- */
+    the columns' keys; a CSV file with one column each; and, if asked for, a panel of the
+    figure. */
 class Table
 {
 public:

@@ -8,8 +8,8 @@ namespace miniapp
 {
 
 /** Two equal bodies of revolution that stand for half-spaces and meet with a gap r²/(2 R), E
-   = 1. Load patterns, motions of the far boundary of the upper one: "approach" (down) and
-   "twist" (about the axis). */
+    = 1. Load patterns, motions of the far boundary of the upper one: "approach" (down) and
+    "twist" (about the axis). */
 struct TwistedBodies
 {
    std::vector<double> contact; ///< radii of the grid lines in the contact, from 0 to 1

@@ -10,7 +10,7 @@ namespace cattaneo
 
 /** A formula that a user writes: numbers, variables, pi, + - * / ^, brackets, and the functions
     abs, sqrt, exp, log, sin, cos, tan, atan, tanh, of two arguments min and max. A number
-   before a variable multiplies it: 2x. InputError, with `called`, for what is none. */
+    before a variable multiplies it: 2x. InputError, with `called`, for what is none. */
 class Expression
 {
 public:

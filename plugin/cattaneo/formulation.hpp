@@ -35,7 +35,7 @@ inline const char *component_name(Formulation formulation, int component)
 
 /** Length of the circle (or thickness of the slice) that a point at x = r of the plane stands
     for: the one place where the 2πr of axisymmetry is written. Operators, loads and the weights
-   of contact lines are integrals over the plane times this. */
+    of contact lines are integrals over the plane times this. */
 inline double measure(Formulation formulation, double r)
 {
    return formulation == Formulation::plane ? 1.0 : 2 * M_PI * r;
@@ -43,7 +43,7 @@ inline double measure(Formulation formulation, double r)
 
 /** Displacement of a point at x = r for a unit value of the unknown: u_θ = r ψ in torsion. A
     force per area does work on the unknown with this lever, so that forces that are conjugate
-   to the twist are torques. */
+    to the twist are torques. */
 inline double lever(Formulation formulation, double r)
 {
    return formulation == Formulation::torsion ? r : 1.0;

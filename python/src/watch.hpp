@@ -12,8 +12,8 @@ CATTANEO_ARGUMENT(ProgressLike,
 CATTANEO_ARGUMENT(StopLike, "None | threading.Event");
 
 /** Long work without the interpreter's lock, which Ctrl-C ends with KeyboardInterrupt, and
-   which is stopped from elsewhere by an object with is_set(), as threading.Event: its status is
-   then 'stopped', and its result what it came to before. */
+    which is stopped from elsewhere by an object with is_set(), as threading.Event: its status
+    is then 'stopped', and its result what it came to before. */
 class Watch
 {
 public:

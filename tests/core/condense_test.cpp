@@ -16,9 +16,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /** A body that no finite-element program made: bars of a pin-jointed frame between the points
-   of a grid, along its lines and across its cells, each a little stiffer than the one before.
-   Its contact is the lowest row of points if the body lies above, else the highest; the other
-   one may be held. */
+    of a grid, along its lines and across its cells, each a little stiffer than the one before.
+    Its contact is the lowest row of points if the body lies above, else the highest; the other
+    one may be held. */
 struct Frame
 {
    int columns, rows;

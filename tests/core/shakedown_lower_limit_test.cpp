@@ -10,8 +10,8 @@ using namespace cattaneo;
 using namespace shakedown_test;
 
 /** Slip of a closed contact in the last of @a cycles cycles, by small implicit steps: at each,
-   node after node, q beyond ±f p is brought back to it by its own slip. Independent of the
-   library; good for moderate friction. Returns -1 if a node separates. */
+    node after node, q beyond ±f p is brought back to it by its own slip. Independent of the
+    library; good for moderate friction. Returns -1 if a node separates. */
 double slip_in_the_last_cycle(const ReducedProblem &problem, const LoadCycle &cycle,
                               double load_factor, Eigen::VectorXd v, int cycles)
 {
@@ -67,8 +67,8 @@ double slip_in_the_last_cycle(const ReducedProblem &problem, const LoadCycle &cy
 }
 
 /** Node 1 feels the slip of node 0 in its pressure, node 0 does not feel node 1: whether every
-   start shakes down can be said by hand. Node 0 ends anywhere in |a v0| ≤ f P - λ r; node 1
-   then sticks if f (P + b v0) ≥ λ s. So λ1 is decided by the lowest v0, λ2 by the highest. */
+    start shakes down can be said by hand. Node 0 ends anywhere in |a v0| ≤ f P - λ r; node 1
+    then sticks if f (P + b v0) ≥ λ s. So λ1 is decided by the lowest v0, λ2 by the highest. */
 ReducedProblem chain(double a, double b, double r, double s)
 {
    ReducedProblem problem;

@@ -105,10 +105,10 @@ std::vector<double> lines(double from, const char *name)
 /** A condensed body, and how far from exact arithmetic its numbers can be.
 
     S = Eᵀ K E and loads are Eᵀ K r, where E are the motions of all nodes that follow a unit
-   motion of one contact node, r those under the load with the contact clamped. Round-off in the
-   entries of K, and elimination, which is exact for a matrix K + δK with |δK| ≤ N ε |K| of N
-   unknowns, change them by Eᵀ δK E and Eᵀ δK r: few nodes that hold a large body move it far, E
-   is large, and digits go. */
+    motion of one contact node, r those under the load with the contact clamped. Round-off in
+    the entries of K, and elimination, which is exact for a matrix K + δK with |δK| ≤ N ε |K| of
+    N unknowns, change them by Eᵀ δK E and Eᵀ δK r: few nodes that hold a large body move it
+    far, E is large, and digits go. */
 struct JudgedBody : CondensedBody
 {
    double stiffness_error, load_error;

@@ -187,9 +187,9 @@ enum class Verdict
     problem with given bounds of friction g is bounded whatever g is (its energy is no more than
     without further slip), so that pressure -> bounds -> pressure has a fixed point (Brouwer).
     Else only motions R without stiffness can be lost: forces F within the cones must balance
-   the loads along them, Rᵀ F = Rᵀ f; a nonnegative fit finds such forces or a motion along
-   which the loads work against all of them (Farkas). If they can be balanced, weak springs hold
-   the bodies: their answer, which exists, is nearly one without them, or runs away. */
+    the loads along them, Rᵀ F = Rᵀ f; a nonnegative fit finds such forces or a motion along
+    which the loads work against all of them (Farkas). If they can be balanced, weak springs
+    hold the bodies: their answer, which exists, is nearly one without them, or runs away. */
 class Existence
 {
 public:

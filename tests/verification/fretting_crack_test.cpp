@@ -16,8 +16,8 @@ namespace
 using namespace cattaneo::fretting;
 
 /** K_I of an edge crack of depth c under the line stress σ(y), from distributed edge
-   dislocations in the half-plane. The crack is mapped by y = c ((1+s)/2)^6, which smooths the
-   corner exponents and the √y of the load at the mouth. */
+    dislocations in the half-plane. The crack is mapped by y = c ((1+s)/2)^6, which smooths the
+    corner exponents and the √y of the load at the mouth. */
 template <class Function>
 double dislocation_intensity(const Function &line_stress, double c)
 {

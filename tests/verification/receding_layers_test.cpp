@@ -36,17 +36,17 @@ struct Layers
 };
 
 /** A layer of thickness 1, pressed by p0 = 1 over |x| < w/2 of one side, with its other side on
-   its mirror image (two equal layers) or on a similar half-plane, without friction. The slope
-   of that side (and the half-plane's) under even pressures p̂(ξ) on it and t̂(ξ) on the outer
-   side is proportional to
+    its mirror image (two equal layers) or on a similar half-plane, without friction. The slope
+    of that side (and the half-plane's) under even pressures p̂(ξ) on it and t̂(ξ) on the outer
+    side is proportional to
 
        ∫ (p̂ (F₁ [+ 1]) - t̂ F₂) sin ξx dξ,   F₁ = (sinh 2ξ + 2ξ)/D,
        F₂ = 2 (sinh ξ + ξ cosh ξ)/D,  D = cosh 2ξ - 1 - 2ξ².
 
     The pressure √(1 - s²) Σ c_j U_2j(s), s = x/a, has the transform Σ c_j (-1)^j π (2j+1)
     J_2j+1(ξa)/ξ, and its half-plane slope is closed: π (-1)^j sin((2j+1) asin s). c_0 follows
-   from the resultant, the others from points where the slope vanishes; at one point more it
-   does only for the right a. */
+    from the resultant, the others from points where the slope vanishes; at one point more it
+    does only for the right a. */
 Layers solve_layers(double w, bool half_plane)
 {
    constexpr int terms = 20;

@@ -281,10 +281,10 @@ public:
 #ifdef CATTANEO_USE_CHOLMOD
 
 /** While it lives, OpenMP regions of the libraries we call run on one thread. CHOLMOD asks for
-   four threads at several small loops of every supernode, whatever OMP_NUM_THREADS says; waking
-   them takes as long as the factorisation itself (17,000 dofs: 50 ms instead of 26 ms;
-   260,000: 1.5 s instead of 1.1 s). The parallel part that pays is in BLAS, and not concerned.
-   Whether there is an OpenMP runtime is known to the loader only. */
+    four threads at several small loops of every supernode, whatever OMP_NUM_THREADS says;
+    waking them takes as long as the factorisation itself (17,000 dofs: 50 ms instead of 26 ms;
+    260,000: 1.5 s instead of 1.1 s). The parallel part that pays is in BLAS, and not concerned.
+    Whether there is an OpenMP runtime is known to the loader only. */
 class OneOpenMPThread
 {
    using Get = int (*)();

@@ -23,14 +23,15 @@ public:
 };
 
 /** A sparse Cholesky factor of a symmetric positive definite matrix whose last rows (the
-   "trailing" ones) were ordered last, so that the trailing Schur complement can be read off it:
+    "trailing" ones) were ordered last, so that the trailing Schur complement can be read off
+    it:
 
        [K11 K12]   [L11    ] [L11ᵀ L21ᵀ]
        [K21 K22] = [L21 L22] [     L22ᵀ],   K22 - K21 K11⁻¹ K12 = L22 L22ᵀ.
 
     The one place that knows CHOLMOD; without it (CATTANEO_USE_CHOLMOD=OFF, or Backend::eigen)
-   Eigen does the same, slower, with permissive licences only. Not safe for use by several
-   threads at once. */
+    Eigen does the same, slower, with permissive licences only. Not safe for use by several
+    threads at once. */
 class SparseFactor
 {
 public:

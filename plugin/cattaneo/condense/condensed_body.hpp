@@ -25,10 +25,10 @@ public:
 };
 
 /** One body reduced to its contact nodes (thesis 3.2):  f = S u + Σ λ_k f_k, in the local
-   frames of the contact line: u = {v; w}, f = {q; p}, all tangential entries first.
+    frames of the contact line: u = {v; w}, f = {q; p}, all tangential entries first.
 
     Of a torsion body: u = v = u_θ and f = q, circumferential, positive in the direction of the
-   twist whatever the line's frames.
+    twist whatever the line's frames.
 
     Nothing of the program that assembled the body is kept but its matrix. */
 class CondensedBody
@@ -58,9 +58,9 @@ public:
    /** Relative error of S, an estimate from above by the energies of its solves; of a body
        condensed by conjugate gradients from S u against the action of the operator, in double
        precision. Materials or elements of great contrast within one body cost digits: 1e-3
-      means that stiffnesses, and with them displacements under given forces, are right to 0.1
-      %. Infinite: nothing is known of some motion. A few solves with the kept factor.
-      Collective. */
+       means that stiffnesses, and with them displacements under given forces, are right to 0.1
+       %. Infinite: nothing is known of some motion. A few solves with the kept factor.
+       Collective. */
    double error_estimate();
 
    /// The rigid motions of the contact nodes in local frames: plane 2n × 3 (x, y, rotation

@@ -18,9 +18,9 @@ struct DofPlaces
 };
 
 /** Rigid motions of a set of dofs (plane: x, y, rotation; axisymmetric: along the axis;
-   torsion: about it) that vanish at the held ones, as independent columns over the dofs of the
-   set, each scaled to a largest entry of about 1. The rank is decided at the scale of the held
-   nodes' own spread, so that a small patch holds a large body as well as a large one does. */
+    torsion: about it) that vanish at the held ones, as independent columns over the dofs of the
+    set, each scaled to a largest entry of about 1. The rank is decided at the scale of the held
+    nodes' own spread, so that a small patch holds a large body as well as a large one does. */
 Eigen::MatrixXd free_rigid_motions(const DofPlaces &places, const std::vector<int> &dofs,
                                    const std::vector<bool> &held);
 

@@ -22,8 +22,8 @@ struct CondenseSettings
 
 /** condense() of an MFEM body. A distributed body is gathered on the first rank, or (see the
     settings) condensed by one iterative solve for each contact dof and load pattern; the
-   counters tell which. Either way S and the loads have the same bits on all ranks, and so have
-   errors. */
+    counters tell which. Either way S and the loads have the same bits on all ranks, and so have
+    errors. */
 CondensedBody condense(const ElasticBody &body, const ContactLine &line,
                        const CondenseSettings &settings = {},
                        const CondensedBody *alike = nullptr);

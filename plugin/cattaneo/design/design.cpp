@@ -81,8 +81,8 @@ void require_start(const DesignProblem &problem, const VectorXd &start, double t
 /** A search with derivatives that are not those of the shape would end anywhere, and call it an
     optimum: along each variable a short way into its bounds they are compared with its
     differences (the mean of both ends is exact to the third order of the way). Bounds may be
-    far, and the shape bend before: shorter ways are tried as long as differences have digits.
- */
+    far, and the shape bend before: shorter ways are tried as long as differences have
+    digits. */
 void require_derivatives(const DesignProblem &problem, const VectorXd &start)
 {
    MatrixXd here, there;

@@ -78,7 +78,7 @@ Eigen::Index violated_limit(const DesignProblem &problem, const Eigen::VectorXd 
 /** Other starts for a search: `count` points spread evenly over the box of the bounds (the
     sequence of the generalised golden ratio), each of which `start` goes toward as far as the
     limits let it, along those that it meets. InputError unless `start` is within bounds and
-   limits. */
+    limits. */
 std::vector<Eigen::VectorXd> spread_starts(const DesignProblem &problem,
                                            const Eigen::VectorXd &start, int count);
 
@@ -146,16 +146,16 @@ struct DesignReport
 };
 
 /** Finds the variables that serve the goal, from a start within bounds and limits, by Ipopt
-   with the derivatives of Sensitivity: the largest response through a bound on all of them that
-   is least; of pressures by linear programmes, as they are linear between changes of states,
-   each within the reach of what the one before promised and kept. What is found is an optimum
-   in its neighbourhood: contact is not convex. Responses bend where nodes change their states;
-   where that happens at the optimum its conditions need not hold, and it is `improved`: the
-   best design of all that were tried, never worse than the start.
+    with the derivatives of Sensitivity: the largest response through a bound on all of them
+    that is least; of pressures by linear programmes, as they are linear between changes of
+    states, each within the reach of what the one before promised and kept. What is found is an
+    optimum in its neighbourhood: contact is not convex. Responses bend where nodes change their
+    states; where that happens at the optimum its conditions need not hold, and it is
+    `improved`: the best design of all that were tried, never worse than the start.
 
     `start`: a value of each variable. InputError if it is outside of a bound or a limit, if the
-   derivatives of a shape are not those of its values, and as DesignProblem::validate() and
-   march(). */
+    derivatives of a shape are not those of its values, and as DesignProblem::validate() and
+    march(). */
 DesignReport design(const DesignProblem &problem, const Eigen::VectorXd &start,
                     const DesignSettings &settings = {});
 

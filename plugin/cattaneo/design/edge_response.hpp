@@ -46,8 +46,8 @@ struct MovingEdge
 
 /** Both of one fit: the square of the pressure is a parabola over the arc length, of least
     squares through the nodes of the window of K_N, which vanishes at the edge and rises there
-   by K_N² a unit of length. Exact for a Hertz contact but for the pressures themselves; values
-   agree with contact_edges() within its errors. InputError as fit_edge(), for an edge that is
+    by K_N² a unit of length. Exact for a Hertz contact but for the pressures themselves; values
+    agree with contact_edges() within its errors. InputError as fit_edge(), for an edge that is
     complete, and if the parabola has no zero there. */
 MovingEdge moving_edge(const ReducedProblem &problem, const MarchTrace &trace,
                        std::size_t state, const ContactEdge &edge,

@@ -20,8 +20,8 @@ struct LimitGradient
 };
 
 /** Of load_limit(). The programme's own multipliers are the mechanism {s_j; o_j} that proves
-   the upper bound, and say what each datum does to the limit (the envelope theorem; the slip v
-   is the best one):
+    the upper bound, and say what each datum does to the limit (the envelope theorem; the slip v
+    is the best one):
 
         dλ = Σ_j [ Σ_i |s_ij| p_ij df_i + s_jᵀ dq_j + o_jᵀ dp_j ],
 
@@ -32,7 +32,7 @@ struct LimitGradient
     absorb_gap() has made a load of.
 
     `found` is false if the limit is not known from either side. InputError for sizes that do
-   not fit. */
+    not fit. */
 LimitGradient load_limit_gradient(const LimitProblem &problem, const LimitReport &limit,
                                   const std::vector<StiffnessChange> &stiffness = {});
 

@@ -50,7 +50,7 @@ MarchTrace trace_march(const ReducedProblem &problem, const LoadHistory &history
 
 /** wear() with every cycle marched, keeping all states of their increments: times go on from
     cycle to cycle, and `wear` of the trace is the law. The report is that of the last cycle,
-   with the status and message of the whole.
+    with the status and message of the whole.
 
     InputError as wear(), for a tolerance (cycles that are jumped over have no states) and where
     a cycle is so severe that its own update is implicit (WearReport::implicit_cycles), which
@@ -77,8 +77,8 @@ struct Tie
 };
 
 /** All ties of a trace, in its order. Within `tolerance` of the largest nodal force so far, by
-   the node's own stiffness. The node at whose change of state an increment ends on the exact
-   path is none, as the path goes on through it smoothly; others that change with it are.
+    the node's own stiffness. The node at whose change of state an increment ends on the exact
+    path is none, as the path goes on through it smoothly; others that change with it are.
 
     A tie need not matter. Where a cycle comes back to its largest load all nodes that slipped
     are tied; as long as these loads vary together both sides have the same derivative. */

@@ -51,7 +51,7 @@ Response operator/(const Response &a, const Response &b);
 
 /** The numbers of a trace. States are given by their index in it (MarchTrace::at(), last());
     InputError for one that it does not have, for a node or a component that the problem does
-   not have and for a pattern of another name. */
+    not have and for a pattern of another name. */
 class Responses
 {
 public:

@@ -70,7 +70,7 @@ struct TraceChange
 /** Derivatives of what a march returned by its parameters, exact in the discrete problem: by
     friction and gap of each node, by the load multipliers of the history, by changes of the
     stiffness and, where the trace has a law of wear, by its k of each node. Where depth is
-   added to the gap (trace_wear()) all of it is followed through.
+    added to the gap (trace_wear()) all of it is followed through.
 
     At the end of each increment the states of the nodes stand for linear equations,
 
@@ -83,8 +83,8 @@ struct TraceChange
     met one more equation.
 
     gradient() goes back through the march, one transposed solve an increment, for all
-   parameters at once; along() goes forward, for all responses. Both use one factor as long as
-   states stay, and follow changes of states by low-rank updates.
+    parameters at once; along() goes forward, for all responses. Both use one factor as long as
+    states stay, and follow changes of states by low-rank updates.
 
     Derivatives are those of the march as it was cut into increments, with the states that its
     nodes had; where a node has two at once they are one-sided, see ties(). The state at the
@@ -92,9 +92,9 @@ struct TraceChange
 
     Where states leave a body free (it touches at one node, or slips everywhere), which the
     history alone holds in place, that motion is taken to stay: derivatives are known of what
-   does not depend on it, and gradient() says where it would (`found` is false); along() does
-   not. Without friction that is so of a body that is free to slide, and derivatives by
-   friction, and by loads that push it, are NaN. */
+    does not depend on it, and gradient() says where it would (`found` is false); along() does
+    not. Without friction that is so of a body that is free to slide, and derivatives by
+    friction, and by loads that push it, are NaN. */
 class Sensitivity
 {
 public:

@@ -30,17 +30,18 @@ using StressLaw =
     patterns. Knows nothing of contact.
 
     The stiffness is *not* eliminated: reactions and prescribed displacements need all of it.
-   The space is the nodal Gauss–Lobatto one, ordered byVDIM or byNODES: other bases have edge
-   weights of both signs, or dofs that are no nodal values, and are refused.
+    The space is the nodal Gauss–Lobatto one, ordered byVDIM or byNODES: other bases have edge
+    weights of both signs, or dofs that are no nodal values, and are refused.
 
     Plane: components 0 = x, 1 = y, forces per unit thickness. Axisymmetric: x = r and y = z,
-   components 0 = r, 1 = z, forces on the whole circumference; u_r = 0 on the axis without being
-   asked for. Torsion: the same mesh, but the one component is the twist ψ = u_θ/r: what is
-   fixed or prescribed are angles, and the forces of a pattern are torques. The two decouple, so
-   a body that twists is an axisymmetric and a torsion body. With both, r < 0 is an InputError.
+    components 0 = r, 1 = z, forces on the whole circumference; u_r = 0 on the axis without
+    being asked for. Torsion: the same mesh, but the one component is the twist ψ = u_θ/r: what
+    is fixed or prescribed are angles, and the forces of a pattern are torques. The two
+    decouple, so a body that twists is an axisymmetric and a torsion body. With both, r < 0 is
+    an InputError.
 
     Everything that is named by a BoundaryPart throws InputError if the attribute does not exist
-   or nothing lies in the interval.
+    or nothing lies in the interval.
 
     On an mfem::ParMesh every call is collective, dofs are those that the rank
     owns, and the stiffness is a hypre matrix. */
@@ -94,9 +95,9 @@ public:
    void add_forces(const std::string &pattern, const mfem::LinearForm &form);
    /** An isotropic strain that the material takes without stress, such as α ΔT: the pattern
        gets the forces ∫ σ₀ : ε(v), σ₀ = D ε₀, at the points where the stiffness is integrated,
-      and stresses are D (ε - λ ε₀), λ the pattern's multiplier. In plane strain and axisymmetry
-      it is a strain in all three directions. Asked again by stress_at: a coefficient must
-      outlive the body. InputError for a user's operator and for torsion. */
+       and stresses are D (ε - λ ε₀), λ the pattern's multiplier. In plane strain and
+       axisymmetry it is a strain in all three directions. Asked again by stress_at: a
+       coefficient must outlive the body. InputError for a user's operator and for torsion. */
    void add_initial_strain(const std::string &pattern, const Field &strain);
    /// The same of a tensor {xx, yy, xy, zz} (in axisymmetry {rr, zz, rz, θθ}), xy half of the
    /// angle, the last out of the plane.

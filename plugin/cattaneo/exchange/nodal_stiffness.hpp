@@ -88,20 +88,20 @@ public:
    std::vector<NodalStiffness> parts() const;
 
    /** For condense(), with rows for dofs. Nodes on an axis do not move off it, whether a
-      support says so or not. InputError if nothing is fixed or left out and K resists a rigid
-      motion by more than 1e-12 of its entries. */
+       support says so or not. InputError if nothing is fixed or left out and K resists a rigid
+       motion by more than 1e-12 of its entries. */
    AssembledBody body() const;
 
    /** The trace on nodes, whose dofs are rows of K.
 
        order 0: on the outer edges all of whose nodes are among the given ones, in whatever
-      order these are. order 1 to 8, where no elements are known: nodes are in order, the body
-      on their left, elements of that order through them, each but its ends at the Gauss–Lobatto
-      points (order 2: the middle); a loop names its first node again at the end. Refused if K
-      shows that the body is on the right.
+       order these are. order 1 to 8, where no elements are known: nodes are in order, the body
+       on their left, elements of that order through them, each but its ends at the
+       Gauss–Lobatto points (order 2: the middle); a loop names its first node again at the end.
+       Refused if K shows that the body is on the right.
 
-       Weights, tangents, ends and what happens on an axis are those of a contact line of MFEM.
-    */
+       Weights, tangents, ends and what happens on an axis are those of a contact line of
+       MFEM. */
    ContactLine contact_line(const Nodes &nodes, int order = 0) const;
 
    /// Number of each dof's row; InputError for a direction that is none, a second row of a dof,

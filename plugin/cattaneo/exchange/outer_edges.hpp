@@ -7,13 +7,13 @@ namespace cattaneo
 
 /** Edges that one element alone has, each along it with the body on the left, whichever way its
     element turns: what NodalStiffness::edges asks for. An element is its corners, three or
-   four, in their order around it; of order 2 the middles of its sides follow, first that
-   between the first two corners (6 or 8 nodes), and then a node inside that it may have (7 or
-   9), as ABAQUS, Gmsh and VTK number them.
+    four, in their order around it; of order 2 the middles of its sides follow, first that
+    between the first two corners (6 or 8 nodes), and then a node inside that it may have (7 or
+    9), as ABAQUS, Gmsh and VTK number them.
 
     InputError, with the number of the element in the list or of `numbers`, for another number
-   of nodes, a node without a place, one that is not between the corners it should be between,
-   or two elements on the same side of an edge. */
+    of nodes, a node without a place, one that is not between the corners it should be between,
+    or two elements on the same side of an edge. */
 std::vector<NodalStiffness::Nodes>
 outer_edges(const std::vector<NodalStiffness::Nodes> &elements,
             const NodalStiffness::Places &places, const std::vector<int> &numbers = {});

@@ -18,20 +18,20 @@ namespace cattaneo
       without a `.dofs` if it has the arrays that write_npz() writes
 
     An `.inp` gives nodes, elements (so that contact lines follow outer edges), sets, and what
-   its steps load: each *CLOAD card is a load of forces, "CLOAD1", …, each *BOUNDARY card with
+    its steps load: each *CLOAD card is a load of forces, "CLOAD1", …, each *BOUNDARY card with
     displacements a load "BOUNDARY1", …; zero ones are supports. With elements SPRING1 or
-   SPRING2 a body without supports need not be free. Without plane elements a comment **
-   AXISYMMETRIC says that x is r. Supports that the program took out of the matrix (CalculiX:
-   all of those of its step; ABAQUS: 1e36 on the diagonal) are left out here too, internal nodes
-   of ABAQUS (negative numbers) are eliminated. Of CalculiX's axisymmetric elements, flat wedges
-   of 2 degrees, the matrix is multiplied by 180: 2e-4 of it are the wedge's.
+    SPRING2 a body without supports need not be free. Without plane elements a comment **
+    AXISYMMETRIC says that x is r. Supports that the program took out of the matrix (CalculiX:
+    all of those of its step; ABAQUS: 1e36 on the diagonal) are left out here too, internal
+    nodes of ABAQUS (negative numbers) are eliminated. Of CalculiX's axisymmetric elements, flat
+    wedges of 2 degrees, the matrix is multiplied by 180: 2e-4 of it are the wedge's.
 
     A `.dofs` file says of each row, in their order, `node direction x y`, and may say, in lines
-   of their own, `axisymmetric`, `set NAME nodes…`, `fixed node direction`, `force LOAD node
+    of their own, `axisymmetric`, `set NAME nodes…`, `fixed node direction`, `force LOAD node
     direction value` and `displacement LOAD node direction value`; # begins a comment.
 
     InputError, in one sentence with the file and the line or the entry, for what is cut short,
-   not finite, there twice, not symmetric, of rotations or a third direction. */
+    not finite, there twice, not symmetric, of rotations or a third direction. */
 NodalStiffness read_stiffness(const std::string &matrix, const std::string &places = "");
 
 } // namespace cattaneo

@@ -11,11 +11,11 @@ namespace cattaneo
 void write_npz(const std::string &file, const std::map<std::string, Eigen::MatrixXd> &arrays);
 
 /** For programs of joint dynamics, as arrays: `K`, `loads` (a column a load), `dofs` (a row
-   each: node, direction), `places` (of each row's node), `fixed` (rows, from 0), `M` if a mass
-   matrix is given, of the same rows; and what read_stiffness() needs besides: `load NAME` (the
-   number of its column), `set NAME` (its nodes), `axisymmetric` and `supports_left_out` where
-   they are so. All of it but M comes back to the last bit, as of write_matrix_market().
-   InputError if M does not fit, or loads prescribe displacements. */
+    each: node, direction), `places` (of each row's node), `fixed` (rows, from 0), `M` if a mass
+    matrix is given, of the same rows; and what read_stiffness() needs besides: `load NAME` (the
+    number of its column), `set NAME` (its nodes), `axisymmetric` and `supports_left_out` where
+    they are so. All of it but M comes back to the last bit, as of write_matrix_market().
+    InputError if M does not fit, or loads prescribe displacements. */
 void write_npz(const std::string &file, const NodalStiffness &stiffness,
                const Eigen::MatrixXd &M = {});
 
@@ -30,19 +30,19 @@ void write_npz(const std::string &file, const ReducedProblem &problem,
 void write_matrix_market(const std::string &file, const NodalStiffness &stiffness);
 
 /** ABAQUS: a linear user element of all nodes (*USER ELEMENT, *MATRIX, TYPE=STIFFNESS, the
-   lower triangle by rows), and beside it, `.inp` for `.mtx`, a deck with its nodes, sets,
-   element, supports and one *CLOAD card a load of forces; a comment, ** AXISYMMETRIC, says of
+    lower triangle by rows), and beside it, `.inp` for `.mtx`, a deck with its nodes, sets,
+    element, supports and one *CLOAD card a load of forces; a comment, ** AXISYMMETRIC, says of
     a body of revolution that it is one. Nodes that are counted from 0 are counted from 1 there.
     InputError if loads prescribe displacements. */
 void write_abaqus(const std::string &file, const NodalStiffness &stiffness);
 
 /** Nastran: a bulk data file with the matrix as DMIG `KAAX` (symmetric, double precision, with
-   0 where K has no entry), its nodes as GRID (x, y, 0), supports as SPC1 of set 1, and a load
-   of forces each as FORCE of a set of its own, 1, 2, …, named by comments. Nodes that are
-   counted from 0 are counted from 1 there. Fields of 16 columns
-   have 10 or 11 digits: entries are right to 5e-10 of themselves, and rigid motions to no more.
-   Of a body of revolution entries are of the whole circumference. InputError if loads prescribe
-   displacements. */
+    0 where K has no entry), its nodes as GRID (x, y, 0), supports as SPC1 of set 1, and a load
+    of forces each as FORCE of a set of its own, 1, 2, …, named by comments. Nodes that are
+    counted from 0 are counted from 1 there. Fields of 16 columns
+    have 10 or 11 digits: entries are right to 5e-10 of themselves, and rigid motions to no
+    more. Of a body of revolution entries are of the whole circumference. InputError if loads
+    prescribe displacements. */
 void write_nastran(const std::string &file, const NodalStiffness &stiffness);
 
 } // namespace cattaneo

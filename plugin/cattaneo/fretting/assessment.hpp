@@ -8,7 +8,7 @@ namespace cattaneo::fretting
 {
 
 /** One contact edge to be judged. Units: N, mm, MPa (those of FatigueMaterial). The intensities
-   may come from a closed form (calibration.hpp) or from any solution (edge_fit.hpp). */
+    may come from a closed form (calibration.hpp) or from any solution (edge_fit.hpp). */
 struct FrettingProblem
 {
    CrackedEdge crack;         ///< the edge, its crack and the load cycle

@@ -59,14 +59,14 @@ RoundedEdge rounded_edge(double k_p, double radius, double modulus);
 double symmetric_k_n(double half_width, double load_rate);
 
 /** Static tension gradient of a contact edge whose surface has the relative radius R there:
-   below the edge the pressure of the whole contact adds (E* /R) y to the near-edge field; for
-   Hertz that is 2 p0 y/a. The pad's slope (x-b)/R is the analytic part of the pressure's
-   complex extension. */
+    below the edge the pressure of the whole contact adds (E* /R) y to the near-edge field; for
+    Hertz that is 2 p0 y/a. The pad's slope (x-b)/R is the analytic part of the pressure's
+    complex extension. */
 double edge_gradient(double radius, double modulus);
 
 /** Shear intensities of the two edges. The trailing edge is the one at which the shear force on
     the cracked body points into the contact; bulk tension adds there, and is opposed by the
-   shear force at the leading edge, where K_T may be negative. */
+    shear force at the leading edge, where K_T may be negative. */
 struct ShearIntensities
 {
    double trailing = 0.0; ///< K_T there, force per length to the power 3/2

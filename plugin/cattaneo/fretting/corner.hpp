@@ -7,8 +7,8 @@ namespace cattaneo::fretting
 {
 
 /** The corner of a complete contact: a pad and a cracked body of the same material meet,
-   bonded, at a point. Angles that each fills there, radians: a square punch on a half-plane has
-   π/2 and π. */
+    bonded, at a point. Angles that each fills there, radians: a square punch on a half-plane
+    has π/2 and π. */
 struct Corner
 {
    double pad_angle = 0.0;  ///< that the pad fills, radians
@@ -24,7 +24,7 @@ struct RigidCorner
 };
 
 /** One of Williams' eigensolutions of the bonded corner. On the interface, at distance r from
-   the corner,
+    the corner,
 
         p = K pressure r^{λ-1},   q = K shear r^{λ-1},
 
@@ -79,11 +79,11 @@ struct CornerFit
 };
 
 /** The strength of the modes from fully stuck tractions near a corner, by least squares of p
-   and q together, both weighted with r^{1-λ_I}, with a term of the next order, r^{λ_I}, for
-   each. The window is chosen as that of fit_edge(): the one of least reported error, which is
-   the larger of the standard error and the change when those two terms are left out. Nodes
-   without pressure count here: a bonded corner may pull. A second mode that is not singular is
-   fitted as the regular term that it is.
+    and q together, both weighted with r^{1-λ_I}, with a term of the next order, r^{λ_I}, for
+    each. The window is chosen as that of fit_edge(): the one of least reported error, which is
+    the larger of the standard error and the change when those two terms are left out. Nodes
+    without pressure count here: a bonded corner may pull. A second mode that is not singular is
+    fitted as the regular term that it is.
 
     @param tractions edge is the position of the corner, shear is that on the body
     InputError as fit_edge(). */

@@ -15,17 +15,17 @@ double power_law_factor(double exponent);
 /** κ(c/d): the shear part of the near-edge field gives K_I = 2 K_T κ(c/d).
 
     κ → 2.24304451 √(πc/d) for short cracks (uniform stress of twice f K_N √d), 1.84545280601
-   for cracks much longer than the slip zone. Relative accuracy about 1e-13 for any c/d >= 0.
+    for cracks much longer than the slip zone. Relative accuracy about 1e-13 for any c/d >= 0.
 
     Computed as an inverse Mellin integral: the transform of the line stress is a product of
-   Gamma functions, that of the crack is h. */
+    Gamma functions, that of the crack is h. */
 double crack_factor(double ratio);
 
 /// n = 1.56500339142: the pressure part of the near-edge field gives K_I = -n K_N c.
 double crack_closing_factor();
 
 /** K_I of a crack of depth c at the contact edge: 2 K_T κ(c/d) - n K_N c. Negative when the
-   crack is pressed shut. InputError for c < 0. */
+    crack is pressed shut. InputError for c < 0. */
 double crack_intensity(const Edge &edge, double depth);
 
 /** Range of K_I when K_T changes by @a k_t_range in the steady cycle: the reversal slips with

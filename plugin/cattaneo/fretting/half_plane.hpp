@@ -21,9 +21,9 @@ using Traction = Eigen::Vector2cd;
     pulls the body in +x), at depth y.
 
     The potentials [Muskhelishvili 1953] are Φ_N = -P/2 and Φ_T = iT/2 with P, T the complex
-   extensions of p and q at x + iy; then σ_xx + σ_yy = 4 Re Φ and σ_yy - iσ_xy is 2 Re Φ_N + 2iy
-   conj(Φ_N') for the pressure, 2i Im Φ_T + 2iy conj(Φ_T') for the shear. (2.13) and (2.14) are
-   special cases. */
+    extensions of p and q at x + iy; then σ_xx + σ_yy = 4 Re Φ and σ_yy - iσ_xy is 2 Re Φ_N +
+    2iy conj(Φ_N') for the pressure, 2i Im Φ_T + 2iy conj(Φ_T') for the shear. (2.13) and (2.14)
+    are special cases. */
 InPlaneStress half_plane_stress(const Traction &pressure, const Traction &shear, double y);
 
 /** σ_zz = c (σ_xx + σ_yy): the constraint c is Poisson's ratio in plane strain and 0 in plane

@@ -15,7 +15,7 @@ InPlaneStress hertz_stress(double friction, double load_ratio, double x, double 
 /** The friction coefficient above which the largest von Mises stress of a Hertz contact lies on
     the surface and no longer below it (thesis 2.4): 0.262825847 for ν = 0.3 in plane strain and
     full sliding, more in partial slip; 0 if it is always on the surface (plane stress).
-   InputError unless 0 < load_ratio <= 1. */
+    InputError unless 0 < load_ratio <= 1. */
 double hertz_transition_friction(double constraint, double load_ratio);
 
 } // namespace cattaneo::fretting

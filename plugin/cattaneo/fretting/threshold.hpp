@@ -24,7 +24,7 @@ struct CrackCycle
 };
 
 /** A contact edge with a crack and its load cycle. What the near-edge field omits can be added:
-   it is unconservative to leave the bulk stress out. */
+    it is unconservative to leave the bulk stress out. */
 struct CrackedEdge
 {
    Edge edge;                    ///< at peak load
@@ -68,8 +68,8 @@ ThresholdReport assess_threshold(const CrackedEdge &crack, double threshold, dou
                                  Criterion criterion = Criterion::open);
 
 /** Ordinate Y = ΔK_T/ΔK_th of the threshold of Fig. 2.7 at abscissa X = ΔK_th K_N/(π σ_fl²),
-   for the near-edge field alone; a0/d_r = f X/Y. With the range of K_T the curves B and C do
-   not depend on R; A does for R > -1. InputError unless X, f > 0 and -1 <= R < 1. */
+    for the near-edge field alone; a0/d_r = f X/Y. With the range of K_T the curves B and C do
+    not depend on R; A does for R > -1. InputError unless X, f > 0 and -1 <= R < 1. */
 double threshold_ordinate(Criterion criterion, double friction, double abscissa,
                           double stress_ratio = -1);
 

@@ -20,8 +20,9 @@ struct CriticalFriction
        where it was driven in); below it there are none, whatever the elasticity. It depends on
        the directions of the contact as the rigid motions see them: tan α for a wedge with
        flanks at ±α to its axis, infinite for a flat contact. Infinite as well where directions
-      do not decide: if both bodies are held, supports balance any forces, and a pin amid its
-      hole has pressures that balance without friction. Elasticity decides there, as for a node.
+       do not decide: if both bodies are held, supports balance any forces, and a pin amid its
+       hole has pressures that balance without friction. Elasticity decides there, as for a
+       node.
 
        By Gordan's theorem either such forces exist, or there is a rigid motion that all edges
        of all cones oppose. */
@@ -33,8 +34,8 @@ struct CriticalFriction
 
        For two answers, Δ their difference: Δyᵀ Δp <= 0 by complementarity, so that with
        Δp = B Δx + C Δy the pressure meets |Δp|² <= Δpᵀ C⁻¹ B Δx in the norm π² = Δpᵀ C⁻¹ Δp;
-      and Coulomb's law gives Δxᵀ Δq <= f Σ |Δp_i| |Δx_i|. With Δq = (A - Bᵀ C⁻¹ B) Δx + Bᵀ C⁻¹
-      Δp both together are
+       and Coulomb's law gives Δxᵀ Δq <= f Σ |Δp_i| |Δx_i|. With Δq = (A - Bᵀ C⁻¹ B) Δx + Bᵀ C⁻¹
+       Δp both together are
 
            Δxᵀ (A - Bᵀ C⁻¹ B) Δx + π² <= f Σ |Δp_i| |Δx_i| <= f c π ξ,   ξ = |S⁻¹ Δx|,
 

@@ -25,9 +25,9 @@ struct CutOffContact
 
 /** Where a state's contact is cut off: the node at an end of a chain is compressed, and beyond
     it *both* bodies go on smoothly (ContactChain::ends, other_ends), so that contact would go
-   on too if the line did. Forces, and zones near that end, are then wrong without any other
-   sign: a part of the boundary was named too short, or a pad rolled off its line. At corners
-   contact may well end. Nothing can be said of ends that are not known. */
+    on too if the line did. Forces, and zones near that end, are then wrong without any other
+    sign: a part of the boundary was named too short, or a pad rolled off its line. At corners
+    contact may well end. Nothing can be said of ends that are not known. */
 std::vector<CutOffContact> cut_off_contact(const ReducedProblem &problem,
                                            const ContactState &state);
 

@@ -14,7 +14,7 @@ namespace cattaneo
 
     @param called what the text is called in an error, the name of an option for instance
     InputError, which quotes the point, for what is no number, a pattern that the problem has
-   not or that is named twice, a quote without an end, and a load at the first point. */
+    not or that is named twice, a quote without an end, and a load at the first point. */
 LoadHistory load_history(const std::string &called, const std::string &text,
                          const ReducedProblem &problem);
 

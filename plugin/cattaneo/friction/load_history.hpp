@@ -32,7 +32,7 @@ struct LoadPiece
 /** A piecewise-linear history of load multipliers: an opening part, then a cycle that repeats.
 
     The points 0 … cycle_start are marched once, the points cycle_start … last `cycles` times;
-   the last point of a cycle must have the loads of its first. Time is only a parameter (rate
+    the last point of a cycle must have the loads of its first. Time is only a parameter (rate
     independence). */
 struct LoadHistory
 {

@@ -18,8 +18,8 @@ struct ContactState;
     work over that of the multiplier: a pattern of forces of resultant 1 has as multiplier its
     resultant, and as d its mean displacement along itself; per unit thickness in the plane, of
     the full circumference in axisymmetry. Positive d is along the force, positive r pushes
-   along the displacement. From nothing at rest; where bodies are free to move, or a half-plane
-   has a stated depth, relative to that.
+    along the displacement. From nothing at rest; where bodies are free to move, or a half-plane
+    has a stated depth, relative to that.
 
     Where H is not known (ReducedProblem::knows_loads) it is the contact's part, ∓F_kᵀ u: what
     is missing is linear in the loads. InputError if the state does not fit the problem. */

@@ -145,13 +145,13 @@ using MarchObserver = std::function<void(const ContactState &, const IncrementRe
 /** Marches the state along a load history. The state's own time says where it stands, so that a
     march can be cut and resumed: the result is the same to the last bit (Stepping::exact: to
     round-off, where no increment had to be taken instead). Stops early, with the status in the
-   report, when there is no equilibrium or when the monitor says so; the state is then the last
-   one found. The monitor is asked where the result of going on from there is the same to the
-   last bit, on an exact path after every event: the state of a march that was stopped, taken up
-   again, comes to what the march would have come to. What an observer throws ends the march,
-   the state being what it was called with. InputError also where the history does not go on
-   with the loads that the state has, unless there is no friction: the way there would matter.
- */
+    report, when there is no equilibrium or when the monitor says so; the state is then the last
+    one found. The monitor is asked where the result of going on from there is the same to the
+    last bit, on an exact path after every event: the state of a march that was stopped, taken
+    up again, comes to what the march would have come to. What an observer throws ends the
+    march, the state being what it was called with. InputError also where the history does not
+    go on with the loads that the state has, unless there is no friction: the way there would
+    matter. */
 MarchReport march(const ReducedProblem &problem, const LoadHistory &history,
                   ContactState &state, const MarchSettings &settings = {},
                   const MarchObserver &observer = {});

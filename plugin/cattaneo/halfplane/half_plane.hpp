@@ -17,16 +17,16 @@ struct FarForce
 };
 
 /** An elastic half-plane, in axisymmetry and torsion half-space, with a straight surface: a
-   body without a mesh. It is as large as it looks: no domain, and no error of one. */
+    body without a mesh. It is as large as it looks: no domain, and no error of one. */
 struct HalfPlane
 {
    Material material; ///< of axisymmetry and torsion: plane strain
    /** Of the plane, > 0: displacements are relative to the point at this depth below each
-      force. Under forces alone a half-plane moves without bound as this grows (a logarithm), so
-      there is no other answer to a prescribed displacement; what happens under given forces,
-      relative displacements of the contact among it, does not depend on it. At least twice the
-      length of the contact line, then S is positive definite; 1e4 times is fine. Not asked for
-      in axisymmetry, where displacements are relative to infinity. */
+       force. Under forces alone a half-plane moves without bound as this grows (a logarithm),
+       so there is no other answer to a prescribed displacement; what happens under given
+       forces, relative displacements of the contact among it, does not depend on it. At least
+       twice the length of the contact line, then S is positive definite; 1e4 times is fine. Not
+       asked for in axisymmetry, where displacements are relative to infinity. */
    double depth = 0;
    Eigen::Vector2d point{0, 0};   ///< of the surface; on the axis of symmetry, if there is one
    Eigen::Vector2d normal{0, -1}; ///< into the half-plane, a unit vector
@@ -34,9 +34,9 @@ struct HalfPlane
    /// lies on one side of it. The surface must be horizontal or vertical.
    bool symmetric = false;
    /** With none it is held: at its depth, in axisymmetry at infinity. With some it goes,
-      without turning, where they and the contact take it: load patterns, whose conjugates are
-      its displacements there. Beside a plane of symmetry they act along the normal. None of
-      them twists. */
+       without turning, where they and the contact take it: load patterns, whose conjugates are
+       its displacements there. Beside a plane of symmetry they act along the normal. None of
+       them twists. */
    std::vector<FarForce> forces = {};
 
    /// InputError for a material that is none, a normal of another length than 1 (not along the
@@ -46,20 +46,20 @@ struct HalfPlane
 
 /** A half-plane condensed to the contact nodes of the body that presses on it: S = M F⁻¹ M,
     where F are the double integrals of the closed-form kernel with the functions of that
-   body's trace, and M = ∫ φ_i φ_j (tractions are interpolated as displacements are, each is
-   right in the mean with all functions). Symmetric, positive definite, and nodal forces do work
-   on nodal displacements.
+    body's trace, and M = ∫ φ_i φ_j (tractions are interpolated as displacements are, each is
+    right in the mean with all functions). Symmetric, positive definite, and nodal forces do
+    work on nodal displacements.
 
     @a line: of the body that presses, with its elements of orders 1 to 8. Its nodes are taken
-   where they lie over the straight surface, along the normal. The result's line has the nodes
-   in reversed order, of its node i the other's n - 1 - i, and all frames along the surface,
-   which goes on smoothly. Its dofs are the components of these nodes alone.
+    where they lie over the straight surface, along the normal. The result's line has the nodes
+    in reversed order, of its node i the other's n - 1 - i, and all frames along the surface,
+    which goes on smoothly. Its dofs are the components of these nodes alone.
 
     A node on the axis, or on the plane of symmetry, is treated as in a mesh: on the axis it
-   carries no force, on the plane of symmetry it does not slip (CondensedBody::held).
+    carries no force, on the plane of symmetry it does not slip (CondensedBody::held).
 
     InputError if the line has no elements, if they turn back along the surface or overlap, or
-   see HalfPlane. */
+    see HalfPlane. */
 CondensedBody condense(const HalfPlane &body, const ContactLine &line);
 
 /// The same on a trace of its own, straight_line() along its surface from `point` on (from the

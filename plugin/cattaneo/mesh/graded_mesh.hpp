@@ -9,15 +9,15 @@ namespace cattaneo
 /** Coordinates from `from` to `to` in steps first, first·growth, first·growth², … of at most
     `largest` each. So that the list ends exactly at `to`, the last steps (as many as together
     measure four times what is missing or too much) are scaled by one factor, between 3/4 and
-   5/4; all steps if there are only few. `from` > `to` is allowed; the result runs from `from`
-   to `to`. InputError unless first > 0, growth >= 1, largest > 0, from != to, all finite but
-   `largest`. */
+    5/4; all steps if there are only few. `from` > `to` is allowed; the result runs from `from`
+    to `to`. InputError unless first > 0, growth >= 1, largest > 0, from != to, all finite but
+    `largest`. */
 std::vector<double> graded(double from, double to, double first, double growth,
                            double largest = 1e300);
 
 /** Coordinates of [-half, half] with n intervals, symmetric to the last bit, in geometric
-   progression toward both ends so that the end interval is `end_ratio` (0 < end_ratio <= 1)
-   times the middle one. */
+    progression toward both ends so that the end interval is `end_ratio` (0 < end_ratio <= 1)
+    times the middle one. */
 std::vector<double> graded_to_ends(double half, int intervals, double end_ratio);
 
 /// Joins coordinate lists of which each starts where the one before ends.
@@ -29,13 +29,13 @@ mfem::Mesh rectangle_mesh(const std::vector<double> &x, const std::vector<double
 
 /** Half-plane y < 0 around a contact |x| <= a, a = contact.back(): a box of quads with the grid
     lines x = contact (symmetric, increasing) and y = -depth (from 0, increasing), and around it
-   rings that are copies of the box's outline scaled by `scale` (from 1, increasing) about the
-   origin. Far elements are large in both directions, so that a domain of 10⁴ a costs a few
-   dozen rings and none of the round-off of a tensor-product grid, whose far elements are
-   needles.
+    rings that are copies of the box's outline scaled by `scale` (from 1, increasing) about the
+    origin. Far elements are large in both directions, so that a domain of 10⁴ a costs a few
+    dozen rings and none of the round-off of a tensor-product grid, whose far elements are
+    needles.
 
     Boundary attributes: 1 the contact, 2 the free surface beside it, 3 the far bottom, 4 the
-   far sides. */
+    far sides. */
 mfem::Mesh half_plane_mesh(const std::vector<double> &contact, const std::vector<double> &depth,
                            const std::vector<double> &scale);
 

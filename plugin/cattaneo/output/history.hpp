@@ -12,14 +12,14 @@ namespace cattaneo
 
        time, cycle, load multipliers (column "load NAME" each), numbers of nodes in stick,
        separation, forward and backward slip (with torsion: slip), dissipation and external work
-   of the increment, relative residuals normal and tangential, round_off (what arithmetic can
-   reach of them), and the conjugate of each multiplier, see conjugates(): column "displacement
-   NAME" of a force, "reaction NAME" of a prescribed displacement; "contact displacement NAME"
-   and "contact reaction NAME" if only the contact's part of it is known
-   (ReducedProblem::knows_loads).
+    of the increment, relative residuals normal and tangential, round_off (what arithmetic can
+    reach of them), and the conjugate of each multiplier, see conjugates(): column "displacement
+    NAME" of a force, "reaction NAME" of a prescribed displacement; "contact displacement NAME"
+    and "contact reaction NAME" if only the contact's part of it is known
+    (ReducedProblem::knows_loads).
 
     add() is made to be a MarchObserver. Numbers are written so that they are read back to the
-   last bit. Nothing is held. */
+    last bit. Nothing is held. */
 class HistoryWriter
 {
 public:
@@ -46,8 +46,8 @@ private:
     come:
 
        time, node, arc_length, x, y, state (see settled_states()), p, q (tractions: nodal forces
-   over consistent weights), slip v, opening w + g; with torsion q and slip have a radial and a
-   circumferential column each. Needs arc length, positions and weights.
+    over consistent weights), slip v, opening w + g; with torsion q and slip have a radial and a
+    circumferential column each. Needs arc length, positions and weights.
 
     The problem must outlive this. */
 class NodeWriter

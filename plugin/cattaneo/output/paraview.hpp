@@ -13,11 +13,11 @@ namespace cattaneo
 {
 
 /** Series of a body's fields for ParaView (5.5 or newer), in the folder `directory`/`name`:
-   open `name`.pvd. Fields: "displacement"; "sigma_xx", "sigma_yy", "sigma_zz", "tau_xy"
-   (tension positive) and "von_mises" on discontinuous elements of the body's own order, from
-   each element's own material. Axisymmetric: "sigma_rr", "sigma_zz", "sigma_tt" (hoop) and
-   "tau_rz"; a torsion body has "twist", "tau_rt" and "tau_tz" instead. A body with a user's
-   operator has stresses if it was told them (ElasticBody::set_stress), else displacement only.
+    open `name`.pvd. Fields: "displacement"; "sigma_xx", "sigma_yy", "sigma_zz", "tau_xy"
+    (tension positive) and "von_mises" on discontinuous elements of the body's own order, from
+    each element's own material. Axisymmetric: "sigma_rr", "sigma_zz", "sigma_tt" (hoop) and
+    "tau_rz"; a torsion body has "twist", "tau_rt" and "tau_tz" instead. A body with a user's
+    operator has stresses if it was told them (ElasticBody::set_stress), else displacement only.
 
     The body must outlive this. Nothing is computed or written before write(). */
 class BodyFields
@@ -50,10 +50,11 @@ private:
 };
 
 /** Series of a contact line for ParaView, in the folder `directory`/`name`: open `name`.pvd.
-   One polyline a chain of nodes, at the reference position of body 1, with the point data
-   arc_length, gap (initial), state (0 stick, 1 separation, 2 forward slip, 3 backward slip; see
-   settled_states()), p and q (tractions: nodal forces over consistent weights), slip (v) and
-   opening (w + g), and of several interfaces the number of each node's, from 0. Plane problems.
+    One polyline a chain of nodes, at the reference position of body 1, with the point data
+    arc_length, gap (initial), state (0 stick, 1 separation, 2 forward slip, 3 backward slip;
+    see settled_states()), p and q (tractions: nodal forces over consistent weights), slip (v)
+    and opening (w + g), and of several interfaces the number of each node's, from 0. Plane
+    problems.
 
     The problem must outlive this. */
 class ContactLineFields
@@ -74,9 +75,9 @@ private:
 };
 
 /** All series of a reduction in a folder, contact.pvd and one of each body by its name
-   (body1.pvd and so on of those without), a time after the other: made to be called from a
-   MarchObserver, since it holds no state. Plane problems, and axisymmetric ones without
-   torsion.
+    (body1.pvd and so on of those without), a time after the other: made to be called from a
+    MarchObserver, since it holds no state. Plane problems, and axisymmetric ones without
+    torsion.
 
     All must outlive this. */
 class ReductionFields

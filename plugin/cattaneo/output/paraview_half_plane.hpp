@@ -17,7 +17,7 @@ void make_folder(const std::string &folder);
 /** Series of the fields below the surface of a half-plane for ParaView, as BodyFields writes
     them of a meshed body, on a mesh that is made for it alone: a window below the contact line,
     one and a half of its lengths deep and wide beyond its ends. Values at its nodes are those
-   of HalfPlaneField; displacements are relative to the half-plane's depth.
+    of HalfPlaneField; displacements are relative to the half-plane's depth.
 
     Nothing is computed or written before write(). */
 class HalfPlaneFields

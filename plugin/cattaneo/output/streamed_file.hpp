@@ -16,8 +16,8 @@ public:
 };
 
 /** A table that is written as its rows come, a line each, and holds none of them: what was
-   added is with the operating system when add() returns, and stays there whatever becomes of
-   the program. The first column is a time that does not fall. */
+    added is with the operating system when add() returns, and stays there whatever becomes of
+    the program. The first column is a time that does not fall. */
 class StreamedFile
 {
 public:

@@ -144,7 +144,7 @@ struct Zero
 };
 
 /** Zero of a parabola through values at distances t (increasing, in spacings), nearest to t =
-   0. The number of values is the one of least error: the larger of the standard error and the
+    0. The number of values is the one of least error: the larger of the standard error and the
     change when a cubic is fitted. */
 Zero nearest_zero(const VectorXd &t, const VectorXd &values, const VectorXd &weights)
 {

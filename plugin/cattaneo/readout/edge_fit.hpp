@@ -7,8 +7,8 @@ namespace cattaneo
 {
 
 /** Tractions near the edge of an incomplete contact, from any solution. All arrays have one
-   entry a node, in any order; nodes without pressure are ignored, those with pressure must all
-   lie on one side of the edge (the other edge's half of the contact may be left in). */
+    entry a node, in any order; nodes without pressure are ignored, those with pressure must all
+    lie on one side of the edge (the other edge's half of the contact may be left in). */
 struct EdgeTractions
 {
    double edge = 0.0;            ///< position of the contact edge

@@ -10,7 +10,7 @@ namespace cattaneo
 struct ContactState;
 
 /** Whether a march stayed where displacements are small: nodes go on facing what they faced,
-   and gaps are measured along the normals of the beginning. Beyond that results are those of
+    and gaps are measured along the normals of the beginning. Beyond that results are those of
     another problem, without any sign of it in themselves. */
 class SmallDisplacements
 {

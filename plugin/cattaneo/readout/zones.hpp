@@ -45,9 +45,10 @@ std::vector<int> chain_numbers(const ReducedProblem &problem);
     0.2. That is luck which no one mesh can vouch for: the error is the change when other nodes
     are used, but not less than a quarter of a spacing, half of it where a straight line was all
     that the nodes allow or pressure all there is, and a whole one where there are too few
-   nodes: the edge is then the middle between the two that it lies between. A border of stick or
-   slip k nodes from an end of the line that is a corner of one of the bodies and in contact,
-   where tractions are singular, has 16/k spacings at least, or its distance from that end.
+    nodes: the edge is then the middle between the two that it lies between. A border of stick
+    or slip k nodes from an end of the line that is a corner of one of the bodies and in
+    contact, where tractions are singular, has 16/k spacings at least, or its distance from that
+    end.
 
     With two tangential components |v - slip_origin| and |q| are lengths of vectors, and nodes
     that slip form one zone whatever their directions.

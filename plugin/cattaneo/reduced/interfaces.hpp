@@ -15,7 +15,7 @@ struct InterfaceSide
 };
 
 /** Which side carries the nodes of the reduced problem. Nodes are nearer to each other or not
-   in the (geometric) mean; the first side is taken if they are as near. The coarser one is the
+    in the (geometric) mean; the first side is taken if they are as near. The coarser one is the
     choice that is safe: it has no more forces than either body has displacements. A finer slave
     that is stiff, on a coarse soft master, has tractions that swing from node to node
     (docs/interfaces.md has figures). Where the side that is taken cannot be the slave
@@ -53,7 +53,7 @@ struct Interface
 /** The trace of a body with several interfaces, to be condensed to at once: the nodes of all
     lines, one after the other, each once. A node that two lines share (the end of one is the
     beginning of the other) has the frame of the first, and the chain of the later ones loses
-   it. InputError if the lines are of different formulations, or of none. */
+    it. InputError if the lines are of different formulations, or of none. */
 ContactLine joined(const std::vector<ContactLine> &lines);
 
 /** Any number of bodies over any number of interfaces. With U the contact displacements of all
@@ -91,8 +91,8 @@ Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface>
 /** What chords of curved sides (InterfaceReport::chords) may make of tractions, as a share of
     the largest one: the largest pressure that closes as much where nodes bear, whose normal
     forces are p, while open nodes follow. An estimate; 0 where sides are straight or nodes
-   match. Where nothing bears it is infinite if smooth sides may meet, else 0. InputError
-   unless there is a force for each contact node. */
+    match. Where nothing bears it is infinite if smooth sides may meet, else 0. InputError
+    unless there is a force for each contact node. */
 double chordal_error(const Reduction &reduction, const Eigen::VectorXd &p);
 
 /** Bodies that meet at interfaces but keep displacements of their own, for programs of joint

@@ -55,10 +55,10 @@ struct Mortar
 };
 
 /** Integrates the dual functions [Wohlmuth 2000] of the slave over the segments that nodes of
-   both lines cut, each where it faces the other (facing each other across the mean of both
-   tangents), straight or curved, of orders 1 to 8 that may differ. In axisymmetry with the
-   weight r; a node on the axis, which is no contact node, moves with the even (z) and odd (r)
-   polynomials through the other nodes of its element.
+    both lines cut, each where it faces the other (facing each other across the mean of both
+    tangents), straight or curved, of orders 1 to 8 that may differ. In axisymmetry with the
+    weight r; a node on the axis, which is no contact node, moves with the even (z) and odd (r)
+    polynomials through the other nodes of its element.
 
     `without`: nodes of the slave that are to carry no row; their neighbours share their part.
     `what` begins the sentences of InputError: lines of another formulation, of torsion, without

@@ -14,12 +14,12 @@ struct Pairing
 };
 
 /** Pairs every node of line 1 with the node of line 2 that faces it (normals of opposite sense)
-   and is nearest to it across the interface, among those whose offset along the tangent is at
-   most `tolerance` times the local edge length (the shorter one of the two lines). The tangent
-   is the mean of both bodies', so that the pairing does not depend on which body is called the
-   first. Offsets along the normal are the gap; one of less than 1e-9 edge lengths is round-off
-   of coordinates, and zero. InputError unless every node of both lines has one partner, with
-   unmatched nodes (coordinates), a tolerance that would do, and where the lines are. */
+    and is nearest to it across the interface, among those whose offset along the tangent is at
+    most `tolerance` times the local edge length (the shorter one of the two lines). The tangent
+    is the mean of both bodies', so that the pairing does not depend on which body is called the
+    first. Offsets along the normal are the gap; one of less than 1e-9 edge lengths is round-off
+    of coordinates, and zero. InputError unless every node of both lines has one partner, with
+    unmatched nodes (coordinates), a tolerance that would do, and where the lines are. */
 Pairing pair_lines(const ContactLine &line1, const ContactLine &line2, double tolerance = 1e-6);
 /// The same; nothing unless every node has its partner.
 std::optional<Pairing> matching_nodes(const ContactLine &line1, const ContactLine &line2,

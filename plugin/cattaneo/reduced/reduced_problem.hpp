@@ -58,8 +58,8 @@ struct FrictionLaw
     circumference in axisymmetry.
 
     There are c tangential components a node: 1 in the plane, 2 with torsion (radial for all
-   nodes first, then circumferential), 0 when the problem was reduced without friction. Plain
-   data: it knows no mesh. */
+    nodes first, then circumferential), 0 when the problem was reduced without friction. Plain
+    data: it knows no mesh. */
 struct ReducedProblem
 {
    /// The whole reduced stiffness [A Bᵀ; B C], (c+1)·n × (c+1)·n, symmetric.
@@ -171,11 +171,11 @@ Eigen::MatrixXd rigid_openings(const ReducedProblem &problem);
 void set_friction(ReducedProblem &problem, double coefficient);
 
 /** Another law of friction, of these nodes (none given: of all): points (pressure, shear
-   strength) of tractions, for slip forward and backward, from which those of nodal forces
-   follow by the nodes' weights. A single point (1, f) is Coulomb's law. InputError without
-   weights, for a node that does not exist, or if the law is none: its pressures do not grow
-   from above zero, a strength falls or is negative, or with torsion, where slip has no sense,
-   both differ. */
+    strength) of tractions, for slip forward and backward, from which those of nodal forces
+    follow by the nodes' weights. A single point (1, f) is Coulomb's law. InputError without
+    weights, for a node that does not exist, or if the law is none: its pressures do not grow
+    from above zero, a strength falls or is negative, or with torsion, where slip has no sense,
+    both differ. */
 void set_friction_law(ReducedProblem &problem, const FrictionLaw &law,
                       const std::vector<Eigen::Index> &nodes = {});
 /// The same law whichever way the nodes slip.

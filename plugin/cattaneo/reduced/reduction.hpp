@@ -55,12 +55,12 @@ struct ObstacleMotion
 };
 
 /** A reduced problem together with the way back to the fields of its bodies. Load patterns of
-   the bodies are joined by name; the friction coefficient is zero until set. Nodes of one body,
-   or of two whose nodes match, are those of body 1's contact line, in its order and frames;
-   of interfaces those of each one's slave, one after the other.
+    the bodies are joined by name; the friction coefficient is zero until set. Nodes of one
+    body, or of two whose nodes match, are those of body 1's contact line, in its order and
+    frames; of interfaces those of each one's slave, one after the other.
 
     Torsion is a third block that is there only if it is added: it decouples in the bulk, so
-   that A = diag(A_r, A_θ) and B = (B_r, 0), and friction alone couples it to the rest. */
+    that A = diag(A_r, A_θ) and B = (B_r, 0), and friction alone couples it to the rest. */
 class Reduction
 {
 public:
@@ -88,8 +88,8 @@ public:
        have been added before.
 
        InputError if the name is empty or taken, if an interface is between two bodies or tied,
-      if a displacement is not finite, or if it moves along a component that is held (a plane of
-      symmetry). */
+       if a displacement is not finite, or if it moves along a component that is held (a plane
+       of symmetry). */
    void add_obstacle_motion(const std::string &name,
                             const std::vector<ObstacleMotion> &motions);
    /// The same of all obstacles of one body.
@@ -110,8 +110,8 @@ public:
    void add_shank(const std::string &pattern, double stiffness);
 
    /** The nodal forces {q; p} that tied interfaces transfer, all tangential ones first, of
-      their nodes in the order of the reports; displacements and multipliers as of
-      displacement(). */
+       their nodes in the order of the reports; displacements and multipliers as of
+       displacement(). */
    Eigen::VectorXd tied_forces(const Eigen::VectorXd &v, const Eigen::VectorXd &w,
                                const Eigen::VectorXd &multipliers) const;
 
@@ -185,11 +185,11 @@ Reduction reduce(CondensedBody body, const ScalarField &gap = 0.0);
        S = S1 - S1 (S1 + S2)⁻¹ S1,     f = f1 - S1 (S1 + S2)⁻¹ (f1 - f2);
 
     either or both may be free. Gap of the pairing, which may be overwritten in the result. Body
-   2's frames are turned onto the opposite of body 1's first. A component that one body holds
-   is the other's alone; one that both hold is held in the problem. InputError if that is a
-   normal one, if body 2 alone holds a component across body 1's frame, if a common rigid
-   motion of two free bodies is loaded, or if a pattern is force-controlled in one and
-   displacement-controlled in the other. */
+    2's frames are turned onto the opposite of body 1's first. A component that one body holds
+    is the other's alone; one that both hold is held in the problem. InputError if that is a
+    normal one, if body 2 alone holds a component across body 1's frame, if a common rigid
+    motion of two free bodies is loaded, or if a pattern is force-controlled in one and
+    displacement-controlled in the other. */
 Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairing);
 
 } // namespace cattaneo

@@ -9,13 +9,13 @@ namespace cattaneo
 /** A receding contact under cyclic load: the shakedown limit on the part that stays closed.
 
     Assumption: the nodes of `closed` are closed and all others open throughout the cycle. The
-   open nodes carry no force and are condensed out of the reduced problem,
+    open nodes carry no force and are condensed out of the reduced problem,
 
        K_cc - K_co K_oo⁻¹ K_oc,   f_c - K_co K_oo⁻¹ f_o,
 
     and what is left is a contact of fewer nodes that is always closed. Whether the assumption
-    holds is for open_gaps to tell afterwards (and, for the closed nodes, the cone condition).
- */
+    holds is for open_gaps to tell afterwards (and, for the closed nodes, the cone
+    condition). */
 struct ClosedContact
 {
    ReducedProblem reduced;           ///< of the closed nodes
@@ -47,7 +47,7 @@ struct StayedClosed
 /** The nodes that are closed throughout some cycles at a load factor, marched from rest through
     the constant load and the vertices of the cycle in their order; fewer cycles, once they are
     steady. Nodes that are open while the constant load is applied may close. InputError as
-   LoadCycle::validate() and for less than one cycle. */
+    LoadCycle::validate() and for less than one cycle. */
 StayedClosed stay_closed(const ReducedProblem &problem, const LoadCycle &cycle,
                          double load_factor, int cycles, const Monitor &monitor = {});
 

@@ -15,9 +15,9 @@ namespace
     t = (f p + strength) / s of every cone.
 
     π as unknowns tied by one dense equation keep the cones sparse however many load vertices
-   there are; an uncoupled problem has none. One component: the two rows t ± q ≥ 0 of a linear
-   programme. Two: t - |q|²/t ≥ 0, which is convex and smooth for t > 0, where the bound t ≥ 0
-   keeps it; |q| itself has no derivative at the tip, where limits by separation lie. */
+    there are; an uncoupled problem has none. One component: the two rows t ± q ≥ 0 of a linear
+    programme. Two: t - |q|²/t ≥ 0, which is convex and smooth for t > 0, where the bound t ≥ 0
+    keeps it; |q| itself has no derivative at the tip, where limits by separation lie. */
 class ConeNlp : public Ipopt::TNLP
 {
    using Index = Ipopt::Index;

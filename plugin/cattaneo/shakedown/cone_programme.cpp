@@ -145,8 +145,8 @@ namespace
 {
 
 /** The inverse Hessian of the barrier -log(t² - |s|²) of one cone of motions, for {t; s}:
-   steps of length one in its norm stay inside. Nearly rank one at the surface of the cone, so
-   that a motion there changes along itself only. */
+    steps of length one in its norm stay inside. Nearly rank one at the surface of the cone, so
+    that a motion there changes along itself only. */
 Eigen::MatrixXd room(double limit, const Eigen::VectorXd &slip)
 {
    Eigen::VectorXd x(1 + slip.size());

@@ -7,8 +7,8 @@ namespace cattaneo
 {
 
 /** Estimates of the shakedown limit that look at one node at a time (thesis 4.3.1). Like the
-   stuck contact's ratios they do not converge at a corner's nodes, which `nodes` leaves out
-   (monolith.hpp; empty: all). */
+    stuck contact's ratios they do not converge at a corner's nodes, which `nodes` leaves out
+    (monolith.hpp; empty: all). */
 struct PointwiseEstimate
 {
    double value = 0;      ///< friction coefficient or load factor; infinite if there is none
@@ -16,7 +16,7 @@ struct PointwiseEstimate
 };
 
 /** Method 1 (4.9): only the shear tractions redistribute, independently at each node and
-   without regard to equilibrium, and the pressure stays that of the stuck contact:
+    without regard to equilibrium, and the pressure stays that of the stuck contact:
 
        f = max |q_a - q_b| / (p_a + p_b)
 
@@ -31,9 +31,9 @@ PointwiseEstimate method1_load(const ReducedProblem &problem, const LoadCycle &c
                                const NodeList &nodes = {});
 
 /** Method 2 (thesis 4.3.1.2): a residual shear r that method 1 allows at its own f and that has
-   no resultant changes the pressure by M r, and (4.9) is evaluated again with p + M r. It
-   leaves open which r: the result is a range over all choices. One tangential component only.
- */
+    no resultant changes the pressure by M r, and (4.9) is evaluated again with p + M r. It
+    leaves open which r: the result is a range over all choices. One tangential component
+    only. */
 struct Method2Estimate
 {
    /// Some permissible residual shear has no resultant. If none has, the estimates are zero.

@@ -9,14 +9,14 @@ namespace cattaneo
 {
 
 /** A shakedown limit by Melan's static theorem ([Melan 1936], thesis 4.3.2): is there a slip v,
-   constant in time, with which all nodes stick, closed (w = 0), throughout the load cycle? What
-   is proven of it is proven for a contact whose nodes all stay closed: with nodes that open it
-   is another problem, whose marches may shake down above the limit but at those nodes
-   (transient.hpp); see closed_contact for contacts that are partly open throughout. The limit
-   is the upper one, λ2: above it every start ends in cyclic slip; below it some start shakes
-   down, and all do if the problem is uncoupled (lower_limit.hpp). Where the stuck tractions are
-   singular, at the edges of contact, it may be the mesh that decides, and then the limit falls
-   with the spacing. */
+    constant in time, with which all nodes stick, closed (w = 0), throughout the load cycle?
+    What is proven of it is proven for a contact whose nodes all stay closed: with nodes that
+    open it is another problem, whose marches may shake down above the limit but at those nodes
+    (transient.hpp); see closed_contact for contacts that are partly open throughout. The limit
+    is the upper one, λ2: above it every start ends in cyclic slip; below it some start shakes
+    down, and all do if the problem is uncoupled (lower_limit.hpp). Where the stuck tractions
+    are singular, at the edges of contact, it may be the mesh that decides, and then the limit
+    falls with the spacing. */
 struct LimitProblem
 {
    ReducedProblem reduced;  ///< without a gap, its friction is that of a load limit
@@ -47,8 +47,8 @@ enum class LimitStatus
 const char *name(LimitStatus status);
 
 /** Motions dual to the limit: at load vertex j node i slips by `slip` and opens by `opening`,
-   with opening ≥ f |slip| (the flow rule associated with the friction cone; of another law than
-   Coulomb's, with the sum of what its pieces ask). */
+    with opening ≥ f |slip| (the flow rule associated with the friction cone; of another law
+    than Coulomb's, with the sum of what its pieces ask). */
 struct CollapseMechanism
 {
    Eigen::MatrixXd slip;    ///< c·n × vertices
@@ -106,8 +106,8 @@ struct LimitReport
 };
 
 /** Largest λ ≥ 0 for the friction of the problem, Coulomb's or a concave law (InputError of one
-   that is not), and the shape of the cycle. First the constant
-   loads, λ = 0: `no_solution` if they cannot be carried. */
+    that is not), and the shape of the cycle. First the constant
+    loads, λ = 0: `no_solution` if they cannot be carried. */
 LimitReport load_limit(const LimitProblem &problem, const LimitSettings &settings = {});
 
 /// The same for given forces on the stuck contact instead of the load patterns'
@@ -116,10 +116,10 @@ LimitReport load_limit(const ReducedProblem &reduced, const ResidualForces &resi
                        const StuckForces &loads, const LimitSettings &settings = {});
 
 /** Smallest friction coefficient, the same at all nodes, for the loads constant + @a
-   load_factor × varying (the problem's own friction is not used; InputError of a problem with
-   other laws). It is the least f of a quasi-convex problem: each step asks for the state of
-   greatest clearance from the cones of a trial f, whose own largest |q|/p is the next f
-   [Dinkelbach 1967], until duality shows that no state exists at f (1 - tolerance/2). */
+    load_factor × varying (the problem's own friction is not used; InputError of a problem with
+    other laws). It is the least f of a quasi-convex problem: each step asks for the state of
+    greatest clearance from the cones of a trial f, whose own largest |q|/p is the next f
+    [Dinkelbach 1967], until duality shows that no state exists at f (1 - tolerance/2). */
 LimitReport friction_limit(const LimitProblem &problem, double load_factor,
                            const LimitSettings &settings = {});
 

@@ -11,8 +11,8 @@ namespace cattaneo
        constant + λ varying.col(j)
 
     and vary linearly from each vertex to the next, from the last back to the first. λ is the
-   load factor of the shakedown theorems. The conditions of no slip and no separation are convex
-   in the loads, so that only the vertices matter to a limit. */
+    load factor of the shakedown theorems. The conditions of no slip and no separation are
+    convex in the loads, so that only the vertices matter to a limit. */
 struct LoadCycle
 {
    Eigen::VectorXd constant; ///< one entry for each load pattern, in their order
@@ -41,8 +41,8 @@ struct LoadCycle
 };
 
 /** Thesis 4.3, figure 4.6: pattern @a held at the constant multiplier @a load, pattern @a
-   cycled between λ and R λ. R = @a reversal, -1 ≤ R ≤ 1 (4.24). InputError on an unknown
-   pattern. */
+    cycled between λ and R λ. R = @a reversal, -1 ≤ R ≤ 1 (4.24). InputError on an unknown
+    pattern. */
 LoadCycle held_and_cycled(const ReducedProblem &problem, const std::string &held, double load,
                           const std::string &cycled, double reversal);
 

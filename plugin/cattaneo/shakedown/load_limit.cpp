@@ -33,9 +33,9 @@ struct Held
 
 /** The largest load factor that is held for certain on the way from a solver's point, @a theta
     and @a slip, to @a inside at load factor 0, or on the way continued beyond the point. A
-   point is found to lie inside to a share of typical forces only, and far beyond gross sliding
-   the round-off of the forces is more than that; as the conditions are convex, all of them gain
-   on the way to a state that meets them with room to spare. */
+    point is found to lie inside to a share of typical forces only, and far beyond gross sliding
+    the round-off of the forces is more than that; as the conditions are convex, all of them
+    gain on the way to a state that meets them with room to spare. */
 Held largest_held(const ConeProgramme &programme, const ReducedProblem &problem, double theta,
                   const Eigen::VectorXd &slip, const Eigen::VectorXd &inside)
 {

@@ -42,13 +42,13 @@ LeastPressure least_pressure(const ReducedProblem &problem, const ResidualForces
                              const Eigen::VectorXd &pressure);
 
 /** The lower limit λ1 of a coupled contact: for load factors below it every initial slip ends
-   in shakedown; between λ1 and λ2 that depends on the start (thesis 4.1).
+    in shakedown; between λ1 and λ2 that depends on the start (thesis 4.1).
 
     Two nodes (exact, with v the plane of the two slips): each of the four conditions
     f p ± q ≥ 0 is a half-plane that moves with the loads; its extreme position over the cycle
     bounds the safe region. A start can cycle for ever exactly if the two conditions of one and
-   the same node meet in a corner of that region. λ1 is the smallest λ at which that is so.
-   Assumes that the contact stays closed and that the rate problem is unique (f |B_ii| < A_ii).
+    the same node meet in a corner of that region. λ1 is the smallest λ at which that is so.
+    Assumes that the contact stays closed and that the rate problem is unique (f |B_ii| < A_ii).
 
     More nodes (proven bound). Let p_low bound the pressures of every admissible closed state
     from below (LeastPressure). If some slip v* keeps |q*| ≤ f p_low at every vertex, then for
@@ -58,7 +58,7 @@ LeastPressure least_pressure(const ReducedProblem &problem, const ResidualForces
 
     p never falls to zero, and with a load factor strictly below the bound the total slip is
     finite: the contact shakes down. p_low is linear in the loads, so the bound is one more
-   limit programme, of an uncoupled contact with pressures p_low.
+    limit programme, of an uncoupled contact with pressures p_low.
 
     It is the best that pressures alone can prove. Where an admissible state has a node without
     pressure, as the corners of a square punch on a similar half-plane above f = 0.6, no λ1 is

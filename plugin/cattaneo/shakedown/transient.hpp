@@ -9,11 +9,11 @@ namespace cattaneo
 {
 
 /** Marches in time on either side of a limit (thesis 4.4): does the contact that starts with a
-   given slip shake down under a load factor, and how fast?
+    given slip shake down under a load factor, and how fast?
 
     History: the constant loads in one increment, then the cycle's vertices again and again. The
     cycle starts at the constant loads if they lie on its last edge (between the last and the
-   first vertex), as for a shear cycled through zero; else at its first vertex. */
+    first vertex), as for a shear cycled through zero; else at its first vertex. */
 struct TransientSettings
 {
    int cycles = 200; ///< the most that are marched
@@ -43,9 +43,9 @@ enum class TransientVerdict
 const char *name(TransientVerdict verdict);
 
 /** The theorems behind limits are of a contact whose nodes all stay closed. Where nodes open in
-   the march, `opened`, its verdict is of another problem, and need not agree with a bound: at
-   the corner of a square punch a few nodes open and close for ever and lose 1e-7 of what the
-   first cycle does, below the upper limit and above. */
+    the march, `opened`, its verdict is of another problem, and need not agree with a bound: at
+    the corner of a square punch a few nodes open and close for ever and lose 1e-7 of what the
+    first cycle does, below the upper limit and above. */
 struct TransientReport
 {
    FrictionStatus status = FrictionStatus::converged; ///< of the march
@@ -89,8 +89,8 @@ TransientBracket transient_bracket(const LimitProblem &problem, const LimitRepor
                                    double margin, const TransientSettings &settings = {});
 
 /** Search for a start that does not shake down below the upper limit: what is observed of the
-   lower limit λ1. Halves the interval between the proven lower bound and the upper limit, each
-   time marching from multiples of the optimal slip and from random admissible-sized ones. */
+    lower limit λ1. Halves the interval between the proven lower bound and the upper limit, each
+    time marching from multiples of the optimal slip and from random admissible-sized ones. */
 struct CounterExampleSettings
 {
    int starts = 10;   ///< random starts a load factor, besides multiples of the optimal slip

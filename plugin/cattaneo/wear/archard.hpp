@@ -12,9 +12,9 @@ namespace cattaneo
        depth rate = k (p - p_th)₊ |slip rate|,
 
     p the pressure (nodal force over consistent weight) and k of both bodies together: where
-   they wear in the ratio k₁ : k₂ the depth is shared so. With `of_energy` k belongs to the
-   energy that friction takes per area, and f k stands in the place of k. Material that has worn
-   off is gone: there is no debris. */
+    they wear in the ratio k₁ : k₂ the depth is shared so. With `of_energy` k belongs to the
+    energy that friction takes per area, and f k stands in the place of k. Material that has
+    worn off is gone: there is no debris. */
 struct WearLaw
 {
    Eigen::VectorXd coefficient; ///< k of each node, size n, ≥ 0, in 1/pressure

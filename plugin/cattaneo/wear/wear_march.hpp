@@ -81,8 +81,8 @@ struct WearReport
    double error = 0; ///< sum of the jumps' WearRecord::error
    /** Largest number of cycles that may share one update of the gap: the explicit update
        depth += cycles × (depth of a cycle) is stable below it. With the loss of pressure δp =
-      -C δdepth and the depth of a cycle c p (c a diagonal) it is 2/λ_max(c C). Jumps are
-      implicit, without such a limit. The least so far; infinite if nothing wears. */
+       -C δdepth and the depth of a cycle c p (c a diagonal) it is 2/λ_max(c C). Jumps are
+       implicit, without such a limit. The least so far; infinite if nothing wears. */
    double explicit_limit = 0;
    /// Cycles so severe (explicit_limit below 2) that their own update was implicit: k is so
    /// large that a cycle wears off what the contact gives way by.
@@ -108,22 +108,22 @@ using WornIncrementObserver = std::function<void(const ContactState &, const Inc
     over all (history.cycles is not asked), and takes off what each cycle wears.
 
     Every cycle that is marched is exact along its path, see worn_depth(), and the worn volume
-   is k/f times the energy that friction took, to round-off, at every moment where all of k and
-   f are uniform and there is no threshold; so it is where cycles are jumped over, whose energy
-   is that of the volume.
+    is k/f times the energy that friction took, to round-off, at every moment where all of k and
+    f are uniform and there is no threshold; so it is where cycles are jumped over, whose energy
+    is that of the volume.
 
     A jump over M cycles solves for the pressures at its end, p' = p - C (M c p' + openings) ≥
-   0, a contact problem with c a layer that gives way: it is stable for any M. Jumps of one, two
-    and three parts, each with a cycle of its own marched until it repeats itself, are
+    0, a contact problem with c a layer that gives way: it is stable for any M. Jumps of one,
+    two and three parts, each with a cycle of its own marched until it repeats itself, are
     extrapolated to what updates after each cycle come to (parts of "minus one cycle": the error
     of an explicit step is that of an implicit one backwards); the result without the single
-   jump gives the error.
+    jump gives the error.
 
     Depth must be small against the contact: frames and weights stay those of the unworn bodies.
 
     Stops early with the status of the cycle that has no equilibrium, or `stopped`. InputError
-   as march(), for a history without a cycle, and for a state that does not stand at its
-   beginning or between two cycles. */
+    as march(), for a history without a cycle, and for a state that does not stand at its
+    beginning or between two cycles. */
 WearReport wear(const ReducedProblem &problem, const WearLaw &law, const LoadHistory &history,
                 double cycles, WearState &state, const WearSettings &settings = {},
                 const WearObserver &observer = {}, const WornIncrementObserver &watch = {});

@@ -32,21 +32,21 @@ struct WornOut
     point of the cycle; depth is what overlaps at any of them.
 
     The nodes that stick are those of the unworn cycle. Where A = C and B = 0 (half-planes of
-   one material) and pressures do not vary in the cycle they stay the same while the surfaces
-   wear [Ciavarella 1999]. Otherwise the worn contact is marched: nodes that slip then
-   under pressure, or open, are left out, and the problem is solved again with the slip that is
-   locked in now, until a cycle takes no more than 1e-8 of the energy of the unworn one. That is
-   a state in which wear ends; the one that a march comes to may be another where nodes stick
-   that it finds worn.
+    one material) and pressures do not vary in the cycle they stay the same while the surfaces
+    wear [Ciavarella 1999]. Otherwise the worn contact is marched: nodes that slip then
+    under pressure, or open, are left out, and the problem is solved again with the slip that is
+    locked in now, until a cycle takes no more than 1e-8 of the energy of the unworn one. That
+    is a state in which wear ends; the one that a march comes to may be another where nodes
+    stick that it finds worn.
 
     Wear is that of any law without a threshold: the final state does not depend on k, as long
-   as k > 0 wherever a node slips.
+    as k > 0 wherever a node slips.
 
     `contact`: a state at the beginning of the cycle (or before the opening part) of the unworn
     problem. Status: converged; stalled if the cycle never repeats itself or the set is not
     found; stopped, asked before each set that is tried; gross_sliding if no node is found that
-   sticks, where wear may have no end; or of a march without equilibrium. InputError as wear().
- */
+    sticks, where wear may have no end; or of a march without equilibrium. InputError as
+    wear(). */
 WornOut worn_out(const ReducedProblem &problem, const LoadHistory &history,
                  const ContactState &contact, const MarchSettings &settings = {});
 

@@ -19,8 +19,8 @@ FreeMotions find_free_motions(const AssembledBody &body, const std::vector<int> 
 
 /** What is known of a free body: rigid motions meet no resistance, and the clamped contact
     balances the loads. In exact arithmetic imposing it changes nothing. In floating point a
-   motion that is large far from the contact (turning a half-plane of 10⁴ contact widths) would
-   leave round-off of 10⁻⁴ of the stiffness. All in global components. */
+    motion that is large far from the contact (turning a half-plane of 10⁴ contact widths) would
+    leave round-off of 10⁻⁴ of the stiffness. All in global components. */
 class Equilibrium
 {
 public:

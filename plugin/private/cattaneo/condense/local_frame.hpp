@@ -14,7 +14,7 @@ namespace cattaneo
 
     each 2 × 2 block orthogonal, so that displacements change in the same way. One component a
     node (b, c and d empty): q_i = a_i m_i, in torsion the circumferential force of a torque
-   about the axis. In both, displacements change back with Rᵀ. */
+    about the axis. In both, displacements change back with Rᵀ. */
 struct FrameChange
 {
    Eigen::VectorXd a, b, c, d;

@@ -9,12 +9,12 @@ namespace cattaneo
 
 /** How wrong a condensed stiffness is, measured by energies: an estimate from above of the
     largest |uᵀ (S - S*) u| / uᵀ S u over all motions u of the contact nodes that meet
-   resistance, S* the stiffness in exact arithmetic. Forces of given compliances are wrong by
-   about as much. It is infinite where S does not resist a motion that it should.
+    resistance, S* the stiffness in exact arithmetic. Forces of given compliances are wrong by
+    about as much. It is infinite where S does not resist a motion that it should.
 
     One motion says S u; a random one, of the same energy in every direction, has its share of
     whichever is worst. Of a matrix E = L⁻¹ (S - S*) L⁻ᵀ, S = L Lᵀ, and r standard normal
-   vectors ω
+    vectors ω
 
        ‖E‖ <= 10 √(2/π) max ‖E ω‖  but for a probability of 10⁻ʳ
 
@@ -40,13 +40,13 @@ private:
 /** The estimate for a stiffness read off a factor, of two errors together:
 
     - elimination: S u against the action of K, the stiffness as it was given, W = {-K_II⁻¹ K_IC
-   u; u} by the factor, its residual in extended precision, and the residual's own forces by the
-   factor again;
+      u; u} by the factor, its residual in extended precision, and the residual's own forces by
+      the factor again;
     - what K owes to its assembly in floating point: random changes of up to 2 ε √(K_ii K_jj) of
       every entry, seen at the contact.
 
     @a keep, @a contact: as SparseFactor has them. Three right-hand sides are solved, twice, and
-   a dense matrix of the size of S is factored. */
+    a dense matrix of the size of S is factored. */
 double stiffness_error(const SharedMatrix &stiffness, const std::vector<int> &keep, int contact,
                        const SparseFactor &factor, const Eigen::MatrixXd &S,
                        const Eigen::MatrixXd &motions);

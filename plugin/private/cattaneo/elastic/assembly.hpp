@@ -10,8 +10,8 @@ namespace cattaneo
 {
 
 /** The stiffness of an isotropic body on the vdofs of an H1 space ordered byVDIM, on this rank
-   and before hanging nodes are constrained: what an mfem::BilinearForm of the same integrators
-   would give, to round-off and symmetric to the last bit, several times faster:
+    and before hanging nodes are constrained: what an mfem::BilinearForm of the same integrators
+    would give, to round-off and symmetric to the last bit, several times faster:
 
     - the sparsity is that of the nodes, built once; each pair of nodes adds its 2×2 block;
     - all points of an element are integrated at once, as products of small matrices;

@@ -41,14 +41,14 @@ ComplementarityReport solve_by_newton(StateEquations &equations,
                                       ComplementarityReport start = {});
 
 /** Lemke's method [Lemke 1965] with a free start: from displacements and forces that meet all
-   laws with the present states of `equations` at some other b, follows the solutions while b is
-   moved to the problem's, exchanging the state of one node at a time; the path may turn back on
-   its way. x and F are the wish for the start (the solution of a neighbouring problem, say);
-   they are moved into the inside of all inequalities by the random fraction `slack` of the
-   largest force, so that no two nodes exchange at once. On the way a node may bear a little
-   shear beyond f p, in separation too, that vanishes at the end: slip, stick, opening and
-   closing are then one exchange each. A path may end in a ray, above critical friction for
-   instance: another start may do better. */
+    laws with the present states of `equations` at some other b, follows the solutions while b
+    is moved to the problem's, exchanging the state of one node at a time; the path may turn
+    back on its way. x and F are the wish for the start (the solution of a neighbouring problem,
+    say); they are moved into the inside of all inequalities by the random fraction `slack` of
+    the largest force, so that no two nodes exchange at once. On the way a node may bear a
+    little shear beyond f p, in separation too, that vanishes at the end: slip, stick, opening
+    and closing are then one exchange each. A path may end in a ray, above critical friction for
+    instance: another start may do better. */
 ComplementarityReport solve_by_path(StateEquations &equations,
                                     const ComplementarityProblem &problem,
                                     const Eigen::VectorXd &x, const Eigen::VectorXd &F,

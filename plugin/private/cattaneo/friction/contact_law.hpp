@@ -21,9 +21,9 @@ using NodeMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2, 2
 double magnitude(const NodeVector &x);
 
 /** What the tangential force of a node is bounded by at its normal force p: Coulomb's f p, or
-   that of a FrictionLaw. The solvers, their checks, losses and zones() ask here; the cones
-   of shakedown ask for its pieces, derivatives and wear know Coulomb's law alone, and refuse
-   another one (require_coulomb()).
+    that of a FrictionLaw. The solvers, their checks, losses and zones() ask here; the cones
+    of shakedown ask for its pieces, derivatives and wear know Coulomb's law alone, and refuse
+    another one (require_coulomb()).
 
     Everyone asks for the bound at a p and in a sense of slip (+1 forward, -1 backward, 0: any
     direction of the disc), and linearises it by its slope there, so that a bound that differs
@@ -127,9 +127,9 @@ struct NodeResidual
 NodeResidual residual(const ContactNode &node);
 
 /** Derivative of the tangential residual: (1 - P) dq + P k dx - slope n dp, where the trial
-   force has the direction n and P leaves of a change what the bound does not fix. In stick P =
-   1, n = 0; in slip of the plane P = 0; in that of the disc P = β t tᵀ with t across n and β =
-   (bound)/|trial|, since the derivative of τ/|τ| is (1 - n nᵀ)/|τ|. */
+    force has the direction n and P leaves of a change what the bound does not fix. In stick P =
+    1, n = 0; in slip of the plane P = 0; in that of the disc P = β t tᵀ with t across n and β =
+    (bound)/|trial|, since the derivative of τ/|τ| is (1 - n nᵀ)/|τ|. */
 struct FrictionDerivative
 {
    NodeMatrix P;

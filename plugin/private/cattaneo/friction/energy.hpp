@@ -20,8 +20,8 @@ Rubbing rubbing(const ReducedProblem &problem, const ContactState &before,
                 const ContactState &after);
 
 /** Frictional loss of each node (size n) over an increment: ½ (b₀ + b₁)|Δv| with the bounds, f
-   p of Coulomb's law, at the pressures of its rubbing(), exact for a linear path along which
-   the node is in contact and slips one way under a law that does not bend. Never negative. */
+    p of Coulomb's law, at the pressures of its rubbing(), exact for a linear path along which
+    the node is in contact and slips one way under a law that does not bend. Never negative. */
 Eigen::VectorXd frictional_loss(const ReducedProblem &problem, const ContactState &before,
                                 const ContactState &after);
 

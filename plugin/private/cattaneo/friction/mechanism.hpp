@@ -26,7 +26,7 @@ Eigen::MatrixXd cone_edges(const Eigen::MatrixXd &Z, const std::vector<FrictionB
     mechanism: the residual of a non-negative least-squares problem in the edges of the cones.
     A round cone (two tangential components) has edges in all directions; those that the
     residual points at are added until none points at it any more. That they can is necessary
-   for equilibrium; that they cannot is the cause when there is none.
+    for equilibrium; that they cannot is the cause when there is none.
 
     `negligible`: a resultant whose largest share of a node is no larger is none (loads that
     balance each other to round-off). */

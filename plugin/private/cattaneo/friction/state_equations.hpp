@@ -11,7 +11,7 @@ namespace cattaneo
 {
 
 /** The linear equations that a set of node states stands for, factored once and followed
-   through changes of states: O(m²) a change for m unknowns, where a factorisation costs O(m³).
+    through changes of states: O(m²) a change for m unknowns, where a factorisation costs O(m³).
 
     With the displacements x = {x_t; x_n} counted from stick (x = 0: no slip, closed) and forces
     F = {q; p} = b + K x, K = [A Bᵀ; B C]:

@@ -19,10 +19,10 @@ struct SurfaceKernel
     largest of its neighbours, whatever the ratios of the elements' sizes.
 
     Two panels (elements, and parts of them) that are at least half as far from each other as
-   they are long: Gauss's rule of as many points as their distance asks for. The same panel, or
-   two neighbours of similar lengths: in the distance of x from s, or from the common end, where
-   the singularity is that of a logarithm (Duffy), by logarithmic_rule(). Of all other pairs
-   the longer one is halved. */
+    they are long: Gauss's rule of as many points as their distance asks for. The same panel, or
+    two neighbours of similar lengths: in the distance of x from s, or from the common end,
+    where the singularity is that of a logarithm (Duffy), by logarithmic_rule(). Of all other
+    pairs the longer one is halved. */
 Eigen::MatrixXd kernel_integrals(const SurfaceTrace &first, const SurfaceTrace &second,
                                  const SurfaceKernel &kernel);
 /// The same of several kernels, all about an axis or none, at the same points.
@@ -34,8 +34,8 @@ std::vector<Eigen::MatrixXd> kernel_integrals(const SurfaceTrace &first,
 SurfaceKernel logarithm();
 /** Of rings of radii r and s, x s ∫₀^∞ J_k(k r) J_k(k s) dk with Bessel's functions of order
     k = 0 or 1: r s K(m) 2/(π (r + s)) and [(r² + s²) K(m) - (r + s)² E(m)]/(π (r + s)), m = 4 r
-   s/(r + s)². By the arithmetic-geometric mean, without loss of digits for m close to 0 or 1.
- */
+    s/(r + s)². By the arithmetic-geometric mean, without loss of digits for m close to 0 or
+    1. */
 SurfaceKernel ring_even();
 SurfaceKernel ring_odd();
 

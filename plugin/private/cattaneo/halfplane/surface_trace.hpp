@@ -10,8 +10,8 @@ namespace cattaneo
 
 /** An element of order k of a straight surface: its functions φ are the polynomials of degree k
     in a parameter 0 <= t <= 1 that are 1 at one of the Gauss–Lobatto points and 0 at the
-   others, and so is its place x(t) made of the places of its nodes, which increase but may
-   stand anywhere between the ends. */
+    others, and so is its place x(t) made of the places of its nodes, which increase but may
+    stand anywhere between the ends. */
 struct SurfaceElement
 {
    std::vector<Eigen::Index> unknowns; ///< number of each node

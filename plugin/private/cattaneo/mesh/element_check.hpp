@@ -14,7 +14,7 @@ namespace cattaneo
       element is quartered [Johnen 2013];
     - it lies on the other side of each edge that it shares than its neighbour there. Readers
       turn over what is numbered clockwise, so that a node that was dragged across an edge
-   leaves no negative determinant behind. (Not asked of hanging edges, nor across ranks.)
+      leaves no negative determinant behind. (Not asked of hanging edges, nor across ranks.)
 
     The message names the first such element by its number (from 0, as MFEM counts), attribute
     and centre, and says what to do. Collective on an mfem::ParMesh: the number is that of all

@@ -28,7 +28,7 @@ private:
 
 /** A mesh that Gmsh wrote in format 4.1 or 2.2, ASCII or binary, as text of format 2.2, with
     points left out and quadrilaterals of 8 nodes (serendipity) given their middle node, which
-   is where their own geometry has it. `size` of the file bounds what can be in it. InputError,
+    is where their own geometry has it. `size` of the file bounds what can be in it. InputError,
     with the section, if the file is cut short or is of another version. */
 std::string as_gmsh_22(const std::string &file, long size);
 

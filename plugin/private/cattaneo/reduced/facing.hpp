@@ -37,8 +37,8 @@ struct FacingPart
 };
 
 /** Two points face each other if the line between them is across the mean of both tangents,
-    (x₁ - x₂)·(t₁ - t₂) = 0, whichever line is called the first, and the tangents are opposed.
- */
+    (x₁ - x₂)·(t₁ - t₂) = 0, whichever line is called the first, and the tangents are
+    opposed. */
 struct FacingLines
 {
    std::vector<ElementCurve> first, other;

@@ -18,7 +18,7 @@ namespace cattaneo
     each pair of straight pieces of its bounds for slip forward and backward is such a cone: the
     columns of all matrices are the vertices with the first pieces, then again with the second
     ones, and so on. With one tangential component it is a linear programme, with two (torsion)
-   a second-order cone programme. p ≥ 0 is implied. */
+    a second-order cone programme. p ≥ 0 is implied. */
 struct ConeProgramme
 {
    const ResidualForces *residual = nullptr; ///< not owned
@@ -131,17 +131,17 @@ double worst_violation(const ConeProgramme &programme, const ReducedProblem &pro
                        Rounding rounding = Rounding::ignored);
 
 /** A proven upper bound of θ by weak duality. For motions with A Σslip + Bᵀ Σopening = 0,
-   summed over the columns, limit ≥ |slip| and opening = f limit + a slip, each admissible state
-   does work
+    summed over the columns, limit ≥ |slip| and opening = f limit + a slip, each admissible
+    state does work
 
        0 ≤ Σ_j limit·(f p + s) + slip·(q + a p)
          = Σ_j opening·(p0 + θ p1) + slip·(q0 + θ q1) + limit·(s0 + θ s1),
 
     so that θ ≤ W0 / (-W1) if W1 < 0. @a mechanism, which a solver leaves with small residuals,
-   is first made to satisfy both conditions to round-off, by the smallest changes in the norm of
-   the cones' barrier; what then remains of the first is multiplied by @a slip_size, a bound of
-   the slips, and added, as is the round-off of the works. Infinite if W1 ≥ 0 or if the
-   mechanism cannot be repaired. The mechanism comes back scaled to W1 = -1. */
+    is first made to satisfy both conditions to round-off, by the smallest changes in the norm
+    of the cones' barrier; what then remains of the first is multiplied by @a slip_size, a bound
+    of the slips, and added, as is the round-off of the works. Infinite if W1 ≥ 0 or if the
+    mechanism cannot be repaired. The mechanism comes back scaled to W1 = -1. */
 double weak_duality_bound(const ConeProgramme &programme, const ReducedProblem &problem,
                           ConeMechanism &mechanism, double slip_size);
 
