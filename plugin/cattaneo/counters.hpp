@@ -23,7 +23,8 @@ struct Counters
    long dense_factorisations = 0; ///< dense factorisations by the friction solver
    long dense_updates = 0;        ///< unknowns bordered to a dense factor instead
    long pivots = 0;               ///< node states exchanged one by one, along a path
-   long limit_solves = 0;         ///< shakedown limit programmes solved
+   long near_contacts = 0; ///< problems made of the nodes that are near to touching alone
+   long limit_solves = 0;  ///< shakedown limit programmes solved
 
    /// Calls visit(name, value&) for every counter, in the order above.
    template <class Self, class Visitor>
@@ -43,6 +44,7 @@ struct Counters
       visit("dense_factorisations", self.dense_factorisations);
       visit("dense_updates", self.dense_updates);
       visit("pivots", self.pivots);
+      visit("near_contacts", self.near_contacts);
       visit("limit_solves", self.limit_solves);
    }
 

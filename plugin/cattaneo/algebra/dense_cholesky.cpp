@@ -26,20 +26,29 @@ void DenseCholesky::solve(Eigen::VectorXd &x) const
    dpotrs_("L", &n, &columns, factor_.data(), &n, x.data(), &n, &info);
 }
 
-void DenseCholesky::solve_half(MatrixXd &x) const
+/// OpenBLAS copies the factor for several columns, which does not pay for one.
+void DenseCholesky::solve_triangle(const char *transposed, Eigen::Ref<MatrixXd> x) const
 {
-   const int n = static_cast<int>(factor_.rows()), columns = static_cast<int>(x.cols());
    if (x.size() == 0) { return; }
+   const int n = static_cast<int>(factor_.rows()), columns = static_cast<int>(x.cols()),
+             stride = columns > 1 ? static_cast<int>(x.outerStride()) : n, next = 1;
    const double one = 1;
-   dtrsm_("L", "L", "N", "N", &n, &columns, &one, factor_.data(), &n, x.data(), &n);
+   if (columns == 1)
+   {
+      dtrsv_("L", transposed, "N", &n, factor_.data(), &n, x.data(), &next);
+      return;
+   }
+   dtrsm_("L", "L", transposed, "N", &n, &columns, &one, factor_.data(), &n, x.data(), &stride);
 }
 
-void DenseCholesky::solve_other_half(MatrixXd &x) const
+void DenseCholesky::solve_half(Eigen::Ref<MatrixXd> x) const
 {
-   const int n = static_cast<int>(factor_.rows()), columns = static_cast<int>(x.cols());
-   if (x.size() == 0) { return; }
-   const double one = 1;
-   dtrsm_("L", "L", "T", "N", &n, &columns, &one, factor_.data(), &n, x.data(), &n);
+   solve_triangle("N", x);
+}
+
+void DenseCholesky::solve_other_half(Eigen::Ref<MatrixXd> x) const
+{
+   solve_triangle("T", x);
 }
 
 MatrixXd DenseCholesky::inverse() const
@@ -67,12 +76,12 @@ void DenseCholesky::solve(Eigen::VectorXd &x) const
    factor_.transpose().triangularView<Eigen::Upper>().solveInPlace(x);
 }
 
-void DenseCholesky::solve_half(MatrixXd &x) const
+void DenseCholesky::solve_half(Eigen::Ref<MatrixXd> x) const
 {
    factor_.triangularView<Eigen::Lower>().solveInPlace(x);
 }
 
-void DenseCholesky::solve_other_half(MatrixXd &x) const
+void DenseCholesky::solve_other_half(Eigen::Ref<MatrixXd> x) const
 {
    factor_.transpose().triangularView<Eigen::Upper>().solveInPlace(x);
 }
@@ -86,20 +95,39 @@ MatrixXd DenseCholesky::inverse() const
 
 #endif
 
-MatrixXd minus_square(MatrixXd S, const MatrixXd &Y)
+MatrixXd minus_square(MatrixXd S, const Eigen::Ref<const MatrixXd> &Y)
 {
 #ifdef CATTANEO_USE_LAPACK
-   const int n = static_cast<int>(S.rows()), inner = static_cast<int>(Y.rows());
+   const int n = static_cast<int>(S.rows()), inner = static_cast<int>(Y.rows()),
+             stride = static_cast<int>(Y.outerStride());
    const double minus = -1, keep = 1;
    if (Y.size() > 0)
    {
-      dsyrk_("L", "T", &n, &inner, &minus, Y.data(), &inner, &keep, S.data(), &n);
+      dsyrk_("L", "T", &n, &inner, &minus, Y.data(), &stride, &keep, S.data(), &n);
    }
 #else
    S.selfadjointView<Eigen::Lower>().rankUpdate(Y.transpose(), -1.0);
 #endif
    mirror_lower(S);
    return S;
+}
+
+void subtract_product(MatrixXd &C, const Eigen::Ref<const MatrixXd> &X,
+                      const Eigen::Ref<const MatrixXd> &Y)
+{
+#ifdef CATTANEO_USE_LAPACK
+   const int rows = static_cast<int>(C.rows()), columns = static_cast<int>(C.cols()),
+             inner = static_cast<int>(X.rows()), X_stride = static_cast<int>(X.outerStride()),
+             Y_stride = static_cast<int>(Y.outerStride());
+   const double minus = -1, keep = 1;
+   if (C.size() > 0 && inner > 0)
+   {
+      dgemm_("T", "N", &rows, &columns, &inner, &minus, X.data(), &X_stride, Y.data(),
+             &Y_stride, &keep, C.data(), &rows);
+   }
+#else
+   C.noalias() -= X.transpose() * Y;
+#endif
 }
 
 } // namespace cattaneo

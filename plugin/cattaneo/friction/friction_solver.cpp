@@ -293,6 +293,10 @@ const ReducedProblem &FrictionSolver::problem() const
 {
    return system_->problem;
 }
+const FrictionSettings &FrictionSolver::settings() const
+{
+   return system_->settings;
+}
 void FrictionSolver::set_gap(const VectorXd &gap)
 {
    require(gap.size() == problem().nodes() && gap.allFinite(), "friction solver: a gap of ",

@@ -100,6 +100,8 @@ public:
 
    /// What it solves, with the gap that holds now.
    const ReducedProblem &problem() const;
+   /// As they were given.
+   const FrictionSettings &settings() const;
    /// Another initial gap of each node, size n, from the next increment on: a gap that wears
    /// opens between two increments. InputError for another size or an entry that is not finite.
    void set_gap(const Eigen::VectorXd &gap);

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cattaneo/friction/advance.hpp>
 #include <cattaneo/friction/clearance.hpp>
-#include <cattaneo/friction/exact_path.hpp>
 #include <cattaneo/friction/march_record.hpp>
+#include <cattaneo/friction/near_path.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/progress_report.hpp>
 #include <cmath>
@@ -62,8 +62,8 @@ class March
 public:
    March(FrictionSolver &solver, const LoadHistory &history, ContactState &state,
          const MarchSettings &settings, const MarchObserver &observer)
-      : solver_(solver), problem_(solver.problem()), history_(history), state_(state),
-        settings_(settings), friction_bends_(friction_bends(problem_)),
+      : solver_(solver), problem_(solver.problem()), near_(solver), history_(history),
+        state_(state), settings_(settings), friction_bends_(friction_bends(problem_)),
         record_(problem_, state, settings, observer), progress_(settings.monitor),
         began_(state.time), end_(history.piece(history.pieces() - 1).end)
    {
@@ -77,7 +77,7 @@ private:
    bool march_exactly(double until, bool stalled = false);
    bool increment_to(double target, bool exact);
 
-   Trial attempt(double time);
+   Trial attempt(double time, bool whole = false);
    void accept(Trial &&trial, bool exact);
    bool is_stopped();
    /// Of the way from the start of the march to the end of the history.
@@ -102,6 +102,7 @@ private:
 
    FrictionSolver &solver_;
    const ReducedProblem &problem_;
+   NearContacts near_;
    const LoadHistory &history_;
    ContactState &state_;
    const MarchSettings &settings_;
@@ -111,7 +112,7 @@ private:
    const double began_, end_;                                   // times of the load history
    LoadPiece piece_;                                            // the present one
    int increments_ = 1;                                         // of it
-   std::unique_ptr<ExactPath> path_;                            // made when first needed
+   std::unique_ptr<NearPath> path_;                             // made when first needed
    double path_end_ = -std::numeric_limits<double>::infinity(); // where it is left, or was
    bool following_ = false;                                     // march_exactly() is at work
 };
@@ -141,11 +142,13 @@ VectorXd March::loads(double time) const
    return piece_.at(time == grid_time(steps) ? steps / increments_ : share);
 }
 
-Trial March::attempt(double time)
+/// `whole`: so far that contact may advance by most of the nodes.
+Trial March::attempt(double time, bool whole)
 {
    Trial trial{state_, {}, -1};
    trial.state.time = time;
-   trial.increment = solver_.solve(trial.state, loads(time));
+   trial.increment =
+      whole ? solver_.solve(trial.state, loads(time)) : near_.solve(trial.state, loads(time));
    return trial;
 }
 
@@ -242,7 +245,7 @@ bool March::increment_to(double target, bool exact)
    Trial trial;
    while (true)
    {
-      trial = attempt(target);
+      trial = attempt(target, exact);
       const double step = target - state_.time;
       // The loads next to one that the solver cannot finish are often no trouble.
       const bool stalled = trial.stalled() && step > smallest && !self_similar();
@@ -327,7 +330,7 @@ bool March::settles()
    // What increments come to must not depend on paths that were followed before.
    if (path_ && settings_.stepping == Stepping::exact) { return true; }
    if (path_) { record_.report.counters += path_->counters(); }
-   path_ = std::make_unique<ExactPath>(problem_);
+   path_ = std::make_unique<NearPath>(near_);
    if (path_->starts_from(state_)) { return true; }
    Trial trial = attempt(state_.time);
    if (!trial.solved()) { return false; }
@@ -470,6 +473,7 @@ MarchReport March::run()
    record_.close();
    report.counters += solver_.counters();
    report.counters -= before;
+   report.counters += near_.counters();
    if (path_) { report.counters += path_->counters(); }
    report.seconds = progress_.seconds();
    progress_.end(finished ? 1.0 : share(), report.counters.increments, report.time);

@@ -16,17 +16,22 @@ public:
    /// x <- M⁻¹ x
    void solve(Eigen::VectorXd &x) const;
    /// x <- L⁻¹ x, one right-hand side a column.
-   void solve_half(Eigen::MatrixXd &x) const;
+   void solve_half(Eigen::Ref<Eigen::MatrixXd> x) const;
    /// x <- L⁻ᵀ x
-   void solve_other_half(Eigen::MatrixXd &x) const;
+   void solve_other_half(Eigen::Ref<Eigen::MatrixXd> x) const;
    /// M⁻¹, symmetric to the last bit.
    Eigen::MatrixXd inverse() const;
 
 private:
+   void solve_triangle(const char *transposed, Eigen::Ref<Eigen::MatrixXd> x) const;
+
    Eigen::MatrixXd factor_;
 };
 
 /// S - Yᵀ Y for a symmetric S, symmetric to the last bit.
-Eigen::MatrixXd minus_square(Eigen::MatrixXd S, const Eigen::MatrixXd &Y);
+Eigen::MatrixXd minus_square(Eigen::MatrixXd S, const Eigen::Ref<const Eigen::MatrixXd> &Y);
+/// C <- C - Xᵀ Y
+void subtract_product(Eigen::MatrixXd &C, const Eigen::Ref<const Eigen::MatrixXd> &X,
+                      const Eigen::Ref<const Eigen::MatrixXd> &Y);
 
 } // namespace cattaneo

@@ -13,6 +13,9 @@ extern "C"
    void dtrsm_(const char *side, const char *triangle, const char *transposed,
                const char *diagonal, const int *rows, const int *columns, const double *factor,
                const double *A, const int *stride, double *x, const int *x_stride);
+   void dtrsv_(const char *triangle, const char *transposed, const char *diagonal,
+               const int *rows, const double *A, const int *stride, double *x,
+               const int *x_step);
    void dsyrk_(const char *triangle, const char *transposed, const int *n, const int *inner,
                const double *factor, const double *A, const int *stride, const double *keep,
                double *C, const int *C_stride);

@@ -1,0 +1,59 @@
+#include <cattaneo/friction/near_path.hpp>
+
+namespace cattaneo
+{
+
+using Eigen::VectorXd;
+
+NearPath::NearPath(NearContacts &near) : contacts_(near), whole_(near.problem()) {}
+
+bool NearPath::advance(ContactState &state, double time, const VectorXd &multipliers,
+                       std::vector<StateChange> &changes)
+{
+   const std::size_t listed = changes.size();
+   for (int eighths = contacts_.eighths(state); eighths > 0;)
+   {
+      auto way = contacts_.set_out(state, eighths);
+      if (!way) { break; }
+      if (near_ != way->near)
+      {
+         if (path_) { counters_ += path_->counters(); }
+         near_ = way->near;
+         path_ = std::make_unique<ExactPath>(near_->problem());
+      }
+      last_ = path_.get();
+      if (!path_->advance(way->part, time, near_->loads(multipliers), changes))
+      {
+         return false;
+      }
+      ContactState next = near_->whole(state, way->part);
+      if (const int more = contacts_.touched(next, eighths); more > 0)
+      {
+         changes.resize(listed);
+         eighths = more;
+         continue;
+      }
+      for (std::size_t k = listed; k < changes.size(); ++k)
+      {
+         changes[k].node = near_->node(changes[k].node);
+         changes[k].multipliers = state.multipliers;
+      }
+      event_ = path_->event() < 0 ? -1 : near_->node(path_->event());
+      state = std::move(next);
+      return true;
+   }
+   last_ = &whole_;
+   const bool advanced = whole_.advance(state, time, multipliers, changes);
+   event_ = whole_.event();
+   return advanced;
+}
+
+Counters NearPath::counters() const
+{
+   Counters sum = counters_;
+   sum += whole_.counters();
+   if (path_) { sum += path_->counters(); }
+   return sum;
+}
+
+} // namespace cattaneo

@@ -1,0 +1,143 @@
+#pragma once
+
+#include <array>
+#include <cattaneo/algebra/dense_cholesky.hpp>
+#include <cattaneo/algebra/symmetric_product.hpp>
+#include <cattaneo/friction/friction_solver.hpp>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace cattaneo
+{
+
+/** Elimination of the nodes of a reduced problem, those with the largest initial gap first, an
+    eighth of them at a time. Each step is done once, when it is first asked for, and its bits
+    do not depend on how many follow. */
+class FarFirst
+{
+public:
+   using Index = Eigen::Index;
+
+   /// Keeps a reference to the problem.
+   explicit FarFirst(const ReducedProblem &problem);
+
+   /// Of the nodes, the nearest of which has rank 0.
+   const std::vector<Index> &rank() const { return rank_; }
+   /// Nodes in the nearest eighths.
+   Index nodes(int eighths) const { return (rank_size() * eighths + 7) / 8; }
+   /// Fewest eighths that have as many nodes.
+   int eighths(Index nodes) const;
+
+   /// Eliminates all but the nearest eighths. False if that does not determine where the others
+   /// are.
+   bool leave(int eighths);
+   /// Rows of K in the order in which they are eliminated.
+   const std::vector<Index> &rows() const { return rows_; }
+   /// Number of rows that are eliminated before the nearest eighths.
+   Index before(int eighths) const { return begin_[8 - eighths]; }
+   /// Stiffness of the rows that are left, in their order.
+   Eigen::MatrixXd stiffness(int eighths) const;
+   /// Of loads on all rows, in their order: at the rows that are left what acts on these,
+   /// before them what locate() needs.
+   void condense(int eighths, Eigen::VectorXd &loads) const;
+   /// Of displacements at the rows that are left those before them, where the loads that were
+   /// condensed are (with the sign of b in K u = b).
+   void locate(int eighths, Eigen::VectorXd &u) const;
+
+private:
+   struct Step
+   {
+      DenseCholesky factor;
+      Eigen::MatrixXd Y; // L⁻¹ K(rows of the step, rows after it)
+   };
+   Index rank_size() const { return static_cast<Index>(rank_.size()); }
+
+   const Eigen::MatrixXd &K_;
+   std::vector<Index> rank_, rows_;
+   std::array<Index, 9> begin_{}; // of the rows of each step
+   std::vector<Step> steps_;
+};
+
+/** The problem of the nodes that are near to touching: the others bear nothing and are
+    eliminated, K_nn - K_nf K_ff⁻¹ K_fn. What round-off leaves of that is made up for by a last
+    load pattern, which is another one for each state. */
+class NearContact
+{
+public:
+   using Index = Eigen::Index;
+
+   /// Keeps references to both and a product with K; `far` has left the eighths. InputError if
+   /// what is left is no reduced problem, since a motion of the bodies hardly moves it.
+   NearContact(const ReducedProblem &whole, const SymmetricProduct &times_K,
+               const FarFirst &far, int eighths);
+
+   const ReducedProblem &problem() const { return *problem_; }
+   /// Number in the whole problem of a node.
+   Index node(Index near) const { return nodes_[near]; }
+   /// Of the whole problem's multipliers.
+   Eigen::VectorXd loads(const Eigen::VectorXd &multipliers) const;
+   /// None if the nodes that are left out bear something.
+   std::optional<ContactState> part(const ContactState &whole);
+   /// The state after `before` that has the part.
+   ContactState whole(const ContactState &before, const ContactState &part) const;
+   /// Made with these settings when first asked for.
+   FrictionSolver &solver(const FrictionSettings &settings);
+   /// Of the solver, if there is one.
+   Counters counters() const { return solver_ ? solver_->counters() : Counters(); }
+
+private:
+   const ReducedProblem &whole_;
+   const SymmetricProduct &times_K_;
+   const FarFirst &far_;
+   const int eighths_;
+   std::vector<Index> nodes_, rows_; // in the whole problem
+   std::vector<Index> place_;        // of the rows, among those that are left
+   std::shared_ptr<ReducedProblem> problem_;
+   std::optional<FrictionSolver> solver_;
+};
+
+/** Increments of a solver's problem that leave out the nodes that are far from touching, where
+    most are: as many are taken as the state at the start asks for, more where others come to
+    touch, and all where that does not work. Every state is judged in the whole problem. */
+class NearContacts
+{
+public:
+   explicit NearContacts(FrictionSolver &solver);
+
+   /// As FrictionSolver::solve().
+   IncrementReport solve(ContactState &state, const Eigen::VectorXd &multipliers);
+
+   /// The way of a state to another one in a near problem, or none.
+   struct Way
+   {
+      std::shared_ptr<NearContact> near;
+      ContactState part;
+   };
+   /// Fewest eighths of the nodes for an increment from there; 0: only all nodes will do.
+   int eighths(const ContactState &state) const;
+   /// None if so few do not work.
+   std::optional<Way> set_out(const ContactState &state, int eighths);
+   /// Eighths that have the nodes that lie beyond their gaps and are not among those given; 0:
+   /// there are none.
+   int touched(const ContactState &state, int eighths) const;
+
+   const ReducedProblem &problem() const { return problem_; }
+   /// Of the near problems' solvers, and how many near problems were made.
+   Counters counters() const;
+
+private:
+   std::shared_ptr<NearContact> near(int eighths);
+
+   FrictionSolver &solver_;
+   const ReducedProblem &problem_;
+   const bool worthwhile_;
+   mutable std::unique_ptr<FarFirst> far_; // made when first needed, as the next
+   std::unique_ptr<SymmetricProduct> times_K_;
+   // Two are kept: an increment often begins with one and ends with the next.
+   std::vector<std::pair<int, std::shared_ptr<NearContact>>> kept_;
+   std::array<bool, 8> fails_{}; // to be made, of so many eighths
+   Counters counters_;           // of those that are gone
+};
+
+} // namespace cattaneo

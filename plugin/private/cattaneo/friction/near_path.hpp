@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cattaneo/friction/exact_path.hpp>
+#include <cattaneo/friction/near_contact.hpp>
+
+namespace cattaneo
+{
+
+/// An ExactPath that leaves out the nodes that are far from touching, see NearContacts.
+class NearPath
+{
+public:
+   /// All must outlive the path. InputError as ExactPath's.
+   explicit NearPath(NearContacts &near);
+
+   // As ExactPath's.
+   bool starts_from(const ContactState &state) const { return whole_.starts_from(state); }
+   bool advance(ContactState &state, double time, const Eigen::VectorXd &multipliers,
+                std::vector<StateChange> &changes);
+   Eigen::Index event() const { return event_; }
+   const std::string &failure() const { return last_->failure(); }
+   bool ended() const { return last_->ended(); }
+   Counters counters() const;
+
+private:
+   NearContacts &contacts_;
+   ExactPath whole_;
+   std::shared_ptr<NearContact> near_; // that the next is a path of
+   std::unique_ptr<ExactPath> path_;
+   ExactPath *last_ = &whole_; // that was advanced
+   Eigen::Index event_ = -1;
+   Counters counters_; // of paths that are gone
+};
+
+} // namespace cattaneo
