@@ -230,6 +230,8 @@ void contact2d(miniapp::Study &study)
    study.parse();
    const miniapp::JointCase joint = options.all(study.options().says("order"));
    history.check_options();
+   study.options().only_if(options.convert.empty(), {"csv", "json", "plot", "html"},
+                           "is of a run, --convert writes the case alone");
    if (!options.convert.empty()) { miniapp::convert(study, joint, options.convert); }
    Snapshots snapshots{options.edges, {}};
    snapshots.states.resize(snapshots.times.size());

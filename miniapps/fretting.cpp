@@ -101,9 +101,9 @@ void assess_pad(miniapp::Study &study)
                 "Criteria on critical planes along the surface, of stresses averaged over this "
                 "depth, mm (pad fe; from a spacing of its nodes to half a contact).",
                 miniapp::positive);
-   study.option(&weights.findley, "findley", "k of Findley's criterion (pad fe).",
+   study.option(&weights.findley, "findley", "k of Findley's criterion (with --averaging-depth).",
                 miniapp::not_negative);
-   study.option(&weights.fatemi_socie, "fatemi-socie", "k of Fatemi and Socie's (pad fe).",
+   study.option(&weights.fatemi_socie, "fatemi-socie", "k of Fatemi and Socie's (with --averaging-depth).",
                 miniapp::not_negative);
    study.option(&material, {"m", "material"}, "Name of a material record.");
    study.option(&material_file, {"mf", "material-file"}, "File of material records, JSON.",
@@ -126,6 +126,7 @@ void assess_pad(miniapp::Study &study)
                 "CSV of tests (P, Q, material, ..., cycles, runout) to correlate.",
                 miniapp::Text::input);
    study.parse("j");
+   require(!study.options().says("check"), "option --check: this run has no scene of meshes");
    FrettingSettings criteria;
    criteria.criterion = criteria_by_name.at(criterion);
    study.results["criterion"] = criterion;
@@ -149,6 +150,8 @@ void assess_pad(miniapp::Study &study)
 
    require(std::isnan(depth) || pad.kind == "fe",
            "--averaging-depth is for the pad 'fe', whose stresses are known.");
+   study.options().only_if(!std::isnan(depth), {"findley", "fatemi-socie"},
+                           "goes with --averaging-depth");
    const miniapp::PadContact closed_form = calibrate(pad);
    miniapp::PadContact contact = closed_form;
    std::optional<miniapp::SolvedPad> solved;

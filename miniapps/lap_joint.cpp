@@ -202,11 +202,12 @@ void sweep(miniapp::Study &study, Joint &joint, const std::vector<double> &loads
                const bool ends = !o.converged();
                const double loss = ends ? none : o.steady() / joint.unit();
                const auto half = [&](const Zone &zone)
-               { return ends ? 0.0 : half_width(zone); };
+               { return ends ? none : half_width(zone); };
+               const double pinched = o.tightened.status.empty() ? none : half_width(o.contact);
                study.row(table,
-                         {f, width, pressure, T, half(o.contact), half(o.pulled),
-                          half(o.stick_first), half(o.stick_steady),
-                          ends ? none : o.first() / joint.unit(), loss, name(o.report.status)});
+                         {f, width, pressure, T, pinched, half(o.pulled), half(o.stick_first),
+                          half(o.stick_steady), ends ? none : o.first() / joint.unit(), loss,
+                          name(o.report.status)});
                const auto add = [](Panel *panel, const std::string &series, double at, double y)
                {
                   if (panel) { panel->add(series, std::vector<double>{at}, {y}); }

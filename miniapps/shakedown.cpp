@@ -88,13 +88,20 @@ void Shakedown::options()
                 "The smallest friction for the loads, the largest load for the friction, or "
                 "both: friction, load or both.",
                 {"friction", "load", "both"});
-   study.option(&map, "map", "Largest load against friction for several R (figure 4.18).");
+   study.option(
+      &map, "map",
+      "Largest load against friction for several R (figure 4.18); also with --plot or --html.");
    study.option(&adhesion, "adhesion-map",
-                "Friction that prevents all slip under a monotonic load (figure 4.3).");
+                "Friction that prevents all slip under a monotonic load (figure 4.3); also "
+                "with --plot or "
+                "--html.");
    study.option(
       &steps, "tractions",
       "Tractions of the monolith and the steps of the estimates (figures 4.4 to 4.14).");
-   study.option(&march, "march", "March in time from zero, optimal and negative optimal slip.");
+   study.option(
+      &march, "march",
+      "March in time from zero, optimal and negative optimal slip, whose outcome is then that "
+      "of the run; also with --plot or --html.");
    study.option(&cycles, "cycles", "Cycles of a march, at most.", at_least(1));
    study.option(&starts, "starts",
                 "Random starts of the search for one that slips for ever (0: none).",

@@ -63,6 +63,7 @@ BoltedLoop pull(Run &run, std::vector<NamedLoads> points, double load, int cycle
    };
    run.state = ContactState::virgin(problem);
    loop.report = run.march(history, note);
+   if (!loop.tightened.status.empty()) { loop.contact = contact_zone(problem, loop.tightened); }
    if (!loop.converged()) { return loop; }
    const auto before = settled_states(problem, loop.tightened),
               after = settled_states(problem, loop.last_peak);
@@ -73,7 +74,6 @@ BoltedLoop pull(Run &run, std::vector<NamedLoads> points, double load, int cycle
            "it begins): its corner presses on the other lap, and the loss there depends on the "
            "spacing of the nodes");
    }
-   loop.contact = contact_zone(problem, loop.tightened);
    loop.pulled = contact_zone(problem, loop.first_peak);
    loop.stick_first = stick_zone(problem, loop.first_peak);
    // At a reload peak the nodes between the first and the steady border lie on the friction

@@ -61,8 +61,10 @@ void report_bonded(Study &study, const RecedingOptions &options, const ReducedPr
    const BondedTractions b = bonded_tractions(problem, overhang);
    study.title("Bonded strip");
    study.value("corner_ratio", b.corner_ratio, "q/p at the corner (Williams: 0.5431)");
-   study.say(text("   strengths of its singular terms: %.4f and %.4f", b.strengths(0, 0),
-                  b.strengths(1, 0)));
+   study.say(std::isnan(b.strengths(0, 0))
+                ? "   the mesh has too few nodes near the corner to fit its singular terms"
+                : text("   strengths of its singular terms: %.4f and %.4f", b.strengths(0, 0),
+                       b.strengths(1, 0)));
    study.results["corner_strength"] = {b.strengths(0, 0), b.strengths(1, 0)};
    study.value("lowest_bonded_pressure", b.lowest_pressure, "lowest pressure at x > 0", none,
                "p0");

@@ -57,6 +57,7 @@ void report_edges(Study &study, const EdgeReport &report, double shift)
    {
       report_edge(study, solved, solved.edge.side > 0 ? "first" : "last", shift);
       list.push_back(to_json(solved));
+      list.back()["x"] = solved.edge.position.position + shift; // as it is printed
    }
 }
 

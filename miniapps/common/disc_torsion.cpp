@@ -136,7 +136,18 @@ void twist(Study &study, Disc &disc, Run &run, Turning::Stop stop,
    for (std::size_t k = 0; k < wanted.size(); ++k)
    {
       turning.on(now, stop, by_torque ? wanted[k] * disc.limit : wanted[k], observe);
-      if (by_torque && now.descended) { break; }
+      if (by_torque && now.descended)
+      {
+         const std::string message =
+            text("there is no equilibrium at T/T_s = %g, above the greatest torque, %.4f T_s: "
+                 "the disc spins",
+                 wanted[k], now.greatest / disc.limit);
+         study.say(message);
+         study.results["status"] = name(FrictionStatus::gross_sliding);
+         study.results["message"] = message;
+         study.code = 2;
+         break;
+      }
       profile(wanted[k]);
       if (k == wanted.size() / 2) { plan(study, disc, "plan_twisted", now); }
       const Extent found = disc.extent(now.state);
@@ -214,15 +225,20 @@ void cycle(Study &study, Disc &disc, Run &run, double amplitude, int cycles)
                                          {"separation_there", "d/t there"},
                                          {"separation_back", "and back"},
                                          {"dissipation", "dissipation", "%.5e"},
-                                         {"external_work", "external work", "%.5e"}});
+                                         {"external_work", "external work", "%.5e"},
+                                         {"work twist"},
+                                         {"stiffness twist", "stiffness twist", "%.4e"},
+                                         {"loss_factor twist", "loss factor twist", "%.4f"}});
    const auto &records = run.report.cycles;
    for (std::size_t k = 0; k < records.size() && 2 * k + 2 < ends.size(); ++k)
    {
       const Extent &there = ends[2 * k + 1], &back = ends[2 * k + 2];
+      const Loop &loop = records[k].loops[problem.pattern("twist")];
       const double T1 = torques[2 * k + 1] / disc.limit, T2 = torques[2 * k + 2] / disc.limit;
       study.row(table,
                 {k + 1, T1, T2, there.stick, back.stick, there.separation, back.separation,
-                 records[k].dissipation, records[k].external_work},
+                 records[k].dissipation, records[k].external_work, loop.work(),
+                 loop.stiffness(), loop.loss_factor()},
                 {},
                 {{"torque", {T1, T2}},
                  {"stick", {there.stick, back.stick}},

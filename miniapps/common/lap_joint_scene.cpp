@@ -65,6 +65,12 @@ Scene make_lap_joint(const LapJointOptions &options)
    double h = options.order * options.spacing;
    const double growth = options.growth, coarse = growth - 1;
    const double fine = std::min(free_end, d + 0.5 * w_max + 0.3);
+   constexpr double most_nodes = 20000; // their stiffness fills 13 GB
+   require(2 * fine / options.spacing < most_nodes,
+           "options --bolts and --spacing: ", 2 * fine / options.spacing,
+           " contact nodes would lie between the bolts, must be at "
+           "most ",
+           most_nodes);
    const int count = 2 * static_cast<int>(std::ceil(fine / h));
    std::vector<double> right;
    for (int k = 0; k <= count / 2; ++k) { right.push_back(2 * fine * k / count); }

@@ -106,6 +106,20 @@ int run(const std::function<int()> &body)
    mfem::Hypre::Init();
    if (!writes() && !std::freopen("/dev/null", "w", stdout)) { return 1; }
 #endif
+   const auto refused = [](const char *why)
+   {
+      if (all_fail())
+      {
+         if (writes()) { std::cerr << "error: " << one_line(why) << std::endl; }
+         return 1;
+      }
+      // In one piece: what other ranks write must not come between.
+      std::cerr << "error: " + one_line(why) + "\n" << std::flush;
+#ifdef MFEM_USE_MPI
+      MPI_Abort(MPI_COMM_WORLD, 1);
+#endif
+      return 1;
+   };
    try
    {
       return body();
@@ -114,19 +128,13 @@ int run(const std::function<int()> &body)
    {
       return 0;
    }
-   catch (const InputError &error)
+   catch (const std::bad_alloc &)
    {
-      if (all_fail())
-      {
-         if (writes()) { std::cerr << "error: " << one_line(error.what()) << std::endl; }
-         return 1;
-      }
-      // In one piece: what other ranks write must not come between.
-      std::cerr << "error: " + one_line(error.what()) + "\n" << std::flush;
-#ifdef MFEM_USE_MPI
-      MPI_Abort(MPI_COMM_WORLD, 1);
-#endif
-      return 1;
+      return refused("memory is too small for this problem, it must have fewer nodes");
+   }
+   catch (const std::exception &error) // an InputError, or a library's
+   {
+      return refused(error.what());
    }
 }
 

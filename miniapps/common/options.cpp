@@ -114,22 +114,26 @@ std::string replaced_in(const std::string &structure, const std::string &key,
 std::string replaced(const std::string &text, const std::string &separators,
                      const std::string &key, const std::string &value)
 {
-   const std::vector<std::string> path = split(key, ".");
-   std::vector<std::string> entries = split(text, separators);
+   const std::string where = "option --sweep: '" + key + "'";
+   const std::vector<std::string> path = split_unquoted(where, key, ".");
+   std::vector<std::string> entries = split_unquoted(where, text, separators);
    char *end = nullptr;
    const long k = std::strtol(path[1].c_str(), &end, 10);
-   require(*end == 0 && k >= 0 && k < static_cast<long>(entries.size()), "option --sweep: '",
-           key, "': option --", path[0], " has ", entries.size(),
-           " entries, must name one of them from 0");
+   require(*end == 0 && k >= 0 && k < static_cast<long>(entries.size()), where, ": option --",
+           path[0], " has ", entries.size(), " entries, must name one of them from 0");
    std::string &entry = entries[static_cast<std::size_t>(k)];
    if (path.size() == 2) { entry = value; }
    else
    {
-      std::vector<std::string> loads = split(entry, ", ");
-      const std::string begin = path[2] + "=";
-      const auto same = [&](const std::string &load) { return load.find(begin) == 0; };
+      std::vector<std::string> loads = split_unquoted(where, entry, ", ");
+      const auto same = [&](const std::string &load)
+      {
+         const bool quoted = load[0] == '\'' || load[0] == '"';
+         const std::size_t end = load.find('=', quoted ? load.find(load[0], 1) : 0);
+         return unquoted(load.substr(0, end)) == unquoted(path[2]);
+      };
       loads.erase(std::remove_if(loads.begin(), loads.end(), same), loads.end());
-      loads.insert(loads.begin(), begin + value);
+      loads.insert(loads.begin(), path[2] + "=" + value);
       entry = listed(loads, " ");
    }
    return listed(entries, separators.substr(0, 1));
@@ -298,6 +302,8 @@ void Options::read_words()
          require(i + 1 < words_.size() && !find(words_[i + 1]), "option ", word,
                  " has no value");
          given.text = words_[++i];
+         require(!option->is_written() || !given.text.empty(), "option ", word,
+                 " is empty, must name what is written");
       }
       const auto before =
          std::find_if(given_.begin(), given_.end(),
@@ -458,7 +464,7 @@ void Options::check_version(const Option &option, const std::string &as) const
 
 const Options::Option &Options::changeable(const std::string &key) const
 {
-   const std::size_t dots = static_cast<std::size_t>(std::count(key.begin(), key.end(), '.'));
+   const std::size_t dots = split_unquoted("option --sweep", key, ".").size() - 1;
    const std::string name = key.substr(0, key.find('.'));
    std::vector<std::string> known;
    for (const Option &option : options_)
@@ -498,6 +504,10 @@ Options::command(const std::vector<std::pair<std::string, std::string>> &changes
    {
       const Option &option = changeable(key);
       const std::string &name = option.names.name;
+      const auto swept = [&](const Given &given)
+      { return key == name && given.option == &option; };
+      require(std::none_of(given_.begin(), given_.end(), swept), "option --", name,
+              " has a value and is swept, must be one of the two");
       const nlohmann::ordered_json &now = values_.at(name);
       std::string &text =
          values.try_emplace(name, now.is_string() ? now.get<std::string>() : "").first->second;

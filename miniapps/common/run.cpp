@@ -62,6 +62,13 @@ const MarchReport &Run::cycle(const std::vector<NamedLoads> &points, int cycles,
 const MarchReport &Run::march(const LoadHistory &history, const MarchObserver &observe)
 {
    state.time = 0;
+   const auto place = [&] { return std::make_pair(state.displacements(), state.multipliers); };
+   if (history_ && left_ && *left_ != place())
+   {
+      IncrementRecord start = record_of(solver.problem(), state);
+      start.time = began_;
+      history_->add(state, start);
+   }
    Watch watch("march");
    settings.monitor = watch.monitor();
    const auto note = [&](const ContactState &reached, const IncrementRecord &record)
@@ -78,8 +85,11 @@ const MarchReport &Run::march(const LoadHistory &history, const MarchObserver &o
    report = cattaneo::march(solver, history, state, settings, note);
    settings.monitor = {};
    began_ += report.time;
+   left_ = place();
    study_.counters += report.counters;
-   if (exit_code(solver.problem(), report) != 0 && leaves)
+   // Ctrl-C ends a sweep as well.
+   if (exit_code(solver.problem(), report) != 0 &&
+       (leaves || report.status == FrictionStatus::stopped))
    {
       add_outcome(solver.problem(), report, study_.results);
       // The cycles that were completed are results, if the study has not reported others.

@@ -6,6 +6,7 @@
 #include <cattaneo/output/history.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace miniapp
@@ -14,8 +15,9 @@ namespace miniapp
 /** A contact under way: its solver, the state that it stands in, and how it got there. What it
     counts goes to the study, and with --csv its increments, see HistoryWriter, to
     PREFIX_history.csv, of another one to PREFIX_history_2.csv, …, in the order in which they
-    were marched, with a time that goes on from one march to the next; where there is no
-    equilibrium it says so, notes it in the results
+    were marched, with a time that goes on from one march to the next. One that sets out from
+    another state than the one before ended with begins there with a row of that state. Where
+    there is no equilibrium it says so, notes it in the results
     (`status`, `message`, `event_time`, `event_loads`, `not_unique`) and leaves the study. */
 class Run
 {
@@ -43,7 +45,7 @@ public:
    double load(const std::string &pattern) const;
 
    /// Whether it leaves the study where there is no equilibrium; else the report says so, and
-   /// nothing is noted.
+   /// nothing is noted. It leaves the study where it was stopped, whatever this says.
    bool leaves = true;
    double unit = 1; ///< of the energies of cycles, if it leaves the study within them
    cattaneo::ContactState state; ///< a copy put back is where the run goes on from
@@ -58,6 +60,8 @@ private:
    Film *film_;
    std::optional<cattaneo::HistoryWriter> history_;
    double began_ = 0; ///< time of the history, at the start of a march
+   /// Displacements and multipliers that the last march ended with.
+   std::optional<std::pair<Eigen::VectorXd, Eigen::VectorXd>> left_;
 };
 
 extern const char *const stepping_help;

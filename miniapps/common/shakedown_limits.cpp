@@ -74,6 +74,10 @@ void Shakedown::monolith()
    study.value("first_slip", slip.load_factor, "first slip at λ", none, place(slip));
    study.value("first_opening", opening.load_factor, "first opening at λ", none,
                place(opening));
+   for (const auto &[key, at] : {std::pair("first_slip_x", slip), {"first_opening_x", opening}})
+   {
+      study.results[key] = at.node >= 0 ? x[at.node] : none;
+   }
    // Beyond this load a node has opened: nothing adheres there, whatever the friction.
    double opens = incipient_separation(problem, cycle, 0).load_factor;
    const char *by = "the nodal forces of this mesh";

@@ -149,6 +149,8 @@ void Shakedown::marches()
       if (run.status != FrictionStatus::converged && run.status != FrictionStatus::not_unique)
       {
          study.code = 2; // ended early, for want of an equilibrium
+         results["message"] = std::string("the march from ") + start +
+                              " slip ended with status '" + name(run.status) + "'";
       }
       if (sign == 0)
       {

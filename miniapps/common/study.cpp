@@ -41,9 +41,9 @@ void Study::parse(const char *json)
       "Runs that differ in an option, as 'friction=0.2 0.5' or 'order=1:4:4' (from:to:count); "
       "may be given several times, for all combinations.",
       Text::statements);
-   option(
-      &sweep_results_, "sweep-results",
-      "Results of a sweep, as in --json ('dissipation.0 peak_pressure'); default: numbers.");
+   option(&sweep_results_, "sweep-results",
+          "Results of a sweep, as in --json (dissipation.0 \"cycles.0.work Q\"); default: "
+          "numbers.");
    if (ranks() > 1)
    {
       option(&condensation().direct_dofs, "direct-dofs",
@@ -54,7 +54,8 @@ void Study::parse(const char *json)
    }
    options_.parse();
    const bool sweeps = sweep_ != "none" && !sweep_.empty();
-   options_.only_if(sweeps, {"sweep-results"}, "goes with --sweep");
+   // A point of a sweep has none itself; its case file may still name what the sweep shows.
+   options_.only_if(options_.says("sweep"), {"sweep-results"}, "goes with --sweep");
    cattaneo::require(!check_ || save_.empty(),
                      "option --save: --check stops before there is anything to save");
    if (!sweeps) { return; }
@@ -71,12 +72,10 @@ void Study::reduced(const Scene &scene)
 
 void Study::condensed(const Scene &scene)
 {
-   cattaneo::require(!check_ || !scene.bodies.empty(),
-                     "option --check: this run has no meshes");
+   checked_ = check_ && !scene.bodies.empty();
    counters += scene.reduction.counters;
    condensed(scene.reduction.problem, scene.dofs);
    if (!check_) { return; }
-   checked_ = true;
    results["status"] = "checked";
    show(*this, scene);
    throw Done();
@@ -88,7 +87,7 @@ void Study::condensed(const cattaneo::ReducedProblem &problem, int dofs)
    seconds_ = watch.seconds();
    const auto left = static_cast<long>(problem.K.rows());
    dofs_ = dofs > 0 ? dofs : static_cast<int>(left);
-   cattaneo::require(!check_ || dofs > 0, "option --check: this run has no meshes");
+   cattaneo::require(!check_ || checked_, "option --check: this run has no scene of meshes");
    if (dofs > 0) { say(text("Condensed %d dofs to %ld in %.3g s", dofs, left, seconds_)); }
    else
    {
@@ -293,7 +292,7 @@ void Study::compare_references()
 
 void Study::finish()
 {
-   cattaneo::require(!check_ || checked_, "option --check: this run has no meshes");
+   cattaneo::require(!check_ || checked_, "option --check: this run has no scene of meshes");
    cattaneo::require(save_.empty() || saved_ || code != 0,
                      "option --save: this run has no reduced problem to save");
    begun_.paths.clear();

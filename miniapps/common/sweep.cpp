@@ -78,9 +78,11 @@ std::vector<std::string> spread(const std::string &word)
 std::vector<SweptKey> read_keys(const std::string &statements)
 {
    std::vector<SweptKey> keys;
-   for (const std::string &statement : split(statements, ";"))
+   for (const std::string &statement : split_unquoted("option --sweep", statements, ";"))
    {
-      const std::size_t equals = statement.find('=');
+      // A name in quotes may have one of its own.
+      const std::size_t name = split_unquoted("option --sweep", statement, "=").front().size();
+      const std::size_t equals = statement.find('=', name);
       require(equals != std::string::npos && equals > 0, "option --sweep: '", statement,
               "', must be OPTION=values such as 'friction=0.2 0.5'");
       SweptKey key{statement.substr(0, equals), {}};
@@ -221,12 +223,24 @@ void finish(Point &point, int status, const std::string &json, const std::string
                      : text("ended by signal %d", WIFSIGNALED(status) ? WTERMSIG(status) : 0);
 }
 
+/// Places of results, those with blanks or commas in quotes.
+std::vector<std::string> places(const std::string &wanted)
+{
+   std::vector<std::string> all;
+   for (const std::string &word : split_unquoted("option --sweep-results", wanted, " ,"))
+   {
+      all.push_back(unquoted(word));
+   }
+   return all;
+}
+
 /// A result by its place: "peak_pressure", "dissipation.0"; null if there is none.
 ordered_json result(const ordered_json &results, const std::string &place)
 {
    ordered_json at = results;
-   for (const std::string &word : split(place, "."))
+   for (const std::string &quoted : split_unquoted("option --sweep-results", place, "."))
    {
+      const std::string word = unquoted(quoted);
       const ordered_json k = as_number(word);
       if (at.is_object() && at.contains(word)) { at = ordered_json(at[word]); }
       else if (at.is_array() && k.is_number() && k >= 0 && k < at.size())
@@ -378,11 +392,11 @@ void run_sweep(Study &study, const std::string &statements, const std::string &w
 {
    require(ranks() == 1, "option --sweep is for one rank, this runs on ", ranks());
    const std::vector<SweptKey> keys = read_keys(statements);
+   std::vector<Point> points = make_points(study.options(), keys);
    require(!study.has_picture() || drawn_over(keys) < keys.size(),
            "option --plot: no key of the sweep has two numbers to draw results over");
-   std::vector<Point> points = make_points(study.options(), keys);
    Watch watch("sweep");
-   run_points(points, split(wanted, " ,"), watch.monitor());
+   run_points(points, places(wanted), watch.monitor());
    const std::size_t asked = points.size();
    points.erase(std::remove_if(points.begin(), points.end(),
                                [](const Point &point) { return !point.ran; }),
@@ -393,7 +407,7 @@ void run_sweep(Study &study, const std::string &statements, const std::string &w
            points.empty() ? "" : points[0].message);
 
    const std::vector<std::string> names =
-      wanted.empty() ? single_numbers(points, keys) : split(wanted, " ,");
+      wanted.empty() ? single_numbers(points, keys) : places(wanted);
    for (const std::string &name : names)
    {
       const auto has = [&](const Point &point)
@@ -405,7 +419,7 @@ void run_sweep(Study &study, const std::string &statements, const std::string &w
                                  "the name '" +
                                  name + "', must be one of " +
                                  listed(single_numbers(points, keys)) +
-                                 ", or a place as 'levels.0.slip'";
+                                 ", or a place as levels.0.slip, with blanks in quotes";
       study.say("\n" + study.results["message"].get<std::string>());
    }
    std::vector<Column> columns;

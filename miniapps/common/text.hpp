@@ -10,6 +10,8 @@ namespace miniapp
 using cattaneo::listed;
 using cattaneo::number;
 using cattaneo::split;
+using cattaneo::split_unquoted;
+using cattaneo::unquoted;
 
 /// A name with a number so exact that no two numbers share one: "f = 0.5".
 std::string exact_text(const std::string &words, double value);

@@ -55,6 +55,11 @@ STATES = OrderedDict([
 ])
 
 
+def dashes(k):
+    """Of curve k: where its colour comes again they are others."""
+    return DASHES[(k + k // len(COLOURS)) % len(DASHES)]
+
+
 def read(path):
     """Comments as lists by key, rows as dictionaries."""
     comments, lines = defaultdict(list), []
@@ -112,7 +117,7 @@ def draw_lines(axes, comments, rows):
         if name.endswith("(design)"):
             axes.plot(x, y, color="black", linewidth=2.4, label=label)
         elif style in ("line", "marked"):
-            axes.plot(x, y, color=colour, linestyle="-" if plain else DASHES[owner % len(DASHES)], linewidth=1.6,
+            axes.plot(x, y, color=colour, linestyle="-" if plain else dashes(owner), linewidth=1.6,
                       marker=MARKERS[owner % 6] if style == "marked" else None, markersize=4, label=label)
         elif style in ("points", "hollow"):
             full = style == "points"

@@ -123,8 +123,8 @@ f = 0.5 in compression as well.""", extent, rows="a0/t|c/t, steady", wrong="""
 The thesis has both changes positive in compression. That of the contact is. The stick zone shrinks whichever way T acts, if little in compression: slip enters from the edge of the
 contact, which is at a0 again whenever T is back at 0, so that c can't exceed a0.""", proof='lap_joint -spacing 0.0025 -friction 0.8 -sweep-load "-0.04 -0.02"')
 for number, load, friction, text in (
-        ("6.6a", 0.04, 0.2, "Zones in time: 1 is the end of tightening, then T goes up and down. An infinitesimal decrease of T makes everything stick; then reverse slip "
-         "sets in, but not as far as forward slip had gone. From step 2 on all cycles are the same."),
+        ("6.6a", 0.04, 0.2, "Zones in time: 1 is the end of tightening, then T goes up and down. An infinitesimal decrease of T makes everything stick; then slip the other way "
+         "sets in, but not as far as that of the pull had gone. The upper lap is pulled to the left: what the thesis calls forward slip is backward in these pictures. From step 2 on all cycles are the same."),
         ("6.6b", 0.04, 0.8, "With more friction slip stays near the edges."),
         ("6.8a", -0.04, 0.2, "Compression: the contact grows with T, and slip goes the other way."), ("6.8b", -0.04, 0.8, "The same with more friction.")):
     if number == "6.8a":

@@ -51,7 +51,7 @@ def curves(axes, named, x="", y="", title="", legend=True, **style):
     """Curves {name: (x, y)}, told apart by colour and dashes."""
     first = len(axes.get_lines())
     for k, (name, (at, values)) in enumerate(named.items()):
-        axes.plot(at, values, **{"color": COLOURS[(first + k) % 7], "linestyle": DASHES[(first + k) % 7],
+        axes.plot(at, values, **{"color": COLOURS[(first + k) % 7], "linestyle": plot.dashes(first + k),
                                  "linewidth": 1.6, "label": name, **style})
     label(axes, x, y, title, legend)
     return axes

@@ -69,10 +69,12 @@ def number(value, form="{:.5g}"):
 
 def verdict(row):
     """As the studies' own tables say it."""
-    if not row["outside"]:
+    if row["reference"] is None or row["computed"] is None:
+        return "outside of its ±" if row["outside"] else ""
+    off = abs(row["computed"] - row["reference"])
+    if off <= (row["spread"] or 0):
         return ""
-    within = row["tolerance"] is not None and abs(row["computed"] - row["reference"]) <= row["tolerance"]
-    return "within the mesh's ±" if within else "outside of its ±"
+    return "within the mesh's ±" if row["tolerance"] is not None and off <= row["tolerance"] else "outside of its ±"
 
 
 def comparison(rows):

@@ -89,11 +89,17 @@ class Runs:
         """Makes those that are not there yet, the ones that took longest the last time first. Ctrl-C ends what runs
         and leaves the rest undone."""
         known = self.folder / "seconds.json"
-        seconds = json.loads(known.read_text()) if known.exists() else {}
+        try:
+            seconds = json.loads(known.read_text())
+        except (OSError, ValueError):
+            seconds = {}
         for command in list(dict.fromkeys(commands)):
             kept = self.folder / self.key(command)
             if (kept / "seconds").exists():
-                self.done[command] = Run(command, kept, float((kept / "seconds").read_text()))
+                try:
+                    self.done[command] = Run(command, kept, float((kept / "seconds").read_text()))
+                except (OSError, ValueError):  # cut off when it was written: once more
+                    shutil.rmtree(kept, ignore_errors=True)
         left = [command for command in dict.fromkeys(commands) if command not in self.done]
         left.sort(key=lambda command: -seconds.get(command, 5))
         total, begun = len(left), time.monotonic()
@@ -155,6 +161,7 @@ class Runs:
         seconds = time.monotonic() - begun
         lines = (part / "output.txt").read_text(encoding="utf-8", errors="replace").strip().splitlines()
         if self.stopped:
+            shutil.rmtree(part, ignore_errors=True)
             return Run(command, part, seconds, "it was stopped")
         if code not in (0, 2) or not (part / "run.json").exists():
             return Run(command, part, seconds, f"it ended with code {code}: " + (lines[-1] if lines else "no output"))

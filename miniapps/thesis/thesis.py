@@ -39,7 +39,9 @@ def chosen(parts):
     figures = [(chapter, figure) for chapter in chapters for figure in chapter.figures]
     wanted = []
     for part in parts:
-        name = part.removeprefix("Figure ").removeprefix("Chapter ")
+        name = part.removeprefix("Figure ").removeprefix("Chapter ").strip()
+        if not name:
+            sys.exit(f"cattaneo: '{part}' is no part of the thesis, must be a chapter (4) or a figure (4.5)")
         found = [figure for chapter, figure in figures if name in (str(chapter.number), figure.number, figure.name)]
         found = found or [figure for _, figure in figures if re.match(re.escape(name) + r"(?!\d)", figure.number)]
         if not found:
@@ -60,7 +62,10 @@ def main():
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="runs at a time (default: the processors)")
     parser.add_argument("--folder", default="results/thesis", help="where the page and the kept runs go")
     parser.add_argument("--programs", default="build/release/miniapps", help="folder of the built miniapps")
+    parser.error = lambda said: sys.exit(f"cattaneo: ./run thesis: {said} (--help lists the options)")  # bad input is 1
     options = parser.parse_args()
+    if options.jobs < 1:
+        sys.exit(f"cattaneo: --jobs is {options.jobs}, must be at least 1")
     parts = options.parts + options.only
     chapters = chosen(parts)
     if options.list:
@@ -81,7 +86,11 @@ def main():
                  "without it ./run thesis builds them")
     begun = time.monotonic()
     folder = pathlib.Path(options.folder)
-    runs = Runs(pathlib.Path(options.programs).resolve(), folder.resolve() / "runs", max(1, options.jobs), say)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        sys.exit(f"cattaneo: --folder is '{options.folder}', which cannot be made: {error.strerror}")
+    runs = Runs(pathlib.Path(options.programs).resolve(), folder.resolve() / "runs", options.jobs, say)
     runs.make([command for chapter in chapters for figure in chapter.figures for command in figure.commands])
 
     def found(figure):
@@ -93,7 +102,6 @@ def main():
         runs.forget_others()
     say("drawing")
     text, faults = page(chapters, found, HEADING, ABOUT)
-    folder.mkdir(parents=True, exist_ok=True)
     file = folder / (re.sub(r"[^\w.-]", "", "-".join(parts)) + ".html" if parts else "index.html")
     file.write_text(text, encoding="utf-8")
     for figure, fault in faults:

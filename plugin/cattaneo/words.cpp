@@ -24,6 +24,45 @@ std::vector<std::string> split(const std::string &text, const std::string &separ
    return pieces;
 }
 
+std::vector<std::string> split_unquoted(const std::string &where, const std::string &text,
+                                        const std::string &separators)
+{
+   std::vector<std::string> pieces(1);
+   for (std::size_t k = 0; k < text.size(); ++k)
+   {
+      if (separators.find(text[k]) != std::string::npos)
+      {
+         pieces.emplace_back();
+         continue;
+      }
+      const bool opens =
+         (text[k] == '\'' || text[k] == '"') &&
+         (k == 0 || std::string(",;. \t\n").find(text[k - 1]) != std::string::npos);
+      std::size_t to = k;
+      if (opens)
+      {
+         to = text.find(text[k], k + 1);
+         require(to != std::string::npos, where, ": the quote ", text[k],
+                 " that begins a name has no end");
+      }
+      pieces.back() += text.substr(k, to - k + 1);
+      k = to;
+   }
+   std::vector<std::string> all;
+   for (const std::string &piece : pieces)
+   {
+      for (const std::string &trimmed : split(piece, "")) { all.push_back(trimmed); }
+   }
+   return all;
+}
+
+std::string unquoted(const std::string &name)
+{
+   const bool quoted = name.size() > 1 && (name[0] == '\'' || name[0] == '"') &&
+                       name.find(name[0], 1) == name.size() - 1;
+   return quoted ? name.substr(1, name.size() - 2) : name;
+}
+
 std::string listed(const std::vector<std::string> &pieces, const std::string &between)
 {
    std::string text;

@@ -9,6 +9,13 @@ namespace cattaneo
 /// Pieces of a text between separators (any of these characters), without spaces, tabs and line
 /// ends around them; empty ones are left out.
 std::vector<std::string> split(const std::string &text, const std::string &separators);
+/// The same, but that names in quotes ('bolt 1, w = 1' or with ") are not cut; quotes begin
+/// them only where a piece begins or after a blank, a comma, a semicolon or a dot, else they
+/// are letters. InputError "WHERE: …" for a quote without an end.
+std::vector<std::string> split_unquoted(const std::string &where, const std::string &text,
+                                        const std::string &separators);
+/// A name without the quotes around it, if it has some.
+std::string unquoted(const std::string &name);
 /// Pieces with something between them.
 std::string listed(const std::vector<std::string> &pieces, const std::string &between = ", ");
 

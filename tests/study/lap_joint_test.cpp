@@ -161,6 +161,25 @@ TEST(LapJoint, ZonesDoNotDependOnTheLoadLevelOrPoissonsRatio)
    }
 }
 
+/// A pull above f P0 is no row of zeros: what the march did not come to is not known.
+TEST(LapJoint, SweepKnowsNothingOfWhatSlidAway)
+{
+   const auto run =
+      run_miniapp("lap_joint", "-spacing 0.05 -increments 5 -sweep-load '0.05 0.3' "
+                               "-sweep-friction 0.2");
+   ASSERT_EQ(run.code, 0) << run.output;
+   const auto &held = run.results["sweep"][0], &slid = run.results["sweep"][1];
+   EXPECT_EQ(slid["status"], "gross sliding");
+   EXPECT_EQ(slid["a0"], held["a0"]); // both were pinched alike
+   EXPECT_GT(slid["a0"], 0.5);
+   for (const char *key :
+        {"a", "c_first", "c_steady", "dissipation_first", "dissipation_steady"})
+   {
+      EXPECT_TRUE(slid[key].is_null()) << key;
+      EXPECT_GT(held[key], 0) << key;
+   }
+}
+
 TEST(LapJoint, DissipationFallsWithFrictionAndRisesWithLoad)
 {
    const auto run = run_miniapp(

@@ -107,6 +107,7 @@ TEST_F(Options, WhatARunDoesNotUseIsRefused)
            {"square_punch", "-amplitude 0.5", "--amplitude", "--cycles"},
            {"lap_joint", "-sweep-friction 0.5", "--sweep-friction", "--sweep-load"},
            {"lap_joint", "-frames 3", "--frames", "--paraview"},
+           {"fretting", "-p fe -findley 0.2", "--findley", "--averaging-depth"},
            {"lap_joint", "-snug 0.1", "--snug", "--bolts"},
            {"shakedown", "-reduced problems/square_punch.json -nodes 51", "--nodes", "punch"},
            {"shakedown", "-mismatch-poisson 0.2", "--mismatch-poisson", "--mismatch"},
@@ -114,6 +115,27 @@ TEST_F(Options, WhatARunDoesNotUseIsRefused)
    {
       expect_refused(program, options, {"option " + option + " does nothing", with});
    }
+}
+
+/// Nothing is computed for what would then not be written or shown.
+TEST_F(Options, EmptyNamesAndScenesThatAreNoneAreRefused)
+{
+   for (const char *written : {"--json", "--csv", "--html", "--plot", "--save"})
+   {
+      expect_refused("hertz", std::string(written) + " ''", {written, "is empty"});
+   }
+   for (const char *program : {"design", "wear", "fretting", "fretting -p fe"})
+   {
+      const std::string words = program;
+      const std::size_t end = std::min(words.find(' '), words.size());
+      expect_refused(words.substr(0, end), words.substr(end) + " --check",
+                     {"option --check", "no scene of meshes"});
+   }
+   expect_refused("contact2d", "--case meshes/dovetail.json --convert c2.json --csv o",
+                  {"--csv", "--convert"});
+   EXPECT_FALSE(std::filesystem::exists(CATTANEO_SOURCE_DIR "/c2.json"));
+   expect_refused("lap_joint", "--bolts 100000", {"--bolts", "contact nodes", "20000"});
+   expect_refused("lap_joint", "-spacing 0.05 --cycles 2147483647", {"cycles", "at most"});
 }
 
 /// -h lists every option with both its names and what it is, and nothing is computed.

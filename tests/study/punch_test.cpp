@@ -1,5 +1,8 @@
 #include "study/run_miniapp.hpp"
 
+#include <algorithm>
+#include <sstream>
+
 namespace
 {
 
@@ -112,6 +115,64 @@ TEST(SquarePunch, SlipUnderPressureAloneIsOdd)
    EXPECT_NEAR(run.results["stick_left"].get<double>(),
                -run.results["stick_right"].get<double>(), 1e-9);
    EXPECT_EQ(run.results["counters"]["increments"], 1); // self-similar: one increment is exact
+}
+
+/// The cycle begins where P alone left the punch, not where the levels of Q ended: the history
+/// says so, and the area of the loop in it is what is printed.
+TEST(SquarePunch, LoopOfTheHistoryIsThatOfTheCycle)
+{
+   const std::string prefix = testing::TempDir() + "loop";
+   const auto run = run_miniapp("square_punch", "-nodes 41 -shear '0.5 0.9' -cycles 1 "
+                                                "-amplitude 0.5 --csv '" +
+                                                   prefix + "'");
+   ASSERT_EQ(run.code, 0) << run.output;
+   std::ifstream in(prefix + "_history.csv");
+   std::string line, cell;
+   std::vector<std::string> names;
+   std::vector<std::vector<double>> rows;
+   std::getline(in, line);
+   for (std::istringstream cells(line); std::getline(cells, cell, ',');)
+   {
+      names.push_back(cell);
+   }
+   while (std::getline(in, line))
+   {
+      rows.emplace_back();
+      for (std::istringstream cells(line); std::getline(cells, cell, ',');)
+      {
+         rows.back().push_back(std::stod(cell));
+      }
+   }
+   const auto column = [&](const char *name)
+   {
+      const auto found = std::find(names.begin(), names.end(), name);
+      return static_cast<std::size_t>(found - names.begin());
+   };
+   const std::size_t time = column("time"), cycle = column("cycle"), Q = column("load Q"),
+                     moved = column("displacement Q");
+   ASSERT_LT(moved, names.size());
+   double work = 0;
+   int jumps = 0;
+   for (std::size_t k = 1; k < rows.size(); ++k)
+   {
+      const auto &before = rows[k - 1], &now = rows[k];
+      if (now[time] == before[time])
+      {
+         EXPECT_EQ(now[Q], 0); // P alone
+         ++jumps;
+         work = 0;
+         continue;
+      }
+      work += 0.5 * (now[Q] + before[Q]) * (now[moved] - before[moved]);
+   }
+   EXPECT_EQ(jumps, 1);
+   EXPECT_EQ(rows.back()[cycle], 1);
+   const double printed = run.results["cycles"][0]["work Q"];
+   EXPECT_NEAR(work, printed, 1e-9 * printed);
+   for (const char *table : {"cycles", "history", "levels", "loops", "slip", "tractions"})
+   {
+      std::remove((prefix + "_" + table + ".csv").c_str());
+   }
 }
 
 TEST(SquarePunch, FrictionlessHasNoTangentialUnknowns)

@@ -67,7 +67,23 @@ def outcomes(folder):
         "--json", out)
     pressures = [row["peak_pressure"] for row in read(out)["sweep"]]
     assert len(set(pressures)) == 4, pressures
-
+    # What a case file shows of its sweep; a result with a blank in its name.
+    case.write_text(json.dumps({"reduced": str(ROOT / "problems/hertz.json"), "history": ["P=0", "P=1", "Q=0.1", "Q=-0.1", "Q=0.1"],
+                                "cycle-start": 2, "sweep": "friction=0.2 0.4", "sweep-results": "'cycles.0.loss_factor Q' \"cycles.0.work Q\""}),
+                    encoding="utf-8")
+    run("march", "--case", case, "--json", out)
+    for row in read(out)["sweep"]:
+        run("march", "--case", case, "--sweep", "none", "--friction", row["friction"], "--json", folder / "one.json")
+        cycle = read(folder / "one.json")["cycles"][0]
+        assert cycle["work Q"] > 0 and all(row["cycles.0." + key] == cycle[key] for key in ("work Q", "loss_factor Q")), (row, cycle)
+    # Names of loads with commas, blanks and = are in quotes, where they are swept and beside that.
+    bolts = " ".join(f"'bolt {k}, w = 1'={1 if k < 3 else 0.9}" for k in (1, 2, 3))
+    key = "history.1.'bolt 3, w = 1'"
+    run("march", "-reduced", "problems/bolt_row.json", "-history", f"T=0; {bolts}", "--sweep", key + "=0.9 1", "--json", out)
+    last = read(out)["sweep"]
+    assert [row[key] for row in last] == [0.9, 1], last
+    run("march", "-reduced", "problems/bolt_row.json", "-history", f"T=0; {bolts}; T=0.01", "--sweep", "history.2.T=0 0.01", "--json", out)
+    assert [row["peak_pressure"] for row in read(out)["sweep"]][0] == last[0]["peak_pressure"], (read(out)["sweep"], last)
 
     # A limit that is found is an outcome as good as any.
     shown = run("shakedown", "--reduced", "problems/square_punch.json", "--find", "load", "--sweep", "friction=0.8 0.9", "--json", out)
@@ -90,12 +106,15 @@ def refused():
                          ("friction=", "has no values"), ("friction=0:1:1", "at least 2"), ("increments=1.5", "not an integer"),
                          ("method=newton", "'newton' is not one of"), ("history.4.Q=1", "has 0 entries"), ("friction.1=2", "has no entries"),
                          ("json=a b", "there is no option 'json'"), ("sweep=a", "there is no option 'sweep'"),
-                         ("friction=0.1; friction=0.2", "'friction' is there twice")):
+                         ("friction=0.1; friction=0.2", "'friction' is there twice"),
+                         ("history.1.'P=1", "has no end")):
         begun = time.monotonic()
         shown = run("march", *hertz, sweep, code=1)
         error = shown[shown.index("error:"):]
         assert words in error and error.count("\n") == 1, (sweep, error)
         assert time.monotonic() - begun < 5
+    # A value that is none, not the figure that there can't be.
+    assert "'x' is not a number" in run("march", *hertz, "friction=0.1 x", "--plot", "nowhere.png", code=1)
     assert "no key of the sweep has two numbers" in run("march", *hertz, "stepping=exact fixed", "--plot", "nowhere.png", code=1)
     assert "--check is of one run" in run("march", *hertz, "friction=0.2", "--check", code=1)
     for option in ("--save", "--save-state"):

@@ -63,8 +63,8 @@ std::string lower_case(std::string text)
 void require_interval(const std::string &name, const char *what, const Interval &value)
 {
    require(std::isfinite(value.high) && value.low > 0 && value.low <= value.high, "material ",
-           name, ": ", what, " is ", value.low, " to ", value.high,
-           "; it must be positive, the low end first.");
+           name, ": ", what, " is ", value.low,
+           value.low == value.high ? "" : " to " + exact_text(value.high), "; it must be positive, the low end first.");
 }
 
 } // namespace

@@ -82,11 +82,13 @@ bool settles_on_pieces(Increment &at, VectorXd p, bool thorough = false)
       bool fit = true;
       for (Index i = 0; i < s.n; ++i)
       {
-         p[i] = closed(at.status[i]) ? at.F[s.m(i)] : 0.0;
+         // An open node bears nothing, whatever the piece.
+         const bool bears = closed(at.status[i]);
+         p[i] = bears ? at.F[s.m(i)] : 0.0;
          for (const double sense : {1.0, -1.0})
          {
             const double off = s.laws[i].at(p[i], sense) - s.bound[i].at(p[i], sense);
-            fit = fit && std::abs(off) <= 0.1 * s.settings.tolerance * at.scale();
+            fit = fit && (!bears || std::abs(off) <= 0.1 * s.settings.tolerance * at.scale());
          }
       }
       if (fit) { return true; }
@@ -126,7 +128,10 @@ bool find_end_on_pieces(Increment &at)
       step = std::min(2 * step, 1 - reached);
    }
    at.go_back();
-   return settles_on_pieces(at, at.start.p, true);
+   if (settles_on_pieces(at, at.start.p, true)) { return true; }
+   // A body may jump off.
+   at.go_back();
+   return settles_on_pieces(at, VectorXd::Zero(s.n), true);
 }
 
 /// Displacements so large that round-off hides the forces may be a body that slides away, with

@@ -6,51 +6,6 @@
 namespace cattaneo
 {
 
-namespace
-{
-
-/// Where a quote that opens at `from` closes; npos: it does not.
-std::size_t closing(const std::string &text, std::size_t from)
-{
-   return text.find(text[from], from + 1);
-}
-
-/// split(), but that a quoted name ('bolt 1, w = 1' or with ") is not cut.
-std::vector<std::string> split_unquoted(const std::string &where, const std::string &text,
-                                        const std::string &separators)
-{
-   std::vector<std::string> pieces(1);
-   for (std::size_t k = 0; k < text.size(); ++k)
-   {
-      if (separators.find(text[k]) != std::string::npos)
-      {
-         pieces.emplace_back();
-         continue;
-      }
-      // A quote within a name is a letter of it.
-      const bool opens =
-         (text[k] == '\'' || text[k] == '"') &&
-         (k == 0 || std::string(",; \t\n").find(text[k - 1]) != std::string::npos);
-      std::size_t to = k;
-      if (opens)
-      {
-         to = closing(text, k);
-         require(to != std::string::npos, where, ": the quote ", text[k],
-                 " that begins a name has no end");
-      }
-      pieces.back() += text.substr(k, to - k + 1);
-      k = to;
-   }
-   std::vector<std::string> all;
-   for (const std::string &piece : pieces)
-   {
-      for (const std::string &trimmed : split(piece, "")) { all.push_back(trimmed); }
-   }
-   return all;
-}
-
-} // namespace
-
 LoadHistory load_history(const std::string &called, const std::string &text,
                          const ReducedProblem &problem)
 {
@@ -63,7 +18,8 @@ LoadHistory load_history(const std::string &called, const std::string &text,
       for (const std::string &word : split_unquoted(where, statement, ", \t\n"))
       {
          const bool quoted = word[0] == '\'' || word[0] == '"';
-         const std::size_t end = quoted ? closing(word, 0) : 0, equals = word.find('=', end);
+         const std::size_t end = quoted ? word.find(word[0], 1) : 0,
+                           equals = word.find('=', end);
          require(equals != std::string::npos && (!quoted || equals == end + 1), where, ": '",
                  word,
                  "', must be PATTERN=number such as P=1, a name with spaces, commas or = in "

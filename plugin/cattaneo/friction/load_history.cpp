@@ -86,7 +86,11 @@ void LoadHistory::validate(const ReducedProblem &problem) const
    if (cycle_start < 0) { return; }
    require(cycle_start < times.size() - 1, "load history: the cycle starts at point ",
            cycle_start, ", must be one of 0 to ", times.size() - 2);
-   require(cycles >= 1, "load history: ", cycles, " cycles, at least 1 is needed");
+   constexpr int most_pieces = 1000000000;
+   const int most =
+      (most_pieces - cycle_start) / (static_cast<int>(times.size()) - 1 - cycle_start);
+   require(cycles >= 1 && cycles <= most, "load history: ", cycles,
+           " cycles, must be at least 1 and at most ", most);
    for (Eigen::Index k = 0; k < patterns; ++k)
    {
       const double first = multipliers(k, cycle_start), last = multipliers(k, times.size() - 1);

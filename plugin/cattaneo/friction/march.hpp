@@ -81,6 +81,9 @@ struct IncrementRecord
    Eigen::Index event = -1;
 };
 
+/// What a state alone says of it: time, multipliers, conjugates and numbers of nodes.
+IncrementRecord record_of(const ReducedProblem &problem, const ContactState &state);
+
 /// The first state of a march of which there may be others: from there on its states are one of
 /// several.
 struct NotUnique

@@ -41,6 +41,23 @@ void find_slip_origin(const ContactState &before, ContactState &next)
 
 } // namespace
 
+IncrementRecord record_of(const ReducedProblem &problem, const ContactState &state)
+{
+   IncrementRecord record;
+   record.time = state.time;
+   record.multipliers = state.multipliers;
+   record.conjugates = conjugates(problem, state);
+   const std::vector<NodeState> settled = settled_states(problem, state);
+   const auto count = [&](NodeState of)
+   { return static_cast<int>(std::count(settled.begin(), settled.end(), of)); };
+   record.stick = count(NodeState::stick);
+   record.separation = count(NodeState::separation);
+   record.forward_slip = count(NodeState::forward_slip);
+   record.backward_slip = count(NodeState::backward_slip);
+   record.slip = count(NodeState::slip);
+   return record;
+}
+
 MarchRecord::MarchRecord(const ReducedProblem &problem, ContactState &state,
                          const MarchSettings &settings, const MarchObserver &observer)
    : problem_(problem), state_(state), settings_(settings), observer_(observer),
@@ -78,24 +95,13 @@ void MarchRecord::accept(ContactState &&next, const LoadPiece &piece,
                          Index event)
 {
    find_slip_origin(state_, next);
-   IncrementRecord record;
-   record.time = next.time;
+   IncrementRecord record = record_of(problem_, next);
    record.cycle = piece.cycle;
    record.resumes = resumes;
    record.event = event;
-   record.multipliers = next.multipliers;
-   record.conjugates = conjugates(problem_, next);
    record.residual_normal = increment.residual_normal;
    record.residual_tangential = increment.residual_tangential;
    record.round_off = increment.round_off;
-   const std::vector<NodeState> settled = settled_states(problem_, next);
-   const auto count = [&](NodeState state)
-   { return static_cast<int>(std::count(settled.begin(), settled.end(), state)); };
-   record.stick = count(NodeState::stick);
-   record.separation = count(NodeState::separation);
-   record.forward_slip = count(NodeState::forward_slip);
-   record.backward_slip = count(NodeState::backward_slip);
-   record.slip = count(NodeState::slip);
    const VectorXd lost = frictional_loss(problem_, state_, next);
    record.dissipation = lost.sum();
    record.external_work = external_work(record);
