@@ -230,7 +230,7 @@ void contact2d(miniapp::Study &study)
    study.parse();
    const miniapp::JointCase joint = options.all(study.options().says("order"));
    history.check_options();
-   study.options().only_if(options.convert.empty(), {"csv", "json", "plot", "html"},
+   study.options().only_if(options.convert.empty(), {"csv", "plot", "html"},
                            "is of a run, --convert writes the case alone");
    if (!options.convert.empty()) { miniapp::convert(study, joint, options.convert); }
    Snapshots snapshots{options.edges, {}};

@@ -90,13 +90,15 @@ ReducedProblem coupled_nodes(std::mt19937 &random, Index components)
    return problem;
 }
 
-/// Those of the plane, with as much friction as leaves one answer.
-ReducedProblem some_contact(std::mt19937 &random, bool concave)
+/// Those of the plane, with as much friction as leaves one answer, or as leaves one to each
+/// node alone.
+ReducedProblem some_contact(std::mt19937 &random, bool concave, bool unique = true)
 {
    ReducedProblem problem = coupled_nodes(random, 1);
    const Index n = problem.nodes();
    problem.patterns[0].p[random() % n] *= -0.5;
-   const double most = 0.9 * critical_friction(problem).unique_below;
+   const CriticalFriction critical = critical_friction(problem);
+   const double most = unique ? 0.9 * critical.unique_below : 0.95 * critical.node;
    problem.laws.clear();
    for (Index i = 0; i < n; ++i)
    {
@@ -386,6 +388,40 @@ TEST(FrictionLaw, LargeIncrementsAgainstAllThatNodesMayDo)
          ASSERT_LT((state.displacements() - all[0]).norm(), 1e-7);
       }
    }
+}
+
+// With more friction bodies jump, and another set of pieces than that of the start may be the
+// only one with an answer. Where exactly one is found by trying all, it is the solver's.
+TEST(FrictionLaw, JumpsAgainstAllThatNodesMayDo)
+{
+   int single = 0, several = 0;
+   for (unsigned seed = 1; seed <= 700; ++seed)
+   {
+      SCOPED_TRACE(seed);
+      std::mt19937 random(seed);
+      ReducedProblem problem = some_contact(random, seed % 3 > 0, false);
+      add_load(problem, random);
+      FrictionSolver solver(problem);
+      ContactState state = ContactState::virgin(problem);
+      for (int k = 0; k < 3; ++k)
+      {
+         const VectorXd loads = some_loads(random);
+         const std::vector<VectorXd> all = answers(problem, loads, state.v);
+         bool one = !all.empty();
+         for (const VectorXd &u : all) { one = one && (u - all[0]).norm() < 1e-7; }
+         const IncrementReport report = solver.solve(state, loads);
+         if (!one)
+         {
+            ++several;
+            continue;
+         }
+         ++single;
+         ASSERT_EQ(report.status, FrictionStatus::converged) << report.message;
+         ASSERT_LT((state.displacements() - all[0]).norm(), 1e-7);
+      }
+   }
+   EXPECT_GT(single, 1500);
+   EXPECT_GT(several, 10);
 }
 
 // A march in a mirror has the mirrored states, to the last bit; and a law of one point is

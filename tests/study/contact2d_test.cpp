@@ -149,7 +149,7 @@ TEST_F(Contact2D, WhatHasNoMeshesCannotBeShown)
       const std::size_t end = std::min(words.find(' '), words.size());
       const auto run = run_miniapp(words.substr(0, end), words.substr(end) + " --check");
       EXPECT_EQ(run.code, 1) << program;
-      EXPECT_NE(run.output.find("error: option --check: this run has no meshes\n"),
+      EXPECT_NE(run.output.find("error: option --check: this run has no scene of meshes\n"),
                 std::string::npos)
          << run.output;
       EXPECT_TRUE(run.results.is_null()) << program;

@@ -117,7 +117,11 @@ Search damped_newton(Increment &at)
       {
          at.u[k] += size * far[k] * (std::ldexp(double(random() >> 11), -52) - 1);
       }
-      if (!descend(at)) { continue; }
+      // A law that bends is taken as it is, and where it has led as the pieces there.
+      if (!s.laws.empty()) { s.bound = s.laws; }
+      const bool descended = descend(at);
+      if (!s.laws.empty()) { s.take_pieces(at.F.tail(s.n)); }
+      if (!descended) { continue; }
       for (Index i = 0; i < s.n; ++i)
       {
          const ContactNode node = at.node(i);

@@ -62,6 +62,24 @@ bool find_end(Increment &at, bool thorough = true)
    return false;
 }
 
+/// Of an end on pieces of laws that bend: is each node that bears on the one that it took?
+bool stands_on_law(const Increment &at)
+{
+   const FrictionSystem &s = at.system;
+   bool fits = true;
+   for (Index i = 0; i < s.n; ++i)
+   {
+      const double p = at.F[s.m(i)];
+      for (const double sense : {1.0, -1.0})
+      {
+         const double off = s.laws[i].at(p, sense) - s.bound[i].at(p, sense);
+         fits = fits && (!closed(at.status[i]) ||
+                         std::abs(off) <= 0.1 * s.settings.tolerance * at.scale());
+      }
+   }
+   return fits;
+}
+
 /** A law of friction that bends is taken as the lines of its pieces at the pressures p, and
    then of what these lead to, until they are the pieces there. False where that comes back to
     pieces that it began with. */
@@ -79,19 +97,8 @@ bool settles_on_pieces(Increment &at, VectorXd p, bool thorough = false)
                                     bound.slope(0, 1), bound.slope(0, -1)});
       }
       if (!tried.insert(lines).second || !find_end(at, thorough)) { return false; }
-      bool fit = true;
-      for (Index i = 0; i < s.n; ++i)
-      {
-         // An open node bears nothing, whatever the piece.
-         const bool bears = closed(at.status[i]);
-         p[i] = bears ? at.F[s.m(i)] : 0.0;
-         for (const double sense : {1.0, -1.0})
-         {
-            const double off = s.laws[i].at(p[i], sense) - s.bound[i].at(p[i], sense);
-            fit = fit && (!bears || std::abs(off) <= 0.1 * s.settings.tolerance * at.scale());
-         }
-      }
-      if (fit) { return true; }
+      for (Index i = 0; i < s.n; ++i) { p[i] = closed(at.status[i]) ? at.F[s.m(i)] : 0.0; }
+      if (stands_on_law(at)) { return true; }
       at.go_back();
    }
 }
@@ -129,9 +136,10 @@ bool find_end_on_pieces(Increment &at)
    }
    at.go_back();
    if (settles_on_pieces(at, at.start.p, true)) { return true; }
-   // A body may jump off.
+   // Pieces may lead round in a circle, and a body jump to others: this asks the law itself.
    at.go_back();
-   return settles_on_pieces(at, VectorXd::Zero(s.n), true);
+   at.report.found_by = "damped Newton";
+   return damped_newton(at) == Search::found && stands_on_law(at);
 }
 
 /// Displacements so large that round-off hides the forces may be a body that slides away, with
