@@ -101,10 +101,10 @@ void assess_pad(miniapp::Study &study)
                 "Criteria on critical planes along the surface, of stresses averaged over this "
                 "depth, mm (pad fe; from a spacing of its nodes to half a contact).",
                 miniapp::positive);
-   study.option(&weights.findley, "findley", "k of Findley's criterion (with --averaging-depth).",
-                miniapp::not_negative);
-   study.option(&weights.fatemi_socie, "fatemi-socie", "k of Fatemi and Socie's (with --averaging-depth).",
-                miniapp::not_negative);
+   study.option(&weights.findley, "findley",
+                "k of Findley's criterion (with --averaging-depth).", miniapp::not_negative);
+   study.option(&weights.fatemi_socie, "fatemi-socie",
+                "k of Fatemi and Socie's (with --averaging-depth).", miniapp::not_negative);
    study.option(&material, {"m", "material"}, "Name of a material record.");
    study.option(&material_file, {"mf", "material-file"}, "File of material records, JSON.",
                 miniapp::Text::input);

@@ -64,7 +64,8 @@ void require_interval(const std::string &name, const char *what, const Interval 
 {
    require(std::isfinite(value.high) && value.low > 0 && value.low <= value.high, "material ",
            name, ": ", what, " is ", value.low,
-           value.low == value.high ? "" : " to " + exact_text(value.high), "; it must be positive, the low end first.");
+           value.low == value.high ? "" : " to " + exact_text(value.high),
+           "; it must be positive, the low end first.");
 }
 
 } // namespace

@@ -184,8 +184,9 @@ LowerLimitReport lower_limit(const LimitProblem &problem, const LimitReport &upp
    }
    if (!reduced.laws.empty())
    {
-      report.message = "no bound: of a contact whose pressures slip changes (B is not zero) one is known with "
-         "Coulomb's law alone";
+      report.message = "no bound: of a contact whose pressures slip changes (B is not zero) "
+                       "one is known with "
+                       "Coulomb's law alone";
       return report;
    }
    const StuckForces loads = stuck_forces(reduced, problem.cycle);
