@@ -36,11 +36,13 @@ void Study::parse(const char *json)
    options_.leave_out_of_cases("check");
    option(&save_, "save", "File for the reduced problem (shakedown --reduced reads it).",
           Text::output);
-   option(
-      &sweep_, "sweep",
-      "Runs that differ in an option, as 'friction=0.2 0.5' or 'order=1:4:4' (from:to:count); "
-      "may be given several times, for all combinations.",
-      Text::statements);
+   option(&sweep_, "sweep",
+          "Runs that differ in an option, as 'friction=0.2 0.5' or 'order=1:4:4' "
+          "(from:to:count), or in "
+          "several places, as history.2.Q,-history.3.Q=0.1 0.2; may be given several times, "
+          "for all "
+          "combinations (or with semicolons between).",
+          Text::statements);
    option(&sweep_results_, "sweep-results",
           "Results of a sweep, as in --json (dissipation.0 \"cycles.0.work Q\"); default: "
           "numbers.");

@@ -100,6 +100,15 @@ std::vector<SweptKey> read_keys(const std::string &statements)
    return keys;
 }
 
+std::string negative(const std::string &word)
+{
+   require(as_number(word).is_number(), "option --sweep: '", word,
+           "' is the value of a key with a minus, must be a number");
+   return word[0] == '-' ? word.substr(1) : '-' + word;
+}
+
+/// A key may be several places, "history.2.Q,-history.3.Q": all have the value, or its
+/// negative.
 std::vector<Point> make_points(const Options &options, const std::vector<SweptKey> &keys)
 {
    std::vector<Point> points(1);
@@ -123,7 +132,12 @@ std::vector<Point> make_points(const Options &options, const std::vector<SweptKe
       std::vector<std::pair<std::string, std::string>> changes;
       for (std::size_t k = 0; k < keys.size(); ++k)
       {
-         changes.emplace_back(keys[k].name, point.values[k]);
+         for (const std::string &part : split_unquoted("option --sweep", keys[k].name, ","))
+         {
+            const bool back = part[0] == '-';
+            changes.emplace_back(part.substr(back),
+                                 back ? negative(point.values[k]) : point.values[k]);
+         }
       }
       point.words = options.command(changes);
    }

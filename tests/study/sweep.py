@@ -76,6 +76,15 @@ def outcomes(folder):
         run("march", "--case", case, "--sweep", "none", "--friction", row["friction"], "--json", folder / "one.json")
         cycle = read(folder / "one.json")["cycles"][0]
         assert cycle["work Q"] > 0 and all(row["cycles.0." + key] == cycle[key] for key in ("work Q", "loss_factor Q")), (row, cycle)
+    # An amplitude is in several places.
+    ways = ["march", "-reduced", "problems/hertz.json", "-cycle-start", "2", "-history"]
+    key = "history.2.Q,-history.3.Q,history.4.Q"
+    run(*ways, "P=0; P=1; Q=0.1; Q=-0.1; Q=0.1", "--sweep", key + "=0.1:0.2:2", "--sweep-results", "total_dissipation", "--json", out)
+    for row in read(out)["sweep"]:
+        q = row[key]
+        run(*ways, f"P=0; P=1; Q={q}; Q={-q}; Q={q}", "--json", folder / "one.json")
+        assert row["total_dissipation"] == read(folder / "one.json")["total_dissipation"] > 0, row
+    assert "must be a number" in run(*ways, "P=0; P=1; Q=0.1; Q=-0.1; Q=0.1", "--sweep", "-friction=much", code=1)
     # Names of loads with commas, blanks and = are in quotes, where they are swept and beside that.
     bolts = " ".join(f"'bolt {k}, w = 1'={1 if k < 3 else 0.9}" for k in (1, 2, 3))
     key = "history.1.'bolt 3, w = 1'"
