@@ -166,6 +166,7 @@ NearContact::NearContact(const ReducedProblem &whole, const SymmetricProduct &ti
       forces << pattern.q, pattern.p;
       VectorXd acting = forces(far.rows());
       far.condense(eighths, acting);
+      condensed_.push_back(acting);
       const VectorXd left = acting.tail(place_.size())(place_);
       part.patterns.push_back(
          {pattern.name, pattern.control, left.head(part.slips()), left.tail(part.nodes())});
@@ -188,6 +189,7 @@ VectorXd NearContact::loads(const VectorXd &multipliers) const
 std::optional<ContactState> NearContact::part(const ContactState &whole)
 {
    ReducedProblem &near = *problem_;
+   ++parts_;
    const VectorXd u = whole.displacements(), f = whole_.clamped_forces(whole.multipliers),
                   stiff = times_K_(u), forces = stiff + f;
    // The start need not be an equilibrium: an initial slip, for instance.
@@ -226,8 +228,11 @@ ContactState NearContact::whole(const ContactState &before, const ContactState &
    next.time = part.time;
    next.multipliers = part.multipliers.head(before.multipliers.size());
    const VectorXd f = whole_.clamped_forces(next.multipliers);
-   VectorXd u = -f(far_.rows());
-   far_.condense(eighths_, u);
+   VectorXd u = VectorXd::Zero(f.size());
+   for (std::size_t k = 0; k < condensed_.size(); ++k)
+   {
+      u -= next.multipliers[static_cast<Index>(k)] * condensed_[k];
+   }
    u.tail(place_.size())(place_) = part.displacements();
    far_.locate(eighths_, u);
    VectorXd placed(u.size());

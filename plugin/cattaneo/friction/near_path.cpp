@@ -7,18 +7,33 @@ using Eigen::VectorXd;
 
 NearPath::NearPath(NearContacts &near) : contacts_(near), whole_(near.problem()) {}
 
+/// Goes on from where the last step ended, but for every sixteenth: what round-off gathers.
+std::optional<NearContacts::Way> NearPath::set_out(const ContactState &state, int eighths)
+{
+   constexpr int most_steps = 16;
+   if (part_ && near_->eighths() == eighths && near_->parts() == parts_ &&
+       steps_ < most_steps && state.displacements() == u_ &&
+       near_->loads(state.multipliers) == part_->multipliers)
+   {
+      return NearContacts::Way{near_, *part_};
+   }
+   steps_ = 0;
+   return contacts_.set_out(state, eighths);
+}
+
 bool NearPath::advance(ContactState &state, double time, const VectorXd &multipliers,
                        std::vector<StateChange> &changes)
 {
    const std::size_t listed = changes.size();
    for (int eighths = contacts_.eighths(state); eighths > 0;)
    {
-      auto way = contacts_.set_out(state, eighths);
+      auto way = set_out(state, eighths);
       if (!way) { break; }
       if (near_ != way->near)
       {
          if (path_) { counters_ += path_->counters(); }
          near_ = way->near;
+         part_.reset();
          path_ = std::make_unique<ExactPath>(near_->problem());
       }
       last_ = path_.get();
@@ -38,6 +53,10 @@ bool NearPath::advance(ContactState &state, double time, const VectorXd &multipl
          changes[k].node = near_->node(changes[k].node);
          changes[k].multipliers = state.multipliers;
       }
+      ++steps_;
+      parts_ = near_->parts();
+      u_ = next.displacements();
+      part_ = std::move(way->part);
       event_ = path_->event() < 0 ? -1 : near_->node(path_->event());
       state = std::move(next);
       return true;

@@ -73,12 +73,15 @@ public:
                const FarFirst &far, int eighths);
 
    const ReducedProblem &problem() const { return *problem_; }
+   int eighths() const { return eighths_; }
    /// Number in the whole problem of a node.
    Index node(Index near) const { return nodes_[near]; }
    /// Of the whole problem's multipliers.
    Eigen::VectorXd loads(const Eigen::VectorXd &multipliers) const;
    /// None if the nodes that are left out bear something.
    std::optional<ContactState> part(const ContactState &whole);
+   /// How often it was asked for a part: the loads hold for the last one, and what comes of it.
+   long parts() const { return parts_; }
    /// The state after `before` that has the part.
    ContactState whole(const ContactState &before, const ContactState &part) const;
    /// Made with these settings when first asked for.
@@ -91,8 +94,10 @@ private:
    const SymmetricProduct &times_K_;
    const FarFirst &far_;
    const int eighths_;
-   std::vector<Index> nodes_, rows_; // in the whole problem
-   std::vector<Index> place_;        // of the rows, among those that are left
+   long parts_ = 0;
+   std::vector<Index> nodes_, rows_;        // in the whole problem
+   std::vector<Index> place_;               // of the rows, among those that are left
+   std::vector<Eigen::VectorXd> condensed_; // of each pattern, see FarFirst::condense()
    std::shared_ptr<ReducedProblem> problem_;
    std::optional<FrictionSolver> solver_;
 };

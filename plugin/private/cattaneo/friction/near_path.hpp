@@ -23,10 +23,18 @@ public:
    Counters counters() const;
 
 private:
+   std::optional<NearContacts::Way> set_out(const ContactState &state, int eighths);
+
    NearContacts &contacts_;
    ExactPath whole_;
    std::shared_ptr<NearContact> near_; // that the next is a path of
    std::unique_ptr<ExactPath> path_;
+   // Where it stands, as long as the near problem's loads hold for that, and for how many
+   // steps.
+   std::optional<ContactState> part_;
+   Eigen::VectorXd u_; // displacements of the whole there
+   long parts_ = 0;
+   int steps_ = 0;
    ExactPath *last_ = &whole_; // that was advanced
    Eigen::Index event_ = -1;
    Counters counters_; // of paths that are gone
