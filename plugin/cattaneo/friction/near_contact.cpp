@@ -186,7 +186,7 @@ VectorXd NearContact::loads(const VectorXd &multipliers) const
    return all;
 }
 
-std::optional<ContactState> NearContact::part(const ContactState &whole)
+bool NearContact::correct(const ContactState &whole)
 {
    ReducedProblem &near = *problem_;
    ++parts_;
@@ -199,7 +199,22 @@ std::optional<ContactState> NearContact::part(const ContactState &whole)
       elsewhere = std::max(elsewhere, std::abs(forces[far_.rows()[k]]));
    }
    const double scale = std::max({whole.peak_force, largest_entry(f), largest_entry(stiff)});
-   if (elsewhere > 1e-6 * scale) { return std::nullopt; }
+   if (elsewhere > 1e-6 * scale) { return false; }
+   LoadPattern &round_off = near.patterns.back();
+   round_off.q.setZero();
+   round_off.p.setZero();
+   VectorXd off =
+      forces(rows_) - near.K * u(rows_) - near.clamped_forces(loads(whole.multipliers));
+   off -= near.rigid_motions * (near.rigid_motions.transpose() * off);
+   for (const Index row : near.held) { off[row] = 0; }
+   round_off.q = off.head(near.slips());
+   round_off.p = off.tail(near.nodes());
+   return true;
+}
+
+std::optional<ContactState> NearContact::part(const ContactState &whole)
+{
+   if (!correct(whole)) { return std::nullopt; }
    ContactState part;
    part.v = whole.v(nodes_);
    part.w = whole.w(nodes_);
@@ -210,15 +225,6 @@ std::optional<ContactState> NearContact::part(const ContactState &whole)
    part.multipliers = loads(whole.multipliers);
    part.time = whole.time;
    part.peak_force = whole.peak_force;
-   LoadPattern &round_off = near.patterns.back();
-   round_off.q.setZero();
-   round_off.p.setZero();
-   VectorXd off =
-      forces(rows_) - near.K * part.displacements() - near.clamped_forces(part.multipliers);
-   off -= near.rigid_motions * (near.rigid_motions.transpose() * off);
-   for (const Index row : near.held) { off[row] = 0; }
-   round_off.q = off.head(near.slips());
-   round_off.p = off.tail(near.nodes());
    return part;
 }
 
@@ -341,17 +347,29 @@ IncrementReport NearContacts::solve(ContactState &state, const VectorXd &multipl
    {
       auto way = set_out(state, more);
       if (!way) { break; }
-      const IncrementReport found =
-         way->near->solver(solver_.settings()).solve(way->part, way->near->loads(multipliers));
-      if (!solves(found)) { break; }
-      ContactState next = way->near->whole(state, way->part);
-      more = touched(next, more);
-      if (more > 0) { continue; }
-      IncrementReport judged = solver_.judge(state, next);
-      if (!solves(judged)) { break; }
-      judged.found_by = found.found_by;
-      state = std::move(next);
-      return judged;
+      const ContactState start = way->part;
+      for (const bool last : {false, true})
+      {
+         const IncrementReport found = way->near->solver(solver_.settings())
+                                          .solve(way->part, way->near->loads(multipliers));
+         if (!solves(found)) { return solver_.solve(state, multipliers); }
+         ContactState next = way->near->whole(state, way->part);
+         if (const int needed = touched(next, more); needed > 0)
+         {
+            more = needed;
+            break;
+         }
+         IncrementReport judged = solver_.judge(state, next);
+         if (solves(judged))
+         {
+            judged.found_by = found.found_by;
+            state = std::move(next);
+            return judged;
+         }
+         // Once more, with what round-off leaves at the end.
+         way->part = start;
+         if (last || !way->near->correct(next)) { return solver_.solve(state, multipliers); }
+      }
    }
    return solver_.solve(state, multipliers);
 }

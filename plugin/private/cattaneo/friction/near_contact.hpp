@@ -78,9 +78,13 @@ public:
    Index node(Index near) const { return nodes_[near]; }
    /// Of the whole problem's multipliers.
    Eigen::VectorXd loads(const Eigen::VectorXd &multipliers) const;
-   /// None if the nodes that are left out bear something.
+   /// Makes up for what round-off leaves at a state. False, and nothing done, if nodes that are
+   /// left out bear something there.
+   bool correct(const ContactState &whole);
+   /// The same, and the near nodes' part of the state.
    std::optional<ContactState> part(const ContactState &whole);
-   /// How often it was asked for a part: the loads hold for the last one, and what comes of it.
+   /// How often it was corrected: the loads hold for the last state, and what comes of its
+   /// part.
    long parts() const { return parts_; }
    /// The state after `before` that has the part.
    ContactState whole(const ContactState &before, const ContactState &part) const;
