@@ -174,7 +174,7 @@ SmoothSolution solve(const SmoothProgramme &programme, const VectorXd &start, do
    {
       app->Options()->SetStringValue("hessian_approximation", "limited-memory");
    }
-   const ApplicationReturnStatus status = app->OptimizeTNLP(nlp);
+   const ApplicationReturnStatus status = optimize(*app, nlp);
    SmoothSolution solution = nlp->solution;
    const SmartPtr<SolveStatistics> statistics = app->Statistics();
    if (IsValid(statistics)) { solution.iterations = statistics->IterationCount(); }

@@ -273,7 +273,7 @@ NearContacts::NearContacts(FrictionSolver &solver)
 {
 }
 
-int NearContacts::eighths(const ContactState &state) const
+int NearContacts::eighths(const ContactState &state)
 {
    // What nothing holds may land anywhere.
    if (!worthwhile_ || free_motions(problem_, state.status).cols() > 0) { return 0; }

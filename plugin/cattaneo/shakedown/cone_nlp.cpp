@@ -395,7 +395,7 @@ ConeSolution run_ipopt(const ConeProgramme &programme, const ConeSettings &setti
       // The default would push every multiplier up to 1e-3 and spoil most of what is known.
       options->SetNumericValue("warm_start_mult_bound_push", 1e-9);
    }
-   const ApplicationReturnStatus status = app->OptimizeTNLP(nlp);
+   const ApplicationReturnStatus status = optimize(*app, nlp);
 
    ConeSolution solution = nlp->solution;
    const SmartPtr<SolveStatistics> statistics = app->Statistics();

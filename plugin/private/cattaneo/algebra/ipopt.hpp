@@ -26,9 +26,16 @@ inline Ipopt::SmartPtr<Ipopt::IpoptApplication> ipopt(double tolerance, int max_
    options.SetIntegerValue("max_iter", max_iterations);
    options.SetNumericValue("bound_relax_factor", 0);
    options.SetStringValue("nlp_scaling_method", "none");
-   // An empty file name: otherwise a file ipopt.opt in the working directory rules.
-   app->Initialize("");
    return app;
+}
+
+/// Solves with the options that it has by then.
+inline Ipopt::ApplicationReturnStatus optimize(Ipopt::IpoptApplication &app,
+                                               const Ipopt::SmartPtr<Ipopt::TNLP> &nlp)
+{
+   // An empty file name: otherwise a file ipopt.opt in the working directory rules.
+   const Ipopt::ApplicationReturnStatus status = app.Initialize("");
+   return status == Ipopt::Solve_Succeeded ? app.OptimizeTNLP(nlp) : status;
 }
 
 } // namespace cattaneo

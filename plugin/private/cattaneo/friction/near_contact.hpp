@@ -124,7 +124,7 @@ public:
       ContactState part;
    };
    /// Fewest eighths of the nodes for an increment from there; 0: only all nodes will do.
-   int eighths(const ContactState &state) const;
+   int eighths(const ContactState &state);
    /// None if so few do not work.
    std::optional<Way> set_out(const ContactState &state, int eighths);
    /// Eighths that have the nodes that lie beyond their gaps and are not among those given; 0:
@@ -141,7 +141,7 @@ private:
    FrictionSolver &solver_;
    const ReducedProblem &problem_;
    const bool worthwhile_;
-   mutable std::unique_ptr<FarFirst> far_; // made when first needed, as the next
+   std::unique_ptr<FarFirst> far_; // made when first needed, as the next
    std::unique_ptr<SymmetricProduct> times_K_;
    // Two are kept: an increment often begins with one and ends with the next.
    std::vector<std::pair<int, std::shared_ptr<NearContact>>> kept_;
