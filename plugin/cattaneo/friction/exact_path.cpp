@@ -183,57 +183,83 @@ bool ExactPath::find_rates(const ContactState &state, const VectorXd &multiplier
    return held_ < 0 || release_pivot();
 }
 
+/// What a node has left of its state, in forces: of its gap if it is open, else of its friction
+/// in a sense of slip, or for none of its pressure. Of rates: how fast that changes.
+double ExactPath::left(Index i, double sense) const
+{
+   const Index m = problem_.nodes() + i;
+   if (rates_.choice[i] == Choice::open) { return K_(m, m) * (u_[m] + problem_.gap[i]); }
+   return sense == 0 ? F_[m] : equations_.bound()[i].reserve(F_[i], F_[m], sense);
+}
+double ExactPath::rate(Index i, double sense) const
+{
+   const Index m = problem_.nodes() + i;
+   if (rates_.choice[i] == Choice::open) { return K_(m, m) * u_rate_[m]; }
+   if (sense == 0) { return F_rate_[m]; }
+   return equations_.bound()[i].slope(F_[m], sense) * F_rate_[m] + sense * F_rate_[i];
+}
+
+/// The boundaries that nodes may come to, as arguments of left(). Nodes that are on one have
+/// rates that lead away from it.
+template <class Visitor>
+void ExactPath::for_each_boundary(Visitor visit) const
+{
+   for (Index i = 0; i < problem_.nodes(); ++i)
+   {
+      const Choice choice = rates_.choice[i];
+      switch (choice)
+      {
+      case Choice::any:
+         break;
+      case Choice::held:
+         visit(i, 1);
+         visit(i, -1);
+         break;
+      case Choice::open:
+      case Choice::sliding:
+         visit(i, 0);
+         break;
+      case Choice::forward:
+      case Choice::backward:
+         if (slips(equations_.states()[i])) { visit(i, 0); }
+         else { visit(i, choice == Choice::forward ? -1 : 1); }
+         break;
+      }
+   }
+}
+
 /// Fraction of the rest of the piece until a node reaches a boundary of its state; 1: none
 /// does.
 double ExactPath::way_to_event()
 {
-   const Index n = problem_.nodes();
    double way = 1;
    event_ = -1;
-   // What is met at the very end, to round-off, is not an event of this piece: a node that
-   // comes back to its friction limit where the load turns has not slipped.
-   auto meet = [&](Index i, double value, double rate)
-   {
-      if (value + rate >= -noise_[i]) { return; }
-      const double to = std::max(value, 0.0) / -rate;
-      if (to < way)
+   for_each_boundary(
+      [&](Index i, double sense)
       {
+         // What is met at the very end, to round-off, is not an event of this piece: a node
+         // that comes back to its friction limit where the load turns has not slipped.
+         const double value = left(i, sense), change = rate(i, sense);
+         if (value + change >= -noise_[i]) { return; }
+         const double to = std::max(value, 0.0) / -change;
+         if (to >= way) { return; }
          way = to;
          event_ = i;
-      }
-   };
-   for (Index i = 0; i < n; ++i)
-   {
-      const double p = F_[n + i], p_rate = F_rate_[n + i];
-      const auto friction_exhausted = [&](double way)
-      {
-         const FrictionBound &bound = equations_.bound()[i];
-         meet(i, bound.reserve(F_[i], p, way), bound.slope(p, way) * p_rate + way * F_rate_[i]);
-      };
-      const Choice choice = rates_.choice[i];
-      switch (choice)
-      {
-      case Choice::any: // on the boundary: the rates lead away from it
-         break;
-      case Choice::open:
-         meet(i, K_(n + i, n + i) * (u_[n + i] + problem_.gap[i]),
-              K_(n + i, n + i) * u_rate_[n + i]);
-         break;
-      case Choice::held:
-         friction_exhausted(1);
-         friction_exhausted(-1);
-         break;
-      case Choice::sliding:
-         meet(i, p, p_rate);
-         break;
-      case Choice::forward:
-      case Choice::backward:
-         if (slips(equations_.states()[i])) { meet(i, p, p_rate); }
-         else { friction_exhausted(choice == Choice::forward ? -1 : 1); }
-         break;
-      }
-   }
+      });
    return way;
+}
+
+/// Fraction by which the way was too long, if a boundary was passed by more than round-off.
+double ExactPath::way_past_event() const
+{
+   double back = 0;
+   for_each_boundary(
+      [&](Index i, double sense)
+      {
+         const double value = left(i, sense), change = rate(i, sense);
+         if (value < -noise_[i] && change < 0) { back = std::max(back, value / change); }
+      });
+   return back;
 }
 
 namespace
@@ -282,13 +308,13 @@ bool ExactPath::advance(ContactState &state, double time, const VectorXd &multip
    const Index n = problem_.nodes();
    const VectorXd f = problem_.clamped_forces(state.multipliers);
    const VectorXd f_end = problem_.clamped_forces(multipliers);
-   const double peak =
-      std::max({state.peak_force, f.cwiseAbs().maxCoeff(), f_end.cwiseAbs().maxCoeff()});
    u_ = state.displacements();
    F_ = state.forces();
-   const VectorXd round_off = equations_.round_off(f, u_);
    // Of the present forces: what they grow to later says nothing about gaps of now.
-   const double present = std::max(state.peak_force, f.cwiseAbs().maxCoeff());
+   const double present = std::max(
+                   {state.peak_force, f.cwiseAbs().maxCoeff(), F_.cwiseAbs().maxCoeff()}),
+                peak = std::max(present, f_end.cwiseAbs().maxCoeff());
+   const VectorXd round_off = equations_.round_off(f, u_);
    noise_ = round_off.head(n).cwiseMax(round_off.tail(n));
    noise_ = noise_.cwiseMax(1e-13 * (present > 0 ? present : peak));
    rates_.b = f_end - f;
@@ -307,7 +333,7 @@ bool ExactPath::advance(ContactState &state, double time, const VectorXd &multip
    const std::size_t listed = changes.size();
    list_changes(state, states, changes);
 
-   const double way = way_to_event();
+   double way = way_to_event();
    // Where the present states hardly hold the bodies, round-off hides what is not balanced.
    if (equations_.round_off(way * rates_.b, way * u_rate_).maxCoeff() > 1e-6 * peak)
    {
@@ -323,33 +349,40 @@ bool ExactPath::advance(ContactState &state, double time, const VectorXd &multip
       if (closed(states[i])) { u_[n + i] = -problem_.gap[i]; }
    }
    F_ += way * F_rate_;
-   u_rate_ *= 1 - way; // the rest of the piece is shorter now
-   F_rate_ *= 1 - way;
-   const bool arrived = way == 1;
-   state.multipliers =
-      arrived ? multipliers
-              : VectorXd(state.multipliers + way * (multipliers - state.multipliers));
+   const auto loads = [&]
+   {
+      return way == 1 ? multipliers
+                      : VectorXd(state.multipliers + way * (multipliers - state.multipliers));
+   };
    // Round-off gathers over events, and where displacements have become small that of large
    // ones stays: the states' own equations remove it.
-   const VectorXd clamped = problem_.clamped_forces(state.multipliers);
+   const VectorXd clamped = problem_.clamped_forces(loads());
    const VectorXd forces = clamped + equations_.forces(u_);
    const VectorXd drift = (forces - F_).cwiseAbs() - 0.5 * equations_.round_off(clamped, u_);
    const bool drifted = drift.maxCoeff() > 0;
    VectorXd correction, corrected;
    // A step may be so short that what is removed would turn its slip, which is an error of
    // displacements that are as right without it.
-   if ((arrived || drifted) && equations_.solve(forces, correction, corrected) &&
+   if ((way == 1 || drifted) && equations_.solve(forces, correction, corrected) &&
        (drifted || !turns(step, correction, states)))
    {
       u_ += correction;
       F_ = corrected;
+      // What hardly resists a turn turns by more than that: the event comes before it.
+      const double back = std::min(way, way_past_event());
+      way -= back;
+      u_ -= back * u_rate_;
+      F_ -= back * F_rate_;
    }
+   u_rate_ *= 1 - way; // the rest of the piece is shorter now
+   F_rate_ *= 1 - way;
+   state.multipliers = loads();
    reached_ = state.multipliers;
    target_ = multipliers;
-   state.time = arrived ? time : state.time + way * (time - state.time);
+   state.time = way == 1 ? time : state.time + way * (time - state.time);
    // The loads of the rest of the piece are still to come.
    state.peak_force =
-      std::max({state.peak_force, f.cwiseAbs().maxCoeff(),
+      std::max({present, F_.cwiseAbs().maxCoeff(),
                 problem_.clamped_forces(state.multipliers).cwiseAbs().maxCoeff()});
    state.status = states;
    state.v = u_.head(n);

@@ -40,7 +40,7 @@ struct FrictionSettings
 {
    FrictionMethod method = FrictionMethod::automatic; ///< the other one is for comparison
    /// Largest violation of an equation or a law over the largest nodal force so far (of the
-   /// loads with the contact clamped, of initial slip or interference).
+   /// loads with the contact clamped, of the contact, of initial slip or interference).
    /// Where round-off is larger than this, round-off is the limit (reported).
    double tolerance = 1e-12;
    int sweeps = 2;       ///< Gauss–Seidel sweeps before the first active-set attempt

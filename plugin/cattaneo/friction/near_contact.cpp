@@ -255,7 +255,8 @@ ContactState NearContact::whole(const ContactState &before, const ContactState &
    std::fill(next.status.begin(), next.status.end(), NodeState::separation);
    for (std::size_t k = 0; k < nodes_.size(); ++k) { next.status[nodes_[k]] = part.status[k]; }
    next.peak_force = std::max({before.peak_force, largest_entry(f),
-                               largest_entry(whole_.clamped_forces(before.multipliers))});
+                               largest_entry(whole_.clamped_forces(before.multipliers)),
+                               largest_entry(next.forces())});
    return next;
 }
 

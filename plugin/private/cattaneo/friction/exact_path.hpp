@@ -53,7 +53,12 @@ private:
    bool hold_pivot(std::vector<NodeState> states);
    bool release_pivot();
    bool find_rates(const ContactState &state, const Eigen::VectorXd &multipliers);
+   double left(Eigen::Index node, double sense) const;
+   double rate(Eigen::Index node, double sense) const;
+   template <class Visitor>
+   void for_each_boundary(Visitor visit) const;
    double way_to_event();
+   double way_past_event() const;
 
    const ReducedProblem &problem_;
    const Eigen::MatrixXd &K_; // the problem's
