@@ -2,7 +2,6 @@
 #include <cattaneo/algebra/lapack.hpp>
 #include <cattaneo/algebra/symmetric_matrix.hpp>
 #include <cmath>
-#include <limits>
 
 namespace cattaneo
 {
@@ -11,19 +10,21 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 /// Two blocks are in the nearest memory together.
-static constexpr Index block_width = 32;
+static constexpr int block_width = 32;
+using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor,
+                            block_width, block_width>;
 
 void mirror_lower(Eigen::Ref<MatrixXd> M)
 {
    const Index n = M.rows();
    for (Index j = 0; j < n; j += block_width)
    {
-      const Index columns = std::min(block_width, n - j);
+      const Index columns = std::min<Index>(block_width, n - j);
       auto diagonal = M.block(j, j, columns, columns);
       diagonal.triangularView<Eigen::StrictlyUpper>() = diagonal.transpose();
       for (Index i = j + columns; i < n; i += block_width)
       {
-         const Index rows = std::min(block_width, n - i);
+         const Index rows = std::min<Index>(block_width, n - i);
          M.block(j, i, columns, rows) = M.block(i, j, rows, columns).transpose();
       }
    }
@@ -36,14 +37,15 @@ double largest_skew(const Eigen::Ref<const MatrixXd> &A, const Eigen::Ref<const 
    double largest = 0;
    for (Index j = 0; j < A.cols(); j += block_width)
    {
-      const Index columns = std::min(block_width, A.cols() - j);
+      const Index columns = std::min<Index>(block_width, A.cols() - j);
       for (Index i = one ? j : 0; i < A.rows(); i += block_width)
       {
-         const Index rows = std::min(block_width, A.rows() - i);
-         const Eigen::ArrayXXd off =
+         const Index rows = std::min<Index>(block_width, A.rows() - i);
+         const Block off =
             A.block(i, j, rows, columns) - B.block(j, i, columns, rows).transpose();
-         if (off.isNaN().any()) { return std::numeric_limits<double>::quiet_NaN(); }
-         largest = std::max(largest, off.abs().maxCoeff());
+         const double most = off.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+         if (std::isnan(most)) { return most; }
+         largest = std::max(largest, most);
       }
    }
    return largest;
@@ -74,7 +76,7 @@ void remove_motions(MatrixXd &S, const MatrixXd &Q)
    const Index n = S.rows();
    for (Index j = 0; j < n && Q.cols() > 0; j += block_width)
    {
-      const Index columns = std::min(block_width, n - j), rows = n - j;
+      const Index columns = std::min<Index>(block_width, n - j), rows = n - j;
       S.block(j, j, rows, columns) +=
          Q.bottomRows(rows).lazyProduct(W.middleRows(j, columns).transpose()) +
          W.bottomRows(rows).lazyProduct(Q.middleRows(j, columns).transpose());

@@ -1,4 +1,5 @@
 #include <cattaneo/algebra/nonnegative_fit.hpp>
+#include <cattaneo/algebra/symmetric_matrix.hpp>
 #include <cattaneo/friction/mechanism.hpp>
 #include <cmath>
 #include <vector>
@@ -66,7 +67,8 @@ Mechanism find_mechanism(const ReducedProblem &problem, const std::vector<Fricti
    // What the motions lack to be rigid does work too. The least squares are solved to 1e-13 of
    // the slope; r goes as its root where edges are only approached.
    const MatrixXd &K = problem.K;
-   const double lack = (K * Z).cwiseAbs().maxCoeff() / K.cwiseAbs().maxCoeff();
+   const double lack =
+      symmetric_times(K, Z).cwiseAbs().maxCoeff() / K.diagonal().cwiseAbs().maxCoeff();
    const double least = (c == 2 ? 1e-5 : std::max(1e-12, 100 * lack)) * g.norm();
    bool proven = c == 1 && proves(fit, G);
    for (int round = 0; c == 2 && round < 50 && !proven && r.norm() > least; ++round)

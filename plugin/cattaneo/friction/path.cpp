@@ -33,14 +33,20 @@ Search path(Increment &at)
    // Small departures follow the physical path; larger ones pass by its dead ends.
    const double slacks[] = {1e-3, 1e-2, 0.1, 1, 10, 1, 0.1, 1};
    unsigned seed = 0;
+   if (!s.coupled_equations)
+   {
+      s.coupled_equations = std::make_unique<StateEquations>(s.K, s.bound);
+   }
+   StateEquations &equations = *s.coupled_equations;
    for (double slack : slacks)
    {
-      StateEquations equations(s.K, s.bound);
+      const long factorisations = equations.factorisations();
+      equations.begin();
       if (!equations.set(states)) { states.assign(n, NodeState::stick); }
       const ComplementarityReport found =
          solve_by_path(equations, increment, x, forces, slack, ++seed);
       s.counters.pivots += found.pivots;
-      s.counters.dense_factorisations += equations.factorisations();
+      s.counters.dense_factorisations += equations.factorisations() - factorisations;
       if (!found.solved) { continue; }
       at.take(stuck + found.x, equations.states());
       if (polished(at)) { return Search::found; }

@@ -261,6 +261,26 @@ bool StateEquations::set(const std::vector<NodeState> &states)
    return false;
 }
 
+VectorXd StateEquations::forces_again(const VectorXd &x)
+{
+   std::vector<Index> changed;
+   for (Index row = 0; row < base_.size(); ++row)
+   {
+      if (x[row] != base_[row]) { changed.push_back(row); }
+   }
+   // A column is read from memory in whole, half of K for all of them.
+   const bool few = 4 * static_cast<Index>(changed.size()) <= base_.size();
+   if (base_.size() == 0 || !few)
+   {
+      base_ = x;
+      base_forces_ = times_K_(x);
+      return base_forces_;
+   }
+   VectorXd F = base_forces_;
+   for (const Index row : changed) { F += (x[row] - base_[row]) * K_.col(row); }
+   return F;
+}
+
 /// Takes from x what the forces of the equations amount to.
 void StateEquations::step(const VectorXd &F, VectorXd &x) const
 {

@@ -53,7 +53,8 @@ bool solve_equations(FrictionSystem &system, std::unique_ptr<StateEquations> &eq
    {
       const VectorXd from = u;
       VectorXd x;
-      solved = equations->solve(f + equations->forces(from), x, forces);
+      const VectorXd stiff = again ? equations->forces(from) : equations->forces_again(from);
+      solved = equations->solve(f + stiff, x, forces);
       if (solved) { u += x; }
       done = again || !solved || !cancels(equations->diagonal(), from, u);
    }

@@ -54,7 +54,11 @@ public:
 
    /// Lets what was factored or bordered before leave no trace, to the last bit, in what
    /// follows: the next set() keeps the factor only if it is that of its states.
-   void begin() { anew_ = true; }
+   void begin()
+   {
+      anew_ = true;
+      base_.resize(0);
+   }
 
    /// Solves for x and F, both of the size of K, refined to round-off. False if they are not
    /// finite.
@@ -75,6 +79,9 @@ public:
 
    /// K x
    Eigen::VectorXd forces(const Eigen::VectorXd &x) const { return times_K_(x); }
+   /// K x, with only the columns of K where x is not what it was in an earlier call since
+   /// begin(), if these are few.
+   Eigen::VectorXd forces_again(const Eigen::VectorXd &x);
 
    long factorisations() const { return factorisations_; }
    /// Unknowns bordered.
@@ -120,6 +127,7 @@ private:
    const RoundOff arithmetic_;
    std::vector<NodeState> states_;
    std::vector<bool> held_;
+   Eigen::VectorXd base_, base_forces_; // forces_again(): of a call before
    Eigen::VectorXd constant_; // of each row's equation, what of the bound does not go with p
 
    DenseLU lu_;                        // of M₀
