@@ -89,9 +89,10 @@ void stand_on_half_plane(OwnBodies &own, std::vector<CondensedBody> bodies,
    for (const CondensedBody &body : bodies)
    {
       if (!relative) { break; }
-      const double most = below.symmetric ? held_share(body, normal)
-                                          : std::max(held_share(body, Eigen::Vector2d(1, 0)),
-                                                     held_share(body, Eigen::Vector2d(0, 1)));
+      const double most = below.is_symmetric()
+                             ? held_share(body, normal)
+                             : std::max(held_share(body, Eigen::Vector2d(1, 0)),
+                                        held_share(body, Eigen::Vector2d(0, 1)));
       require(most < 1e-7, "half-plane: supports or prescribed displacements hold body ",
               body.name.empty() ? "1" : body.name,
               " against it, whose displacements are relative to a depth: ",

@@ -135,6 +135,10 @@ void OwnHistory::check_options()
    cattaneo::require(cycles_ <= 1 || cycle_start_ >= 0, "option --cycles is ", cycles_,
                      ", but the history has no cycle: option --cycle-start must say at which "
                      "of its points one starts");
+   cattaneo::require(!study_.options().says("history") ||
+                        text_.find_first_not_of("; \t\n") != std::string::npos,
+                     "option --history has no point, must have one at least, as 'P=1' (without "
+                     "the option: all loads from 0 to 1)");
    settings.stepping = stepping(stepping_);
    if (frames_ != "all") { wanted_ = numbers("--frames", frames_); }
    std::sort(wanted_.begin(), wanted_.end());

@@ -15,6 +15,7 @@ namespace
 
 CATTANEO_ARGUMENT(AnyBody, "NodalStiffness | HalfPlane");
 CATTANEO_ARGUMENT(LineOrGrid, "ContactLine | numpy.typing.ArrayLike");
+CATTANEO_ARGUMENT(MaybeFlag, "bool | None");
 CATTANEO_ARGUMENT(FarForces, "None | collections.abc.Mapping[str, numpy.typing.ArrayLike]");
 
 const std::vector<std::string> formulations = {"plane", "axisymmetric", "torsion"};
@@ -86,11 +87,15 @@ void bind_half_planes(nb::module_ &m)
       .def(
          "__init__",
          [](HalfPlane *self, Of<Material> material, Number depth, Numbers point, Numbers normal,
-            Flag symmetric, FarForces forces)
+            MaybeFlag symmetric, FarForces forces)
          {
-            HalfPlane body{given(material, "material"),  number(depth, "depth"),
-                           vector(point, "point", 2),    vector(normal, "normal", 2),
-                           flag(symmetric, "symmetric"), {}};
+            HalfPlane body{given(material, "material"),
+                           number(depth, "depth"),
+                           vector(point, "point", 2),
+                           vector(normal, "normal", 2),
+                           {},
+                           {}};
+            if (!symmetric.is_none()) { body.symmetric = flag(symmetric, "symmetric"); }
             if (!forces.is_none())
             {
                if (!nb::isinstance<nb::dict>(forces))
@@ -106,12 +111,14 @@ void bind_half_planes(nb::module_ &m)
             new (self) HalfPlane(std::move(body));
          },
          arg("material"), arg("depth") = 0.0, arg("point") = nb::make_tuple(0.0, 0.0),
-         arg("normal") = nb::make_tuple(0.0, -1.0), arg("symmetric") = false,
+         arg("normal") = nb::make_tuple(0.0, -1.0), arg("symmetric") = nb::none(),
          arg("forces") = nb::none(),
          "depth: of the plane, > 0: displacements are relative to the point at this depth "
          "below "
          "each force; what given forces do to a contact does not depend on it. At least twice "
          "the length of the contact; 1e4 times is fine.\n"
+         "symmetric: of the plane, that the line through the point along the normal is one of "
+         "symmetry (half a model). It must be said where a contact line ends at a held node.\n"
          "point: of the surface. normal: into the half-plane, a unit vector.\n"
          "forces: by name, (x, y), from far away; without any it is held.")
       .def_ro("material", &HalfPlane::material)

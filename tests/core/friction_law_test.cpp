@@ -665,4 +665,16 @@ TEST(ContactStates, AreOfTheProblemTheyWereSolvedIn)
    expect_input_error([&] { state.require_of(other); }, "another reduced problem");
    ContactState::with_slip(problem, Eigen::Vector4d(0.1, 0, -0.2, 0)).require_of(problem);
    ContactState::virgin(problem).require_of(other);
+   // Loads that change places are others, and no node is to be blamed for it.
+   ReducedProblem turned = problem;
+   std::swap(turned.patterns[0], turned.patterns[1]);
+   const std::string file = ::testing::TempDir() + "contact_states.json";
+   save(state, file);
+   const ContactState saved = load_contact_state(file);
+   EXPECT_EQ(saved.loads, problem.load_names());
+   saved.require_of(problem);
+   expect_input_error([&] { saved.require_of(turned); },
+                      "contact state: its loads are " + problem.patterns[0].name + ", " +
+                         problem.patterns[1].name + ", those of the reduced problem " +
+                         problem.patterns[1].name + ", " + problem.patterns[0].name);
 }

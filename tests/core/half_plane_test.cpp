@@ -738,6 +738,13 @@ TEST(HalfPlane, BadInputIsNamed)
    { expect_input_error([&] { condense(body, on); }, says); };
    const HalfPlane good = half_plane(1, 0.3);
    HalfPlane bad = good;
+   // What ends at a held node may be half a model, or be held by a wall.
+   ContactLine ends = line;
+   ends.chains[0].ends[1] = LineEnd::symmetry;
+   refused(bad, ends, "is held along the surface, where the contact ends");
+   bad.symmetric = false;
+   EXPECT_NO_THROW(condense(bad, ends));
+   bad = good;
    bad.depth = 0;
    refused(bad, line,
            "depth 0, must be stated and at least twice the length of the contact, 4");

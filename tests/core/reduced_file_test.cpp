@@ -168,25 +168,23 @@ TEST(ReducedFile, EveryFieldIsReadAndWrittenAgain)
       EXPECT_EQ(problem.rigid_motions.cols(), 0);
    }
    // The first format had no facts: the motion is found, and one chain is taken for granted.
-   for (const std::string &content :
-        {text(1, fields), text(1, std::string(fields) + facts + motion)})
+   const ReducedProblem old = read(text(1, fields));
+   expect_fields(old);
+   EXPECT_TRUE(old.held.empty());
+   for (const ReducedProblem &problem : {old, again(old)})
    {
-      const ReducedProblem old = read(content);
-      expect_fields(old);
-      EXPECT_TRUE(old.held.empty());
-      for (const ReducedProblem &problem : {old, again(old)})
-      {
-         ASSERT_EQ(problem.chains.size(), 1u);
-         EXPECT_EQ(problem.chains[0].first, 0);
-         EXPECT_EQ(problem.chains[0].nodes, 2);
-         EXPECT_EQ(problem.chains[0].bodies, (std::array<int, 2>{0, -1}));
-         ASSERT_EQ(problem.rigid_motions.cols(), 1);
-         EXPECT_LT((problem.rigid_motions * problem.rigid_motions.transpose() -
-                    together * together.transpose())
-                      .norm(),
-                   1e-14);
-      }
+      ASSERT_EQ(problem.chains.size(), 1u);
+      EXPECT_EQ(problem.chains[0].first, 0);
+      EXPECT_EQ(problem.chains[0].nodes, 2);
+      EXPECT_EQ(problem.chains[0].bodies, (std::array<int, 2>{0, -1}));
+      ASSERT_EQ(problem.rigid_motions.cols(), 1);
+      EXPECT_LT((problem.rigid_motions * problem.rigid_motions.transpose() -
+                 together * together.transpose())
+                   .norm(),
+                1e-14);
    }
+   expect_input_error([&] { read(text(1, std::string(fields) + facts + motion)); },
+                      "reduced problem 1' has the key '");
    save(present, file);
    std::string written;
    std::getline(std::ifstream(file), written, '\0');
@@ -207,7 +205,14 @@ TEST(ReducedFile, SaysWhichFactIsWrong)
       expect_input_error([&] { read(content); }, said);
    };
    refused("problem 2", "problem 4", "is not a 'cattaneo reduced problem 2' (or 1, or 3)");
-   refused("problem 2", "problem 3", "'laws' not found");
+   refused("problem 2", "problem 3", "lacks the key 'laws'");
+   refused("\"held\": [1]", "\"held\": [1.0]", "a held row is 1.0, must be a whole number");
+   refused("\"held\": [1]", "\"held\": [1, 1]", "row 1 of A is said to be held twice");
+   refused("\"held\": [1]", "\"held\": [1], \"held\": [1]", "has the key \"held\" twice");
+   refused(", \"bodies\": [1, 0]", ", \"body\": 1, \"bodies\": [1, 0]",
+           "a chain has the key 'body'");
+   refused("\"displacement\": ", "\"dispalcement\": true, \"displacement\": ",
+           "a load pattern has the key 'dispalcement'");
    refused("[\"smooth\", \"corner\"]", "[\"smooth\", \"bend\"]", "a line that ends 'bend'");
    refused("\"held\": [1],", "", "held");
    refused("\"coupled\": true,", "", "coupled");
@@ -368,6 +373,16 @@ TEST(ReducedFile, RefusesWhatIsNoProblem)
            });
    refused("weights", [](ReducedProblem &p) { p.weights = Eigen::VectorXd::Ones(4); });
    refused("arc_length", [](ReducedProblem &p) { p.arc_length = Eigen::VectorXd::Ones(6); });
+   refused(
+      "arc_length of node 3 is 1, must be above that of the node before it in its chain, 2",
+      [](ReducedProblem &p)
+      {
+         p.chains = one_chain(5);
+         p.arc_length.resize(5);
+         p.arc_length << 0, 1, 2, 1, 3;
+      });
+   refused("a load pattern has an empty name",
+           [](ReducedProblem &p) { p.patterns[1].name = ""; });
    refused("position", [](ReducedProblem &p) { p.position = Eigen::MatrixXd::Ones(5, 3); });
    refused("dofs", [](ReducedProblem &p) { p.dofs = Eigen::MatrixXi::Zero(5, 3); });
    refused("two load patterns are named 'press'",

@@ -86,6 +86,10 @@ std::shared_ptr<const FactoredStiffness> factored(const AssembledBody &body,
    {
       made->shift += body.K.diagonal(dof) / static_cast<double>(contact.size());
    }
+   require(made->shift >= 0, "condense: the stiffness of the contact nodes is negative, ",
+           made->shift,
+           " in the mean of its diagonal; forces that displacements take are K u, "
+           "with K positive semidefinite: its sign may be the other");
    try
    {
       made->factor =

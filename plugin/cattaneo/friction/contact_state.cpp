@@ -1,5 +1,6 @@
 #include <cattaneo/friction/contact_state.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/words.hpp>
 #include <cmath>
 
 namespace cattaneo
@@ -62,6 +63,7 @@ ContactState ContactState::with_slip(const ReducedProblem &problem, const Eigen:
       state.status[i] = problem.gap[i] > 0 ? NodeState::separation : NodeState::stick;
    }
    state.multipliers = Eigen::VectorXd::Zero(problem.patterns.size());
+   state.loads = problem.load_names();
    return state;
 }
 
@@ -111,6 +113,9 @@ void ContactState::validate(const ReducedProblem &problem) const
            "contact state: it has ", status.size(), " nodes and ", multipliers.size(),
            " load multipliers, the reduced problem has ", n, " nodes and ", patterns,
            " load patterns");
+   require(loads.empty() || loads == problem.load_names(), "contact state: its loads are ",
+           listed(loads), ", those of the reduced problem ", listed(problem.load_names()),
+           ", must be the same in the same order");
    for (const Eigen::VectorXd &slip : cycle_slip)
    {
       require(slip.size() == m, "contact state: the slip at the end of a cycle has ",

@@ -56,10 +56,12 @@ struct ContactState
    Eigen::VectorXd slip_origin;
    std::vector<NodeState> status; ///< of each node, at the end of the last increment
    Eigen::VectorXd multipliers;   ///< of the load patterns
-   double time = 0.0;             ///< of the load history
-   double step = 0.0;             ///< next trial increment of time; 0: not chosen yet
-   double peak_force = 0.0;       ///< of a node so far, see FrictionSettings::tolerance
-   double dissipation = 0.0;      ///< frictional energy lost so far
+   /// Names of these patterns; none: those of the problem that the state is used with.
+   std::vector<std::string> loads;
+   double time = 0.0;        ///< of the load history
+   double step = 0.0;        ///< next trial increment of time; 0: not chosen yet
+   double peak_force = 0.0;  ///< of a node so far, see FrictionSettings::tolerance
+   double dissipation = 0.0; ///< frictional energy lost so far
    /// Slip at the end of the last two cycles (the latest last), to recognise a steady state.
    std::vector<Eigen::VectorXd> cycle_slip;
    /// What the cycle under way came to so far, so that a march that is taken up within a cycle

@@ -69,6 +69,7 @@ nlohmann::json to_json(const ContactState &state)
 {
    state.require_finite(); // else it would be written as null
    nlohmann::json j = state;
+   if (!state.loads.empty()) { j["loads"] = state.loads; }
    if (state.cycle) { j["cycle"] = *state.cycle; }
    j["format"] = format_name;
    return j;
@@ -82,6 +83,7 @@ ContactState contact_state(const nlohmann::json &j, const std::string &file)
               "', must be 0 to 4");
    }
    auto state = j.get<ContactState>();
+   if (j.contains("loads")) { j["loads"].get_to(state.loads); }
    if (j.contains("cycle")) { state.cycle = j["cycle"].get<CycleRecord>(); }
    return state;
 }

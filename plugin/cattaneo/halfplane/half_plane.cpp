@@ -102,7 +102,7 @@ ContactLine surface_line(const ContactLine &other, const Surface &surface)
       const auto end = [&](const LineElement &element, Index a)
       {
          const bool on_plane =
-            surface.body.symmetric && surface.along(element.points.col(a)) == 0;
+            surface.body.is_symmetric() && surface.along(element.points.col(a)) == 0;
          return element.nodes[a] < 0 || on_plane ? LineEnd::symmetry : LineEnd::smooth;
       };
       chain.ends = {end(chain.elements.front(), 0),
@@ -168,7 +168,7 @@ double least_eigenvalue(const DenseCholesky &factor, const VectorXd &diagonal)
 MatrixXd translations(const HalfPlane &body, Formulation formulation)
 {
    if (formulation != Formulation::plane) { return Eigen::Vector2d(0, 1); }
-   if (body.symmetric) { return body.normal; }
+   if (body.is_symmetric()) { return body.normal; }
    return Eigen::Matrix2d::Identity();
 }
 
@@ -213,20 +213,22 @@ void HalfPlane::validate(Formulation formulation) const
    require(point.allFinite(), "half-plane: the point of its surface is ", point,
            ", must be finite");
    require(std::abs(normal.norm() - 1) <= 1e-9 &&
-              (plane ? !symmetric || normal[0] == 0 || normal[1] == 0 : normal[0] == 0),
+              (plane ? !is_symmetric() || normal[0] == 0 || normal[1] == 0 : normal[0] == 0),
            "half-plane: the normal of its surface is ", normal, ", must be of length 1",
            plane ? "" : " and along the axis",
-           plane && symmetric ? ", and horizontal or vertical beside a plane of symmetry" : "");
-   require(plane || !symmetric, "half-plane: a plane of symmetry is said of a half-space about "
-                                "an axis, is for the plane alone");
+           plane && is_symmetric() ? ", and horizontal or vertical beside a plane of symmetry"
+                                   : "");
+   require(plane || !is_symmetric(),
+           "half-plane: a plane of symmetry is said of a half-space about "
+           "an axis, is for the plane alone");
    for (const FarForce &load : forces)
    {
       const Eigen::Vector2d &F = load.force;
       require(!load.pattern.empty(), "half-plane: a far force has no pattern, must name one");
-      require(F.allFinite() && ((plane && !symmetric) || F.dot(tangent(*this)) == 0),
+      require(F.allFinite() && ((plane && !is_symmetric()) || F.dot(tangent(*this)) == 0),
               "half-plane: the far force of the pattern '", load.pattern, "' is ", F,
               ", must be finite",
-              plane && !symmetric ? "" : " and along the normal of the surface");
+              plane && !is_symmetric() ? "" : " and along the normal of the surface");
       require(std::count_if(forces.begin(), forces.end(),
                             [&](const FarForce &other)
                             { return other.pattern == load.pattern; }) == 1,
@@ -239,6 +241,19 @@ CondensedBody condense(const HalfPlane &body, const ContactLine &other)
 {
    body.validate(other.formulation);
    other.validate();
+   for (const LineChain &chain : other.chains)
+   {
+      for (const std::size_t end : {0, 1})
+      {
+         const LineNode &last = other.nodes[chain.first + (end ? chain.nodes - 1 : 0)];
+         require(body.symmetric || other.formulation != Formulation::plane || chain.loop ||
+                    chain.ends[end] != LineEnd::symmetry,
+                 "half-plane: the contact node at ", last.position,
+                 " is held along the surface, where the contact ends: for half a model its "
+                 "plane of symmetry must be said (symmetric = true, with `point` on it), and "
+                 "that there is none otherwise (symmetric = false)");
+      }
+   }
    const Surface surface(body, other);
    CondensedBody result;
    result.line = surface_line(other, surface);
@@ -251,7 +266,7 @@ CondensedBody condense(const HalfPlane &body, const ContactLine &other)
    const bool torsion = formulation == Formulation::torsion;
    const Flexibility F =
       formulation == Formulation::plane
-         ? plane_flexibility(trace, body.material, body.depth, body.symmetric)
+         ? plane_flexibility(trace, body.material, body.depth, body.is_symmetric())
       : torsion ? torsion_flexibility(trace, body.material)
                 : axisymmetric_flexibility(trace, body.material, -tangent(body)[0]);
    const Eigen::SparseMatrix<double> mass = trace.mass(
@@ -267,7 +282,7 @@ CondensedBody condense(const HalfPlane &body, const ContactLine &other)
       {
          const bool on_axis = i == n, normal = c == 1 || torsion;
          const bool on_plane =
-            !on_axis && body.symmetric && surface.along(line.nodes[i].position) == 0;
+            !on_axis && body.is_symmetric() && surface.along(line.nodes[i].position) == 0;
          const auto row = static_cast<int>(c * n + i);
          if (on_plane && !normal) { result.held.push_back(row); }
          if ((on_axis || on_plane) && !normal) { continue; }

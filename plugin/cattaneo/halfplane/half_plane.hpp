@@ -2,6 +2,7 @@
 
 #include <cattaneo/material.hpp>
 #include <cattaneo/reduced/interfaces.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,8 +32,11 @@ struct HalfPlane
    Eigen::Vector2d point{0, 0};   ///< of the surface; on the axis of symmetry, if there is one
    Eigen::Vector2d normal{0, -1}; ///< into the half-plane, a unit vector
    /// Of the plane: the line through `point` along the normal is one of symmetry, and contact
-   /// lies on one side of it. The surface must be horizontal or vertical.
-   bool symmetric = false;
+   /// lies on one side of it. The surface must be horizontal or vertical. Not said: there is no
+   /// such line; but where a contact line ends at a node that its body holds along the surface,
+   /// as half a model does, it must be said.
+   std::optional<bool> symmetric = {};
+   bool is_symmetric() const { return symmetric.value_or(false); }
    /** With none it is held: at its depth, in axisymmetry at infinity. With some it goes,
        without turning, where they and the contact take it: load patterns, whose conjugates are
        its displacements there. Beside a plane of symmetry they act along the normal. None of

@@ -53,7 +53,8 @@ struct HalfPlaneField::Tractions
       for (int i = 0; i < n; ++i)
       {
          all.push_back(i);
-         const bool on_plane = body.symmetric && surface.along(line.nodes[i].position) == 0;
+         const bool on_plane =
+            body.is_symmetric() && surface.along(line.nodes[i].position) == 0;
          if (!on_plane) { sliding.push_back(i); }
       }
       q = tractions(mass, forces.head(n), sliding);
@@ -139,7 +140,7 @@ HalfPlaneField::Point HalfPlaneField::at(const Vector2d &position) const
    require(from.dot(n) >= -surface, "field of a half-plane: the point ", position,
            " is above its surface, must be on or below it");
    Sums s = tractions_->sums(x, y);
-   if (body.symmetric) // its mirror image
+   if (body.is_symmetric()) // its mirror image
    {
       const Sums other = tractions_->sums(-x, y);
       s = {s.ux - other.ux, s.uy + other.uy, s.xx + other.xx, s.yy + other.yy, s.xy - other.xy};

@@ -36,11 +36,11 @@ mfem::Mesh window(const HalfPlane &body, const ContactLine &line)
    }
    x.back() = to;
    const double nothing = 1e-9 * length;
-   if (!body.symmetric || std::abs(to) > nothing)
+   if (!body.is_symmetric() || std::abs(to) > nothing)
    {
       x = joined({x, graded(to, to + beyond, smallest, growth)});
    }
-   if (!body.symmetric || std::abs(from) > nothing)
+   if (!body.is_symmetric() || std::abs(from) > nothing)
    {
       std::vector<double> before = graded(from, from - beyond, smallest, growth);
       std::reverse(before.begin(), before.end());

@@ -4,7 +4,9 @@
 #include <cattaneo/reduced/reduced_file.hpp>
 #include <cattaneo/whole_file.hpp>
 #include <cattaneo/words.hpp>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace cattaneo
 {
@@ -163,21 +165,34 @@ void save(const ReducedProblem &problem, const std::string &file)
 namespace
 {
 
-/// A key that is not known would be passed over without a word, laws of friction in a file of
-/// format 2 among them.
-void require_known_keys(const nlohmann::json &j, bool with_laws, const std::string &file)
+/// What a file is expected to have; a key that is not known would be passed over without a
+/// word, laws of friction in a file of format 2 among them.
+void require_known_keys(const nlohmann::json &j, const std::vector<std::string> &known,
+                        const std::string &of)
 {
-   std::vector<std::string> known = {
-      "format",  "A",         "B",        "C",       "H",    "gap",    "friction",
-      "weights", "patterns",  "position", "coupled", "held", "chains", "rigid_motions",
-      "dofs",    "arc_length"};
-   if (with_laws) { known.emplace_back("laws"); }
    for (const auto &item : j.items())
    {
       require(std::find(known.begin(), known.end(), item.key()) != known.end(),
-              "reduced problem: file '", file, "' has the key '", item.key(), "', of '",
-              j.at("format").get<std::string>(), "' must be one of ", cattaneo::listed(known));
+              "reduced problem: ", of, " has the key '", item.key(), "', must be one of ",
+              cattaneo::listed(known));
    }
+}
+
+/// InputError for a key that is there twice: the JSON library would keep the last.
+nlohmann::json parsed(const std::string &text, const std::string &file)
+{
+   std::map<int, std::set<std::string>> names; // so far, of the object at a depth
+   const auto once =
+      [&](int depth, nlohmann::json::parse_event_t event, const nlohmann::json &name)
+   {
+      using Event = nlohmann::json::parse_event_t;
+      if (event == Event::object_start) { names[depth + 1].clear(); }
+      require(event != Event::key || names[depth].insert(name).second,
+              "reduced problem: file '", file, "' has the key ", name.dump(),
+              " twice, must have it once");
+      return true;
+   };
+   return nlohmann::json::parse(text, once);
 }
 
 } // namespace
@@ -187,11 +202,17 @@ ReducedProblem load_reduced_problem(const std::string &file)
    ReducedProblem problem;
    try
    {
-      const nlohmann::json j = nlohmann::json::parse(read_whole(file, "reduced problem: "));
+      const nlohmann::json j = parsed(read_whole(file, "reduced problem: "), file);
       const bool first = j.at("format") == format_1, with_laws = j.at("format") == format_laws;
       require(first || with_laws || j.at("format") == format_name, "reduced problem: file '",
               file, "' is not a '", format_name, "' (or 1, or 3)");
-      require_known_keys(j, with_laws, file);
+      std::vector<std::string> keys = {"format",   "A",        "B",        "C",
+                                       "H",        "gap",      "friction", "weights",
+                                       "patterns", "position", "dofs",     "arc_length"};
+      if (!first) { keys.insert(keys.end(), {"coupled", "held", "chains", "rigid_motions"}); }
+      if (with_laws) { keys.emplace_back("laws"); }
+      require_known_keys(j, keys,
+                         "file '" + file + "' of '" + j.at("format").get<std::string>() + "'");
       Eigen::MatrixXd A, B, C;
       from_json(j.at("A"), A);
       from_json(j.at("B"), B);
@@ -204,6 +225,7 @@ ReducedProblem load_reduced_problem(const std::string &file)
       from_json(j.at("dofs"), problem.dofs);
       for (const nlohmann::json &p : j.value("patterns", nlohmann::json::array()))
       {
+         require_known_keys(p, {"name", "displacement", "q", "p"}, "a load pattern");
          LoadPattern pattern;
          pattern.name = p.at("name");
          pattern.control = p.at("displacement") ? Control::displacement : Control::force;
@@ -213,6 +235,7 @@ ReducedProblem load_reduced_problem(const std::string &file)
       }
       for (const nlohmann::json &law : with_laws ? j.at("laws") : nlohmann::json::array())
       {
+         require_known_keys(law, {"forward", "backward"}, "a law of friction");
          Eigen::MatrixXd forward, backward;
          from_json(law.at("forward"), forward);
          from_json(law.at("backward"), backward);
@@ -227,9 +250,17 @@ ReducedProblem load_reduced_problem(const std::string &file)
          from_json(j.at("rigid_motions"), motions);
          problem.set_stiffness(A, B, C, motions);
          problem.coupled = j.at("coupled");
-         problem.held = j.at("held").get<std::vector<Eigen::Index>>();
+         for (const nlohmann::json &row : j.at("held"))
+         {
+            require(row.is_number_integer(), "reduced problem: a held row is ", row.dump(),
+                    ", must be a whole number");
+            problem.held.push_back(row);
+         }
          for (const nlohmann::json &c : j.at("chains"))
          {
+            require_known_keys(
+               c, {"interface", "first", "nodes", "loop", "ends", "other_ends", "bodies"},
+               "a chain");
             problem.chains.push_back({c.at("interface"), whole_number(c, "first"),
                                       whole_number(c, "nodes"), c.at("loop"),
                                       ends_from_json(c.at("ends")),
@@ -247,8 +278,14 @@ ReducedProblem load_reduced_problem(const std::string &file)
    }
    catch (const nlohmann::json::exception &error)
    {
+      constexpr int no_such_key = 403; // named between quotes
+      const std::string what = error.what();
+      const std::size_t quote = what.find('\'');
+      require(error.id != no_such_key, "reduced problem: file '", file, "' lacks the key ",
+              what.substr(std::min(quote, what.size())),
+              " (in itself, or in a chain, a pattern or a law)");
       throw InputError("reduced problem: file '" + file +
-                       "' is not a reduced problem: " + error.what());
+                       "' is not a reduced problem: " + what);
    }
    problem.validate();
    require_all_motions(problem);

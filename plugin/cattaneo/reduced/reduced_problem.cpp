@@ -4,6 +4,7 @@
 #include <cattaneo/algebra/symmetric_matrix.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/reduced_problem.hpp>
+#include <cattaneo/words.hpp>
 #include <set>
 
 namespace cattaneo
@@ -38,15 +39,20 @@ void ReducedProblem::set_stiffness(const Eigen::MatrixXd &A, const Eigen::Matrix
    complete(*this);
 }
 
+std::vector<std::string> ReducedProblem::load_names() const
+{
+   std::vector<std::string> names;
+   for (const LoadPattern &pattern : patterns) { names.push_back(pattern.name); }
+   return names;
+}
+
 int ReducedProblem::pattern(const std::string &name) const
 {
-   std::string known;
-   for (std::size_t k = 0; k < patterns.size(); ++k)
-   {
-      if (patterns[k].name == name) { return static_cast<int>(k); }
-      known += (k ? ", " : "") + patterns[k].name;
-   }
-   throw InputError("reduced problem: no load pattern '" + name + "'; there are: " + known);
+   const std::vector<std::string> known = load_names();
+   const auto found = std::find(known.begin(), known.end(), name);
+   require(found != known.end(), "reduced problem: no load pattern '", name,
+           "'; there are: ", listed(known));
+   return static_cast<int>(found - known.begin());
 }
 
 Eigen::VectorXd ReducedProblem::multipliers(const NamedLoads &loads) const
@@ -134,8 +140,21 @@ void check_facts(const ReducedProblem &problem)
    }
    require(problem.chains.empty() || next == n, "reduced problem: the chains have ", next,
            " nodes, must have all ", n);
+   for (const ContactChain &chain : problem.chains)
+   {
+      const bool told = problem.arc_length.size() > 0;
+      for (Eigen::Index i = chain.first + 1; told && i < chain.first + chain.nodes; ++i)
+      {
+         require(problem.arc_length[i] > problem.arc_length[i - 1],
+                 "reduced problem: arc_length of node ", i, " is ", problem.arc_length[i],
+                 ", must be above that of the node before it in its chain, ",
+                 problem.arc_length[i - 1]);
+      }
+   }
    for (Eigen::Index row : problem.held)
    {
+      require(std::count(problem.held.begin(), problem.held.end(), row) == 1,
+              "reduced problem: row ", row, " of A is said to be held twice");
       require(row >= 0 && row < m, "reduced problem: held row ", row,
               " of A, must be from 0 to ", m - 1);
       bool alone = (problem.A().row(row).array() != 0).count() == 1 &&
@@ -257,6 +276,8 @@ void ReducedProblem::validate() const
    std::set<std::string> names;
    for (const LoadPattern &pattern : patterns)
    {
+      require(!pattern.name.empty(),
+              "reduced problem: a load pattern has an empty name, must have one");
       require(names.insert(pattern.name).second,
               "reduced problem: two load patterns are named '", pattern.name, "'");
       check_vector(("q of pattern '" + pattern.name + "'").c_str(), pattern.q, m);

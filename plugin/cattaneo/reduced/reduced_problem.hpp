@@ -125,6 +125,8 @@ struct ReducedProblem
    /// Is H known? Else conjugates are known but for a part that is linear in the loads.
    bool knows_loads() const { return H.rows() > 0 || patterns.empty(); }
 
+   /// Names of the patterns, in their order.
+   std::vector<std::string> load_names() const;
    /// Index of the pattern of that name; InputError with the list of names if there is none.
    int pattern(const std::string &name) const;
 
