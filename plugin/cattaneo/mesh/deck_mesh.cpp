@@ -2,7 +2,6 @@
 #include <cattaneo/exchange/input_deck.hpp>
 #include <cattaneo/exchange/line_reader.hpp>
 #include <cattaneo/mesh/deck_mesh.hpp>
-#include <cattaneo/mesh/gmsh_file.hpp>
 #include <cattaneo/words.hpp>
 #include <filesystem>
 #include <set>
@@ -90,7 +89,6 @@ DeckMesh deck_mesh(const std::string &file)
    }
    made.names.passed_over = listed(passed_over);
 
-   GmshText text;
    std::set<int> used;
    long last = 0;
    for (const InputDeck::Element &element : deck.elements)
@@ -108,7 +106,7 @@ DeckMesh deck_mesh(const std::string &file)
       {
          if (!used.insert(node).second) { continue; }
          const Eigen::Vector2d &at = deck.places.at(node);
-         text.add_node(node, {at[0], at[1], 0});
+         made.mesh.add_node(node, {at[0], at[1], 0});
       }
    }
    require(!used.empty(), "file '", file,
@@ -118,9 +116,9 @@ DeckMesh deck_mesh(const std::string &file)
       if (element.corners < 3) { continue; }
       static const std::map<std::size_t, long> types = {
          {3, 2}, {4, 3}, {6, 9}, {8, 16}, {9, 10}};
-      text.add_element(element.number, types.at(element.nodes.size()),
-                       {std::max(element.section, 1), 1},
-                       {element.nodes.begin(), element.nodes.end()});
+      made.mesh.add_element(element.number, types.at(element.nodes.size()),
+                            {std::max(element.section, 1), 1},
+                            {element.nodes.begin(), element.nodes.end()});
    }
    const std::map<std::string, std::set<Ends>> parts = parts_of_boundary(deck);
    for (const auto &part : parts) { made.names.boundary[part.first]; }
@@ -141,9 +139,8 @@ DeckMesh deck_mesh(const std::string &file)
       }
       std::vector<long> nodes{edge.front(), edge.back()};
       if (edge.size() == 3) { nodes.push_back(edge[1]); }
-      text.add_element(++last, edge.size() == 3 ? 8 : 1, {known->second, 1}, nodes);
+      made.mesh.add_element(++last, edge.size() == 3 ? 8 : 1, {known->second, 1}, nodes);
    }
-   made.text = text.text();
    return made;
 }
 

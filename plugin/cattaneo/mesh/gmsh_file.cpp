@@ -1,8 +1,10 @@
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/mesh/gmsh_file.hpp>
+#include <cmath>
 #include <cstdint>
-#include <cstdio>
+#include <cstdlib>
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 namespace cattaneo
@@ -11,18 +13,13 @@ namespace cattaneo
 namespace
 {
 
-/// Nodes of an element of Gmsh by its type; of others no file of a plane body can be read.
+/// Nodes of an element of Gmsh by its type; of others what follows in a file cannot be told.
 int nodes_of(long type, const std::string &what)
 {
-   static const std::map<long, int> known = {
-      {15, 1},  {1, 2},   {8, 3},   {26, 4},  {27, 5},  {28, 6},  {2, 3},   {9, 6},   {21, 10},
-      {23, 15}, {25, 21}, {3, 4},   {16, 8},  {10, 9},  {36, 16}, {37, 25}, {38, 36}, {4, 4},
-      {5, 8},   {6, 6},   {7, 5},   {11, 10}, {12, 27}, {13, 18}, {14, 14}, {17, 20}, {18, 15},
-      {19, 13}, {20, 9},  {22, 12}, {24, 15}, {29, 20}, {30, 35}, {31, 56}};
-   const auto found = known.find(type);
-   require(found != known.end(), "mesh file has ", what, " of type ", type,
+   const auto found = gmsh_types().find(type);
+   require(found != gmsh_types().end(), "mesh file has ", what, " of type ", type,
            ", must be a line, triangle or quadrilateral of order 1 to 5");
-   return found->second;
+   return found->second.nodes;
 }
 
 /// What follows in a file, in text or as Gmsh's binary numbers.
@@ -61,11 +58,16 @@ public:
    void skip_to(const std::string &end)
    {
       std::string line;
-      while (std::getline(in_, line))
-      {
-         if (line.rfind(end, 0) == 0) { return; }
-      }
-      require(false, "mesh file has no ", end);
+      while (std::getline(in_, line) && line.rfind(end, 0) != 0) {}
+   }
+   /// That the section is at its end.
+   void require_end()
+   {
+      const std::string end = "$End" + section_.substr(1);
+      std::string line;
+      while (std::getline(in_, line) && line.find_first_not_of(" \t\r") == std::string::npos) {}
+      require(line.rfind(end, 0) == 0, "mesh file has '", line.substr(0, 40), "' in ", section_,
+              ", must be ", end);
    }
 
 private:
@@ -80,6 +82,11 @@ private:
          value = static_cast<Value>(bytes);
       }
       else { in_ >> value; }
+      if constexpr (std::is_integral_v<Value>)
+      {
+         require(std::abs(value) <= std::numeric_limits<int>::max(), "mesh file has ", value,
+                 " in ", section_, ", must be an integer of 32 bits");
+      }
       require(in_.good() || (in_.eof() && !in_.fail()), "mesh file ends within ", section_,
               ", or has there what is no number");
       return value;
@@ -105,8 +112,10 @@ public:
       int kind = 0, bytes = 0;
       words >> version >> kind >> bytes;
       require(version == "2.2" || version == "4.1", "Gmsh file is of format ", version,
-              ", must be 4.1 or 2.2: save it anew (gmsh -2 NAME.geo)");
-      require(bytes == 8, "Gmsh file has numbers of ", bytes, " bytes, must be of 8");
+              ", must be 4.1 or 2.2: save it anew (gmsh -2 NAME.geo, or File > Export as "
+              "'Version 4 ASCII')");
+      require(bytes == 8 && (kind == 0 || kind == 1), "Gmsh file is of type ", kind,
+              " with numbers of ", bytes, " bytes, must be 0 (ASCII) or 1 (binary), with 8");
       newer_ = version == "4.1";
       in_.binary = kind == 1;
       if (in_.binary)
@@ -117,7 +126,7 @@ public:
       }
       while (std::getline(in_.lines(), line)) { section(line); }
    }
-   std::string text() const { return text_.text(); }
+   GmshMesh mesh;
 
 private:
    void section(const std::string &line)
@@ -136,7 +145,7 @@ private:
          }
          return;
       }
-      in_.skip_to("$End" + name.substr(1));
+      in_.require_end();
    }
    void read_entities()
    {
@@ -173,7 +182,7 @@ private:
          {
             const double x = in_.real(), y = in_.real(), z = in_.real();
             for (long c = 0; parametric && c < dimension; ++c) { in_.real(); }
-            text_.add_node(number, {x, y, z});
+            mesh.add_node(number, {x, y, z});
          }
       }
    }
@@ -184,7 +193,7 @@ private:
       {
          const long number = in_.integer();
          const double x = in_.real(), y = in_.real(), z = in_.real();
-         text_.add_node(number, {x, y, z});
+         mesh.add_node(number, {x, y, z});
       }
    }
    void read_elements()
@@ -204,8 +213,8 @@ private:
             const long number = in_.large();
             std::vector<long> own(nodes_of(type, "element " + std::to_string(number)));
             for (long &node : own) { node = in_.large(); }
-            text_.add_element(number, type, {groups.empty() ? 0 : groups[0], entity},
-                              std::move(own));
+            mesh.add_element(number, type, {groups.empty() ? 0 : groups[0], entity},
+                             std::move(own));
          }
       }
    }
@@ -227,7 +236,7 @@ private:
                own(nodes_of(type, "element " + std::to_string(number)));
             for (long &tag : own_tags) { tag = in_.integer(); }
             for (long &node : own) { node = in_.integer(); }
-            text_.add_element(number, type, own_tags, std::move(own));
+            mesh.add_element(number, type, own_tags, std::move(own));
          }
       }
    }
@@ -235,78 +244,81 @@ private:
    Numbers in_;
    bool newer_ = false;
    Groups groups_;
-   GmshText text_;
 };
 
 } // namespace
 
-void GmshText::add_node(long number, const std::array<double, 3> &x)
+const std::map<long, GmshType> &gmsh_types()
 {
-   require(nodes_.emplace(number, x).second, "mesh file has node ", number, " twice");
+   static const std::map<long, GmshType> types = {
+      {15, {1, 1, 0}},  {1, {2, 2, 1}},   {8, {3, 2, 2}},   {26, {4, 2, 3}},  {27, {5, 2, 4}},
+      {28, {6, 2, 5}},  {2, {3, 3, 1}},   {9, {6, 3, 2}},   {21, {10, 3, 3}}, {23, {15, 3, 4}},
+      {25, {21, 3, 5}}, {3, {4, 4, 1}},   {10, {9, 4, 2}},  {36, {16, 4, 3}}, {37, {25, 4, 4}},
+      {38, {36, 4, 5}}, {16, {8, 0, 0}},  {20, {9, 0, 0}},  {22, {12, 0, 0}}, {24, {15, 0, 0}},
+      {4, {4, 0, 0}},   {11, {10, 0, 0}}, {29, {20, 0, 0}}, {30, {35, 0, 0}}, {31, {56, 0, 0}},
+      {5, {8, 0, 0}},   {12, {27, 0, 0}}, {17, {20, 0, 0}}, {92, {64, 0, 0}}, {93, {125, 0, 0}},
+      {6, {6, 0, 0}},   {13, {18, 0, 0}}, {18, {15, 0, 0}}, {90, {40, 0, 0}}, {91, {75, 0, 0}},
+      {7, {5, 0, 0}},   {14, {14, 0, 0}}, {19, {13, 0, 0}}};
+   return types;
 }
 
-void GmshText::add_element(long number, long type, const std::vector<long> &tags,
-                           std::vector<long> nodes)
+void GmshMesh::add_node(long number, const std::array<double, 3> &x)
+{
+   for (double coordinate : x)
+   {
+      require(std::isfinite(coordinate), "mesh file has the coordinate ", coordinate,
+              " for node ", number, ", must be a finite number");
+   }
+   require(nodes.emplace(number, x).second, "mesh file has node ", number, " twice");
+}
+
+void GmshMesh::add_element(long number, long type, std::vector<long> tags,
+                           std::vector<long> own)
 {
    if (type == 15) { return; }
+   for (long node : own)
+   {
+      require(nodes.count(node), "mesh file has node ", node, " in element ", number,
+              ", which is not among its nodes");
+   }
    if (type == 16)
    {
       std::array<double, 3> middle{0, 0, 0};
-      for (std::size_t k = 0; k < nodes.size(); ++k)
+      for (std::size_t k = 0; k < own.size(); ++k)
       {
-         const auto at = nodes_.find(nodes[k]);
-         require(at != nodes_.end(), "mesh file has node ", nodes[k], " in element ", number,
-                 ", which is not among its nodes");
-         for (int c = 0; c < 3; ++c) { middle[c] += (k < 4 ? -0.25 : 0.5) * at->second[c]; }
+         for (int c = 0; c < 3; ++c) { middle[c] += (k < 4 ? -0.25 : 0.5) * nodes[own[k]][c]; }
       }
       type = 10;
-      nodes.push_back(nodes_.rbegin()->first + 1);
-      add_node(nodes.back(), middle);
+      own.push_back(nodes.rbegin()->first + 1);
+      add_node(own.back(), middle);
    }
-   std::ostringstream line;
-   line << number << ' ' << type << ' ' << tags.size();
-   for (long tag : tags) { line << ' ' << tag; }
-   for (long node : nodes) { line << ' ' << node; }
-   elements_ += line.str() + '\n';
-   ++count_;
+   elements.push_back({number, type, std::move(tags), std::move(own)});
 }
 
-std::string GmshText::text() const
+std::string GmshMesh::text() const
 {
    std::ostringstream out;
-   out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" << nodes_.size() << '\n';
-   for (const auto &[number, x] : nodes_)
+   out.precision(17);
+   out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" << nodes.size() << '\n';
+   for (const auto &[number, x] : nodes)
    {
-      char line[120];
-      std::snprintf(line, sizeof line, "%ld %.17g %.17g %.17g\n", number, x[0], x[1], x[2]);
-      out << line;
+      out << number << ' ' << x[0] << ' ' << x[1] << ' ' << x[2] << '\n';
    }
-   out << "$EndNodes\n$Elements\n" << count_ << '\n' << elements_ << "$EndElements\n";
+   out << "$EndNodes\n$Elements\n" << elements.size() << '\n';
+   for (const Element &element : elements)
+   {
+      out << element.number << ' ' << element.type << ' ' << element.tags.size();
+      for (long tag : element.tags) { out << ' ' << tag; }
+      for (long node : element.nodes) { out << ' ' << node; }
+      out << '\n';
+   }
+   out << "$EndElements\n";
    return out.str();
 }
 
-std::string as_gmsh_22(const std::string &file, long size)
+GmshMesh read_gmsh(const std::string &file, long size)
 {
-   return GmshFile(file, size).text();
-}
-
-bool needs_gmsh_22(const std::string &file)
-{
-   std::ifstream in(file, std::ios::binary);
-   std::string line, version;
-   std::getline(in, line);
-   std::getline(in, line);
-   std::istringstream words(line);
-   int kind = 0;
-   words >> version >> kind;
-   if (version == "4.1" || kind == 1) { return version == "4.1" || version == "2.2"; }
-   while (std::getline(in, line) && line.rfind("$Elements", 0) != 0) {}
-   while (std::getline(in, line))
-   {
-      long number = 0, type = 0;
-      if (std::istringstream(line) >> number >> type && type == 16) { return true; }
-   }
-   return false;
+   return GmshFile(file, size).mesh;
 }
 
 } // namespace cattaneo

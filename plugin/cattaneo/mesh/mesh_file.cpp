@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/mesh/deck_mesh.hpp>
-#include <cattaneo/mesh/gmsh_file.hpp>
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
@@ -187,24 +186,7 @@ void check_mfem(std::istream &in, long size)
    edges.check();
 }
 
-/// A type of element of Gmsh.
-struct GmshType
-{
-   int nodes;
-   std::size_t corners; ///< the first of its nodes
-   int order;
-};
-/// Points, lines, triangles, quadrilaterals.
-const std::map<long, GmshType> gmsh_types = {
-   {15, {1, 1, 0}},  {1, {2, 2, 1}},   {8, {3, 2, 2}},   {26, {4, 2, 3}},
-   {27, {5, 2, 4}},  {28, {6, 2, 5}},  {2, {3, 3, 1}},   {9, {6, 3, 2}},
-   {21, {10, 3, 3}}, {23, {15, 3, 4}}, {25, {21, 3, 5}}, {3, {4, 4, 1}},
-   {10, {9, 4, 2}},  {36, {16, 4, 3}}, {37, {25, 4, 4}}, {38, {36, 4, 5}}};
-
-const char *const save_anew =
-   ": save it anew (gmsh -2 NAME.geo, or File > Export as 'Version 4 ASCII')";
-
-/// Why an element of Gmsh is not one of these.
+/// Why an element of Gmsh is none of a plane body.
 std::string why_not(long type)
 {
    static const std::map<std::string, std::set<long>> solids = {
@@ -221,11 +203,9 @@ std::string why_not(long type)
                 "and save no volume";
       }
    }
-   const std::string allowed = ", must be a line, triangle or quadrilateral of order 1 to 5";
-   return std::set<long>{16, 20, 22, 24}.count(type)
-             ? "one without inner nodes (type " + std::to_string(type) + ")" + allowed +
-                  " with them: in Gmsh set Mesh.SecondOrderIncomplete = 0"
-             : "one of type " + std::to_string(type) + allowed;
+   return "one without inner nodes (type " + std::to_string(type) +
+          "), must be a line, triangle or quadrilateral of order 1 to 5 with them: in Gmsh set "
+          "Mesh.SecondOrderIncomplete = 0";
 }
 
 /// That an element of Gmsh is in no physical group, and what to do. Its tags: the physical
@@ -242,86 +222,39 @@ void check_group(const std::vector<long> &tags, std::size_t corners, const std::
    check_attribute(tags[0], what);
 }
 
-/// Gmsh 2.2, ASCII, after $MeshFormat.
-void check_gmsh(std::istream &in, long size)
+void check_gmsh(const GmshMesh &mesh)
 {
-   std::string version;
-   in >> version;
-   require(version == "2.2", "Gmsh file is of format ", version, ", must be 4.1 or 2.2",
-           save_anew);
-   require(integer(in, "the file type") == 0,
-           "Gmsh file has a file type that is neither 0 "
-           "(ASCII) nor 1 (binary)",
-           save_anew);
-   std::map<long, double> nodes; // and their z
-   double extent = 0, level = 0; // largest coordinate, z of the first node
+   require(!mesh.nodes.empty(), "mesh file has no nodes");
+   double extent = 0; // largest coordinate
+   for (const auto &[number, x] : mesh.nodes)
+   {
+      for (double coordinate : x) { extent = std::max(extent, std::abs(coordinate)); }
+   }
+   const double level = mesh.nodes.begin()->second[2];
    Edges edges;
    int order = 0;
-   bool has_elements = false, has_areas = false;
-   std::string word;
-   while (in >> word)
+   bool has_areas = false;
+   for (const GmshMesh::Element &element : mesh.elements)
    {
-      if (word == "$Nodes")
+      const std::string what = "element " + std::to_string(element.number);
+      const GmshType &shape = gmsh_types().at(element.type);
+      require(shape.corners > 0, "mesh file has ", what, ", ", why_not(element.type));
+      if (order == 0) { order = shape.order; }
+      require(shape.order == order, "mesh file has ", what, " of order ", shape.order,
+              ", must be ", order, " as those before");
+      check_group(element.tags, shape.corners, what);
+      has_areas = has_areas || shape.corners > 2;
+      std::set<long> own;
+      for (long node : element.nodes)
       {
-         const long expected = count(in, "nodes", size);
-         for (long k = 0; k < expected; ++k)
-         {
-            const long node = integer(in, "the number of a node");
-            require(!nodes.count(node), "mesh file has node ", node, " twice");
-            for (int c = 0; c < 3; ++c)
-            {
-               require(bool(in >> word), "mesh file ends within node ", node);
-               check_coordinate(word, "node " + std::to_string(node));
-               const double coordinate = std::strtod(word.c_str(), nullptr);
-               extent = std::max(extent, std::abs(coordinate));
-               if (c == 2) { nodes[node] = coordinate; }
-            }
-            if (k == 0) { level = nodes[node]; }
-         }
-         require(in >> word && word == "$EndNodes", "mesh file has '", word, "' after ",
-                 expected, " nodes, must be $EndNodes");
+         require(own.insert(node).second, "mesh file has node ", node, " twice in ", what);
+         const double z = mesh.nodes.at(node)[2];
+         require(std::abs(z - level) <= 1e-9 * extent, "mesh file has node ", node, " of ",
+                 what, " at z = ", z, ", the first node at ", level,
+                 ", must be equal: turn the mesh into the xy plane");
       }
-      else if (word == "$Elements")
-      {
-         has_elements = true;
-         require(!nodes.empty(), "mesh file has no nodes before its elements");
-         const long expected = count(in, "elements", size);
-         for (long k = 0; k < expected; ++k)
-         {
-            const std::string what =
-               "element " + std::to_string(integer(in, "the number of an element"));
-            const long type = integer(in, "the type of " + what);
-            const auto known = gmsh_types.find(type);
-            require(known != gmsh_types.end(), "mesh file has ", what, ", ", why_not(type));
-            const GmshType &shape = known->second;
-            if (order == 0) { order = shape.order; }
-            require(shape.order == 0 || shape.order == order, "mesh file has ", what,
-                    " of order ", shape.order, ", must be ", order, " as those before");
-            std::vector<long> tags(count(in, "tags of " + what, size));
-            for (long &tag : tags) { tag = integer(in, "a tag of " + what); }
-            if (shape.order > 0) { check_group(tags, shape.corners, what); }
-            has_areas = has_areas || shape.corners > 2;
-            std::vector<long> own;
-            for (int v = 0; v < shape.nodes; ++v)
-            {
-               const long node = integer(in, "a node of " + what);
-               require(std::find(own.begin(), own.end(), node) == own.end(),
-                       "mesh file has node ", node, " twice in ", what);
-               own.push_back(node);
-               const auto at = nodes.find(node);
-               require(at != nodes.end(), "mesh file has node ", node, " in ", what,
-                       ", which is not among its nodes");
-               require(std::abs(at->second - level) <= 1e-9 * extent, "mesh file has node ",
-                       node, " of ", what, " at z = ", at->second, ", the first node at ",
-                       level, ", must be equal: turn the mesh into the xy plane");
-            }
-            edges.add(own, shape.corners, shape.order > 0 ? of_attribute(what, tags[0]) : what);
-         }
-         require(in >> word && word == "$EndElements", "mesh file has '", word, "' after ",
-                 expected, " elements, must be $EndElements");
-      }
+      edges.add(element.nodes, shape.corners, of_attribute(what, element.tags[0]));
    }
-   require(has_elements, "mesh file has no section $Elements");
    require(has_areas,
            "mesh file has no triangles or quadrilaterals: in Gmsh make a surface of the "
            "curves (Plane Surface), put it into a physical group (Physical "
@@ -373,21 +306,18 @@ mfem::Mesh read_mesh(const std::string &file)
    const long size = static_cast<long>(std::filesystem::file_size(file));
    std::string line, converted;
    std::getline(in, line);
-   const bool gmsh = line.rfind("$MeshFormat", 0) == 0;
-   if (is_deck(file)) { converted = deck_mesh(file).text; }
-   else if (gmsh && needs_gmsh_22(file)) { converted = as_gmsh_22(file, size); }
-   if (!converted.empty())
+   if (is_deck(file) || line.rfind("$MeshFormat", 0) == 0)
    {
-      std::istringstream text(converted);
-      std::getline(text, line);
-      check_gmsh(text, static_cast<long>(converted.size()));
+      const GmshMesh mesh = is_deck(file) ? deck_mesh(file).mesh : read_gmsh(file, size);
+      check_gmsh(mesh);
+      converted = mesh.text();
    }
-   else if (gmsh) { check_gmsh(in, size); }
    else
    {
       require(size > 0, "mesh file is empty");
-      require(line.rfind("$NOD", 0) != 0, "Gmsh file is of format 1, must be 4.1 or 2.2",
-              save_anew);
+      require(line.rfind("$NOD", 0) != 0, "Gmsh file is of format 1, must be 4.1 or 2.2: save "
+                                          "it anew (gmsh -2 NAME.geo, or File > Export as "
+                                          "'Version 4 ASCII')");
       const bool geometry = std::filesystem::path(file).extension() == ".geo";
       require(line.rfind("MFEM mesh v1.", 0) == 0,
               "mesh file must begin with 'MFEM mesh v1.' or '$MeshFormat' (Gmsh), or be a deck "

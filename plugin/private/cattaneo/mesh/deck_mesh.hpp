@@ -1,15 +1,16 @@
 #pragma once
 
+#include <cattaneo/mesh/gmsh_file.hpp>
 #include <cattaneo/mesh/mesh_file.hpp>
 #include <string>
 
 namespace cattaneo
 {
 
-/// A mesh of a deck, as GmshText, and the names in it.
+/// A mesh of a deck, and the names in it.
 struct DeckMesh
 {
-   std::string text;
+   GmshMesh mesh;
    MeshNames names;
 };
 

@@ -8,32 +8,41 @@
 namespace cattaneo
 {
 
-/// A mesh as text of Gmsh's format 2.2.
-class GmshText
+/// A type of element of Gmsh.
+struct GmshType
 {
-public:
-   /// InputError for a number that is there already.
-   void add_node(long number, const std::array<double, 3> &x);
-   /// Of the nodes before, by Gmsh's number of its type; one of 8 nodes (16) is given its
-   /// middle one, which is where its own geometry has it. Points are left out.
-   void add_element(long number, long type, const std::vector<long> &tags,
-                    std::vector<long> nodes);
-   std::string text() const;
+   int nodes;
+   std::size_t corners; ///< the first of its nodes; 0: no element of a plane body
+   int order;
+};
+/// Points, lines, triangles, quadrilaterals (some without inner nodes) and solids, by Gmsh's
+/// numbers.
+const std::map<long, GmshType> &gmsh_types();
 
-private:
-   std::map<long, std::array<double, 3>> nodes_;
-   std::string elements_;
-   long count_ = 0;
+/// A mesh as Gmsh has it.
+struct GmshMesh
+{
+   struct Element
+   {
+      long number, type;
+      std::vector<long> tags; ///< the physical group (0: none), then the curve or surface
+      std::vector<long> nodes;
+   };
+   std::map<long, std::array<double, 3>> nodes;
+   std::vector<Element> elements;
+
+   /// InputError for a number that is there already, or a place that is not finite.
+   void add_node(long number, const std::array<double, 3> &x);
+   /// Of the nodes before (InputError); a quadrilateral of 8 nodes (16) is given its middle
+   /// one, which is where its own geometry has it. Points are left out.
+   void add_element(long number, long type, std::vector<long> tags, std::vector<long> own);
+   /// In Gmsh's format 2.2.
+   std::string text() const;
 };
 
-/** A mesh that Gmsh wrote in format 4.1 or 2.2, ASCII or binary, as text of format 2.2, with
-    points left out and quadrilaterals of 8 nodes (serendipity) given their middle node, which
-    is where their own geometry has it. `size` of the file bounds what can be in it. InputError,
-    with the section, if the file is cut short or is of another version. */
-std::string as_gmsh_22(const std::string &file, long size);
-
-/// True if read as it stands such a file would be refused: format 4.1, binary, or
-/// quadrilaterals of 8 nodes.
-bool needs_gmsh_22(const std::string &file);
+/** A mesh that Gmsh wrote in format 4.1 or 2.2, ASCII or binary. `size` of the file bounds what
+    can be in it. InputError, with the section, if the file is cut short, is of another version
+    or has numbers of more than 32 bits. */
+GmshMesh read_gmsh(const std::string &file, long size);
 
 } // namespace cattaneo
