@@ -191,24 +191,13 @@ mfem::Mesh rectangle_mesh(const std::vector<double> &x, const std::vector<double
    require(static_cast<double>(x.size()) * y.size() < std::numeric_limits<int>::max() / 4,
            "rectangle mesh: ", x.size(), " × ", y.size(), " grid lines are too many");
    const int nx = static_cast<int>(x.size()) - 1, ny = static_cast<int>(y.size()) - 1;
-   mfem::Mesh mesh(2, (nx + 1) * (ny + 1), nx * ny, 2 * (nx + ny));
-   for (int j = 0; j <= ny; ++j)
+   mfem::Mesh mesh =
+      mfem::Mesh::MakeCartesian2D(nx, ny, mfem::Element::QUADRILATERAL, true, 1, 1, false);
+   for (int v = 0; v < mesh.GetNV(); ++v)
    {
-      for (int i = 0; i <= nx; ++i) { mesh.AddVertex(x[i], y[j]); }
+      mesh.GetVertex(v)[0] = x[v % (nx + 1)];
+      mesh.GetVertex(v)[1] = y[v / (nx + 1)];
    }
-   const auto vertex = [nx](int i, int j) { return i + j * (nx + 1); };
-   for (int j = 0; j < ny; ++j)
-   {
-      for (int i = 0; i < nx; ++i)
-      {
-         mesh.AddQuad(vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1));
-      }
-   }
-   for (int i = 0; i < nx; ++i) { mesh.AddBdrSegment(vertex(i, 0), vertex(i + 1, 0), 1); }
-   for (int j = 0; j < ny; ++j) { mesh.AddBdrSegment(vertex(nx, j), vertex(nx, j + 1), 2); }
-   for (int i = nx; i > 0; --i) { mesh.AddBdrSegment(vertex(i, ny), vertex(i - 1, ny), 3); }
-   for (int j = ny; j > 0; --j) { mesh.AddBdrSegment(vertex(0, j), vertex(0, j - 1), 4); }
-   mesh.FinalizeQuadMesh(1, 0, false);
    return mesh;
 }
 
