@@ -229,36 +229,30 @@ bool StateEquations::adopt()
    return is_factored() || factor();
 }
 
-bool StateEquations::set(Index node, NodeState state, bool held)
+bool StateEquations::set(std::vector<NodeState> states, std::vector<bool> held)
 {
-   const NodeState state_before = states_[node];
-   const bool held_before = held_[node];
-   if (!anew_ && state_before == state && held_before == held) { return true; }
-   states_[node] = state;
-   held_[node] = held;
+   if (!anew_ && states == states_ && held == held_) { return true; }
+   states_.swap(states);
+   held_.swap(held);
    if (adopt()) { return true; }
-   states_[node] = state_before;
-   held_[node] = held_before;
+   states_.swap(states);
+   held_.swap(held);
    adopt();
    return false;
 }
 
+bool StateEquations::set(Index node, NodeState state, bool held)
+{
+   std::vector<NodeState> states = states_;
+   std::vector<bool> all_held = held_;
+   states[node] = state;
+   all_held[node] = held;
+   return set(std::move(states), std::move(all_held));
+}
+
 bool StateEquations::set(const std::vector<NodeState> &states)
 {
-   if (!anew_ && states == states_ &&
-       std::find(held_.begin(), held_.end(), true) == held_.end())
-   {
-      return true;
-   }
-   const std::vector<NodeState> states_before = states_;
-   const std::vector<bool> held_before = held_;
-   states_ = states;
-   held_.assign(n_, false);
-   if (adopt()) { return true; }
-   states_ = states_before;
-   held_ = held_before;
-   adopt();
-   return false;
+   return set(states, std::vector<bool>(n_, false));
 }
 
 VectorXd StateEquations::forces_again(const VectorXd &x)

@@ -88,6 +88,7 @@ public:
    long updates() const { return updates_; }
 
 private:
+   bool set(std::vector<NodeState> states, std::vector<bool> held);
    /// Row of K of an equation and the row added to it with `factor`.
    struct Equation
    {
