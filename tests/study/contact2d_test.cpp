@@ -199,8 +199,21 @@ TEST_F(Contact2D, RoundedPunchHasTheContactWidthOfTheClosedForm)
 
 TEST_F(Contact2D, RoundedPunchReachesASteadyCycle)
 {
-   const auto run = contact2d("--case meshes/rounded_punch.json --edges '1 2 3'");
+   const auto run =
+      contact2d("--case meshes/rounded_punch.json --edges '1 2 3' --csv '" + folder + "/of'");
    ASSERT_EQ(run.code, 0) << run.output;
+   // What is printed of the edges is a file as well.
+   std::ifstream file(folder + "/of_edges.csv");
+   std::string head, first, last, none;
+   std::getline(std::getline(std::getline(file, head), first), last);
+   EXPECT_EQ(head.rfind("edge,position,", 0), 0u) << head;
+   for (const char *key : {",x,", ",k_n.value,", ",k_t.window.1,", ",slip_zone,", ",energy,"})
+   {
+      EXPECT_NE(head.find(key), std::string::npos) << key << " " << head;
+   }
+   EXPECT_EQ(first.rfind("first,", 0), 0u) << first;
+   EXPECT_EQ(last.rfind("last,", 0), 0u) << last;
+   EXPECT_FALSE(std::getline(file, none));
    EXPECT_GT(run.results["steady_cycle"], 0);
    EXPECT_EQ(run.results["steady_period"], 1);
    EXPECT_GT(run.results["dissipation"].back(), 0);
