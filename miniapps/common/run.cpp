@@ -144,31 +144,24 @@ void report_exact_path(Study &study, const ReducedProblem &problem, const MarchR
 namespace
 {
 
-/// Force over displacement in the cycles, of each load that varied in them.
-void draw_loops(Study &study, const ReducedProblem &problem, const MarchReport &report)
+/// Does a load move what it acts on in a cycle by more than round-off? Forces on held nodes do
+/// not: theirs is measured by what it moves at other times, and other loads in the cycle.
+bool moves(const ReducedProblem &problem, const MarchReport &report, const CycleRecord &cycle,
+           std::size_t load)
 {
-   Panel &panel = study.panel(Panel::Kind::lines, "loops", "Loads over their displacements",
-                              "displacement", "force");
-   for (int k = 0; k < static_cast<int>(problem.patterns.size()); ++k)
+   const auto product = [](const Loop &loop)
+   { return loop.force_range() * loop.displacement_range(); };
+   const Loop &loop = cycle.loops[load];
+   const double range = problem.patterns[load].control == Control::force
+                           ? loop.force_range()
+                           : loop.displacement_range();
+   double size = 0;
+   for (const Loop &other : cycle.loops) { size = std::max(size, product(other)); }
+   for (const IncrementRecord &record : report.increments)
    {
-      const LoadPattern &pattern = problem.patterns[k];
-      std::vector<double> multipliers, conjugates;
-      for (const IncrementRecord &record : report.increments)
-      {
-         if (record.cycle == 0) // the last of them is where the cycles begin
-         {
-            multipliers.clear();
-            conjugates.clear();
-         }
-         multipliers.push_back(record.multipliers[k]);
-         conjugates.push_back(record.conjugates[k]);
-      }
-      const auto [least, most] = std::minmax_element(multipliers.begin(), multipliers.end());
-      if (multipliers.empty() || *least == *most) { continue; }
-      const bool force = pattern.control == Control::force;
-      panel.add(pattern.name, force ? conjugates : multipliers,
-                force ? multipliers : conjugates);
+      size = std::max(size, range * std::abs(record.conjugates[static_cast<long>(load)]));
    }
+   return settled(product(loop), size) != 0;
 }
 
 /// The loads that varied in any whole cycle: the others have no loop.
@@ -212,6 +205,7 @@ const Table &report_cycles(Study &study, const ReducedProblem &problem,
    }
    Table &cycles = study.table("cycles", columns);
    ordered_json &losses = study.results["dissipation"] = ordered_json::array();
+   std::set<std::string> still;
    for (const ordered_json &row : before)
    {
       study.row(cycles, cycles.values(row));
@@ -231,14 +225,47 @@ const Table &report_cycles(Study &study, const ReducedProblem &problem,
       for (std::size_t k : varied)
       {
          const Loop &loop = cycle.loops[k];
-         row.insert(row.end(), {loop.work() / unit, loop.stiffness(), loop.loss_factor()});
+         const bool moved = std::isnan(loop.stiffness()) || moves(problem, report, cycle, k);
+         if (!moved) { still.insert(problem.patterns[k].name); }
+         row.insert(row.end(), {moved ? loop.work() / unit : 0, moved ? loop.stiffness() : none,
+                                moved ? loop.loss_factor() : none});
       }
       study.row(cycles, row);
       losses.push_back(cycle.dissipation / unit);
    }
+   for (const std::string &load : still)
+   {
+      study.say("load " + load + " moves nothing that it acts on in a cycle: its loop is none");
+   }
    report_steady(study, report);
-   draw_loops(study, problem, report);
+   add_loops(study.lines("loops", "Loads over their displacements", "displacement", "force"),
+             problem, report);
    return cycles;
+}
+
+void add_loops(Panel &panel, const ReducedProblem &problem, const MarchReport &report,
+               const std::string &words)
+{
+   for (int k = 0; k < static_cast<int>(problem.patterns.size()); ++k)
+   {
+      const LoadPattern &pattern = problem.patterns[k];
+      std::vector<double> multipliers, conjugates;
+      for (const IncrementRecord &record : report.increments)
+      {
+         if (record.cycle == 0) // the last of them is where the cycles begin
+         {
+            multipliers.clear();
+            conjugates.clear();
+         }
+         multipliers.push_back(record.multipliers[k]);
+         conjugates.push_back(record.conjugates[k]);
+      }
+      const auto [least, most] = std::minmax_element(multipliers.begin(), multipliers.end());
+      if (multipliers.empty() || *least == *most) { continue; }
+      const bool force = pattern.control == Control::force;
+      panel.add(pattern.name + words, force ? conjugates : multipliers,
+                force ? multipliers : conjugates);
+   }
 }
 
 void report_steady(Study &study, const MarchReport &report)
@@ -390,6 +417,16 @@ std::vector<double> joined_once(std::vector<double> first, const std::vector<dou
       if (std::find(first.begin(), first.end(), x) == first.end()) { first.push_back(x); }
    }
    return first;
+}
+
+double half_width(const Zone &zone)
+{
+   return zone.last < zone.first ? 0.0 : 0.5 * (zone.to.position - zone.from.position);
+}
+
+double read_out_error(const Zone &zone)
+{
+   return std::max(zone.from.error, zone.to.error);
 }
 
 ordered_json to_json(const std::vector<Zone> &zones, double shift)
