@@ -151,6 +151,7 @@ Options::Options(int argc, char *argv[]) : words_(argv, argv + argc)
 void Options::add(Value value, const Names &names, const char *help, const Check &check)
 {
    options_.push_back({names, help, value, check});
+   options_.back().version = adds_version_;
 }
 
 void Options::add(std::string *value, const Names &names, const char *help, Text kind)
@@ -173,17 +174,6 @@ void Options::in_object(const std::string &name, const std::vector<std::string> 
    for (Option &option : options_)
    {
       if (option.names.name.find(name + "-") == 0) { option.object = name; }
-   }
-}
-
-void Options::of_version(int version, const std::vector<std::string> &names)
-{
-   for (Option &option : options_)
-   {
-      if (std::count(names.begin(), names.end(), option.names.name) > 0)
-      {
-         option.version = version;
-      }
    }
 }
 
@@ -612,8 +602,8 @@ std::string Options::Option::from_json(const json &x, const std::string &where) 
    else if (is_flag()) { expect(x.is_boolean(), "true or false"); }
    else if (is_list())
    {
-      expect(x.is_number() || all([](const json &v) { return v.is_number(); }),
-             "a number or an array of numbers");
+      expect(x.is_number() || x == "none" || all([](const json &v) { return v.is_number(); }),
+             "a number or an array of numbers, or \"none\"");
    }
    else if (kind == Text::attributes)
    {

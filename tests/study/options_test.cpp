@@ -214,6 +214,11 @@ TEST_F(Options, EveryStudyTakesACaseFile)
    EXPECT_EQ(run.results["friction"], 0.4);
    ASSERT_EQ(run.results["levels"].size(), 2u);
    EXPECT_EQ(run.results["levels"][1]["shear"], 0.75);
+   const auto without = run_miniapp("square_punch", write(R"({"nodes": 33, "shear": "none"})"));
+   ASSERT_EQ(without.code, 0) << without.output;
+   EXPECT_TRUE(without.results["levels"].empty()) << without.results["levels"];
+   expect_refused("square_punch", write(R"({"shear": "some"})"),
+                  {"key 'shear'", "some", "array of numbers", "none"});
    for (const char *program : programs)
    {
       expect_refused(program, write(R"({"friction": "much"})"), {"key 'friction'", "a number"});
