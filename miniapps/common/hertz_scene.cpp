@@ -117,9 +117,7 @@ Scene make_scene(const BlockOnHalfPlane &options)
                                   options.order, options.material);
    const int surface = 1, far = 3;
    for (int component : {0, 1}) { plane.fix(far, component); }
-   const ContactLine below = contact_line(plane, surface);
-   const Pairing pairing = pair_lines(above.line, below);
-   scene.reduction = reduce(std::move(above), condense(plane, below, condensation()), pairing);
+   scene.reduction = stacked(std::move(above), plane, contact_line(plane, surface));
    return scene;
 }
 

@@ -53,8 +53,7 @@ Scene make_lap_joint(const LapJointOptions &options)
 {
    options.validate();
    Scene joint;
-   const Material material{1 - options.poisson * options.poisson, options.poisson,
-                           PlaneState::strain};
+   const Material material = unit_material(options.poisson);
    double d = 0;
    for (double x : options.bolts) { d = std::max(d, std::abs(x)); }
    const double free_end = d + options.protrusion, loaded_end = -d - options.remote;

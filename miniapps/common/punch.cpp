@@ -40,8 +40,7 @@ Scene make_punch(const PunchOptions &options)
 {
    options.validate();
    Scene scene;
-   const Material material{1 - options.poisson * options.poisson, options.poisson,
-                           PlaneState::strain};
+   const Material material = unit_material(options.poisson);
    Material plane_material = material;
    if (!std::isnan(options.plane_poisson)) { plane_material.poisson = options.plane_poisson; }
    plane_material.young = options.plane_stiffness * (1 - std::pow(plane_material.poisson, 2));
@@ -88,10 +87,7 @@ Scene make_punch(const PunchOptions &options)
    ElasticBody &plane = scene.add(refined(std::move(below), 1), options.order, plane_material);
    const int surface = 1, far_bottom = 3;
    for (int component : {0, 1}) { plane.fix(far_bottom, component); }
-   const ContactLine facing = contact_line(plane, surface);
-   const Pairing pairing = pair_lines(condensed.line, facing);
-   scene.reduction =
-      reduce(std::move(condensed), condense(plane, facing, condensation()), pairing);
+   scene.reduction = stacked(std::move(condensed), plane, contact_line(plane, surface));
    return scene;
 }
 
