@@ -193,8 +193,9 @@ void axisymmetric_receding(Study &study)
    study.option(&obstacle, "obstacle", "What the disc lies on: half-plane, a half-space.",
                 {"half-plane"});
    study.option(&options.domain, "domain", domain_help);
-   study.option(&options.order, "order", "Order of the elements.");
-   study.option(&options.spacing, "spacing", "Distance of the contact nodes, in t.");
+   study.option(&options.order, "order", "Order of the elements.", within(1, 8));
+   study.option(&options.spacing, "spacing", "Distance of the contact nodes, in t.",
+                above_up_to(0, 0.5));
    study.option(&on_the_way, "load-levels", "Loading: list of P/P0 to draw (empty: none).",
                 above_up_to(0, 1));
    study.option(&levels, "unload", "Unloading: list of P/P0 to report (empty: none).",

@@ -93,7 +93,7 @@ void assess_pad(Study &study)
    study.option(
       &pad.nodes, "nodes",
       "Contact nodes (pad fe); with a flat those of its edges, to which those between come.");
-   study.option(&pad.order, "order", "Order of the elements (pad fe).");
+   study.option(&pad.order, "order", "Order of the elements (pad fe).", within(1, 8));
    study.option(&depth, {"ad", "averaging-depth"},
                 "Criteria on critical planes along the surface, of stresses averaged over this "
                 "depth, mm (pad fe; from a spacing of its nodes to half a contact).",

@@ -260,10 +260,12 @@ void lap_joint(Study &study)
    bool touch = false, all_cycles = false;
    study.option(&options.widths[0], "width", "Width w of the pinch pressure, in t.");
    study.option(&options.protrusion, "protrusion",
-                "Free end beyond the (outermost) bolt, in t.");
-   study.option(&options.remote, "remote", "Loaded end beyond the (outermost) bolt, in t.");
+                "Free end beyond the (outermost) bolt, in t.", positive);
+   study.option(&options.remote, "remote", "Loaded end beyond the (outermost) bolt, in t.",
+                above(2));
    study.option(&options.lower_thickness, "lower-thickness",
-                "Thickness of the lower lap over the upper's (1: equal laps).");
+                "Thickness of the lower lap over the upper's (1: equal laps).",
+                between(0.1, 100));
    study.option(&joint.friction, "friction", "Coefficient of friction.", positive);
    study.option(&joint.load, "load", "Tmax/P0, tension positive; P0 = p0 w, w of --width.");
    study.option(&joint.cycles, "cycles", "Cycles at most; the march stops when steady.",
@@ -287,8 +289,9 @@ void lap_joint(Study &study)
    study.option(&frictions, "sweep-friction", "Sweep: list of f (empty: --friction).",
                 positive);
    study.option(&widths, "sweep-width", "Sweep: list of w/t (empty: --width).");
-   study.option(&options.order, "order", "Order of the elements.");
-   study.option(&options.spacing, "spacing", "Distance of the contact nodes, in t.");
+   study.option(&options.order, "order", "Order of the elements.", within(1, 8));
+   study.option(&options.spacing, "spacing", "Distance of the contact nodes, in t.",
+                above_up_to(0, 0.1));
    study.option(&options.poisson, "poisson", "Poisson's ratio of both laps.");
    study.option(&joint.paraview, "paraview",
                 "Folder for ParaView files of the first cycle (one bolt).", Text::folder);

@@ -191,9 +191,10 @@ void plane_receding(Study &study)
    study.option(&options.domain, "domain", domain_help, none_or_above(1));
    study.option(&options.side, "side",
                 "Block beyond the strip's end in t (0: as far as it is deep).");
-   study.option(&options.length, "length", "Length of the strip in t.");
-   study.option(&options.order, "order", "Order of the elements.");
-   study.option(&options.spacing, "spacing", "Distance of the contact nodes, in t.");
+   study.option(&options.length, "length", "Length of the strip in t.", positive);
+   study.option(&options.order, "order", "Order of the elements.", within(1, 8));
+   study.option(&options.spacing, "spacing", "Distance of the contact nodes, in t.",
+                above_up_to(0, 0.5));
    study.option(&options.corner, "corner",
                 "Distance of the contact nodes at the strip's end, in t.");
    study.option(&options.poisson, "poisson", "Poisson's ratio of both bodies.");

@@ -20,9 +20,6 @@ using namespace cattaneo;
 
 void DiscOptions::validate() const
 {
-   require(order >= 1 && order <= 8, "option --order is ", order, ", must be 1 to 8");
-   require(spacing > 0 && spacing <= 0.5, "option --spacing is ", spacing,
-           ", must be above 0 and at most 0.5 (in t)");
    check_growth(growth);
    require(disc_radius >= spacing * order, "option --disc-radius is ", disc_radius,
            ", must be at least one element, ", spacing * order, " (in t)");

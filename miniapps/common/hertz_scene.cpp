@@ -32,12 +32,8 @@ void load(ElasticBody &body, int top, double L, double H, double P, double turn)
 
 void HalfPlanes::validate() const
 {
-   require(order >= 1 && order <= 8, "option --order is ", order, ", must be 1 to 8");
    require(!grid.empty() || (nodes >= 9 && (nodes - 1) % order == 0), "option --nodes is ",
            nodes, ", must be at least 9 and one more than a multiple of the order ", order);
-   require(span > 1, "option --span is ", span, ", must be above 1");
-   require(domain == 0 || domain > 10, "option --domain is ", domain,
-           ", must be 0, for half-planes without a mesh, or above 10");
    require(domain > 0 || !(bulk || bulk_pad),
            "bulk stress is asked for without option --domain, must be in a block");
    check_growth(growth);

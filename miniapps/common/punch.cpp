@@ -15,11 +15,8 @@ using namespace cattaneo;
 
 void PunchOptions::validate() const
 {
-   require(order >= 1 && order <= 8, "option --order is ", order, ", must be 1 to 8");
    require(!grid.empty() || (nodes >= 3 && (nodes - 1) % order == 0), "option --nodes is ",
            nodes, ", must be at least 3 and one more than a multiple of the order ", order);
-   require(grading > 0 && grading <= 1, "option --grading is ", grading,
-           ", must be above 0 and at most 1");
    check_growth(growth);
    require(plane_stiffness > 0, "stiffness of the half-plane over the block's is ",
            plane_stiffness, ", must be positive");
@@ -28,11 +25,12 @@ void PunchOptions::validate() const
 void add_options(Study &study, PunchOptions &options)
 {
    study.option(&options.poisson, "poisson", "Poisson's ratio of both bodies.");
-   study.option(&options.order, "order", "Order of the elements.");
+   study.option(&options.order, "order", "Order of the elements.", within(1, 8));
    study.option(&options.nodes, "nodes", "Contact nodes.");
    study.option(
       &options.grading, "grading",
-      "Size of the contact elements at the corners over the middle ones (1: uniform).");
+      "Size of the contact elements at the corners over the middle ones (1: uniform).",
+      above_up_to(0, 1));
    study.option(&options.domain, "domain", domain_help, none_or_above(2));
 }
 

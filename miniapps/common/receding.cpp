@@ -23,15 +23,9 @@ using Eigen::VectorXd;
 
 void RecedingOptions::validate() const
 {
-   require(order >= 1 && order <= 8, "option --order is ", order, ", must be 1 to 8");
-   require(spacing > 0 && spacing <= 0.5, "option --spacing is ", spacing,
-           ", must be above 0 and at most 0.5 (in t)");
    require(corner > 0 && corner <= spacing, "option --corner is ", corner,
            ", must be above 0 and at most the spacing ", spacing);
    require(growth > 1 && growth <= 2, "growth is ", growth, ", must be above 1 and at most 2");
-   require(length > 0, "option --length is ", length, ", must be positive (in t)");
-   require(domain == 0 || domain > 1, "option --domain is ", domain,
-           ", must be 0, for a half-plane without a mesh, or above 1 (in t)");
    require(side == 0 || (side > 1 && domain > 0), "option --side is ", side,
            domain > 0 ? ", must be 0 or above 1 (in t)"
                       : ", is of a block: --domain must say how deep it is");
