@@ -238,23 +238,17 @@ void Options::Option::set(const std::string &as, const std::string &text) const
 void Options::Option::validate() const
 {
    const std::string what = "option --" + names.name;
-   if (const auto *integer = std::get_if<int *>(&value))
+   require(choices.empty() ||
+              std::find(choices.begin(), choices.end(), text()) != choices.end(),
+           what, ": '", text(), "' is not one of ", listed(choices));
+   std::vector<double> numbers;
+   if (const auto *integer = std::get_if<int *>(&value)) { numbers = {double(**integer)}; }
+   if (const auto *real = std::get_if<double *>(&value)) { numbers = {**real}; }
+   if (is_list()) { numbers = *std::get<std::vector<double> *>(value); }
+   for (double x : numbers)
    {
-      require(check.holds(**integer), what, " is ", **integer, ", ", check.must);
-   }
-   else if (const auto *real = std::get_if<double *>(&value))
-   {
-      require(std::isnan(**real) || check.holds(**real), what, " is ", **real, ", ",
-              check.must);
-   }
-   else if (const auto *list = std::get_if<std::vector<double> *>(&value))
-   {
-      for (double x : **list) { require(check.holds(x), what, ": ", x, " ", check.must); }
-   }
-   else if (!choices.empty())
-   {
-      require(std::find(choices.begin(), choices.end(), text()) != choices.end(), what, ": '",
-              text(), "' is not one of ", listed(choices));
+      require((std::isnan(x) && !is_list()) || check.holds(x), what, is_list() ? ": " : " is ",
+              x, is_list() ? " " : ", ", check.must);
    }
 }
 

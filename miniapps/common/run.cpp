@@ -6,7 +6,6 @@
 #include <cmath>
 #include <iostream>
 #include <set>
-#include <sstream>
 #include <tuple>
 
 namespace miniapp
@@ -287,18 +286,14 @@ namespace
 std::string event_text(const ReducedProblem &problem, double time,
                        const Eigen::VectorXd &multipliers)
 {
-   std::ostringstream text;
-   text << "time " << time;
-   const char *before = " (";
+   std::vector<std::string> loads;
    for (const auto &[name, value] : named(problem, multipliers))
    {
       // Names of studies' loads hold numbers of their own.
       const char *quote = name.find(' ') == std::string::npos ? "" : "'";
-      text << before << quote << name << quote << " = " << value;
-      before = ", ";
+      loads.push_back(told(quote, name, quote, " = ", value));
    }
-   text << ")";
-   return text.str();
+   return told("time ", time, " (", listed(loads), ")");
 }
 
 } // namespace
@@ -307,50 +302,46 @@ int exit_code(const ReducedProblem &problem, const MarchReport &report)
 {
    ProgressLine::clear();
    warn_of_cut_off(report.cut_off);
+   const auto say = [](const auto &...parts) {
+      std::cout << "\n" << told(parts...) << std::endl;
+   };
    if (report.fallbacks > 0)
    {
-      std::cout << "\n"
-                << report.fallbacks
-                << " increments where there is no exact path: " << report.fallback_reason;
       // Of a body that is free to move nothing proves that an increment has one answer.
-      if (problem.rigid_motions.cols() > 0 && problem.friction.maxCoeff() > 0)
-      {
-         std::cout << "; where friction alone holds bodies such an increment may have several "
-                      "answers, one is gone on from, and other increments or units may find "
-                      "another";
-      }
-      std::cout << std::endl;
+      const bool several = problem.rigid_motions.cols() > 0 && problem.friction.maxCoeff() > 0;
+      say(report.fallbacks,
+          " increments where there is no exact path: ", report.fallback_reason,
+          several ? "; where friction alone holds bodies such an increment may have several "
+                    "answers, one is gone on from, and other increments or units may find "
+                    "another"
+                  : "");
    }
    if (report.advance_error > 1e-6)
    {
-      std::cout << "\nContact advanced with friction, whose forces depend on how that is cut "
-                   "into increments: by up to "
-                << error_text(report.advance_error) << " of the largest nodal force"
-                << std::endl;
+      say("Contact advanced with friction, whose forces depend on how that is cut into "
+          "increments: by up to ",
+          error_text(report.advance_error), " of the largest nodal force");
    }
    if (report.stalled > 0)
    {
-      std::cout << "\n"
-                << report.stalled << " increments stalled and were passed by shorter ones"
-                << std::endl;
+      say(report.stalled, " increments stalled and were passed by shorter ones");
    }
    if (report.taken_up_clearance > 0)
    {
-      std::cout << "\nWhat was free and touched nothing was moved before the march, by up to "
-                << text("%.4g", report.taken_up_clearance)
-                << ", to where the first loads press it on" << std::endl;
+      say("What was free and touched nothing was moved before the march, by up to ",
+          text("%.4g", report.taken_up_clearance), ", to where the first loads press it on");
    }
    if (report.status == FrictionStatus::converged) { return 0; }
    if (const auto &first = report.not_unique)
    {
-      std::cout << "\nNot unique: from " << event_text(problem, first->time, first->multipliers)
-                << " on, the states are one of several:\n  " << first->message << std::endl;
+      say("Not unique: from ", event_text(problem, first->time, first->multipliers),
+          " on, the states are one of several:\n  ", first->message);
    }
    if (report.status != FrictionStatus::not_unique)
    {
-      std::cout << "\nEnded with status '" << name(report.status) << "' at "
-                << event_text(problem, report.event_time, report.event_multipliers) << ":\n  "
-                << report.message << std::endl;
+      say("Ended with status '", name(report.status), "' at ",
+          event_text(problem, report.event_time, report.event_multipliers), ":\n  ",
+          report.message);
    }
    return 2;
 }

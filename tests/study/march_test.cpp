@@ -95,7 +95,7 @@ TEST_F(March, ALoadOnHeldNodesHasNoLoop)
    EXPECT_TRUE(cycle["stiffness held"].is_null()) << cycle;
    EXPECT_TRUE(cycle["loss_factor held"].is_null()) << cycle;
    EXPECT_GT(cycle["stiffness Q"], 0);
-   EXPECT_NEAR(cycle["work Q"].get<double>() / cycle["dissipation"].get<double>(), 1, 1e-3);
+   EXPECT_NEAR(cycle["work Q"].get<double>() / cycle["dissipation"].get<double>(), 1, 0.01);
 }
 
 /// Of a cycle within which a march is taken up the record has the rest alone: it is left out,
