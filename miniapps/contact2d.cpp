@@ -111,7 +111,7 @@ struct CaseOptions
       said.only_if(
          matrix.empty(),
          {"mesh1", "mesh2", "young1", "young2", "poisson1", "poisson2", "plane-stress"},
-         "goes without meshes, a matrix has all that in itself");
+         "is what a matrix has in itself, which goes without meshes");
       said.only_if(matrix.empty(), {"edges"},
                    "needs materials, which are not known of a matrix");
       require(!bodies[0].mesh.empty() || !matrix.empty(),
