@@ -170,7 +170,7 @@ TEST_F(Options, FilesAreCheckedBeforeTheWork)
    }
    expect_refused("contact2d", "--case meshes/dovetail.json --paraview " + endless,
                   {"option --paraview", "File name too long"});
-   expect_refused("contact2d", "--mesh1 " + endless, {"mesh file cannot be read"});
+   expect_refused("contact2d", "--contact1 3 --mesh1 " + endless, {"mesh file cannot be read"});
    for (const std::string program : {"fretting", "contact2d", "shakedown", "lap_joint", "hertz",
                                      "square_punch", "plane_receding", "axisymmetric_receding"})
    {
