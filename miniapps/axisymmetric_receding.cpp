@@ -21,31 +21,22 @@
 //                axisymmetric_receding -domain 100 -spacing 0.04
 
 #include "common/disc_torsion.hpp"
-#include "common/receding_cycles.hpp"
 
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
 #include <map>
 
 using namespace cattaneo;
+using namespace miniapp;
 using Eigen::Index;
 using Eigen::VectorXd;
-using miniapp::Disc;
-using miniapp::exact_text;
-using miniapp::Extent;
-using miniapp::none;
-using miniapp::Panel;
-using miniapp::radius_load;
-using miniapp::Table;
-using miniapp::text;
-using miniapp::Turning;
 using nlohmann::ordered_json;
 
 namespace
 {
 
 /// The bonded disc (thesis 7.3), pressed at several radii.
-void bonded(miniapp::Study &study, Disc &disc, const std::vector<double> &wanted)
+void bonded(Study &study, Disc &disc, const std::vector<double> &wanted)
 {
    const ReducedProblem &problem = disc.problem();
    // The node next to the axis sees little area; the last three, at the 270° corner, never
@@ -62,8 +53,8 @@ void bonded(miniapp::Study &study, Disc &disc, const std::vector<double> &wanted
                                          {"p_2"},
                                          {"p_3"},
                                          {"p_4"}});
-   Panel &panel = study.panel(Panel::Kind::lines, "bonded_pressure",
-                              "Bonded disc: pressure, shear (dashed)", "r/t", "p/p0, q/p0");
+   Panel &panel = study.lines("bonded_pressure", "Bonded disc: pressure, shear (dashed)", "r/t",
+                              "p/p0, q/p0");
    for (double a : wanted)
    {
       const LoadPattern &pattern = problem.patterns[problem.pattern(radius_load(a))];
@@ -87,14 +78,13 @@ void bonded(miniapp::Study &study, Disc &disc, const std::vector<double> &wanted
 }
 
 /// @param levels P/P0 to draw on the way: the zones stay
-void load(miniapp::Study &study, Disc &disc, miniapp::Run &run,
-          const std::vector<double> &levels)
+void load(Study &study, Disc &disc, Run &run, const std::vector<double> &levels)
 {
    if (!levels.empty())
    {
       Panel &profiles =
-         study.panel(Panel::Kind::lines, "loading_tractions",
-                     "Pressure p and shear q over f, loading", "r/t", "p/p0, q/(f p0)");
+         study.lines("loading_tractions", "Pressure p and shear q over f, loading", "r/t",
+                     "p/p0, q/(f p0)");
       for (double level : levels)
       {
          run.to(disc.pressed(level));
@@ -109,9 +99,7 @@ void load(miniapp::Study &study, Disc &disc, miniapp::Run &run,
    study.value("separation", found.separation, "separation d/t", found.separation_error);
    study.value("stick", found.stick, "border of stick c/t", found.stick_error);
    study.results.update(found.json());
-   study
-      .panel(Panel::Kind::lines, "tractions", "Pressure p and shear q over f", "r/t",
-             "p/p0, q/(f p0)")
+   study.lines("tractions", "Pressure p and shear q over f", "r/t", "p/p0, q/(f p0)")
       .add_tractions("loaded", disc.radii(), disc.problem(), run.state);
    Panel &zones =
       study.panel(Panel::Kind::zones, "loading_zones", "Zones during loading", "P/P0", "r/t");
@@ -119,10 +107,9 @@ void load(miniapp::Study &study, Disc &disc, miniapp::Run &run,
 }
 
 /// c and d over a for several f (thesis figure 7.10): one condensed pair serves all.
-void map(miniapp::Study &study, Disc &disc, const std::vector<double> &wanted,
+void map(Study &study, Disc &disc, const std::vector<double> &wanted,
          const std::vector<double> &frictions)
 {
-   const miniapp::Stopwatch watch;
    Table &table = study.table("map", {{"friction", "f", "%.3g"},
                                       {"load_radius", "a/t", "%.4g"},
                                       {"separation", "d/t"},
@@ -132,31 +119,19 @@ void map(miniapp::Study &study, Disc &disc, const std::vector<double> &wanted,
             "radius of the load a/t", {{"separation", "d"}, {"stick", "c"}}, "d/t, c/t",
             {"friction", "f"})
       .mark(2.5, 3.75);
-   std::vector<std::vector<NodeState>> guesses(wanted.size());
-   for (double friction : frictions)
-   {
-      ReducedProblem rubbed = disc.problem();
-      set_friction(rubbed, friction);
-      miniapp::Run run(study, rubbed);
-      for (std::size_t k = 0; k < wanted.size(); ++k)
-      {
-         run.state = ContactState::virgin(rubbed);
-         // The states of the nodes at the friction before are where the search starts.
-         if (!guesses[k].empty()) { run.state.status = guesses[k]; }
-         run.to({{radius_load(wanted[k]), 1}});
-         guesses[k] = run.state.status;
-         const Extent found = disc.extent(rubbed, run.state);
-         study.row(table, {friction, wanted[k], found.separation, found.stick}, found.errors());
-      }
-   }
-   study.say(text("map of %zu states in %.2f s", table.json().size(), watch.seconds()));
+   map_loads(study, table, disc.problem(), wanted, frictions, radius_load,
+             [&](double f, double a, const Run &run)
+             {
+                const Extent found = disc.extent(run.solver.problem(), run.state);
+                study.row(table, {f, a, found.separation, found.stick}, found.errors());
+             });
 }
 
 /// Load radius above which no point of a disc separates (thesis figure 7.8).
-void critical(miniapp::Study &study, const Disc &disc, const std::vector<double> &discs,
+void critical(Study &study, const Disc &disc, const std::vector<double> &discs,
               const std::vector<double> &frictions, bool also_bonded)
 {
-   const miniapp::Stopwatch watch;
+   const Stopwatch watch;
    Table &table = study.table("critical_load_radius", {{"disc_radius", "b/t", "%.3g"},
                                                        {"friction", "f", "%.3g"},
                                                        {"load_radius", "critical a/t"}});
@@ -167,73 +142,43 @@ void critical(miniapp::Study &study, const Disc &disc, const std::vector<double>
                                                    {"load_radius", "bonded: critical a/t"}});
    for (double b : discs)
    {
-      miniapp::DiscOptions own = disc.options;
+      DiscOptions own = disc.options;
       own.disc_radius = b;
-      own.twist = miniapp::Twist::none;
-      if (also_bonded) { study.row(bonded, {b, miniapp::bonded_critical_radius(own)}); }
-      miniapp::CriticalLoad critical(own);
+      own.twist = Twist::none;
+      if (also_bonded) { study.row(bonded, {b, bonded_critical_radius(own)}); }
+      CriticalLoad critical(own);
       for (double f : frictions) { study.row(table, {b, f, critical.radius(f)}); }
       study.counters += critical.counters();
    }
    study.say(text("%zu critical radii in %.2f s", table.json().size(), watch.seconds()));
 }
 
-/// The load taken back to each of the wanted levels (descending), in steps that shrink with it.
-void unload(miniapp::Study &study, Disc &disc, miniapp::Run &run,
-            const std::vector<double> &wanted)
+Receding receding(Disc &disc)
 {
-   const ReducedProblem &problem = disc.problem();
-   Panel &profiles =
-            study.panel(Panel::Kind::lines, "unloading_tractions",
-                        "Pressure p and shear q over f, unloaded", "r/t", "p/p0, q/(f p0)"),
-         &diagram =
-            study.panel(Panel::Kind::zones, "zones", "Zones during unloading", "P/P0", "r/t");
-   const auto add_profile = [&](double level, const ContactState &state)
-   { profiles.add_tractions(exact_text("P/P0 = ", level), disc.radii(), problem, state); };
-   diagram.add(1.0, disc.extent(run.state).zones);
-   add_profile(1, run.state);
-   if (disc.options.disc_radius == 5 && disc.a == 2.5 && disc.f == 0.5)
-   {
-      for (double border : {1.6, 2.3, 2.9, 3.4}) { diagram.mark(0.5, border); }
-   }
-   Table &table = study.table("unloading", {{"level", "P/P0", "%.3g"},
-                                            {"separation", "d/t"},
-                                            {"stick", "c/t"},
-                                            {"border_1"},
-                                            {"border_2"},
-                                            {"border_3"},
-                                            {"border_4"},
-                                            {"zones", "zones and their outer ends, r/t"}});
-   const auto observe = [&](const ContactState &now, const IncrementRecord &)
-   {
-      const Extent found = disc.extent(now);
-      const double level = named(problem, now.multipliers).at(radius_load(disc.a));
-      diagram.add(level, found.zones);
-      const auto target =
-         std::find_if(wanted.begin(), wanted.end(),
-                      [&](double value) { return std::abs(level - value) < 1e-9; });
-      if (target == wanted.end()) { return; }
-      add_profile(*target, now);
-      std::vector<ordered_json> row = {*target, found.separation, found.stick};
-      auto errors = found.errors();
-      miniapp::add_borders(found.zones, row, errors);
-      row.push_back(miniapp::to_json(found.zones));
-      study.row(table, row, errors, found.json());
-   };
-   std::vector<NamedLoads> points;
-   for (double level : miniapp::unloading_levels(disc.steps, wanted.back(), wanted))
-   {
-      points.push_back(disc.pressed(level));
-   }
-   run.settings.increments = 1;
-   run.through(points, observe);
-   diagram.say("reversed: x");
+   return {radius_load(disc.a),
+           {"level", "P/P0", "%.3g"},
+           {"separation", "d/t"},
+           {"stick", "c/t"},
+           "r/t",
+           disc.radii()[0] - disc.problem().arc_length[0],
+           "D E/(p0² t³)",
+           [&disc](const ContactState &state) { return disc.extent(state); }};
 }
 
-void axisymmetric_receding(miniapp::Study &study)
+void unload(Study &study, Disc &disc, Run &run, const std::vector<double> &wanted)
+{
+   const auto [profiles, diagram] =
+      unload(study, run, receding(disc),
+             {disc.steps, wanted.back(), wanted, "unloading", "unloading_tractions",
+              "Pressure p and shear q over f, unloaded", "outer"});
+   if (disc.options.disc_radius != 5 || disc.a != 2.5 || disc.f != 0.5) { return; }
+   for (double border : {1.6, 2.3, 2.9, 3.4}) { diagram.mark(0.5, border); }
+}
+
+void axisymmetric_receding(Study &study)
 {
    Disc disc;
-   miniapp::DiscOptions &options = disc.options;
+   DiscOptions &options = disc.options;
    std::string twisted = "top", obstacle = "half-plane";
    std::vector<double> on_the_way, levels, cycled, torques, rotations, bonded_a, map_a,
       map_f = {0.5, 0.8}, discs, critical_f = {0, 0.5, 0.8};
@@ -243,51 +188,51 @@ void axisymmetric_receding(miniapp::Study &study)
    study.option(&options.disc_radius, "disc-radius", "b, in t.");
    study.option(&disc.a, "load-radius", "a, in t.");
    study.option(&disc.f, "friction", "Coefficient of friction (0: no tangential unknowns).",
-                miniapp::not_negative);
+                not_negative);
    study.option(&options.poisson, "poisson", "Poisson's ratio of both bodies.");
    study.option(&obstacle, "obstacle", "What the disc lies on: half-plane, a half-space.",
                 {"half-plane"});
-   study.option(&options.domain, "domain", miniapp::domain_help);
-   study.option(&options.order, "order", "Order of the elements.");
-   study.option(&options.spacing, "spacing", "Distance of the contact nodes, in t.");
+   study.option(&options.domain, "domain", domain_help);
+   study.option(&options.order, "order", "Order of the elements.", within(1, 8));
+   study.option(&options.spacing, "spacing", "Distance of the contact nodes, in t.",
+                above_up_to(0, 0.5));
    study.option(&on_the_way, "load-levels", "Loading: list of P/P0 to draw (empty: none).",
-                miniapp::above_up_to(0, 1));
+                above_up_to(0, 1));
    study.option(&levels, "unload", "Unloading: list of P/P0 to report (empty: none).",
-                miniapp::between(0, 1));
+                between(0, 1));
    study.option(&cycled, "cycle-to",
                 "Load cycles between P0 and less: list of P/P0 to go back to (empty: none).",
-                miniapp::between(0, 1));
-   study.option(&load_cycles, "load-cycles", "Load cycles, at most.", miniapp::at_least(1));
+                between(0, 1));
+   study.option(&load_cycles, "load-cycles", "Load cycles, at most.", at_least(1));
    study.option(&torques, "torque", "Torsion: list of T/T_s to report (empty: none).",
-                miniapp::positive);
+                positive);
    study.option(&rotations, "rotation",
-                "Torsion: list of rotations to report instead, in p0/E.", miniapp::positive);
+                "Torsion: list of rotations to report instead, in p0/E.", positive);
    study.option(&twisted, "twist",
                 "What twists: rotation of the top, of its loaded part or of the rim, or "
                 "traction, a torque, on the loaded part.",
                 {"top", "loaded", "rim", "traction"});
-   study.option(&cycles, "cycles", "Torsion: cycles to and fro.", miniapp::not_negative);
+   study.option(&cycles, "cycles", "Torsion: cycles to and fro.", not_negative);
    study.option(&amplitude, "amplitude", "Torsion: T/T_s that the cycles start from.",
-                miniapp::above_up_to(0, 1));
-   study.option(&disc.steps, "steps", "Steps of 1/steps of the load or of T_s.",
-                miniapp::at_least(2));
+                above_up_to(0, 1));
+   study.option(&disc.steps, "steps", "Steps of 1/steps of the load or of T_s.", at_least(2));
    study.option(&bonded_a, "bonded", "Bonded disc: list of a to report.");
    study.option(&map_a, "map", "Map of c and d: list of a (empty: none).");
-   study.option(&map_f, "map-friction", "Map of c and d: list of f.", miniapp::positive);
+   study.option(&map_f, "map-friction", "Map of c and d: list of f.", positive);
    study.option(&discs, "critical", "Critical radius of the load: list of b (empty: none).",
-                miniapp::at_least(1));
+                at_least(1));
    study.option(&critical_f, "critical-friction", "Critical radius of the load: list of f.",
-                miniapp::not_negative);
+                not_negative);
    study.option(&critical_bonded, "critical-bonded",
                 "Critical radius of the load: of the bonded disc too (ill-conditioned).");
    study.parse();
    const bool twists = !torques.empty() || !rotations.empty() || cycles > 0;
-   study.options().only_if(!map_a.empty(), {"map-friction"}, "goes with --map");
-   study.options().only_if(!discs.empty(), {"critical-friction", "critical-bonded"},
-                           "goes with --critical");
-   study.options().only_if(!cycled.empty(), {"load-cycles"}, "goes with --cycle-to");
-   study.options().only_if(cycles > 0, {"amplitude"}, "goes with --cycles");
-   study.options().only_if(twists, {"twist"}, "goes with --torque, --rotation or --cycles");
+   study.only_if(!map_a.empty(), {"map-friction"}, "goes with --map");
+   study.only_if(!discs.empty(), {"critical-friction", "critical-bonded"},
+                 "goes with --critical");
+   study.only_if(!cycled.empty(), {"load-cycles"}, "goes with --cycle-to");
+   study.only_if(cycles > 0, {"amplitude"}, "goes with --cycles");
+   study.only_if(twists, {"twist"}, "goes with --torque, --rotation or --cycles");
    study.results["load_radius"] = disc.a;
    require(map_a.empty() || !map_f.empty(),
            "option --map-friction is empty, must list the coefficients of the map");
@@ -312,24 +257,23 @@ void axisymmetric_receding(miniapp::Study &study)
                  " must be above 0 and at most the disc's radius ", options.disc_radius);
       }
    }
-   options.load_radii = miniapp::joined_once(miniapp::joined_once({disc.a}, bonded_a), map_a);
+   options.load_radii = joined_once(joined_once({disc.a}, bonded_a), map_a);
    if (twists)
    {
-      options.twist =
-         std::map<std::string, miniapp::Twist>{{"top", miniapp::Twist::top},
-                                               {"loaded", miniapp::Twist::loaded},
-                                               {"rim", miniapp::Twist::rim},
-                                               {"traction", miniapp::Twist::traction}}[twisted];
+      options.twist = std::map<std::string, Twist>{{"top", Twist::top},
+                                                   {"loaded", Twist::loaded},
+                                                   {"rim", Twist::rim},
+                                                   {"traction", Twist::traction}}[twisted];
    }
 
-   disc.scene = miniapp::make_disc(options);
+   disc.scene = make_disc(options);
    set_friction(disc.problem(), disc.f);
    study.reduced(disc.scene);
    if (!bonded_a.empty()) { bonded(study, disc, bonded_a); }
-   miniapp::Run run(study, disc.problem());
+   Run run(study, disc.problem());
    load(study, disc, run, on_the_way);
    const ContactState loaded = run.state;
-   const auto again = [&]() -> miniapp::Run &
+   const auto again = [&]() -> Run &
    {
       run.state = loaded;
       run.settings = {};
@@ -339,10 +283,7 @@ void axisymmetric_receding(miniapp::Study &study)
    if (!cycled.empty())
    {
       again().settings.increments = disc.steps;
-      miniapp::cycle_the_load(study, run,
-                              {radius_load(disc.a), cycled, load_cycles,
-                               disc.radii()[0] - disc.problem().arc_length[0], "r/t",
-                               "D E/(p0² t³)"});
+      cycle_the_load(study, run, receding(disc), cycled, load_cycles);
    }
    if (twists) { spinning_limit(study, disc); }
    if (!torques.empty()) { twist(study, disc, again(), Turning::Stop::torque, torques); }
@@ -359,5 +300,5 @@ void axisymmetric_receding(miniapp::Study &study)
 
 int main(int argc, char *argv[])
 {
-   return miniapp::Study::run("axisymmetric_receding", argc, argv, axisymmetric_receding);
+   return Study::run("axisymmetric_receding", argc, argv, axisymmetric_receding);
 }

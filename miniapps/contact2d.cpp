@@ -28,7 +28,7 @@
 #include <optional>
 
 using namespace cattaneo;
-using miniapp::text;
+using namespace miniapp;
 
 namespace
 {
@@ -53,19 +53,21 @@ struct Snapshots
    }
 };
 
-struct Options
+struct CaseOptions
 {
-   std::vector<miniapp::BodyOptions> bodies{2};
-   miniapp::HalfPlaneOptions half_plane;
+   std::vector<BodyOptions> bodies{2};
+   HalfPlaneOptions half_plane;
    int order = 2;
    bool plane_stress = false;
    double friction = 0, pairing = 1e-6;
    std::string matrix, gap = "geometry", paraview, convert;
    std::vector<double> edges;
-   miniapp::JointKeys joint; ///< of a case file 2
+   std::string analysis, joined, interfaces, bolts; ///< the keys of a case file 2
 
-   explicit Options(miniapp::Study &study)
+   explicit CaseOptions(Study &study)
    {
+      Options &all = study.options();
+      all.of_version(1);
       add_options(study, bodies[0], "1", "Mesh of body 1 (MFEM, Gmsh, or .inp).");
       add_options(study, bodies[1], "2",
                   "Mesh of body 2; without it body 1 is on a rigid line or a half-plane.");
@@ -73,73 +75,45 @@ struct Options
       study.option(&matrix, "matrix",
                    "Stiffness of both bodies, or of one, as another program wrote it, in place "
                    "of the meshes; contact, supports and loads are on its sets of nodes.",
-                   miniapp::Text::input);
-      study.option(&order, "order", "Order of the elements.", miniapp::within(1, 8));
+                   Text::input);
+      all.of_version(0);
+      study.option(&order, "order", "Order of the elements.", within(1, 8));
+      all.of_version(1);
       study.option(&plane_stress, "plane-stress", "Plane stress instead of plane strain.");
-      study.option(&friction, "friction", "Coefficient of friction.", miniapp::not_negative);
+      study.option(&friction, "friction", "Coefficient of friction.", not_negative);
       study.option(&gap, "gap", "Initial gap: geometry (from the meshes) or closed (none).",
                    {"geometry", "closed"});
       study.option(&pairing, "pairing",
                    "Largest offset of paired nodes along the contact, in distances of nodes.",
-                   miniapp::between(0, 0.5));
+                   between(0, 0.5));
+      all.of_version(0);
       study.option(&edges, "edges",
                    "Times of two states: pressed, and at the peak of the cyclic loads. Reports "
                    "K_N, K_T and slip at the contact edges; a third time is the other end of "
                    "the cycle, for the energy.");
-      study.option(&paraview, "paraview", "Folder for ParaView files.", miniapp::Text::folder);
-      study.option(&joint.analysis, "analysis", "plane strain, plane stress or axisymmetric.");
-      study.option(&joint.bodies, "bodies", "Bodies by their names (case file 2).",
-                   miniapp::Text::structure);
-      study.option(&joint.interfaces, "interfaces", "Where they touch, by names (case file 2).",
-                   miniapp::Text::structure);
-      study.option(&joint.bolts, "bolts", "Shanks that pull two parts together (case file 2).",
-                   miniapp::Text::structure);
+      study.option(&paraview, "paraview", "Folder for ParaView files.", Text::folder);
+      all.of_version(2);
+      study.option(&analysis, "analysis", "plane strain, plane stress or axisymmetric.");
+      study.option(&joined, "bodies", "Bodies by their names (case file 2).", Text::structure);
+      study.option(&interfaces, "interfaces", "Where they touch, by names (case file 2).",
+                   Text::structure);
+      study.option(&bolts, "bolts", "Shanks that pull two parts together (case file 2).",
+                   Text::structure);
+      all.of_version(0);
       study.option(&convert, "convert", "File for the same as a case file 2, and stop there.",
-                   miniapp::Text::output);
-      study.options().of_version(2, {"analysis", "bodies", "interfaces", "bolts"});
-      study.options().of_version(1, {"mesh1",
-                                     "mesh2",
-                                     "young1",
-                                     "young2",
-                                     "poisson1",
-                                     "poisson2",
-                                     "contact1",
-                                     "contact2",
-                                     "support1",
-                                     "support2",
-                                     "load1",
-                                     "load2",
-                                     "half-plane-young",
-                                     "half-plane-poisson",
-                                     "half-plane-depth",
-                                     "matrix",
-                                     "plane-stress",
-                                     "friction",
-                                     "gap",
-                                     "pairing"});
-   }
-
-   /// What a matrix has in itself, and what is not known of it.
-   void check_matrix() const
-   {
-      for (const miniapp::BodyOptions &body : bodies)
-      {
-         require(body.mesh.empty() && body.young == std::vector<double>{1} &&
-                    body.poisson == std::vector<double>{0.3},
-                 "option matrix goes without meshes and without the options young and poisson, "
-                 "which the matrix has in itself");
-      }
-      require(!plane_stress, "option matrix goes without the option plane-stress, which the "
-                             "matrix has in itself");
-      require(edges.empty(), "option matrix goes without the option edges: materials are not "
-                             "known");
+                   Text::output);
    }
 
    /// Of file 1, or of no file.
-   void check_bodies() const
+   void check_bodies(const Options &said) const
    {
-      const miniapp::BodyOptions &second = bodies[1];
-      if (!matrix.empty()) { check_matrix(); }
+      const BodyOptions &second = bodies[1];
+      said.only_if(
+         matrix.empty(),
+         {"mesh1", "mesh2", "young1", "young2", "poisson1", "poisson2", "plane-stress"},
+         "is what a matrix has in itself, which goes without meshes");
+      said.only_if(matrix.empty(), {"edges"},
+                   "needs materials, which are not known of a matrix");
       require(!bodies[0].mesh.empty() || !matrix.empty(),
               "option mesh1 is empty, must name a mesh file (or matrix a stiffness)");
       require(!alone() || (second.contact + second.support + second.load).empty(),
@@ -175,68 +149,92 @@ struct Options
       }
    }
 
-   /// What they come to. A matrix may know the order of its elements, if none is said.
-   miniapp::JointCase all(bool order_said) const
+   bool of_file_2() const { return !(analysis + joined + interfaces + bolts).empty(); }
+
+   /// The keys of a case file 2 that say it. A matrix may know the order of its elements, if
+   /// none is said.
+   JointKeys keys(const Options &said) const
    {
-      check_edges();
-      if (joint.given()) { return miniapp::joint_case(joint, order); }
-      check_bodies();
-      miniapp::JointCase made;
-      made.numbered = true;
-      made.order = order;
-      made.plane_stress = plane_stress;
-      miniapp::JointCase::Face face;
-      face.name = "contact";
-      face.source = {"option ", ""};
-      face.friction = {{{0, friction}}, {}};
-      if (gap == "closed") { face.gap = miniapp::JointCase::Profile{{{0, 0}}, {}}; }
+      if (of_file_2())
+      {
+         return {analysis.empty() ? "plane strain" : analysis, structure("bodies", joined),
+                 structure("interfaces", interfaces), structure("bolts", bolts)};
+      }
+      check_bodies(said);
+      using Json = nlohmann::ordered_json;
+      const auto one_or_all = [](const std::vector<double> &values)
+      { return values.size() == 1 ? Json(values[0]) : Json(values); };
+      Json all, face;
       for (int k = 0; k < (alone() ? 1 : 2); ++k)
       {
-         const miniapp::BodyOptions &body = bodies[k];
+         const BodyOptions &body = bodies[k];
          const std::string number = std::to_string(k + 1);
-         miniapp::JointCase::Body &added = made.bodies.emplace_back();
-         added.name = number;
-         added.source = {"option ", number};
-         added.mesh = body.mesh;
-         added.matrix = matrix;
-         if (!matrix.empty() && order_said) { added.order = order; }
-         added.young = body.young;
-         added.poisson = body.poisson;
-         added.support = body.support;
-         added.load = body.load;
-         face.sides[k] = {k, body.contact, "option contact" + number};
+         Json &made = all[number];
+         if (!matrix.empty()) { made["matrix"] = matrix; }
+         else
+         {
+            made = {{"mesh", body.mesh},
+                    {"young", one_or_all(body.young)},
+                    {"poisson", one_or_all(body.poisson)}};
+         }
+         if (!matrix.empty() && said.says("order")) { made["order"] = order; }
+         if (!body.support.empty()) { made["support"] = body.support; }
+         if (!body.load.empty()) { made["load"] = split(body.load, ";"); }
+         require(!body.young.empty() && !body.poisson.empty(), "options young", number,
+                 " and poisson", number, " must not be empty");
+         require(!body.contact.empty(), "option contact", number,
+                 " is empty, must name boundary attributes");
+         face["between"].push_back(number + ":" + body.contact);
       }
       if (half_plane.given())
       {
-         miniapp::JointCase::Body &below = made.bodies.emplace_back();
-         below.name = "half-plane";
-         below.source = {"option half-plane-", ""};
-         below.half_plane = true;
-         below.young = {half_plane.young};
-         below.poisson = {half_plane.poisson};
-         below.depth = half_plane.depth;
-         face.sides[1] = {1, "", ""};
+         Json &made = all["half-plane"]["half-plane"];
+         made = {{"young", half_plane.young}, {"poisson", half_plane.poisson}};
+         if (!std::isnan(half_plane.depth)) { made["depth"] = half_plane.depth; }
+         face["between"].push_back("half-plane");
       }
-      if (!alone()) { face.pairing = pairing; }
-      made.faces = {face};
+      face["friction"] = friction;
+      if (gap == "closed") { face["gap"] = gap; }
+      if (!alone()) { face["pairing"] = pairing; }
+      return {plane_stress ? "plane stress" : "plane strain", all, {{"contact", face}}, {}};
+   }
+
+   /// What the keys come to; of file 1 errors name options.
+   JointCase all(const JointKeys &keys) const
+   {
+      JointCase made = joint_case(keys, order);
+      if (of_file_2()) { return made; }
+      made.numbered = true;
+      for (JointCase::Body &body : made.bodies)
+      {
+         body.source = {"option ", body.name};
+         if (body.half_plane) { body.source = {"option half-plane-", ""}; }
+      }
+      made.faces[0].source = {"option ", ""};
+      for (int k : {0, 1})
+      {
+         made.faces[0].sides[k].called = "option contact" + std::to_string(k + 1);
+      }
       return made;
    }
 };
 
-void contact2d(miniapp::Study &study)
+void contact2d(Study &study)
 {
-   Options options(study);
-   miniapp::OwnHistory history(study);
+   CaseOptions options(study);
+   OwnHistory history(study);
    study.parse();
-   const miniapp::JointCase joint = options.all(study.options().says("order"));
+   options.check_edges();
+   const JointKeys keys = options.keys(study.options());
+   const JointCase joint = options.all(keys);
    history.check_options();
-   study.options().only_if(options.convert.empty(), {"csv", "plot", "html"},
-                           "is of a run, --convert writes the case alone");
-   if (!options.convert.empty()) { miniapp::convert(study, joint, options.convert); }
+   study.only_if(options.convert.empty(), {"csv", "plot", "html"},
+                 "is of a run, --convert writes the case alone");
+   if (!options.convert.empty()) { convert(study, keys, options.order, options.convert); }
    Snapshots snapshots{options.edges, {}};
    snapshots.states.resize(snapshots.times.size());
 
-   miniapp::OwnBodies own = make_own_bodies(joint);
+   OwnBodies own = make_own_bodies(joint);
    require(options.paraview.empty() || own.known_elements,
            "option matrix goes without the option paraview: elements are not known");
    if (!own.known_elements) { own.scene.bodies.clear(); } // of the others nothing is shown
@@ -253,19 +251,19 @@ void contact2d(miniapp::Study &study)
    study.value("condensation_error", own.accuracy);
    study.say(text("   gap %g to %g; stiffness right to %.2g of itself", problem.gap.minCoeff(),
                   problem.gap.maxCoeff(), own.accuracy));
-   miniapp::warn_of_accuracy(own.accuracy);
-   std::deque<miniapp::SidesThatBear> beyond_corners;
+   warn_of_accuracy(own.accuracy);
+   std::deque<SidesThatBear> beyond_corners;
    const std::vector<bool> even = even_sides(joint);
    for (std::size_t k = 0; k < own.scene.reduction.interfaces.size(); ++k)
    {
       const InterfaceReport &face = own.scene.reduction.interfaces[k];
-      miniapp::warn_of_overlap(problem, face);
-      miniapp::warn_of_left_out(face);
+      warn_of_overlap(problem, face);
+      warn_of_left_out(face);
       if (face.tied) { continue; }
       if (face.bodies[1] < 0 && even[k]) { beyond_corners.emplace_back(face); }
       else { beyond_corners.emplace_back(face, own.scene.reduction.bodies); }
    }
-   miniapp::JointReport joint_report(study, joint, own.scene.reduction);
+   JointReport joint_report(study, joint, own.scene.reduction);
    if (history.state.time > 0) { joint_report.note(history.state, 0); }
    SmallDisplacements small(own.scene.reduction, even);
    std::optional<ReductionFields> fields;
@@ -275,8 +273,7 @@ void contact2d(miniapp::Study &study)
       study.begins(options.paraview + "/contact", true);
       for (std::size_t b = 0; b < own.scene.reduction.bodies.size(); ++b)
       {
-         study.begins(options.paraview + "/" + miniapp::body_name(own.scene.reduction, b),
-                      true);
+         study.begins(options.paraview + "/" + body_name(own.scene.reduction, b), true);
       }
       fields.emplace(
          own.scene.fields(options.paraview, own.half_plane ? &*own.half_plane : nullptr));
@@ -301,8 +298,8 @@ void contact2d(miniapp::Study &study)
    study.save(problem);
    if (fields) { study.say(text("%d frames in %s", frames, options.paraview.c_str())); }
    for (const auto &side : beyond_corners) { side.warn(); }
-   miniapp::warn_of_chords(own.scene.reduction, pressed);
-   miniapp::warn_of_linear_axis(own.scene.reduction, pressed);
+   warn_of_chords(own.scene.reduction, pressed);
+   warn_of_linear_axis(own.scene.reduction, pressed);
    warn_of_large_displacements(own, small, history.state);
    if (history.report.status != FrictionStatus::converged) { warn_of_loose_bodies(own); }
 
@@ -321,14 +318,14 @@ void contact2d(miniapp::Study &study)
       if (own.materials.size() == 1) { edges.cracked = CrackedBody::first; }
       edges.modulus = own.modulus();
       edges.corner = [&](int end) { return own.corner(end); };
-      miniapp::report_edges(study, fretting::read_edges(edges));
+      report_edges(study, fretting::read_edges(edges));
    }
-   miniapp::report_critical_friction(study, problem);
+   report_critical_friction(study, problem);
 }
 
 } // namespace
 
 int main(int argc, char *argv[])
 {
-   return miniapp::Study::run("contact2d", argc, argv, contact2d);
+   return Study::run("contact2d", argc, argv, contact2d);
 }

@@ -32,11 +32,10 @@
 #include <cmath>
 
 using namespace cattaneo;
+using namespace miniapp;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using miniapp::exact_text;
-using miniapp::text;
 
 namespace
 {
@@ -49,10 +48,10 @@ double uniform_profile(double x, double P)
 }
 
 /// The best of what is found from all starts, with a table of them if there are several.
-DesignReport search(miniapp::Study &study, const DesignProblem &problem, const VectorXd &start,
+DesignReport search(Study &study, const DesignProblem &problem, const VectorXd &start,
                     int starts, DesignSettings settings)
 {
-   miniapp::Watch watch("design");
+   Watch watch("design");
    settings.march.monitor = watch.monitor();
    std::vector<VectorXd> from = {start};
    for (const VectorXd &other : spread_starts(problem, start, starts - 1))
@@ -60,8 +59,8 @@ DesignReport search(miniapp::Study &study, const DesignProblem &problem, const V
       from.push_back(other);
    }
    DesignReport best;
-   double at_start = miniapp::none;
-   miniapp::Table *table = nullptr;
+   double at_start = none;
+   Table *table = nullptr;
    if (starts > 1)
    {
       table = &study.table("starts", {{"start", "start"},
@@ -75,9 +74,8 @@ DesignReport search(miniapp::Study &study, const DesignProblem &problem, const V
       const bool known = !report.traces.empty();
       if (table)
       {
-         study.row(*table,
-                   {k + 1, known ? std::abs(report.objective_at_start) : miniapp::none,
-                    known ? std::abs(report.objective) : miniapp::none, name(report.status)});
+         study.row(*table, {k + 1, known ? std::abs(report.objective_at_start) : none,
+                            known ? std::abs(report.objective) : none, name(report.status)});
       }
       const bool better = known && (best.traces.empty() || report.objective < best.objective);
       const bool ends = report.status == DesignStatus::stopped;
@@ -93,54 +91,52 @@ DesignReport search(miniapp::Study &study, const DesignProblem &problem, const V
    return best;
 }
 
-void design_contact(miniapp::Study &study)
+void design_contact(Study &study)
 {
-   miniapp::DesignScene chosen;
-   miniapp::DesignChoice choice;
-   std::string stepping = "advancing";
+   DesignScene chosen;
+   DesignChoice choice;
+   std::string march_by = "advancing";
    int lines = 0, starts = 1;
    DesignSettings settings;
-   using miniapp::at_least;
    study.option(&chosen.scene, "scene", "Pad on a half-plane, or square punch on one.",
                 {"pad", "punch"});
    study.option(&choice.profile, "profile",
                 "Gap free at nodes, of few powers, or flat with rounded ends.",
                 {"free", "crown", "rounded"});
    study.option(&choice.powers, "powers",
-                "Crown: its powers; an odd one leans to one side or the other.",
-                miniapp::within(1, 16));
+                "Crown: its powers; an odd one leans to one side or the other.", within(1, 16));
    study.option(&chosen.goal, "goal",
                 "Least largest pressure; in a cycle the least energy lost, the most (damping), "
                 "or the least that a node loses at most per area (energy).",
                 {"pressure", "loss", "damping", "energy"});
-   study.option(&chosen.loads, "loads", "Normal load P of each case.", miniapp::positive);
-   study.option(&chosen.weights, "weights", "Of each case; default: 1.", miniapp::positive);
-   study.option(&chosen.shear, "shear", "Amplitude of Q/fP.", miniapp::at_least_below(0, 1));
+   study.option(&chosen.loads, "loads", "Normal load P of each case.", positive);
+   study.option(&chosen.weights, "weights", "Of each case; default: 1.", positive);
+   study.option(&chosen.shear, "shear", "Amplitude of Q/fP.", at_least_below(0, 1));
    study.option(&chosen.friction, "friction", "Default: 0.3, of --reduced the file's.",
-                miniapp::positive);
+                positive);
    study.option(
       &choice.most, "most",
       "Most that a gap changes by against the node that touches (of bodies that are held: that "
       "is added to it), largest part of each power of the crown, or largest 1/R; of --choose, "
       "most that a load changes by.",
-      miniapp::positive);
+      positive);
    study.option(&choice.curvature, "curvature", "Largest of the gap; default: no limit.",
-                miniapp::positive);
+                positive);
    study.option(&chosen.nodes, "nodes", "Contact nodes, one more than a multiple of 4.",
                 at_least(9));
    study.option(&settings.march.increments, "increments",
                 "Increments between two points of the history.", at_least(1));
-   study.option(&stepping, "stepping", miniapp::stepping_help, miniapp::stepping_choices);
+   study.option(&march_by, "stepping", stepping_help, stepping_choices);
    study.option(&settings.tolerance, "tolerance", "Of the conditions of optimality.",
-                miniapp::between(0, 1));
+                between(0, 1));
    study.option(&lines, "lines", "Steps of a sweep along each variable.", at_least(0));
    study.option(&starts, "starts", "Searches from so many places: the best is kept.",
                 at_least(1));
    study.option(&chosen.file, "reduced", "Reduced problem, in place of the scenes.",
-                miniapp::Text::input);
+                Text::input);
    study.option(&chosen.history, "history",
                 "With --reduced: load multipliers at times 0, 1, …, as 'P=0; P=1; Q=0.1'.",
-                miniapp::Text::statements);
+                Text::statements);
    study.option(&chosen.from, "from",
                 "With --reduced: time from which on its points count; default: the last.");
    study.option(
@@ -149,20 +145,26 @@ void design_contact(miniapp::Study &study)
       "their sum stays, none goes below zero.");
    study.option(&choice.coat, "coat",
                 "Friction is chosen in place of the gap, from the first number to the second.",
-                miniapp::not_negative);
+                not_negative);
    study.option(&choice.zones, "zones", "Of --coat, of equal lengths, of each line.",
                 at_least(1));
    study.parse();
-   settings.march.stepping = miniapp::stepping(stepping);
-   const miniapp::DesignScene usual;
-   require(chosen.file.empty() == chosen.history.empty(),
-           "options --reduced and --history: one needs the other");
-   require(!chosen.file.empty() || std::isnan(chosen.from), "option --from is of --reduced");
-   require(chosen.file.empty() ||
-              (chosen.scene == usual.scene && chosen.loads == usual.loads &&
-               chosen.shear == 0 && chosen.weights.empty() && chosen.nodes == usual.nodes),
-           "options --scene, --loads, --weights, --shear and --nodes are of the scenes, "
-           "--reduced has its own contact and --history");
+   settings.march.stepping = stepping(march_by);
+   const bool saved = !chosen.file.empty(), own_gap = choice.what() == "gap",
+              free = own_gap && choice.profile == "free";
+   study.only_if(saved, {"history", "from"}, "is of --reduced");
+   study.only_if(saved, {"choose"}, "is of --reduced, the scenes have no loads to choose");
+   study.only_if(!saved, {"scene", "loads", "weights", "shear", "nodes"},
+                 "is of the scenes, --reduced has its own contact and --history");
+   study.only_if(own_gap, {"profile", "curvature"},
+                 "is of a gap that is chosen, --choose and --coat take its place");
+   study.only_if(!choice.coat.empty(), {"zones"}, "is of --coat");
+   study.only_if(choice.profile == "crown", {"powers"}, "is of --profile crown");
+   study.only_if(!free, {"lines"}, "is not of a free profile, whose variables are many");
+   study.only_if(choice.loads.empty(), {"lines"},
+                 "is not of --choose: the sum of the loads stays, none goes alone");
+   require(!saved || !chosen.history.empty(),
+           "option --history is empty, must be the loads of --reduced");
    require(!chosen.cycles() || chosen.shear > 0 || !std::isnan(chosen.from),
            "option --goal is ", chosen.goal,
            ", which needs a cycle: --shear, of --reduced --from");
@@ -170,38 +172,21 @@ void design_contact(miniapp::Study &study)
    require(chosen.weights.size() == chosen.loads.size(), "option --weights has ",
            chosen.weights.size(), " entries, --loads has ", chosen.loads.size());
 
-   const miniapp::DesignChoice usual_choice;
-   require(choice.loads.empty() || !chosen.file.empty(),
-           "option --choose is of --reduced: the scenes have no loads to choose");
    require(choice.loads.empty() || choice.coat.empty(),
            "options --choose and --coat: a design chooses one of them");
-   require(choice.what() == "gap" ||
-              (choice.profile == usual_choice.profile && std::isnan(choice.curvature)),
-           "options --profile and --curvature are of a gap that is chosen, --choose and --coat "
-           "take its place");
-   require(!choice.coat.empty() || choice.zones == usual_choice.zones,
-           "option --zones is of --coat");
-   require(choice.profile == "crown" || choice.powers == usual_choice.powers,
-           "option --powers is of --profile crown");
-   require(lines == 0 || choice.what() != "gap" || choice.profile != usual_choice.profile,
-           "option --lines is not of a free profile, whose variables are many");
-   require(lines == 0 || choice.loads.empty(),
-           "option --lines is not of --choose: the sum of the loads stays, none goes alone");
 
    DesignProblem problem;
    problem.problem = make_problem(study, chosen);
    const ReducedProblem &flat = problem.problem;
    const Index n = flat.nodes();
-   const VectorXd x = miniapp::places(flat);
-   const bool own_gap = choice.what() == "gap",
-              free = own_gap && choice.profile == usual_choice.profile;
-   choice.begins_flat = chosen.file.empty();
+   const VectorXd x = places(flat);
+   choice.begins_flat = !saved;
    problem.cases = make_cases(chosen, flat);
-   const miniapp::DesignVariables variables = choose_variables(problem, choice);
+   const DesignVariables variables = choose_variables(problem, choice);
    if (chosen.goal == "energy")
    {
       problem.objective = [&flat](const Responses &of, const std::vector<std::size_t> &states)
-      { return miniapp::densities(flat, of, states); };
+      { return densities(flat, of, states); };
    }
    else if (chosen.cycles())
    {
@@ -222,14 +207,14 @@ void design_contact(miniapp::Study &study)
    if (report.traces.empty())
    {
       study.say("   no design: " + report.message);
-      throw miniapp::Outcome();
+      throw Outcome();
    }
    study.save(problem.with(report.x));
    if (report.status != DesignStatus::optimal)
    {
-      miniapp::warn("this is the best design of those that were tried, it need not be an "
-                    "optimum: " +
-                    report.message);
+      warn("this is the best design of those that were tried, it need not be an "
+           "optimum: " +
+           report.message);
    }
    study.value("objective_at_start", std::abs(report.objective_at_start),
                chosen.goal + " of the start");
@@ -244,7 +229,7 @@ void design_contact(miniapp::Study &study)
 
    if (!free)
    {
-      miniapp::Table &table = study.table(
+      Table &table = study.table(
          "chosen",
          {{"variable", "variable"}, {"before", "before", "%.6g"}, {"after", "after", "%.6g"}});
       for (Index j = 0; j < report.x.size(); ++j)
@@ -255,10 +240,10 @@ void design_contact(miniapp::Study &study)
    }
    const VectorXd gap = problem.with(report.x).gap;
    study.results["gap"] = std::vector<double>(gap.data(), gap.data() + n);
-   miniapp::Panel *profiles = nullptr;
+   Panel *profiles = nullptr;
    if (own_gap)
    {
-      profiles = &study.panel(miniapp::Panel::Kind::lines, "profile", "Gap", "x", "gap");
+      profiles = &study.lines("profile", "Gap", "x", "gap");
       profiles->add("before", x, flat.gap, "dashed");
       profiles->add("after", x, gap);
    }
@@ -268,7 +253,7 @@ void design_contact(miniapp::Study &study)
    {
       draw_lines(study, problem, report, variables, chosen.goal, settings.march, lines);
    }
-   if (chosen.file.empty() && chosen.scene == "pad" && free && !chosen.cycles() &&
+   if (!saved && chosen.scene == "pad" && free && !chosen.cycles() &&
        chosen.loads.size() == 1 && std::isnan(choice.curvature) &&
        uniform_profile(1, chosen.loads[0]) < choice.most)
    {
@@ -289,5 +274,5 @@ void design_contact(miniapp::Study &study)
 
 int main(int argc, char *argv[])
 {
-   return miniapp::Study::run("design", argc, argv, design_contact);
+   return Study::run("design", argc, argv, design_contact);
 }

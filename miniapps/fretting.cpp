@@ -34,9 +34,8 @@
 #include <map>
 
 using namespace cattaneo;
+using namespace miniapp;
 using namespace cattaneo::fretting;
-using miniapp::none;
-using miniapp::text;
 
 namespace
 {
@@ -47,26 +46,25 @@ const std::map<std::string, Criterion> criteria_by_name = {
    {"half-range", Criterion::half_range}};
 
 /// Criteria on critical planes, where the mesh and the half-plane know the averaged stresses.
-void judge_planes(miniapp::Study &study, const miniapp::Pad &pad,
-                  const miniapp::PadContact &closed_form, const miniapp::SolvedPad &solved,
-                  double depth, const PlaneWeights &weights)
+void judge_planes(Study &study, const Pad &pad, const PadContact &closed_form,
+                  const SolvedPad &solved, double depth, const PlaneWeights &weights)
 {
    // The edge of the contact lies anywhere in its element: two coarser meshes, at other places.
-   std::vector<miniapp::SolvedPad> coarser;
+   std::vector<SolvedPad> coarser;
    for (const int eighths : {4, 5})
    {
-      miniapp::Pad other = pad;
+      Pad other = pad;
       other.nodes = pad.order * ((pad.nodes - 1) / pad.order * eighths / 8) + 1;
-      coarser.push_back(miniapp::solve(study, other, closed_form));
+      coarser.push_back(solve(study, other, closed_form));
    }
-   miniapp::report_critical_planes(study, pad, solved, coarser, depth, weights);
+   report_critical_planes(study, pad, solved, coarser, depth, weights);
 }
 
-void assess_pad(miniapp::Study &study)
+void assess_pad(Study &study)
 {
-   miniapp::Pad pad;
+   Pad pad;
    std::string material = "Al", criterion = "open", records,
-               material_file = miniapp::shipped("data/materials.json");
+               material_file = shipped("data/materials.json");
    PlaneWeights weights;
    double depth = none, young = none, poisson = none, threshold = none, limit = none,
           yield = none;
@@ -87,8 +85,7 @@ void assess_pad(miniapp::Study &study)
    study.option(&pad.load_ratio, {"lr", "load-ratio"},
                 "R, least over peak value of shear and bulk, -1 <= R < 1.");
    study.option(&pad.friction, {"f", "friction"},
-                "Friction coefficient (default: middle of the material's interval).",
-                miniapp::positive);
+                "Friction coefficient (default: middle of the material's interval).", positive);
    study.option(&pad.k_n, {"kn", "k-n"}, "K_N in MPa/sqrt(mm) (pad kn).");
    study.option(&pad.k_t, {"kt", "k-t"}, "K_T at peak load in MPa sqrt(mm) (pad kn).");
    study.option(&pad.half_width, {"a", "half-width"},
@@ -96,25 +93,25 @@ void assess_pad(miniapp::Study &study)
    study.option(
       &pad.nodes, "nodes",
       "Contact nodes (pad fe); with a flat those of its edges, to which those between come.");
-   study.option(&pad.order, "order", "Order of the elements (pad fe).");
+   study.option(&pad.order, "order", "Order of the elements (pad fe).", within(1, 8));
    study.option(&depth, {"ad", "averaging-depth"},
                 "Criteria on critical planes along the surface, of stresses averaged over this "
                 "depth, mm (pad fe; from a spacing of its nodes to half a contact).",
-                miniapp::positive);
+                positive);
    study.option(&weights.findley, "findley",
-                "k of Findley's criterion (with --averaging-depth).", miniapp::not_negative);
+                "k of Findley's criterion (with --averaging-depth).", not_negative);
    study.option(&weights.fatemi_socie, "fatemi-socie",
-                "k of Fatemi and Socie's (with --averaging-depth).", miniapp::not_negative);
+                "k of Fatemi and Socie's (with --averaging-depth).", not_negative);
    study.option(&material, {"m", "material"}, "Name of a material record.");
    study.option(&material_file, {"mf", "material-file"}, "File of material records, JSON.",
-                miniapp::Text::input);
+                Text::input);
    study.option(&young, {"E", "young"}, "Young's modulus, GPa (default: the record's).",
-                miniapp::Check{[](double E) { return E > 0 && E < 2000; },
-                               "must be positive and below 2000 (GPa, not MPa)"});
+                Check{[](double E) { return E > 0 && E < 2000; },
+                      "must be positive and below 2000 (GPa, not MPa)"});
    study.option(&poisson, {"nu", "poisson"}, "Poisson's ratio (default: the record's).");
    study.option(&threshold, {"kth", "threshold"},
                 "Threshold dK_th, MPa sqrt(m), range or amplitude as the fatigue limit.",
-                miniapp::positive);
+                positive);
    study.option(&limit, {"sfl", "fatigue-limit"}, "Plain fatigue limit, MPa.");
    study.option(&yield, {"k", "shear-yield"}, "Yield stress in pure shear, MPa.");
    study.option(&pad.plane_stress, {"ps", "plane-stress", "no-ps", "plane-strain"},
@@ -124,7 +121,7 @@ void assess_pad(miniapp::Study &study)
                 {"open", "range", "half-range"});
    study.option(&records, {"rec", "records"},
                 "CSV of tests (P, Q, material, ..., cycles, runout) to correlate.",
-                miniapp::Text::input);
+                Text::input);
    study.parse("j");
    require(!study.options().says("check"), "option --check: this run has no scene of meshes");
    FrettingSettings criteria;
@@ -150,11 +147,11 @@ void assess_pad(miniapp::Study &study)
 
    require(std::isnan(depth) || pad.kind == "fe",
            "--averaging-depth is for the pad 'fe', whose stresses are known.");
-   study.options().only_if(!std::isnan(depth), {"findley", "fatemi-socie"},
-                           "goes with --averaging-depth");
-   const miniapp::PadContact closed_form = calibrate(pad);
-   miniapp::PadContact contact = closed_form;
-   std::optional<miniapp::SolvedPad> solved;
+   study.only_if(!std::isnan(depth), {"findley", "fatemi-socie"},
+                 "goes with --averaging-depth");
+   const PadContact closed_form = calibrate(pad);
+   PadContact contact = closed_form;
+   std::optional<SolvedPad> solved;
    if (pad.kind == "fe")
    {
       solved = solve(study, pad, contact);
@@ -168,7 +165,7 @@ void assess_pad(miniapp::Study &study)
       compare(study, pad, contact, *solved);
       contact = solved->in_place_of(contact);
    }
-   const miniapp::JudgedEdge judged = judge(pad, contact, criteria);
+   const JudgedEdge judged = judge(pad, contact, criteria);
    print_page(study, pad, contact, judged, criteria);
    if (solved)
    {
@@ -186,5 +183,5 @@ void assess_pad(miniapp::Study &study)
 
 int main(int argc, char *argv[])
 {
-   return miniapp::Study::run("fretting", argc, argv, assess_pad);
+   return Study::run("fretting", argc, argv, assess_pad);
 }

@@ -20,14 +20,13 @@
 #include <cattaneo/input_error.hpp>
 
 using namespace cattaneo;
+using namespace miniapp;
 using Eigen::VectorXd;
-using miniapp::exact_text;
-using miniapp::none;
 
 namespace
 {
 
-void hertz(miniapp::Study &study)
+void hertz(Study &study)
 {
    std::string body = "half-plane";
    double friction = 0.4, poisson = 0.3, ratio = 0.4, domain = 0, span = 1.67;
@@ -36,21 +35,21 @@ void hertz(miniapp::Study &study)
    MarchSettings settings;
    study.option(&body, "body", "half-plane (two of them) or block (on a half-plane).",
                 {"half-plane", "block"});
-   study.option(&friction, "friction", "Coefficient of friction.", miniapp::not_negative);
+   study.option(&friction, "friction", "Coefficient of friction.", not_negative);
    study.option(&poisson, "poisson", "Poisson's ratio of both bodies.");
-   study.option(&ratio, "ratio", "Block: Hertz half-width over a.", miniapp::between(0, 1));
+   study.option(&ratio, "ratio", "Block: Hertz half-width over a.", between(0, 1));
    study.option(&span, "span", "Half-planes: half-width of the contact candidates, in b.",
-                miniapp::above(1));
-   study.option(&domain, "domain", miniapp::domain_help, miniapp::none_or_above(10));
-   study.option(&order, "order", "Order of the elements.", miniapp::within(1, 8));
-   study.option(&nodes, "nodes", "Contact nodes.", miniapp::at_least(9));
+                above(1));
+   study.option(&domain, "domain", domain_help, none_or_above(10));
+   study.option(&order, "order", "Order of the elements.", within(1, 8));
+   study.option(&nodes, "nodes", "Contact nodes.", at_least(9));
    study.option(&levels_of_P, "load-levels",
                 "Loading: list of P/P0 whose pressures and gaps are drawn (empty: none).",
-                miniapp::above_up_to(0, 1));
+                above_up_to(0, 1));
    study.option(&shear, "shear", "Monotonic shear after P: list of Q/fP, or none.");
    study.option(&settings.increments, "increments",
                 "Load increments between two values (more where contact advances).",
-                miniapp::at_least(1));
+                at_least(1));
    study.parse();
    require((nodes - 1) % order == 0, "option --nodes is ", nodes,
            ", must be one more than a multiple of the order ", order);
@@ -58,11 +57,11 @@ void hertz(miniapp::Study &study)
    const bool on_block = body == "block";
    const double E_star = 0.5, radius = 100, b = on_block ? ratio : 1.0;
    const double P = M_PI * E_star * b * b / (4 * radius), p0 = 2 * P / (M_PI * b);
-   const Material material{1 - poisson * poisson, poisson, PlaneState::strain};
-   miniapp::Scene scene =
-      on_block ? make_scene(miniapp::BlockOnHalfPlane{order, nodes, domain, material, P})
-               : make_scene(miniapp::HalfPlanes{order, nodes, b, span, domain, material, P,
-                                                false, false});
+   const Material material = unit_material(poisson);
+   Scene scene =
+      on_block
+         ? make_scene(BlockOnHalfPlane{order, nodes, domain, material, P})
+         : make_scene(HalfPlanes{order, nodes, b, span, domain, material, P, false, false});
    ReducedProblem &problem = scene.problem();
    set_friction(problem, friction);
    const VectorXd x = problem.position.col(0);
@@ -72,15 +71,13 @@ void hertz(miniapp::Study &study)
    const auto ellipse = [b](double half, double s)
    { return std::abs(s) < half ? std::sqrt(half * half - s * s) / b : 0.0; };
 
-   miniapp::Run run(study, problem, settings);
+   Run run(study, problem, settings);
    if (!levels_of_P.empty())
    {
       // Thesis figures 3.11 and 3.12; b and p0 are those of the full load.
-      using miniapp::Panel;
-      Panel &gaps = study.panel(Panel::Kind::lines, "gaps", "Gap during loading", "x/b",
-                                "gap over b²/2R"),
-            &pressures = study.panel(Panel::Kind::lines, "pressures", "Pressure during loading",
-                                     "x/b", "p/p0 Hertz");
+      Panel &gaps = study.lines("gaps", "Gap during loading", "x/b", "gap over b²/2R"),
+            &pressures =
+               study.lines("pressures", "Pressure during loading", "x/b", "p/p0 Hertz");
       std::sort(levels_of_P.begin(), levels_of_P.end());
       for (const double level : levels_of_P)
       {
@@ -92,46 +89,43 @@ void hertz(miniapp::Study &study)
       gaps.add("before", x / b, VectorXd(problem.gap * (2 * radius / (b * b))), "dashed");
    }
    run.to({{"P", 1}});
-   miniapp::Panel &profiles =
-      study.panel(miniapp::Panel::Kind::lines, "tractions", "Pressure and shear", "x/b",
-                  "p/p0 Hertz, -q/(f p0 Hertz)");
+   Panel &profiles =
+      study.lines("tractions", "Pressure and shear", "x/b", "p/p0 Hertz, -q/(f p0 Hertz)");
    profiles.add("p", x / b, tractions(problem, run.state.p) / p0, "points");
    profiles.add("Hertz: p", x / b, x.unaryExpr([&](double s) { return ellipse(b, s); }),
                 "dashed");
    const Zone contact = contact_zone(problem, run.state);
-   const double half_width = 0.5 * (contact.to.position - contact.from.position);
-   const miniapp::Deviation pressure = miniapp::deviation(
-      problem, run.state.p, p0, [&](double s) { return p0 * ellipse(b, s); });
+   const Deviation pressure =
+      deviation(problem, run.state.p, p0, [&](double s) { return p0 * ellipse(b, s); });
    study.title("P only");
-   study.value("half_width", half_width / b, "half-width",
-               std::max(contact.to.error, contact.from.error) / b, "b_Hertz");
-   study.value("peak_pressure", miniapp::peak_pressure(problem, run.state, half_width) / p0,
+   study.value("half_width", half_width(contact) / b, "half-width", read_out_error(contact) / b,
+               "b_Hertz");
+   study.value("peak_pressure", peak_pressure(problem, run.state, half_width(contact)) / p0,
                "peak pressure", none, "p0_Hertz");
    study.value("pressure_deviation", pressure.largest, "largest deviation from Hertz", none,
                "p0_Hertz");
    study.value("pressure_deviation_mean", pressure.mean, "mean deviation from Hertz", none,
                "p0_Hertz");
 
-   miniapp::Table &levels =
-      study.table("levels", {{"shear", "Q/fP", "%.3f"},
-                             {"stick_half_width", "stick c/b", "%.5f"},
-                             {"cattaneo_mindlin", "Mindlin c/b", "%.5f"},
-                             {"shear_deviation", "q off / f p0", "%.2e"}});
-   const std::size_t one_way = miniapp::levels_one_way(shear);
+   Table &levels = study.table("levels", {{"shear", "Q/fP", "%.3f"},
+                                          {"stick_half_width", "stick c/b", "%.5f"},
+                                          {"cattaneo_mindlin", "Mindlin c/b", "%.5f"},
+                                          {"shear_deviation", "q off / f p0", "%.2e"}});
+   const std::size_t one_way = levels_one_way(shear);
    for (std::size_t k = 0; k < shear.size(); ++k)
    {
       const double Q = shear[k], way = Q < 0 ? -1 : 1;
       run.to({{"Q", Q * friction}});
       const Zone stick = stick_zone(problem, run.state);
-      const bool any = stick.last >= stick.first;
-      const double c = any ? 0.5 * (stick.to.position - stick.from.position) / b : 0.0;
+      const double c = half_width(stick) / b;
       // Of monotonic loading: of what turned back there is no closed form here.
       const double exact_c = k < one_way ? std::sqrt(std::max(0.0, 1 - std::abs(Q))) : none;
       // Shear +Q acts on body 1 above: the force of the contact on it is -q.
-      const miniapp::Deviation off = miniapp::deviation(
-         problem, run.state.q, friction * p0,
-         [&](double s)
-         { return -way * friction * p0 * (ellipse(b, s) - ellipse(exact_c * b, s)); });
+      const Deviation off =
+         deviation(problem, run.state.q, friction * p0,
+                   [&](double s) {
+                      return -way * friction * p0 * (ellipse(b, s) - ellipse(exact_c * b, s));
+                   });
       profiles.add(exact_text("-q/f, Q/fP = ", Q), x / b,
                    tractions(problem, run.state.q) / (-friction * p0));
       study.row(levels, {Q, c, exact_c, k < one_way ? off.largest : none});
@@ -141,7 +135,7 @@ void hertz(miniapp::Study &study)
           (domain == 0 || domain >= 1e3))
       {
          study.compare(exact_text("stick half-width / b, Q/fP = ", Q), exact_c,
-                       {0, std::max(stick.from.error, stick.to.error) / b}, c);
+                       {0, read_out_error(stick) / b}, c);
       }
    }
 }
@@ -150,5 +144,5 @@ void hertz(miniapp::Study &study)
 
 int main(int argc, char *argv[])
 {
-   return miniapp::Study::run("hertz", argc, argv, hertz);
+   return Study::run("hertz", argc, argv, hertz);
 }

@@ -23,23 +23,14 @@
 #include <cattaneo/input_error.hpp>
 
 using namespace cattaneo;
+using namespace miniapp;
 using Eigen::Index;
 using Eigen::VectorXd;
-using miniapp::asymmetry;
-using miniapp::BoltedLoop;
-using miniapp::exact_text;
-using miniapp::half_width;
-using miniapp::Joint;
-using miniapp::none;
-using miniapp::Panel;
-using miniapp::read_out_error;
-using miniapp::Table;
-using miniapp::text;
 
 namespace
 {
 
-void draw(miniapp::Study &study, Joint &joint, const BoltedLoop &loop,
+void draw(Study &study, Joint &joint, const BoltedLoop &loop,
           const std::vector<ContactState> &stations, Panel &diagram)
 {
    const ReducedProblem &problem = joint.problem();
@@ -53,11 +44,10 @@ void draw(miniapp::Study &study, Joint &joint, const BoltedLoop &loop,
       edge = std::max(edge, std::abs(x[i]));
    }
    edge *= 1.15;
-   Panel &profiles = study.panel(Panel::Kind::lines, "tractions",
-                                 "Pressure p and shear q over f", "x/t", "p/p0, q/(f p0)"),
-         &density =
-            study.panel(Panel::Kind::lines, "dissipation",
-                        "Dissipation a cycle along the contact", "x/t", "D' E' t/P0² × 10³");
+   Panel &profiles =
+            study.lines("tractions", "Pressure p and shear q over f", "x/t", "p/p0, q/(f p0)"),
+         &density = study.lines("dissipation", "Dissipation a cycle along the contact", "x/t",
+                                "D' E' t/P0² × 10³");
    for (std::size_t k = 0; k < stations.size(); ++k)
    {
       const double T = named(problem, stations[k].multipliers).at("T") / joint.P0();
@@ -74,7 +64,7 @@ void draw(miniapp::Study &study, Joint &joint, const BoltedLoop &loop,
 }
 
 /// Some states of the first cycle, evenly spaced, the first and the last among them.
-void write_frames(miniapp::Study &study, Joint &joint, const std::vector<ContactState> &states)
+void write_frames(Study &study, Joint &joint, const std::vector<ContactState> &states)
 {
    std::vector<ContactState> shown;
    const std::size_t last = states.size() - 1;
@@ -84,10 +74,10 @@ void write_frames(miniapp::Study &study, Joint &joint, const std::vector<Contact
 }
 
 /// One bolt: the thesis' study.
-void single(miniapp::Study &study, Joint &joint)
+void single(Study &study, Joint &joint)
 {
    const ReducedProblem &problem = joint.problem();
-   miniapp::Run run(study, problem, joint.settings);
+   Run run(study, problem, joint.settings);
    run.unit = joint.unit();
    const double shift = problem.position(0, 0);
    const auto x = [=](double arc_length) { return arc_length + shift; };
@@ -106,7 +96,7 @@ void single(miniapp::Study &study, Joint &joint)
       diagram.add(state.time, all, x);
       evolution.push_back({{"time", state.time},
                            {"load", named(problem, state.multipliers).at("T")},
-                           {"zones", miniapp::to_json(all, shift)}});
+                           {"zones", to_json(all, shift)}});
    };
    const BoltedLoop o = pull(run, joint.tightening({0}, joint.P0()), joint.load * joint.P0(),
                              joint.cycles, observe);
@@ -146,17 +136,17 @@ void single(miniapp::Study &study, Joint &joint)
    edges.opposite = &edges.pressed;
    edges.cycle = &o.report.cycles.back();
    edges.modulus = 0.5; // E*, with E' = 1 of both laps
-   miniapp::report_edges(study, fretting::read_edges(edges), shift);
+   report_edges(study, fretting::read_edges(edges), shift);
    draw(study, joint, o, stations, diagram);
    if (!joint.paraview.empty()) { write_frames(study, joint, states); }
 }
 
 /// Sweeps over T, f and w (thesis figures 6.5, 6.10, 6.11). Other widths are shown both with
 /// the pressure p0 of the first one and with its clamping force P0; T is the same force in all.
-void sweep(miniapp::Study &study, Joint &joint, const std::vector<double> &loads,
+void sweep(Study &study, Joint &joint, const std::vector<double> &loads,
            const std::vector<double> &frictions, const std::vector<double> &widths)
 {
-   const miniapp::Stopwatch watch;
+   const Stopwatch watch;
    Table &table = study.table("sweep", {{"friction", "f", "%.3g"},
                                         {"width", "w/t", "%.3g"},
                                         {"pressure", "p/p0", "%.3g"},
@@ -168,24 +158,16 @@ void sweep(miniapp::Study &study, Joint &joint, const std::vector<double> &loads
                                         {"dissipation_first", "D first", "%.3e"},
                                         {"dissipation_steady", "D steady", "%.3e"},
                                         {"status"}});
-   Panel *extents = nullptr, *losses = nullptr, *by_width = nullptr;
-   if (loads.size() > 1)
-   {
-      extents = &study.panel(Panel::Kind::lines, "extent", "Steady contact a and stick c",
-                             "T/P0", "a/t (upper), c/t (lower)");
-      losses = &study.panel(Panel::Kind::lines, "loss", "Dissipation a steady cycle", "|T|/P0",
-                            "D E'/P0²");
-      losses->say("scale: loglog");
-   }
-   if (widths.size() > 1)
-   {
-      by_width = &study.panel(Panel::Kind::lines, "loss_by_width", "Dissipation a steady cycle",
-                              "w/t", "D E'/P0²");
-   }
+   Panel &extents = study.lines("extent", "Steady contact a and stick c", "T/P0",
+                                "a/t (upper), c/t (lower)"),
+         &losses = study.lines("loss", "Dissipation a steady cycle", "|T|/P0", "D E'/P0²"),
+         &by_width =
+            study.lines("loss_by_width", "Dissipation a steady cycle", "w/t", "D E'/P0²");
+   losses.say("scale: loglog");
    for (double f : frictions)
    {
       set_friction(joint.problem(), f);
-      miniapp::Run run(study, joint.problem(), joint.settings);
+      Run run(study, joint.problem(), joint.settings);
       run.settings.stop_at_steady_state = true;
       run.leaves = false; // gross sliding is a result of a sweep, not its end
       const std::string rubbed = exact_text("f = ", f);
@@ -208,20 +190,20 @@ void sweep(miniapp::Study &study, Joint &joint, const std::vector<double> &loads
                          {f, width, pressure, T, pinched, half(o.pulled), half(o.stick_first),
                           half(o.stick_steady), ends ? none : o.first() / joint.unit(), loss,
                           name(o.report.status)});
-               const auto add = [](Panel *panel, const std::string &series, double at, double y)
+               if (widths.size() > 1)
                {
-                  if (panel) { panel->add(series, std::vector<double>{at}, {y}); }
-               };
-               const std::string label = exact_text("T/P0 = ", T) + ", " + rubbed;
-               if (pressure == 1) { add(by_width, label + ", same p0", width, loss); }
-               if (pressure != 1 || width == joint.P0())
-               {
-                  add(by_width, label + ", same P0", width, loss);
+                  const std::string label = exact_text("T/P0 = ", T) + ", " + rubbed;
+                  if (pressure == 1) { by_width.point(label + ", same p0", width, loss); }
+                  if (pressure != 1 || width == joint.P0())
+                  {
+                     by_width.point(label + ", same P0", width, loss);
+                  }
                }
-               if (width != joint.P0() || ends) { continue; }
-               add(extents, "a, " + rubbed, T, half(o.pulled));
-               add(extents, "c, " + rubbed, T, half(o.stick_steady));
-               add(losses, (T > 0 ? "tension, " : "compression, ") + rubbed, std::abs(T), loss);
+               if (loads.size() < 2 || width != joint.P0() || ends) { continue; }
+               extents.point("a, " + rubbed, T, half(o.pulled));
+               extents.point("c, " + rubbed, T, half(o.stick_steady));
+               losses.point((T > 0 ? "tension, " : "compression, ") + rubbed, std::abs(T),
+                            loss);
             }
          }
       }
@@ -230,10 +212,10 @@ void sweep(miniapp::Study &study, Joint &joint, const std::vector<double> &loads
 }
 
 /// A row of bolts, tightened in several orders (thesis 8.2, item 3).
-void row(miniapp::Study &study, Joint &joint, const std::vector<std::vector<int>> &all)
+void row(Study &study, Joint &joint, const std::vector<std::vector<int>> &all)
 {
    const ReducedProblem &problem = joint.problem();
-   miniapp::Run run(study, problem, joint.settings);
+   Run run(study, problem, joint.settings);
    run.unit = joint.unit();
    const VectorXd x = problem.position.col(0);
    Table &table = study.table("tightening", {{"label", "order of tightening"},
@@ -242,11 +224,9 @@ void row(miniapp::Study &study, Joint &joint, const std::vector<std::vector<int>
                                              {"dissipation_steady", "D steady", "%.3e"},
                                              {"steady_cycle", "steady from"},
                                              {"work_error"}});
-   Panel &residual = study.panel(Panel::Kind::lines, "residual", "Shear left by tightening",
-                                 "x/t", "q/(f p0)"),
-         &density = study.panel(Panel::Kind::lines, "dissipation",
-                                "Dissipation a steady cycle along the contact", "x/t",
-                                "D' E' t/P0² × 10³");
+   Panel &residual = study.lines("residual", "Shear left by tightening", "x/t", "q/(f p0)"),
+         &density = study.lines("dissipation", "Dissipation a steady cycle along the contact",
+                                "x/t", "D' E' t/P0² × 10³");
    for (const std::vector<int> &order : all)
    {
       const BoltedLoop o =
@@ -270,30 +250,32 @@ void row(miniapp::Study &study, Joint &joint, const std::vector<std::vector<int>
    }
 }
 
-void lap_joint(miniapp::Study &study)
+void lap_joint(Study &study)
 {
    Joint joint;
-   miniapp::LapJointOptions &options = joint.options;
+   LapJointOptions &options = joint.options;
    options.spacing = 0.005;
    std::string tightening, march_by = "advancing";
    std::vector<double> loads, frictions, widths;
    bool touch = false, all_cycles = false;
    study.option(&options.widths[0], "width", "Width w of the pinch pressure, in t.");
    study.option(&options.protrusion, "protrusion",
-                "Free end beyond the (outermost) bolt, in t.");
-   study.option(&options.remote, "remote", "Loaded end beyond the (outermost) bolt, in t.");
+                "Free end beyond the (outermost) bolt, in t.", positive);
+   study.option(&options.remote, "remote", "Loaded end beyond the (outermost) bolt, in t.",
+                above(2));
    study.option(&options.lower_thickness, "lower-thickness",
-                "Thickness of the lower lap over the upper's (1: equal laps).");
-   study.option(&joint.friction, "friction", "Coefficient of friction.", miniapp::positive);
+                "Thickness of the lower lap over the upper's (1: equal laps).",
+                between(0.1, 100));
+   study.option(&joint.friction, "friction", "Coefficient of friction.", positive);
    study.option(&joint.load, "load", "Tmax/P0, tension positive; P0 = p0 w, w of --width.");
    study.option(&joint.cycles, "cycles", "Cycles at most; the march stops when steady.",
-                miniapp::at_least(1));
+                at_least(1));
    study.option(&all_cycles,
                 {"all-cycles", "all-cycles", "stop-when-steady", "stop-when-steady"},
                 "March all cycles.");
    study.option(&joint.settings.increments, "increments",
-                "Load increments from 0 to Tmax, and as many back.", miniapp::at_least(1));
-   study.option(&march_by, "march", miniapp::stepping_help, miniapp::stepping_choices);
+                "Load increments from 0 to Tmax, and as many back.", at_least(1));
+   study.option(&march_by, "march", stepping_help, stepping_choices);
    study.option(&touch, "touch", "Find the compression at which the free ends touch.");
    study.option(&options.bolts, "bolts", "Positions of the bolts, in t.");
    study.option(&tightening, "tightening",
@@ -301,38 +283,37 @@ void lap_joint(miniapp::Study &study)
                 "outer first).");
    study.option(&joint.snug, "snug",
                 "Pressure over p0 to which several bolts are drawn together first.",
-                miniapp::at_least_below(0, 1));
+                at_least_below(0, 1));
    study.option(&loads, "sweep-load",
                 "Sweep: list of T/P0 (empty: none), P0 of --width in all widths.");
    study.option(&frictions, "sweep-friction", "Sweep: list of f (empty: --friction).",
-                miniapp::positive);
+                positive);
    study.option(&widths, "sweep-width", "Sweep: list of w/t (empty: --width).");
-   study.option(&options.order, "order", "Order of the elements.");
-   study.option(&options.spacing, "spacing", "Distance of the contact nodes, in t.");
+   study.option(&options.order, "order", "Order of the elements.", within(1, 8));
+   study.option(&options.spacing, "spacing", "Distance of the contact nodes, in t.",
+                above_up_to(0, 0.1));
    study.option(&options.poisson, "poisson", "Poisson's ratio of both laps.");
    study.option(&joint.paraview, "paraview",
-                "Folder for ParaView files of the first cycle (one bolt).",
-                miniapp::Text::folder);
+                "Folder for ParaView files of the first cycle (one bolt).", Text::folder);
    study.option(&joint.frames, "frames", "Intervals between the frames of --paraview.",
-                miniapp::at_least(1));
+                at_least(1));
    study.parse();
    const std::size_t bolts = options.bolts.size();
-   study.options().only_if(!loads.empty(), {"sweep-friction", "sweep-width"},
-                           "goes with --sweep-load");
-   study.options().only_if(!joint.paraview.empty(), {"frames"}, "goes with --paraview");
-   study.options().only_if(bolts > 1, {"tightening", "snug"}, "is of several --bolts");
-   joint.settings.stepping = miniapp::stepping(march_by);
+   study.only_if(!loads.empty(), {"sweep-friction", "sweep-width"}, "goes with --sweep-load");
+   study.only_if(!joint.paraview.empty(), {"frames"}, "goes with --paraview");
+   study.only_if(bolts > 1, {"tightening", "snug"}, "is of several --bolts");
+   joint.settings.stepping = stepping(march_by);
    joint.settings.stop_at_steady_state = !all_cycles;
    if (frictions.empty()) { frictions = {joint.friction}; }
    if (widths.empty()) { widths = {options.widths[0]}; }
-   options.widths = miniapp::joined_once(options.widths, widths);
+   options.widths = joined_once(options.widths, widths);
    require(bolts == 1 || joint.paraview.empty(),
            "option --paraview: frames are of one bolt, there are ", bolts);
    require(bolts == 1 || loads.empty(),
            "option --sweep-load: sweeps are of one bolt, there are ", bolts);
-   const std::vector<std::vector<int>> all = miniapp::orders(tightening, options.bolts);
+   const std::vector<std::vector<int>> all = orders(tightening, options.bolts);
 
-   joint.scene = miniapp::make_lap_joint(options);
+   joint.scene = make_lap_joint(options);
    set_friction(joint.problem(), joint.friction);
    study.reduced(joint.scene);
    if (bolts == 1) { single(study, joint); }
@@ -340,9 +321,8 @@ void lap_joint(miniapp::Study &study)
    if (touch)
    {
       FrictionSolver solver(joint.problem());
-      const double found =
-         miniapp::touch_load(solver, joint.tightening(all[0], joint.P0()).back(),
-                             -joint.friction * joint.P0() * bolts);
+      const double found = touch_load(solver, joint.tightening(all[0], joint.P0()).back(),
+                                      -joint.friction * joint.P0() * bolts);
       study.counters += solver.counters();
       study.title("Compression at which the free ends touch");
       study.value("touch_load", found / joint.P0(), "T/P0");
@@ -354,5 +334,5 @@ void lap_joint(miniapp::Study &study)
 
 int main(int argc, char *argv[])
 {
-   return miniapp::Study::run("lap_joint", argc, argv, lap_joint);
+   return Study::run("lap_joint", argc, argv, lap_joint);
 }

@@ -15,8 +15,8 @@
 #include <cmath>
 
 using namespace cattaneo;
+using namespace miniapp;
 using Eigen::VectorXd;
-using miniapp::text;
 
 namespace
 {
@@ -35,12 +35,12 @@ void fill_in(ReducedProblem &problem)
    if (problem.arc_length.size() == 0)
    {
       problem.arc_length = VectorXd::LinSpaced(n, 0, static_cast<double>(n - 1));
-      miniapp::warn("the file has no arc length: positions are numbers of nodes, from 0");
+      warn("the file has no arc length: positions are numbers of nodes, from 0");
    }
    if (problem.weights.size() == 0)
    {
       problem.weights = VectorXd::Ones(n);
-      miniapp::warn("the file has no weights: tractions are nodal forces");
+      warn("the file has no weights: tractions are nodal forces");
    }
    if (problem.position.size() == 0)
    {
@@ -49,30 +49,28 @@ void fill_in(ReducedProblem &problem)
    }
 }
 
-void march_problem(miniapp::Study &study)
+void march_problem(Study &study)
 {
    std::string file, method = "automatic";
-   double friction = miniapp::none;
-   miniapp::OwnHistory history(study);
+   double friction = none;
+   OwnHistory history(study);
    FrictionSettings &solver = history.settings.friction;
    int max_sweeps = static_cast<int>(solver.max_sweeps);
    study.option(&file, "reduced", "Reduced problem: what --save of a study wrote, or your own.",
-                miniapp::Text::input);
+                Text::input);
    study.option(&friction, "friction",
-                "Coefficient of friction of all nodes, instead of the file's.",
-                miniapp::not_negative);
-   const miniapp::StrengthOptions strength(study);
+                "Coefficient of friction of all nodes, instead of the file's.", not_negative);
+   const StrengthOptions strength(study);
    study.option(&method, "method",
                 "automatic, or gauss-seidel (node by node alone, as in the thesis).",
                 {"automatic", "gauss-seidel"});
    study.option(&solver.tolerance, "tolerance",
                 "Largest violation of an equation or law, over the largest nodal force.",
-                miniapp::positive);
+                positive);
    study.option(&max_sweeps, "max-sweeps", "Most sweeps of an increment by gauss-seidel.",
-                miniapp::at_least(1));
+                at_least(1));
    study.parse();
-   study.options().only_if(method == "gauss-seidel", {"max-sweeps"},
-                           "goes with --method gauss-seidel");
+   study.only_if(method == "gauss-seidel", {"max-sweeps"}, "goes with --method gauss-seidel");
    history.check_options();
    strength.check();
    require(!file.empty(), "option reduced is empty, must name a reduced problem");
@@ -85,7 +83,7 @@ void march_problem(miniapp::Study &study)
    if (!std::isnan(friction)) { set_friction(problem, friction); }
    if (strength.given()) { strength.set(problem); }
    history.begin(problem);
-   study.options().only_if(!study.csv().empty(), {"frames"}, "goes with --csv");
+   study.only_if(!study.csv().empty(), {"frames"}, "goes with --csv");
    study.condensed(problem, 0);
 
    history.march(problem, [](const ContactState &, bool) {});
@@ -96,12 +94,12 @@ void march_problem(miniapp::Study &study)
    study.results["tangential_force"] = tangential;
    history.report_state(problem, text("sums of nodal forces p %g, q %g", normal, tangential));
    history.report_march(problem);
-   miniapp::report_critical_friction(study, problem);
+   report_critical_friction(study, problem);
 }
 
 } // namespace
 
 int main(int argc, char *argv[])
 {
-   return miniapp::Study::run("march", argc, argv, march_problem);
+   return Study::run("march", argc, argv, march_problem);
 }

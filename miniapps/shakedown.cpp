@@ -132,14 +132,14 @@ void Shakedown::options()
    study.parse();
    saved = !reduced.empty();
    strength->check();
-   study.options().only_if(!saved,
-                           {"obstacle", "poisson", "order", "nodes", "grading", "domain",
-                            "tractions", "mesh-study", "mismatch"},
-                           "is for the punch, not for a saved problem");
-   study.options().only_if(std::isnan(reversal), {"lambda-min"},
-                           "says the same as --reversal, say one of them");
+   study.only_if(!saved,
+                 {"obstacle", "poisson", "order", "nodes", "grading", "domain", "tractions",
+                  "mesh-study", "mismatch"},
+                 "is for the punch, not for a saved problem");
+   study.only_if(std::isnan(reversal), {"lambda-min"},
+                 "says the same as --reversal, say one of them");
    punch.half_plane = obstacle == "half-plane";
-   study.options().only_if(!mismatch.empty(), {"mismatch-poisson"}, "goes with --mismatch");
+   study.only_if(!mismatch.empty(), {"mismatch-poisson"}, "goes with --mismatch");
    if (mismatch_poisson.empty()) { mismatch_poisson = {punch.poisson}; }
    if (std::isnan(reversal))
    {
@@ -202,7 +202,7 @@ void Shakedown::take_law()
    }
    const char *why = "knows Coulomb's law alone, and the contact has another law of friction "
                      "(of --strength, or of its file: --friction takes its place)";
-   study.options().only_if(false, {"map", "mesh-study", "mismatch", "tractions"}, why);
+   study.only_if(false, {"map", "mesh-study", "mismatch", "tractions"}, why);
    require(find == "load" || !study.options().says("find"), "option --find is '", find,
            "', must be load: the smallest friction coefficient ", why);
    find = "load";

@@ -18,21 +18,19 @@
 #include "common/run.hpp"
 
 using namespace cattaneo;
-using miniapp::exact_text;
-using miniapp::none;
-using miniapp::Panel;
+using namespace miniapp;
 
 namespace
 {
 
 /// Tractions of glide dislocations, jumps of the slip by 1 (thesis 3.9): with w = 0 they are A
 /// v and B v.
-void dislocations(miniapp::Study &study, const ReducedProblem &problem,
-                  const Eigen::VectorXd &x, const std::vector<double> &places)
+void dislocations(Study &study, const ReducedProblem &problem, const Eigen::VectorXd &x,
+                  const std::vector<double> &places)
 {
-   Panel &panel = study.panel(Panel::Kind::lines, "dislocations",
-                              "Tractions of a jump of slip by 1", "x/a", "q a/E', p a/E'");
-   miniapp::Table &table =
+   Panel &panel =
+      study.lines("dislocations", "Tractions of a jump of slip by 1", "x/a", "q a/E', p a/E'");
+   Table &table =
       study.table("dislocations_near", {{"place", "jump at x/a", "%.3f"},
                                         {"near", "q at 0.2 a from it, over E'/4πr"}});
    for (const double place : places)
@@ -63,9 +61,9 @@ void dislocations(miniapp::Study &study, const ReducedProblem &problem,
    panel.limit("y", -2, 2);
 }
 
-void square_punch(miniapp::Study &study)
+void square_punch(Study &study)
 {
-   miniapp::PunchOptions options;
+   PunchOptions options;
    MarchSettings settings;
    std::string obstacle = "rigid", march_by = "advancing";
    double friction = none, amplitude = 0.8;
@@ -75,26 +73,25 @@ void square_punch(miniapp::Study &study)
                 {"rigid", "half-plane"});
    study.option(&friction, "friction",
                 "Coefficient of friction; default 0.2 (rigid), 0.4 (half-plane).",
-                miniapp::not_negative);
+                not_negative);
    add_options(study, options);
    study.option(&shear, "shear", "Monotonic shear: list of Q/fP, or none.");
-   study.option(
-      &jumps, "dislocation", "Tractions of jumps of slip: list of x/a (empty: none).",
-      miniapp::Check{[](double at) { return std::abs(at) < 1; }, "must be between -1 and 1"});
+   study.option(&jumps, "dislocation", "Tractions of jumps of slip: list of x/a (empty: none).",
+                Check{[](double at) { return std::abs(at) < 1; }, "must be between -1 and 1"});
    study.option(&cycles, "cycles", "Cycles of Q = ± amplitude fP, after P (0: none).",
-                miniapp::not_negative);
+                not_negative);
    study.option(&amplitude, "amplitude", "Amplitude of the cycles in Q/fP.");
    study.option(&settings.increments, "increments",
-                "Load increments between two values of the shear.", miniapp::at_least(1));
-   study.option(&march_by, "march", miniapp::stepping_help, miniapp::stepping_choices);
+                "Load increments between two values of the shear.", at_least(1));
+   study.option(&march_by, "march", stepping_help, stepping_choices);
    study.parse();
-   study.options().only_if(cycles > 0, {"amplitude"}, "goes with --cycles");
+   study.only_if(cycles > 0, {"amplitude"}, "goes with --cycles");
    options.half_plane = obstacle == "half-plane";
    if (std::isnan(friction)) { friction = options.half_plane ? 0.4 : 0.2; }
    study.results["friction"] = friction;
-   settings.stepping = miniapp::stepping(march_by);
+   settings.stepping = stepping(march_by);
 
-   miniapp::Scene scene = miniapp::make_punch(options);
+   Scene scene = make_punch(options);
    const ReducedProblem &problem = scene.problem();
    set_friction(scene.problem(), friction);
    study.reduced(scene);
@@ -102,11 +99,9 @@ void square_punch(miniapp::Study &study)
    // Arc length runs from the left corner.
    const Eigen::VectorXd x = problem.arc_length.array() - 1;
    if (!jumps.empty()) { dislocations(study, problem, x, jumps); }
-   Panel &slip =
-            study.panel(Panel::Kind::lines, "slip", "Slip of the interface", "x/a", "v E'/P"),
-         &shears =
-            study.panel(Panel::Kind::lines, "tractions", "Pressure, and shear over f (dashed)",
-                        "x/a", "p a/P, q a/(f P)");
+   Panel &slip = study.lines("slip", "Slip of the interface", "x/a", "v E'/P"),
+         &shears = study.lines("tractions", "Pressure, and shear over f (dashed)", "x/a",
+                               "p a/P, q a/(f P)");
    const auto draw = [&](double load, const ContactState &state)
    {
       slip.add(exact_text("Q/fP = ", load), x, state.v);
@@ -116,7 +111,7 @@ void square_punch(miniapp::Study &study)
                            problem.nodes() - 2 * skip);
    };
 
-   miniapp::Run run(study, problem, settings);
+   Run run(study, problem, settings);
    run.to({{"P", 1}});
    const ContactState pressed = run.state;
    draw(0, pressed);
@@ -129,11 +124,11 @@ void square_punch(miniapp::Study &study)
    study.value("slip_edge", pressed.v[problem.nodes() - 1], "slip at the right corner");
    study.value("peak_pressure", tractions(problem, pressed.p).maxCoeff(), "peak pressure");
 
-   miniapp::Table &levels = study.table("levels", {{"shear", "Q/fP", "%.3f"},
-                                                   {"stick_left", "stick left"},
-                                                   {"stick_right", "stick right"},
-                                                   {"dissipation", "dissipation", "%.4e"}});
-   const std::size_t one_way = miniapp::levels_one_way(shear);
+   Table &levels = study.table("levels", {{"shear", "Q/fP", "%.3f"},
+                                          {"stick_left", "stick left"},
+                                          {"stick_right", "stick right"},
+                                          {"dissipation", "dissipation", "%.4e"}});
+   const std::size_t one_way = levels_one_way(shear);
    for (std::size_t k = 0; k < shear.size(); ++k)
    {
       const double Q = shear[k];
@@ -167,5 +162,5 @@ void square_punch(miniapp::Study &study)
 
 int main(int argc, char *argv[])
 {
-   return miniapp::Study::run("square_punch", argc, argv, square_punch);
+   return Study::run("square_punch", argc, argv, square_punch);
 }

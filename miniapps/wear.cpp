@@ -25,12 +25,9 @@
 #include <cmath>
 
 using namespace cattaneo;
+using namespace miniapp;
 using Eigen::Index;
 using Eigen::VectorXd;
-using miniapp::exact_text;
-using miniapp::text;
-using miniapp::WearCase;
-using miniapp::WearingPad;
 
 namespace
 {
@@ -53,12 +50,12 @@ bool path_is_straight(const ReducedProblem &problem, const LoadHistory &history)
    return true;
 }
 
-void wear_contact(miniapp::Study &study)
+void wear_contact(Study &study)
 {
    WearingPad pad;
-   std::string file, history_text, update = "cycle", stepping = "advancing", save_state,
+   std::string file, history_text, update = "cycle", march_by = "advancing", save_state,
                                    load_state;
-   double shear = miniapp::none, friction = miniapp::none, coefficient = 1e-2, threshold = 0;
+   double shear = none, friction = none, coefficient = 1e-2, threshold = 0;
    bool of_energy = false;
    double cycles = 1000;
    int cycle_start = -1;
@@ -71,56 +68,54 @@ void wear_contact(miniapp::Study &study)
                 {"parabola", "flat"});
    study.option(&pad.flat, "flat",
                 "Pad: half-width that is flat (at 0.5 contact is 1.36 wide under P).",
-                miniapp::between(0, 1));
-   study.option(&shear, "shear", "Pad: amplitude of Q/fP; default: 0.5.",
-                miniapp::between(0, 1));
+                between(0, 1));
+   study.option(&shear, "shear", "Pad: amplitude of Q/fP; default: 0.5.", between(0, 1));
    study.option(&friction, "friction",
-                "Coefficient of friction; default: 0.5, of --reduced the file's.",
-                miniapp::positive);
+                "Coefficient of friction; default: 0.5, of --reduced the file's.", positive);
    study.option(&pad.poisson, "poisson", "Pad: Poisson's ratio.");
    study.option(&pad.nodes, "nodes",
                 "Pad: contact nodes, one more than a multiple of twice the order.",
-                miniapp::at_least(25));
-   study.option(&pad.order, "order", "Pad: order of the elements.", miniapp::within(1, 8));
+                at_least(25));
+   study.option(&pad.order, "order", "Pad: order of the elements.", within(1, 8));
    study.option(&cycles, "cycles", "Cycles at the end, those of --load-state among them.",
-                miniapp::within(0, 1e15));
+                within(0, 1e15));
    study.option(&coefficient, "wear", "Archard's k, of both bodies together, 1/pressure.",
-                miniapp::not_negative);
-   study.option(&threshold, "threshold", "Pressure below which nothing wears.",
-                miniapp::not_negative);
+                not_negative);
+   study.option(&threshold, "threshold", "Pressure below which nothing wears.", not_negative);
    study.option(&of_energy, "energy", "k is of the energy that friction takes: f k wears.");
    study.option(&settings.tolerance, "tolerance",
                 "Share of the largest depth that jumps over cycles may err by; 0: all are "
                 "marched.",
-                miniapp::within(0, 0.1));
+                within(0, 0.1));
    study.option(&update, "update",
                 "The gap takes in what is worn each cycle or each piece of it.",
                 {"cycle", "piece"});
    study.option(&settings.march.increments, "increments",
                 "Load increments between two points of the history; 0: 1 where slip goes "
                 "straight (the pads; B = 0 and the same normal loads all cycle), else 20.",
-                miniapp::at_least(0));
-   study.option(&stepping, "stepping", miniapp::stepping_help, miniapp::stepping_choices);
-   study.option(&file, "reduced", "Reduced problem, in place of the pad.",
-                miniapp::Text::input);
+                at_least(0));
+   study.option(&march_by, "stepping", stepping_help, stepping_choices);
+   study.option(&file, "reduced", "Reduced problem, in place of the pad.", Text::input);
    study.option(&history_text, "history",
                 "With --reduced: load multipliers at times 0, 1, …, as 'P=0; P=1; Q=0.1'.",
-                miniapp::Text::statements);
+                Text::statements);
    study.option(&cycle_start, "cycle-start",
                 "With --reduced: point of the history (from 0) where its cycle starts.",
-                miniapp::at_least(-1));
-   study.option(&save_state, "save-state", "File for the last state.", miniapp::Text::output);
-   study.option(&load_state, "load-state", "State to go on from.", miniapp::Text::input);
+                at_least(-1));
+   study.option(&save_state, "save-state", "File for the last state.", Text::output);
+   study.option(&load_state, "load-state", "State to go on from.", Text::input);
    study.options().leave_out_of_cases("load-state");
    study.parse();
-   settings.march.stepping = miniapp::stepping(stepping);
+   settings.march.stepping = stepping(march_by);
    settings.update = update == "piece" ? GapUpdate::piece : GapUpdate::cycle;
 
+   study.only_if(!file.empty(), {"history", "cycle-start"},
+                 "is of --reduced, the pad has its own");
+   study.only_if(file.empty(), {"shear", "profile", "flat", "poisson", "nodes", "order"},
+                 "is of the pad, --reduced has its own contact and --history");
    WearCase scene;
    if (file.empty())
    {
-      require(history_text.empty() && cycle_start < 0,
-              "option --history: the pad has its own, only --reduced takes one");
       shear = std::isnan(shear) ? 0.5 : shear;
       study.results["shear"] = shear;
       friction = std::isnan(friction) ? 0.5 : friction;
@@ -128,10 +123,6 @@ void wear_contact(miniapp::Study &study)
    }
    else
    {
-      require(std::isnan(shear),
-              "option --shear is of the pad, --history says it of --reduced");
-      require(pad.is_the_default(), "options --profile, --flat, --poisson, --nodes and --order "
-                                    "are of the pad, --reduced has its own contact");
       scene.problem = load_reduced_problem(file);
       if (!std::isnan(friction)) { set_friction(scene.problem, friction); }
       require(cycle_start >= 0, "option --cycle-start is ", cycle_start,
@@ -157,19 +148,18 @@ void wear_contact(miniapp::Study &study)
 
    WearState state = WearState::virgin(problem);
    if (!load_state.empty()) { state = load_wear_state(load_state); }
-   using Kind = miniapp::Panel::Kind;
    const VectorXd x = problem.arc_length.array() - scene.middle;
-   miniapp::Panel &profiles = study.panel(Kind::lines, "profile", "Worn depth", "x", "depth");
-   miniapp::Panel &pressures = study.panel(Kind::lines, "pressure", "Pressure", "x", "p");
-   miniapp::Panel &borders = study.panel(Kind::lines, "stick", "Stick zone", "cycles", "x");
-   miniapp::Panel &loops = study.panel(Kind::lines, "loops", "Loads over their displacements",
-                                       "displacement", "force");
-   miniapp::Table &table = study.table("cycles", {{"cycle", "cycle", "%.0f"},
-                                                  {"volume", "volume", "%.6g"},
-                                                  {"depth", "depth", "%.6g"},
-                                                  {"dissipation", "energy lost", "%.6g"},
-                                                  {"loss", "of the cycle", "%.4g"},
-                                                  {"stick", "stick", "%.5g"}});
+   Panel &profiles = study.lines("profile", "Worn depth", "x", "depth");
+   Panel &pressures = study.lines("pressure", "Pressure", "x", "p");
+   Panel &borders = study.lines("stick", "Stick zone", "cycles", "x");
+   Panel &loops =
+      study.lines("loops", "Loads over their displacements", "displacement", "force");
+   Table &table = study.table("cycles", {{"cycle", "cycle", "%.0f"},
+                                         {"volume", "volume", "%.6g"},
+                                         {"depth", "depth", "%.6g"},
+                                         {"dissipation", "energy lost", "%.6g"},
+                                         {"loss", "of the cycle", "%.4g"},
+                                         {"stick", "stick", "%.5g"}});
    table.draw("Worn volume", "cycle", "cycles", {{"volume", "volume"}}, "volume");
    std::vector<double> times, from, to;
    double row_at = 0, drawn_at = 0;
@@ -177,13 +167,11 @@ void wear_contact(miniapp::Study &study)
    {
       if (record.cycles < row_at && record.cycles < cycles) { return; }
       row_at = std::max(record.cycles + 1, 1.25 * record.cycles);
-      const ReducedProblem worn = miniapp::with_gap(problem, now.depth);
+      const ReducedProblem worn = with_gap(problem, now.depth);
       const Zone stick = stick_zone(worn, now.contact);
-      const bool any = stick.last >= stick.first;
-      const double width = any ? 0.5 * (stick.to.position - stick.from.position) : 0.0;
       study.row(table, {record.cycles, record.volume, record.depth, record.dissipation,
-                        record.loss, width});
-      if (any)
+                        record.loss, half_width(stick)});
+      if (stick.last >= stick.first)
       {
          times.push_back(record.cycles);
          from.push_back(stick.from.position - scene.middle);
@@ -198,19 +186,19 @@ void wear_contact(miniapp::Study &study)
    };
    WearReport report;
    {
-      miniapp::Watch watch("wear");
+      Watch watch("wear");
       settings.march.monitor = watch.monitor();
       report = wear(problem, law, scene.history, cycles, state, settings, observe);
       settings.march.monitor = {};
    }
    study.counters += report.counters;
-   miniapp::warn_of_cut_off(report.cut_off);
+   warn_of_cut_off(report.cut_off);
    study.results["cycles_worn"] = state.cycles;
    study.results["cycles_marched"] = report.marched;
    study.results["jumps"] = report.jumps;
    study.results["steady_cycle"] = report.steady_cycle;
    study.results["implicit_cycles"] = report.implicit_cycles;
-   study.value("volume", worn_volume(problem, state.depth), "worn volume", miniapp::none);
+   study.value("volume", worn_volume(problem, state.depth), "worn volume", none);
    study.value("depth", state.depth.maxCoeff(), "largest depth", report.error);
    study.value("energy", state.dissipation.sum(), "energy that friction took");
    study.value("explicit_limit", report.explicit_limit,
@@ -219,28 +207,27 @@ void wear_contact(miniapp::Study &study)
                   report.seconds));
    if (report.implicit_cycles > 0)
    {
-      miniapp::warn(
-         text("%ld cycles wore so much that pressures changed within them: k or the "
-              "amplitude is large, and the way there has an error of its first order",
-              report.implicit_cycles));
+      warn(text("%ld cycles wore so much that pressures changed within them: k or the "
+                "amplitude is large, and the way there has an error of its first order",
+                report.implicit_cycles));
    }
-   if (!save_state.empty() && miniapp::writes()) { save(state, save_state); }
+   if (!save_state.empty() && writes()) { save(state, save_state); }
    if (report.status != FrictionStatus::converged)
    {
       study.code = 2;
-      miniapp::add_outcome(problem, report.last, study.results);
+      add_outcome(problem, report.last, study.results);
       study.results["status"] = name(report.status);
       study.results["message"] = report.message;
       study.say(
          text("Ended after %g cycles with status '%s': ", state.cycles, name(report.status)) +
          report.message);
-      if (report.status != FrictionStatus::not_unique) { throw miniapp::Outcome(); }
+      if (report.status != FrictionStatus::not_unique) { throw Outcome(); }
    }
    draw_loop(loops, exact_text("cycle ", state.cycles), scene, state, settings.march);
    borders.add("from", times, from);
    borders.add("to", times, to);
    // Across the pad lengths have another unit than along it: a²/R.
-   if (!file.empty()) { miniapp::warn_of_depth(problem, state.depth, state.contact); }
+   if (!file.empty()) { warn_of_depth(problem, state.depth, state.contact); }
    if (coefficient == 0 || threshold > 0)
    {
       study.title("Worn out");
@@ -249,11 +236,11 @@ void wear_contact(miniapp::Study &study)
                           : "   not solved for: what presses less than the threshold does not "
                             "wear, and wear ends earlier than where slip carries nothing");
    }
-   miniapp::Watch watch("worn out");
+   Watch watch("worn out");
    settings.march.monitor = watch.monitor();
    const WornOut end =
       worn_out(problem, scene.history, ContactState::virgin(problem), settings.march);
-   miniapp::warn_of_cut_off(end.cut_off);
+   warn_of_cut_off(end.cut_off);
    report_end(study, scene, end, profiles, pressures);
    if (end.status == FrictionStatus::stopped)
    {
@@ -262,7 +249,7 @@ void wear_contact(miniapp::Study &study)
    }
    if (!file.empty() && end.status == FrictionStatus::converged)
    {
-      miniapp::warn_of_depth(problem, end.depth, end.contact);
+      warn_of_depth(problem, end.depth, end.contact);
    }
    if (end.status == FrictionStatus::converged && end.depth.maxCoeff() > 0 && state.cycles > 0)
    {
@@ -276,5 +263,5 @@ void wear_contact(miniapp::Study &study)
 
 int main(int argc, char *argv[])
 {
-   return miniapp::Study::run("wear", argc, argv, wear_contact);
+   return Study::run("wear", argc, argv, wear_contact);
 }

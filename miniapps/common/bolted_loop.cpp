@@ -148,16 +148,6 @@ std::vector<std::vector<int>> orders(const std::string &text, const std::vector<
    return result;
 }
 
-double half_width(const Zone &zone)
-{
-   return zone.last < zone.first ? 0.0 : 0.5 * (zone.to.position - zone.from.position);
-}
-
-double read_out_error(const Zone &zone)
-{
-   return std::max(zone.from.error, zone.to.error);
-}
-
 double asymmetry(const Eigen::VectorXd &forces)
 {
    const double largest = forces.cwiseAbs().maxCoeff();

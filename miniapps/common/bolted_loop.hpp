@@ -68,10 +68,6 @@ double touch_load(cattaneo::FrictionSolver &solver, cattaneo::NamedLoads loads, 
 /// The order of tightening: numbers of bolts from 1, orders separated by a slash.
 std::vector<std::vector<int>> orders(const std::string &text, const std::vector<double> &bolts);
 
-/// Of a stretch of contact or stick: none is of width 0, and borders have errors.
-double half_width(const cattaneo::Zone &zone);
-double read_out_error(const cattaneo::Zone &zone);
-
 /// Largest deviation from mirror symmetry, over the largest value.
 double asymmetry(const Eigen::VectorXd &forces);
 

@@ -1,5 +1,6 @@
 #include "common/bonded_strip.hpp"
 
+#include "common/receding_study.hpp"
 #include "common/williams.hpp"
 
 #include <algorithm>
@@ -41,15 +42,30 @@ void bonded_strips(Study &study, const RecedingOptions &options, const ReducedPr
       panel.add(exact_text("n = ", n), problem.arc_length.segment(8, shown),
                 b.q.cwiseQuotient(b.p).segment(8, shown));
    }
+   const auto changing_from = [&](double from, double to, auto figure)
+   {
+      return changing(from, to,
+                      [&, of = options](const std::vector<double> &several) mutable
+                      {
+                         of.overhangs = several;
+                         const Scene scene = make_receding(of);
+                         std::vector<double> figures;
+                         for (double n : several)
+                         {
+                            figures.push_back(figure(bonded_tractions(scene.problem(), n)));
+                         }
+                         return figures;
+                      });
+   };
    // Where the largest ratio leaves the corner.
    study.value("rising_from",
-               changing_overhang(options, 0.05, 0.5,
-                                 [](const BondedTractions &b)
-                                 { return b.adhesion_x > 0 ? 1.0 : -1.0; }),
+               changing_from(0.05, 0.5,
+                             [](const BondedTractions &b)
+                             { return b.adhesion_x > 0 ? 1 : -1; }),
                "n from which q/p rises away from the corner");
    study.value(
       "pulling_from",
-      changing_overhang(options, 0.5, 4, [](const auto &b) { return b.lowest_pressure; }),
+      changing_from(0.5, 4, [](const BondedTractions &b) { return b.lowest_pressure; }),
       "n from which it pulls somewhere");
 }
 
@@ -71,8 +87,7 @@ void report_bonded(Study &study, const RecedingOptions &options, const ReducedPr
    study.value("adhesion_friction", b.adhesion_friction, "friction for full adhesion", none,
                std::isfinite(b.adhesion_friction) ? "" : "none: the strip pulls");
    study.value("adhesion_x", b.adhesion_x, "needed at x/t");
-   Panel &panel =
-      study.panel(Panel::Kind::lines, "bonded", "Bonded strip: traction ratio", "x/t", "q/p");
+   Panel &panel = study.lines("bonded", "Bonded strip: traction ratio", "x/t", "q/p");
    if (others.empty())
    {
       const Index shown = nodes_before(problem.arc_length, 3.0) - 8;

@@ -318,7 +318,7 @@ void show(Study &study, const Scene &scene)
                                                   : "Contact, normals into the slaves",
            contact);
    draw_normals(panel, scene.reduction, 0.06 * contact.size());
-   Panel &gaps = study.panel(Panel::Kind::lines, "gap", "Initial gap", "arc length", "gap");
+   Panel &gaps = study.lines("gap", "Initial gap", "arc length", "gap");
    for (const InterfaceReport &face : scene.reduction.interfaces)
    {
       if (face.tied) { continue; }

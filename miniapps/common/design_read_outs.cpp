@@ -101,13 +101,11 @@ void report_cases(Study &study, const DesignProblem &problem, const DesignReport
    const ReducedProblem &flat = problem.problem;
    const Index n = flat.nodes();
    const VectorXd x = places(flat);
-   Panel &pressures =
-      study.panel(Panel::Kind::lines, "pressure", "Pressure where it is largest", "x", "p");
+   Panel &pressures = study.lines("pressure", "Pressure where it is largest", "x", "p");
    Panel *energies = nullptr;
    if (goal == "energy")
    {
-      energies = &study.panel(Panel::Kind::lines, "energy", "Energy lost in the cycle", "x",
-                              "per area");
+      energies = &study.lines("energy", "Energy lost in the cycle", "x", "per area");
    }
    Table &table = study.table("cases", {{"case", "case"},
                                         {"peak_before", "peak before", "%.6g"},
@@ -140,9 +138,8 @@ void draw_lines(Study &study, const DesignProblem &problem, const DesignReport &
                 const DesignVariables &variables, const std::string &goal,
                 const MarchSettings &settings, int steps)
 {
-   Panel &panel =
-      study.panel(Panel::Kind::lines, "lines", "Along each variable, others optimal",
-                  "variable", goal + ", weighted");
+   Panel &panel = study.lines("lines", "Along each variable, others optimal", "variable",
+                              goal + ", weighted");
    double best = report.objective;
    for (Index j = 0; j < report.x.size(); ++j)
    {

@@ -2,7 +2,7 @@
 
 #include "common/contact_grid.hpp"
 #include "common/miniapp.hpp"
-#include "common/text.hpp"
+#include "common/receding_study.hpp"
 
 #include <algorithm>
 #include <cattaneo/friction/friction_solver.hpp>
@@ -20,9 +20,6 @@ using namespace cattaneo;
 
 void DiscOptions::validate() const
 {
-   require(order >= 1 && order <= 8, "option --order is ", order, ", must be 1 to 8");
-   require(spacing > 0 && spacing <= 0.5, "option --spacing is ", spacing,
-           ", must be above 0 and at most 0.5 (in t)");
    check_growth(growth);
    require(disc_radius >= spacing * order, "option --disc-radius is ", disc_radius,
            ", must be at least one element, ", spacing * order, " (in t)");
@@ -91,10 +88,7 @@ Scene make_disc(const DiscOptions &options)
    {
       ElasticBody &below = *scene.bodies[1];
       for (int c : {0, 1}) { below.fix(far, c); }
-      const ContactLine line = line_below(below);
-      const Pairing pairing = pair_lines(upper.line, line);
-      scene.reduction =
-         reduce(std::move(upper), condense(below, line, condensation()), pairing);
+      scene.reduction = stacked(std::move(upper), below, line_below(below));
    }
    else { scene.reduction = reduce(std::move(upper), half_space); }
    if (options.twist == Twist::none) { return scene; }
@@ -196,31 +190,21 @@ double CriticalLoad::radius(double friction)
 
 double bonded_critical_radius(DiscOptions options)
 {
-   double from = 0.02 * options.disc_radius, to = options.disc_radius;
-   constexpr int parts = 16, rounds = 3;
-   for (int round = 0; round < rounds; ++round)
+   const auto lowest = [&](const std::vector<double> &radii)
    {
-      options.load_radii.clear();
-      for (int k = 0; k <= parts; ++k)
-      {
-         options.load_radii.push_back(k == parts ? to : from + (to - from) * k / parts);
-      }
+      options.load_radii = radii;
       const Scene scene = make_disc(options);
-      const ReducedProblem &problem = scene.reduction.problem;
-      const auto pulls = [&](int k)
+      const ReducedProblem &problem = scene.problem();
+      std::vector<double> lowest;
+      for (double a : radii)
       {
-         const LoadPattern &pattern =
-            problem.patterns[problem.pattern(radius_load(options.load_radii[k]))];
          // Without the node at the axis and the last three, at the corner of the rim.
-         return pattern.p.segment(1, problem.nodes() - 4).minCoeff() < 0;
-      };
-      int last = parts;
-      while (last >= 0 && !pulls(last)) { --last; }
-      if (last < 0 || last == parts) { return std::numeric_limits<double>::quiet_NaN(); }
-      from = options.load_radii[last];
-      to = options.load_radii[last + 1];
-   }
-   return 0.5 * (from + to);
+         const LoadPattern &load = problem.patterns[problem.pattern(radius_load(a))];
+         lowest.push_back(load.p.segment(1, problem.nodes() - 4).minCoeff());
+      }
+      return lowest;
+   };
+   return changing(options.disc_radius, 0.02 * options.disc_radius, lowest);
 }
 
 } // namespace miniapp

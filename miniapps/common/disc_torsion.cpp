@@ -10,7 +10,6 @@ namespace miniapp
 using namespace cattaneo;
 using Eigen::Index;
 using Eigen::VectorXd;
-using nlohmann::ordered_json;
 
 Extent Disc::extent(const ReducedProblem &of, const ContactState &state) const
 {
@@ -81,10 +80,10 @@ void twist(Study &study, Disc &disc, Run &run, Turning::Stop stop,
    const bool by_torque = stop == Turning::Stop::torque;
    Turning turning(run, disc.pressed(), disc.limit, disc.steps);
    Turned now = turning.untwisted(run.state);
-   Panel &profiles = study.panel(Panel::Kind::lines, "torsion_tractions",
-                                 "Pressure p and shear |q| over f", "r/t", "p/p0, |q|/(f p0)"),
-         &sliding = study.panel(Panel::Kind::lines, "slip", "Slip", "r/t", "|v| E/(p0 t)"),
-         &directions = study.panel(Panel::Kind::lines, "slip_angles",
+   Panel &profiles = study.lines("torsion_tractions", "Pressure p and shear |q| over f", "r/t",
+                                 "p/p0, |q|/(f p0)"),
+         &sliding = study.lines("slip", "Slip", "r/t", "|v| E/(p0 t)"),
+         &directions = study.lines("slip_angles",
                                    "Angle of slip from the radius, of its rate and in total",
                                    "r/t", "degrees"),
          &diagram = study.panel(Panel::Kind::zones, "torsion_zones", "Zones under torsion",
@@ -161,14 +160,11 @@ void twist(Study &study, Disc &disc, Run &run, Turning::Stop stop,
          rate.push_back(slip_angle(r, now.state.q, at));
          total.push_back(slip_angle(r, now.state.v, at));
       }
-      ordered_json more = found.json();
-      more["slip_angle_rate"] = rate;
-      more["slip_angle_total"] = total;
       study.row(table,
                 {now.torque / disc.limit, turning.rotation(now.state), found.stick,
                  found.separation, rate[0], rate[1], rate[2], total[0], total[1], total[2],
                  by_torque ? wanted[k] : none},
-                found.errors(), more);
+                found.errors(), found.json());
    }
    // Under control of the torque there is nothing beyond its maximum.
    const bool rotates =
@@ -234,17 +230,13 @@ void cycle(Study &study, Disc &disc, Run &run, double amplitude, int cycles)
    {
       const Extent &there = ends[2 * k + 1], &back = ends[2 * k + 2];
       const Loop &loop = records[k].loops[problem.pattern("twist")];
-      const double T1 = torques[2 * k + 1] / disc.limit, T2 = torques[2 * k + 2] / disc.limit;
-      study.row(table,
-                {k + 1, T1, T2, there.stick, back.stick, there.separation, back.separation,
-                 records[k].dissipation, records[k].external_work, loop.work(),
-                 loop.stiffness(), loop.loss_factor()},
-                {},
-                {{"torque", {T1, T2}},
-                 {"stick", {there.stick, back.stick}},
-                 {"separation", {there.separation, back.separation}},
-                 {"normal_work", records[k].normal_work},
-                 {"slip_change", records[k].slip_change}});
+      study.row(
+         table,
+         {k + 1, torques[2 * k + 1] / disc.limit, torques[2 * k + 2] / disc.limit, there.stick,
+          back.stick, there.separation, back.separation, records[k].dissipation,
+          records[k].external_work, loop.work(), loop.stiffness(), loop.loss_factor()},
+         {},
+         {{"normal_work", records[k].normal_work}, {"slip_change", records[k].slip_change}});
    }
    report_steady(study, run.report);
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "common/disc_scene.hpp"
-#include "common/extent.hpp"
+#include "common/receding_study.hpp"
 #include "common/turning.hpp"
 
 #include <vector>

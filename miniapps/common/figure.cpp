@@ -78,6 +78,11 @@ void Panel::add(const std::string &series, const std::vector<double> &x,
    add(series, vector(x), vector(y), style);
 }
 
+void Panel::point(const std::string &series, double x, double y, const std::string &style)
+{
+   row({series, style}, {x, y});
+}
+
 void Panel::add_tractions(const std::string &label, const VectorXd &x,
                           const ReducedProblem &problem, const ContactState &state, Index first,
                           Index count)
@@ -96,12 +101,17 @@ void Panel::add_tractions(const std::string &label, const VectorXd &x,
 void Panel::add(double time, const std::vector<Zone> &zones,
                 const std::function<double(double)> &coordinate)
 {
-   for (const Zone &zone : zones)
+   for (const Zone &one : zones)
    {
-      rows_ += text("%.9g,%s,%.9g,%.9g\n", time, cattaneo::name(zone.state),
-                    coordinate(zone.from.position), coordinate(zone.to.position));
-      ++points_;
+      zone(time, cattaneo::name(one.state), coordinate(one.from.position),
+           coordinate(one.to.position));
    }
+}
+
+void Panel::zone(double time, const std::string &state, double from, double to)
+{
+   rows_ += text("%.9g,%s,%.9g,%.9g\n", time, state.c_str(), from, to);
+   ++points_;
 }
 
 void Panel::mark(double time, double coordinate)

@@ -39,6 +39,8 @@ public:
             const std::string &style = "line");
    void add(const std::string &series, const std::vector<double> &x,
             const std::vector<double> &y, const std::string &style = "line");
+   /// The next point of a curve.
+   void point(const std::string &series, double x, double y, const std::string &style = "line");
    /// Pressure, and dashed shear over friction (if there is any), of `count` nodes from
    /// `first` on.
    void add_tractions(const std::string &label, const Eigen::VectorXd &x,
@@ -49,6 +51,7 @@ public:
    void add(
       double time, const std::vector<cattaneo::Zone> &zones,
       const std::function<double(double)> &coordinate = [](double s) { return s; });
+   void zone(double time, const std::string &state, double from, double to);
    /// A value of the thesis on a zone diagram.
    void mark(double time, double coordinate);
    /// Rings of a plan; positions are radii.

@@ -1,7 +1,6 @@
 #include "common/fretting_figures.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cattaneo/fretting/calibration.hpp>
 #include <cattaneo/fretting/edge_crack.hpp>
 #include <cattaneo/fretting/hertz_field.hpp>
@@ -59,13 +58,8 @@ Panel &add_curves(Panel &panel, const std::vector<double> &frictions, double des
 
 void mark(Panel &panel, const std::string &name, double x, double y)
 {
-   panel.add(name, std::vector<double>{x}, {y}, "star");
+   panel.point(name, x, y, "star");
 }
-
-} // namespace
-
-namespace
-{
 
 /// Pressure of a flat pad with round edges, and what its edge makes of it (thesis appendix A).
 void draw_profile(Study &study, const Pad &pad)
@@ -75,8 +69,7 @@ void draw_profile(Study &study, const Pad &pad)
    const double a = contact.half_width;
    const RoundedEdge edge =
       rounded_edge(pad.normal / (M_PI * std::sqrt(2 * pad.flat)), pad.radius, pad.modulus());
-   Panel &panel =
-      study.panel(Panel::Kind::lines, "profile", "Pressure of the pad", "x/a", "p, MPa");
+   Panel &panel = study.lines("profile", "Pressure of the pad", "x/a", "p, MPa");
    std::vector<double> x, whole, alone, root;
    for (int i = 1; i <= 400; i++)
    {
@@ -101,9 +94,6 @@ void draw_design(Study &study, const Pad &pad, const JudgedEdge &judged,
    const double f = pad.friction;
    const double constraint = out_of_plane_constraint(pad.material.poisson, pad.plane_stress);
    const FrettingReport &r = judged.report;
-   const auto lines = [&](const char *name, const char *title, const char *x,
-                          const char *y) -> Panel &
-   { return study.panel(Panel::Kind::lines, name, title, x, y); };
 
    Panel &field = study.panel(Panel::Kind::field, "field", "von Mises stress σ_vM/(K_N √d)",
                               "t/d", "depth y/d");
@@ -120,7 +110,7 @@ void draw_design(Study &study, const Pad &pad, const JudgedEdge &judged,
          }
       }
    }
-   Panel &surface = lines("surface", "Stress along the surface", "t/d", "σ_vM/(K_N √d)");
+   Panel &surface = study.lines("surface", "Stress along the surface", "t/d", "σ_vM/(K_N √d)");
    surface.say("shade: 0,1,slip zone");
    surface.limit("y", 0, none);
    add_curves(surface, {0.2, 0.4, 0.6, 0.8, 1.0}, f, 300,
@@ -130,7 +120,7 @@ void draw_design(Study &study, const Pad &pad, const JudgedEdge &judged,
                  return std::pair{t, surface_von_mises(friction, constraint, t)};
               });
    Panel &yield =
-      lines("yield", "Yield of the slip zone", "friction coefficient f", "load K_N √d/k");
+      study.lines("yield", "Yield of the slip zone", "friction coefficient f", "load K_N √d/k");
    std::vector<double> frictions, first, full;
    for (int i = 0; i <= 90; i++)
    {
@@ -142,8 +132,8 @@ void draw_design(Study &study, const Pad &pad, const JudgedEdge &judged,
    yield.add("whole slip zone yields", frictions, full);
    yield.limit("y", 0, 6);
    if (r.yield_ratio_full > 0) { mark(yield, "design", f, r.yield_ratio_full / f); }
-   add_curves(lines("trajectory", "Stress intensity of a crack", "crack depth c/d",
-                    "K_I,max/√(K_N K_T d)"),
+   add_curves(study.lines("trajectory", "Stress intensity of a crack", "crack depth c/d",
+                          "K_I,max/√(K_N K_T d)"),
               {0.3, 0.5, 0.8}, f, 200,
               [](double friction, int i)
               {
@@ -152,8 +142,8 @@ void draw_design(Study &study, const Pad &pad, const JudgedEdge &judged,
                  return std::pair{c, crack_intensity(unit, c) / std::sqrt(unit.k_t)};
               });
    // K_N stays: with R only the end of the cycle changes at which the crack is pressed shut.
-   Panel &ratios = lines("trajectory_ratios", exact_text("Open part of ΔK_I, f = ", f).c_str(),
-                         "crack depth c/d", "ΔK_I/√(K_N K_T d)");
+   Panel &ratios = study.lines("trajectory_ratios", exact_text("Open part of ΔK_I, f = ", f),
+                               "crack depth c/d", "ΔK_I/√(K_N K_T d)");
    for (const double R : {-1.0, -0.5, 0.0, 0.3, 0.6})
    {
       CrackedEdge crack;
@@ -180,7 +170,7 @@ void draw_design(Study &study, const Pad &pad, const JudgedEdge &judged,
    }
    if (pad.kind == "flat-rounded") { draw_profile(study, pad); }
    Panel &threshold =
-      lines("threshold", "Threshold, edge field alone", x_of_threshold, y_of_threshold);
+      study.lines("threshold", "Threshold, edge field alone", x_of_threshold, y_of_threshold);
    const double last = std::max(1.0, 1.5 * r.abscissa);
    const auto ordinate = [&](double friction, double x)
    { return threshold_ordinate(criteria.criterion, friction, x, pad.load_ratio); };
@@ -196,8 +186,8 @@ void draw_design(Study &study, const Pad &pad, const JudgedEdge &judged,
    const double width = judged.problem.rounded_width > 0 ? judged.problem.rounded_width
                                                          : judged.problem.half_width;
    Panel &diagram =
-      lines("diagram", ("Kitagawa-Takahashi: " + to_string(r.threshold.verdict)).c_str(),
-            "crack depth c/a0", "driving force/ΔK_th");
+      study.lines("diagram", "Kitagawa-Takahashi: " + to_string(r.threshold.verdict),
+                  "crack depth c/a0", "driving force/ΔK_th");
    diagram.say("scale: loglog");
    // Where the crack is no longer small against the contact the field is another one.
    const double limit = 0.25 * width / r.critical_length;
@@ -356,26 +346,39 @@ void correlate(Study &study, const std::string &file, const Pad &common,
                                           {"energy_total"},
                                           {"yield_load"},
                                           {"trust", "trust"}});
-   const auto lines = [&](const char *name, const char *title, const char *x,
-                          const char *y) -> Panel &
+   const auto over_life = [&](const char *name, const char *title, const char *y) -> Panel &
    {
-      Panel &panel = study.panel(Panel::Kind::lines, name, title, x, y);
-      if (std::string(x) == "life, cycles") { panel.say("scale: semilogx"); }
+      Panel &panel = study.lines(name, title, "life, cycles", y);
+      panel.say("scale: semilogx");
       return panel;
    };
-   Panel &stress = lines("stress", "Edge stress range", "life, cycles", "Δσ_xx, MPa"),
-         &tests =
-            lines("threshold_tests", "Tests and threshold", x_of_threshold, y_of_threshold),
-         &mode_two = lines("mode_two", "Mode II", "life, cycles", "ΔK_T, MPa√mm"),
-         &energy = lines("energy", "Largest frictional energy", "life, cycles",
-                         "energy a cycle, mJ/mm²"),
-         &total = lines("energy_all", "Frictional energy of the edge", "life, cycles",
-                        "energy a cycle, mJ/mm");
+   Panel &stress = over_life("stress", "Edge stress range", "Δσ_xx, MPa"),
+         &tests = study.lines("threshold_tests", "Tests and threshold", x_of_threshold,
+                              y_of_threshold),
+         &mode_two = over_life("mode_two", "Mode II", "ΔK_T, MPa√mm"),
+         &energy = over_life("energy", "Largest frictional energy", "energy a cycle, mJ/mm²"),
+         &total =
+            over_life("energy_all", "Frictional energy of the edge", "energy a cycle, mJ/mm");
    double least = std::numeric_limits<double>::infinity(), most = 0, furthest = 0;
    std::map<std::string, FatigueMaterial> used;
    std::map<std::string, std::set<double>> ratios; // load ratios of the tests of a material
-   std::vector<std::array<double, 5>> measured;
-   std::vector<bool> broke;
+   struct Measure
+   {
+      const char *name;
+      Panel *panel; ///< over life
+      bool divides; ///< is its dividing level drawn there?
+      double (*of)(const FrettingReport &);
+      std::vector<std::pair<double, bool>> tests = {}; ///< with whether they broke
+   };
+   using Of = const FrettingReport &;
+   Measure measures[] = {
+      {"edge stress range", &stress, false, [](Of r) { return r.edge_stress_range; }},
+      {"Y over threshold", nullptr, false,
+       [](Of r) { return r.ordinate / r.threshold_ordinate; }},
+      {"range of K_T", &mode_two, false, [](Of r) { return r.k_t_range; }},
+      {"largest energy", &energy, true, [](Of r) { return r.energy_max; }},
+      {"energy of the edge", &total, true, [](Of r) { return r.energy_total; }}};
+   long count = 0, broke = 0;
    std::set<std::pair<double, double>> rubbed; // friction and load ratio
    std::vector<std::string> columns;
    int number = 0;
@@ -403,9 +406,8 @@ void correlate(Study &study, const std::string &file, const Pad &common,
          used.emplace(test.pad.material.name, test.pad.material);
          rubbed.insert({test.pad.friction, test.pad.load_ratio});
          ratios[test.pad.material.name].insert(test.pad.load_ratio);
-         measured.push_back({r.edge_stress_range, r.ordinate / r.threshold_ordinate,
-                             r.k_t_range, r.energy_max, r.energy_total});
-         broke.push_back(test.runout != 1);
+         ++count;
+         broke += test.runout != 1;
          study.row(table, {test.series, test.pad.material.name, test.cycles, test.runout,
                            test.pad.friction, r.edge_stress_range, r.abscissa, r.ordinate,
                            r.k_t_range, r.energy_max, r.energy_total,
@@ -413,15 +415,16 @@ void correlate(Study &study, const std::string &file, const Pad &common,
          const bool trusted = r.trust != Trust::poor;
          const auto add = [&](Panel &panel, double x, double y)
          {
-            panel.add(test.series, std::vector<double>{x}, {y},
-                      test.runout == 1 ? "hollow" : "points");
-            if (!trusted) { panel.add("not valid", std::vector<double>{x}, {y}, "cross"); }
+            panel.point(test.series, x, y, test.runout == 1 ? "hollow" : "points");
+            if (!trusted) { panel.point("not valid", x, y, "cross"); }
          };
-         add(stress, test.cycles, r.edge_stress_range);
          add(tests, r.abscissa, r.ordinate);
-         add(mode_two, test.cycles, r.k_t_range);
-         add(energy, test.cycles, r.energy_max);
-         add(total, test.cycles, r.energy_total);
+         for (Measure &measure : measures)
+         {
+            const double value = measure.of(r);
+            measure.tests.emplace_back(value, test.runout != 1);
+            if (measure.panel) { add(*measure.panel, test.cycles, value); }
+         }
          least = std::min(least, test.cycles);
          most = std::max(most, test.cycles);
          furthest = std::max(furthest, r.abscissa);
@@ -433,12 +436,14 @@ void correlate(Study &study, const std::string &file, const Pad &common,
       }
    }
    require(most > 0, "there are no tests in ", file, ".");
+   const auto across = [&](Panel &panel, const std::string &name, double y) {
+      panel.add(name, std::vector<double>{least, most}, {y, y}, "dashed");
+   };
    for (const auto &[material, properties] : used)
    {
       const std::string of = used.size() > 1 ? ", " + material : "";
-      const auto level = [&](Panel &panel, const std::string &name, double y) {
-         panel.add(name + of, std::vector<double>{least, most}, {y, y}, "dashed");
-      };
+      const auto level = [&](Panel &panel, const std::string &name, double y)
+      { across(panel, name + of, y); };
       level(stress, "plain fatigue limit", properties.fatigue_limit.low);
       const double threshold =
          criteria.mode_two_ratio * properties.threshold / mode_two_range(1);
@@ -454,34 +459,19 @@ void correlate(Study &study, const std::string &file, const Pad &common,
          }
       }
    }
-   const auto lasted = std::count(broke.begin(), broke.end(), false);
-   if (lasted > 0 && lasted < static_cast<long>(broke.size()))
+   if (broke > 0 && broke < count)
    {
       study.title("Level of each measure that divides broken tests from lasting ones best");
       Table &dividing = study.table("dividing_levels", {{"measure", "measure            "},
                                                         {"level", "level", "%.4g"},
                                                         {"wrong", "tests on its wrong side"},
                                                         {"tests", "of"}});
-      const std::pair<const char *, Panel *> measures[] = {{"edge stress range", nullptr},
-                                                           {"Y over threshold", nullptr},
-                                                           {"range of K_T", nullptr},
-                                                           {"largest energy", &energy},
-                                                           {"energy of the edge", &total}};
-      for (std::size_t k = 0; k < 5; ++k)
+      for (const Measure &measure : measures)
       {
-         std::vector<std::pair<double, bool>> of;
-         for (std::size_t i = 0; i < broke.size(); ++i)
-         {
-            of.emplace_back(measured[i][k], broke[i]);
-         }
-         const DividingLevel best(std::move(of));
-         study.row(dividing, {measures[k].first, best.level, best.wrong, broke.size()});
-         Panel *panel = measures[k].second;
-         if (panel && std::isfinite(best.level))
-         {
-            panel->add("divides broken from lasting best", std::vector<double>{least, most},
-                       {best.level, best.level}, "dashed");
-         }
+         const DividingLevel best(measure.tests);
+         study.row(dividing, {measure.name, best.level, best.wrong, count});
+         if (!measure.divides || !std::isfinite(best.level)) { continue; }
+         across(*measure.panel, "divides broken from lasting best", best.level);
       }
    }
    double highest = 0;

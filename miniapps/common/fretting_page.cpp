@@ -152,6 +152,7 @@ void print_page(Study &study, const Pad &pad, const PadContact &contact,
          item.measure.empty() ? "" : item.measure + " = " + number(item.value) + ". ";
       study.say(wrapped("[" + to_string(item.trust) + "] " + measure + item.text, 3));
    }
+   study.list("validity", validity);
    const double width = contact.rounded_width > 0 ? contact.rounded_width : a;
    study.results.update(
       {{"units", "N, mm, MPa, forces per mm of thickness"},
@@ -193,11 +194,11 @@ void print_solution(Study &study, const SolvedPad &solved)
    for (const bool trailing : {true, false})
    {
       const PadEdge &solution = trailing ? solved.trailing : solved.leading;
-      Json &j = fe[trailing ? "trailing" : "leading"];
-      j = to_json(solution);
+      const char *const name = trailing ? "trailing" : "leading";
+      Json &j = fe[name];
+      j = report_edge(study, solution, name, -middle);
       j["slip_zone_reversed"] = solution.reversed_slip_zone;
       j["resolved"] = solution.resolved;
-      report_edge(study, solution, trailing ? "trailing" : "leading", -middle);
       if (solution.edge.k_t.value != 0 && !solution.resolved)
       {
          study.say(wrapped("The slip zone is shorter than two spacings of the contact nodes (" +
@@ -207,6 +208,7 @@ void print_solution(Study &study, const SolvedPad &solved)
                            6));
       }
    }
+   study.list("edges", {fe["trailing"], fe["leading"]});
 }
 
 } // namespace miniapp

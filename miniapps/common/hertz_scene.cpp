@@ -32,12 +32,8 @@ void load(ElasticBody &body, int top, double L, double H, double P, double turn)
 
 void HalfPlanes::validate() const
 {
-   require(order >= 1 && order <= 8, "option --order is ", order, ", must be 1 to 8");
    require(!grid.empty() || (nodes >= 9 && (nodes - 1) % order == 0), "option --nodes is ",
            nodes, ", must be at least 9 and one more than a multiple of the order ", order);
-   require(span > 1, "option --span is ", span, ", must be above 1");
-   require(domain == 0 || domain > 10, "option --domain is ", domain,
-           ", must be 0, for half-planes without a mesh, or above 10");
    require(domain > 0 || !(bulk || bulk_pad),
            "bulk stress is asked for without option --domain, must be in a block");
    check_growth(growth);
@@ -117,9 +113,7 @@ Scene make_scene(const BlockOnHalfPlane &options)
                                   options.order, options.material);
    const int surface = 1, far = 3;
    for (int component : {0, 1}) { plane.fix(far, component); }
-   const ContactLine below = contact_line(plane, surface);
-   const Pairing pairing = pair_lines(above.line, below);
-   scene.reduction = reduce(std::move(above), condense(plane, below, condensation()), pairing);
+   scene.reduction = stacked(std::move(above), plane, contact_line(plane, surface));
    return scene;
 }
 

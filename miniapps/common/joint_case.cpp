@@ -176,22 +176,6 @@ Guide::Along along(const Key &key, bool turns)
    return made;
 }
 
-ordered_json to_json(const Guide::Along &along, bool turns)
-{
-   switch (along.motion)
-   {
-   case Guide::Motion::held:
-      return "held";
-   case Guide::Motion::free:
-      return "free";
-   case Guide::Motion::force:
-      return {{turns ? "moment" : "force", along.load}, {"value", along.value}};
-   case Guide::Motion::displacement:
-      break;
-   }
-   return {{turns ? "angle" : "displacement", along.load}, {"value", along.value}};
-}
-
 JointCase::Body::Guided guided(const Key &key)
 {
    key.must_be_of({"on", "x", "y", "rotation", "centre"});
@@ -462,45 +446,14 @@ JointCase::Bolt bolt(const Key &key, const std::string &name, const JointCase &j
    return made;
 }
 
-/// The members of an object that was a key.
+/// The members of a key, an object.
 template <class Add>
-void each(const std::string &text, const std::string &name, Add add)
+void each(const ordered_json &all, const std::string &name, Add add)
 {
-   if (text.empty()) { return; }
-   ordered_json all;
-   try
-   {
-      all = ordered_json::parse(text);
-   }
-   catch (const ordered_json::exception &error)
-   {
-      throw InputError("key '" + name + "' is not JSON: " + error.what());
-   }
+   if (all.is_null()) { return; }
    const Key key(all, name);
    if (!all.is_object() || all.empty()) { key.refuse("an object with at least one key"); }
    for (const auto &item : all.items()) { add(key[item.key()], item.key()); }
-}
-
-ordered_json to_json(const Eigen::MatrixX2d &points)
-{
-   ordered_json all = ordered_json::array();
-   for (const Eigen::RowVector2d &point : points.rowwise())
-   {
-      all.push_back({point[0], point[1]});
-   }
-   return all;
-}
-
-ordered_json to_json(const JointCase::Profile &profile)
-{
-   if (profile.function) { return profile.function->text(); }
-   if (profile.points.size() == 1) { return profile.points[0][1]; }
-   return profile.points;
-}
-
-ordered_json one_or_list(const std::vector<double> &values)
-{
-   return values.size() == 1 ? ordered_json(values[0]) : ordered_json(values);
 }
 
 } // namespace
@@ -526,6 +479,18 @@ int JointCase::body(const std::string &name) const
    return -1;
 }
 
+ordered_json structure(const std::string &key, const std::string &text)
+{
+   try
+   {
+      return text.empty() ? ordered_json() : ordered_json::parse(text);
+   }
+   catch (const ordered_json::exception &error)
+   {
+      throw InputError("key '" + key + "' is not JSON: " + error.what());
+   }
+}
+
 JointCase joint_case(const JointKeys &keys, int order)
 {
    JointCase joint;
@@ -534,8 +499,9 @@ JointCase joint_case(const JointKeys &keys, int order)
    const std::string word = Key(analysis, "analysis").choice(analyses);
    joint.plane_stress = word == "plane stress";
    if (word == "axisymmetric") { joint.formulation = Formulation::axisymmetric; }
-   require(!keys.bodies.empty(), "key 'bodies' is missing, must name the bodies");
-   require(!keys.interfaces.empty(), "key 'interfaces' is missing, must name where they touch");
+   require(!keys.bodies.is_null(), "key 'bodies' is missing, must name the bodies");
+   require(!keys.interfaces.is_null(),
+           "key 'interfaces' is missing, must name where they touch");
    each(keys.bodies, "bodies",
         [&](const Key &key, const std::string &name)
         { joint.bodies.push_back(body(key, name)); });
@@ -549,96 +515,6 @@ JointCase joint_case(const JointKeys &keys, int order)
         [&](const Key &key, const std::string &name)
         { joint.bolts.push_back(bolt(key, name, joint)); });
    return joint;
-}
-
-ordered_json to_json(const JointCase &joint)
-{
-   ordered_json keys{{"version", 2}};
-   keys["analysis"] = joint.formulation != Formulation::plane ? analyses[2]
-                      : joint.plane_stress                    ? analyses[1]
-                                                              : analyses[0];
-   keys["order"] = joint.order;
-   for (const JointCase::Body &body : joint.bodies)
-   {
-      ordered_json &made = keys["bodies"][body.name];
-      const ordered_json young = one_or_list(body.young), poisson = one_or_list(body.poisson);
-      if (body.half_plane)
-      {
-         made["half-plane"] = {{"young", young}, {"poisson", poisson}};
-         if (!std::isnan(body.depth)) { made["half-plane"]["depth"] = body.depth; }
-         continue;
-      }
-      if (!body.matrix.empty()) { made["matrix"] = body.matrix; }
-      else { made = {{"mesh", body.mesh}, {"young", young}, {"poisson", poisson}}; }
-      if (body.order > 0) { made["order"] = body.order; }
-      if (!std::isnan(body.expansion)) { made["expansion"] = body.expansion; }
-      if (!body.support.empty()) { made["support"] = body.support; }
-      if (!body.load.empty()) { made["load"] = split(body.load, ";"); }
-      for (const JointCase::Body::Guided &each : body.guides)
-      {
-         ordered_json guide{{"on", each.on},
-                            {"x", to_json(each.guide.x, false)},
-                            {"y", to_json(each.guide.y, false)},
-                            {"rotation", to_json(each.guide.rotation, true)}};
-         if (each.guide.centre) { guide["centre"] = *each.guide.centre; }
-         made["guides"].push_back(guide);
-      }
-   }
-   const auto word = [&](const JointCase::Side &side)
-   {
-      const std::string &name = joint.bodies[side.body].name;
-      return side.part.empty() ? name : name + ":" + side.part;
-   };
-   for (const JointCase::Face &face : joint.faces)
-   {
-      ordered_json &made = keys["interfaces"][face.name];
-      for (const JointCase::Side &side : face.sides)
-      {
-         if (side.body >= 0) { made["between"].push_back(word(side)); }
-      }
-      if (face.tied) { made["tied"] = true; }
-      else if (face.strength)
-      {
-         made["strength"] = {{"forward", to_json(face.strength->forward)},
-                             {"backward", to_json(face.strength->backward)}};
-      }
-      else { made["friction"] = to_json(face.friction); }
-      if (face.gap) { made["gap"] = to_json(*face.gap); }
-      if (face.slave != SlaveSide::coarser)
-      {
-         made["slave"] = slaves[static_cast<std::size_t>(face.slave)];
-      }
-      if (face.most_overlap != Interface().most_overlap)
-      {
-         made["overlap"] = face.most_overlap;
-      }
-      if (!std::isnan(face.pairing)) { made["pairing"] = face.pairing; }
-      for (const Eigen::Vector2d &x : face.obstacle)
-      {
-         made["obstacle"]["line"].push_back({x[0], x[1]});
-      }
-      if (!std::isnan(face.radius))
-      {
-         made["obstacle"]["circle"] = {{"centre", {face.centre[0], face.centre[1]}},
-                                       {"radius", face.radius}};
-      }
-      if (face.curve) { made["obstacle"]["curve"] = face.curve->text(); }
-      for (const JointCase::Motion &motion : face.motions)
-      {
-         made["motion"][motion.load] = {{"x", motion.along[0]},
-                                        {"y", motion.along[1]},
-                                        {"angle", motion.angle},
-                                        {"centre", {motion.centre[0], motion.centre[1]}}};
-      }
-   }
-   for (const JointCase::Bolt &bolt : joint.bolts)
-   {
-      keys["bolts"][bolt.name] = {{"between", {word(bolt.ends[0]), word(bolt.ends[1])}},
-                                  {"direction", bolt.direction},
-                                  {"stiffness", bolt.stiffness},
-                                  {"pretension", bolt.pretension}};
-   }
-   return keys;
 }
 
 } // namespace miniapp

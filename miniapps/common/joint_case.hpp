@@ -107,18 +107,17 @@ struct JointCase
    int body(const std::string &name) const; ///< its number, -1: none
 };
 
-/// Texts of a case file 2, each the JSON of a key, empty if it is not there.
+/// What the keys of a case file 2 hold; null: it is not there.
 struct JointKeys
 {
-   std::string analysis, bodies, interfaces, bolts;
-
-   bool given() const { return !(analysis + bodies + interfaces + bolts).empty(); }
+   std::string analysis;
+   nlohmann::ordered_json bodies, interfaces, bolts;
 };
+
+/// A key that is said by a text; null if that is empty. InputError if it is not JSON.
+nlohmann::ordered_json structure(const std::string &key, const std::string &text);
 
 /// InputError naming the key.
 JointCase joint_case(const JointKeys &keys, int order);
-
-/// The keys of a case file 2 that say the same.
-nlohmann::ordered_json to_json(const JointCase &joint);
 
 } // namespace miniapp

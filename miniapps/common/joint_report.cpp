@@ -287,7 +287,7 @@ void JointReport::report_bolts(const ContactState &state)
 void JointReport::draw_loops()
 {
    Panel &panel =
-      study_.panel(Panel::Kind::lines, "interface_loops",
+      study_.lines("interface_loops",
                    twists() ? "Torque of each interface over its mean turn"
                             : "Shear force of each interface over its mean slip",
                    twists() ? "mean turn" : "mean slip", twists() ? "-torque" : "-T");
@@ -303,21 +303,24 @@ std::string body_name(const Reduction &reduction, std::size_t body)
    return name.empty() ? "body" + std::to_string(body + 1) : name;
 }
 
-void convert(Study &study, const JointCase &joint, const std::string &file)
+void convert(Study &study, const JointKeys &joint, int order, const std::string &file)
 {
-   JointCase moved = joint;
+   ordered_json keys = {{"version", 2},
+                        {"analysis", joint.analysis},
+                        {"order", order},
+                        {"bodies", joint.bodies},
+                        {"interfaces", joint.interfaces}};
+   if (!joint.bolts.is_null()) { keys["bolts"] = joint.bolts; }
    const auto folder = std::filesystem::absolute(file).parent_path();
-   for (JointCase::Body &body : moved.bodies)
+   for (ordered_json &body : keys["bodies"])
    {
-      for (std::string *path : {&body.mesh, &body.matrix})
+      for (const char *its : {"mesh", "matrix"})
       {
-         if (!path->empty())
-         {
-            *path = std::filesystem::relative(*path, folder).generic_string();
-         }
+         if (!body.contains(its)) { continue; }
+         const std::filesystem::path path = body[its].get<std::string>();
+         body[its] = std::filesystem::relative(path, folder).generic_string();
       }
    }
-   ordered_json keys = to_json(moved);
    const ordered_json &values = study.options().values();
    for (const char *name : {"history", "edges"})
    {

@@ -69,6 +69,7 @@ private:
 std::string body_name(const cattaneo::Reduction &reduction, std::size_t body);
 
 /// Writes the case as a case file 2, with the study's other options, and leaves the study.
-[[noreturn]] void convert(Study &study, const JointCase &joint, const std::string &file);
+[[noreturn]] void convert(Study &study, const JointKeys &joint, int order,
+                          const std::string &file);
 
 } // namespace miniapp

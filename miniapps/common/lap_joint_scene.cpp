@@ -16,17 +16,10 @@ using namespace cattaneo;
 
 void LapJointOptions::validate() const
 {
-   require(order >= 1 && order <= 8, "option --order is ", order, ", must be 1 to 8");
-   require(spacing > 0 && spacing <= 0.1, "option --spacing is ", spacing,
-           ", must be above 0 and at most 0.1 (in t)");
    require(growth > 1 && growth <= 2, "growth is ", growth, ", must be above 1 and at most 2");
    require(!widths.empty(), "there is no width of the pinch pressure");
    require(!bolts.empty(),
            "option --bolts is empty, must list the position of one bolt at least");
-   require(protrusion > 0, "option --protrusion is ", protrusion, ", must be positive (in t)");
-   require(remote > 2, "option --remote is ", remote, ", must be above 2 (in t)");
-   require(lower_thickness > 0.1 && lower_thickness < 100, "option --lower-thickness is ",
-           lower_thickness, ", must be between 0.1 and 100 (of the upper's)");
    for (double w : widths)
    {
       require(w > 0 && 0.5 * w <= protrusion, "option --width or --sweep-width: ", w,
@@ -53,8 +46,7 @@ Scene make_lap_joint(const LapJointOptions &options)
 {
    options.validate();
    Scene joint;
-   const Material material{1 - options.poisson * options.poisson, options.poisson,
-                           PlaneState::strain};
+   const Material material = unit_material(options.poisson);
    double d = 0;
    for (double x : options.bolts) { d = std::max(d, std::abs(x)); }
    const double free_end = d + options.protrusion, loaded_end = -d - options.remote;

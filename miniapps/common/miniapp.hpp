@@ -1,5 +1,7 @@
 #pragma once
 
+#include "common/text.hpp"
+
 #include <cattaneo/contact/condense_body.hpp>
 #include <cattaneo/counters.hpp>
 #include <chrono>
@@ -44,6 +46,12 @@ nlohmann::ordered_json to_json(const cattaneo::Counters &counters);
 
 /// Prints a warning, once however often it is given; the results of write_json() list them.
 void warn(const std::string &text);
+/// Of parts of a sentence.
+template <class... Parts>
+void warn(const Parts &...parts)
+{
+   warn(told(parts...));
+}
 
 /// Those that were given.
 const std::vector<std::string> &warnings();

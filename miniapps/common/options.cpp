@@ -151,6 +151,7 @@ Options::Options(int argc, char *argv[]) : words_(argv, argv + argc)
 void Options::add(Value value, const Names &names, const char *help, const Check &check)
 {
    options_.push_back({names, help, value, check});
+   options_.back().version = adds_version_;
 }
 
 void Options::add(std::string *value, const Names &names, const char *help, Text kind)
@@ -173,17 +174,6 @@ void Options::in_object(const std::string &name, const std::vector<std::string> 
    for (Option &option : options_)
    {
       if (option.names.name.find(name + "-") == 0) { option.object = name; }
-   }
-}
-
-void Options::of_version(int version, const std::vector<std::string> &names)
-{
-   for (Option &option : options_)
-   {
-      if (std::count(names.begin(), names.end(), option.names.name) > 0)
-      {
-         option.version = version;
-      }
    }
 }
 
@@ -248,23 +238,17 @@ void Options::Option::set(const std::string &as, const std::string &text) const
 void Options::Option::validate() const
 {
    const std::string what = "option --" + names.name;
-   if (const auto *integer = std::get_if<int *>(&value))
+   require(choices.empty() ||
+              std::find(choices.begin(), choices.end(), text()) != choices.end(),
+           what, ": '", text(), "' is not one of ", listed(choices));
+   std::vector<double> numbers;
+   if (const auto *integer = std::get_if<int *>(&value)) { numbers = {double(**integer)}; }
+   if (const auto *real = std::get_if<double *>(&value)) { numbers = {**real}; }
+   if (is_list()) { numbers = *std::get<std::vector<double> *>(value); }
+   for (double x : numbers)
    {
-      require(check.holds(**integer), what, " is ", **integer, ", ", check.must);
-   }
-   else if (const auto *real = std::get_if<double *>(&value))
-   {
-      require(std::isnan(**real) || check.holds(**real), what, " is ", **real, ", ",
-              check.must);
-   }
-   else if (const auto *list = std::get_if<std::vector<double> *>(&value))
-   {
-      for (double x : **list) { require(check.holds(x), what, ": ", x, " ", check.must); }
-   }
-   else if (!choices.empty())
-   {
-      require(std::find(choices.begin(), choices.end(), text()) != choices.end(), what, ": '",
-              text(), "' is not one of ", listed(choices));
+      require((std::isnan(x) && !is_list()) || check.holds(x), what, is_list() ? ": " : " is ",
+              x, is_list() ? " " : ", ", check.must);
    }
 }
 
@@ -612,8 +596,8 @@ std::string Options::Option::from_json(const json &x, const std::string &where) 
    else if (is_flag()) { expect(x.is_boolean(), "true or false"); }
    else if (is_list())
    {
-      expect(x.is_number() || all([](const json &v) { return v.is_number(); }),
-             "a number or an array of numbers");
+      expect(x.is_number() || x == "none" || all([](const json &v) { return v.is_number(); }),
+             "a number or an array of numbers, or \"none\"");
    }
    else if (kind == Text::attributes)
    {

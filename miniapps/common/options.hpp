@@ -89,8 +89,8 @@ public:
 
    /// In a case file the options NAME-KEY are one object, NAME: {KEY: …}, which must have some.
    void in_object(const std::string &name, const std::vector<std::string> &required);
-   /// Names what case files of one version alone have; the others are of all.
-   void of_version(int version, const std::vector<std::string> &names);
+   /// Those that are added from here on are of case files of one version alone; 0: of all.
+   void of_version(int version) { adds_version_ = version; }
    /// Of the case file, 1 without one.
    int version() const { return version_; }
    /// Names what is no part of a case: where results go, or which of them are shown.
@@ -176,7 +176,7 @@ private:
    std::set<std::string> said_;                              ///< long names
    std::map<std::string, std::vector<std::string>> objects_; ///< with what they must have
    std::string case_file_;
-   int version_ = 1;
+   int version_ = 1, adds_version_ = 0;
    nlohmann::ordered_json values_;
 };
 

@@ -8,6 +8,7 @@
 #include <cattaneo/input_error.hpp>
 #include <cmath>
 #include <deque>
+#include <map>
 
 namespace miniapp
 {
@@ -66,41 +67,60 @@ std::vector<std::string> interfaces(const ReducedProblem &problem)
 class ZonesInTime
 {
 public:
+   /// Those of an interface that the march before has left, up to where it is taken up.
+   void read(const std::string &interface, const std::string &file, double until)
+   {
+      for (const ordered_json &row : read_rows(file))
+      {
+         const double time = row["time"];
+         if (time > until * (1 + 1e-8)) { return; } // nine digits
+         drawn_[time].push_back({interface, row["state"], row["from"], row["to"]});
+      }
+   }
    void add(const ReducedProblem &problem, const ContactState &state)
    {
       if (count_++ % stride_ != 0) { return; }
-      drawn_.emplace_back(state.time, drawn_zones(problem, state));
+      draw(problem, state);
       if (drawn_.size() < most_drawn) { return; }
-      for (std::size_t k = 1; 2 * k < drawn_.size(); ++k) { drawn_[k] = drawn_[2 * k]; }
-      drawn_.resize(drawn_.size() / 2);
+      bool stays = false;
+      for (auto one = drawn_.begin(); one != drawn_.end();)
+      {
+         stays = !stays;
+         one = stays ? std::next(one) : drawn_.erase(one);
+      }
       stride_ *= 2;
    }
-   /// With the last state: one panel an interface.
-   void draw(const std::vector<Panel *> &panels, const ReducedProblem &problem,
-             const ContactState &last)
+   /// The last state too.
+   void draw(const ReducedProblem &problem, const ContactState &state)
    {
-      if (drawn_.empty()) { return; }
-      if (drawn_.back().first != last.time)
+      std::vector<Stretch> &all = drawn_[state.time];
+      all.clear();
+      for (const Zone &zone : drawn_zones(problem, state))
       {
-         drawn_.emplace_back(last.time, drawn_zones(problem, last));
+         all.push_back({problem.chains[zone.chain].interface, name(zone.state),
+                        zone.from.position, zone.to.position});
       }
-      const std::vector<std::string> names = interfaces(problem);
-      for (const auto &[time, zones] : drawn_)
+   }
+   bool empty() const { return drawn_.empty(); }
+   /// One panel an interface.
+   void show(const std::map<std::string, Panel *> &panels) const
+   {
+      for (const auto &[time, stretches] : drawn_)
       {
-         for (std::size_t k = 0; k < names.size(); ++k)
+         for (const Stretch &one : stretches)
          {
-            std::vector<Zone> own;
-            for (const Zone &zone : zones)
-            {
-               if (problem.chains[zone.chain].interface == names[k]) { own.push_back(zone); }
-            }
-            panels[k]->add(time, own);
+            panels.at(one.interface)->zone(time, one.state, one.from, one.to);
          }
       }
    }
 
 private:
-   std::vector<std::pair<double, std::vector<Zone>>> drawn_;
+   struct Stretch
+   {
+      std::string interface, state;
+      double from, to;
+   };
+   std::map<double, std::vector<Stretch>> drawn_; ///< by time
    long count_ = 0, stride_ = 1;
 };
 
@@ -213,17 +233,28 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
       study_.begins(save_state_);
       saver.emplace(save_state_);
    }
-   std::vector<Panel *> diagrams;
+   std::map<std::string, Panel *> diagrams;
+   ZonesInTime zones_in_time;
    const std::vector<std::string> names = interfaces(problem);
    for (const std::string &name : names)
    {
       const bool one = names.size() == 1;
-      diagrams.push_back(&study_.panel(
-         Panel::Kind::zones, one ? "zones_in_time" : "zones_in_time_" + name,
-         one ? "Zones in time" : "Zones in time of " + name, "time", "arc length"));
+      Panel &diagram =
+         study_.panel(Panel::Kind::zones, one ? "zones_in_time" : "zones_in_time_" + name,
+                      one ? "Zones in time" : "Zones in time of " + name, "time", "arc length");
+      diagrams[name] = &diagram;
+      if (!goes_on || study_.csv().empty()) { continue; }
+      zones_in_time.read(name, study_.csv() + "_" + diagram.name() + ".csv", state.time);
+   }
+   const bool shown = tables || study_.draws();
+   if (goes_on && shown && zones_in_time.empty())
+   {
+      study_.say(
+         text("Zones in time begin at %g, where the march is taken up: there is no file "
+              "of those before",
+              state.time));
    }
    Film *film = study_.film(problem);
-   ZonesInTime zones_in_time;
    std::deque<IncrementRecord> last_increments;
    auto next = wanted_.begin();
    double last_frame = state.time;
@@ -233,7 +264,7 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
       bool frame = frames_ == "all";
       for (; next != wanted_.end() && reached.time >= *next; ++next) { frame = true; }
       if (frame) { last_frame = reached.time; }
-      if (tables || study_.draws()) { zones_in_time.add(problem, reached); }
+      if (shown) { zones_in_time.add(problem, reached); }
       last_increments.push_back(record);
       if (last_increments.size() > most_drawn) { last_increments.pop_front(); }
       if (history) { history->add(reached, record); }
@@ -249,7 +280,8 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
    report = cattaneo::march(problem, history_, state, settings, note);
    check_energies({report.energy_imbalance, state.dissipation});
    report.increments.assign(last_increments.begin(), last_increments.end());
-   zones_in_time.draw(diagrams, problem, state);
+   if (!zones_in_time.empty()) { zones_in_time.draw(problem, state); }
+   zones_in_time.show(diagrams);
    study_.counters += report.counters;
    study_.code = exit_code(problem, report);
    add_outcome(problem, report, study_.results);
@@ -295,8 +327,8 @@ void OwnHistory::report_state(const ReducedProblem &problem, const std::string &
                       "separated",
                       static_cast<long>(touching)));
    }
-   Panel &drawn = study_.panel(Panel::Kind::lines, "tractions",
-                               "Pressure, and shear over f (dashed)", "arc length", "p, q/f");
+   Panel &drawn =
+      study_.lines("tractions", "Pressure, and shear over f (dashed)", "arc length", "p, q/f");
    for (const std::string &interface : names)
    {
       Eigen::Index first = problem.nodes(), end = 0;

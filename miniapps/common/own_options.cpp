@@ -6,8 +6,9 @@ namespace miniapp
 void add_options(Study &study, BodyOptions &body, const std::string &k, const char *mesh_help)
 {
    study.option(&body.mesh, "mesh" + k, mesh_help, Text::input);
-   study.option(&body.young, "young" + k,
-                "Young's modulus: one, or one for each element attribute.");
+   study.option(
+      &body.young, "young" + k, "Young's modulus: one, or one for each element attribute.",
+      Check{[](double E) { return E > 0; }, "must be positive, as Young's modulus is"});
    study.option(&body.poisson, "poisson" + k,
                 "Poisson's ratio: one, or one for each element attribute.");
    study.option(&body.contact, "contact" + k,

@@ -20,7 +20,6 @@ std::vector<Material> materials(const JointCase::Body &body, int attributes, boo
    std::vector<double> young = body.young, poisson = body.poisson;
    const std::string both =
       body.source.called("young") + " and " + body.source.called("poisson");
-   require(!young.empty() && !poisson.empty(), both, " must not be empty");
    const std::size_t count = std::max(young.size(), poisson.size());
    if (young.size() == 1) { young.resize(count, young[0]); }
    if (poisson.size() == 1) { poisson.resize(count, poisson[0]); }

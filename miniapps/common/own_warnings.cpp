@@ -5,7 +5,6 @@
 #include <cattaneo/reduced/interfaces.hpp>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 namespace miniapp
 {
@@ -26,29 +25,23 @@ void warn_of_push(const JointCase &joint, const JointCase::Bolt &bolt,
    const double off = std::abs(along[0] * apart[1] - along[1] * apart[0]);
    if (off > 0.05 * apart.norm())
    {
-      std::ostringstream text;
-      text << bolt.source.called("direction") << " is (" << along[0] << ", " << along[1]
-           << "), and the middles of its ends lie at (" << ends[0][0] << ", " << ends[0][1]
-           << ") and (" << ends[1][0] << ", " << ends[1][1] << "): its two forces pass each "
-           << "other at a distance of " << off
-           << " and turn the bodies, a shank must lie along its direction";
-      warn(text.str());
+      warn(bolt.source.called("direction"), " is (", along[0], ", ", along[1],
+           "), and the middles of its ends lie at (", ends[0][0], ", ", ends[0][1], ") and (",
+           ends[1][0], ", ", ends[1][1], "): its two forces pass each ",
+           "other at a distance of ", off,
+           " and turn the bodies, a shank must lie along its direction");
    }
 }
 
 void warn_of_accuracy(double accuracy)
 {
    if (accuracy <= 1e-6) { return; }
-   std::ostringstream text;
-   if (std::isfinite(accuracy))
-   {
-      text << "the stiffness of the contact may be wrong by " << accuracy
-           << " of itself (round-off of the condensation, an estimate from above)";
-   }
-   else { text << "round-off of the condensation leaves nothing of the contact's stiffness"; }
-   text << ": Young's moduli or element sizes within a body are too far apart; take a much "
-           "stiffer part for rigid, or less contrast, which changes no result that can be told";
-   warn(text.str());
+   warn(std::isfinite(accuracy)
+           ? told("the stiffness of the contact may be wrong by ", accuracy,
+                  " of itself (round-off of the condensation, an estimate from above)")
+           : "round-off of the condensation leaves nothing of the contact's stiffness",
+        ": Young's moduli or element sizes within a body are too far apart; take a much "
+        "stiffer part for rigid, or less contrast, which changes no result that can be told");
 }
 
 /// An interference fit moves nodes by less than their distance; more is a body in a wrong
@@ -60,25 +53,20 @@ void warn_of_overlap(const ReducedProblem &problem, const InterfaceReport &inter
    const auto gap = problem.gap.segment(interface.first, interface.nodes);
    const double overlap = -gap.cwiseQuotient(interface.spacing).minCoeff(&deepest);
    if (overlap <= 1) { return; }
-   std::ostringstream text;
-   text << "the bodies overlap by " << -gap[deepest] << " at ("
-        << interface.position(deepest, 0) << ", " << interface.position(deepest, 1)
-        << "), which is " << overlap
-        << " distances of nodes: small displacements do not open that, see that both meshes "
-           "are in "
-           "their places and in one unit";
-   warn(text.str());
+   warn("the bodies overlap by ", -gap[deepest], " at (", interface.position(deepest, 0), ", ",
+        interface.position(deepest, 1), "), which is ", overlap,
+        " distances of nodes: small displacements do not open that, see that both meshes "
+        "are in "
+        "their places and in one unit");
 }
 
 void warn_of_left_out(const InterfaceReport &interface)
 {
    if (interface.left_out <= 0) { return; }
-   std::ostringstream text;
-   text << "interface '" << interface.name << "': " << interface.left_out
-        << " of it is faced between nodes of the side that carries them, where none can bear, "
-           "and carries nothing: key 'slave' may name the other side, or elements be finer "
-           "there";
-   warn(text.str());
+   warn("interface '", interface.name, "': ", interface.left_out,
+        " of it is faced between nodes of the side that carries them, where none can bear, "
+        "and carries nothing: key 'slave' may name the other side, or elements be finer "
+        "there");
 }
 
 void warn_of_loose_bodies(const OwnBodies &own)
@@ -97,14 +85,11 @@ void warn_of_loose_bodies(const OwnBodies &own)
       }
       if (reduction.bodies[b].free_motions.cols() == 0 || least <= 0) { continue; }
       const std::string &name = reduction.bodies[b].name;
-      std::ostringstream text;
-      text
-         << "body " << (name.empty() ? std::to_string(b + 1) : name)
-         << " is free and touches nothing at rest, the least gap is " << least
-         << ": the first force moves it until it touches, all at once, and a march may not go "
-            "on from there; hold what nothing decides (a turn without friction), place it so "
-            "that it touches, or move it there by a guide";
-      warn(text.str());
+      warn("body ", (name.empty() ? std::to_string(b + 1) : name),
+           " is free and touches nothing at rest, the least gap is ", least,
+           ": the first force moves it until it touches, all at once, and a march may not go "
+           "on from there; hold what nothing decides (a turn without friction), place it so "
+           "that it touches, or move it there by a guide");
    }
 }
 
@@ -127,17 +112,13 @@ void warn_of_chords(const Reduction &reduction, const Eigen::VectorXd &p)
          most = std::abs(face.chords[i]);
       }
    }
-   std::ostringstream text;
-   text << "interface '" << worst->name << "': its elements are chords of curves, which leaves "
-        << "the gap unknown by about " << most << ": ";
-   if (std::isfinite(share))
-   {
-      text << "to close that takes " << share << " of the largest pressure";
-   }
-   else { text << "nothing bears, and the curves may"; }
-   text << "; a mesh of elements of a higher order (in Gmsh: -order 2) "
-           "or of more of them follows the curve, or key 'gap' may say what the gap is";
-   warn(text.str());
+   warn("interface '", worst->name,
+        "': its elements are chords of curves, which leaves the gap unknown by about ", most,
+        ": ",
+        std::isfinite(share) ? told("to close that takes ", share, " of the largest pressure")
+                             : "nothing bears, and the curves may",
+        "; a mesh of elements of a higher order (in Gmsh: -order 2) or of more of them follows "
+        "the curve, or key 'gap' may say what the gap is");
 }
 
 void warn_of_linear_axis(const Reduction &reduction, const Eigen::VectorXd &p)
@@ -275,22 +256,16 @@ void SidesThatBear::note(const ContactState &state)
 void SidesThatBear::warn() const
 {
    if (worst_.index < 0) { return; }
-   std::ostringstream text;
-   if (corners_)
-   {
-      text << "interface '" << face_.name << "': its side turns by "
-           << std::lround(worst_.angle) << " degrees at (" << worst_.place[0] << ", "
-           << worst_.place[1]
-           << "), where it bears: a contact node has one normal, forces and zones are wrong "
-              "there; each face must be an interface of its own, or a curve have more nodes";
-      miniapp::warn(text.str());
-      return;
-   }
-   text << "node " << worst_.index << " at (" << worst_.place[0] << ", " << worst_.place[1]
-        << ") bears although its normal is " << std::lround(worst_.angle)
-        << " degrees off that of the rigid line: forces and zones are wrong there, name no "
-           "boundary around a corner as contact";
-   miniapp::warn(text.str());
+   const std::string place = told("at (", worst_.place[0], ", ", worst_.place[1], ")");
+   const long angle = std::lround(worst_.angle);
+   miniapp::warn(
+      corners_
+         ? told("interface '", face_.name, "': its side turns by ", angle, " degrees ", place,
+                ", where it bears: a contact node has one normal, forces and zones are wrong "
+                "there; each face must be an interface of its own, or a curve have more nodes")
+         : told("node ", worst_.index, " ", place, " bears although its normal is ", angle,
+                " degrees off that of the rigid line: forces and zones are wrong there, name "
+                "no boundary around a corner as contact"));
 }
 
 } // namespace miniapp

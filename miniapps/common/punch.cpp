@@ -15,11 +15,8 @@ using namespace cattaneo;
 
 void PunchOptions::validate() const
 {
-   require(order >= 1 && order <= 8, "option --order is ", order, ", must be 1 to 8");
    require(!grid.empty() || (nodes >= 3 && (nodes - 1) % order == 0), "option --nodes is ",
            nodes, ", must be at least 3 and one more than a multiple of the order ", order);
-   require(grading > 0 && grading <= 1, "option --grading is ", grading,
-           ", must be above 0 and at most 1");
    check_growth(growth);
    require(plane_stiffness > 0, "stiffness of the half-plane over the block's is ",
            plane_stiffness, ", must be positive");
@@ -28,11 +25,12 @@ void PunchOptions::validate() const
 void add_options(Study &study, PunchOptions &options)
 {
    study.option(&options.poisson, "poisson", "Poisson's ratio of both bodies.");
-   study.option(&options.order, "order", "Order of the elements.");
+   study.option(&options.order, "order", "Order of the elements.", within(1, 8));
    study.option(&options.nodes, "nodes", "Contact nodes.");
    study.option(
       &options.grading, "grading",
-      "Size of the contact elements at the corners over the middle ones (1: uniform).");
+      "Size of the contact elements at the corners over the middle ones (1: uniform).",
+      above_up_to(0, 1));
    study.option(&options.domain, "domain", domain_help, none_or_above(2));
 }
 
@@ -40,8 +38,7 @@ Scene make_punch(const PunchOptions &options)
 {
    options.validate();
    Scene scene;
-   const Material material{1 - options.poisson * options.poisson, options.poisson,
-                           PlaneState::strain};
+   const Material material = unit_material(options.poisson);
    Material plane_material = material;
    if (!std::isnan(options.plane_poisson)) { plane_material.poisson = options.plane_poisson; }
    plane_material.young = options.plane_stiffness * (1 - std::pow(plane_material.poisson, 2));
@@ -88,10 +85,7 @@ Scene make_punch(const PunchOptions &options)
    ElasticBody &plane = scene.add(refined(std::move(below), 1), options.order, plane_material);
    const int surface = 1, far_bottom = 3;
    for (int component : {0, 1}) { plane.fix(far_bottom, component); }
-   const ContactLine facing = contact_line(plane, surface);
-   const Pairing pairing = pair_lines(condensed.line, facing);
-   scene.reduction =
-      reduce(std::move(condensed), condense(plane, facing, condensation()), pairing);
+   scene.reduction = stacked(std::move(condensed), plane, contact_line(plane, surface));
    return scene;
 }
 

@@ -23,15 +23,9 @@ using Eigen::VectorXd;
 
 void RecedingOptions::validate() const
 {
-   require(order >= 1 && order <= 8, "option --order is ", order, ", must be 1 to 8");
-   require(spacing > 0 && spacing <= 0.5, "option --spacing is ", spacing,
-           ", must be above 0 and at most 0.5 (in t)");
    require(corner > 0 && corner <= spacing, "option --corner is ", corner,
            ", must be above 0 and at most the spacing ", spacing);
    require(growth > 1 && growth <= 2, "growth is ", growth, ", must be above 1 and at most 2");
-   require(length > 0, "option --length is ", length, ", must be positive (in t)");
-   require(domain == 0 || domain > 1, "option --domain is ", domain,
-           ", must be 0, for a half-plane without a mesh, or above 1 (in t)");
    require(side == 0 || (side > 1 && domain > 0), "option --side is ", side,
            domain > 0 ? ", must be 0 or above 1 (in t)"
                       : ", is of a block: --domain must say how deep it is");
@@ -54,8 +48,7 @@ Scene make_receding(const RecedingOptions &options)
 {
    options.validate();
    Scene scene;
-   const Material material{1 - options.poisson * options.poisson, options.poisson,
-                           PlaneState::strain};
+   const Material material = unit_material(options.poisson);
    const int bottom = 1, right = 2, top = 3;
    const double L = options.length, growth = options.growth;
    // Elements hold as many intervals between nodes as their order says.
@@ -111,9 +104,8 @@ Scene make_receding(const RecedingOptions &options)
    block.fix(bottom, 1);
    block.fix(BoundaryPart({right}, 1, -options.domain, -clear), 0);
 
-   const ContactLine below = contact_line(block, BoundaryPart({top}, 0, 0, L));
-   const Pairing pairing = pair_lines(upper.line, below);
-   scene.reduction = reduce(std::move(upper), condense(block, below, condensation()), pairing);
+   scene.reduction =
+      stacked(std::move(upper), block, contact_line(block, BoundaryPart({top}, 0, 0, L)));
    return scene;
 }
 
@@ -155,32 +147,6 @@ BondedTractions bonded_tractions(const ReducedProblem &problem, double overhang)
       result.adhesion_friction = std::numeric_limits<double>::infinity();
    }
    return result;
-}
-
-double changing_overhang(RecedingOptions options, double from, double to,
-                         const std::function<double(const BondedTractions &)> &figure)
-{
-   constexpr int parts = 16, rounds = 3;
-   for (int round = 0; round < rounds; ++round)
-   {
-      options.overhangs.clear();
-      for (int k = 0; k <= parts; ++k)
-      {
-         options.overhangs.push_back(from + (to - from) * k / parts);
-      }
-      const Scene scene = make_receding(options);
-      std::vector<double> values;
-      for (double n : options.overhangs)
-      {
-         values.push_back(figure(bonded_tractions(scene.reduction.problem, n)));
-      }
-      int k = 1;
-      while (k <= parts && (values[k] > 0) == (values[0] > 0)) { ++k; }
-      if (k > parts) { return std::numeric_limits<double>::quiet_NaN(); }
-      from = options.overhangs[k - 1];
-      to = options.overhangs[k];
-   }
-   return 0.5 * (from + to);
 }
 
 PointHistory::PointHistory(double xi_, const VectorXd &positions, const VectorXd &slip_)

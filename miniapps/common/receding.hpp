@@ -65,12 +65,6 @@ std::string overhang_load(double overhang);
 
 BondedTractions bonded_tractions(const cattaneo::ReducedProblem &problem, double overhang);
 
-/** Overhang between two at which a figure of the bonded strip changes its sign, found among
-    loads of ever closer edges; NaN if it has the same sign at both.
-    @param figure of a bonded strip */
-double changing_overhang(RecedingOptions options, double from, double to,
-                         const std::function<double(const BondedTractions &)> &figure);
-
 /// History of one point of the contact line while a load is taken back from full to less.
 struct PointHistory
 {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <iostream>
 #include <set>
-#include <sstream>
 #include <tuple>
 
 namespace miniapp
@@ -144,31 +143,24 @@ void report_exact_path(Study &study, const ReducedProblem &problem, const MarchR
 namespace
 {
 
-/// Force over displacement in the cycles, of each load that varied in them.
-void draw_loops(Study &study, const ReducedProblem &problem, const MarchReport &report)
+/// Does a load move what it acts on in a cycle by more than round-off? Forces on held nodes do
+/// not: theirs is measured by what it moves at other times, and other loads in the cycle.
+bool moves(const ReducedProblem &problem, const MarchReport &report, const CycleRecord &cycle,
+           std::size_t load)
 {
-   Panel &panel = study.panel(Panel::Kind::lines, "loops", "Loads over their displacements",
-                              "displacement", "force");
-   for (int k = 0; k < static_cast<int>(problem.patterns.size()); ++k)
+   const auto product = [](const Loop &loop)
+   { return loop.force_range() * loop.displacement_range(); };
+   const Loop &loop = cycle.loops[load];
+   const double range = problem.patterns[load].control == Control::force
+                           ? loop.force_range()
+                           : loop.displacement_range();
+   double size = 0;
+   for (const Loop &other : cycle.loops) { size = std::max(size, product(other)); }
+   for (const IncrementRecord &record : report.increments)
    {
-      const LoadPattern &pattern = problem.patterns[k];
-      std::vector<double> multipliers, conjugates;
-      for (const IncrementRecord &record : report.increments)
-      {
-         if (record.cycle == 0) // the last of them is where the cycles begin
-         {
-            multipliers.clear();
-            conjugates.clear();
-         }
-         multipliers.push_back(record.multipliers[k]);
-         conjugates.push_back(record.conjugates[k]);
-      }
-      const auto [least, most] = std::minmax_element(multipliers.begin(), multipliers.end());
-      if (multipliers.empty() || *least == *most) { continue; }
-      const bool force = pattern.control == Control::force;
-      panel.add(pattern.name, force ? conjugates : multipliers,
-                force ? multipliers : conjugates);
+      size = std::max(size, range * std::abs(record.conjugates[static_cast<long>(load)]));
    }
+   return settled(product(loop), size) != 0;
 }
 
 /// The loads that varied in any whole cycle: the others have no loop.
@@ -212,6 +204,7 @@ const Table &report_cycles(Study &study, const ReducedProblem &problem,
    }
    Table &cycles = study.table("cycles", columns);
    ordered_json &losses = study.results["dissipation"] = ordered_json::array();
+   std::set<std::string> still;
    for (const ordered_json &row : before)
    {
       study.row(cycles, cycles.values(row));
@@ -231,14 +224,47 @@ const Table &report_cycles(Study &study, const ReducedProblem &problem,
       for (std::size_t k : varied)
       {
          const Loop &loop = cycle.loops[k];
-         row.insert(row.end(), {loop.work() / unit, loop.stiffness(), loop.loss_factor()});
+         const bool moved = std::isnan(loop.stiffness()) || moves(problem, report, cycle, k);
+         if (!moved) { still.insert(problem.patterns[k].name); }
+         row.insert(row.end(), {moved ? loop.work() / unit : 0, moved ? loop.stiffness() : none,
+                                moved ? loop.loss_factor() : none});
       }
       study.row(cycles, row);
       losses.push_back(cycle.dissipation / unit);
    }
+   for (const std::string &load : still)
+   {
+      study.say("load " + load + " moves nothing that it acts on in a cycle: its loop is none");
+   }
    report_steady(study, report);
-   draw_loops(study, problem, report);
+   add_loops(study.lines("loops", "Loads over their displacements", "displacement", "force"),
+             problem, report);
    return cycles;
+}
+
+void add_loops(Panel &panel, const ReducedProblem &problem, const MarchReport &report,
+               const std::string &words)
+{
+   for (int k = 0; k < static_cast<int>(problem.patterns.size()); ++k)
+   {
+      const LoadPattern &pattern = problem.patterns[k];
+      std::vector<double> multipliers, conjugates;
+      for (const IncrementRecord &record : report.increments)
+      {
+         if (record.cycle == 0) // the last of them is where the cycles begin
+         {
+            multipliers.clear();
+            conjugates.clear();
+         }
+         multipliers.push_back(record.multipliers[k]);
+         conjugates.push_back(record.conjugates[k]);
+      }
+      const auto [least, most] = std::minmax_element(multipliers.begin(), multipliers.end());
+      if (multipliers.empty() || *least == *most) { continue; }
+      const bool force = pattern.control == Control::force;
+      panel.add(pattern.name + words, force ? conjugates : multipliers,
+                force ? multipliers : conjugates);
+   }
 }
 
 void report_steady(Study &study, const MarchReport &report)
@@ -260,18 +286,14 @@ namespace
 std::string event_text(const ReducedProblem &problem, double time,
                        const Eigen::VectorXd &multipliers)
 {
-   std::ostringstream text;
-   text << "time " << time;
-   const char *before = " (";
+   std::vector<std::string> loads;
    for (const auto &[name, value] : named(problem, multipliers))
    {
       // Names of studies' loads hold numbers of their own.
       const char *quote = name.find(' ') == std::string::npos ? "" : "'";
-      text << before << quote << name << quote << " = " << value;
-      before = ", ";
+      loads.push_back(told(quote, name, quote, " = ", value));
    }
-   text << ")";
-   return text.str();
+   return told("time ", time, " (", listed(loads), ")");
 }
 
 } // namespace
@@ -280,50 +302,46 @@ int exit_code(const ReducedProblem &problem, const MarchReport &report)
 {
    ProgressLine::clear();
    warn_of_cut_off(report.cut_off);
+   const auto say = [](const auto &...parts) {
+      std::cout << "\n" << told(parts...) << std::endl;
+   };
    if (report.fallbacks > 0)
    {
-      std::cout << "\n"
-                << report.fallbacks
-                << " increments where there is no exact path: " << report.fallback_reason;
       // Of a body that is free to move nothing proves that an increment has one answer.
-      if (problem.rigid_motions.cols() > 0 && problem.friction.maxCoeff() > 0)
-      {
-         std::cout << "; where friction alone holds bodies such an increment may have several "
-                      "answers, one is gone on from, and other increments or units may find "
-                      "another";
-      }
-      std::cout << std::endl;
+      const bool several = problem.rigid_motions.cols() > 0 && problem.friction.maxCoeff() > 0;
+      say(report.fallbacks,
+          " increments where there is no exact path: ", report.fallback_reason,
+          several ? "; where friction alone holds bodies such an increment may have several "
+                    "answers, one is gone on from, and other increments or units may find "
+                    "another"
+                  : "");
    }
    if (report.advance_error > 1e-6)
    {
-      std::cout << "\nContact advanced with friction, whose forces depend on how that is cut "
-                   "into increments: by up to "
-                << error_text(report.advance_error) << " of the largest nodal force"
-                << std::endl;
+      say("Contact advanced with friction, whose forces depend on how that is cut into "
+          "increments: by up to ",
+          error_text(report.advance_error), " of the largest nodal force");
    }
    if (report.stalled > 0)
    {
-      std::cout << "\n"
-                << report.stalled << " increments stalled and were passed by shorter ones"
-                << std::endl;
+      say(report.stalled, " increments stalled and were passed by shorter ones");
    }
    if (report.taken_up_clearance > 0)
    {
-      std::cout << "\nWhat was free and touched nothing was moved before the march, by up to "
-                << text("%.4g", report.taken_up_clearance)
-                << ", to where the first loads press it on" << std::endl;
+      say("What was free and touched nothing was moved before the march, by up to ",
+          text("%.4g", report.taken_up_clearance), ", to where the first loads press it on");
    }
    if (report.status == FrictionStatus::converged) { return 0; }
    if (const auto &first = report.not_unique)
    {
-      std::cout << "\nNot unique: from " << event_text(problem, first->time, first->multipliers)
-                << " on, the states are one of several:\n  " << first->message << std::endl;
+      say("Not unique: from ", event_text(problem, first->time, first->multipliers),
+          " on, the states are one of several:\n  ", first->message);
    }
    if (report.status != FrictionStatus::not_unique)
    {
-      std::cout << "\nEnded with status '" << name(report.status) << "' at "
-                << event_text(problem, report.event_time, report.event_multipliers) << ":\n  "
-                << report.message << std::endl;
+      say("Ended with status '", name(report.status), "' at ",
+          event_text(problem, report.event_time, report.event_multipliers), ":\n  ",
+          report.message);
    }
    return 2;
 }
@@ -390,6 +408,16 @@ std::vector<double> joined_once(std::vector<double> first, const std::vector<dou
       if (std::find(first.begin(), first.end(), x) == first.end()) { first.push_back(x); }
    }
    return first;
+}
+
+double half_width(const Zone &zone)
+{
+   return zone.last < zone.first ? 0.0 : 0.5 * (zone.to.position - zone.from.position);
+}
+
+double read_out_error(const Zone &zone)
+{
+   return std::max(zone.from.error, zone.to.error);
 }
 
 ordered_json to_json(const std::vector<Zone> &zones, double shift)

@@ -83,6 +83,11 @@ void report_exact_path(Study &study, const cattaneo::ReducedProblem &problem,
 const Table &report_cycles(Study &study, const cattaneo::ReducedProblem &problem,
                            const cattaneo::MarchReport &report, double unit = 1);
 
+/// Force over displacement in the cycles of a march, of each load that varied in them; a curve
+/// has the load's name and these words.
+void add_loops(Panel &panel, const cattaneo::ReducedProblem &problem,
+               const cattaneo::MarchReport &report, const std::string &words = "");
+
 /// From where on the cycles are steady, and how well energies balance: `steady_cycle`,
 /// `steady_period` and `energy_imbalance`.
 void report_steady(Study &study, const cattaneo::MarchReport &report);
@@ -110,6 +115,10 @@ std::size_t levels_one_way(const std::vector<double> &levels);
 
 /// Of two lists all that is in either, once, in this order.
 std::vector<double> joined_once(std::vector<double> first, const std::vector<double> &others);
+
+/// Of a stretch of contact or stick: none is of width 0, and borders have errors.
+double half_width(const cattaneo::Zone &zone);
+double read_out_error(const cattaneo::Zone &zone);
 
 /// Zones as they go to JSON, each {"state", "from", "to", "from_error", "to_error"}, with
 /// positions that are shifted. A table prints their states and where they end.

@@ -11,25 +11,21 @@ using namespace cattaneo;
 ElasticBody &Scene::add(mfem::Mesh mesh, int order, const Material &material,
                         Formulation formulation)
 {
-   warn_of_locking(order, material);
-   meshes.push_back(distribute(std::move(mesh), order));
-   bodies.push_back(
-      std::make_unique<ElasticBody>(*meshes.back(), order, material, formulation));
-   dofs += bodies.back()->dofs();
-   return *bodies.back();
+   return add(std::move(mesh), order, std::vector<Material>{material}, formulation);
 }
 
 ElasticBody &Scene::add(mfem::Mesh mesh, int order, const std::vector<Material> &materials,
                         Formulation formulation)
 {
-   if (materials.size() == 1) { return add(std::move(mesh), order, materials[0], formulation); }
    for (const Material &material : materials)
    {
       if (warn_of_locking(order, material)) { break; }
    }
    meshes.push_back(distribute(std::move(mesh), order));
    bodies.push_back(
-      std::make_unique<ElasticBody>(*meshes.back(), order, materials, formulation));
+      materials.size() == 1
+         ? std::make_unique<ElasticBody>(*meshes.back(), order, materials[0], formulation)
+         : std::make_unique<ElasticBody>(*meshes.back(), order, materials, formulation));
    dofs += bodies.back()->dofs();
    return *bodies.back();
 }
@@ -49,6 +45,17 @@ ReductionFields Scene::fields(const std::string &folder, const HalfPlane *half_p
    std::vector<const ElasticBody *> all;
    for (const auto &body : bodies) { all.push_back(body.get()); }
    return {reduction, all, folder, half_plane};
+}
+
+Material unit_material(double poisson)
+{
+   return {1 - poisson * poisson, poisson, PlaneState::strain};
+}
+
+Reduction stacked(CondensedBody above, const ElasticBody &below, const ContactLine &line)
+{
+   const Pairing pairing = pair_lines(above.line, line);
+   return reduce(std::move(above), condense(below, line, condensation()), pairing);
 }
 
 mfem::Mesh half_turn(mfem::Mesh mesh)

@@ -40,6 +40,13 @@ struct Scene
                                     const cattaneo::HalfPlane *half_plane = nullptr);
 };
 
+/// Of plane strain with E' = E/(1-ν²) = 1.
+cattaneo::Material unit_material(double poisson);
+
+/// A condensed body on another one, whose line's nodes match.
+cattaneo::Reduction stacked(cattaneo::CondensedBody above, const cattaneo::ElasticBody &below,
+                            const cattaneo::ContactLine &line);
+
 /// The mesh turned by 180° about the origin.
 mfem::Mesh half_turn(mfem::Mesh mesh);
 

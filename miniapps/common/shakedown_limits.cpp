@@ -216,9 +216,8 @@ void Shakedown::method2(double f1)
    study.value("method2_low", second.low, "method 2, least of all residual tractions");
    study.value("method2_high", second.high, "and most");
    study.value("method2_natural", second.natural, "and of the one without resultant");
-   Panel &panel =
-      study.panel(Panel::Kind::lines, "method2", "Permissible residual shear, method 1",
-                  of_punch("x/a", "arc length"), of_punch("-a q/P", "-q"));
+   Panel &panel = study.lines("method2", "Permissible residual shear, method 1",
+                              of_punch("x/a", "arc length"), of_punch("-a q/P", "-q"));
    panel.add("permissible", x, -traction(second.residual_high), "band");
    panel.add("permissible", x, -traction(second.residual_low), "band");
    panel.add("without resultant", x, -traction(second.natural_residual), "dashed");

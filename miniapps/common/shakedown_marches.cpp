@@ -84,13 +84,13 @@ void Shakedown::draw_optimal()
    const VectorXd residual_q = problem.A() * of.slip, residual_p = problem.B() * of.slip;
    const Eigen::MatrixXd q = stuck.q(at), p = stuck.p(at).colwise() + residual_p;
    study
-      .panel(Panel::Kind::lines, "optimal_slip", "Optimal slip", of_punch("x/a", "arc length"),
+      .lines("optimal_slip", "Optimal slip", of_punch("x/a", "arc length"),
              of_punch("v E'/P", "v"))
       .add("", x, of.slip);
    Panel &residual =
-            study.panel(Panel::Kind::lines, "residual", "Residual tractions",
-                        of_punch("x/a", "arc length"), of_punch("-q a/P, p a/P", "-q, p")),
-         &band = study.panel(Panel::Kind::lines, "optimal",
+            study.lines("residual", "Residual tractions", of_punch("x/a", "arc length"),
+                        of_punch("-q a/P, p a/P", "-q, p")),
+         &band = study.lines("optimal",
                              coulomb ? "Permissible residual shear, optimal pressures"
                                      : "Optimal residual shear",
                              of_punch("x/a", "arc length"), of_punch("-a q/P", "-q"));
@@ -121,8 +121,8 @@ void Shakedown::marches()
                                           {"opened_nodes", "nodes that open"},
                                           {"opened_loss", "loss at these", "%.1e"},
                                           {"outcome", "outcome"}});
-   Panel &losses = study.panel(Panel::Kind::lines, "losses", "Loss in the cycle", "cycle",
-                               of_punch("loss × E'/P²", "loss"));
+   Panel &losses =
+      study.lines("losses", "Loss in the cycle", "cycle", of_punch("loss × E'/P²", "loss"));
    losses.say("scale: semilogy");
    FrictionSolver solver(limit.reduced);
    Watch watch("march");
@@ -158,8 +158,8 @@ void Shakedown::marches()
       }
       for (std::size_t k = 0; k < loss.size(); ++k)
       {
-         losses.add(std::string("from ") + start + " slip", std::vector<double>{k + 1.0},
-                    {loss[k] > 0 ? loss[k] : none});
+         losses.point(std::string("from ") + start + " slip", k + 1.0,
+                      loss[k] > 0 ? loss[k] : none);
       }
    }
    if (opened)

@@ -35,7 +35,7 @@ double at(const VectorXd &x, const VectorXd &y, double place)
 void Shakedown::draw_monolith()
 {
    const auto lines = [&](const char *name, const std::string &title, const char *y) -> Panel &
-   { return study.panel(Panel::Kind::lines, name, title, "x/a", y); };
+   { return study.lines(name, title, "x/a", y); };
    const LoadPattern &P = problem.patterns[problem.pattern(held)],
                      &Q = problem.patterns[problem.pattern(cycled)];
    // Over the mean tractions P/2a and Q/2a; the thesis' shear is positive where Q is, as that
@@ -74,7 +74,7 @@ void Shakedown::draw_monolith()
 void Shakedown::draw_estimates(const Method2Estimate &second, double f1)
 {
    const auto lines = [&](const char *name, const std::string &title, const char *y) -> Panel &
-   { return study.panel(Panel::Kind::lines, name, title, "x/a", y); };
+   { return study.lines(name, title, "x/a", y); };
    const StuckForces stuck = stuck_forces(problem, cycle);
    MatrixXd q = -stuck.q(lambda_max), p = stuck.p(lambda_max); // the thesis' sign
    for (MatrixXd *forces : {&q, &p})

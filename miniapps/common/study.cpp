@@ -206,6 +206,11 @@ Table &Study::table(const std::string &name, const std::vector<Column> &columns)
    return tables_.back();
 }
 
+void Study::list(const std::string &name, const ordered_json &rows)
+{
+   sheets_.push_back([sheet = Sheet{name, csv_of(rows), false}] { return sheet; });
+}
+
 void Study::row(Table &table, const std::vector<ordered_json> &values,
                 const std::vector<std::pair<std::string, double>> &errors,
                 const ordered_json &more)

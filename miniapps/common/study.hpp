@@ -56,6 +56,11 @@ public:
       options_.add(value, names, help, choices);
    }
    Options &options() { return options_; }
+   /// See Options::only_if().
+   void only_if(bool used, const std::vector<std::string> &names, const std::string &why) const
+   {
+      options_.only_if(used, names, why);
+   }
    /// Adds those that all studies have, and parses. @param json short name of --json
    void parse(const char *json = "json");
    /// True if a picture is wanted.
@@ -97,6 +102,8 @@ public:
 
    /// The table of that name, made if it is not there yet.
    Table &table(const std::string &name, const std::vector<Column> &columns);
+   /// A CSV file of a list of results that is printed line by line.
+   void list(const std::string &name, const nlohmann::ordered_json &rows);
    /// A row of it, with the errors of the columns that have one, for the references: these have
    /// the key "table/column", and their conditions may name columns.
    void row(Table &table, const std::vector<nlohmann::ordered_json> &values,
@@ -106,6 +113,12 @@ public:
    /// A panel of the figure; stays where it is.
    Panel &panel(Panel::Kind kind, const std::string &name, const std::string &title,
                 const std::string &x_label, const std::string &y_label);
+   /// One of curves.
+   Panel &lines(const std::string &name, const std::string &title, const std::string &x_label,
+                const std::string &y_label)
+   {
+      return panel(Panel::Kind::lines, name, title, x_label, y_label);
+   }
 
    /// Where the increments of a march go that the page (--html) is to show; null if there is
    /// no page, or enough on it. Stays where it is.

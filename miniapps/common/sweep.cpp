@@ -381,8 +381,8 @@ void draw(Study &study, const std::vector<SweptKey> &keys, const std::vector<Poi
    if (over == keys.size()) { return; }
    for (const std::string &name : names)
    {
-      Panel &panel = study.panel(Panel::Kind::lines, "over_" + keys[over].name + "_" + name,
-                                 name, keys[over].name, name);
+      Panel &panel =
+         study.lines("over_" + keys[over].name + "_" + name, name, keys[over].name, name);
       for (const Point &point : points)
       {
          std::vector<std::string> series; // of the other keys
@@ -393,8 +393,7 @@ void draw(Study &study, const std::vector<SweptKey> &keys, const std::vector<Poi
          const ordered_json y = result(point.results, name);
          if (y.is_number() && point.ended_well)
          {
-            panel.add(listed(series), std::vector<double>{as_number(point.values[over])},
-                      std::vector<double>{y}, "marked");
+            panel.point(listed(series), as_number(point.values[over]), y, "marked");
          }
       }
    }
@@ -463,7 +462,7 @@ void run_sweep(Study &study, const std::string &statements, const std::string &w
       converged += point.ended_well ? 1 : 0;
       for (const auto &warning : point.results.value("warnings", ordered_json::array()))
       {
-         warn(warning);
+         warn(warning.get<std::string>());
       }
       cattaneo::Counters counters;
       const ordered_json spent = point.results.value("counters", ordered_json::object());

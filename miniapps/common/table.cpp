@@ -52,6 +52,26 @@ std::string field(const ordered_json &value)
    return value.is_primitive() && !value.is_null() ? value.dump() : "";
 }
 
+/// Of a CSV file, with a line of keys above the rows.
+std::string lines_of(const std::vector<std::string> &keys, const ordered_json &rows)
+{
+   std::string result;
+   const auto add = [&](auto cell)
+   {
+      for (const std::string &key : keys)
+      {
+         result += (&key == &keys[0] ? "" : ",") + cell(key);
+      }
+      result += '\n';
+   };
+   add([](const std::string &key) { return cattaneo::csv_field(key); });
+   for (const ordered_json &row : rows)
+   {
+      add([&](const std::string &key) { return row.contains(key) ? field(row[key]) : ""; });
+   }
+   return result;
+}
+
 /// The table whose headings stand above what is printed next.
 const Table *&on_screen()
 {
@@ -149,29 +169,30 @@ ordered_json Table::printed() const
 
 std::string Table::csv() const
 {
-   if (rows_.empty()) { return ""; }
-   std::string result = comments_, line;
+   std::vector<std::string> keys;
    for (const Column &column : columns_)
    {
-      if (!column.key.empty())
-      {
-         line += (line.empty() ? "" : ",") + cattaneo::csv_field(column.key);
-      }
+      if (!column.key.empty()) { keys.push_back(column.key); }
    }
-   result += line + '\n';
-   for (const ordered_json &row : rows_)
+   return rows_.empty() ? "" : comments_ + lines_of(keys, rows_);
+}
+
+std::string csv_of(const ordered_json &rows)
+{
+   std::vector<std::string> keys;
+   ordered_json flat = ordered_json::array();
+   for (const ordered_json &row : rows)
    {
-      line.clear();
-      for (const Column &column : columns_)
+      ordered_json &made = flat.emplace_back(ordered_json::object());
+      const ordered_json leaves = row.flatten();
+      for (const auto &[path, value] : leaves.items()) // "/k_n/value"
       {
-         if (!column.key.empty())
-         {
-            line += (&column == &columns_[0] ? "" : ",") + field(row[column.key]);
-         }
+         const std::string key = listed(split(path, "/"), ".");
+         if (std::find(keys.begin(), keys.end(), key) == keys.end()) { keys.push_back(key); }
+         made[key] = value;
       }
-      result += line + '\n';
    }
-   return result;
+   return rows.empty() ? "" : lines_of(keys, flat);
 }
 
 std::vector<ordered_json> Table::values(const ordered_json &row) const

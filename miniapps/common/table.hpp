@@ -62,6 +62,10 @@ private:
    std::vector<std::vector<std::string>> printed_;
 };
 
+/// Of a list of objects: a column for each number and word in them, "k_n.value" of those
+/// within, "notes.0" of lists.
+std::string csv_of(const nlohmann::ordered_json &rows);
+
 /// Rows of a file that Table::csv() made, by the keys of its columns; none if it is not there.
 std::vector<nlohmann::ordered_json> read_rows(const std::string &file);
 

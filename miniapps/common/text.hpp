@@ -2,6 +2,7 @@
 
 #include <cattaneo/words.hpp>
 #include <cstdio>
+#include <sstream>
 #include <string>
 
 namespace miniapp
@@ -27,6 +28,15 @@ std::string text(const char *format, Values... values)
    std::string result(std::snprintf(nullptr, 0, format, values...), ' ');
    std::snprintf(result.data(), result.size() + 1, format, values...);
    return result;
+}
+
+/// Parts of a sentence as a stream would write them.
+template <class... Parts>
+std::string told(const Parts &...parts)
+{
+   std::ostringstream all;
+   (all << ... << parts);
+   return all.str();
 }
 
 /// Of UTF-8, not its bytes.

@@ -1,5 +1,7 @@
 #include "common/wear_read_outs.hpp"
 
+#include "common/run.hpp"
+
 #include <algorithm>
 
 namespace miniapp
@@ -79,8 +81,8 @@ void report_end(Study &study, const WearCase &scene, const WornOut &end, Panel &
    }
    const VectorXd s = problem.arc_length.segment(begin, nodes),
                   overlap = end.overlap.segment(begin, nodes);
-   study.value("final_stick", 0.5 * (stick.to.position - stick.from.position),
-               "half-width that sticks", std::max(stick.from.error, stick.to.error));
+   study.value("final_stick", half_width(stick), "half-width that sticks",
+               read_out_error(stick));
    Index first = nodes - 1, last = 0;
    for (Index i = 0; i < nodes; ++i)
    {
@@ -114,22 +116,7 @@ void draw_loop(Panel &panel, const std::string &label, const WearCase &scene,
    settings.increments = std::max(settings.increments, 20);
    ContactState contact = state.contact;
    contact.time = cycle.times[cycle.cycle_start];
-   const MarchReport report = march(worn, cycle, contact, settings);
-   for (std::size_t k = 0; k < worn.patterns.size(); ++k)
-   {
-      const auto row = scene.history.multipliers.row(static_cast<Index>(k));
-      const auto varying = row.tail(row.size() - scene.history.cycle_start);
-      if (varying.maxCoeff() == varying.minCoeff()) { continue; }
-      std::vector<double> force, displacement;
-      for (const IncrementRecord &record : report.increments)
-      {
-         force.push_back(record.multipliers[static_cast<Index>(k)]);
-         displacement.push_back(record.conjugates[static_cast<Index>(k)]);
-      }
-      const bool is_force = worn.patterns[k].control == Control::force;
-      panel.add(worn.patterns[k].name + ", " + label, is_force ? displacement : force,
-                is_force ? force : displacement);
-   }
+   add_loops(panel, worn, march(worn, cycle, contact, settings), ", " + label);
 }
 
 } // namespace miniapp

@@ -25,13 +25,6 @@ struct WearingPad
    std::string profile = "parabola";
    double flat = 0.5, poisson = 0.3;
    int nodes = 201, order = 2;
-
-   bool is_the_default() const
-   {
-      const WearingPad usual;
-      return profile == usual.profile && flat == usual.flat && poisson == usual.poisson &&
-             nodes == usual.nodes && order == usual.order;
-   }
 };
 
 /// P = 1 and R = 1, so that a = 1 unworn if it is a parabola; Q between ±shear f P. The line is

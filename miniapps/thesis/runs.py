@@ -1,6 +1,5 @@
 """Runs of the miniapps: each once, several at a time, kept by their command and the program that made them."""
 
-import csv
 import hashlib
 import json
 import os
@@ -169,9 +168,3 @@ class Runs:
         shutil.rmtree(target, ignore_errors=True)
         part.rename(target)
         return Run(command, target, seconds)
-
-
-def table_of(file):
-    """Rows of a CSV file with numbers where they are."""
-    with open(file, encoding="utf-8", newline="") as text:
-        return list(csv.DictReader(line for line in text if not line.startswith("#")))

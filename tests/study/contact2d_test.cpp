@@ -199,8 +199,21 @@ TEST_F(Contact2D, RoundedPunchHasTheContactWidthOfTheClosedForm)
 
 TEST_F(Contact2D, RoundedPunchReachesASteadyCycle)
 {
-   const auto run = contact2d("--case meshes/rounded_punch.json --edges '1 2 3'");
+   const auto run =
+      contact2d("--case meshes/rounded_punch.json --edges '1 2 3' --csv '" + folder + "/of'");
    ASSERT_EQ(run.code, 0) << run.output;
+   // What is printed of the edges is a file as well.
+   std::ifstream file(folder + "/of_edges.csv");
+   std::string head, first, last, none;
+   std::getline(std::getline(std::getline(file, head), first), last);
+   EXPECT_EQ(head.rfind("edge,position,", 0), 0u) << head;
+   for (const char *key : {",x,", ",k_n.value,", ",k_t.window.1,", ",slip_zone,", ",energy,"})
+   {
+      EXPECT_NE(head.find(key), std::string::npos) << key << " " << head;
+   }
+   EXPECT_EQ(first.rfind("first,", 0), 0u) << first;
+   EXPECT_EQ(last.rfind("last,", 0), 0u) << last;
+   EXPECT_FALSE(std::getline(file, none));
    EXPECT_GT(run.results["steady_cycle"], 0);
    EXPECT_EQ(run.results["steady_period"], 1);
    EXPECT_GT(run.results["dissipation"].back(), 0);
@@ -606,10 +619,11 @@ TEST_F(Contact2D, BadInputIsOneSentenceAndLeavesNoFile)
       {laps, {"has 2 bodies (LOWER, UPPER)", "name the contact of 1"}},
       {laps + "--contact2 3", {"option contact2 names the set '3'", "no other body"}},
       {laps + "--contact2 UPPER_FACE", {"names the set 'UPPER_FACE'", "no other body"}},
-      {laps + "--contact2 LOWER_FACE --young2 3", {"without the options young and poisson"}},
+      {laps + "--contact2 LOWER_FACE --young2 3", {"--young2", "has in itself"}},
       {laps + "--mesh1 nowhere.msh", {"goes without meshes"}},
       {laps + "--contact2 LOWER_FACE --order 1", {"its elements are known"}},
-      {laps + "--contact2 LOWER_FACE --edges '1 2' --friction 1", {"without the option edges"}},
+      {laps + "--contact2 LOWER_FACE --edges '1 2' --friction 1",
+       {"--edges", "materials", "not known of a matrix"}},
       {laps + "--contact2 LOWER_FACE --support2 WALL:z",
        {"body 2 ('LOWER')", "support2 'WALL:z'", "SET:xy"}},
       {laps + "--contact2 LOWER_FACE --load1 'P traction X 1 0'",

@@ -131,18 +131,18 @@ TEST(DesignStudy, LoadsThatAreChosenKeepTheirSum)
       EXPECT_NE(run.output.find(words), std::string::npos) << run.output;
    };
    const std::string row = "--reduced problems/lap_joint.json --history 'T=0; T=0.02' ";
-   refused("--choose 'P; Q'", "--choose is of --reduced");
+   refused("--choose 'P; Q'", "--choose does nothing in this run: it is of --reduced");
    refused(row + "--choose 'T; P' --coat '0.1 0.5'", "chooses one of them");
    refused("--coat '0.1 0.5' --profile crown", "--choose and --coat take its place");
    refused("--coat '0.5 0.1'", "must be the least friction and the most");
    refused("--coat '0.5 0.9'", "friction is from 0.3 to 0.3");
    refused("--coat '0.1 0.5' --zones 1000", "no node lies");
-   refused("--zones 3", "--zones is of --coat");
-   refused("--powers 3", "--powers is of --profile crown");
+   refused("--zones 3", "--zones does nothing in this run: it is of --coat");
+   refused("--powers 3", "--powers does nothing in this run: it is of --profile crown");
    refused("--profile crown --powers '2 2.5'", "must be whole numbers");
    refused("--profile crown --powers '2 2'", "each once");
    refused("--profile rounded --curvature 1", "--most is the limit of 1/R");
-   refused("--lines 4", "--lines is not of a free profile");
+   refused("--lines 4", "--lines does nothing in this run: it is not of a free profile");
    refused("--goal energy", "needs a cycle");
    refused(row + "--choose T", "must be two loads at least");
    refused(row + "--choose 'T; T'", "names 'T' twice");
@@ -296,7 +296,9 @@ TEST(DesignStudy, SweepsWhereLimitsHold)
    EXPECT_LE(run.results["best_of_lines"], 1e-6);
    const auto sum = run_miniapp("design", "--case problems/bolt_row.case.json --lines 8");
    EXPECT_EQ(sum.code, 1) << sum.output;
-   EXPECT_NE(sum.output.find("--lines is not of --choose"), std::string::npos) << sum.output;
+   EXPECT_NE(sum.output.find("--lines does nothing in this run: it is not of --choose"),
+             std::string::npos)
+      << sum.output;
 }
 
 // Friction of 0.4 does not hold Q = 0.5 P, friction of another start does: it is found, and

@@ -142,9 +142,20 @@ TEST(Fretting, FiniteElementsTakeBulkInThePadAndTestRecords)
    std::filesystem::create_directories(folder);
    std::ofstream(folder + "/tests.csv") << "P,Q,bulk,cycles\n400,60,20,1e6\n300,40,0,2e5\n";
    run_miniapp("fretting", "-p fe -csv '" + folder + "/all' -rec '" + folder + "/tests.csv'");
+   std::string line, cell;
+   // All that is printed line by line is a file as well: edges, and how far to trust it.
+   for (const auto &[file, head, rows] : {std::tuple{"/all_edges.csv", "edge,position,", 2},
+                                          {"/all_validity.csv", "measure,value,trust,text", 5}})
+   {
+      std::ifstream list(folder + file);
+      std::getline(list, line);
+      EXPECT_EQ(line.rfind(head, 0), 0u) << file << ": " << line;
+      int count = 0;
+      while (std::getline(list, line)) { ++count; }
+      EXPECT_GE(count, rows) << file;
+   }
    std::ifstream in(folder + "/all_records.csv");
    ASSERT_TRUE(in.good());
-   std::string line, cell;
    std::getline(in, line);
    for (const char *test : {"-P 400 -Q 60 -bs 20", "-P 300 -Q 40 -bs 0"})
    {

@@ -170,7 +170,7 @@ TEST_F(Options, FilesAreCheckedBeforeTheWork)
    }
    expect_refused("contact2d", "--case meshes/dovetail.json --paraview " + endless,
                   {"option --paraview", "File name too long"});
-   expect_refused("contact2d", "--mesh1 " + endless, {"mesh file cannot be read"});
+   expect_refused("contact2d", "--contact1 3 --mesh1 " + endless, {"mesh file cannot be read"});
    for (const std::string program : {"fretting", "contact2d", "shakedown", "lap_joint", "hertz",
                                      "square_punch", "plane_receding", "axisymmetric_receding"})
    {
@@ -214,6 +214,11 @@ TEST_F(Options, EveryStudyTakesACaseFile)
    EXPECT_EQ(run.results["friction"], 0.4);
    ASSERT_EQ(run.results["levels"].size(), 2u);
    EXPECT_EQ(run.results["levels"][1]["shear"], 0.75);
+   const auto without = run_miniapp("square_punch", write(R"({"nodes": 33, "shear": "none"})"));
+   ASSERT_EQ(without.code, 0) << without.output;
+   EXPECT_TRUE(without.results["levels"].empty()) << without.results["levels"];
+   expect_refused("square_punch", write(R"({"shear": "some"})"),
+                  {"key 'shear'", "some", "array of numbers", "none"});
    for (const char *program : programs)
    {
       expect_refused(program, write(R"({"friction": "much"})"), {"key 'friction'", "a number"});

@@ -1,0 +1,235 @@
+#include "common/receding_study.hpp"
+
+#include <algorithm>
+#include <cattaneo/readout/zones.hpp>
+#include <cmath>
+
+namespace miniapp
+{
+
+using namespace cattaneo;
+using Eigen::VectorXd;
+
+Extent extent(const ReducedProblem &problem, const ContactState &state, bool sticks_first,
+              double shift)
+{
+   Extent result;
+   result.zones = zones(problem, state);
+   for (Zone &zone : result.zones)
+   {
+      zone.from.position += shift;
+      zone.to.position += shift;
+   }
+   const std::size_t count = result.zones.size(), open = sticks_first ? count - 1 : 0,
+                     held = count - 1 - open;
+   // The border that faces the other end.
+   const auto inner = [&](std::size_t k) -> const ZoneBorder &
+   { return k == 0 ? result.zones[k].to : result.zones[k].from; };
+   if (!closed(result.zones[open].state))
+   {
+      result.separation = inner(open).position;
+      result.separation_error = inner(open).error;
+   }
+   if (result.zones[held].state == NodeState::stick && count > 1)
+   {
+      result.stick = inner(held).position;
+      result.stick_error = inner(held).error;
+      // Slip within the last spacing before the end of contact does not show.
+      const Eigen::Index last =
+         sticks_first ? result.zones[held].last + 1 : result.zones[held].first;
+      if (!slips(result.zones[sticks_first ? 1 : count - 2].state))
+      {
+         result.stick_error = problem.arc_length[last] - problem.arc_length[last - 1];
+      }
+   }
+   return result;
+}
+
+namespace
+{
+
+/// Columns border_1 … border_4 of a table: where the first zones end, with their errors.
+void add_borders(const std::vector<Zone> &zones, std::vector<nlohmann::ordered_json> &row,
+                 std::vector<std::pair<std::string, double>> &errors)
+{
+   for (std::size_t k = 0; k < 4; ++k)
+   {
+      const bool there = k < zones.size();
+      row.push_back(there ? zones[k].to.position : none);
+      errors.emplace_back(text("border_%zu", k + 1), there ? zones[k].to.error : none);
+   }
+}
+
+} // namespace
+
+void map_loads(Study &study, const Table &table, ReducedProblem problem,
+               const std::vector<double> &wanted, const std::vector<double> &frictions,
+               const std::function<std::string(double)> &load,
+               const std::function<void(double, double, const Run &)> &row)
+{
+   const Stopwatch watch;
+   std::vector<std::vector<NodeState>> guesses(wanted.size());
+   for (double friction : frictions)
+   {
+      set_friction(problem, friction);
+      Run run(study, problem);
+      for (std::size_t k = 0; k < wanted.size(); ++k)
+      {
+         run.state = ContactState::virgin(problem);
+         // The states of the nodes at the friction before are where the search starts.
+         if (!guesses[k].empty()) { run.state.status = guesses[k]; }
+         run.to({{load(wanted[k]), 1}});
+         guesses[k] = run.state.status;
+         row(friction, wanted[k], run);
+      }
+   }
+   study.results["seconds_map"] = watch.seconds();
+   study.say(text("map of %zu states in %.2f s", table.json().size(), watch.seconds()));
+}
+
+UnloadingPanels unload(Study &study, Run &run, const Receding &receding,
+                       const Unloading &wanted,
+                       const std::function<void(double, const ContactState &)> &note)
+{
+   const ReducedProblem &problem = run.solver.problem();
+   const std::string &name = receding.level.heading, &along = receding.coordinate;
+   const VectorXd x = problem.arc_length.array() + receding.shift;
+   const Eigen::Index shown =
+      std::isnan(wanted.shown) ? x.size() : (x.array() < wanted.shown).count();
+   Panel &profiles = study.lines(wanted.tractions, wanted.title, along, "p/p0, q/(f p0)"),
+         &diagram =
+            study.panel(Panel::Kind::zones, "zones", "Zones during unloading", name, along);
+   const auto add_profile = [&](double level, const ContactState &state)
+   { profiles.add_tractions(exact_text(name + " = ", level), x, problem, state, 0, shown); };
+   add_profile(1, run.state);
+   diagram.add(1.0, receding.extent(run.state).zones);
+   Table &table = study.table(
+      wanted.table, {receding.level,
+                     receding.separation,
+                     receding.stick,
+                     {"border_1"},
+                     {"border_2"},
+                     {"border_3"},
+                     {"border_4"},
+                     {"zones", "zones and their " + wanted.ends + " ends, " + along}});
+   const auto observe = [&](const ContactState &now, const IncrementRecord &)
+   {
+      const double level = named(problem, now.multipliers).at(receding.load);
+      const Extent found = receding.extent(now);
+      diagram.add(level, found.zones);
+      if (note) { note(level, now); }
+      const auto target =
+         std::find_if(wanted.wanted.begin(), wanted.wanted.end(),
+                      [&](double value) { return std::abs(level - value) < 1e-9; });
+      if (target == wanted.wanted.end()) { return; }
+      std::vector<nlohmann::ordered_json> row = {*target, found.separation, found.stick};
+      std::vector<std::pair<std::string, double>> errors = {
+         {receding.separation.key, found.separation_error},
+         {receding.stick.key, found.stick_error}};
+      const nlohmann::ordered_json more = {
+         {receding.separation.key + "_error", found.separation_error},
+         {receding.stick.key + "_error", found.stick_error}};
+      add_borders(found.zones, row, errors);
+      row.push_back(to_json(found.zones));
+      study.row(table, row, errors, more);
+      add_profile(*target, now);
+   };
+   std::vector<NamedLoads> points;
+   for (double level : unloading_levels(wanted.steps, wanted.lowest, wanted.wanted))
+   {
+      points.push_back({{receding.load, level}});
+   }
+   run.settings.increments = 1;
+   run.through(points, observe);
+   diagram.say("reversed: x");
+   return {profiles, diagram};
+}
+
+void cycle_the_load(Study &study, Run &run, const Receding &receding,
+                    const std::vector<double> &lowest, int cycles)
+{
+   const ReducedProblem &problem = run.solver.problem();
+   const ContactState loaded = run.state;
+   study.title("Cycles of the load (observed, not proven)");
+   Table &table = study.table("load_cycles", {{"lowest", "lowest p/p0", "%.3g"},
+                                              {"first_loss", "first loss", "%.3e"},
+                                              {"last_loss", "last loss", "%.3e"},
+                                              {"cycles", "cycles"},
+                                              {"opening", "nodes that open and close"},
+                                              {"outcome", "outcome"}});
+   Panel &losses = study.lines("load_losses", "Loss in each cycle of the load", "cycle",
+                               receding.loss),
+         &diagram = study.panel(Panel::Kind::zones, "load_cycle_zones",
+                                exact_text("Zones in two cycles down to p/p0 = ", lowest[0]),
+                                "load step", receding.coordinate),
+         &profiles =
+            study.lines("load_cycle_tractions", "Pressure p and shear q over f in the cycles",
+                        receding.coordinate, "p/p0, q/(f p0)");
+   losses.say("scale: semilogy");
+   const auto shown = [&](double arc_length) { return arc_length + receding.shift; };
+   const Eigen::VectorXd x = problem.arc_length.array() + receding.shift;
+   diagram.add(0, zones(problem, loaded), shown);
+   profiles.add_tractions("loaded", x, problem, loaded);
+   for (const double low : lowest)
+   {
+      run.state = loaded;
+      run.state.dissipation = 0;
+      std::vector<bool> opens(problem.nodes()), closes(problem.nodes());
+      run.cycle(
+         {{{receding.load, low}}}, cycles,
+         [&](const ContactState &now, const IncrementRecord &)
+         {
+            if (low == lowest[0] && now.time < 4 + 1e-9)
+            {
+               diagram.add(now.time, zones(problem, now), shown);
+               for (const auto &[time, name] :
+                    {std::pair{1, "taken back"}, {2, "loaded again"}, {3, "taken back again"}})
+               {
+                  if (std::abs(now.time - time) > 1e-9) { continue; }
+                  profiles.add_tractions(name, x, problem, now);
+               }
+            }
+            const std::vector<NodeState> states = settled_states(problem, now);
+            for (std::size_t i = 0; i < states.size(); ++i)
+            {
+               (closed(states[i]) ? closes : opens)[i] = true;
+            }
+         });
+      std::vector<double> number, loss;
+      for (const CycleRecord &cycle : run.report.cycles)
+      {
+         number.push_back(cycle.cycle);
+         loss.push_back(cycle.dissipation > 0 ? cycle.dissipation : none);
+      }
+      losses.add(exact_text("p/p0 down to ", low), number, loss, "marked");
+      long both = 0;
+      for (std::size_t i = 0; i < opens.size(); ++i) { both += opens[i] && closes[i]; }
+      const double first = run.report.cycles.front().dissipation,
+                   last = run.report.cycles.back().dissipation;
+      const char *const outcome = last <= 1e-9 * first          ? "shaken down"
+                                  : run.report.steady_cycle > 0 ? "slips for ever"
+                                                                : "not steady yet";
+      study.row(table, {low, first, last, run.report.cycles.size(), both, outcome});
+   }
+   run.state = loaded;
+}
+
+double changing(double from, double to,
+                const std::function<std::vector<double>(const std::vector<double> &)> &figures)
+{
+   constexpr int parts = 16, rounds = 3;
+   for (int round = 0; round < rounds; ++round)
+   {
+      std::vector<double> at;
+      for (int k = 0; k <= parts; ++k) { at.push_back(from + (to - from) * k / parts); }
+      const std::vector<double> values = figures(at);
+      int k = 1;
+      while (k <= parts && (values[k] > 0) == (values[0] > 0)) { ++k; }
+      if (k > parts) { return none; }
+      from = at[k - 1];
+      to = at[k];
+   }
+   return 0.5 * (from + to);
+}
+
+} // namespace miniapp

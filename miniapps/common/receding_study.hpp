@@ -1,0 +1,94 @@
+#pragma once
+
+#include "common/run.hpp"
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace miniapp
+{
+
+/// Of a contact that sticks at one end of its line and is open at the other: where it separates
+/// and where stick ends, NaN where there is none.
+struct Extent
+{
+   double separation = none, stick = none, separation_error = 0, stick_error = 0;
+   std::vector<cattaneo::Zone> zones; ///< shifted as the two are
+
+   /// The errors and the zones.
+   nlohmann::ordered_json json() const
+   {
+      return {{"separation_error", separation_error},
+              {"stick_error", stick_error},
+              {"zones", to_json(zones)}};
+   }
+   std::vector<std::pair<std::string, double>> errors() const
+   {
+      return {{"separation", separation_error}, {"stick", stick_error}};
+   }
+};
+
+/// @param sticks_first it sticks at the first node, else at the last one
+/// @param shift added to arc lengths
+Extent extent(const cattaneo::ReducedProblem &problem, const cattaneo::ContactState &state,
+              bool sticks_first, double shift);
+
+/// A contact that recedes under one load, and how a study shows it.
+struct Receding
+{
+   std::string load;                ///< the pattern
+   Column level, separation, stick; ///< multiplier of the load, and what it does
+   std::string coordinate;          ///< what is shown along the contact, …
+   double shift = 0;                ///< … and from the arc length to it
+   std::string loss;                ///< name of the loss in a cycle
+   std::function<Extent(const cattaneo::ContactState &)> extent;
+};
+
+/// Loads by name from rest, at several coefficients of friction: one condensed pair serves all.
+/// @param load its name, of each of `wanted`
+/// @param row takes friction, which of `wanted`, and the contact
+void map_loads(Study &study, const Table &table, cattaneo::ReducedProblem problem,
+               const std::vector<double> &wanted, const std::vector<double> &frictions,
+               const std::function<std::string(double)> &load,
+               const std::function<void(double, double, const Run &)> &row);
+
+/// The load taken back in steps of 1/steps that shrink with it, to `lowest`.
+struct Unloading
+{
+   int steps;
+   double lowest;
+   std::vector<double> wanted; ///< levels to report
+   /// Names of the table and of the panel of tractions, of how much of the line, its title.
+   std::string table, tractions, title, ends;
+   double shown = none; ///< up to which coordinate tractions are drawn; none: all
+};
+
+/// Of an unloading, to be marked.
+struct UnloadingPanels
+{
+   Panel &tractions, &zones;
+};
+
+/// Takes back the load from the loaded state that the run stands in (thesis 5.3.2). @param note
+/// takes every level and its state
+UnloadingPanels
+unload(Study &study, Run &run, const Receding &receding, const Unloading &wanted,
+       const std::function<void(double, const cattaneo::ContactState &)> &note = {});
+
+/** Marches cycles of the load between 1 and each of `lowest`, from the loaded state that the
+    run stands in (thesis 8.2, item 5): the loss in each, whether it dies out, and of the first
+    `lowest` the zones and tractions of two cycles. Nodes open and close in a cycle, so that no
+    theorem of shakedown applies: what is said was marched, from this start, and holds for no
+    other. */
+void cycle_the_load(Study &study, Run &run, const Receding &receding,
+                    const std::vector<double> &lowest, int cycles);
+
+/** Where between two values of a parameter a figure changes its sign, found among ever closer
+    ones, each time in the first interval from `from` on; NaN if it does in none.
+    @param figures of parameters */
+double changing(double from, double to,
+                const std::function<std::vector<double>(const std::vector<double> &)> &figures);
+
+} // namespace miniapp
