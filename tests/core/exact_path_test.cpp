@@ -95,6 +95,25 @@ TEST(StateEquations, UpdatesAgreeWithAFreshFactor)
    EXPECT_LE(equations.factorisations(), 40);
 }
 
+TEST(StateEquations, ForcesThatWereAskedForBeforeAreThoseOfTheDisplacements)
+{
+   std::mt19937 random(32);
+   const int n = 12;
+   const ReducedProblem problem = random_problem(n, 0.6, 0.15, random);
+   StateEquations equations(problem.K, friction_bounds(problem.friction));
+   VectorXd x = VectorXd::Random(2 * n);
+   // None, a few, and nearly all displacements are others than before.
+   for (const int changes : {0, 1, 4, 20, 3, 0})
+   {
+      for (int k = 0; k < changes; ++k) { x[random() % (2 * n)] -= 0.5; }
+      const VectorXd expected = problem.K * x;
+      EXPECT_LT((equations.forces_again(x) - expected).cwiseAbs().maxCoeff(), 1e-13);
+   }
+   // What was asked for before begin() leaves no trace, to the last bit.
+   equations.begin();
+   EXPECT_EQ(equations.forces_again(x), equations.forces(x));
+}
+
 TEST(StateEquations, RefusesStatesWithoutSupport)
 {
    const Eigen::Matrix2d stiffness{{1, -1}, {-1, 1}}; // free to move along and away

@@ -641,7 +641,7 @@ TEST_F(Contact2D, BadInputIsOneSentenceAndLeavesNoFile)
       {"--mesh1 '" + text + "' --contact1 1", {"text.mesh", "must begin with", "not a mesh"}},
       {"--mesh1 '" + truncated + "' --contact1 1",
        {"short.mesh", "ends where the number of elements should be"}},
-      {"--mesh1 '" + gmsh4 + "' --contact1 1", {"new.msh", "no nodes before its elements"}},
+      {"--mesh1 '" + gmsh4 + "' --contact1 1", {"new.msh", "mesh file has no nodes"}},
       {"--mesh1 meshes/rounded_punch.msh --contact1 9",
        {"contact line", "attribute 9", "2, 3, 4"}},
       {"--mesh1 meshes/rounded_punch.msh", {"contact1 is empty"}},

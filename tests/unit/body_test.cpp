@@ -362,6 +362,15 @@ TEST(Body, RefusesWhatAContactLineCannotUse)
    skew.GetData()[skew.GetI()[5]] += 0.1;
    skew.GetData()[skew.GetI()[5] + 1] += 0.2;
    expect_input_error([&] { ElasticBody(space, skew); }, "not symmetric");
+   mfem::SparseMatrix turned(K);
+   turned *= -1;
+   expect_input_error(
+      [&]
+      {
+         const ElasticBody body(space, turned);
+         condense(body, contact_line(body, 1));
+      },
+      "the stiffness of the contact nodes is negative");
    // Of the largest entry 1e-8 is too much, 1e-12 is round-off.
    const double largest = K.MaxNorm();
    for (const double off : {1e-8, 1e-12})

@@ -280,10 +280,11 @@ ReducedProblem load_reduced_problem(const std::string &file)
    {
       constexpr int no_such_key = 403; // named between quotes
       const std::string what = error.what();
-      const std::size_t quote = what.find('\'');
-      require(error.id != no_such_key, "reduced problem: file '", file, "' lacks the key ",
-              what.substr(std::min(quote, what.size())),
-              " (in itself, or in a chain, a pattern or a law)");
+      const std::size_t from = std::min(what.find('\''), what.size()),
+                        to = std::min(what.rfind('\''), what.size());
+      require(error.id != no_such_key, "reduced problem: file '", file,
+              "' is not a reduced problem: it lacks the key ", what.substr(from, to - from),
+              "' (in itself, or in a chain, a pattern or a law)");
       throw InputError("reduced problem: file '" + file +
                        "' is not a reduced problem: " + what);
    }
