@@ -127,7 +127,7 @@ TEST_F(CaseFileProperties, SingleMistakesAreNamedAndNothingIsWritten)
                                           {"mesh1", 3},
                                           {"mesh1", "no.mesh", "no.mesh"},
                                           {"mesh1", nullptr},
-                                          {"mesh2", "no.mesh", "no.mesh"},
+                                          {"mesh2", "no.mesh", "contact2"},
                                           {"contact1", 1.5},
                                           {"contact1", {1, "3"}},
                                           {"contact1", -1},
