@@ -36,6 +36,7 @@ struct HalfPlane
    /// such line; but where a contact line ends at a node that its body holds along the surface,
    /// as half a model does, it must be said.
    std::optional<bool> symmetric = {};
+   /// What is said of it; nothing said: false.
    bool is_symmetric() const { return symmetric.value_or(false); }
    /** With none it is held: at its depth, in axisymmetry at infinity. With some it goes,
        without turning, where they and the contact take it: load patterns, whose conjugates are
