@@ -1,10 +1,8 @@
 #include "common/case_file.hpp"
 
 #include <cattaneo/input_error.hpp>
-#include <filesystem>
-#include <fstream>
-#include <map>
-#include <set>
+#include <cattaneo/whole_file.hpp>
+#include <cattaneo/words.hpp>
 
 namespace miniapp
 {
@@ -16,25 +14,12 @@ using json = nlohmann::ordered_json;
 CaseFile read_case(const std::string &file, int newest)
 {
    const std::string where = "case file '" + file + "'";
-   std::ifstream in(file);
-   require(in.good() && !std::filesystem::is_directory(file), where, " cannot be read");
    json keys;
-   std::map<int, std::set<std::string>> names; ///< so far, of the object at a depth
-   // Of a key that is there twice the parser itself keeps the last without a word.
-   const auto once = [&](int depth, json::parse_event_t event, const json &name)
-   {
-      if (event == json::parse_event_t::object_start) { names[depth + 1].clear(); }
-      if (event == json::parse_event_t::key)
-      {
-         const auto key = name.get<std::string>();
-         require(names[depth].insert(key).second, where, ": key '", key,
-                 "' is there twice, must be there once");
-      }
-      return true;
-   };
    try
    {
-      keys = json::parse(in, once);
+      const std::string text = cattaneo::read_whole(file, "case file: ");
+      cattaneo::require_single_keys(where, text);
+      keys = json::parse(text);
    }
    catch (const json::exception &error)
    {

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/json_text.hpp>
 #include <cattaneo/words.hpp>
 #include <cmath>
 #include <cstdlib>
-#include <nlohmann/json.hpp>
 
 namespace cattaneo
 {
@@ -92,6 +92,18 @@ bool is_utf8(const std::string &text)
    using nlohmann::json;
    const std::string kept = json(text).dump(-1, ' ', false, json::error_handler_t::ignore);
    return json::parse(kept) == json(text);
+}
+
+void require_single_keys(const std::string &where, const std::string &text)
+{
+   try
+   {
+      parsed<nlohmann::json>(text, where);
+   }
+   catch (const nlohmann::json::exception &)
+   {
+      return; // no JSON
+   }
 }
 
 void require_pattern_name(const std::string &where, const std::string &pattern)

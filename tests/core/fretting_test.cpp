@@ -281,6 +281,8 @@ TEST(FatigueMaterial, FilesAreReadOrRefusedWithTheKey)
    expect_input_error([&] { read(record(R"(, "shear_yield_MPa": 400}, {"name": 3)")); },
                       "record 2: \"name\" must be a text");
    expect_input_error([&] { read(record("")); }, "(mine) has no \"shear_yield_MPa\"");
+   expect_input_error([&] { read(record(R"(, "shear_yield_MPa": 1, "poisson": 0.2)")); },
+                      "key 'poisson' is there twice");
    std::remove(file.c_str());
    EXPECT_THROW(read_materials(file), InputError);
 }

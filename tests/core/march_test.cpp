@@ -1393,6 +1393,9 @@ TEST(ContactState, IsStoredFieldByField)
       save(state, file);
       EXPECT_THROW(load_contact_state(file), InputError) << wrong;
    }
+   std::ofstream(file) << R"({"format": "", "v": [1], "v": [2]})";
+   expect_input_error([&] { load_contact_state(file); },
+                      "key 'v' is there twice, must be there once");
    std::remove(file.c_str());
 }
 

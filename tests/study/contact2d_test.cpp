@@ -709,7 +709,7 @@ TEST_F(Contact2D, BadInputIsOneSentenceAndLeavesNoFile)
       {pressed + "--load-state nowhere.json", {"nowhere.json", "cannot read"}},
       {pressed + "--wrong 3", {"Unrecognized option", "--wrong"}},
       {pressed + "--friction", {"--friction", "has no value"}},
-      {"--case nowhere.json", {"nowhere.json", "cannot be read"}},
+      {"--case nowhere.json", {"nowhere.json", "cannot read"}},
       {case_file("broken.json", "{\"order\": 2"), {"broken.json", "is not JSON"}},
       {case_file("list.json", "[1, 2]"), {"list.json", "array", "must be an object"}},
       {case_file("unknown.json", "{\"yung1\": 2}"),

@@ -1,11 +1,10 @@
 #include <algorithm>
 #include <cattaneo/fretting/fatigue_material.hpp>
 #include <cattaneo/fretting/half_plane.hpp>
-#include <cattaneo/input_error.hpp>
+#include <cattaneo/json_text.hpp>
+#include <cattaneo/whole_file.hpp>
 #include <cctype>
 #include <cmath>
-#include <fstream>
-#include <nlohmann/json.hpp>
 
 namespace cattaneo::fretting
 {
@@ -98,9 +97,16 @@ double critical_length(const FatigueMaterial &material)
 
 std::vector<FatigueMaterial> read_materials(const std::string &file)
 {
-   std::ifstream stream(file);
-   require(stream.good(), "cannot read the material file ", file, ".");
-   const json document = json::parse(stream, nullptr, false);
+   json document;
+   try
+   {
+      document =
+         parsed<json>(read_whole(file, "material file: "), "material file '" + file + "'");
+   }
+   catch (const json::exception &)
+   {
+      document = nullptr; // which the next sentence refuses
+   }
    require(document.is_object() && document.contains("materials") &&
               document["materials"].is_array() && !document["materials"].empty(),
            "the material file ", file,

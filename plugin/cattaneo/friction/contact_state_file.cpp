@@ -1,5 +1,5 @@
 #include <cattaneo/friction/contact_state_json.hpp>
-#include <cattaneo/input_error.hpp>
+#include <cattaneo/json_text.hpp>
 #include <cattaneo/whole_file.hpp>
 
 namespace nlohmann
@@ -94,7 +94,8 @@ void read_state_file(const std::string &what, const std::string &file,
 {
    try
    {
-      const nlohmann::json j = nlohmann::json::parse(read_whole(file, what + ": "));
+      const nlohmann::json j =
+         parsed<nlohmann::json>(read_whole(file, what + ": "), what + ": file '" + file + "'");
       require(j.at("format") == format, what, ": file '", file, "' has format ",
               j.at("format").dump(), ", must be \"", format, "\"");
       read(j);

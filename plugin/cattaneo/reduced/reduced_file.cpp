@@ -1,12 +1,9 @@
 #include <algorithm>
 #include <cattaneo/algebra/semidefinite.hpp>
-#include <cattaneo/input_error.hpp>
+#include <cattaneo/json_text.hpp>
 #include <cattaneo/reduced/reduced_file.hpp>
 #include <cattaneo/whole_file.hpp>
 #include <cattaneo/words.hpp>
-#include <map>
-#include <nlohmann/json.hpp>
-#include <set>
 
 namespace cattaneo
 {
@@ -178,23 +175,6 @@ void require_known_keys(const nlohmann::json &j, const std::vector<std::string> 
    }
 }
 
-/// InputError for a key that is there twice: the JSON library would keep the last.
-nlohmann::json parsed(const std::string &text, const std::string &file)
-{
-   std::map<int, std::set<std::string>> names; // so far, of the object at a depth
-   const auto once =
-      [&](int depth, nlohmann::json::parse_event_t event, const nlohmann::json &name)
-   {
-      using Event = nlohmann::json::parse_event_t;
-      if (event == Event::object_start) { names[depth + 1].clear(); }
-      require(event != Event::key || names[depth].insert(name).second,
-              "reduced problem: file '", file, "' has the key ", name.dump(),
-              " twice, must have it once");
-      return true;
-   };
-   return nlohmann::json::parse(text, once);
-}
-
 } // namespace
 
 ReducedProblem load_reduced_problem(const std::string &file)
@@ -202,7 +182,8 @@ ReducedProblem load_reduced_problem(const std::string &file)
    ReducedProblem problem;
    try
    {
-      const nlohmann::json j = parsed(read_whole(file, "reduced problem: "), file);
+      const nlohmann::json j = parsed<nlohmann::json>(read_whole(file, "reduced problem: "),
+                                                      "reduced problem: file '" + file + "'");
       const bool first = j.at("format") == format_1, with_laws = j.at("format") == format_laws;
       require(first || with_laws || j.at("format") == format_name, "reduced problem: file '",
               file, "' is not a '", format_name, "' (or 1, or 3)");
