@@ -208,7 +208,7 @@ TEST(ReducedFile, SaysWhichFactIsWrong)
    refused("problem 2", "problem 3", "lacks the key 'laws'");
    refused("\"held\": [1]", "\"held\": [1.0]", "a held row is 1.0, must be a whole number");
    refused("\"held\": [1]", "\"held\": [1, 1]", "row 1 of A is said to be held twice");
-   refused("\"held\": [1]", "\"held\": [1], \"held\": [1]", "has the key \"held\" twice");
+   refused("\"held\": [1]", "\"held\": [1], \"held\": [1]", "key 'held' is there twice");
    refused(", \"bodies\": [1, 0]", ", \"body\": 1, \"bodies\": [1, 0]",
            "a chain has the key 'body'");
    refused("\"displacement\": ", "\"dispalcement\": true, \"displacement\": ",
@@ -411,6 +411,24 @@ TEST(ReducedFile, RefusesWhatIsNoProblem)
    std::ofstream(file) << R"({"format": "cattaneo reduced problem 1",
       "A": {"rows": 4294967296, "cols": 4294967296, "values": []}})";
    EXPECT_THROW(load_reduced_problem(file), InputError);
+}
+
+// What the bodies' supports leave free is the same whether it is stated or sought in matrices
+// that condensation has rounded.
+TEST(ReducedFile, MotionsThatProblemsStateAreFoundInTheirMatrices)
+{
+   const std::string folder = std::string(CATTANEO_SOURCE_DIR) + "/problems/";
+   for (const char *name : {"bolt_row", "hertz", "lap_joint", "punch_on_half_plane",
+                            "random_near_critical", "receding_strip", "square_punch", "wedge"})
+   {
+      const ReducedProblem stated = load_reduced_problem(folder + name + ".json");
+      ReducedProblem found = stated;
+      found.set_stiffness(stated.A(), stated.B(), stated.C());
+      ASSERT_EQ(found.rigid_motions.cols(), stated.rigid_motions.cols()) << name;
+      const Eigen::MatrixXd both =
+         found.rigid_motions * (found.rigid_motions.transpose() * stated.rigid_motions);
+      EXPECT_LT((both - stated.rigid_motions).norm(), 1e-9) << name;
+   }
 }
 
 } // namespace

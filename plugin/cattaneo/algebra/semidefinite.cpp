@@ -18,7 +18,9 @@ Eigen::VectorXd scale_of(const Eigen::MatrixXd &A)
    return (own.array() > 0).select(own.cwiseSqrt().cwiseInverse(), 1.0);
 }
 
-/// Does a motion meet no more energy than the rounding of the entries makes?
+/// Does a motion meet no more energy than the rounding of the entries makes? Those of a
+/// condensed matrix are sums of about as many terms as it has rows, which round in all
+/// directions: as their square root.
 bool rests(const Eigen::MatrixXd &A, const Eigen::VectorXd &motion)
 {
    using Long = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
@@ -30,7 +32,8 @@ bool rests(const Eigen::MatrixXd &A, const Eigen::VectorXd &motion)
       round_off += std::abs(x[j]) * A.col(j).cwiseAbs().cast<long double>().dot(x.cwiseAbs());
    }
    // Energy below zero is no rest: the matrix is not semidefinite then.
-   return std::abs(energy) <= 8 * std::numeric_limits<double>::epsilon() * round_off;
+   return std::abs(energy) <= 8 * std::sqrt(static_cast<long double>(x.size())) *
+                                 std::numeric_limits<double>::epsilon() * round_off;
 }
 
 } // namespace
