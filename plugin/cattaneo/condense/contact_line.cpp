@@ -2,6 +2,7 @@
 #include <cattaneo/condense/contact_line.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
+#include <set>
 
 namespace cattaneo
 {
@@ -106,6 +107,48 @@ void ContactLine::validate() const
    }
    require(next == size(), "contact line: the chains have ", next, " nodes, must have all ",
            size());
+}
+
+ContactLine joined(const std::vector<ContactLine> &lines)
+{
+   require(!lines.empty(), "contact lines to be joined: there are none, must be at least one");
+   ContactLine all;
+   all.formulation = lines.front().formulation;
+   std::set<std::array<int, 2>> known;
+   for (const ContactLine &line : lines)
+   {
+      require(line.formulation == all.formulation, "contact lines to be joined: they are ",
+              name(all.formulation), " and ", name(line.formulation), ", must be the same");
+      line.validate();
+      for (LineChain chain : line.chains)
+      {
+         const Eigen::Index from = chain.first;
+         chain.first = all.size();
+         bool whole = true;
+         for (Eigen::Index i = 0; i < chain.nodes; ++i)
+         {
+            const LineNode &node = line.nodes[from + i];
+            if (known.insert(node.dofs).second) { all.nodes.push_back(node); }
+            else { whole = false; }
+         }
+         for (LineElement &element : chain.elements)
+         {
+            for (Eigen::Index &node : element.nodes)
+            {
+               if (node >= 0) { node += chain.first - from; }
+            }
+         }
+         // The elements are the lines' own; of a trace that has lost a node none are left.
+         if (!whole)
+         {
+            chain.elements.clear();
+            chain.loop = false;
+         }
+         chain.nodes = all.size() - chain.first;
+         if (chain.nodes > 0) { all.chains.push_back(chain); }
+      }
+   }
+   return all;
 }
 
 } // namespace cattaneo

@@ -1,593 +1,23 @@
 #include <algorithm>
-#include <cattaneo/algebra/dense_algebra.hpp>
-#include <cattaneo/algebra/dense_cholesky.hpp>
 #include <cattaneo/input_error.hpp>
-#include <cattaneo/reduced/bodies_union.hpp>
-#include <cattaneo/reduced/interfaces.hpp>
-#include <cattaneo/reduced/mortar.hpp>
-#include <cmath>
+#include <cattaneo/reduced/interface_rows.hpp>
 #include <map>
 #include <numeric>
-#include <set>
 
 namespace cattaneo
 {
 
 using Eigen::Index;
-using Eigen::MatrixXd;
 using Eigen::Vector2d;
-using Eigen::VectorXd;
 
 namespace
 {
 
-/// A node of a body's trace, over all bodies.
-using NodeOfBody = std::pair<int, int>;
-/// Those that are slaves, with the nodes that they depend on.
-using Slaves = std::map<NodeOfBody, std::vector<NodeOfBody>>;
-
-/// A side with the nodes of the condensed body that its own are.
-struct Side
-{
-   int body = -1;
-   ContactLine line; ///< its frames along what supports hold
-   std::vector<int> nodes;
-};
-
-bool holds(const CondensedBody &body, int node, int component)
-{
-   const auto row = static_cast<int>(node + component * body.line.size());
-   return std::binary_search(body.held.begin(), body.held.end(), row);
-}
-
-/// Ends of a side that supports hold in both components: nodes that move nowhere carry no row.
-std::vector<int> clamped_ends(const CondensedBody &body, const ContactLine &line,
-                              const std::vector<int> &nodes)
-{
-   std::vector<int> found;
-   for (const LineChain &chain : line.chains)
-   {
-      const auto clamped = [&](Index k)
-      { return !chain.loop && holds(body, nodes[k], 0) && holds(body, nodes[k], 1); };
-      const Index last = chain.first + chain.nodes - 1;
-      if (clamped(chain.first)) { found.push_back(static_cast<int>(chain.first)); }
-      if (last > chain.first && clamped(last)) { found.push_back(static_cast<int>(last)); }
-   }
-   return found;
-}
-
-/// One interface as it is worked on.
-class Facing
-{
-public:
-   Facing(const Interface &given, const std::vector<CondensedBody> &bodies);
-
-   /// Adds its rows. If the side that should have the nodes cannot, and none is named, the
-   /// other one has them.
-   void add_rows(std::vector<ContactRow> &rows, Slaves &taken);
-   InterfaceReport report() const;
-   /// Of an interface that is not tied, whose nodes begin at `first`.
-   /// `all` are all interfaces.
-   void add_facts(ReducedProblem &problem, Index first, bool matching,
-                  const std::vector<Facing> &all) const;
-   /// Is the node of a body on one of its sides?
-   bool has(const NodeOfBody &node) const;
-   bool tied() const { return given_.tied; }
-   Index nodes() const { return static_cast<Index>(mortar_.nodes.size()); }
-   const Side &slave() const { return slave_; }
-   const Side &master() const { return master_; }
-
-private:
-   Side side(const InterfaceSide &given) const;
-   void face_all(const std::vector<int> &without);
-   void pair_nodes(const std::vector<int> &without);
-   void meet(const std::vector<int> &without);
-   /// Nothing if it throws.
-   void add_slave(std::vector<ContactRow> &rows, Slaves &taken, bool in_rings);
-   ContactRow row(Index i) const;
-   void check_row(const ContactRow &row, Index i) const;
-   LineEnd other_end(Index i, bool last) const;
-
-   const Interface &given_;
-   const std::vector<CondensedBody> &bodies_;
-   std::string what_;
-   Side slave_, master_;
-   bool of_second_ = false;
-   Mortar mortar_;
-   std::vector<bool> slides_;
-   std::vector<int> without_row_; ///< nodes of the slave
-};
-
-Facing::Facing(const Interface &given, const std::vector<CondensedBody> &bodies)
-   : given_(given), bodies_(bodies)
-{
-   what_ = "interface '" + given.name + "'";
-   const auto count = static_cast<int>(bodies.size());
-   for (const InterfaceSide *side : {&given.first, &given.second})
-   {
-      require(side->body >= (side == &given.first ? 0 : -1) && side->body < count, what_,
-              ": a side is of body ", side->body, ", must be from 0 to ", count - 1,
-              ", or -1 for a rigid obstacle as the second");
-   }
-   what_ +=
-      " of " + called(bodies, given.first.body) + " and " + called(bodies, given.second.body);
-   slave_ = side(given.first);
-   if (given.second.body < 0) { return; }
-   master_ = side(given.second);
-   const auto spacing = [](const ContactLine &line)
-   { return line.each(&LineNode::spacing).array().log().mean(); };
-   const double coarser = spacing(master_.line) - spacing(slave_.line);
-   const double same = 0.01; // more than round-off
-   if (given.pairing) { return; }
-   if (given.slave == SlaveSide::second ||
-       (given.slave == SlaveSide::coarser && coarser > same) ||
-       (given.slave == SlaveSide::finer && coarser < -same))
-   {
-      std::swap(slave_, master_);
-      of_second_ = true;
-   }
-}
-
-Side Facing::side(const InterfaceSide &given) const
-{
-   const CondensedBody &body = bodies_[given.body];
-   std::map<std::array<int, 2>, int> number;
-   for (Index k = 0; k < body.line.size(); ++k)
-   {
-      number[body.line.nodes[k].dofs] = static_cast<int>(k);
-   }
-   given.line.validate();
-   Side made{given.body, given.line, {}};
-   for (LineNode &node : made.line.nodes)
-   {
-      const auto found = number.find(node.dofs);
-      // Dofs alone are numbers that other bodies have too.
-      const bool same = found != number.end() &&
-                        (body.line.nodes[found->second].position - node.position).norm() <=
-                           1e-9 * node.spacing;
-      require(same, what_, ": the node ", node.position, " is none that ",
-              called(bodies_, given.body),
-              " was condensed to, it must be condensed to the nodes of all of its interfaces "
-              "(joined())");
-      const int k = found->second;
-      made.nodes.push_back(k);
-      if (holds(body, k, 0) || holds(body, k, 1))
-      {
-         const Vector2d &along = body.line.nodes[k].tangent;
-         node.tangent = along.dot(node.tangent) < 0 ? Vector2d(-along) : along;
-      }
-   }
-   return made;
-}
-
-/// The line of a body that lies against this one with nodes at the same places.
-ContactLine other_face(const ContactLine &line)
-{
-   ContactLine made = line;
-   for (LineChain &chain : made.chains)
-   {
-      // Of a loop the first node stays the first.
-      const auto number = [first = chain.first, n = chain.nodes, loop = chain.loop](Index k)
-      { return k < 0 ? k : first + (loop ? (n - (k - first)) % n : n - 1 - (k - first)); };
-      const double end = line.nodes[chain.first + chain.nodes - 1].arc_length;
-      for (Index k = chain.first; k < chain.first + chain.nodes; ++k)
-      {
-         LineNode &node = made.nodes[number(k)] = line.nodes[k];
-         node.tangent = -node.tangent;
-         node.arc_length = end - node.arc_length;
-      }
-      std::swap(chain.ends[0], chain.ends[1]);
-      std::reverse(chain.elements.begin(), chain.elements.end());
-      for (LineElement &element : chain.elements)
-      {
-         std::reverse(element.nodes.begin(), element.nodes.end());
-         for (Index &node : element.nodes) { node = number(node); }
-         element.points = element.points.rowwise().reverse().eval();
-      }
-   }
-   return made;
-}
-
-/// One to one, in the frames of the first side.
-void Facing::pair_nodes(const std::vector<int> &without)
-{
-   face_all(without);
-   const Index n = slave_.line.size();
-   const Pairing &pairs = *given_.pairing;
-   require(static_cast<Index>(pairs.partner.size()) == n && pairs.gap.size() == n, what_,
-           ": its pairing is of ", pairs.partner.size(), " nodes, must be of the ", n,
-           " of its first side");
-   for (Mortar::Matrix &other : mortar_.other)
-   {
-      other.resize(static_cast<Index>(mortar_.nodes.size()), master_.line.size());
-      for (std::size_t i = 0; i < mortar_.nodes.size(); ++i)
-      {
-         const int partner = pairs.partner[mortar_.nodes[i]];
-         require(partner >= 0 && partner < master_.line.size(), what_, ": partner ", partner,
-                 " in its pairing, must be from 0 to ", master_.line.size() - 1);
-         other.insert(static_cast<Index>(i), partner) = 1;
-      }
-   }
-   mortar_.gap = pairs.gap(mortar_.nodes);
-}
-
-void Facing::meet(const std::vector<int> &without)
-{
-   if (given_.pairing)
-   {
-      pair_nodes(without);
-      return;
-   }
-   if (master_.body >= 0)
-   {
-      mortar_ = mortar(slave_.line, master_.line, without, what_);
-      for (Index i = 0; i < mortar_.gap.size() && !given_.gap && !given_.tied; ++i)
-      {
-         const double most = given_.most_overlap * mortar_.size[i];
-         require(mortar_.gap[i] >= -most, what_, ": the sides overlap by ", -mortar_.gap[i],
-                 " at ", slave_.line.nodes[mortar_.nodes[i]].position, ", at most ", most,
-                 " is allowed (", given_.most_overlap, " of the element's length): ",
-                 mortar_.gap[i] < -mortar_.size[i]
-                    ? "are these the sides that touch, and the bodies in their places?"
-                    : "allow more if they are to be pressed apart, or give the gap");
-      }
-      return;
-   }
-   const auto &chains = slave_.line.chains;
-   if (without.empty() || std::any_of(chains.begin(), chains.end(),
-                                      [](const LineChain &c) { return c.elements.empty(); }))
-   {
-      face_all(without);
-      return;
-   }
-   // Also on an obstacle neighbours carry the part of a node without a row: it is what lies
-   // against the line, and does not move.
-   mortar_ = mortar(slave_.line, other_face(slave_.line), without, what_);
-   for (Mortar::Matrix &other : mortar_.other)
-   {
-      other = Mortar::Matrix(mortar_.gap.size(), 0);
-   }
-   mortar_.gap.setZero();
-   mortar_.arm.setZero();
-}
-
-/// Every node of the slave is faced, by nothing yet.
-void Facing::face_all(const std::vector<int> &without)
-{
-   const ContactLine &line = slave_.line;
-   mortar_ = Mortar();
-   for (Index k = 0; k < line.size(); ++k)
-   {
-      if (!std::count(without.begin(), without.end(), int(k)))
-      {
-         mortar_.nodes.push_back(static_cast<int>(k));
-      }
-   }
-   const auto n = static_cast<Index>(mortar_.nodes.size());
-   for (Mortar::Matrix &own : mortar_.own)
-   {
-      own.resize(n, line.size());
-      for (Index i = 0; i < n; ++i) { own.insert(i, mortar_.nodes[i]) = 1; }
-   }
-   for (Mortar::Matrix &other : mortar_.other) { other.resize(n, 0); }
-   mortar_.tangent = line.each(&LineNode::tangent)(mortar_.nodes, Eigen::all);
-   mortar_.weights = line.each(&LineNode::weight)(mortar_.nodes);
-   mortar_.gap = mortar_.arm = Eigen::VectorXd::Zero(n);
-}
-
-ContactRow Facing::row(Index i) const
-{
-   const CondensedBody &body = bodies_[slave_.body];
-   const int node = mortar_.nodes[i], k = slave_.nodes[node];
-   ContactRow made{slave_.body, k, mortar_.tangent.row(i), !holds(body, k, 0), {}};
-   if (!made.slides) { made.tangent = slave_.line.nodes[node].tangent; }
-   std::map<NodeOfBody, Vector2d> shares;
-   for (int c : {0, 1})
-   {
-      for (Mortar::Matrix::InnerIterator e(mortar_.own[c], i); e; ++e)
-      {
-         shares.try_emplace({slave_.body, slave_.nodes[e.col()]}, 0, 0).first->second[c] +=
-            e.value();
-      }
-      for (Mortar::Matrix::InnerIterator e(mortar_.other[c], i); e; ++e)
-      {
-         shares.try_emplace({master_.body, master_.nodes[e.col()]}, 0, 0).first->second[c] -=
-            e.value();
-      }
-   }
-   for (const auto &[of, share] : shares)
-   {
-      // Round-off of functions that only touch the part would tie nodes that do not meet.
-      if (share.cwiseAbs().maxCoeff() <= 1e-14) { continue; }
-      made.shares.push_back({of.first, of.second, share[0], share[1]});
-   }
-   return made;
-}
-
-void Facing::check_row(const ContactRow &row, Index i) const
-{
-   const Vector2d &place = slave_.line.nodes[mortar_.nodes[i]].position;
-   require(!holds(bodies_[row.body], row.node, 1), what_, ": the contact node at ", place,
-           " is fixed normal to the line, it must be able to open: the contact line must end "
-           "before it, or the other side be the slave (slave: ",
-           of_second_ ? "first" : "second", ")");
-   if (row.slides || master_.body < 0) { return; }
-   // What faces it most, if it is at the same place along the line.
-   const CondensedBody &other = bodies_[master_.body];
-   const LineNode *nearest = nullptr;
-   int number = 0;
-   for (std::size_t m = 0; m < master_.nodes.size(); ++m)
-   {
-      const LineNode &node = master_.line.nodes[m];
-      const double off = std::abs((node.position - place).dot(row.tangent));
-      if (off <= 1e-6 * node.spacing &&
-          (!nearest || (node.position - place).norm() < (nearest->position - place).norm()))
-      {
-         nearest = &node;
-         number = master_.nodes[m];
-      }
-   }
-   require(nearest && holds(other, number, 0), what_, ": the contact node at ", place,
-           " is fixed along the line, and what it faces is not: the other side must be the "
-           "slave (slave: ",
-           of_second_ ? "first" : "second", "), or be fixed there as well");
-}
-
-void Facing::add_rows(std::vector<ContactRow> &rows, Slaves &taken)
-{
-   try
-   {
-      add_slave(rows, taken, true);
-   }
-   catch (const InputError &refused)
-   {
-      const bool free = given_.slave == SlaveSide::coarser || given_.slave == SlaveSide::finer;
-      if (!free || master_.body < 0 || given_.pairing) { throw; }
-      std::swap(slave_, master_);
-      of_second_ = !of_second_;
-      try
-      {
-         // Rings would be of a place that is named twice, the other way round.
-         add_slave(rows, taken, false);
-      }
-      catch (const InputError &)
-      {
-         throw refused; // which is of the side that should be it
-      }
-   }
-}
-
-void Facing::add_slave(std::vector<ContactRow> &rows, Slaves &taken, bool in_rings)
-{
-   const auto place = [this](int node) { return NodeOfBody(slave_.body, slave_.nodes[node]); };
-   without_row_ = clamped_ends(bodies_[slave_.body], slave_.line, slave_.nodes);
-   for (int k = 0; k < static_cast<int>(slave_.nodes.size()); ++k)
-   {
-      if (taken.count(place(k)) && !std::count(without_row_.begin(), without_row_.end(), k))
-      {
-         without_row_.push_back(k);
-      }
-   }
-   // Each node without a row gives its part to its neighbours, which may close a ring then.
-   while (true)
-   {
-      require(without_row_.size() < slave_.nodes.size(), what_, ": all nodes of ",
-              called(bodies_, slave_.body),
-              " there carry rows of interfaces before it, or would close a ring of them: "
-              "each place where two sides meet must be named once, or the other side be the "
-              "slave (slave: ",
-              of_second_ ? "first" : "second", ")");
-      meet(without_row_);
-      auto slaves = taken;
-      const std::size_t before = without_row_.size();
-      std::vector<ContactRow> own;
-      for (Index i = 0; i < static_cast<Index>(mortar_.nodes.size()); ++i)
-      {
-         own.push_back(row(i));
-         const NodeOfBody slave = place(mortar_.nodes[i]);
-         std::vector<NodeOfBody> on;
-         // A tip, which both sides have: where they match it would face itself, and its shares
-         // cancel.
-         const bool tip =
-            slave_.body == master_.body &&
-            std::count(master_.nodes.begin(), master_.nodes.end(), slave.second) > 0;
-         for (const TraceShare &share : own.back().shares)
-         {
-            const NodeOfBody node(share.body, share.node);
-            if (node != slave) { on.push_back(node); }
-         }
-         // Does anything that it depends on depend on it?
-         bool on_itself = tip;
-         std::set<NodeOfBody> seen;
-         std::vector<NodeOfBody> open = on;
-         while (!open.empty() && !on_itself)
-         {
-            const NodeOfBody next = open.back();
-            open.pop_back();
-            if (!seen.insert(next).second) { continue; }
-            const auto found = slaves.find(next);
-            if (found == slaves.end()) { continue; }
-            on_itself = std::count(found->second.begin(), found->second.end(), slave) > 0;
-            open.insert(open.end(), found->second.begin(), found->second.end());
-         }
-         require(!on_itself || tip || in_rings, what_, ": its rows would close a ring");
-         if (on_itself) { without_row_.push_back(mortar_.nodes[i]); }
-         else { slaves[slave] = on; }
-      }
-      if (without_row_.size() > before) { continue; }
-      for (Index i = 0; i < static_cast<Index>(own.size()); ++i) { check_row(own[i], i); }
-      taken = std::move(slaves);
-      slides_.clear();
-      for (ContactRow &made : own)
-      {
-         slides_.push_back(made.slides);
-         rows.push_back(std::move(made));
-      }
-      return;
-   }
-}
-
-/// How the other body goes on beyond the first or last node of a run.
-LineEnd Facing::other_end(Index i, bool last) const
-{
-   if (master_.body < 0) { return LineEnd::smooth; }
-   const Vector2d tangent = mortar_.tangent.row(i), out = last ? tangent : Vector2d(-tangent);
-   const LineNode &node = slave_.line.nodes[mortar_.nodes[i]];
-   for (const LineChain &chain : master_.line.chains)
-   {
-      if (chain.loop) { continue; }
-      for (int end : {0, 1})
-      {
-         const Index k = end ? chain.first + chain.nodes - 1 : chain.first;
-         bool faces = false;
-         for (Mortar::Matrix::InnerIterator e(mortar_.other[1], i); e; ++e)
-         {
-            faces = faces || (e.col() == k && std::abs(e.value()) > 1e-14);
-         }
-         const LineNode &other = master_.line.nodes[k];
-         const double beyond = (other.position - node.position).dot(out);
-         // A line that runs on beyond the slave's last node has its end elsewhere, unless the
-         // slave goes on as well.
-         const LineChain &own = slave_.line.chain_of(mortar_.nodes[i]);
-         const bool at_end =
-            mortar_.nodes[i] == (last ? own.first + own.nodes - 1 : own.first) && !own.loop;
-         if (!faces || (at_end && beyond > 1e-6 * node.spacing)) { continue; }
-         // The lines run against each other: its last node is at this one's first.
-         if (end != (last ? 0 : 1)) { continue; }
-         return holds(bodies_[master_.body], master_.nodes[k], 0) ? LineEnd::symmetry
-                                                                  : chain.ends[end];
-      }
-   }
-   return LineEnd::smooth;
-}
-
-InterfaceReport Facing::report() const
-{
-   const ContactLine &line = slave_.line;
-   InterfaceReport report;
-   report.name = given_.name;
-   report.bodies = {slave_.body, master_.body};
-   report.nodes = static_cast<Index>(mortar_.nodes.size());
-   report.tied = given_.tied;
-   report.of_second = of_second_;
-   report.position = line.each(&LineNode::position)(mortar_.nodes, Eigen::all);
-   report.tangent = mortar_.tangent;
-   for (Index i = 0; i < report.nodes; ++i)
-   {
-      if (!slides_[i]) { report.tangent.row(i) = line.nodes[mortar_.nodes[i]].tangent; }
-   }
-   for (int c : {0, 1})
-   {
-      for (Eigen::MatrixX2d &at : report.acts_at) { at.resize(report.nodes, 2); }
-      report.acts_at[0].col(c) = mortar_.own[c] * line.each(&LineNode::position).col(c);
-      report.acts_at[1].col(c) = report.acts_at[0].col(c);
-      if (master_.body < 0) { continue; }
-      report.acts_at[1].col(c) =
-         mortar_.other[c] * master_.line.each(&LineNode::position).col(c);
-   }
-   report.weights = mortar_.weights;
-   report.spacing = line.each(&LineNode::spacing)(mortar_.nodes);
-   report.left_out = mortar_.left_out;
-   report.arm = report.nodes ? mortar_.arm.cwiseAbs().maxCoeff() : 0;
-   report.matching = master_.body >= 0 && matching_nodes(slave_.line, master_.line).has_value();
-   report.chords = mortar_.chords;
-   if (given_.gap || given_.tied || report.matching || report.chords.size() == 0)
-   {
-      report.chords = VectorXd::Zero(report.nodes);
-   }
-   for (int k : mortar_.free_surface) { report.free_surface.push_back(line.nodes[k].position); }
-   for (int k : without_row_) { report.without_row.push_back(line.nodes[k].position); }
-   return report;
-}
-
-bool Facing::has(const NodeOfBody &node) const
-{
-   const auto on = [&](const Side &side)
-   {
-      return side.body == node.first &&
-             std::count(side.nodes.begin(), side.nodes.end(), node.second) > 0;
-   };
-   return on(slave_) || on(master_);
-}
-
-void Facing::add_facts(ReducedProblem &problem, Index first, bool matching,
-                       const std::vector<Facing> &all) const
-{
-   const ContactLine &line = slave_.line;
-   const auto n = static_cast<Index>(mortar_.nodes.size());
-   for (Index i = 0; i < n; ++i)
-   {
-      const LineNode &node = line.nodes[mortar_.nodes[i]];
-      const double x = node.position[0], y = node.position[1];
-      const double gap = given_.gap ? (*given_.gap)(x, y) : mortar_.gap[i];
-      require(std::isfinite(gap), what_, ": the gap at ", node.position, " is ", gap,
-              ", must be finite");
-      problem.gap[first + i] = gap;
-      problem.weights[first + i] = mortar_.weights[i];
-      problem.arc_length[first + i] = node.arc_length;
-      problem.position.row(first + i) = node.position;
-      problem.dofs.block(first + i, 2 * slave_.body, 1, 2) << node.dofs[0], node.dofs[1];
-      if (matching)
-      {
-         Index facing = 0;
-         for (Mortar::Matrix::InnerIterator e(mortar_.other[1], i); e; ++e)
-         {
-            if (std::abs(e.value()) > 0.5) { facing = e.col(); }
-         }
-         const auto &dofs = master_.line.nodes[facing].dofs;
-         problem.dofs.block(first + i, 2 * master_.body, 1, 2) << dofs[0], dofs[1];
-      }
-   }
-   // Nodes that follow each other, one run a chain.
-   for (Index begin = 0; begin < n;)
-   {
-      const LineChain &chain = line.chain_of(mortar_.nodes[begin]);
-      Index end = begin + 1;
-      while (end < n && mortar_.nodes[end] == mortar_.nodes[end - 1] + 1 &&
-             mortar_.nodes[end] < chain.first + chain.nodes)
-      {
-         ++end;
-      }
-      ContactChain made;
-      made.interface = given_.name;
-      made.first = first + begin;
-      made.nodes = end - begin;
-      made.loop = chain.loop && made.nodes == chain.nodes;
-      made.bodies = {slave_.body, master_.body};
-      for (bool last : {false, true})
-      {
-         const Index i = last ? end - 1 : begin;
-         const Index outer = last ? chain.first + chain.nodes - 1 : chain.first;
-         bool at_end = !chain.loop; // or beyond it all nodes are others'
-         for (Index k = mortar_.nodes[i]; k != outer && at_end;)
-         {
-            k += last ? 1 : -1;
-            at_end = std::count(without_row_.begin(), without_row_.end(), int(k)) > 0;
-         }
-         // Contact that goes on as another interface, tied or not, does not end here.
-         const bool goes_on =
-            at_end &&
-            std::any_of(
-               all.begin(), all.end(),
-               [&](const Facing &other) {
-                  return &other != this && other.has({slave_.body, slave_.nodes[outer]});
-               });
-         made.ends[last] = !at_end                                          ? LineEnd::smooth
-                           : !slides_[i]                                    ? LineEnd::symmetry
-                           : goes_on && chain.ends[last] == LineEnd::smooth ? LineEnd::unknown
-                                                                            : chain.ends[last];
-         made.other_ends[last] = made.loop ? LineEnd::smooth : other_end(i, last);
-      }
-      problem.chains.push_back(made);
-      begin = end;
-   }
-}
-
 /// Contact nodes by whether their interface is tied.
-void sort_out(const std::vector<Facing> &facings, UnionRows &rows)
+void sort_out(const std::vector<InterfaceRows> &facings, UnionRows &rows)
 {
    int row = 0;
-   for (const Facing &facing : facings)
+   for (const InterfaceRows &facing : facings)
    {
       for (Index i = 0; i < facing.nodes(); ++i)
       {
@@ -597,7 +27,8 @@ void sort_out(const std::vector<Facing> &facings, UnionRows &rows)
 }
 
 /// Numbers of the bodies that interfaces join, without those that touch an obstacle.
-std::vector<std::vector<int>> groups_of(std::size_t bodies, const std::vector<Facing> &facings)
+std::vector<std::vector<int>> groups_of(std::size_t bodies,
+                                        const std::vector<InterfaceRows> &facings)
 {
    std::vector<int> group(bodies);
    std::iota(group.begin(), group.end(), 0);
@@ -606,7 +37,7 @@ std::vector<std::vector<int>> groups_of(std::size_t bodies, const std::vector<Fa
       const int from = group[a], to = group[b];
       std::replace(group.begin(), group.end(), from, to);
    };
-   for (const Facing &facing : facings)
+   for (const InterfaceRows &facing : facings)
    {
       if (facing.master().body >= 0) { join(facing.slave().body, facing.master().body); }
    }
@@ -615,7 +46,7 @@ std::vector<std::vector<int>> groups_of(std::size_t bodies, const std::vector<Fa
    {
       members[group[b]].push_back(static_cast<int>(b));
    }
-   for (const Facing &facing : facings)
+   for (const InterfaceRows &facing : facings)
    {
       if (facing.master().body < 0) { members.erase(group[facing.slave().body]); }
    }
@@ -631,77 +62,7 @@ void require_some(const std::vector<CondensedBody> &bodies,
            interfaces.size(), " interfaces, must be at least one of each");
 }
 
-/// Contact nodes of all interfaces, which `facings` becomes.
-std::vector<ContactRow> rows_of(const std::vector<Interface> &interfaces,
-                                const std::vector<CondensedBody> &bodies,
-                                std::vector<Facing> &facings)
-{
-   for (const CondensedBody &body : bodies)
-   {
-      require(body.line.formulation == bodies[0].line.formulation &&
-                 body.line.formulation != Formulation::torsion,
-              "reduce: the bodies must be all plane or all axisymmetric");
-   }
-   std::vector<ContactRow> rows;
-   Slaves taken;
-   std::set<int> touched;
-   for (const Interface &interface : interfaces)
-   {
-      facings.emplace_back(interface, bodies);
-      facings.back().add_rows(rows, taken);
-      touched.insert({interface.first.body, interface.second.body});
-   }
-   for (int b = 0; b < static_cast<int>(bodies.size()); ++b)
-   {
-      require(touched.count(b), "reduce: ", called(bodies, b),
-              " is at no interface, nothing touches it: it must be at one, or be left out");
-   }
-   return rows;
-}
-
 } // namespace
-
-ContactLine joined(const std::vector<ContactLine> &lines)
-{
-   require(!lines.empty(), "contact lines to be joined: there are none, must be at least one");
-   ContactLine all;
-   all.formulation = lines.front().formulation;
-   std::set<std::array<int, 2>> known;
-   for (const ContactLine &line : lines)
-   {
-      require(line.formulation == all.formulation, "contact lines to be joined: they are ",
-              name(all.formulation), " and ", name(line.formulation), ", must be the same");
-      line.validate();
-      for (LineChain chain : line.chains)
-      {
-         const Index from = chain.first;
-         chain.first = all.size();
-         bool whole = true;
-         for (Index i = 0; i < chain.nodes; ++i)
-         {
-            const LineNode &node = line.nodes[from + i];
-            if (known.insert(node.dofs).second) { all.nodes.push_back(node); }
-            else { whole = false; }
-         }
-         for (LineElement &element : chain.elements)
-         {
-            for (Index &node : element.nodes)
-            {
-               if (node >= 0) { node += chain.first - from; }
-            }
-         }
-         // The elements are the lines' own; of a trace that has lost a node none are left.
-         if (!whole)
-         {
-            chain.elements.clear();
-            chain.loop = false;
-         }
-         chain.nodes = all.size() - chain.first;
-         if (chain.nodes > 0) { all.chains.push_back(chain); }
-      }
-   }
-   return all;
-}
 
 Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface> &interfaces)
 {
@@ -750,7 +111,7 @@ Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface>
    for (const CondensedBody &body : bodies) { result.counters += body.counters; }
    ++result.counters.unions;
    result.bodies = std::move(bodies);
-   std::vector<Facing> facings;
+   std::vector<InterfaceRows> facings;
    auto rows = std::make_shared<UnionRows>();
    rows->rows = rows_of(interfaces, result.bodies, facings);
    rows->groups = groups_of(result.bodies.size(), facings);
@@ -768,7 +129,7 @@ Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface>
    problem.position.resize(n, 2);
    problem.dofs = Eigen::MatrixXi::Constant(n, 2 * count, -1);
    std::array<Index, 2> next{0, 0}; // of nodes that are not tied, and of those that are
-   for (const Facing &facing : facings)
+   for (const InterfaceRows &facing : facings)
    {
       InterfaceReport report = facing.report();
       report.first = next[report.tied];
@@ -777,42 +138,6 @@ Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface>
       result.interfaces.push_back(std::move(report));
    }
    return result;
-}
-
-double chordal_error(const Reduction &reduction, const VectorXd &p)
-{
-   const ReducedProblem &problem = reduction.problem;
-   const Index n = problem.nodes();
-   require(p.size() == n, "chordal error: ", p.size(), " normal forces, must be ", n);
-   VectorXd off = VectorXd::Zero(n);
-   for (const InterfaceReport &face : reduction.interfaces)
-   {
-      if (face.tied || face.chords.size() != face.nodes) { continue; }
-      off.segment(face.first, face.nodes) = face.chords;
-   }
-   std::vector<int> bear, open;
-   for (Index i = 0; i < n; ++i) { (p[i] > 0 ? bear : open).push_back(static_cast<int>(i)); }
-   if (bear.empty())
-   {
-      // Smooth sides may meet, as far as the estimate is known, which is to a tenth of itself.
-      const Eigen::Array<bool, Eigen::Dynamic, 1> meet =
-         off.array() < 0 && (problem.gap + 1.1 * off).array() < 0;
-      return (meet && problem.gap.array() >= 0).any() ? HUGE_VAL : 0;
-   }
-   if (off(bear).isZero(0)) { return 0; }
-   // Open nodes move freely meanwhile.
-   const MatrixXd C = problem.C();
-   VectorXd force = C(bear, bear) * off(bear);
-   DenseCholesky follows;
-   if (!open.empty() && follows.compute(C(open, open)))
-   {
-      VectorXd moved = C(open, bear) * off(bear);
-      follows.solve(moved);
-      force -= C(bear, open) * moved;
-   }
-   const VectorXd weights = problem.weights(bear);
-   return force.cwiseQuotient(weights).cwiseAbs().maxCoeff() /
-          p(bear).cwiseQuotient(weights).maxCoeff();
 }
 
 SeparateBodies separate(const std::vector<CondensedBody> &bodies,
@@ -824,7 +149,7 @@ SeparateBodies separate(const std::vector<CondensedBody> &bodies,
       require(!interface.tied, "interface '", interface.name,
               "': it is tied, its bodies have no displacements of their own there");
    }
-   std::vector<Facing> facings;
+   std::vector<InterfaceRows> facings;
    const RelativeDisplacement map(bodies, rows_of(interfaces, bodies, facings));
    SeparateBodies result;
    const Reduction::PatternIndex index = join(bodies, result.patterns);

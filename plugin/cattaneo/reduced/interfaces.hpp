@@ -50,12 +50,6 @@ struct Interface
    std::optional<Pairing> pairing = std::nullopt;
 };
 
-/** The trace of a body with several interfaces, to be condensed to at once: the nodes of all
-    lines, one after the other, each once. A node that two lines share (the end of one is the
-    beginning of the other) has the frame of the first, and the chain of the later ones loses
-    it. InputError if the lines are of different formulations, or of none. */
-ContactLine joined(const std::vector<ContactLine> &lines);
-
 /** Any number of bodies over any number of interfaces. With U the contact displacements of all
     bodies and S their stiffnesses, each contact node has u = G U, the relative displacement of
     its Mortar row; with U = R u + Z y (y: all contact dofs that are no slave's)
