@@ -32,10 +32,10 @@ double cpu_seconds()
 }
 
 /// A table whose rows are measured one by one and printed as they come.
-class Table
+class PrintedTable
 {
 public:
-   Table(const char *title, std::vector<const char *> columns)
+   PrintedTable(const char *title, std::vector<const char *> columns)
       : title_(title), columns_(std::move(columns)), data_(columns_.size() + 1)
    {
       std::printf("\n%s\n", title);
@@ -193,8 +193,9 @@ int main(int argc, char *argv[])
          args.parse();
          std::vector<miniapp::Sheet> panels;
          {
-            Table table("Condensation of a square to 201 contact nodes or fewer",
-                        {"dofs", "contact nodes", "assembly s", "condensation s", "whole s"});
+            PrintedTable table(
+               "Condensation of a square to 201 contact nodes or fewer",
+               {"dofs", "contact nodes", "assembly s", "condensation s", "whole s"});
             for (int side : {35, 70, 112, 223, 353, 500})
             {
                if (2.0 * (2 * side + 1) * (2 * side + 1) > 1.01 * largest) { continue; }
@@ -203,9 +204,9 @@ int main(int argc, char *argv[])
             panels.push_back(table.finish("dofs", {2, 3}));
          }
          {
-            Table table("Two blocks: contact nodes",
-                        {"contact nodes", "dofs", "to reduced s", "first steps s",
-                         "warm step s", "newton/step", "sweeps/step", "dense/step"});
+            PrintedTable table("Two blocks: contact nodes",
+                               {"contact nodes", "dofs", "to reduced s", "first steps s",
+                                "warm step s", "newton/step", "sweeps/step", "dense/step"});
             for (int nodes : {51, 101, 251, 501, 1001, 2001, 4001})
             {
                if (nodes <= most)
@@ -216,8 +217,9 @@ int main(int argc, char *argv[])
             panels.push_back(table.finish("nodes", {2, 4}));
          }
          {
-            Table table("Cycles of 20 increments, 101 nodes, Q = 0.8 fP to and fro",
-                        {"cycles", "all s", "increments", "till steady s", "increments"});
+            PrintedTable table(
+               "Cycles of 20 increments, 101 nodes, Q = 0.8 fP to and fro",
+               {"cycles", "all s", "increments", "till steady s", "increments"});
             for (int cycles : {1, 10, 100, 1000})
             {
                table.row([=] { return cycling(cycles); });

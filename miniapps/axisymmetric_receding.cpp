@@ -44,15 +44,15 @@ void bonded(Study &study, Disc &disc, const std::vector<double> &wanted)
    const Index first = 1, count = problem.nodes() - 4;
    const VectorXd r = disc.radii().segment(first, count);
    study.title("Bonded disc (adhesion '-': it pulls, no friction keeps it together)");
-   Table &table = study.table("bonded", {{"load_radius", "a/t", "%.3g"},
-                                         {"lowest_pressure", "lowest p/p0", "%.3e"},
-                                         {"lowest_at", "at r/t", "%.3f"},
-                                         {"adhesion_friction", "f for full adhesion"},
-                                         {"p_05"},
-                                         {"p_1"},
-                                         {"p_2"},
-                                         {"p_3"},
-                                         {"p_4"}});
+   ResultTable &table = study.table("bonded", {{"load_radius", "a/t", "%.3g"},
+                                               {"lowest_pressure", "lowest p/p0", "%.3e"},
+                                               {"lowest_at", "at r/t", "%.3f"},
+                                               {"adhesion_friction", "f for full adhesion"},
+                                               {"p_05"},
+                                               {"p_1"},
+                                               {"p_2"},
+                                               {"p_3"},
+                                               {"p_4"}});
    Panel &panel = study.lines("bonded_pressure", "Bonded disc: pressure, shear (dashed)", "r/t",
                               "p/p0, q/p0");
    for (double a : wanted)
@@ -110,10 +110,10 @@ void load(Study &study, Disc &disc, Run &run, const std::vector<double> &levels)
 void map(Study &study, Disc &disc, const std::vector<double> &wanted,
          const std::vector<double> &frictions)
 {
-   Table &table = study.table("map", {{"friction", "f", "%.3g"},
-                                      {"load_radius", "a/t", "%.4g"},
-                                      {"separation", "d/t"},
-                                      {"stick", "c/t"}});
+   ResultTable &table = study.table("map", {{"friction", "f", "%.3g"},
+                                            {"load_radius", "a/t", "%.4g"},
+                                            {"separation", "d/t"},
+                                            {"stick", "c/t"}});
    table
       .draw("Separation d (upper) and border of stick c (lower)", "load_radius",
             "radius of the load a/t", {{"separation", "d"}, {"stick", "c"}}, "d/t, c/t",
@@ -132,14 +132,15 @@ void critical(Study &study, const Disc &disc, const std::vector<double> &discs,
               const std::vector<double> &frictions, bool also_bonded)
 {
    const Stopwatch watch;
-   Table &table = study.table("critical_load_radius", {{"disc_radius", "b/t", "%.3g"},
-                                                       {"friction", "f", "%.3g"},
-                                                       {"load_radius", "critical a/t"}});
+   ResultTable &table = study.table("critical_load_radius", {{"disc_radius", "b/t", "%.3g"},
+                                                             {"friction", "f", "%.3g"},
+                                                             {"load_radius", "critical a/t"}});
    table.draw("Radius of the load above which nothing separates", "disc_radius",
               "radius of the disc b/t", {{"load_radius", "a"}}, "radius of the load a/t",
               {"friction", "f"});
-   Table &bonded = study.table("bonded_critical", {{"disc_radius", "b/t", "%.3g"},
-                                                   {"load_radius", "bonded: critical a/t"}});
+   ResultTable &bonded =
+      study.table("bonded_critical",
+                  {{"disc_radius", "b/t", "%.3g"}, {"load_radius", "bonded: critical a/t"}});
    for (double b : discs)
    {
       DiscOptions own = disc.options;

@@ -60,7 +60,7 @@ DesignReport search(Study &study, const DesignProblem &problem, const VectorXd &
    }
    DesignReport best;
    double at_start = none;
-   Table *table = nullptr;
+   ResultTable *table = nullptr;
    if (starts > 1)
    {
       table = &study.table("starts", {{"start", "start"},
@@ -229,7 +229,7 @@ void design_contact(Study &study)
 
    if (!free)
    {
-      Table &table = study.table(
+      ResultTable &table = study.table(
          "chosen",
          {{"variable", "variable"}, {"before", "before", "%.6g"}, {"after", "after", "%.6g"}});
       for (Index j = 0; j < report.x.size(); ++j)

@@ -107,10 +107,10 @@ void hertz(Study &study)
    study.value("pressure_deviation_mean", pressure.mean, "mean deviation from Hertz", none,
                "p0_Hertz");
 
-   Table &levels = study.table("levels", {{"shear", "Q/fP", "%.3f"},
-                                          {"stick_half_width", "stick c/b", "%.5f"},
-                                          {"cattaneo_mindlin", "Mindlin c/b", "%.5f"},
-                                          {"shear_deviation", "q off / f p0", "%.2e"}});
+   ResultTable &levels = study.table("levels", {{"shear", "Q/fP", "%.3f"},
+                                                {"stick_half_width", "stick c/b", "%.5f"},
+                                                {"cattaneo_mindlin", "Mindlin c/b", "%.5f"},
+                                                {"shear_deviation", "q off / f p0", "%.2e"}});
    const std::size_t one_way = levels_one_way(shear);
    for (std::size_t k = 0; k < shear.size(); ++k)
    {

@@ -147,17 +147,17 @@ void sweep(Study &study, Joint &joint, const std::vector<double> &loads,
            const std::vector<double> &frictions, const std::vector<double> &widths)
 {
    const Stopwatch watch;
-   Table &table = study.table("sweep", {{"friction", "f", "%.3g"},
-                                        {"width", "w/t", "%.3g"},
-                                        {"pressure", "p/p0", "%.3g"},
-                                        {"load", "T/P0"},
-                                        {"a0", "a0/t"},
-                                        {"a", "a/t"},
-                                        {"c_first", "c first"},
-                                        {"c_steady", "c steady"},
-                                        {"dissipation_first", "D first", "%.3e"},
-                                        {"dissipation_steady", "D steady", "%.3e"},
-                                        {"status"}});
+   ResultTable &table = study.table("sweep", {{"friction", "f", "%.3g"},
+                                              {"width", "w/t", "%.3g"},
+                                              {"pressure", "p/p0", "%.3g"},
+                                              {"load", "T/P0"},
+                                              {"a0", "a0/t"},
+                                              {"a", "a/t"},
+                                              {"c_first", "c first"},
+                                              {"c_steady", "c steady"},
+                                              {"dissipation_first", "D first", "%.3e"},
+                                              {"dissipation_steady", "D steady", "%.3e"},
+                                              {"status"}});
    Panel &extents = study.lines("extent", "Steady contact a and stick c", "T/P0",
                                 "a/t (upper), c/t (lower)"),
          &losses = study.lines("loss", "Dissipation a steady cycle", "|T|/P0", "D E'/P0²"),
@@ -218,12 +218,12 @@ void row(Study &study, Joint &joint, const std::vector<std::vector<int>> &all)
    Run run(study, problem, joint.settings);
    run.unit = joint.unit();
    const VectorXd x = problem.position.col(0);
-   Table &table = study.table("tightening", {{"label", "order of tightening"},
-                                             {"residual_shear", "largest q/fp0", "%.3e"},
-                                             {"dissipation_first", "D first", "%.3e"},
-                                             {"dissipation_steady", "D steady", "%.3e"},
-                                             {"steady_cycle", "steady from"},
-                                             {"work_error"}});
+   ResultTable &table = study.table("tightening", {{"label", "order of tightening"},
+                                                   {"residual_shear", "largest q/fp0", "%.3e"},
+                                                   {"dissipation_first", "D first", "%.3e"},
+                                                   {"dissipation_steady", "D steady", "%.3e"},
+                                                   {"steady_cycle", "steady from"},
+                                                   {"work_error"}});
    Panel &residual = study.lines("residual", "Shear left by tightening", "x/t", "q/(f p0)"),
          &density = study.lines("dissipation", "Dissipation a steady cycle along the contact",
                                 "x/t", "D' E' t/P0² × 10³");

@@ -64,11 +64,11 @@ void load(Study &study, Run &run, double overhang)
 void map(Study &study, const ReducedProblem &problem, const std::vector<double> &overhangs,
          const std::vector<double> &frictions)
 {
-   Table &table = study.table("map", {{"friction", "f", "%.3g"},
-                                      {"overhang", "n", "%.4g"},
-                                      {"separation", "s/t"},
-                                      {"stick_slip", "e/t"},
-                                      {"separated_length"}});
+   ResultTable &table = study.table("map", {{"friction", "f", "%.3g"},
+                                            {"overhang", "n", "%.4g"},
+                                            {"separation", "s/t"},
+                                            {"stick_slip", "e/t"},
+                                            {"separated_length"}});
    table.draw("Separation s and border of stick e", "overhang", "overhang n",
               {{"separation", "s"}, {"stick_slip", "e"}}, "s/t (upper), e/t (lower)",
               {"friction", "f"});
@@ -118,11 +118,12 @@ void unload(Study &study, Run &run, double overhang, const Unloading &unloading,
    report_exact_path(study, run);
    study.results["unloading_increments"] = run.report.increments.size();
 
-   Table &points = study.table("slip_histories", {{"xi", "ξ/t", "%.3f"},
-                                                  {"slip_at_p0", "v at p0"},
-                                                  {"slips_from", "sticks to", "%.3f"},
-                                                  {"separates_at", "separates at", "%.3f"},
-                                                  {"level_error", "±", "%.2g"}});
+   ResultTable &points =
+      study.table("slip_histories", {{"xi", "ξ/t", "%.3f"},
+                                     {"slip_at_p0", "v at p0"},
+                                     {"slips_from", "sticks to", "%.3f"},
+                                     {"separates_at", "separates at", "%.3f"},
+                                     {"level_error", "±", "%.2g"}});
    for (const PointHistory &h : histories)
    {
       study.row(points, {h.xi, h.slip[1], h.slips_from, h.separates_at, h.step}, {},
@@ -144,11 +145,11 @@ void unload(Study &study, Run &run, double overhang, const Unloading &unloading,
 void domain_study(Study &study, RecedingOptions options, double overhang, double friction)
 {
    study.title(text("Domain study, n = %g, f = %g", overhang, friction));
-   Table &table = study.table("domain_study", {{"length", "length", "%g"},
-                                               {"domain", "domain", "%g"},
-                                               {"side", "side", "%g"},
-                                               {"separation", "s/t"},
-                                               {"stick_slip", "e/t"}});
+   ResultTable &table = study.table("domain_study", {{"length", "length", "%g"},
+                                                     {"domain", "domain", "%g"},
+                                                     {"side", "side", "%g"},
+                                                     {"separation", "s/t"},
+                                                     {"stick_slip", "e/t"}});
    options.overhangs = {overhang};
    for (const auto &[length, domain, side] : {std::array<double, 3>{20, 200, 80},
                                               {20, 1e4, 1e4},

@@ -30,7 +30,7 @@ void dislocations(Study &study, const ReducedProblem &problem, const Eigen::Vect
 {
    Panel &panel =
       study.lines("dislocations", "Tractions of a jump of slip by 1", "x/a", "q a/E', p a/E'");
-   Table &table =
+   ResultTable &table =
       study.table("dislocations_near", {{"place", "jump at x/a", "%.3f"},
                                         {"near", "q at 0.2 a from it, over E'/4πr"}});
    for (const double place : places)
@@ -124,10 +124,10 @@ void square_punch(Study &study)
    study.value("slip_edge", pressed.v[problem.nodes() - 1], "slip at the right corner");
    study.value("peak_pressure", tractions(problem, pressed.p).maxCoeff(), "peak pressure");
 
-   Table &levels = study.table("levels", {{"shear", "Q/fP", "%.3f"},
-                                          {"stick_left", "stick left"},
-                                          {"stick_right", "stick right"},
-                                          {"dissipation", "dissipation", "%.4e"}});
+   ResultTable &levels = study.table("levels", {{"shear", "Q/fP", "%.3f"},
+                                                {"stick_left", "stick left"},
+                                                {"stick_right", "stick right"},
+                                                {"dissipation", "dissipation", "%.4e"}});
    const std::size_t one_way = levels_one_way(shear);
    for (std::size_t k = 0; k < shear.size(); ++k)
    {

@@ -154,12 +154,12 @@ void wear_contact(Study &study)
    Panel &borders = study.lines("stick", "Stick zone", "cycles", "x");
    Panel &loops =
       study.lines("loops", "Loads over their displacements", "displacement", "force");
-   Table &table = study.table("cycles", {{"cycle", "cycle", "%.0f"},
-                                         {"volume", "volume", "%.6g"},
-                                         {"depth", "depth", "%.6g"},
-                                         {"dissipation", "energy lost", "%.6g"},
-                                         {"loss", "of the cycle", "%.4g"},
-                                         {"stick", "stick", "%.5g"}});
+   ResultTable &table = study.table("cycles", {{"cycle", "cycle", "%.0f"},
+                                               {"volume", "volume", "%.6g"},
+                                               {"depth", "depth", "%.6g"},
+                                               {"dissipation", "energy lost", "%.6g"},
+                                               {"loss", "of the cycle", "%.4g"},
+                                               {"stick", "stick", "%.5g"}});
    table.draw("Worn volume", "cycle", "cycles", {{"volume", "volume"}}, "volume");
    std::vector<double> times, from, to;
    double row_at = 0, drawn_at = 0;

@@ -27,11 +27,12 @@ void bonded_strips(Study &study, const RecedingOptions &options, const ReducedPr
                    const std::vector<double> &overhangs, Panel &panel)
 {
    study.title("Bonded strips");
-   Table &table = study.table("bonded_strips", {{"overhang", "n", "%.4g"},
-                                                {"second_strength", "second strength"},
-                                                {"adhesion_friction", "f for full adhesion"},
-                                                {"adhesion_x", "needed at x/t"},
-                                                {"lowest_pressure", "lowest p/p0", "%.3e"}});
+   ResultTable &table =
+      study.table("bonded_strips", {{"overhang", "n", "%.4g"},
+                                    {"second_strength", "second strength"},
+                                    {"adhesion_friction", "f for full adhesion"},
+                                    {"adhesion_x", "needed at x/t"},
+                                    {"lowest_pressure", "lowest p/p0", "%.3e"}});
    const Index shown = nodes_before(problem.arc_length, 3.0) - 8;
    for (const double n : overhangs)
    {

@@ -90,15 +90,15 @@ std::string heading(const Reduction &reduction, std::size_t k)
 
 void list_bodies(Study &study, const Scene &scene)
 {
-   Table &bodies = study.table("bodies", {{"body", "body"},
-                                          {"elements", "elements"},
-                                          {"dofs", "dofs"},
-                                          {"x_from", "x from", "%.5g"},
-                                          {"x_to", "to", "%.5g"},
-                                          {"y_from", "y from", "%.5g"},
-                                          {"y_to", "to", "%.5g"},
-                                          {"held_x", "held in x"},
-                                          {"held_y", "in y (nodes)"}});
+   ResultTable &bodies = study.table("bodies", {{"body", "body"},
+                                                {"elements", "elements"},
+                                                {"dofs", "dofs"},
+                                                {"x_from", "x from", "%.5g"},
+                                                {"x_to", "to", "%.5g"},
+                                                {"y_from", "y from", "%.5g"},
+                                                {"y_to", "to", "%.5g"},
+                                                {"held_x", "held in x"},
+                                                {"held_y", "in y (nodes)"}});
    const Reduction &reduction = scene.reduction;
    for (std::size_t k = 0; k < scene.bodies.size(); ++k)
    {
@@ -119,12 +119,12 @@ void list_bodies(Study &study, const Scene &scene)
 
 void list_lines(Study &study, const Reduction &reduction)
 {
-   Table &lines = study.table("lines", {{"line", "contact of"},
-                                        {"nodes", "nodes"},
-                                        {"pieces", "pieces"},
-                                        {"length", "length", "%.5g"},
-                                        {"least_spacing", "spacing", "%.3g"},
-                                        {"most_spacing", "to", "%.3g"}});
+   ResultTable &lines = study.table("lines", {{"line", "contact of"},
+                                              {"nodes", "nodes"},
+                                              {"pieces", "pieces"},
+                                              {"length", "length", "%.5g"},
+                                              {"least_spacing", "spacing", "%.3g"},
+                                              {"most_spacing", "to", "%.3g"}});
    for (std::size_t k = 0; k < reduction.bodies.size(); ++k)
    {
       const ContactLine &line = reduction.bodies[k].line;
@@ -140,13 +140,13 @@ void list_lines(Study &study, const Reduction &reduction)
 
 void list_loads(Study &study, const Scene &scene)
 {
-   Table &loads = study.table("loads", {{"load", "load"},
-                                        {"body", "body"},
-                                        {"kind", "kind"},
-                                        {"nodes", "nodes"},
-                                        {"x", "sum x", "%.6g"},
-                                        {"y", "sum y", "%.6g"},
-                                        {"moment", "moment", "%.6g"}});
+   ResultTable &loads = study.table("loads", {{"load", "load"},
+                                              {"body", "body"},
+                                              {"kind", "kind"},
+                                              {"nodes", "nodes"},
+                                              {"x", "sum x", "%.6g"},
+                                              {"y", "sum y", "%.6g"},
+                                              {"moment", "moment", "%.6g"}});
    const Reduction &reduction = scene.reduction;
    for (std::size_t k = 0; k < scene.bodies.size(); ++k)
    {

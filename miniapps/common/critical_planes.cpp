@@ -119,7 +119,7 @@ void report_critical_planes(Study &study, const Pad &pad, const SolvedPad &solve
    for (const SolvedPad &coarse : coarser) { less.emplace_back(pad, coarse, 2); }
    const StressCycle plain = plain_fatigue_cycle(pad.material);
    std::vector<Column> columns{{"x"}};
-   std::vector<Table::Curve> curves;
+   std::vector<ResultTable::Curve> curves;
    std::vector<double> limits;
    for (const NamedCriterion &one : named_criteria)
    {
@@ -128,7 +128,7 @@ void report_critical_planes(Study &study, const Pad &pad, const SolvedPad &solve
       columns.push_back({std::string(one.key) + "_angle"});
       curves.push_back({one.key, one.name});
    }
-   Table &along = study.table("planes", columns);
+   ResultTable &along = study.table("planes", columns);
    along.draw("Critical planes along the surface", "x", "x / a", curves,
               "share of what a plain specimen endures");
    const auto plane_of = [&](std::size_t c, const StressCycle &cycle)
@@ -154,12 +154,12 @@ void report_critical_planes(Study &study, const Pad &pad, const SolvedPad &solve
    }
    study.title(text("7. Criteria on critical planes, stresses averaged over %.4g µm of depth",
                     1e3 * depth));
-   Table &table = study.table("critical_planes", {{"criterion", "           criterion"},
-                                                  {"edge", "    edge"},
-                                                  {"share", "of the limit", "%.4g"},
-                                                  {"error", "      ±", "%.1g"},
-                                                  {"x", "at x / a", "%.3f"},
-                                                  {"angle", "normal, °", "%.1f"}});
+   ResultTable &table = study.table("critical_planes", {{"criterion", "           criterion"},
+                                                        {"edge", "    edge"},
+                                                        {"share", "of the limit", "%.4g"},
+                                                        {"error", "      ±", "%.1g"},
+                                                        {"x", "at x / a", "%.3f"},
+                                                        {"angle", "normal, °", "%.1f"}});
    const std::size_t middle = places.size() / 2;
    for (std::size_t c = 0; c < limits.size(); ++c)
    {

@@ -107,13 +107,13 @@ void report_cases(Study &study, const DesignProblem &problem, const DesignReport
    {
       energies = &study.lines("energy", "Energy lost in the cycle", "x", "per area");
    }
-   Table &table = study.table("cases", {{"case", "case"},
-                                        {"peak_before", "peak before", "%.6g"},
-                                        {"peak_after", "after", "%.6g"},
-                                        {"lost_before", "lost before", "%.4g"},
-                                        {"lost_after", "after", "%.4g"},
-                                        {"density_before", "per area", "%.4g"},
-                                        {"density_after", "after", "%.4g"}});
+   ResultTable &table = study.table("cases", {{"case", "case"},
+                                              {"peak_before", "peak before", "%.6g"},
+                                              {"peak_after", "after", "%.6g"},
+                                              {"lost_before", "lost before", "%.4g"},
+                                              {"lost_after", "after", "%.4g"},
+                                              {"density_before", "per area", "%.4g"},
+                                              {"density_after", "after", "%.4g"}});
    for (const DesignCase &load_case : problem.cases)
    {
       const Marched before = march_case(problem, variables.start, load_case, settings),

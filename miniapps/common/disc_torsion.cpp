@@ -121,17 +121,17 @@ void twist(Study &study, Disc &disc, Run &run, Turning::Stop stop,
    profile(0);
    plan(study, disc, "plan_before", now);
    study.title("Slip angles at 10, 50 and 90 % of the annulus: of the rate, of the total");
-   Table &table = study.table("torsion", {{"torque", "T/T_s", "%.3f"},
-                                          {"rotation", "rotation"},
-                                          {"stick", "c/t"},
-                                          {"separation", "d/t"},
-                                          {"rate_10", "rate 10 %", "%.1f"},
-                                          {"rate_50", "rate 50 %", "%.1f"},
-                                          {"rate_90", "rate 90 %", "%.1f"},
-                                          {"total_10", "total 10 %", "%.1f"},
-                                          {"total_50", "total 50 %", "%.1f"},
-                                          {"total_90", "total 90 %", "%.1f"},
-                                          {"wanted"}});
+   ResultTable &table = study.table("torsion", {{"torque", "T/T_s", "%.3f"},
+                                                {"rotation", "rotation"},
+                                                {"stick", "c/t"},
+                                                {"separation", "d/t"},
+                                                {"rate_10", "rate 10 %", "%.1f"},
+                                                {"rate_50", "rate 50 %", "%.1f"},
+                                                {"rate_90", "rate 90 %", "%.1f"},
+                                                {"total_10", "total 10 %", "%.1f"},
+                                                {"total_50", "total 50 %", "%.1f"},
+                                                {"total_90", "total 90 %", "%.1f"},
+                                                {"wanted"}});
    for (std::size_t k = 0; k < wanted.size(); ++k)
    {
       turning.on(now, stop, by_torque ? wanted[k] * disc.limit : wanted[k], observe);
@@ -213,18 +213,19 @@ void cycle(Study &study, Disc &disc, Run &run, double amplitude, int cycles)
    study.title(text("Cycles of the %s between ± %.4f, %d increments each way; d/t before %.4f",
                     disc.options.twist == Twist::traction ? "torque" : "rotation", now.at,
                     run.settings.increments, ends[0].separation));
-   Table &table = study.table("cycles", {{"cycle", "cycle"},
-                                         {"torque_there", "T/T_s there"},
-                                         {"torque_back", "and back"},
-                                         {"stick_there", "c/t there"},
-                                         {"stick_back", "and back"},
-                                         {"separation_there", "d/t there"},
-                                         {"separation_back", "and back"},
-                                         {"dissipation", "dissipation", "%.5e"},
-                                         {"external_work", "external work", "%.5e"},
-                                         {"work twist"},
-                                         {"stiffness twist", "stiffness twist", "%.4e"},
-                                         {"loss_factor twist", "loss factor twist", "%.4f"}});
+   ResultTable &table =
+      study.table("cycles", {{"cycle", "cycle"},
+                             {"torque_there", "T/T_s there"},
+                             {"torque_back", "and back"},
+                             {"stick_there", "c/t there"},
+                             {"stick_back", "and back"},
+                             {"separation_there", "d/t there"},
+                             {"separation_back", "and back"},
+                             {"dissipation", "dissipation", "%.5e"},
+                             {"external_work", "external work", "%.5e"},
+                             {"work twist"},
+                             {"stiffness twist", "stiffness twist", "%.4e"},
+                             {"loss_factor twist", "loss factor twist", "%.4f"}});
    const auto &records = run.report.cycles;
    for (std::size_t k = 0; k < records.size() && 2 * k + 2 < ends.size(); ++k)
    {

@@ -160,7 +160,8 @@ void draw_design(Study &study, const Pad &pad, const JudgedEdge &judged,
    }
    if (!pad.plane_stress)
    {
-      Table &transition = study.table("transition", {{"sliding"}, {"friction"}}); // not printed
+      ResultTable &transition =
+         study.table("transition", {{"sliding"}, {"friction"}}); // not printed
       transition.draw("Friction above which a Hertz contact is severest at its surface",
                       "sliding", "Q/fP", {{"friction", "f"}}, "friction coefficient f");
       for (int i = 4; i <= 20; i++)
@@ -333,19 +334,19 @@ void correlate(Study &study, const std::string &file, const Pad &common,
    std::ifstream stream(file);
    require(stream.good(), "cannot read the test records ", file, ".");
    study.title("Tests of " + file);
-   Table &table = study.table("records", {{"series", "series"},
-                                          {"material"},
-                                          {"cycles", "cycles", "%.3g"},
-                                          {"runout"},
-                                          {"friction"},
-                                          {"edge_stress_range", "Δσ, MPa", "%.4g"},
-                                          {"threshold_x", "X", "%.4g"},
-                                          {"design_y", "Y", "%.4g"},
-                                          {"k_t_range", "ΔK_T", "%.4g"},
-                                          {"energy_max", "energy", "%.4g"},
-                                          {"energy_total"},
-                                          {"yield_load"},
-                                          {"trust", "trust"}});
+   ResultTable &table = study.table("records", {{"series", "series"},
+                                                {"material"},
+                                                {"cycles", "cycles", "%.3g"},
+                                                {"runout"},
+                                                {"friction"},
+                                                {"edge_stress_range", "Δσ, MPa", "%.4g"},
+                                                {"threshold_x", "X", "%.4g"},
+                                                {"design_y", "Y", "%.4g"},
+                                                {"k_t_range", "ΔK_T", "%.4g"},
+                                                {"energy_max", "energy", "%.4g"},
+                                                {"energy_total"},
+                                                {"yield_load"},
+                                                {"trust", "trust"}});
    const auto over_life = [&](const char *name, const char *title, const char *y) -> Panel &
    {
       Panel &panel = study.lines(name, title, "life, cycles", y);
@@ -462,10 +463,11 @@ void correlate(Study &study, const std::string &file, const Pad &common,
    if (broke > 0 && broke < count)
    {
       study.title("Level of each measure that divides broken tests from lasting ones best");
-      Table &dividing = study.table("dividing_levels", {{"measure", "measure            "},
-                                                        {"level", "level", "%.4g"},
-                                                        {"wrong", "tests on its wrong side"},
-                                                        {"tests", "of"}});
+      ResultTable &dividing =
+         study.table("dividing_levels", {{"measure", "measure            "},
+                                         {"level", "level", "%.4g"},
+                                         {"wrong", "tests on its wrong side"},
+                                         {"tests", "of"}});
       for (const Measure &measure : measures)
       {
          const DividingLevel best(measure.tests);

@@ -178,7 +178,7 @@ void JointReport::report_interfaces(const ContactState &state, const MarchReport
    const bool faces_nothing =
       std::any_of(reduction_.interfaces.begin(), reduction_.interfaces.end(),
                   [](const InterfaceReport &face) { return !face.free_surface.empty(); });
-   Table &table =
+   ResultTable &table =
       study_.table("interfaces", {{"interface", "interface"},
                                   {"on", "forces on"},
                                   {"normal", "N (pressing)", "%.6g"},
@@ -228,7 +228,7 @@ void JointReport::report_interfaces(const ContactState &state, const MarchReport
 
 void JointReport::report_cycles(const MarchReport &march)
 {
-   Table &table = study_.table(
+   ResultTable &table = study_.table(
       "interface_cycles", {{"cycle", "cycle"},
                            {"interface", "interface"},
                            {"dissipation", "dissipation", "%.4e"},
@@ -266,10 +266,10 @@ void JointReport::report_cycles(const MarchReport &march)
 
 void JointReport::report_bolts(const ContactState &state)
 {
-   Table &table = study_.table("bolts", {{"bolt", "bolt"},
-                                         {"force", "force", "%.6g"},
-                                         {"least", "least", "%.6g"},
-                                         {"most", "most of the march", "%.6g"}});
+   ResultTable &table = study_.table("bolts", {{"bolt", "bolt"},
+                                               {"force", "force", "%.6g"},
+                                               {"least", "least", "%.6g"},
+                                               {"most", "most of the march", "%.6g"}});
    const std::vector<double> now = shanks(state);
    for (std::size_t k = 0; k < now.size(); ++k)
    {

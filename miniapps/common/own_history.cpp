@@ -305,14 +305,15 @@ void OwnHistory::report_state(const ReducedProblem &problem, const std::string &
    const std::vector<Zone> zones = cattaneo::zones(problem, state);
    const bool one_line = zones.back().chain == 0;
    const std::vector<std::string> names = interfaces(problem);
-   Table &table = study_.table("zones", {{"state", "state"},
-                                         {"from", "from", "%.5g"},
-                                         {"to", "to (arc length)", "%.5g"},
-                                         {"", "±"},
-                                         {"from_error"},
-                                         {"to_error"},
-                                         {"piece", one_line ? "" : "piece of the line"},
-                                         {"interface", names.size() > 1 ? "interface" : ""}});
+   ResultTable &table =
+      study_.table("zones", {{"state", "state"},
+                             {"from", "from", "%.5g"},
+                             {"to", "to (arc length)", "%.5g"},
+                             {"", "±"},
+                             {"from_error"},
+                             {"to_error"},
+                             {"piece", one_line ? "" : "piece of the line"},
+                             {"interface", names.size() > 1 ? "interface" : ""}});
    for (const Zone &zone : zones)
    {
       study_.row(table, {name(zone.state), zone.from.position, zone.to.position,

@@ -62,7 +62,7 @@ void add_borders(const std::vector<Zone> &zones, std::vector<nlohmann::ordered_j
 
 } // namespace
 
-void map_loads(Study &study, const Table &table, ReducedProblem problem,
+void map_loads(Study &study, const ResultTable &table, ReducedProblem problem,
                const std::vector<double> &wanted, const std::vector<double> &frictions,
                const std::function<std::string(double)> &load,
                const std::function<void(double, double, const Run &)> &row)
@@ -103,7 +103,7 @@ UnloadingPanels unload(Study &study, Run &run, const Receding &receding,
    { profiles.add_tractions(exact_text(name + " = ", level), x, problem, state, 0, shown); };
    add_profile(1, run.state);
    diagram.add(1.0, receding.extent(run.state).zones);
-   Table &table = study.table(
+   ResultTable &table = study.table(
       wanted.table, {receding.level,
                      receding.separation,
                      receding.stick,
@@ -151,12 +151,12 @@ void cycle_the_load(Study &study, Run &run, const Receding &receding,
    const ReducedProblem &problem = run.solver.problem();
    const ContactState loaded = run.state;
    study.title("Cycles of the load (observed, not proven)");
-   Table &table = study.table("load_cycles", {{"lowest", "lowest p/p0", "%.3g"},
-                                              {"first_loss", "first loss", "%.3e"},
-                                              {"last_loss", "last loss", "%.3e"},
-                                              {"cycles", "cycles"},
-                                              {"opening", "nodes that open and close"},
-                                              {"outcome", "outcome"}});
+   ResultTable &table = study.table("load_cycles", {{"lowest", "lowest p/p0", "%.3g"},
+                                                    {"first_loss", "first loss", "%.3e"},
+                                                    {"last_loss", "last loss", "%.3e"},
+                                                    {"cycles", "cycles"},
+                                                    {"opening", "nodes that open and close"},
+                                                    {"outcome", "outcome"}});
    Panel &losses = study.lines("load_losses", "Loss in each cycle of the load", "cycle",
                                receding.loss),
          &diagram = study.panel(Panel::Kind::zones, "load_cycle_zones",

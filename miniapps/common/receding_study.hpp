@@ -49,7 +49,7 @@ struct Receding
 /// Loads by name from rest, at several coefficients of friction: one condensed pair serves all.
 /// @param load its name, of each of `wanted`
 /// @param row takes friction, which of `wanted`, and the contact
-void map_loads(Study &study, const Table &table, cattaneo::ReducedProblem problem,
+void map_loads(Study &study, const ResultTable &table, cattaneo::ReducedProblem problem,
                const std::vector<double> &wanted, const std::vector<double> &frictions,
                const std::function<std::string(double)> &load,
                const std::function<void(double, double, const Run &)> &row);

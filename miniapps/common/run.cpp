@@ -179,8 +179,8 @@ std::set<std::size_t> varied_loads(const MarchReport &report)
 
 } // namespace
 
-const Table &report_cycles(Study &study, const ReducedProblem &problem,
-                           const MarchReport &report, double unit)
+const ResultTable &report_cycles(Study &study, const ReducedProblem &problem,
+                                 const MarchReport &report, double unit)
 {
    std::vector<Column> columns = {{"cycle", "cycle"},
                                   {"dissipation", "dissipation", "%.4e"},
@@ -202,7 +202,7 @@ const Table &report_cycles(Study &study, const ReducedProblem &problem,
       columns.push_back({"stiffness " + load, "stiffness " + load, "%.4e"});
       columns.push_back({"loss_factor " + load, "loss factor " + load, "%.4f"});
    }
-   Table &cycles = study.table("cycles", columns);
+   ResultTable &cycles = study.table("cycles", columns);
    ordered_json &losses = study.results["dissipation"] = ordered_json::array();
    std::set<std::string> still;
    for (const ordered_json &row : before)

@@ -80,8 +80,8 @@ void report_exact_path(Study &study, const cattaneo::ReducedProblem &problem,
 /// `dissipation`, `steady_cycle`, `steady_period` and `energy_imbalance` of the results.
 /// Energies are printed in `unit`s. A cycle of which the rest alone is known is left out, and
 /// that is said.
-const Table &report_cycles(Study &study, const cattaneo::ReducedProblem &problem,
-                           const cattaneo::MarchReport &report, double unit = 1);
+const ResultTable &report_cycles(Study &study, const cattaneo::ReducedProblem &problem,
+                                 const cattaneo::MarchReport &report, double unit = 1);
 
 /// Force over displacement in the cycles of a march, of each load that varied in them; a curve
 /// has the load's name and these words.

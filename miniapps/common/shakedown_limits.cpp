@@ -101,9 +101,9 @@ void Shakedown::monolith()
          opens = std::min(opening.load_factor, corner_opens);
          by = "the fit";
       }
-      Table &table = study.table("adhesion", {{"load_factor", "λ", "%.1f"},
-                                              {"friction", "f, full adhesion"},
-                                              {"x", "at x", "%.3f"}});
+      ResultTable &table = study.table("adhesion", {{"load_factor", "λ", "%.1f"},
+                                                    {"friction", "f, full adhesion"},
+                                                    {"x", "at x", "%.3f"}});
       for (const Adhesion &at : adhesion_map(problem, cycle, 0, {0.4, 0.6, 0.8}, inner))
       {
          study.row(table, {at.load_factor, at.friction, largest_inside(at)});
@@ -146,12 +146,12 @@ void Shakedown::leave_corner(double opens)
 
 void Shakedown::draw_adhesion(double opens, const char *by)
 {
-   Table &table = study.table("adhesion_map", {{"load_factor", "λ", "%.3f"},
-                                               {"", "full adhesion"},
-                                               {"", "at x"},
-                                               {"open"},
-                                               {"friction"},
-                                               {"x"}});
+   ResultTable &table = study.table("adhesion_map", {{"load_factor", "λ", "%.3f"},
+                                                     {"", "full adhesion"},
+                                                     {"", "at x"},
+                                                     {"open"},
+                                                     {"friction"},
+                                                     {"x"}});
    table
       .draw("Friction for full adhesion", "load_factor", "λ = Qmax/P", {{"friction", "f"}},
             "friction coefficient f")
@@ -239,7 +239,7 @@ void Shakedown::largest_load()
    if (most.status == LimitStatus::certified) { lower(); }
    if (std::isfinite(most.upper) && !part.open.empty()) { check_open_nodes(); }
    if (!standard) { return; }
-   Table &table = study.table(
+   ResultTable &table = study.table(
       "load_ratio",
       {{"reversal", "R", "%g"}, {"friction", "f", "%g"}, {"ratio", "exact λ/f", "%.5f"}});
    for (const auto &[R, f] : {std::pair{-1.0, 0.85}, {-1.0, 1.0}, {-0.5, 0.85}})
@@ -292,10 +292,11 @@ void Shakedown::lower()
 
 void Shakedown::lower_apart(const LimitSettings &settings)
 {
-   Table &table = study.table("lower_limits_apart", {{"apart", "nodes set apart"},
-                                                     {"distance", "up to from an end", "%.4g"},
-                                                     {"load_factor", "λ"},
-                                                     {"share", "over λ2", "%.4f"}});
+   ResultTable &table =
+      study.table("lower_limits_apart", {{"apart", "nodes set apart"},
+                                         {"distance", "up to from an end", "%.4g"},
+                                         {"load_factor", "λ"},
+                                         {"share", "over λ2", "%.4f"}});
    const VectorXd &arc = problem.arc_length;
    std::size_t before = 0;
    for (const double share : {0.0, 0.0025, 0.005, 0.01, 0.025})

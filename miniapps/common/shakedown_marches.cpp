@@ -62,9 +62,10 @@ void Shakedown::check_open_nodes()
             most.slip[c * problem.nodes() + static_cast<Index>(i)];
       }
    }
-   Table &table = study.table("whole_contact", {{"load_factor", "whole contact at λ", "%.6f"},
-                                                {"outcome", "outcome"},
-                                                {"loss", "loss/energy", "%.2e"}});
+   ResultTable &table =
+      study.table("whole_contact", {{"load_factor", "whole contact at λ", "%.6f"},
+                                    {"outcome", "outcome"},
+                                    {"loss", "loss/energy", "%.2e"}});
    for (const double side : {-0.01, 0.01})
    {
       const TransientReport run =
@@ -113,14 +114,14 @@ void Shakedown::marches()
    study.title(text("Marches at %s, λ = %g … %g (shaken down: the loss decays, and is "
                     "below 1e-6)",
                     law().c_str(), lambda_max, lambda_max * reversal));
-   Table &table = study.table("marches", {{"start", "start"},
-                                          {"first_loss", "first loss", "%.4e"},
-                                          {"last_loss", "last loss", "%.4e"},
-                                          {"decay", "decay", "%.3f"},
-                                          {"cycles", "cycles"},
-                                          {"opened_nodes", "nodes that open"},
-                                          {"opened_loss", "loss at these", "%.1e"},
-                                          {"outcome", "outcome"}});
+   ResultTable &table = study.table("marches", {{"start", "start"},
+                                                {"first_loss", "first loss", "%.4e"},
+                                                {"last_loss", "last loss", "%.4e"},
+                                                {"decay", "decay", "%.3f"},
+                                                {"cycles", "cycles"},
+                                                {"opened_nodes", "nodes that open"},
+                                                {"opened_loss", "loss at these", "%.1e"},
+                                                {"outcome", "outcome"}});
    Panel &losses =
       study.lines("losses", "Loss in the cycle", "cycle", of_punch("loss × E'/P²", "loss"));
    losses.say("scale: semilogy");
@@ -186,12 +187,12 @@ void Shakedown::marches()
 void Shakedown::limit_map()
 {
    const Stopwatch watch;
-   Table &table = study.table("map", {{"friction", "f", "%.2f"},
-                                      {"reversal", "R", "%.2f"},
-                                      {"ratio", "λmax/f", "%.5f"},
-                                      {"load_limit"},
-                                      {"lower"},
-                                      {"upper"}});
+   ResultTable &table = study.table("map", {{"friction", "f", "%.2f"},
+                                            {"reversal", "R", "%.2f"},
+                                            {"ratio", "λmax/f", "%.5f"},
+                                            {"load_limit"},
+                                            {"lower"},
+                                            {"upper"}});
    table.draw("Largest load", "ratio", "Qmax/fP", {{"friction", "f"}}, "friction coefficient f",
               {"reversal", "R"});
    LimitReport column[4];
@@ -215,16 +216,16 @@ void Shakedown::limit_map()
 
 void Shakedown::repeat(const char *table_name, const PunchOptions &other)
 {
-   Table &table = study.table(table_name, {{"nodes", "nodes"},
-                                           {"plane_stiffness", "plane/block", "%g"},
-                                           {"plane_poisson", "its ν", "%.3g"},
-                                           {"alpha", "Dundurs α", "%.4f"},
-                                           {"beta", "β", "%.4f"},
-                                           {"dofs", "dofs"},
-                                           {"coupling", "coupling"},
-                                           {"friction_limit", "least f", "%.6f"},
-                                           {"load_limit", "largest λ", "%.6f"},
-                                           {"load_limit_reversed", "λ, R = -1", "%.6f"}});
+   ResultTable &table = study.table(table_name, {{"nodes", "nodes"},
+                                                 {"plane_stiffness", "plane/block", "%g"},
+                                                 {"plane_poisson", "its ν", "%.3g"},
+                                                 {"alpha", "Dundurs α", "%.4f"},
+                                                 {"beta", "β", "%.4f"},
+                                                 {"dofs", "dofs"},
+                                                 {"coupling", "coupling"},
+                                                 {"friction_limit", "least f", "%.6f"},
+                                                 {"load_limit", "largest λ", "%.6f"},
+                                                 {"load_limit_reversed", "λ, R = -1", "%.6f"}});
    Scene changed = make_punch(other);
    study.counters += changed.reduction.counters;
    LimitProblem on = limit_problem(changed.problem(), cycle_of(changed.problem(), reversal));

@@ -58,11 +58,11 @@ void Shakedown::draw_monolith()
       ratio.add(exact_text("λ = ", load), x.segment(first, count),
                 VectorXd(q.cwiseQuotient(p)));
    }
-   Table &table = study.table("monolith", {{"x", "x/a", "%.1f"},
-                                           {"p_p", "p/p0, P"},
-                                           {"q_p", "q/p0, P"},
-                                           {"p_q", "p/q0, Q"},
-                                           {"q_q", "q/q0, Q"}});
+   ResultTable &table = study.table("monolith", {{"x", "x/a", "%.1f"},
+                                                 {"p_p", "p/p0, P"},
+                                                 {"q_p", "q/p0, P"},
+                                                 {"p_q", "p/q0, Q"},
+                                                 {"q_q", "q/q0, Q"}});
    study.title("Tractions of the monolith");
    for (const double place : {0.0, 0.2, 0.5, 0.8})
    {

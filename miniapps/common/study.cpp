@@ -195,13 +195,13 @@ void Study::value(const std::string &key, double x, const std::string &label, do
    say(line + (unit.empty() ? "" : " " + unit));
 }
 
-Table &Study::table(const std::string &name, const std::vector<Column> &columns)
+ResultTable &Study::table(const std::string &name, const std::vector<Column> &columns)
 {
-   for (Table &table : tables_)
+   for (ResultTable &table : tables_)
    {
       if (table.name() == name) { return table; }
    }
-   const Table &made = tables_.emplace_back(name, columns);
+   const ResultTable &made = tables_.emplace_back(name, columns);
    sheets_.push_back([&made] { return Sheet{made.name(), made.csv(), made.drawn()}; });
    return tables_.back();
 }
@@ -211,7 +211,7 @@ void Study::list(const std::string &name, const ordered_json &rows)
    sheets_.push_back([sheet = Sheet{name, csv_of(rows), false}] { return sheet; });
 }
 
-void Study::row(Table &table, const std::vector<ordered_json> &values,
+void Study::row(ResultTable &table, const std::vector<ordered_json> &values,
                 const std::vector<std::pair<std::string, double>> &errors,
                 const ordered_json &more)
 {
@@ -273,17 +273,17 @@ void Study::compare_references()
    if (compared_.empty()) { return; }
    std::size_t width = 8;
    for (const Reference &one : compared_) { width = std::max(width, characters(one.name)); }
-   Table &all = table("references", {{"quantity"},
-                                     {"", padded("quantity", width)},
-                                     {"reference", "reference", "%.5g"},
-                                     {"spread", "its ±", "%.2g"},
-                                     {"mesh", "mesh ±", "%.2g"},
-                                     {"thesis", "thesis", "%.4g"},
-                                     {"computed", "computed", "%.5g"},
-                                     {"", "difference", "%+.2g"},
-                                     {"verdict", "outside of its ±"},
-                                     {"tolerance"},
-                                     {"outside"}});
+   ResultTable &all = table("references", {{"quantity"},
+                                           {"", padded("quantity", width)},
+                                           {"reference", "reference", "%.5g"},
+                                           {"spread", "its ±", "%.2g"},
+                                           {"mesh", "mesh ±", "%.2g"},
+                                           {"thesis", "thesis", "%.4g"},
+                                           {"computed", "computed", "%.5g"},
+                                           {"", "difference", "%+.2g"},
+                                           {"verdict", "outside of its ±"},
+                                           {"tolerance"},
+                                           {"outside"}});
    for (const Reference &one : compared_)
    {
       row(all, {one.name, padded(one.name, width), one.value, one.allowed.spread,
@@ -304,7 +304,7 @@ void Study::finish()
                      "option --save: this run has no reduced problem to save");
    begun_.paths.clear();
    compare_references();
-   for (const Table &table : tables_) { results[table.name()] = table.json(); }
+   for (const ResultTable &table : tables_) { results[table.name()] = table.json(); }
    if (!results.contains("status")) { results["status"] = "converged"; }
    if (nodes_ > 0)
    {
@@ -337,7 +337,7 @@ void Study::write_html(const std::vector<Sheet> &sheets) const
    {
       if (!film.empty()) { films.push_back(film.json()); }
    }
-   for (const Table &table : tables_)
+   for (const ResultTable &table : tables_)
    {
       const ordered_json printed = table.printed();
       if (!printed["head"].empty() && !printed["rows"].empty()) { tables.push_back(printed); }

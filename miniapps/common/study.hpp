@@ -101,12 +101,12 @@ public:
               double error = none, const std::string &unit = "");
 
    /// The table of that name, made if it is not there yet.
-   Table &table(const std::string &name, const std::vector<Column> &columns);
+   ResultTable &table(const std::string &name, const std::vector<Column> &columns);
    /// A CSV file of a list of results that is printed line by line.
    void list(const std::string &name, const nlohmann::ordered_json &rows);
    /// A row of it, with the errors of the columns that have one, for the references: these have
    /// the key "table/column", and their conditions may name columns.
-   void row(Table &table, const std::vector<nlohmann::ordered_json> &values,
+   void row(ResultTable &table, const std::vector<nlohmann::ordered_json> &values,
             const std::vector<std::pair<std::string, double>> &errors = {},
             const nlohmann::ordered_json &more = {});
 
@@ -154,7 +154,7 @@ private:
       std::vector<std::string> paths;
       ~Begun();
    } begun_;
-   std::deque<Table> tables_;
+   std::deque<ResultTable> tables_;
    std::deque<Panel> panels_;
    std::deque<Film> films_;
    int cycles_before_ = 0, histories_ = 0;

@@ -448,7 +448,7 @@ void run_sweep(Study &study, const std::string &statements, const std::string &w
    }
    columns.push_back({"status", "status"});
    columns.push_back({"message"});
-   Table &table = study.table("sweep", columns);
+   ResultTable &table = study.table("sweep", columns);
    long converged = 0;
    std::set<std::string> refusals;
    for (const Point &point : points)

@@ -73,9 +73,9 @@ std::string lines_of(const std::vector<std::string> &keys, const ordered_json &r
 }
 
 /// The table whose headings stand above what is printed next.
-const Table *&on_screen()
+const ResultTable *&on_screen()
 {
-   static const Table *table = nullptr;
+   static const ResultTable *table = nullptr;
    return table;
 }
 
@@ -86,12 +86,12 @@ double settled(double sum, double size)
    return std::abs(sum) < 1e-12 * size ? 0 : sum;
 }
 
-Table::Table(const std::string &name, const std::vector<Column> &columns)
+ResultTable::ResultTable(const std::string &name, const std::vector<Column> &columns)
    : name_(name), columns_(columns)
 {
 }
 
-void Table::print_headings()
+void ResultTable::print_headings()
 {
    if (on_screen() == this) { return; }
    on_screen() = this;
@@ -105,8 +105,8 @@ void Table::print_headings()
    std::printf("\n%s\n", line.c_str());
 }
 
-const ordered_json &Table::row(const std::vector<ordered_json> &values,
-                               const ordered_json &more)
+const ordered_json &ResultTable::row(const std::vector<ordered_json> &values,
+                                     const ordered_json &more)
 {
    cattaneo::require(values.size() == columns_.size(), "table ", name_, ": a row has ",
                      values.size(), " values for ", columns_.size(), " columns");
@@ -132,8 +132,9 @@ const ordered_json &Table::row(const std::vector<ordered_json> &values,
    return rows_.back();
 }
 
-Table &Table::draw(const std::string &title, const std::string &x, const std::string &x_label,
-                   const std::vector<Curve> &y, const std::string &y_label, const Curve &by)
+ResultTable &ResultTable::draw(const std::string &title, const std::string &x,
+                               const std::string &x_label, const std::vector<Curve> &y,
+                               const std::string &y_label, const Curve &by)
 {
    comments_ = "# kind: table\n# title: " + title + "\n# x: " + x_label + "\n# y: " + y_label +
                "\n# over: " + x + "\n";
@@ -145,19 +146,19 @@ Table &Table::draw(const std::string &title, const std::string &x, const std::st
    return *this;
 }
 
-Table &Table::mark(double x, double y)
+ResultTable &ResultTable::mark(double x, double y)
 {
    comments_ += text("# mark: %g,%g\n", x, y);
    return *this;
 }
 
-Table &Table::shade(double from, double to, const std::string &word)
+ResultTable &ResultTable::shade(double from, double to, const std::string &word)
 {
    comments_ += text("# shade: %g,%g,", from, to) + word + "\n";
    return *this;
 }
 
-ordered_json Table::printed() const
+ordered_json ResultTable::printed() const
 {
    ordered_json head = ordered_json::array();
    for (const Column &column : columns_)
@@ -167,7 +168,7 @@ ordered_json Table::printed() const
    return {{"name", name_}, {"head", head}, {"rows", printed_}};
 }
 
-std::string Table::csv() const
+std::string ResultTable::csv() const
 {
    std::vector<std::string> keys;
    for (const Column &column : columns_)
@@ -195,7 +196,7 @@ std::string csv_of(const ordered_json &rows)
    return rows.empty() ? "" : lines_of(keys, flat);
 }
 
-std::vector<ordered_json> Table::values(const ordered_json &row) const
+std::vector<ordered_json> ResultTable::values(const ordered_json &row) const
 {
    std::vector<ordered_json> result;
    for (const Column &column : columns_)

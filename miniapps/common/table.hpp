@@ -20,10 +20,10 @@ struct Column
 /** Rows that are stated once: printed, aligned, as they come; in JSON a list of objects with
     the columns' keys; a CSV file with one column each; and, if asked for, a panel of the
     figure. */
-class Table
+class ResultTable
 {
 public:
-   Table(const std::string &name, const std::vector<Column> &columns);
+   ResultTable(const std::string &name, const std::vector<Column> &columns);
 
    /// Values in the order of the columns: numbers (not finite: "-", null in JSON), words, zones
    /// (to_json()), or whatever else is not printed. `more` goes to JSON alone.
@@ -39,12 +39,13 @@ public:
    {
       std::string key, word;
    };
-   Table &draw(const std::string &title, const std::string &x, const std::string &x_label,
-               const std::vector<Curve> &y, const std::string &y_label, const Curve &by = {});
+   ResultTable &draw(const std::string &title, const std::string &x, const std::string &x_label,
+                     const std::vector<Curve> &y, const std::string &y_label,
+                     const Curve &by = {});
    /// Values of the thesis, marked in the figure.
-   Table &mark(double x, double y);
+   ResultTable &mark(double x, double y);
    /// A stretch of x with a word in it.
-   Table &shade(double from, double to, const std::string &word);
+   ResultTable &shade(double from, double to, const std::string &word);
    bool drawn() const { return !comments_.empty(); }
 
    const std::string &name() const { return name_; }
@@ -66,7 +67,8 @@ private:
 /// within, "notes.0" of lists.
 std::string csv_of(const nlohmann::ordered_json &rows);
 
-/// Rows of a file that Table::csv() made, by the keys of its columns; none if it is not there.
+/// Rows of a file that ResultTable::csv() made, by the keys of its columns; none if it is not
+/// there.
 std::vector<nlohmann::ordered_json> read_rows(const std::string &file);
 
 } // namespace miniapp

@@ -15,7 +15,7 @@ namespace cattaneo
 namespace
 {
 
-class IterativeSolver : public BodySolver
+class IteratedBodySolver : public BodySolver
 {
 public:
    std::shared_ptr<const DistributedSolver> solver; ///< shared by equal bodies
@@ -158,10 +158,10 @@ Condensation condense_by_iterations(const ElasticBody &body, const ContactLine &
    const std::vector<int> contact = dofs.free();
    found.free = free_motions_on_ranks(body, line);
    found.free.contact = found.free.contact(dofs.free_positions(), Eigen::all).eval();
-   auto solver = std::make_shared<IterativeSolver>();
+   auto solver = std::make_shared<IteratedBodySolver>();
    solver->loads = body.patterns();
    solver->solver = std::make_shared<const DistributedSolver>(body, contact, max_iterations);
-   const auto *other = dynamic_cast<const IterativeSolver *>(alike);
+   const auto *other = dynamic_cast<const IteratedBodySolver *>(alike);
    if (other && solver->solver->equals(*other->solver))
    {
       solver->solver = other->solver;
