@@ -72,7 +72,7 @@ build_mpi_mfem()
    printf '%s\n' 'file(GLOB alone ${PROJECT_SOURCE_DIR}/fem/qinterp/*.cpp ${PROJECT_SOURCE_DIR}/fem/tmop/*.cpp' \
       '   ${PROJECT_SOURCE_DIR}/fem/integ/*kernels.cpp)' \
       'set_source_files_properties(${alone} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)' >>"$source/CMakeLists.txt"
-   say "building MFEM with MPI and hypre (once, about 5 minutes on two cores)"
+   say "building MFEM with MPI and hypre (once, about 7 minutes on two cores)"
    cmake -S "$source" -B "$courier/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX="$MFEM_DIR.part" \
       -DCMAKE_UNITY_BUILD=ON -DMFEM_USE_MPI=ON -DMFEM_USE_METIS=ON -DMFEM_USE_METIS_5=ON -DMFEM_USE_SUITESPARSE=ON -DMFEM_USE_EXCEPTIONS=ON \
       -DMFEM_ENABLE_EXAMPLES=OFF -DMFEM_ENABLE_MINIAPPS=OFF -DMFEM_ENABLE_TESTING=OFF \
