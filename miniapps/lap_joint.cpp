@@ -118,7 +118,9 @@ void single(Study &study, Joint &joint)
                read_out_error(o.stick_steady));
    study.value("dissipation_first", o.first() / joint.unit(),
                "loss in the first cycle D E'/P0²");
-   study.value("dissipation_steady", o.steady() / joint.unit(), "and in the last one");
+   study.value("dissipation_steady", o.steady() / joint.unit(),
+               o.report.steady_cycle ? "and in the steady one"
+                                     : "and in the last one (not steady yet)");
    study.value("work_error", o.work_error(), "work of the last cycle over it, less 1");
    study.value("asymmetry",
                std::max({asymmetry(o.tightened.p), asymmetry(o.first_peak.p),
@@ -157,6 +159,7 @@ void sweep(Study &study, Joint &joint, const std::vector<double> &loads,
                                               {"c_steady", "c steady"},
                                               {"dissipation_first", "D first", "%.3e"},
                                               {"dissipation_steady", "D steady", "%.3e"},
+                                              {"steady_cycle", "steady from", "%g"},
                                               {"status"}});
    Panel &extents = study.lines("extent", "Steady contact a and stick c", "T/P0",
                                 "a/t (upper), c/t (lower)"),
@@ -189,7 +192,7 @@ void sweep(Study &study, Joint &joint, const std::vector<double> &loads,
                study.row(table,
                          {f, width, pressure, T, pinched, half(o.pulled), half(o.stick_first),
                           half(o.stick_steady), ends ? none : o.first() / joint.unit(), loss,
-                          name(o.report.status)});
+                          ends ? none : o.report.steady_cycle, name(o.report.status)});
                if (widths.size() > 1)
                {
                   const std::string label = exact_text("T/P0 = ", T) + ", " + rubbed;

@@ -152,10 +152,20 @@ void square_punch(Study &study)
    run.cycle({{{"Q", Q}}, {{"Q", -Q}}}, cycles);
    report_exact_path(study, run);
    report_cycles(study, problem, run.report);
-   if (run.report.cycles.size() > 1)
+   const MarchReport &report = run.report;
+   if (report.cycles.empty()) { return; }
+   if (report.steady_cycle == 0)
    {
-      study.value("steady_loss", run.report.cycles.back().dissipation, "steady loss a cycle");
+      study.value("last_loss", report.cycles.back().dissipation,
+                  "loss in the last cycle (not steady yet)");
+      return;
    }
+   double loss = 0;
+   for (int k = 1; k <= report.steady_period; ++k)
+   {
+      loss += report.cycles[report.cycles.size() - k].dissipation / report.steady_period;
+   }
+   study.value("steady_loss", loss, "steady loss a cycle");
 }
 
 } // namespace

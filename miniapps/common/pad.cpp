@@ -155,6 +155,11 @@ SolvedPad solve(Study &study, const Pad &pad, const PadContact &closed_form)
    SolvedPad solved;
    solved.dofs = scene.dofs;
    solved.steady_cycle = run.report.steady_cycle;
+   if (solved.steady_cycle == 0)
+   {
+      warn("the cycle of the finite element pad is not steady yet: energies and stresses are "
+           "those of its fourth");
+   }
    solved.half_width = edges[0].half_width;
    solved.spacing = smallest_step(options.grid) / pad.order;
    for (const std::size_t e : {0, 1})

@@ -173,7 +173,7 @@ TEST(LapJoint, SweepKnowsNothingOfWhatSlidAway)
    EXPECT_EQ(slid["a0"], held["a0"]); // both were pinched alike
    EXPECT_GT(slid["a0"], 0.5);
    for (const char *key :
-        {"a", "c_first", "c_steady", "dissipation_first", "dissipation_steady"})
+        {"a", "c_first", "c_steady", "dissipation_first", "dissipation_steady", "steady_cycle"})
    {
       EXPECT_TRUE(slid[key].is_null()) << key;
       EXPECT_GT(held[key], 0) << key;

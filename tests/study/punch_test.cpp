@@ -39,6 +39,23 @@ TEST(SquarePunch, RigidPlaneMeetsTheReferencesAtBothOrders)
    }
 }
 
+// What the last cycle loses is called steady where the march is: from the first cycle on below
+// what friction bears without slip, not after one or two of a shear that turns all of the slip.
+TEST(SquarePunch, OnlyASteadyLossIsCalledOne)
+{
+   const auto loss = [](const std::string &options, const char *key, const char *other)
+   {
+      const auto run = run_miniapp("square_punch", "-shear none " + options);
+      SCOPED_TRACE(run.output);
+      EXPECT_FALSE(run.results.contains(other));
+      return run.results.at(key).get<double>();
+   };
+   const char *steady = "steady_loss", *last = "last_loss";
+   EXPECT_EQ(loss("-friction 0.5 -amplitude 0.3 -cycles 2", steady, last), 0);
+   EXPECT_GT(loss("-friction 0.5 -amplitude 0.7 -cycles 2", last, steady), 0);
+   EXPECT_GT(loss("-cycles 1", last, steady), 9.17e-4); // the studies' notes, part A
+}
+
 TEST(SquarePunch, HalfPlaneMeetsTheReferencesAtBothOrders)
 {
    for (const char *order : {"1", "2"})
