@@ -119,7 +119,7 @@ void Shakedown::marches()
                                                 {"last_loss", "last loss", "%.4e"},
                                                 {"decay", "decay", "%.3f"},
                                                 {"cycles", "cycles"},
-                                                {"opened_nodes", "nodes that open"},
+                                                {"opened_nodes", "nodes that open", "%.0f"},
                                                 {"opened_loss", "loss at these", "%.1e"},
                                                 {"outcome", "outcome"}});
    Panel &losses =
@@ -136,9 +136,13 @@ void Shakedown::marches()
       const TransientReport run =
          counted(transient(solver, limit, lambda_max, sign * optimal, of_cycles(watch)));
       const auto &loss = run.dissipation;
+      // What no whole cycle has shown is not known, and not zero.
+      const auto seen = [&](double value) { return loss.empty() ? none : value; };
+      const auto opened_nodes = static_cast<double>(run.opened.size());
       study.row(table,
                 {start, loss.empty() ? none : loss.front(), loss.empty() ? none : loss.back(),
-                 run.decay, loss.size(), run.opened.size(), run.opened_loss, outcome(run)},
+                 seen(run.decay), loss.size(), seen(opened_nodes), seen(run.opened_loss),
+                 outcome(run)},
                 {}, {{"dissipation", loss}, {"status", name(run.status)}});
       if (!run.message.empty()) { study.say("      " + run.message); }
       if (!run.opened.empty())
