@@ -14,7 +14,6 @@
 #include "common/punch.hpp"
 #include "common/receding.hpp"
 
-#include <cattaneo/algebra/dense_algebra.hpp>
 #include <cattaneo/algebra/dense_cholesky.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
@@ -74,14 +73,11 @@ ArrayXd singular_values(const MatrixXd &block)
       {
          std::srand(1); // Eigen's random numbers are those of the C library
          const MatrixXd image = block * MatrixXd::Random(block.cols(), columns);
-         Q = thin_qr(image).Q.transpose() * block;
+         Q = Eigen::HouseholderQR<MatrixXd>(image).householderQ() *
+             MatrixXd::Identity(block.rows(), columns);
+         Q = (Q.transpose() * block).eval();
       }
-      // They are the positive eigenvalues of [0 Q; Qᵀ 0], to round-off of the largest, and
-      // compile in a tenth of the time of a singular value decomposition.
-      MatrixXd both = MatrixXd::Zero(Q.rows() + Q.cols(), Q.rows() + Q.cols());
-      both.bottomLeftCorner(Q.cols(), Q.rows()) = Q.transpose();
-      const ArrayXd values =
-         symmetric_eigenvalues(both).tail(std::min(Q.rows(), Q.cols())).reverse();
+      const ArrayXd values = Eigen::BDCSVD<MatrixXd>(Q).singularValues();
       if (columns >= all || values[columns - 9] < 0.1 * accuracies[1]) { return values; }
    }
 }

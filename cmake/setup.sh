@@ -181,6 +181,7 @@ prepare()
    # The core knows no MFEM: where it is built for the serial flavour the other one uses it.
    if [ "$flavour$build_type" = mpiRelease ] && [ -f build/release/build.ninja ]; then
       build_targets build/release cattaneo_core
+      ninja -C build/release -t cleandead >/dev/null # objects of rooms that are no more
       CATTANEO_CMAKE_ARGS="${CATTANEO_CMAKE_ARGS:-} -DCATTANEO_CORE_OBJECTS=$PWD/build/release/CMakeFiles/cattaneo_core.dir"
    fi
    local configuration="$MFEM_DIR ${CATTANEO_CMAKE_ARGS:-}"

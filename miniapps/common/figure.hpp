@@ -17,8 +17,7 @@ constexpr std::size_t most_drawn = 4096;
     ("# kind: lines", "# title: …", "# x: …", "# y: …"), then a tidy table: one row a point
     (series, style, x, y), a zone (time, state, from, to), a ring (its state, from, to) or arrow
     (rate or total, radius, angle) of a plan, or a point of a field (series, x, y, value).
-    miniapps/plot/plot.py draws any list of such files, and tables that say how (ResultTable).
- */
+    miniapps/plot/plot.py draws any list of such files, and every ResultTable that says how. */
 class Panel
 {
 public:

@@ -8,10 +8,10 @@ namespace miniapp
 {
 
 /** Runs of a study that differ in the values of some options: all combinations, the first key
-    slowest, each a process of the same program, as many at a time as there are cores.
-   ResultTable, results and figure of the study are then those of the sweep: a row a point, in
-   the order of the sweep, with the status of each. A point that is no equilibrium or was
-   refused is a row that says so. Ctrl-C leaves the points that were computed.
+    slowest, each a process of the same program, as many at a time as there are cores. Table,
+    results and figure of the study are then those of the sweep: a row a point, in the order of
+    the sweep, with the status of each. A point that is no equilibrium or was refused is a row
+    that says so. Ctrl-C leaves the points that were computed.
 
     @param statements "KEY=values; …", see Options::command(); values are words or numbers with
     spaces between, or from:to:count

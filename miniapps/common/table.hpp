@@ -67,8 +67,7 @@ private:
 /// within, "notes.0" of lists.
 std::string csv_of(const nlohmann::ordered_json &rows);
 
-/// Rows of a file that ResultTable::csv() made, by the keys of its columns; none if it is not
-/// there.
+/// Rows of what ResultTable::csv() made, by the keys of its columns; none without the file.
 std::vector<nlohmann::ordered_json> read_rows(const std::string &file);
 
 } // namespace miniapp
