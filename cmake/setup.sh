@@ -182,7 +182,7 @@ prepare()
    if [ "$flavour$build_type" = mpiRelease ] && [ -f build/release/build.ninja ]; then
       build_targets build/release cattaneo_core
       ninja -C build/release -t cleandead >/dev/null # objects of rooms that are no more
-      CATTANEO_CMAKE_ARGS="${CATTANEO_CMAKE_ARGS:-} -DCATTANEO_CORE_OBJECTS=$PWD/build/release/CMakeFiles/cattaneo_core.dir"
+      CATTANEO_CMAKE_ARGS="${CATTANEO_CMAKE_ARGS:-} -DCATTANEO_CORE_OBJECTS=$PWD/build/release/CMakeFiles"
    fi
    local configuration="$MFEM_DIR ${CATTANEO_CMAKE_ARGS:-}"
    if [ ! -f "$build/build.ninja" ] || [ "$(cat "$build/configured" 2>/dev/null)" != "$configuration" ]; then

@@ -20,7 +20,7 @@
 //                axisymmetric_receding -cycle-to 0.5 -load-cycles 6 -steps 20 -spacing 0.05
 //                axisymmetric_receding -domain 100 -spacing 0.04
 
-#include "common/disc_torsion.hpp"
+#include "axisymmetric_receding/disc_torsion.hpp"
 
 #include <algorithm>
 #include <cattaneo/input_error.hpp>

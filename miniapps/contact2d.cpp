@@ -15,11 +15,11 @@
 //                contact2d -mesh1 meshes/rounded_punch.msh -contact1 3 -load1 "P pressure 2 .1"
 
 #include "common/contact_edges.hpp"
-#include "common/joint_report.hpp"
-#include "common/own_bodies.hpp"
 #include "common/own_history.hpp"
-#include "common/own_options.hpp"
-#include "common/own_warnings.hpp"
+#include "contact2d/joint_report.hpp"
+#include "contact2d/own_bodies.hpp"
+#include "contact2d/own_options.hpp"
+#include "contact2d/own_warnings.hpp"
 
 #include <algorithm>
 #include <cattaneo/input_error.hpp>

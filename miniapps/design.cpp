@@ -21,11 +21,11 @@
 //                design --scene punch --coat "0.2 0.8" --goal loss --shear 0.5 --lines 8
 //                design --case problems/bolt_row.case.json
 
-#include "common/design_choice.hpp"
-#include "common/design_read_outs.hpp"
-#include "common/design_scene.hpp"
 #include "common/run.hpp"
 #include "common/watch.hpp"
+#include "design/design_choice.hpp"
+#include "design/design_read_outs.hpp"
+#include "design/design_scene.hpp"
 
 #include <cattaneo/design/design.hpp>
 #include <cattaneo/input_error.hpp>

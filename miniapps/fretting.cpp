@@ -22,11 +22,11 @@
 //                fretting -Q 5 -bs 10 -plot fretting.png -csv fretting
 //                fretting -plot fretting.svg -csv f -rec miniapps/data/fretting_records.csv
 
-#include "common/critical_planes.hpp"
-#include "common/fretting_figures.hpp"
-#include "common/fretting_page.hpp"
-#include "common/pad.hpp"
 #include "common/shipped.hpp"
+#include "fretting/critical_planes.hpp"
+#include "fretting/fretting_figures.hpp"
+#include "fretting/fretting_page.hpp"
+#include "fretting/pad.hpp"
 
 #include <cattaneo/fretting/from_contact.hpp>
 #include <cattaneo/fretting/measures.hpp>

@@ -16,8 +16,8 @@
 //                lap_joint -friction 0.8 -load 0.01
 //                lap_joint -friction 0.8 -load 0.03
 
-#include "common/bolted_loop.hpp"
 #include "common/contact_edges.hpp"
+#include "lap_joint/bolted_loop.hpp"
 
 #include <algorithm>
 #include <cattaneo/input_error.hpp>

@@ -20,8 +20,8 @@
 //                plane_receding -obstacle th0 -unload 0.5
 //                plane_receding -obstacle th0 -overhang 2 -unload 0.5
 
-#include "common/bonded_strip.hpp"
 #include "common/receding_study.hpp"
+#include "plane_receding/bonded_strip.hpp"
 
 #include <algorithm>
 #include <array>

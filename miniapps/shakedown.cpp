@@ -25,7 +25,7 @@
 //                shakedown -march -cycles 2
 //                shakedown -nodes 33 -find load -strength ".8 .6 2 .9"
 
-#include "common/shakedown_study.hpp"
+#include "shakedown/shakedown_study.hpp"
 
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/reduced_file.hpp>

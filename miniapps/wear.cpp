@@ -15,7 +15,7 @@
 
 #include "common/run.hpp"
 #include "common/watch.hpp"
-#include "common/wear_read_outs.hpp"
+#include "wear/wear_read_outs.hpp"
 
 #include <algorithm>
 #include <cattaneo/friction/history_statements.hpp>

@@ -1,0 +1,520 @@
+#include "contact2d/joint_case.hpp"
+
+#include <algorithm>
+#include <cattaneo/input_error.hpp>
+#include <cctype>
+#include <cmath>
+
+namespace miniapp
+{
+
+using namespace cattaneo;
+using nlohmann::ordered_json;
+
+namespace
+{
+
+const std::vector<std::string> analyses = {"plane strain", "plane stress", "axisymmetric"};
+const std::vector<std::string> slaves = {"coarser", "finer", "first", "second"};
+
+/// A JSON value with its place in the case file, for errors.
+class Key
+{
+public:
+   Key(const ordered_json &value, std::string path) : value_(value), path_(std::move(path)) {}
+
+   std::string called() const { return "key '" + path_ + "'"; }
+   const std::string &path() const { return path_; }
+   const ordered_json &value() const { return value_; }
+   [[noreturn]] void refuse(const std::string &allowed) const
+   {
+      // Nothing nested is shown: it may be too deep to be written.
+      throw InputError(called() + " is " +
+                       (value_.is_structured() ? value_.type_name() : value_.dump()) +
+                       ", must be " + allowed);
+   }
+   bool has(const std::string &name) const { return value_.contains(name); }
+   Key operator[](const std::string &name) const
+   {
+      require(has(name), called(), " has no '", name, "', must have one");
+      return {value_.at(name), path_ + "." + name};
+   }
+   /// InputError unless it is an object of no other keys.
+   void must_be_of(const std::vector<std::string> &keys) const
+   {
+      if (!value_.is_object()) { refuse("an object"); }
+      for (const auto &item : value_.items())
+      {
+         require(std::find(keys.begin(), keys.end(), item.key()) != keys.end(), called(),
+                 ": unknown key '", item.key(), "', must be one of ", listed(keys));
+      }
+   }
+   std::string text() const
+   {
+      if (!value_.is_string()) { refuse("a string"); }
+      return value_.get<std::string>();
+   }
+   double number(const Check &check = any) const
+   {
+      if (!value_.is_number()) { refuse("a number"); }
+      const double x = value_.get<double>();
+      require(check.holds(x), called(), " is ", x, ", ", check.must);
+      return x;
+   }
+   bool flag() const
+   {
+      if (!value_.is_boolean()) { refuse("true or false"); }
+      return value_.get<bool>();
+   }
+   /// A list, or one value for a list of one.
+   std::vector<Key> list() const
+   {
+      std::vector<Key> keys;
+      if (!value_.is_array()) { return {*this}; }
+      for (std::size_t k = 0; k < value_.size(); ++k)
+      {
+         keys.emplace_back(value_[k], path_ + "." + std::to_string(k));
+      }
+      return keys;
+   }
+   std::vector<double> numbers(const Check &check) const
+   {
+      std::vector<double> all;
+      for (const Key &key : list()) { all.push_back(key.number(check)); }
+      require(!all.empty(), called(), " is empty, must have a number");
+      return all;
+   }
+   std::string statements() const
+   {
+      std::vector<std::string> all;
+      for (const Key &key : list()) { all.push_back(key.text()); }
+      return listed(all, "; ");
+   }
+   std::string choice(const std::vector<std::string> &choices) const
+   {
+      const std::string word = text();
+      require(std::find(choices.begin(), choices.end(), word) != choices.end(), called(), ": '",
+              word, "' is not one of ", listed(choices));
+      return word;
+   }
+   std::array<double, 2> pair() const
+   {
+      if (!value_.is_array() || value_.size() != 2) { refuse("two numbers"); }
+      const std::vector<double> both = numbers(any);
+      return {both[0], both[1]};
+   }
+   JointCase::Profile profile(const Check &check) const
+   {
+      JointCase::Profile made;
+      if (value_.is_string())
+      {
+         made.function.emplace(called(), text(), std::vector<std::string>{"s", "x", "y"});
+      }
+      else if (value_.is_number()) { made.points = {{0, number(check)}}; }
+      else
+      {
+         if (!value_.is_array() || value_.size() < 2)
+         {
+            refuse("a number, a function of the arc length s and the place x, y, or a table "
+                   "[[arc length, value], "
+                   "…] of two points or more");
+         }
+         for (const Key &point : list())
+         {
+            made.points.push_back(point.pair());
+            require(check.holds(made.points.back()[1]), point.called(), ": ",
+                    made.points.back()[1], " ", check.must);
+            const std::size_t k = made.points.size() - 1;
+            require(k == 0 || made.points[k][0] > made.points[k - 1][0], point.called(),
+                    ": arc length ", made.points[k][0], " follows ",
+                    k ? made.points[k - 1][0] : 0.0, ", must increase");
+         }
+      }
+      return made;
+   }
+
+private:
+   const ordered_json &value_;
+   std::string path_;
+};
+
+JointCase::Source source(const Key &key)
+{
+   return {"key '" + key.path() + ".", "'"};
+}
+
+/// Names stand in statements and in the names of files.
+void check_name(const Key &key, const std::string &name)
+{
+   require(!name.empty() && name.find_first_of(" :=,;\"/\\\t\n") == std::string::npos,
+           key.called(),
+           ": a name must not be empty nor hold a space, a slash or any of : = , "
+           "; \"");
+}
+
+/// "held", "free", {"force": "Q", "value": 10} or {"displacement": "D"}; about the centre
+/// {"moment": …} or {"angle": …}.
+Guide::Along along(const Key &key, bool turns)
+{
+   Guide::Along made;
+   if (key.value().is_string())
+   {
+      made.motion =
+         key.choice({"held", "free"}) == "held" ? Guide::Motion::held : Guide::Motion::free;
+      return made;
+   }
+   const std::string force = turns ? "moment" : "force",
+                     moves = turns ? "angle" : "displacement";
+   key.must_be_of({force, moves, "value"});
+   require(key.has(force) != key.has(moves), key.called(), " must have one of the keys ", force,
+           " and ", moves);
+   made.motion = key.has(force) ? Guide::Motion::force : Guide::Motion::displacement;
+   const Key load = key[key.has(force) ? force : moves];
+   made.load = load.text();
+   check_name(load, made.load);
+   if (key.has("value")) { made.value = key["value"].number(); }
+   return made;
+}
+
+JointCase::Body::Guided guided(const Key &key)
+{
+   key.must_be_of({"on", "x", "y", "rotation", "centre"});
+   JointCase::Body::Guided made{key["on"].text(), {}, source(key)};
+   if (key.has("x")) { made.guide.x = along(key["x"], false); }
+   if (key.has("y")) { made.guide.y = along(key["y"], false); }
+   if (key.has("rotation")) { made.guide.rotation = along(key["rotation"], true); }
+   if (key.has("centre")) { made.guide.centre = key["centre"].pair(); }
+   return made;
+}
+
+JointCase::Body body(const Key &key, const std::string &name)
+{
+   check_name(key, name);
+   JointCase::Body made;
+   made.name = name;
+   made.source = source(key);
+   key.must_be_of({"mesh", "matrix", "half-plane", "young", "poisson", "order", "expansion",
+                   "support", "load", "guides"});
+   const int kinds = key.has("mesh") + key.has("matrix") + key.has("half-plane");
+   require(kinds == 1, key.called(), " has ", kinds,
+           " of the keys mesh, matrix and half-plane, must have one");
+   const auto goes_without = [&](const char *what, const std::vector<std::string> &keys)
+   {
+      for (const std::string &other : keys)
+      {
+         require(!key.has(other), key.called(), " has the keys ", what, " and ", other,
+                 ", which do not go together");
+      }
+   };
+   if (key.has("half-plane"))
+   {
+      goes_without("half-plane",
+                   {"young", "poisson", "order", "expansion", "support", "load", "guides"});
+      const Key plane = key["half-plane"];
+      plane.must_be_of({"young", "poisson", "depth"});
+      made.half_plane = true;
+      made.young = {plane["young"].number(positive)};
+      made.poisson = {plane["poisson"].number(between(-1, 0.5))};
+      if (plane.has("depth")) { made.depth = plane["depth"].number(positive); }
+      return made;
+   }
+   if (key.has("matrix"))
+   {
+      goes_without("matrix", {"young", "poisson", "expansion", "guides"});
+      made.matrix = key["matrix"].text();
+   }
+   else
+   {
+      made.mesh = key["mesh"].text();
+      made.young = key["young"].numbers(positive);
+      made.poisson = key["poisson"].numbers(any);
+   }
+   if (key.has("order"))
+   {
+      made.order = static_cast<int>(key["order"].number(within(1, 8)));
+      require(made.order == key["order"].number(), key["order"].called(), " is ",
+              key["order"].number(), ", must be a whole number");
+   }
+   if (key.has("expansion")) { made.expansion = key["expansion"].number(); }
+   if (key.has("support")) { made.support = key["support"].statements(); }
+   if (key.has("load")) { made.load = key["load"].statements(); }
+   if (key.has("guides"))
+   {
+      for (const Key &each : key["guides"].list()) { made.guides.push_back(guided(each)); }
+   }
+   return made;
+}
+
+/// "pad:flank_left", or "ground" of a half-plane.
+JointCase::Side side(const Key &key, const JointCase &joint)
+{
+   const std::string word = key.text();
+   const std::size_t colon = std::min(word.find(':'), word.size());
+   const JointCase::Side made{joint.body(word.substr(0, colon)),
+                              word.substr(std::min(colon + 1, word.size())), key.called()};
+   std::vector<std::string> names;
+   for (const JointCase::Body &each : joint.bodies) { names.push_back(each.name); }
+   require(made.body >= 0, key.called(), ": '", word, "': there is no body '",
+           word.substr(0, colon), "', must be one of ", listed(names));
+   require(joint.bodies[made.body].half_plane == made.part.empty(), key.called(), ": '", word,
+           "' must be ",
+           made.part.empty() ? "a body and a part of its boundary, BODY:PART"
+                             : "the name of the half-plane alone");
+   return made;
+}
+
+/// {"line": [[x, y], [x, y], …]}, {"curve": "0.01*x^2"} or {"circle": {"centre": [x, y],
+/// "radius": r}}.
+void add_obstacle(JointCase::Face &face, const Key &key)
+{
+   key.must_be_of({"line", "circle", "curve"});
+   require(key.value().size() == 1, key.called(),
+           " must have one of the keys line, circle and curve");
+   if (key.has("curve"))
+   {
+      face.curve.emplace(key["curve"].called(), key["curve"].text(),
+                         std::vector<std::string>{"x"});
+      return;
+   }
+   if (key.has("circle"))
+   {
+      const Key circle = key["circle"];
+      circle.must_be_of({"centre", "radius"});
+      const std::array<double, 2> centre = circle["centre"].pair();
+      face.centre = {centre[0], centre[1]};
+      face.radius = circle["radius"].number();
+      return;
+   }
+   const Key line = key["line"];
+   if (!line.value().is_array() || line.value().size() < 2) { line.refuse("a list of points"); }
+   for (const Key &point : line.list())
+   {
+      const std::array<double, 2> at = point.pair();
+      face.obstacle.emplace_back(at[0], at[1]);
+   }
+}
+
+/// {"D": {"y": -1}, "turn": {"angle": 1, "centre": [0, 5]}}
+std::vector<JointCase::Motion> motions(const Key &key)
+{
+   if (!key.value().is_object() || key.value().empty())
+   {
+      key.refuse("an object that names loads");
+   }
+   std::vector<JointCase::Motion> all;
+   for (const auto &item : key.value().items())
+   {
+      const Key one = key[item.key()];
+      check_name(one, item.key());
+      one.must_be_of({"x", "y", "angle", "centre"});
+      JointCase::Motion made;
+      made.load = item.key();
+      if (one.has("x")) { made.along[0] = one["x"].number(); }
+      if (one.has("y")) { made.along[1] = one["y"].number(); }
+      if (one.has("angle")) { made.angle = one["angle"].number(); }
+      if (one.has("centre"))
+      {
+         const std::array<double, 2> centre = one["centre"].pair();
+         made.centre = {centre[0], centre[1]};
+      }
+      require(made.along.norm() > 0 || made.angle != 0, one.called(),
+              " moves nothing, must have x, y or angle that is not 0");
+      all.push_back(made);
+   }
+   return all;
+}
+
+/// [[pressure, shear strength], …], which grow from (0, 0).
+Eigen::MatrixX2d strength_points(const Key &key)
+{
+   if (!key.value().is_array() || key.value().empty())
+   {
+      key.refuse("a list of points [[pressure, shear strength], …]");
+   }
+   Eigen::MatrixX2d all(key.value().size(), 2);
+   Eigen::RowVector2d before(0, 0);
+   Eigen::Index k = 0;
+   for (const Key &point : key.list())
+   {
+      const std::array<double, 2> at = point.pair();
+      require(at[0] > before[0] && at[1] >= before[1], point.called(), " is (", at[0], ", ",
+              at[1], ") and follows (", before[0], ", ", before[1],
+              "): pressures must grow from above 0, strengths must not fall");
+      all.row(k++) = before = {at[0], at[1]};
+   }
+   return all;
+}
+
+JointCase::Face face(const Key &key, const std::string &name, const JointCase &joint)
+{
+   check_name(key, name);
+   key.must_be_of({"between", "friction", "strength", "gap", "slave", "tied", "overlap",
+                   "pairing", "obstacle", "motion"});
+   JointCase::Face made;
+   made.name = name;
+   made.source = source(key);
+   const Key between_ = key["between"];
+   const std::vector<Key> sides = between_.list();
+   require(sides.size() == 1 || sides.size() == 2, between_.called(), " has ", sides.size(),
+           " sides, must have two, or one that stands on a rigid line");
+   for (std::size_t k = 0; k < sides.size(); ++k) { made.sides[k] = side(sides[k], joint); }
+   require(!joint.bodies[made.sides[0].body].half_plane, between_.called(),
+           ": a half-plane must be the second side");
+   require(made.sides[0].body != made.sides[1].body || made.sides[0].part != made.sides[1].part,
+           between_.called(), ": both sides are '", sides[0].text(),
+           "', must be two parts that touch");
+   if (key.has("tied")) { made.tied = key["tied"].flag(); }
+   if (key.has("obstacle"))
+   {
+      require(sides.size() == 1 && !key.has("gap"), key.called(),
+              ": an obstacle is for one side alone, and goes without the key gap");
+      add_obstacle(made, key["obstacle"]);
+   }
+   if (key.has("motion"))
+   {
+      require(sides.size() == 1, key.called(),
+              ": a motion is that of the rigid obstacle of one side alone");
+      made.motions = motions(key["motion"]);
+   }
+   for (const char *other :
+        {"friction", "strength", "gap", "overlap", "pairing", "obstacle", "motion"})
+   {
+      require(!made.tied || !key.has(other), key.called(), " is tied, it goes without the key ",
+              other);
+   }
+   if (key.has("friction")) { made.friction = key["friction"].profile(not_negative); }
+   if (key.has("strength"))
+   {
+      require(!key.has("friction"), key.called(),
+              " has both friction and strength, which are two laws of friction");
+      const Key strength = key["strength"];
+      if (strength.value().is_object())
+      {
+         strength.must_be_of({"forward", "backward"});
+         made.strength = {strength_points(strength["forward"]),
+                          strength_points(strength["backward"])};
+      }
+      else { made.strength = {strength_points(strength), strength_points(strength)}; }
+   }
+   if (key.has("gap"))
+   {
+      const Key gap = key["gap"];
+      const std::string word = gap.value().is_string() ? gap.text() : "";
+      if (word == "closed") { made.gap = JointCase::Profile{{{0, 0}}, {}}; }
+      else if (word.size() > 1 && std::all_of(word.begin(), word.end(), isalpha))
+      {
+         gap.choice({"geometry", "closed"});
+      }
+      else { made.gap = gap.profile(any); }
+   }
+   if (key.has("slave"))
+   {
+      const std::string word = key["slave"].choice(slaves);
+      made.slave =
+         static_cast<SlaveSide>(std::find(slaves.begin(), slaves.end(), word) - slaves.begin());
+   }
+   if (key.has("overlap")) { made.most_overlap = key["overlap"].number(not_negative); }
+   if (key.has("pairing")) { made.pairing = key["pairing"].number(between(0, 0.5)); }
+   return made;
+}
+
+JointCase::Bolt bolt(const Key &key, const std::string &name, const JointCase &joint)
+{
+   check_name(key, name);
+   key.must_be_of({"between", "direction", "stiffness", "pretension"});
+   JointCase::Bolt made;
+   made.name = name;
+   made.source = source(key);
+   const Key between_ = key["between"];
+   const std::vector<Key> ends = between_.list();
+   require(ends.size() == 2, between_.called(), " has ", ends.size(), " ends, must have two");
+   for (int k : {0, 1})
+   {
+      made.ends[k] = side(ends[k], joint);
+      require(!joint.bodies[made.ends[k].body].half_plane, ends[k].called(),
+              ": a shank cannot end in a half-plane");
+   }
+   require(made.ends[0].body != made.ends[1].body || made.ends[0].part != made.ends[1].part,
+           between_.called(), ": both ends are '", ends[0].text(),
+           "', must be two parts that the shank pulls together");
+   if (key.has("direction")) { made.direction = key["direction"].pair(); }
+   const double length = std::hypot(made.direction[0], made.direction[1]);
+   require(length > 0, key.called(), ": its direction is (0, 0), must have a length");
+   for (double &x : made.direction) { x /= length; }
+   made.stiffness = key["stiffness"].number(positive);
+   made.pretension = key["pretension"].number(positive);
+   return made;
+}
+
+/// The members of a key, an object.
+template <class Add>
+void each(const ordered_json &all, const std::string &name, Add add)
+{
+   if (all.is_null()) { return; }
+   const Key key(all, name);
+   if (!all.is_object() || all.empty()) { key.refuse("an object with at least one key"); }
+   for (const auto &item : all.items()) { add(key[item.key()], item.key()); }
+}
+
+} // namespace
+
+double JointCase::Profile::at(double s, const Eigen::Vector2d &place) const
+{
+   if (function) { return (*function)({s, place[0], place[1]}); }
+   const auto after = std::find_if(points.begin(), points.end(),
+                                   [&](const auto &point) { return point[0] >= s; });
+   if (after == points.begin()) { return after->at(1); }
+   if (after == points.end()) { return points.back()[1]; }
+   const auto &[s1, f1] = *after;
+   const auto &[s0, f0] = *(after - 1);
+   return f0 + (f1 - f0) * (s - s0) / (s1 - s0);
+}
+
+int JointCase::body(const std::string &name) const
+{
+   for (std::size_t b = 0; b < bodies.size(); ++b)
+   {
+      if (bodies[b].name == name) { return static_cast<int>(b); }
+   }
+   return -1;
+}
+
+ordered_json structure(const std::string &key, const std::string &text)
+{
+   try
+   {
+      return text.empty() ? ordered_json() : ordered_json::parse(text);
+   }
+   catch (const ordered_json::exception &error)
+   {
+      throw InputError("key '" + key + "' is not JSON: " + error.what());
+   }
+}
+
+JointCase joint_case(const JointKeys &keys, int order)
+{
+   JointCase joint;
+   joint.order = order;
+   const ordered_json analysis = keys.analysis.empty() ? "plane strain" : keys.analysis;
+   const std::string word = Key(analysis, "analysis").choice(analyses);
+   joint.plane_stress = word == "plane stress";
+   if (word == "axisymmetric") { joint.formulation = Formulation::axisymmetric; }
+   require(!keys.bodies.is_null(), "key 'bodies' is missing, must name the bodies");
+   require(!keys.interfaces.is_null(),
+           "key 'interfaces' is missing, must name where they touch");
+   each(keys.bodies, "bodies",
+        [&](const Key &key, const std::string &name)
+        { joint.bodies.push_back(body(key, name)); });
+   // It has no mesh, and is condensed to the lines of those that stand on it.
+   std::stable_partition(joint.bodies.begin(), joint.bodies.end(),
+                         [](const JointCase::Body &one) { return !one.half_plane; });
+   each(keys.interfaces, "interfaces",
+        [&](const Key &key, const std::string &name)
+        { joint.faces.push_back(face(key, name, joint)); });
+   each(keys.bolts, "bolts",
+        [&](const Key &key, const std::string &name)
+        { joint.bolts.push_back(bolt(key, name, joint)); });
+   return joint;
+}
+
+} // namespace miniapp

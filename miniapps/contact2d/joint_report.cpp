@@ -1,0 +1,342 @@
+#include "contact2d/joint_report.hpp"
+
+#include <algorithm>
+#include <cattaneo/readout/zones.hpp>
+#include <cattaneo/whole_file.hpp>
+#include <cmath>
+#include <filesystem>
+
+namespace miniapp
+{
+
+using namespace cattaneo;
+using Eigen::Index;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+using nlohmann::ordered_json;
+
+JointReport::JointReport(Study &study, const JointCase &joint, const Reduction &reduction)
+   : study_(study), joint_(joint), reduction_(reduction), courses_(reduction.interfaces.size()),
+     range_(joint.bolts.size(), {1e300, -1e300})
+{
+}
+
+std::string JointReport::body(int b) const
+{
+   return b < 0 ? "rigid line" : body_name(reduction_, static_cast<std::size_t>(b));
+}
+
+Vector2d JointReport::middle(const InterfaceReport &face) const
+{
+   const Vector2d mean = face.position.transpose() * face.weights / face.weights.sum();
+   const double size = face.position.cwiseAbs().maxCoeff();
+   // Places of meshes have less digits.
+   return {settled(mean[0], 1e3 * size), settled(mean[1], 1e3 * size)};
+}
+
+JointReport::Resultant JointReport::resultant(const InterfaceReport &face,
+                                              const ContactState &state) const
+{
+   VectorXd q = VectorXd::Zero(face.nodes), p = q;
+   if (face.tied)
+   {
+      const VectorXd f = reduction_.tied_forces(state.v, state.w, state.multipliers);
+      q = f.segment(face.first, face.nodes);
+      p = f.segment(f.size() / 2 + face.first, face.nodes);
+   }
+   else
+   {
+      if (state.q.size() > 0) { q = state.q.segment(face.first, face.nodes); }
+      p = state.p.segment(face.first, face.nodes);
+   }
+   Resultant made;
+   made.normal = p.sum();
+   made.tangential = q.sum();
+   const Vector2d about = middle(face);
+   double size = 0, lever = 0;
+   for (Index i = 0; i < face.nodes; ++i)
+   {
+      const Vector2d t = face.tangent.row(i), n(-t[1], t[0]);
+      const Vector2d force = (face.of_second ? -1 : 1) * (q[i] * t + p[i] * n);
+      // On the first body and on the second, which feels the opposite.
+      const Vector2d arm = face.acts_at[face.of_second].row(i).transpose() - about,
+                     apart = (face.acts_at[face.of_second].row(i) -
+                              face.acts_at[!face.of_second].row(i))
+                                .transpose();
+      made.force += force;
+      made.moment += arm[0] * force[1] - arm[1] * force[0];
+      made.defect += apart[0] * force[1] - apart[1] * force[0];
+      size += force.norm();
+      lever += arm.norm() * force.norm();
+   }
+   for (double *x : {&made.normal, &made.tangential, &made.force[0], &made.force[1]})
+   {
+      *x = settled(*x, size);
+   }
+   made.moment = settled(made.moment, lever);
+   made.defect = settled(made.defect, lever);
+   if (twists())
+   {
+      const Index n = reduction_.problem.nodes();
+      const VectorXd around = face.tied ? reduction_.tied_twisting(state.v, state.multipliers)
+                                        : VectorXd(state.q.tail(n));
+      const VectorXd torques = around.segment(face.first, face.nodes)
+                                  .cwiseProduct(face.acts_at[face.of_second].col(0));
+      made.torque = settled((face.of_second ? -1 : 1) * torques.sum(), torques.lpNorm<1>());
+   }
+   return made;
+}
+
+std::vector<double> JointReport::shanks(const ContactState &state) const
+{
+   std::vector<double> forces;
+   if (joint_.bolts.empty()) { return forces; }
+   const VectorXd approach = conjugates(reduction_.problem, state);
+   for (const JointCase::Bolt &bolt : joint_.bolts)
+   {
+      const int k = reduction_.problem.pattern(bolt.name);
+      // The pattern's forces are the pretension: so is what its conjugate is multiplied by.
+      forces.push_back(bolt.pretension * state.multipliers[k] -
+                       bolt.stiffness * approach[k] / bolt.pretension);
+   }
+   return forces;
+}
+
+void JointReport::note(const ContactState &state, int cycle)
+{
+   // Where a march is taken up: the loops of a cycle that has begun are not known.
+   if (cycle == 0 && state.cycle) { begun_ = state.cycle->cycle; }
+   const std::vector<double> now = shanks(state);
+   for (std::size_t k = 0; k < now.size(); ++k)
+   {
+      range_[k] = {std::min(range_[k][0], now[k]), std::max(range_[k][1], now[k])};
+   }
+   if (state.q.size() == 0) { return; }
+   const Index n = state.p.size(), around = twists() ? n : 0; // first of the components
+   for (std::size_t k = 0; k < courses_.size(); ++k)
+   {
+      const InterfaceReport &face = reduction_.interfaces[k];
+      if (face.tied) { continue; }
+      Course &course = courses_[k];
+      VectorXd forces = state.q.segment(around + face.first, face.nodes),
+               slips = state.v.segment(around + face.first, face.nodes);
+      if (twists())
+      {
+         const VectorXd r = face.acts_at[face.of_second].col(0);
+         forces = forces.cwiseProduct(r);
+         slips = slips.cwiseQuotient(r);
+      }
+      const double slip = slips.dot(face.weights) / face.weights.sum();
+      const double shear = -settled(forces.sum(), forces.lpNorm<1>());
+      if (cycle > 0)
+      {
+         const bool first = course.slip.empty(); // of a march that is taken up in a cycle
+         course.loops
+            .emplace(cycle, Loop(Control::force, first ? shear : course.shear.back(),
+                                 first ? slip : course.slip.back()))
+            .first->second.add(shear, slip);
+      }
+      if (course.slip.size() == 2 * most_drawn)
+      {
+         for (std::vector<double> *all : {&course.slip, &course.shear})
+         {
+            all->erase(all->begin(), all->begin() + most_drawn);
+         }
+      }
+      course.slip.push_back(slip);
+      course.shear.push_back(shear);
+   }
+}
+
+std::string JointReport::of_state(const ContactState &state)
+{
+   if (reduction_.interfaces.size() > 1)
+   {
+      return text("%zu interfaces of %zu bodies", reduction_.interfaces.size(),
+                  reduction_.bodies.size());
+   }
+   const InterfaceReport &face = reduction_.interfaces[0];
+   const Vector2d force = resultant(face, state).force;
+   study_.results["contact_force"] = {force[0], force[1]};
+   return "contact force on " +
+          (joint_.numbered ? "body 1" : body(face.bodies[face.of_second])) +
+          text(" (%g, %g)", force[0], force[1]);
+}
+
+void JointReport::report(const ContactState &state, const MarchReport &march)
+{
+   if (joint_.numbered) { return; }
+   report_interfaces(state, march);
+   report_cycles(march);
+   if (!joint_.bolts.empty()) { report_bolts(state); }
+   draw_loops();
+}
+
+void JointReport::report_interfaces(const ContactState &state, const MarchReport &march)
+{
+   const bool plane = joint_.formulation == Formulation::plane;
+   const bool faces_nothing =
+      std::any_of(reduction_.interfaces.begin(), reduction_.interfaces.end(),
+                  [](const InterfaceReport &face) { return !face.free_surface.empty(); });
+   ResultTable &table =
+      study_.table("interfaces", {{"interface", "interface"},
+                                  {"on", "forces on"},
+                                  {"normal", "N (pressing)", "%.6g"},
+                                  {"tangential", "T", "%.6g"},
+                                  {"force_x", plane ? "x" : "", "%.6g"},
+                                  {"force_y", plane ? "y" : "axial", "%.6g"},
+                                  {"moment", plane ? "moment" : "", "%.4g"},
+                                  {"moment_defect"},
+                                  {"torque", twists() ? "torque" : "", "%.6g"},
+                                  {"about_x", plane ? "about x" : "", "%.5g"},
+                                  {"about_y", plane ? "y" : "", "%.5g"},
+                                  {"dissipation", "lost a cycle", "%.4e"},
+                                  {"stick", "stick", "%.4g"},
+                                  {"slip", "slip", "%.4g"},
+                                  {"separation", "open (length)", "%.4g"},
+                                  {"tied"},
+                                  {"nodes"},
+                                  {"free_surface", faces_nothing ? "face nothing" : ""},
+                                  {"arm"}});
+   const std::vector<Zone> all_zones = zones(reduction_.problem, state);
+   const CycleRecord *cycle = march.cycles.empty() ? nullptr : &march.cycles.back();
+   for (const InterfaceReport &face : reduction_.interfaces)
+   {
+      const Resultant sum = resultant(face, state);
+      const Vector2d about = middle(face);
+      const bool known = cycle && cycle->whole && !face.tied;
+      const double lost =
+         known ? cycle->node_dissipation.segment(face.first, face.nodes).sum() : none;
+      std::array<double, 3> lengths = {0, 0, 0}; // of stick, slip and separation
+      for (const Zone &zone : all_zones)
+      {
+         if (reduction_.problem.chains[zone.chain].interface != face.name) { continue; }
+         lengths[zone.state == NodeState::stick        ? 0
+                 : zone.state == NodeState::separation ? 2
+                                                       : 1] +=
+            zone.to.position - zone.from.position;
+      }
+      if (face.tied) { lengths.fill(none); }
+      study_.row(table,
+                 {face.name, body(face.bodies[face.of_second]), sum.normal, sum.tangential,
+                  plane ? sum.force[0] : none, sum.force[1], plane ? sum.moment : none,
+                  plane ? sum.defect : none, twists() ? sum.torque : none, about[0], about[1],
+                  lost, lengths[0], lengths[1], lengths[2], face.tied, face.nodes,
+                  face.free_surface.size(), face.arm});
+   }
+}
+
+void JointReport::report_cycles(const MarchReport &march)
+{
+   ResultTable &table = study_.table(
+      "interface_cycles", {{"cycle", "cycle"},
+                           {"interface", "interface"},
+                           {"dissipation", "dissipation", "%.4e"},
+                           {"work", twists() ? "area of -torque" : "area of -T", "%.4e"},
+                           {"shear_range", twists() ? "range of torque" : "range of T", "%.4e"},
+                           {"slip_range", twists() ? "of mean turn" : "of mean slip", "%.4e"},
+                           {"stiffness", "secant", "%.4e"},
+                           {"loss_factor", "loss factor", "%.4f"}});
+   for (const ordered_json &row : study_.rows_before(table.name()))
+   {
+      study_.row(table, table.values(row));
+   }
+   for (const CycleRecord &cycle : march.cycles)
+   {
+      if (cycle.whole && cycle.cycle == begun_)
+      {
+         study_.say(text("cycle %d was taken up within it: the loops of its interfaces are not "
+                         "known, and left out",
+                         begun_));
+         continue;
+      }
+      for (std::size_t k = 0; k < courses_.size() && cycle.whole; ++k)
+      {
+         const InterfaceReport &face = reduction_.interfaces[k];
+         const auto loop = courses_[k].loops.find(cycle.cycle);
+         if (face.tied || loop == courses_[k].loops.end()) { continue; }
+         const Loop &its = loop->second;
+         study_.row(table, {cycle.cycle, face.name,
+                            cycle.node_dissipation.segment(face.first, face.nodes).sum(),
+                            its.work(), its.force_range(), its.displacement_range(),
+                            its.stiffness(), its.loss_factor()});
+      }
+   }
+}
+
+void JointReport::report_bolts(const ContactState &state)
+{
+   ResultTable &table = study_.table("bolts", {{"bolt", "bolt"},
+                                               {"force", "force", "%.6g"},
+                                               {"least", "least", "%.6g"},
+                                               {"most", "most of the march", "%.6g"}});
+   const std::vector<double> now = shanks(state);
+   for (std::size_t k = 0; k < now.size(); ++k)
+   {
+      const JointCase::Bolt &bolt = joint_.bolts[k];
+      study_.row(table, {bolt.name, now[k], range_[k][0], range_[k][1]});
+      // Bolts that are still to be tightened give a little with those that are.
+      if (range_[k][0] >= -1e-3 * bolt.pretension) { continue; }
+      warn(text("bolt '%s' pushes its ends apart, by up to %g: a shank here resists both ways, "
+                "a real one falls loose; tighten it before what brings the ends together, or "
+                "give it more pretension",
+                bolt.name.c_str(), -range_[k][0]));
+   }
+}
+
+void JointReport::draw_loops()
+{
+   Panel &panel =
+      study_.lines("interface_loops",
+                   twists() ? "Torque of each interface over its mean turn"
+                            : "Shear force of each interface over its mean slip",
+                   twists() ? "mean turn" : "mean slip", twists() ? "-torque" : "-T");
+   for (std::size_t k = 0; k < courses_.size(); ++k)
+   {
+      panel.add(reduction_.interfaces[k].name, courses_[k].slip, courses_[k].shear);
+   }
+}
+
+std::string body_name(const Reduction &reduction, std::size_t body)
+{
+   const std::string &name = reduction.bodies[body].name;
+   return name.empty() ? "body" + std::to_string(body + 1) : name;
+}
+
+void convert(Study &study, const JointKeys &joint, int order, const std::string &file)
+{
+   ordered_json keys = {{"version", 2},
+                        {"analysis", joint.analysis},
+                        {"order", order},
+                        {"bodies", joint.bodies},
+                        {"interfaces", joint.interfaces}};
+   if (!joint.bolts.is_null()) { keys["bolts"] = joint.bolts; }
+   const auto folder = std::filesystem::absolute(file).parent_path();
+   for (ordered_json &body : keys["bodies"])
+   {
+      for (const char *its : {"mesh", "matrix"})
+      {
+         if (!body.contains(its)) { continue; }
+         const std::filesystem::path path = body[its].get<std::string>();
+         body[its] = std::filesystem::relative(path, folder).generic_string();
+      }
+   }
+   const ordered_json &values = study.options().values();
+   for (const char *name : {"history", "edges"})
+   {
+      const auto said = values.at(name).get<std::string>();
+      if (said.empty()) { continue; }
+      if (std::string(name) == "history") { keys[name] = split(said, ";"); }
+      else { keys[name] = numbers(name, said); }
+   }
+   for (const char *name : {"cycle-start", "cycles", "increments", "stepping"})
+   {
+      keys[name] = values.at(name);
+   }
+   if (writes()) { write_whole(file, keys.dump(3) + "\n"); }
+   study.say("The case is in " + file);
+   study.results["status"] = "converted";
+   throw Done();
+}
+
+} // namespace miniapp

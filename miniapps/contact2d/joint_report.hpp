@@ -1,0 +1,75 @@
+#pragma once
+
+#include "common/study.hpp"
+#include "contact2d/joint_case.hpp"
+
+#include <cattaneo/friction/loop.hpp>
+#include <cattaneo/friction/march.hpp>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace miniapp
+{
+
+/// What is said of a case's interfaces and bolts: resultants, losses, loops, forces.
+class JointReport
+{
+public:
+   /// All must outlive it.
+   JointReport(Study &study, const JointCase &joint, const cattaneo::Reduction &reduction);
+   /// A state that the march has reached, in this cycle (0: in none), or is taken up from (0).
+   void note(const cattaneo::ContactState &state, int cycle);
+   /// Forces of the contact on the first body, of a case with one interface; also in the
+   /// results.
+   std::string of_state(const cattaneo::ContactState &state);
+   /// Tables and loops, at the end.
+   void report(const cattaneo::ContactState &state, const cattaneo::MarchReport &march);
+
+private:
+   /// Of an interface: pressure and shear as they press on its first body, and their moment
+   /// about its middle, where they act on it; about an axis the torque. What the moments on
+   /// both bodies add up to is the defect.
+   struct Resultant
+   {
+      double normal = 0, tangential = 0, moment = 0, defect = 0, torque = 0;
+      Eigen::Vector2d force{0, 0};
+   };
+   Resultant resultant(const cattaneo::InterfaceReport &face,
+                       const cattaneo::ContactState &state) const;
+   Eigen::Vector2d middle(const cattaneo::InterfaceReport &face) const;
+   std::string body(int b) const;
+   /// Do bodies twist about the axis?
+   bool twists() const { return !reduction_.torsion.empty(); }
+   /// Forces of the shanks.
+   std::vector<double> shanks(const cattaneo::ContactState &state) const;
+   void report_interfaces(const cattaneo::ContactState &state,
+                          const cattaneo::MarchReport &march);
+   void report_cycles(const cattaneo::MarchReport &march);
+   void report_bolts(const cattaneo::ContactState &state);
+   void draw_loops();
+
+   Study &study_;
+   const JointCase &joint_;
+   const cattaneo::Reduction &reduction_;
+   /// Of an interface: mean slip and the sum of its shear, as that resists the slip; of bodies
+   /// that twist mean turn and torque.
+   struct Course
+   {
+      std::vector<double> slip, shear; ///< as far as a picture can show
+      /// Of each cycle the last point before it begins it.
+      std::map<int, cattaneo::Loop> loops;
+   };
+   std::vector<Course> courses_;
+   int begun_ = 0;                            ///< cycle within which the march was taken up
+   std::vector<std::array<double, 2>> range_; ///< of each bolt's force
+};
+
+/// What a body is called in output: its name, or "body1", ….
+std::string body_name(const cattaneo::Reduction &reduction, std::size_t body);
+
+/// Writes the case as a case file 2, with the study's other options, and leaves the study.
+[[noreturn]] void convert(Study &study, const JointKeys &joint, int order,
+                          const std::string &file);
+
+} // namespace miniapp

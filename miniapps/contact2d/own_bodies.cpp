@@ -1,0 +1,90 @@
+#include "contact2d/own_bodies.hpp"
+
+#include "contact2d/own_half_plane.hpp"
+#include "contact2d/own_interfaces.hpp"
+#include "contact2d/own_part.hpp"
+#include "contact2d/own_warnings.hpp"
+
+#include <algorithm>
+#include <cattaneo/input_error.hpp>
+
+namespace miniapp
+{
+
+using namespace cattaneo;
+
+OwnBodies make_own_bodies(const JointCase &joint)
+{
+   OwnBodies own;
+   std::vector<OwnPart> parts;
+   int half_planes = 0;
+   for (std::size_t b = 0; b < joint.bodies.size(); ++b)
+   {
+      parts.emplace_back(own, joint, static_cast<int>(b));
+      half_planes += joint.bodies[b].half_plane;
+   }
+   require(half_planes < 2, "there are ", half_planes,
+           " half-planes, must be one at most: two would have no body between them");
+   const bool twists = twist(own, joint, parts);
+   find_matrices(own, joint, parts);
+   for (const JointCase::Bolt &bolt : joint.bolts)
+   {
+      for (const OwnPart &part : parts)
+      {
+         require(!part.has_load(bolt.name), part.called(), " has a load '", bolt.name,
+                 "', which is the name of a bolt: one of them must have another");
+      }
+   }
+   for (const JointCase::Bolt &bolt : joint.bolts)
+   {
+      std::array<Eigen::Vector2d, 2> ends;
+      for (int k : {0, 1})
+      {
+         const Eigen::Vector2d along(bolt.direction[0], bolt.direction[1]);
+         OwnPart &part = parts[bolt.ends[k].body];
+         // The shank pulls the ends together.
+         const double pull = k == 0 ? -bolt.pretension : bolt.pretension;
+         ends[k] = part.named([&] { return part.pull(bolt.name, bolt.ends[k], pull * along); });
+      }
+      warn_of_push(joint, bolt, ends);
+   }
+   std::vector<std::array<ContactLine, 2>> lines(joint.faces.size());
+   std::vector<std::vector<ContactLine>> of_body(parts.size());
+   for (std::size_t k = 0; k < joint.faces.size(); ++k)
+   {
+      for (int s : {0, 1})
+      {
+         const JointCase::Side &side = joint.faces[k].sides[s];
+         if (side.body < 0 || joint.bodies[side.body].half_plane) { continue; }
+         const OwnPart &part = parts[side.body];
+         lines[k][s] = part.named([&] { return part.line(side); });
+         of_body[side.body].push_back(lines[k][s]);
+      }
+   }
+   std::vector<CondensedBody> condensed;
+   for (std::size_t b = 0; b < parts.size(); ++b)
+   {
+      if (joint.bodies[b].half_plane) { continue; }
+      require(!of_body[b].empty(), "body ", joint.bodies[b].name,
+              " is at no interface, nothing touches it: it must be at one, or be left out");
+      const ContactLine line = of_body[b].size() == 1 ? of_body[b][0] : joined(of_body[b]);
+      // The last with a factor that this one's could be.
+      const CondensedBody *alike = nullptr;
+      for (const CondensedBody &before : condensed)
+      {
+         if (before.line.size() == line.size()) { alike = &before; }
+      }
+      condensed.push_back(parts[b].named([&] { return parts[b].condensed(line, alike); }));
+      own.accuracy = std::max(own.accuracy, condensed.back().error_estimate());
+   }
+   if (half_planes > 0)
+   {
+      stand_on_half_plane(own, std::move(condensed), interfaces_of(joint, lines), joint);
+   }
+   else { own.scene.reduction = united(joint, std::move(condensed), lines); }
+   if (twists) { own.scene.reduction.add_torsion(condensed_twisting(joint, parts)); }
+   complete(own.scene.reduction, joint, lines);
+   return own;
+}
+
+} // namespace miniapp

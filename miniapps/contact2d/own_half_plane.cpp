@@ -1,0 +1,113 @@
+#include "contact2d/own_half_plane.hpp"
+
+#include <algorithm>
+#include <cattaneo/input_error.hpp>
+#include <cmath>
+
+namespace miniapp
+{
+
+using namespace cattaneo;
+
+Eigen::Vector2d mean_normal(const ContactLine &line)
+{
+   return (line.each(&LineNode::normal).transpose() * line.each(&LineNode::weight))
+      .normalized();
+}
+
+namespace
+{
+
+/// How much of the nodes' common displacement along an axis the body resists, of 1.
+double held_share(const CondensedBody &body, const Eigen::Vector2d &axis)
+{
+   const Eigen::VectorXd motion = (body.rigid_motions().leftCols(2) * axis).normalized();
+   const Eigen::MatrixXd &free = body.free_motions;
+   return (motion - free * (free.transpose() * motion)).norm();
+}
+
+/// Number of a line's node in the line that its body was condensed to.
+Eigen::Index number_of(const LineNode &node, const ContactLine &all)
+{
+   return std::find_if(all.nodes.begin(), all.nodes.end(),
+                       [&](const LineNode &other) { return other.dofs == node.dofs; }) -
+          all.nodes.begin();
+}
+
+} // namespace
+
+void stand_on_half_plane(OwnBodies &own, std::vector<CondensedBody> bodies,
+                         std::vector<Interface> interfaces, const JointCase &joint)
+{
+   const JointCase::Body &plane = joint.bodies.back();
+   const auto number = static_cast<int>(bodies.size());
+   const bool about_axis = joint.formulation != Formulation::plane;
+   HalfPlane below;
+   below.material = {plane.young[0], plane.poisson[0],
+                     joint.plane_stress ? PlaneState::stress : PlaneState::strain};
+   Eigen::Vector2d normal(0, 0);
+   const LineNode *held = nullptr, *any = nullptr;
+   Eigen::AlignedBox2d box;
+   for (const Interface &one : interfaces)
+   {
+      if (one.second.body != number) { continue; }
+      const ContactLine &line = one.first.line;
+      normal += line.each(&LineNode::normal).transpose() * line.each(&LineNode::weight);
+      const CondensedBody &body = bodies[one.first.body];
+      for (const LineNode &node : line.nodes)
+      {
+         const Eigen::Index k = number_of(node, body.line);
+         const bool holds = std::any_of(body.held.begin(), body.held.end(),
+                                        [&](int row) { return row % body.line.size() == k; });
+         // As condensed, its tangent is across what is held; the meshed edge leans there.
+         if (holds && !held) { held = &body.line.nodes[k]; }
+         any = any ? any : &node;
+         box.extend(node.position);
+      }
+   }
+   require(any, "body ", plane.name,
+           " is at no interface, nothing touches it: it must be at one, or be left out");
+   normal.normalize();
+   if (about_axis) { normal = Eigen::Vector2d(0, normal[1] > 0 ? 1 : -1); }
+   Eigen::Vector2d at = any->position;
+   if (held && !about_axis)
+   {
+      below.symmetric = true;
+      normal = held->normal();
+      at = held->position;
+   }
+   double level = normal.dot(at);
+   for (const Interface &one : interfaces)
+   {
+      if (one.second.body != number) { continue; }
+      level = std::min(level, (one.first.line.each(&LineNode::position) * normal).minCoeff());
+   }
+   below.normal = -normal;
+   below.point = at + (level - normal.dot(at)) * normal;
+   if (about_axis) { below.point[0] = 0; }
+   const bool relative = !about_axis && std::isnan(plane.depth); // to nothing: forces alone
+   for (const CondensedBody &body : bodies)
+   {
+      if (!relative) { break; }
+      const double most = below.is_symmetric()
+                             ? held_share(body, normal)
+                             : std::max(held_share(body, Eigen::Vector2d(1, 0)),
+                                        held_share(body, Eigen::Vector2d(0, 1)));
+      require(most < 1e-7, "half-plane: supports or prescribed displacements hold body ",
+              body.name.empty() ? "1" : body.name,
+              " against it, whose displacements are relative to a depth: ",
+              plane.source.called("depth"), " must state it, or forces alone act on the body");
+   }
+   require(!relative || joint.bolts.empty(), plane.source.called("depth"),
+           " must be given beside bolts, whose forces follow displacements");
+   below.depth = relative ? 1e4 * box.diagonal().norm() : about_axis ? 0 : plane.depth;
+   own.scene.reduction = reduce(std::move(bodies), std::move(interfaces), below);
+   if (relative) { own.scene.problem().H.resize(0, 0); }
+   CondensedBody &made = own.scene.reduction.bodies.back();
+   if (!joint.numbered) { made.name = plane.name; }
+   own.accuracy = std::max(own.accuracy, made.error_estimate());
+   own.materials.push_back({below.material});
+   own.half_plane = below;
+}
+
+} // namespace miniapp

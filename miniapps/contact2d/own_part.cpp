@@ -1,0 +1,286 @@
+#include "contact2d/own_part.hpp"
+
+#include <algorithm>
+#include <cattaneo/exchange/nodal_statements.hpp>
+#include <cattaneo/exchange/read_stiffness.hpp>
+#include <cattaneo/mesh/mesh_file.hpp>
+#include <cattaneo/words.hpp>
+#include <map>
+
+namespace miniapp
+{
+
+using namespace cattaneo;
+
+namespace
+{
+
+std::vector<Material> materials(const JointCase::Body &body, int attributes, bool plane_stress)
+{
+   std::vector<double> young = body.young, poisson = body.poisson;
+   const std::string both =
+      body.source.called("young") + " and " + body.source.called("poisson");
+   const std::size_t count = std::max(young.size(), poisson.size());
+   if (young.size() == 1) { young.resize(count, young[0]); }
+   if (poisson.size() == 1) { poisson.resize(count, poisson[0]); }
+   require(young.size() == poisson.size(), both, " have ", young.size(), " and ",
+           poisson.size(), " values, must have as many (or one)");
+   require(count == 1 || count <= static_cast<std::size_t>(attributes), both, " have ", count,
+           " values, must have one, or one for each element attribute of the mesh, 1 to ",
+           attributes);
+   std::vector<Material> list;
+   for (std::size_t a = 0; a < count; ++a)
+   {
+      list.push_back(
+         {young[a], poisson[a], plane_stress ? PlaneState::stress : PlaneState::strain});
+   }
+   return list;
+}
+
+} // namespace
+
+OwnPart::OwnPart(OwnBodies &own, const JointCase &joint, int b)
+   : joint_(joint), body_(joint.bodies[b])
+{
+   if (!body_.mesh.empty()) { make_of_mesh(own, b); }
+}
+
+std::vector<int> OwnPart::of_slits(int b) const
+{
+   std::vector<int> attributes;
+   for (const JointCase::Face &face : joint_.faces)
+   {
+      if (face.sides[0].body != b || face.sides[1].body != b) { continue; }
+      for (const JointCase::Side &side : face.sides)
+      {
+         if (side.part.empty()) { continue; }
+         const BoundaryPart part = boundary_part(side.called, side.part, terms_);
+         attributes.insert(attributes.end(), part.attributes.begin(), part.attributes.end());
+      }
+   }
+   return attributes;
+}
+
+void OwnPart::make_of_mesh(OwnBodies &own, int b)
+{
+   named(
+      [&]
+      {
+         mfem::Mesh mesh = read_mesh(body_.mesh);
+         const MeshNames names = mesh_names(body_.mesh);
+         require(!names.axisymmetric || joint_.formulation == Formulation::axisymmetric,
+                 "its elements are axisymmetric (CAX), key 'analysis' must be axisymmetric");
+         if (!names.passed_over.empty())
+         {
+            warn("mesh '" + body_.mesh + "': its " + names.passed_over +
+                 " are passed over, supports and loads are those of the case");
+         }
+         terms_ = {names.boundary, names.numbered, body_.expansion};
+         for (const std::string &warning : {unjoined_vertices(mesh, body_.mesh, of_slits(b)),
+                                            missed_curves(mesh, order(), body_.mesh)})
+         {
+            if (!warning.empty()) { warn(warning); }
+         }
+         const int attributes = mesh.attributes.Size() ? mesh.attributes.Max() : 1;
+         own.materials.push_back(materials(body_, attributes, joint_.plane_stress));
+         elastic_ =
+            &own.scene.add(std::move(mesh), order(), own.materials.back(), joint_.formulation);
+         add_supports(*elastic_, body_.source.called("support"), body_.support, terms_);
+         for (const JointCase::Body::Guided &each : body_.guides)
+         {
+            elastic_->guide(boundary_part(each.source.called("on"), each.on, terms_),
+                            each.guide);
+         }
+         add_loads(*elastic_, body_.source.called("load"), body_.load, terms_);
+      });
+}
+
+void OwnPart::make_of_matrix(NodalStiffness matrix)
+{
+   require(matrix.formulation == joint_.formulation, "its elements are ",
+           name(matrix.formulation), ", must be ", name(joint_.formulation),
+           joint_.numbered ? "; bodies of revolution are in case files of version 2"
+                           : ", as key 'analysis' says");
+   nodal_ = std::move(matrix);
+   const std::string key = joint_.numbered ? "option order" : body_.source.called("order");
+   require(
+      nodal_->edges.empty() || body_.order == 0, key,
+      ": its elements are known, and have their orders in themselves: it must be left out");
+   require(
+      !nodal_->edges.empty() || body_.order > 0, "its elements are not known: ", key,
+      " must say the order of those along the sets, whose nodes are then in a row with the "
+      "body on their left");
+   add_supports(*nodal_, body_.source.called("support"), body_.support);
+   add_loads(*nodal_, body_.source.called("load"), body_.load, body_.order);
+}
+
+void OwnPart::add_twisting(OwnBodies &own, std::size_t b)
+{
+   const std::vector<Material> &its = own.materials[b];
+   mfem::Mesh &mesh = *own.scene.meshes[b];
+   own.scene.torsion.push_back(
+      its.size() == 1
+         ? std::make_unique<ElasticBody>(mesh, order(), its[0], Formulation::torsion)
+         : std::make_unique<ElasticBody>(mesh, order(), its, Formulation::torsion));
+   twisting_ = own.scene.torsion.back().get();
+   own.scene.dofs += twisting_->dofs();
+   named(
+      [&]
+      {
+         add_supports(*twisting_, body_.source.called("support"), body_.support, terms_);
+         add_loads(*twisting_, body_.source.called("load"), body_.load, terms_);
+      });
+}
+
+ContactLine OwnPart::line(const JointCase::Side &side) const
+{
+   require(!side.part.empty(), side.called, " is empty, must name boundary attributes");
+   return nodal_ ? nodal_->contact_line(nodal_->nodes_of(side.part), body_.order)
+                 : contact_line(*elastic_, boundary_part(side.called, side.part, terms_));
+}
+
+bool OwnPart::has_load(const std::string &load) const
+{
+   const auto named = [&](const BodyLoad &one) { return one.name == load; };
+   const auto has = [&](const std::vector<BodyLoad> &loads)
+   { return std::any_of(loads.begin(), loads.end(), named); };
+   return (nodal_ && has(nodal_->loads)) || (elastic_ && has(elastic_->patterns()));
+}
+
+Eigen::Vector2d OwnPart::pull(const std::string &load, const JointCase::Side &end,
+                              const Eigen::Vector2d &F)
+{
+   require(!end.part.empty(), end.called, " is empty, must name a part of the boundary");
+   if (nodal_)
+   {
+      const ContactLine its = line(end);
+      const Eigen::VectorXd weights = its.each(&LineNode::weight);
+      nodal_->add_traction(load, nodal_->nodes_of(end.part), F / weights.sum(), body_.order);
+      return its.each(&LineNode::position).transpose() * weights / weights.sum();
+   }
+   // As long as the traction is: an interval may end within elements, which a line has whole.
+   const BoundaryPart part = boundary_part(end.called, end.part, terms_);
+   const ElasticBody::Extent extent = elastic_->extent(part);
+   require(extent.size > 0, end.called, ": there is nothing on '", end.part,
+           "', must be a part of the boundary");
+   elastic_->add_traction(load, part, F[0] / extent.size, F[1] / extent.size);
+   return extent.middle;
+}
+
+CondensedBody OwnPart::condensed(const ContactLine &line, const CondensedBody *alike) const
+{
+   CondensedBody made = nodal_ ? condense(nodal_->body(), line)
+                               : condense(*elastic_, line, condensation(), alike);
+   if (!joint_.numbered) { made.name = body_.name; }
+   return made;
+}
+
+CondensedBody OwnPart::condensed_twisting(const std::vector<JointCase::Side> &sides) const
+{
+   std::vector<ContactLine> lines;
+   for (const JointCase::Side &side : sides)
+   {
+      lines.push_back(contact_line(*twisting_, boundary_part(side.called, side.part, terms_)));
+   }
+   CondensedBody made =
+      condense(*twisting_, lines.size() == 1 ? lines[0] : joined(lines), condensation());
+   made.name = body_.name;
+   return made;
+}
+
+std::string OwnPart::called() const
+{
+   const std::string file =
+      body_.mesh.empty() ? nodal_ ? nodal_->name : body_.matrix : body_.mesh;
+   return "body " + body_.name + " ('" + file + "')";
+}
+
+bool twist(OwnBodies &own, const JointCase &joint, std::vector<OwnPart> &parts)
+{
+   const auto asks = std::find_if(parts.begin(), parts.end(),
+                                  [](const OwnPart &part) { return part.twists(); });
+   if (joint.formulation == Formulation::plane || asks == parts.end()) { return false; }
+   for (const JointCase::Body &body : joint.bodies)
+   {
+      require(!body.mesh.empty(), asks->called(), " is turned about the axis, and body ",
+              body.name, body.half_plane ? " is a half-plane" : " is a matrix",
+              ": bodies that twist must have meshes");
+   }
+   require(joint.bolts.empty(), asks->called(),
+           " is turned about the axis: beside bolts it cannot be, their shanks would twist");
+   for (std::size_t b = 0; b < parts.size(); ++b) { parts[b].add_twisting(own, b); }
+   return true;
+}
+
+std::vector<CondensedBody> condensed_twisting(const JointCase &joint,
+                                              const std::vector<OwnPart> &parts)
+{
+   std::vector<std::vector<JointCase::Side>> sides(parts.size());
+   for (const JointCase::Face &face : joint.faces)
+   {
+      for (const JointCase::Side &side : face.sides)
+      {
+         if (side.body >= 0) { sides[side.body].push_back(side); }
+      }
+   }
+   std::vector<CondensedBody> made;
+   for (std::size_t b = 0; b < parts.size(); ++b)
+   {
+      made.push_back(parts[b].named([&] { return parts[b].condensed_twisting(sides[b]); }));
+   }
+   return made;
+}
+
+void find_matrices(OwnBodies &own, const JointCase &joint, std::vector<OwnPart> &parts)
+{
+   std::map<std::string, std::vector<NodalStiffness>> files;
+   std::map<std::string, int> asked;
+   for (const JointCase::Body &body : joint.bodies)
+   {
+      if (body.matrix.empty()) { continue; }
+      ++asked[body.matrix];
+      if (files.count(body.matrix) == 0)
+      {
+         files[body.matrix] = read_stiffness(body.matrix).parts();
+      }
+   }
+   for (const auto &[file, bodies] : files)
+   {
+      std::vector<std::string> names;
+      for (const NodalStiffness &part : bodies) { names.push_back(part.name); }
+      require(static_cast<int>(bodies.size()) == asked[file], "matrix '", file, "' has ",
+              bodies.size(), " bodies (", listed(names),
+              joint.numbered ? "), options contact1 and contact2 name the contact of "
+                             : "), each must be a body of the case, of this matrix; there are ",
+              asked[file]);
+   }
+   for (std::size_t b = 0; b < parts.size(); ++b)
+   {
+      const std::string &file = joint.bodies[b].matrix;
+      if (file.empty()) { continue; }
+      std::vector<NodalStiffness> &left = files[file];
+      auto found = left.end();
+      for (const JointCase::Face &face : joint.faces)
+      {
+         for (const JointCase::Side &side : face.sides)
+         {
+            if (side.body != static_cast<int>(b) || found != left.end()) { continue; }
+            found = std::find_if(left.begin(), left.end(),
+                                 [&](const NodalStiffness &part)
+                                 { return part.has_set(side.part); });
+            require(found != left.end(), "matrix '", file, "': ", side.called,
+                    " names the set '", side.part, "', there is no other body that has it");
+         }
+      }
+      require(found != left.end(), "matrix '", file, "': body ", joint.bodies[b].name,
+              " is at no interface, must be at one");
+      own.known_elements = false;
+      own.scene.dofs += static_cast<int>(found->dofs.size());
+      own.materials.emplace_back(); // not known
+      OwnPart &part = parts[b];
+      part.named([&] { part.make_of_matrix(std::move(*found)); });
+      left.erase(found);
+   }
+}
+
+} // namespace miniapp

@@ -1,0 +1,74 @@
+#pragma once
+
+#include "contact2d/own_bodies.hpp"
+
+#include <cattaneo/elastic/statements.hpp>
+#include <cattaneo/exchange/nodal_stiffness.hpp>
+#include <cattaneo/input_error.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace miniapp
+{
+
+/// A body of a case before it is condensed: elements, or nodes of a matrix.
+class OwnPart
+{
+public:
+   OwnPart(OwnBodies &own, const JointCase &joint, int b);
+   /// The body of a matrix that has the sets of its contacts.
+   void make_of_matrix(cattaneo::NodalStiffness matrix);
+   /// The torsion of the body, on its mesh.
+   void add_twisting(OwnBodies &own, std::size_t b);
+
+   cattaneo::ContactLine line(const JointCase::Side &side) const;
+   bool has_load(const std::string &load) const;
+   /// An end of a shank: forces that add up to F, spread evenly. The middle of the end.
+   Eigen::Vector2d pull(const std::string &load, const JointCase::Side &end,
+                        const Eigen::Vector2d &F);
+   cattaneo::CondensedBody condensed(const cattaneo::ContactLine &line,
+                                     const cattaneo::CondensedBody *alike) const;
+   /// Is something said of what happens around the axis?
+   bool twists() const { return cattaneo::twists(body_.support, body_.load); }
+   /// To the nodes of its sides of interfaces, in their order.
+   cattaneo::CondensedBody condensed_twisting(const std::vector<JointCase::Side> &sides) const;
+
+   /// In a sentence.
+   std::string called() const;
+   template <class Action>
+   auto named(Action action) const
+   {
+      try
+      {
+         return action();
+      }
+      catch (const cattaneo::InputError &error)
+      {
+         throw cattaneo::InputError(called() + ": " + error.what());
+      }
+   }
+
+private:
+   void make_of_mesh(OwnBodies &own, int b);
+   /// Boundary attributes on which the body meets itself.
+   std::vector<int> of_slits(int b) const;
+   int order() const { return body_.order > 0 ? body_.order : joint_.order; }
+
+   const JointCase &joint_;
+   const JointCase::Body &body_;
+   cattaneo::ElasticBody *elastic_ = nullptr, *twisting_ = nullptr;
+   std::optional<cattaneo::NodalStiffness> nodal_;
+   cattaneo::BodyTerms terms_;
+};
+
+/// Of bodies that are matrices each takes the part of its file that has the sets which its
+/// contacts name.
+void find_matrices(OwnBodies &own, const JointCase &joint, std::vector<OwnPart> &parts);
+
+/// Adds the torsion of all bodies if a support or a load of one asks for it.
+bool twist(OwnBodies &own, const JointCase &joint, std::vector<OwnPart> &parts);
+std::vector<cattaneo::CondensedBody> condensed_twisting(const JointCase &joint,
+                                                        const std::vector<OwnPart> &parts);
+
+} // namespace miniapp

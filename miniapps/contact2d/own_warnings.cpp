@@ -1,0 +1,271 @@
+#include "contact2d/own_warnings.hpp"
+
+#include <algorithm>
+#include <cattaneo/elastic/rotation.hpp>
+#include <cattaneo/reduced/interfaces.hpp>
+#include <cmath>
+#include <limits>
+
+namespace miniapp
+{
+
+using namespace cattaneo;
+
+void warn_of_push(const JointCase &joint, const JointCase::Bolt &bolt,
+                  const std::array<Eigen::Vector2d, 2> &ends)
+{
+   const Eigen::Vector2d apart = ends[0] - ends[1], along(bolt.direction[0], bolt.direction[1]);
+   if (along.dot(apart) < -1e-6 * apart.norm())
+   {
+      warn(bolt.source.called("direction") + " points from " +
+           joint.bodies[bolt.ends[0].body].name + " to " +
+           joint.bodies[bolt.ends[1].body].name +
+           ": the shank pushes them apart, to pull them together it must point the other way");
+   }
+   const double off = std::abs(along[0] * apart[1] - along[1] * apart[0]);
+   if (off > 0.05 * apart.norm())
+   {
+      warn(bolt.source.called("direction"), " is (", along[0], ", ", along[1],
+           "), and the middles of its ends lie at (", ends[0][0], ", ", ends[0][1], ") and (",
+           ends[1][0], ", ", ends[1][1], "): its two forces pass each ",
+           "other at a distance of ", off,
+           " and turn the bodies, a shank must lie along its direction");
+   }
+}
+
+void warn_of_accuracy(double accuracy)
+{
+   if (accuracy <= 1e-6) { return; }
+   warn(std::isfinite(accuracy)
+           ? told("the stiffness of the contact may be wrong by ", accuracy,
+                  " of itself (round-off of the condensation, an estimate from above)")
+           : "round-off of the condensation leaves nothing of the contact's stiffness",
+        ": Young's moduli or element sizes within a body are too far apart; take a much "
+        "stiffer part for rigid, or less contrast, which changes no result that can be told");
+}
+
+/// An interference fit moves nodes by less than their distance; more is a body in a wrong
+/// place, or in other units.
+void warn_of_overlap(const ReducedProblem &problem, const InterfaceReport &interface)
+{
+   if (interface.tied) { return; }
+   Eigen::Index deepest = 0;
+   const auto gap = problem.gap.segment(interface.first, interface.nodes);
+   const double overlap = -gap.cwiseQuotient(interface.spacing).minCoeff(&deepest);
+   if (overlap <= 1) { return; }
+   warn("the bodies overlap by ", -gap[deepest], " at (", interface.position(deepest, 0), ", ",
+        interface.position(deepest, 1), "), which is ", overlap,
+        " distances of nodes: small displacements do not open that, see that both meshes "
+        "are in "
+        "their places and in one unit");
+}
+
+void warn_of_left_out(const InterfaceReport &interface)
+{
+   if (interface.left_out <= 0) { return; }
+   warn("interface '", interface.name, "': ", interface.left_out,
+        " of it is faced between nodes of the side that carries them, where none can bear, "
+        "and carries nothing: key 'slave' may name the other side, or elements be finer "
+        "there");
+}
+
+void warn_of_loose_bodies(const OwnBodies &own)
+{
+   const Reduction &reduction = own.scene.reduction;
+   for (std::size_t b = 0; b < reduction.bodies.size(); ++b)
+   {
+      double least = std::numeric_limits<double>::infinity();
+      for (const InterfaceReport &face : reduction.interfaces)
+      {
+         const auto number = static_cast<int>(b);
+         if (face.bodies[0] != number && face.bodies[1] != number) { continue; }
+         least = std::min(
+            least,
+            face.tied ? 0 : reduction.problem.gap.segment(face.first, face.nodes).minCoeff());
+      }
+      if (reduction.bodies[b].free_motions.cols() == 0 || least <= 0) { continue; }
+      const std::string &name = reduction.bodies[b].name;
+      warn("body ", (name.empty() ? std::to_string(b + 1) : name),
+           " is free and touches nothing at rest, the least gap is ", least,
+           ": the first force moves it until it touches, all at once, and a march may not go "
+           "on from there; hold what nothing decides (a turn without friction), place it so "
+           "that it touches, or move it there by a guide");
+   }
+}
+
+void warn_of_chords(const Reduction &reduction, const Eigen::VectorXd &p)
+{
+   const double share = chordal_error(reduction, p);
+   if (share <= 0.05) { return; }
+   const InterfaceReport *worst = nullptr;
+   double most = 0;
+   for (const InterfaceReport &face : reduction.interfaces)
+   {
+      for (Eigen::Index i = 0; i < face.nodes && !face.tied; ++i)
+      {
+         if (face.chords.size() != face.nodes || std::abs(face.chords[i]) <= most ||
+             (std::isfinite(share) && p[face.first + i] <= 0))
+         {
+            continue;
+         }
+         worst = &face;
+         most = std::abs(face.chords[i]);
+      }
+   }
+   warn("interface '", worst->name,
+        "': its elements are chords of curves, which leaves the gap unknown by about ", most,
+        ": ",
+        std::isfinite(share) ? told("to close that takes ", share, " of the largest pressure")
+                             : "nothing bears, and the curves may",
+        "; a mesh of elements of a higher order (in Gmsh: -order 2) or of more of them follows "
+        "the curve, or key 'gap' may say what the gap is");
+}
+
+void warn_of_linear_axis(const Reduction &reduction, const Eigen::VectorXd &p)
+{
+   for (std::size_t b = 0; b < reduction.bodies.size(); ++b)
+   {
+      double reach = 0; // of linear elements with a node that is none of the line
+      for (const LineChain &chain : reduction.bodies[b].line.chains)
+      {
+         for (const LineElement &element : chain.elements)
+         {
+            const bool axis = element.nodes.front() < 0 || element.nodes.back() < 0;
+            if (axis && element.order() == 1)
+            {
+               reach = std::max(reach, element.points.row(0).maxCoeff());
+            }
+         }
+      }
+      bool bears = false;
+      for (const InterfaceReport &face : reduction.interfaces)
+      {
+         const int number = static_cast<int>(b);
+         const bool has = face.bodies[0] == number || face.bodies[1] == number;
+         if (reach == 0 || face.tied || !has) { continue; }
+         for (Eigen::Index i = 0; i < face.nodes; ++i)
+         {
+            bears = bears || (face.position(i, 0) < 2 * reach && p[face.first + i] > 0);
+         }
+      }
+      if (!bears) { continue; }
+      const std::string &name = reduction.bodies[b].name;
+      warn("body " + (name.empty() ? std::to_string(b + 1) : name) +
+           " bears with linear elements beside the axis, whose node on it takes no force: the "
+           "pressure next to it is wrong by some 5 % or more however fine they are; those of "
+           "order 2 have no such error");
+   }
+}
+
+std::vector<bool> even_sides(const JointCase &joint)
+{
+   std::vector<bool> even;
+   for (const JointCase::Face &face : joint.faces)
+   {
+      const bool rigid = face.sides[1].body < 0;
+      even.push_back(
+         (rigid && std::isnan(face.radius) && !face.curve && face.obstacle.size() < 3) ||
+         (!rigid && joint.bodies[face.sides[1].body].half_plane));
+   }
+   return even;
+}
+
+void warn_of_large_displacements(OwnBodies &own, const SmallDisplacements &noted,
+                                 const ContactState &last)
+{
+   for (const std::string &sentence : noted.warnings()) { warn(sentence); }
+   Reduction &reduction = own.scene.reduction;
+   const Counters before = reduction.counters; // of the study, which asked for no fields
+   for (std::size_t b = 0; b < own.scene.bodies.size(); ++b)
+   {
+      const Eigen::VectorXd field =
+         reduction.displacement(static_cast<int>(b), last.v, last.w, last.multipliers);
+      const Rotation most = largest_rotation(*own.scene.bodies[b], field);
+      const std::string &name = reduction.bodies[b].name,
+                        sentence = rotation_warning(name.empty() ? std::to_string(b + 1) : name,
+                                                    most.angle, most.place);
+      if (!sentence.empty()) { warn(sentence); }
+   }
+   reduction.counters = before;
+}
+
+/// Degrees.
+static double angle_of(double cosine)
+{
+   return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::acos(-1.0);
+}
+
+SidesThatBear::SidesThatBear(const InterfaceReport &interface) : face_(interface)
+{
+   Eigen::MatrixX2d normals(interface.nodes, 2);
+   normals << -interface.tangent.col(1), interface.tangent.col(0);
+   const Eigen::Vector2d mean = (normals.transpose() * interface.weights).normalized();
+   const Eigen::VectorXd cosine = normals * mean;
+   for (Eigen::Index i = 0; i < interface.nodes; ++i)
+   {
+      if (angle_of(cosine[i]) > 15)
+      {
+         sides_.push_back({i, angle_of(cosine[i]), interface.position.row(i)});
+      }
+   }
+}
+
+SidesThatBear::SidesThatBear(const InterfaceReport &interface,
+                             const std::vector<CondensedBody> &bodies)
+   : face_(interface), corners_(true)
+{
+   for (int b : interface.bodies)
+   {
+      if (b < 0) { continue; }
+      const ContactLine &line = bodies[b].line;
+      for (const LineChain &chain : line.chains)
+      {
+         const Eigen::Index n = chain.nodes;
+         for (Eigen::Index k = chain.loop ? 0 : 1; k < (chain.loop ? n : n - 1); ++k)
+         {
+            const auto place = [&](Eigen::Index node)
+            { return line.nodes[chain.first + (node + n) % n].position; };
+            const Eigen::Vector2d before = (place(k) - place(k - 1)).normalized(),
+                                  after = (place(k + 1) - place(k)).normalized();
+            const double turn = angle_of(before.dot(after));
+            // As much as a circle of twelve nodes.
+            if (turn < 30.5) { continue; }
+            for (Eigen::Index i = 0; i < interface.nodes; ++i)
+            {
+               const double away = (interface.position.row(i) - place(k).transpose()).norm();
+               if (away < 0.5 * interface.spacing[i]) { sides_.push_back({i, turn, place(k)}); }
+            }
+         }
+      }
+   }
+}
+
+void SidesThatBear::note(const ContactState &state)
+{
+   for (const Node &side : sides_)
+   {
+      const Eigen::Index i = face_.first + side.index;
+      if (closed(state.status[i]) && state.p[i] > 1e-9 * state.p.maxCoeff() &&
+          side.angle > worst_.angle)
+      {
+         worst_ = side;
+      }
+   }
+}
+
+void SidesThatBear::warn() const
+{
+   if (worst_.index < 0) { return; }
+   const std::string place = told("at (", worst_.place[0], ", ", worst_.place[1], ")");
+   const long angle = std::lround(worst_.angle);
+   miniapp::warn(
+      corners_
+         ? told("interface '", face_.name, "': its side turns by ", angle, " degrees ", place,
+                ", where it bears: a contact node has one normal, forces and zones are wrong "
+                "there; each face must be an interface of its own, or a curve have more nodes")
+         : told("node ", worst_.index, " ", place, " bears although its normal is ", angle,
+                " degrees off that of the rigid line: forces and zones are wrong there, name "
+                "no boundary around a corner as contact"));
+}
+
+} // namespace miniapp

@@ -1,0 +1,67 @@
+#pragma once
+
+#include "contact2d/own_bodies.hpp"
+
+#include <cattaneo/readout/small_displacements.hpp>
+#include <vector>
+
+namespace miniapp
+{
+
+/// Warns of a shank that pushes its ends apart, most likely a direction the wrong way, or whose
+/// forces turn the bodies since its ends, of which the middles are given, do not lie along it.
+void warn_of_push(const JointCase &joint, const JointCase::Bolt &bolt,
+                  const std::array<Eigen::Vector2d, 2> &ends);
+/// Warns of bodies that overlap by more than the length of a node's part of the line.
+void warn_of_overlap(const cattaneo::ReducedProblem &problem,
+                     const cattaneo::InterfaceReport &interface);
+/// Warns of what no contact node stands for.
+void warn_of_left_out(const cattaneo::InterfaceReport &interface);
+/// Of a march that found no equilibrium: warns of bodies that nothing holds and that touch
+/// nothing at rest.
+void warn_of_loose_bodies(const OwnBodies &own);
+/// Warns of a stiffness with few right digits.
+void warn_of_accuracy(double accuracy);
+
+/// Warns of what lies beyond small displacements: what was noted of the march, and rotations of
+/// bodies with elements in its last state.
+void warn_of_large_displacements(OwnBodies &own, const cattaneo::SmallDisplacements &noted,
+                                 const cattaneo::ContactState &last);
+/// Warns where chords of curved sides make more than a twentieth of the largest pressure. The
+/// nodal forces p are those of the state with the largest of a march.
+void warn_of_chords(const cattaneo::Reduction &reduction, const Eigen::VectorXd &p);
+/// Warns where what bears next to the axis are linear elements, whose node on it takes no
+/// force.
+void warn_of_linear_axis(const cattaneo::Reduction &reduction, const Eigen::VectorXd &p);
+/// Of each interface whether its second side is a straight rigid line, or a half-plane.
+std::vector<bool> even_sides(const JointCase &joint);
+
+/// Displacements are small: a node presses along its own normal. One that bears although this
+/// is far from the rigid line's, on a side beyond a corner for instance, holds the body as no
+/// line could. Against anything else it is corners of either side that bear so.
+class SidesThatBear
+{
+public:
+   /// On a straight rigid line.
+   explicit SidesThatBear(const cattaneo::InterfaceReport &interface);
+   /// At corners of the bodies' lines.
+   SidesThatBear(const cattaneo::InterfaceReport &interface,
+                 const std::vector<cattaneo::CondensedBody> &bodies);
+   /// A state that the march has reached.
+   void note(const cattaneo::ContactState &state);
+   void warn() const;
+
+private:
+   struct Node
+   {
+      Eigen::Index index = -1;
+      double angle = 0; ///< degrees between its normal and the line's; by which a corner turns
+      Eigen::Vector2d place{0, 0}; ///< its own; of the corner
+   };
+   const cattaneo::InterfaceReport &face_; ///< must outlive it
+   bool corners_ = false;
+   std::vector<Node> sides_;
+   Node worst_;
+};
+
+} // namespace miniapp

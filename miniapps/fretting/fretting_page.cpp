@@ -1,0 +1,214 @@
+#include "fretting/fretting_page.hpp"
+
+#include <cattaneo/fretting/from_contact.hpp>
+#include <cattaneo/fretting/measures.hpp>
+
+namespace miniapp
+{
+
+using namespace cattaneo;
+using namespace cattaneo::fretting;
+using Json = nlohmann::ordered_json;
+
+namespace
+{
+
+std::string verdict_text(const FrettingReport &report)
+{
+   const double depth = 1e3 * report.threshold.arrest_depth;
+   switch (report.threshold.verdict)
+   {
+   case CrackVerdict::propagates:
+      return "PROPAGATES: a crack that starts at the contact edge is still driven above the "
+             "threshold when it has the critical length. Expect fretting failure.";
+   case CrackVerdict::arrests_beyond_a0:
+      return "ARRESTS BEYOND a0: a crack grows past the critical length, but its stress "
+             "intensity "
+             "falls and it stops at about " +
+             text("%.4g µm", depth) +
+             ". Expect a crack; whether it is harmless needs the whole stress field.";
+   case CrackVerdict::arrests:
+      break;
+   }
+   if (depth == 0)
+   {
+      return "ARRESTS: no crack starts; the fatigue limit is not reached at the edge.";
+   }
+   return "ARRESTS: a crack may start but stops at about " + text("%.4g µm", depth) +
+          ", before the critical length. Safe by this criterion.";
+}
+
+const char *criterion_text(Criterion criterion)
+{
+   switch (criterion)
+   {
+   case Criterion::range:
+      return "algebraic range of K_I, closed or open (B)";
+   case Criterion::half_range:
+      return "tensile half of the range of K_I (C)";
+   case Criterion::open:
+      break;
+   }
+   return "part of the cycle in which the crack is open (A)";
+}
+
+std::string number(double value, const std::string &unit = "")
+{
+   return text("%.4g", value) + (unit.empty() ? "" : " " + unit);
+}
+
+/// A page that says what each of its numbers means; they go to the results as well.
+class Page
+{
+public:
+   explicit Page(Study &study) : study_(study) {}
+
+   void line(const std::string &what, const std::string &value, const std::string &meaning = "")
+   {
+      study_.say("   " + padded(what, 23) + padded(value, 24) + meaning);
+   }
+   void value(const std::string &key, const std::string &what, double x,
+              const std::string &unit = "", const std::string &meaning = "")
+   {
+      study_.value(key, x);
+      if (std::isfinite(x)) { line(what, number(x, unit), meaning); }
+   }
+
+private:
+   Study &study_;
+};
+
+} // namespace
+
+void print_page(Study &study, const Pad &pad, const PadContact &contact,
+                const JudgedEdge &judged, const FrettingSettings &criteria)
+{
+   const FrettingReport &r = judged.report;
+   const FatigueMaterial &m = pad.material;
+   const double a = contact.half_width > 0 ? contact.half_width : none;
+   study.title("FRETTING ASSESSMENT: " + pad.kind + " pad, " + m.name + ", " +
+               (pad.plane_stress ? "plane stress" : "plane strain"));
+   study.say(wrapped(
+      text(
+         "E %.4g GPa, ν %.4g, ΔK_th %.4g MPa√m, fatigue limit %.4g MPa, shear yield %.4g MPa, "
+         "friction %.4g",
+         1e-3 * m.young, m.poisson, m.threshold / mpa_sqrt_m, m.fatigue_limit.low,
+         m.shear_yield.low, pad.friction),
+      3));
+   study.say(
+      wrapped(verdict_text(r), 3) +
+      wrapped("Trust in this result: " + to_string(r.trust) + " (see the last section).", 3));
+   Page page(study);
+   study.say("1. What the contact edge feels");
+   page.value("half_width", "half width a", a, "mm", "of the contact");
+   page.value("k_n", "K_N", contact.k_n, "MPa/√mm",
+              "pressure at distance t from the edge: K_N √t");
+   page.value("k_t_trailing", "K_T trailing edge", contact.k_t.trailing, "MPa√mm",
+              "shear there if nothing slipped: K_T/√t");
+   page.value("k_t_leading", "K_T leading edge", contact.k_t.leading, "MPa√mm",
+              contact.k_t.leading < 0 ? "negative: the shear force outweighs the bulk" : "");
+   page.value("k_t_range", "ΔK_T", r.k_t_range, "MPa√mm",
+              "range over the cycle; judged below: the " + judged.edge + " edge");
+
+   study.title("2. Slip and stress");
+   page.value("slip_zone", "slip zone d", r.slip_zone, "mm",
+              a > 0 ? number(100 * r.slip_zone / a, "% of a") : "");
+   page.value("edge_stress", "edge stress", r.edge_stress, "MPa",
+              "along the surface at the contact edge, at peak load");
+   page.value("edge_stress_range", "its range", r.edge_stress_range, "MPa",
+              "fatigue limit " + number(m.fatigue_limit.low, "MPa"));
+   page.value("yield_ratio_first", "load / first yield", r.yield_ratio_first, "",
+              "above 1: part of the slip zone yields");
+   page.value("yield_ratio_full", "load / full yield", r.yield_ratio_full, "",
+              "above 1: the whole slip zone yields");
+
+   study.title("3. Crack normal to the surface at the edge");
+   page.line("critical length a0", number(1e3 * r.critical_length, "µm"),
+             "shorter cracks obey the fatigue limit, longer ones ΔK_th");
+   page.line("K_I at a0", number(r.k_i_min) + " to " + number(r.k_i_max, "MPa√mm"),
+             "over the cycle; negative: pressed shut");
+   page.line("driving force / ΔK_th", number(r.threshold.drive / m.threshold),
+             criterion_text(criteria.criterion));
+   page.line("ΔK_T / ΔK_th", number(r.ordinate),
+             "threshold curve at X = " + number(r.abscissa) + ": " +
+                number(r.threshold_ordinate) + " (edge field alone)");
+   page.value("mode_two_utilisation", "ΔK_II / its threshold", r.mode_two_utilisation, "",
+              "above 1 unsafe; for when the slip zone yields");
+
+   study.title("4. Frictional energy per cycle");
+   page.value("energy_max", "largest", r.energy_max, "N/mm",
+              "per area (= mJ/mm²), a quarter into the slip zone");
+   page.value("energy_total", "total", r.energy_total, "N", "per mm of edge (= mJ/mm)");
+
+   study.title("5. How far to trust it");
+   Json validity = Json::array();
+   for (const Validity &item : r.validity)
+   {
+      validity.push_back({{"measure", item.measure},
+                          {"value", item.measure.empty() ? none : item.value},
+                          {"trust", to_string(item.trust)},
+                          {"text", item.text}});
+      const std::string measure =
+         item.measure.empty() ? "" : item.measure + " = " + number(item.value) + ". ";
+      study.say(wrapped("[" + to_string(item.trust) + "] " + measure + item.text, 3));
+   }
+   study.list("validity", validity);
+   const double width = contact.rounded_width > 0 ? contact.rounded_width : a;
+   study.results.update(
+      {{"units", "N, mm, MPa, forces per mm of thickness"},
+       {"pad", pad.kind},
+       {"material", m.name},
+       {"poisson_ratio", m.poisson},
+       {"friction", pad.friction},
+       {"load_ratio", pad.load_ratio},
+       {"edge_width", width},
+       {"judged_edge", judged.edge},
+       {"critical_length", r.critical_length},
+       {"k_i_max", r.k_i_max},
+       {"k_i_min", r.k_i_min},
+       {"k_threshold", m.threshold},
+       {"fatigue_limit", m.fatigue_limit.low},
+       {"mode_two_k_t", criteria.mode_two_ratio * m.threshold / mode_two_range(1)},
+       {"drive", r.threshold.drive},
+       {"threshold_x", r.abscissa},
+       {"threshold_y", r.threshold_ordinate},
+       {"design_y", r.ordinate},
+       {"verdict", to_string(r.threshold.verdict)},
+       {"arrest_depth", r.threshold.arrest_depth},
+       {"trust", to_string(r.trust)},
+       {"validity", validity}});
+}
+
+void print_solution(Study &study, const SolvedPad &solved)
+{
+   study.title(
+      text("6. The finite element contact (%d dofs, %.4g s)", solved.dofs, solved.seconds));
+   const double middle =
+      0.5 * (solved.trailing.edge.position.position + solved.leading.edge.position.position);
+   Json &fe = study.results["fe"];
+   fe = {{"half_width", solved.half_width},
+         {"steady_cycle", solved.steady_cycle},
+         {"dofs", solved.dofs},
+         {"seconds", solved.seconds},
+         {"counters", to_json(solved.counters)}};
+   for (const bool trailing : {true, false})
+   {
+      const PadEdge &solution = trailing ? solved.trailing : solved.leading;
+      const char *const name = trailing ? "trailing" : "leading";
+      Json &j = fe[name];
+      j = report_edge(study, solution, name, -middle);
+      j["slip_zone_reversed"] = solution.reversed_slip_zone;
+      j["resolved"] = solution.resolved;
+      if (solution.edge.k_t.value != 0 && !solution.resolved)
+      {
+         study.say(wrapped("The slip zone is shorter than two spacings of the contact nodes (" +
+                              number(solved.spacing, "mm") +
+                              "): its computed length and energy are not resolved; K_N and K_T "
+                              "are. More --nodes resolve it.",
+                           6));
+      }
+   }
+   study.list("edges", {fe["trailing"], fe["leading"]});
+}
+
+} // namespace miniapp

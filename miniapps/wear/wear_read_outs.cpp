@@ -1,0 +1,122 @@
+#include "wear/wear_read_outs.hpp"
+
+#include "common/run.hpp"
+
+#include <algorithm>
+
+namespace miniapp
+{
+
+using namespace cattaneo;
+using Eigen::Index;
+using Eigen::VectorXd;
+
+ReducedProblem with_gap(ReducedProblem problem, const VectorXd &depth)
+{
+   problem.gap += depth;
+   return problem;
+}
+
+void warn_of_depth(const ReducedProblem &problem, const VectorXd &depth,
+                   const ContactState &contact)
+{
+   Index deepest = 0;
+   const double most = depth.maxCoeff(&deepest);
+   for (const ContactChain &chain : problem.chains)
+   {
+      if (deepest < chain.first || deepest >= chain.first + chain.nodes) { continue; }
+      double from = problem.arc_length[deepest], to = from;
+      for (Index i = chain.first; i < chain.first + chain.nodes; ++i)
+      {
+         if (depth[i] <= 0 && contact.p[i] <= 0) { continue; }
+         from = std::min(from, problem.arc_length[i]);
+         to = std::max(to, problem.arc_length[i]);
+      }
+      if (most <= 0.1 * (to - from)) { return; }
+      warn(text("the largest depth, %.3g, is not small against what touches or is "
+                "worn, %.3g long: the stiffness is that of the unworn bodies. Where "
+                "the problem's units are scaled (E = 1) both have to be scaled back",
+                most, to - from));
+   }
+}
+
+namespace
+{
+
+/// Where a line of values crosses zero from positive to not, going outward from a node; the end
+/// of the chain if it does not.
+double crossing(const VectorXd &s, const VectorXd &value, Index from, int way)
+{
+   for (Index i = from; i + way >= 0 && i + way < s.size(); i += way)
+   {
+      if (value[i] > 0 && value[i + way] <= 0)
+      {
+         return s[i] + (s[i + way] - s[i]) * value[i] / (value[i] - value[i + way]);
+      }
+   }
+   return s[way > 0 ? s.size() - 1 : 0];
+}
+
+} // namespace
+
+void report_end(Study &study, const WearCase &scene, const WornOut &end, Panel &profiles,
+                Panel &pressures)
+{
+   study.title("Worn out");
+   study.results["worn_out"] = name(end.status);
+   if (end.status != FrictionStatus::converged)
+   {
+      study.results["worn_out_message"] = end.message;
+      return study.say("   none: " + end.message);
+   }
+   const ReducedProblem &problem = scene.problem;
+   const Zone stick = stick_zone(problem, zones(problem, end.unworn, end.range));
+   // Of several lines that on which the widest zone sticks.
+   Index begin = 0, nodes = problem.nodes();
+   for (const ContactChain &chain : problem.chains)
+   {
+      if (stick.first < chain.first || stick.first >= chain.first + chain.nodes) { continue; }
+      begin = chain.first;
+      nodes = chain.nodes;
+   }
+   const VectorXd s = problem.arc_length.segment(begin, nodes),
+                  overlap = end.overlap.segment(begin, nodes);
+   study.value("final_stick", half_width(stick), "half-width that sticks",
+               read_out_error(stick));
+   Index first = nodes - 1, last = 0;
+   for (Index i = 0; i < nodes; ++i)
+   {
+      if (!end.stick[begin + i] && overlap[i] <= 0) { continue; }
+      first = std::min(first, i);
+      last = std::max(last, i);
+   }
+   study.value("final_extent",
+               0.5 * (crossing(s, overlap, last, 1) - crossing(s, overlap, first, -1)),
+               "half-width that is worn or sticks");
+   study.value("final_volume", worn_volume(problem, end.depth), "volume worn off");
+   study.value("final_depth", end.depth.maxCoeff(), "largest depth");
+   const VectorXd p = tractions(problem, end.contact.p);
+   Index centre = 0;
+   (s.array() - 0.5 * (stick.from.position + stick.to.position)).abs().minCoeff(&centre);
+   study.value("final_pressure_centre", p[begin + centre], "pressure amid the stick zone");
+   study.value("final_loss", end.loss, "loss of a cycle, of the unworn one");
+   study.results["final_depths"] =
+      std::vector<double>(end.depth.data(), end.depth.data() + end.depth.size());
+   const VectorXd x = problem.arc_length.array() - scene.middle;
+   profiles.add("worn out", x, end.depth, "dashed");
+   pressures.add("worn out", x, p, "dashed");
+}
+
+void draw_loop(Panel &panel, const std::string &label, const WearCase &scene,
+               const WearState &state, MarchSettings settings)
+{
+   const ReducedProblem worn = with_gap(scene.problem, state.depth);
+   LoadHistory cycle = scene.history;
+   cycle.cycles = 1;
+   settings.increments = std::max(settings.increments, 20);
+   ContactState contact = state.contact;
+   contact.time = cycle.times[cycle.cycle_start];
+   add_loops(panel, worn, march(worn, cycle, contact, settings), ", " + label);
+}
+
+} // namespace miniapp
