@@ -111,6 +111,7 @@ nb::object march_from(nb::handle problem, nb::handle history, nb::handle state,
       if (observer.is_none()) { return; }
       const nb::gil_scoped_acquire lock;
       observer(nb::cast(ContactState(at)));
+      watch.ask(); // an observer that ends the march ends it here
    };
    const MarchObserver watched = keep || !observer.is_none() ? each : MarchObserver();
    const ReducedProblem copy = of; // that no other thread changes meanwhile

@@ -341,7 +341,12 @@ void bind_reduced_problems(nb::module_ &m)
          [](const Self &self, Loads loads)
          { return array(self.clamped_forces(self.multipliers(named_loads(loads, "loads")))); },
          arg("loads"), "{q; p} under loads if no node moved")
-      .def("validate", &Self::validate)
+      .def("validate",
+           [](const Self &self)
+           {
+              self.validate();
+              require_semidefinite(self); // its arrays may be written to
+           })
       .def("__repr__", &brief);
 
    m.def(

@@ -43,12 +43,12 @@ InterfaceSide side(nb::handle object, const std::string &what)
            given<ContactLine>(nb::object(object[1]), what + "[1]")};
 }
 
-std::vector<CondensedBody> body_list(nb::handle bodies)
+std::vector<CondensedBody> body_list(nb::handle bodies, const std::string &what = "bodies")
 {
    std::vector<CondensedBody> all;
-   for (const nb::object &body : sequence(bodies, "bodies"))
+   for (const nb::object &body : sequence(bodies, what.c_str()))
    {
-      all.push_back(given<CondensedBody>(body, "bodies[" + std::to_string(all.size()) + "]"));
+      all.push_back(given<CondensedBody>(body, what + "[" + std::to_string(all.size()) + "]"));
    }
    return all;
 }
@@ -89,6 +89,14 @@ Reduction reduced(nb::handle first, nb::handle second, nb::handle pairing,
                                       : given<Pairing>(pairing, "pairing"));
    }
    return reduce(body, place_function(second, "gap"));
+}
+
+Reduction with_torsion(nb::handle first, nb::handle second, nb::handle pairing,
+                       nb::handle half_plane, nb::handle torsion)
+{
+   Reduction result = reduced(first, second, pairing, half_plane);
+   if (!torsion.is_none()) { result.add_torsion(body_list(torsion, "torsion")); }
+   return result;
 }
 
 nb::list points(const std::vector<Eigen::Vector2d> &places)
@@ -282,12 +290,13 @@ void bind_reductions(nb::module_ &m)
            });
 
    m.def(
-      "reduce", &reduced, arg("bodies"), arg("other") = 0.0, arg("pairing") = nb::none(),
-      arg("half_plane") = nb::none(),
+      "reduce", &with_torsion, arg("bodies"), arg("other") = 0.0, arg("pairing") = nb::none(),
+      arg("half_plane") = nb::none(), nb::kw_only(), arg("torsion") = nb::none(),
       nb::sig("def reduce(bodies: CondensedBody | collections.abc.Sequence[CondensedBody], "
               "other: float | collections.abc.Callable[[float, float], float] | HalfPlane | "
               "CondensedBody | collections.abc.Sequence[Interface] = 0.0, pairing: None | "
-              "Pairing = None, half_plane: None | HalfPlane = None) -> Reduction"),
+              "Pairing = None, half_plane: None | HalfPlane = None, *, torsion: None | "
+              "collections.abc.Sequence[CondensedBody] = None) -> Reduction"),
       "Condensed bodies to a reduced problem.\n\n"
       "reduce(body, gap=0.0): on a rigid obstacle; gap, a number or a function of (x, y), says "
       "how far it is from the body; 0.0: of the shape that the body has.\n"
@@ -295,7 +304,10 @@ void bind_reductions(nb::module_ &m)
       "reduce(body1, body2[, pairing]): two bodies whose nodes match.\n"
       "reduce([bodies], [interfaces]): any number of bodies, nodes that match or not; with "
       "half_plane=… on it, which is body number len(bodies), the second side of interfaces "
-      "without a line: Interface('foot', (0, line), 1).");
+      "without a line: Interface('foot', (0, line), 1).\n"
+      "torsion: the axisymmetric bodies once more, in their order, condensed to the same nodes "
+      "with formulation 'torsion': tangential components are then 2 a node, all radial ones "
+      "first, and q_theta are forces: a torque is the sum of r q_theta.");
 
    nb::class_<SeparateBodies>(m, "SeparateBodies",
                               "Bodies that keep displacements of their own: K U + loads = "

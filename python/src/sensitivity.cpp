@@ -224,6 +224,12 @@ void bind_trace(nb::module_ &m)
                           tie.node < static_cast<Index>(states[tie.state].state.status.size()),
                        "ties: state ", tie.state, ", node ", tie.node,
                        " is not one of the trace");
+               if (tie.state == 0)
+               {
+                  warn("other_side: that of node " + std::to_string(tie.node) +
+                       " at rest is on another path, which this trace does not have: trace a "
+                       "march with a little more gap there");
+               }
                states[tie.state].state.status[tie.node] = tie.other;
             }
             return result;

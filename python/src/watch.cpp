@@ -24,7 +24,7 @@ Watch::Watch(nb::handle progress, nb::handle stop)
 
 Monitor Watch::monitor()
 {
-   if (!stop_.is_none()) { ask(); }
+   ask();
    Monitor monitor;
    monitor.progress = [this](const Progress &progress) { look(progress); };
    monitor.stop = &stopped_;
@@ -36,11 +36,12 @@ void Watch::look(const Progress &progress)
    const nb::gil_scoped_acquire lock;
    if (PyErr_CheckSignals() != 0) { throw nb::python_error(); }
    if (!progress_.is_none()) { progress_(progress); }
-   if (!stop_.is_none()) { ask(); }
+   ask();
 }
 
 void Watch::ask()
 {
+   if (stop_.is_none()) { return; }
    const nb::object answer = stop_.attr("is_set")();
    if (PyObject_IsTrue(answer.ptr()) == 1) { stopped_ = true; }
 }

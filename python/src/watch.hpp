@@ -21,10 +21,11 @@ public:
    Watch(nb::handle progress, nb::handle stop);
 
    Monitor monitor();
+   /// Asks `stop`, if there is one, now: it is looked at only now and then.
+   void ask();
 
 private:
    void look(const Progress &progress);
-   void ask(); ///< the object with is_set()
 
    nb::object progress_, stop_;
    std::atomic<bool> stopped_{false};

@@ -60,6 +60,26 @@ def test_gross_sliding_is_where_coulomb_says(hertz):
     assert at["Q"] == pytest.approx(friction, rel=1e-6)
 
 
+def test_two_half_spaces_twisted_while_they_stick():
+    """A turn of 1 between two half-spaces that stick within the radius a meets the torque of two discs of radius a in
+    series, each 16 G a^3/3 (Reissner and Sagoci)."""
+    nu, a = 0.3, 1.0
+    material = cattaneo.Material(1.0, nu)
+    shear_modulus = 1 / (2 * (1 + nu))
+    above = cattaneo.HalfPlane(material, depth=1e4, normal=(0, 1))
+    below = cattaneo.HalfPlane(material, depth=1e4)
+    line = a * np.sin(np.linspace(0, np.pi / 2, 41))
+    bodies = [[cattaneo.condense(each, line, 2, way) for each in (above, below)] for way in ("axisymmetric", "torsion")]
+    problem = cattaneo.reduce(*bodies[0], torsion=bodies[1]).problem
+    n = problem.nodes
+    assert problem.components == 2
+    r = np.asarray(problem.position)[:, 0]
+    torque = r @ np.asarray(problem.A)[n:, n:] @ r
+    assert torque == pytest.approx(16 / 3 * shear_modulus * a**3 / 2, rel=2e-3)
+    with pytest.raises(cattaneo.InputError, match="torsion"):
+        cattaneo.reduce(*bodies[1])
+
+
 def slider(k=2.0, f=0.5):
     """A mass-less slider on a spring k, pressed by P on a rigid plane, its spring's end moved by d: q = k (v - d),
     p = P. H of the spring alone is k."""

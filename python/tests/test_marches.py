@@ -130,6 +130,19 @@ def test_other_threads_run_during_a_march(hertz):
     assert slow_march(hertz, stop=stop).time.size == 0  # set before it began
 
 
+def test_observer_stops_at_its_own_increment(hertz):
+    stop = threading.Event()
+    seen = []
+
+    def third(state):
+        seen.append(state.time)
+        if len(seen) == 3:
+            stop.set()
+
+    report = slow_march(hertz, stop=stop, observer=third)
+    assert report.status == "stopped" and len(seen) == 3 and report.state.time == seen[-1]
+
+
 def test_control_c_interrupts(hertz):
     threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
     with pytest.raises(KeyboardInterrupt):

@@ -289,7 +289,9 @@ TEST(ReducedFile, ProblemsWithoutFrictionOrWithTorsion)
    EXPECT_EQ(back.C(), smooth.C());
    EXPECT_FALSE(back.coupled);
    ReducedProblem disc = shakedown_test::random_contact(3, 4, 2, true);
-   disc.set_stiffness(Eigen::MatrixXd::Identity(8, 8), Eigen::MatrixXd::Random(4, 8), disc.C());
+   const double large = 100 * disc.C().norm();
+   disc.set_stiffness(large * Eigen::MatrixXd::Identity(8, 8),
+                      disc.C() * Eigen::MatrixXd::Random(4, 8), disc.C()); // semidefinite
    for (LoadPattern &pattern : disc.patterns) { pattern.q = Eigen::VectorXd::Random(8); }
    save(disc, file);
    EXPECT_EQ(load_reduced_problem(file).components(), 2);

@@ -57,6 +57,28 @@ TEST(ReducedProblem, RefusesBadInput)
    EXPECT_THROW(set_friction(problem, std::numeric_limits<double>::quiet_NaN()), InputError);
 }
 
+// One node whose slip presses more than it resists, and two that press each other apart more
+// than each resists: (-1/2, 1/2) and (1/2, -1/2) are both at rest under the same loads.
+TEST(ReducedProblem, RefusesAStiffnessThatGivesEnergy)
+{
+   const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(1, 1);
+   ReducedProblem problem;
+   expect_input_error([&] { problem.set_stiffness(one, 2 * one, one); },
+                      "smallest eigenvalue is -");
+   problem = {};
+   expect_input_error(
+      [&]
+      {
+         problem.set_stiffness(Eigen::Matrix2d::Identity(), Eigen::Matrix2d::Zero(),
+                               Eigen::Matrix2d{{1, 3}, {3, 1}});
+      },
+      "smallest eigenvalue is -");
+   // A body that slides and opens in one: energy zero is no energy below zero.
+   problem = {};
+   EXPECT_NO_THROW(problem.set_stiffness(one, -one, one));
+   EXPECT_EQ(problem.rigid_motions.cols(), 1);
+}
+
 TEST(ReducedProblem, ANodeThatOpensAloneIsRefusedWhateverRoundOffLeftOfItsStiffness)
 {
    // Two nodes of a free body on a straight line: one may open alone, the body turns about the

@@ -381,6 +381,38 @@ TEST(Sensitivity, TiesAreNamedAndHaveTwoSides)
    EXPECT_TRUE(ties(cattaneo_test::one_block(0.6), trace).size() <= 1);
 }
 
+// A block that touches at rest and is dragged while it is pressed: with a little more gap it is
+// free until it closes, and slides less. The exact path has another derivative on either side.
+TEST(Sensitivity, ANodeThatTouchesAtRestIsTiedWhereThePathIsFollowed)
+{
+   MarchSettings settings;
+   settings.stepping = Stepping::exact;
+   const auto marched = [&](double gap)
+   {
+      ReducedProblem problem = cattaneo_test::one_block(0.3);
+      problem.patterns[0].q[0] = 0.2;
+      problem.gap[0] = gap;
+      const LoadHistory history = LoadHistory::through(
+         problem,
+         {{}, {{"press", 1}}, {{"press", 1}, {"shear", 1}}, {{"press", 1}, {"shear", -1}}});
+      return std::pair{problem, trace_march(problem, history, settings)};
+   };
+   const auto loss = [&](double gap)
+   {
+      const auto [problem, trace] = marched(gap);
+      return Responses(problem, trace).dissipation(0, trace.last()).value;
+   };
+   const double h = 1e-6, right = (loss(h) - loss(0)) / h, left = (loss(0) - loss(-h)) / h;
+   ASSERT_GT(std::abs(right - left), 1e-3);
+   const auto [problem, trace] = marched(0);
+   const std::vector<Tie> tied = ties(problem, trace);
+   ASSERT_FALSE(tied.empty());
+   EXPECT_EQ(tied[0].state, 0u);
+   EXPECT_EQ(tied[0].node, 0);
+   const auto [apart, later] = marched(0.01);
+   EXPECT_TRUE(ties(apart, later).empty());
+}
+
 // The same block in a disc slips, without forward and backward.
 TEST(Sensitivity, TiesOfTwoTangentialComponentsAreOfStickAndSlip)
 {

@@ -398,7 +398,8 @@ ReducedProblem mutual(double b, bool feedback)
 {
    ReducedProblem problem;
    const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
-   problem.set_stiffness(I, Eigen::Matrix3d{{0, feedback ? b : 0, 0}, {b, 0, 0}, {0, 0, 0}}, I);
+   problem.set_stiffness(I, Eigen::Matrix3d{{0, feedback ? b : 0, 0}, {b, 0, 0}, {0, 0, 0}},
+                         10 * I); // semidefinite, and no slip feels it
    const Eigen::Vector3d one = Eigen::Vector3d::Ones(), zero = Eigen::Vector3d::Zero();
    problem.patterns = {{"P", Control::force, zero, one}, {"Q", Control::force, one, zero}};
    problem.H = Eigen::MatrixXd::Zero(2, 2);

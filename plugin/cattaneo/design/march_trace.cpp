@@ -37,6 +37,7 @@ MarchTrace trace_march(const ReducedProblem &problem, const LoadHistory &history
    MarchTrace trace;
    trace.number = next_number();
    trace.history = history;
+   trace.follows_path = settings.stepping != Stepping::fixed;
    trace.states.push_back({state});
    int piece = 0;
    const auto observe = [&](const ContactState &now, const IncrementRecord &record)
@@ -71,6 +72,7 @@ MarchTrace trace_wear(const ReducedProblem &problem, const WearLaw &law,
    trace.number = next_number();
    trace.history = history;
    trace.history.cycles = static_cast<int>(std::clamp(cycles, 1.0, 1e9));
+   trace.follows_path = settings.march.stepping != Stepping::fixed;
    trace.wear = law;
    trace.states.push_back({state.contact});
    trace.states[0].depth = state.depth;
@@ -119,10 +121,14 @@ std::vector<Tie> ties(const ReducedProblem &problem, const MarchTrace &trace, do
    std::vector<bool> held(n, false);
    for (Index row : problem.held) { held[row % n] = true; }
    std::vector<Tie> found;
-   for (std::size_t k = 1; k < trace.states.size(); ++k)
+   for (std::size_t k = trace.follows_path ? 0 : 1; k < trace.states.size(); ++k)
    {
-      const ContactState &now = trace.states[k].state, &before = trace.states[k - 1].state;
-      const double tiny = tolerance * now.peak_force;
+      const ContactState &now = trace.states[k].state,
+                         &before = trace.states[k > 0 ? k - 1 : 0].state;
+      // Before any load the first ones are the scale.
+      const double tiny =
+         tolerance *
+         trace.states[std::min(std::max<std::size_t>(k, 1), trace.last())].state.peak_force;
       for (Index i = 0; i < n; ++i)
       {
          const NodeState taken = now.status[i];

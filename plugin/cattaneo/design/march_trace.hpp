@@ -30,6 +30,8 @@ struct MarchTrace
    /// Tells traces apart, whose responses are no others': each that was marched has another.
    /// Copies have the same. 0: not known.
    std::uint64_t number = 0;
+   /// Is the path followed on which nodes close? Not in equal increments.
+   bool follows_path = false;
    /// By which the depth of the states follows from those before, and worn_depth() of Responses
    /// is; no coefficients: nothing wears.
    WearLaw wear;
@@ -79,6 +81,9 @@ struct Tie
 /** All ties of a trace, in its order. Within `tolerance` of the largest nodal force so far, by
     the node's own stiffness. The node at whose change of state an increment ends on the exact
     path is none, as the path goes on through it smoothly; others that change with it are.
+    Where a path that is followed sets out, nodes that touch without force are tied (state 0):
+    with more gap they close on the way, and the derivatives of the other side are those of that
+    path, which this trace does not have.
 
     A tie need not matter. Where a cycle comes back to its largest load all nodes that slipped
     are tied; as long as these loads vary together both sides have the same derivative. */

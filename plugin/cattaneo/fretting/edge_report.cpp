@@ -28,11 +28,17 @@ void predict(const MarchedStates &states, const ContactEdge *before,
    const Eigen::VectorXd &arc = states.problem.arc_length;
    const Eigen::Index end = edge.side > 0 ? edge.first : edge.last;
    const double spacing = std::abs(arc[end + edge.side] - arc[end]);
-   if (std::min(d, edge.slip_zone) < 2 * spacing && d > 0)
+   if (edge.slip_zone < 2 * spacing && d > 0)
    {
-      solved.notes.push_back(sentence("a slip zone of ", std::min(d, edge.slip_zone),
+      solved.notes.push_back(sentence("the computed slip zone of ", edge.slip_zone,
                                       " is shorter than two spacings of the nodes (", spacing,
-                                      "): its computed length and energy are not resolved"));
+                                      "): its length and energy are not resolved"));
+   }
+   else if (d < 2 * spacing && d > 0)
+   {
+      solved.notes.push_back(sentence("the slip zone from K_N and K_T, ", d,
+                                      ", is shorter than two spacings of the nodes (", spacing,
+                                      "), the computed one is not"));
    }
    // A fit that its own next term changes by a tenth has not found the square root.
    if (std::max(edge.k_n.relative_error, edge.k_t.relative_error) > 0.1 && d > 0)
@@ -47,9 +53,10 @@ void predict(const MarchedStates &states, const ContactEdge *before,
       // fields can bear.
       if (std::abs(solved.travel) > 0.1 * d)
       {
-         solved.notes.push_back(sentence(
-            "the edge moves by ", solved.travel, " under the cyclic loads, the slip zone is ",
-            d, ": K_N is not constant, as the predictions take it to be"));
+         solved.notes.push_back(
+            sentence("the edge moves by ", solved.travel,
+                     " under the cyclic loads, the slip zone from K_N and K_T is ", d,
+                     ": K_N is not constant, as the predictions take it to be"));
       }
    }
    if (!states.cycle) { return; }

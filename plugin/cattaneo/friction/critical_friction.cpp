@@ -78,7 +78,7 @@ double uniqueness_bound(const ReducedProblem &problem)
                   rest = st.asDiagonal() * problem.A() * st.asDiagonal() - coupling;
    const double a = smallest_eigenvalue(rest), c = std::sqrt(of_C),
                 b = std::sqrt(largest_eigenvalue(coupling));
-   if (a <= 1e-11 * largest_eigenvalue(rest)) { return 0; }
+   if (a <= 0 || a <= 1e-11 * largest_eigenvalue(rest)) { return 0; }
    const double worst = std::min(b, std::sqrt(a));
    return (a + worst * worst) / (c * worst);
 }

@@ -124,6 +124,7 @@ void MarchRecord::accept(ContactState &&next, const LoadPiece &piece,
    }
    if (!exact) { changed_ = std::max(changed_, changed_while_closing(problem_, state_, next)); }
    external_work_ += record.external_work;
+   most_work_ = std::max(most_work_, std::abs(external_work_));
    dissipation_ += record.dissipation;
    normal_work_ += normal_work;
    next.dissipation += record.dissipation;
@@ -185,10 +186,10 @@ void MarchRecord::close()
    report.time = state_.time;
    if (changed_ > 0) { report.advance_error = 4 * changed_ / state_.peak_force; }
    const double stored = elastic_energy(problem_, state_) - energy_at_start_;
-   // Work that is negative is no more than what was stored. Of a closed elastic cycle all three
-   // are round-off of the energy that it began with.
-   const double most = std::max(
-      {external_work_, std::abs(stored), dissipation_, 1e-6 * std::abs(energy_at_start_)});
+   // Where the loads give back what they had put in, all three at the end are round-off of the
+   // work on the way; of a closed elastic cycle of the energy that it began with.
+   const double most =
+      std::max({most_work_, std::abs(stored), dissipation_, 1e-6 * std::abs(energy_at_start_)});
    if (most > 0)
    {
       report.energy_imbalance = (external_work_ - stored - dissipation_ - normal_work_) / most;

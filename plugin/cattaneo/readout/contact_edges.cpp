@@ -438,7 +438,10 @@ void read_k_t(const ReducedProblem &problem, const ContactState &pressed,
    for (std::size_t e = 0; e < count; e++)
    {
       FittedIntensity &k_t = edges[e].k_t;
-      const double error = k_t.relative_error * std::abs(k_t.value) + doubtful[e];
+      // The shear that pressing left is bounded by friction and has no K_T: what the fit reads
+      // of it, it reads too much of the whole.
+      const double left = std::abs(fitted(pressed, e, pairs[e].from.position).value);
+      const double error = k_t.relative_error * std::abs(k_t.value) + doubtful[e] + left;
       k_t.value = value[e];
       k_t.relative_error = error > 0 ? error / std::abs(k_t.value) : 0.0;
    }

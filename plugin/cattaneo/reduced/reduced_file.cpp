@@ -102,6 +102,7 @@ std::vector<ContactChain> found_chains(const Eigen::VectorXd &arc_length, Eigen:
 
 void require_all_motions(const ReducedProblem &problem)
 {
+   require_semidefinite(problem);
    const Eigen::Index stated = problem.rigid_motions.cols(), all = null_space(problem.K).cols();
    require(all <= stated, "reduced problem: it states ", stated,
            " rigid motions, and the stiffness does not resist ", all,

@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <cattaneo/algebra/dense_algebra.hpp>
+#include <cattaneo/algebra/dense_cholesky.hpp>
 #include <cattaneo/algebra/semidefinite.hpp>
 #include <cattaneo/algebra/symmetric_matrix.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/reduced_problem.hpp>
 #include <cattaneo/words.hpp>
+#include <cmath>
 #include <set>
 
 namespace cattaneo
@@ -37,6 +39,7 @@ void ReducedProblem::set_stiffness(const Eigen::MatrixXd &A, const Eigen::Matrix
 {
    set_stiffness(A, B, C, {});
    complete(*this);
+   require_semidefinite(*this);
 }
 
 std::vector<std::string> ReducedProblem::load_names() const
@@ -115,7 +118,11 @@ void check_vector(const char *name, const Eigen::VectorXd &x, Eigen::Index size)
 {
    require(x.size() == size, "reduced problem: ", name, " has ", x.size(), " entries, must be ",
            size);
-   require(x.allFinite(), "reduced problem: ", name, " has an entry that is not finite");
+   for (Eigen::Index i = 0; i < size; ++i)
+   {
+      require(std::isfinite(x[i]), "reduced problem: ", name, "[", i, "] is ", x[i],
+              ", must be finite");
+   }
 }
 
 /// What the upper half knew: chains, rigid motions, held components.
@@ -360,6 +367,27 @@ void join_coupling(ReducedProblem &problem)
    const Eigen::Index m = problem.slips(), n = problem.nodes();
    if (largest_skew(problem.K.topRightCorner(m, n), problem.B()) == 0) { return; }
    problem.K.topRightCorner(m, n) = problem.B().transpose();
+}
+
+void require_semidefinite(const ReducedProblem &problem)
+{
+   // As much as K may lack in symmetry, which is for validate() to name, as are diagonals.
+   constexpr double round_off = 1e-9;
+   if (!(largest_skew(problem.K, problem.K) <= round_off * problem.K.cwiseAbs().maxCoeff()))
+   {
+      return;
+   }
+   const Eigen::VectorXd own = problem.K.diagonal(),
+                         scale = (own.array() > 0).select(own.cwiseSqrt().cwiseInverse(), 1.0);
+   const Eigen::MatrixXd scaled = scale.asDiagonal() * problem.K * scale.asDiagonal();
+   Eigen::MatrixXd raised = scaled;
+   raised.diagonal().array() += round_off;
+   if (DenseCholesky().compute(std::move(raised))) { return; }
+   const double lowest = symmetric_eigenvalues(scaled)[0];
+   require(lowest >= -round_off, "reduced problem: the stiffness [A Bᵀ; B C] is not positive ",
+           "semidefinite, as that of every body is: with a diagonal of ones its smallest ",
+           "eigenvalue is ", lowest, ", must be at least ", -round_off,
+           "; are signs or the order of rows and columns of A, B or C mixed up?");
 }
 
 std::vector<ContactChain> one_chain(Eigen::Index nodes)

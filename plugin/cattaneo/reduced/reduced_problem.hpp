@@ -141,7 +141,7 @@ struct ReducedProblem
    /// they have the size of C already. InputError if the sizes of the blocks disagree.
    void set_stiffness(const Eigen::MatrixXd &A, const Eigen::MatrixXd &B,
                       const Eigen::MatrixXd &C, const Eigen::MatrixXd &rigid_motions);
-   /// Of a problem made by hand: the same, and complete().
+   /// Of a problem made by hand: the same, complete() and require_semidefinite().
    void set_stiffness(const Eigen::MatrixXd &A, const Eigen::MatrixXd &B,
                       const Eigen::MatrixXd &C);
 
@@ -158,6 +158,10 @@ struct ReducedProblem
 void complete(ReducedProblem &problem);
 /// The first two of these alone, for who knows the rigid motions.
 void join_coupling(ReducedProblem &problem);
+/// InputError if some displacement of the nodes meets energy below zero, which no body does:
+/// such a stiffness has several answers, and what is proven of them does not hold. Costs a
+/// Cholesky factor: asked of problems made by hand and of files, not by validate().
+void require_semidefinite(const ReducedProblem &problem);
 
 /// One chain of all nodes, in their order, for problems made by hand.
 std::vector<ContactChain> one_chain(Eigen::Index nodes);

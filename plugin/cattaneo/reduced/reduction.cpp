@@ -88,9 +88,11 @@ Reduction reduce(CondensedBody body, const ScalarField &gap)
 Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairing)
 {
    const Eigen::Index n = body1.line.size();
-   require(body1.line.formulation == body2.line.formulation &&
-              body1.line.formulation != Formulation::torsion,
-           "reduce: the bodies must be both plane or both axisymmetric");
+   require(
+      body1.line.formulation == body2.line.formulation &&
+         body1.line.formulation != Formulation::torsion,
+      "reduce: the bodies must be both plane or both axisymmetric (those of torsion are added "
+      "to a reduction of these)");
    require(body2.line.size() == n && static_cast<Eigen::Index>(pairing.partner.size()) == n &&
               pairing.gap.size() == n,
            "reduce: contact lines of ", n, " and ", body2.line.size(),

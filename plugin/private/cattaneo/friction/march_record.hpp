@@ -37,6 +37,7 @@ private:
    const MarchObserver &observer_;
    Eigen::VectorXd conjugates_; // of the state
    double external_work_ = 0, dissipation_ = 0, normal_work_ = 0;
+   double most_work_ = 0; // largest |external work| on the way
    const double energy_at_start_;
    double changed_ = 0; // see changed_while_closing()
 };
