@@ -64,9 +64,13 @@ PadContact calibrate(const Pad &pad)
    }
    contact.stress_gradient = edge_gradient(pad.radius, pad.modulus());
    const double limit = pad.friction * pad.normal;
-   require(std::abs(pad.shear) < limit, "the shear force Q = ", pad.shear,
-           " N/mm reaches the friction limit fP = ", limit,
-           " N/mm: the whole contact slides and there is no partial slip to assess.");
+   if (std::abs(pad.shear) >= limit)
+   {
+      throw PadSlides(told("the shear force Q = ", pad.shear,
+                           " N/mm reaches the friction limit fP = ", limit,
+                           " N/mm: the whole contact slides and there is no partial slip to "
+                           "assess."));
+   }
    contact.k_t =
       shear_intensities(contact.half_width, pad.shear, pad.bulk_or_none() - pad.bulk_pad);
    return contact;

@@ -425,6 +425,15 @@ TEST(Fretting, EdgesThatFeelTheSameAreNotChosenByRoundOff)
    }
 }
 
+/// f P = 0.7 * 400 N/mm bears no more shear than 280 N/mm: an outcome, not bad input.
+TEST(Fretting, SlidingIsAnAnswerWithItsLoad)
+{
+   const auto run = run_miniapp("fretting", "-Q 300 -f 0.7");
+   EXPECT_EQ(run.code, 2) << run.output;
+   EXPECT_EQ(run.results["status"], "gross sliding") << run.results;
+   EXPECT_NE(run.output.find("fP = 280 N/mm"), std::string::npos) << run.output;
+}
+
 TEST(Fretting, BadOptionsAreOneSentenceAndExitCodeOne)
 {
    for (const char *options : {"-p ball",        "-p kn",
