@@ -93,4 +93,18 @@ TEST(Hertz, BadOptionsAreOneSentenceAndExitCodeOne)
    }
 }
 
+/// Without friction there is no f P that Q could be a share of: it is pressed alone.
+TEST(Hertz, FrictionlessIsPressedAlone)
+{
+   const auto run = run_miniapp("hertz", "-friction 0");
+   ASSERT_EQ(run.code, 0) << run.output;
+   EXPECT_TRUE(run.results["levels"].empty()) << run.results["levels"];
+   for (const auto &row : run.results["references"])
+   {
+      EXPECT_EQ(row["quantity"].get<std::string>().find("Q/fP"), std::string::npos) << row;
+   }
+   EXPECT_NEAR(run.results["half_width"].get<double>(), 1, 0.01);
+   EXPECT_EQ(run_miniapp("hertz", "-friction 0 -shear 0.3").code, 1);
+}
+
 } // namespace

@@ -198,6 +198,15 @@ TEST(SquarePunch, FrictionlessHasNoTangentialUnknowns)
    ASSERT_EQ(run.code, 0) << run.output;
    EXPECT_EQ(run.results["counters"]["tangential_unknowns"], 0);
    EXPECT_TRUE(run.results["stick_left"].is_null());
+   // Q is in f P, which is none.
+   const auto pressed = run_miniapp("square_punch", "-friction 0 -nodes 33");
+   EXPECT_EQ(pressed.code, 0) << pressed.output;
+   EXPECT_TRUE(pressed.results["levels"].empty()) << pressed.results["levels"];
+   for (const char *options : {"-shear 0.5", "-cycles 2"})
+   {
+      const auto sheared = run_miniapp("square_punch", std::string("-friction 0 ") + options);
+      EXPECT_EQ(sheared.code, 1) << sheared.output;
+   }
 }
 
 TEST(SquarePunch, GrossSlidingIsAnAnswerWithItsLoad)
