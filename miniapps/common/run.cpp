@@ -274,6 +274,10 @@ void report_steady(Study &study, const MarchReport &report)
       study.say(
          text("steady from cycle %d, period %d", report.steady_cycle, report.steady_period));
    }
+   else if (!report.cycles.empty())
+   {
+      study.say(text("not steady after cycle %d", report.cycles.back().cycle));
+   }
    study.results["steady_cycle"] = report.steady_cycle;
    study.results["steady_period"] = report.steady_period;
    study.results["energy_imbalance"] = report.energy_imbalance;
