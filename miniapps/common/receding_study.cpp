@@ -62,6 +62,12 @@ void add_borders(const std::vector<Zone> &zones, std::vector<nlohmann::ordered_j
 
 } // namespace
 
+bool has_state(const MarchReport &report)
+{
+   return report.status == FrictionStatus::converged ||
+          report.status == FrictionStatus::not_unique;
+}
+
 void map_loads(Study &study, const ResultTable &table, ReducedProblem problem,
                const std::vector<double> &wanted, const std::vector<double> &frictions,
                const std::function<std::string(double)> &load,
@@ -69,22 +75,32 @@ void map_loads(Study &study, const ResultTable &table, ReducedProblem problem,
 {
    const Stopwatch watch;
    std::vector<std::vector<NodeState>> guesses(wanted.size());
+   std::size_t failed = 0;
    for (double friction : frictions)
    {
       set_friction(problem, friction);
       Run run(study, problem);
+      run.leaves = false; // one state without an answer is a row, and the others are computed
       for (std::size_t k = 0; k < wanted.size(); ++k)
       {
          run.state = ContactState::virgin(problem);
          // The states of the nodes at the friction before are where the search starts.
          if (!guesses[k].empty()) { run.state.status = guesses[k]; }
          run.to({{load(wanted[k]), 1}});
-         guesses[k] = run.state.status;
          row(friction, wanted[k], run);
+         const bool converged = run.report.status == FrictionStatus::converged;
+         failed += !converged;
+         if (converged) { guesses[k] = run.state.status; }
       }
    }
    study.results["seconds_map"] = watch.seconds();
    study.say(text("map of %zu states in %.2f s", table.json().size(), watch.seconds()));
+   if (failed == 0) { return; }
+   study.code = 2;
+   study.results["status"] = "ended early";
+   study.results["message"] = text("%zu of %zu states of the map have no answer, or several",
+                                   failed, table.json().size());
+   study.say(study.results["message"].get<std::string>());
 }
 
 UnloadingPanels unload(Study &study, Run &run, const Receding &receding,

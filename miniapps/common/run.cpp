@@ -97,15 +97,20 @@ const MarchReport &Run::march(const LoadHistory &history, const MarchObserver &o
    if (exit_code(solver.problem(), report) != 0 &&
        (leaves || report.status == FrictionStatus::stopped))
    {
-      add_outcome(solver.problem(), report, study_.results);
-      // The cycles that were completed are results, if the study has not reported others.
-      if (!report.cycles.empty() && !study_.results.contains("dissipation"))
-      {
-         report_cycles(study_, solver.problem(), report, unit);
-      }
-      throw Outcome();
+      leave();
    }
    return report;
+}
+
+void Run::leave()
+{
+   add_outcome(solver.problem(), report, study_.results);
+   // The cycles that were completed are results, if the study has not reported others.
+   if (!report.cycles.empty() && !study_.results.contains("dissipation"))
+   {
+      report_cycles(study_, solver.problem(), report, unit);
+   }
+   throw Outcome();
 }
 
 double Run::load(const std::string &pattern) const

@@ -41,6 +41,10 @@ public:
    const cattaneo::MarchReport &march(const cattaneo::LoadHistory &history,
                                       const cattaneo::MarchObserver &observe = {});
 
+   /// Leaves the study with the outcome of the last march, which did not converge: for those
+   /// that first show what there is.
+   void leave();
+
    /// The multiplier of a pattern.
    double load(const std::string &pattern) const;
 

@@ -209,4 +209,37 @@ TEST(PlaneReceding, UnloadingHardlyDependsOnTheSteps)
    }
 }
 
+/// Friction above its critical value has several answers: that is a row, and those after it are
+/// what they are without it.
+TEST(PlaneReceding, AMapGoesOnBeyondWhatIsNotUnique)
+{
+   const std::string options = "-spacing 0.05 -corner 0.01 -map '2 4' -map-friction ";
+   const auto run = run_miniapp("plane_receding", options + "'0.3 50 0.5'"),
+              good = run_miniapp("plane_receding", options + "'0.3 0.5'");
+   EXPECT_EQ(run.code, 2) << run.output;
+   ASSERT_EQ(good.code, 0) << good.output;
+   const auto &map = run.results["map"], &known = good.results["map"];
+   ASSERT_EQ(map.size(), 6u) << run.output;
+   for (int k = 0; k < 6; ++k)
+   {
+      EXPECT_EQ(map[k]["status"], k / 2 == 1 ? "not unique" : "converged") << map[k];
+      if (k / 2 == 1) { continue; }
+      const auto &same = known[k / 4 * 2 + k % 2];
+      EXPECT_NEAR(number(map[k]["separation"]), number(same["separation"]), 1e-9);
+      EXPECT_NEAR(number(map[k]["stick_slip"]), number(same["stick_slip"]), 1e-9);
+   }
+   EXPECT_NE(run.output.find("2 of 6 states of the map"), std::string::npos) << run.output;
+}
+
+/// All of the strip may stick where friction is large: that state is shown.
+TEST(PlaneReceding, OneOfSeveralStatesIsShown)
+{
+   const auto run = run_miniapp("plane_receding", "-friction 100 -spacing 0.05 -corner 0.01");
+   EXPECT_EQ(run.code, 2) << run.output;
+   EXPECT_EQ(run.results["status"], "not unique");
+   EXPECT_NE(run.output.find("Loading, n = 4"), std::string::npos) << run.output;
+   ASSERT_TRUE(run.results.contains("zones")) << run.output;
+   EXPECT_EQ(run.results["zones"][0]["state"], "stick");
+}
+
 } // namespace
