@@ -92,7 +92,11 @@ void load(Study &study, Disc &disc, Run &run, const std::vector<double> &levels)
                                 run.state);
       }
    }
+   run.leaves = false;
    run.to(disc.pressed());
+   run.leaves = true;
+   // One of several states is shown before the study says so and ends.
+   if (!has_state(run.report)) { run.leave(); }
    const Extent found = disc.extent(run.state);
    study.title(
       text("Loading, b = %g, a = %g, f = %g", disc.options.disc_radius, disc.a, disc.f));
@@ -104,6 +108,7 @@ void load(Study &study, Disc &disc, Run &run, const std::vector<double> &levels)
    Panel &zones =
       study.panel(Panel::Kind::zones, "loading_zones", "Zones during loading", "P/P0", "r/t");
    for (double level : {0, 1}) { zones.add(level, found.zones); } // self-similar
+   if (run.report.status != FrictionStatus::converged) { run.leave(); }
 }
 
 /// c and d over a for several f (thesis figure 7.10): one condensed pair serves all.
@@ -113,7 +118,8 @@ void map(Study &study, Disc &disc, const std::vector<double> &wanted,
    ResultTable &table = study.table("map", {{"friction", "f", "%.3g"},
                                             {"load_radius", "a/t", "%.4g"},
                                             {"separation", "d/t"},
-                                            {"stick", "c/t"}});
+                                            {"stick", "c/t"},
+                                            {"status"}});
    table
       .draw("Separation d (upper) and border of stick c (lower)", "load_radius",
             "radius of the load a/t", {{"separation", "d"}, {"stick", "c"}}, "d/t, c/t",
@@ -122,8 +128,11 @@ void map(Study &study, Disc &disc, const std::vector<double> &wanted,
    map_loads(study, table, disc.problem(), wanted, frictions, radius_load,
              [&](double f, double a, const Run &run)
              {
-                const Extent found = disc.extent(run.solver.problem(), run.state);
-                study.row(table, {f, a, found.separation, found.stick}, found.errors());
+                const Extent found = has_state(run.report)
+                                        ? disc.extent(run.solver.problem(), run.state)
+                                        : Extent();
+                study.row(table, {f, a, found.separation, found.stick, name(run.report.status)},
+                          found.errors());
              });
 }
 

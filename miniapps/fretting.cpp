@@ -179,9 +179,24 @@ void assess_pad(Study &study)
    if (!records.empty()) { correlate(study, records, pad, criteria, materials); }
 }
 
+void fretting_study(Study &study)
+{
+   try
+   {
+      assess_pad(study);
+   }
+   catch (const PadSlides &slides)
+   {
+      study.results["status"] = name(FrictionStatus::gross_sliding);
+      study.results["message"] = slides.what();
+      study.say(std::string("Slides: ") + slides.what());
+      throw Outcome();
+   }
+}
+
 } // namespace
 
 int main(int argc, char *argv[])
 {
-   return Study::run("fretting", argc, argv, assess_pad);
+   return Study::run("fretting", argc, argv, fretting_study);
 }

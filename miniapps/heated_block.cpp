@@ -58,6 +58,21 @@ int main(int argc, char *argv[])
       return args.Help() ? 0 : 1;
    }
 
+   try
+   {
+      cattaneo::require(order >= 1 && order <= 8, "option --order is ", order,
+                        ", must be from 1 to 8");
+      cattaneo::require(elements >= 1, "option --elements is ", elements,
+                        ", must be at least 1");
+      cattaneo::require_positive("option --young", E);
+      cattaneo::require_between("option --poisson", nu, -1, 0.5);
+   }
+   catch (const cattaneo::InputError &error)
+   {
+      if (root) { std::cerr << "heated_block: " << error.what() << std::endl; }
+      return 1;
+   }
+
    // 2. The mesh: attributes 1 bottom, 2 right, 3 top, 4 left (the plane of symmetry).
    Mesh serial =
       Mesh::MakeCartesian2D(elements, elements, Element::QUADRILATERAL, true, 1.0, 1.0);
@@ -120,8 +135,19 @@ int main(int argc, char *argv[])
          std::max(0.0, E * alpha * rise / (1 - nu) - E * gap / (1 - nu * nu));
       if (root)
       {
-         std::cout << name(report.status) << ": pressure from " << pressure.minCoeff() << " to "
-                   << pressure.maxCoeff() << ", without friction " << expected << std::endl;
+         std::cout << name(report.status) << ": ";
+         if (state.p.maxCoeff() > 0)
+         {
+            std::cout << "pressure from " << pressure.minCoeff() << " to "
+                      << pressure.maxCoeff() << ", without friction " << expected << std::endl;
+         }
+         else { std::cout << "the block does not reach the plane" << std::endl; }
+         // What is not one answer has the load from which on, and the node.
+         if (report.status != cattaneo::FrictionStatus::converged)
+         {
+            std::cout << "from heat = " << report.event_multipliers[problem.pattern("heat")]
+                      << " on: " << report.message << std::endl;
+         }
       }
       if (root && *json)
       {

@@ -53,6 +53,12 @@ void hertz(Study &study)
    study.parse();
    require((nodes - 1) % order == 0, "option --nodes is ", nodes,
            ", must be one more than a multiple of the order ", order);
+   if (friction == 0)
+   {
+      require(shear.empty() || !study.options().says("shear"),
+              "option --shear is of Q/fP, and --friction 0 leaves no f P");
+      shear.clear();
+   }
 
    const bool on_block = body == "block";
    const double E_star = 0.5, radius = 100, b = on_block ? ratio : 1.0;

@@ -122,16 +122,18 @@ void single(Study &study, Joint &joint)
                o.report.steady_cycle ? "and in the steady one"
                                      : "and in the last one (not steady yet)");
    study.value("work_error", o.work_error(), "work of the last cycle over it, less 1");
+   const double most_p = o.tightened.p.maxCoeff(), most_q = joint.friction * most_p;
    study.value("asymmetry",
-               std::max({asymmetry(o.tightened.p), asymmetry(o.first_peak.p),
-                         asymmetry(o.first_peak.q), asymmetry(o.first_end.q)}),
+               std::max({asymmetry(o.tightened.p, most_p), asymmetry(o.first_peak.p, most_p),
+                         asymmetry(o.first_peak.q, most_q), asymmetry(o.first_end.q, most_q)}),
                "asymmetry of p and q");
    study.value("pressure_memory",
                (o.first_end.p - o.tightened.p).cwiseAbs().maxCoeff() / o.tightened.p.maxCoeff(),
                "memory of p");
-   study.value("residual_shear",
-               tractions(problem, o.tightened.q).cwiseAbs().maxCoeff() / joint.friction,
-               "shear after P", none, "f p0");
+   const double sheared =
+      tractions(problem, o.tightened.q).cwiseAbs().maxCoeff() / joint.friction;
+   study.value("residual_shear", sheared > round_off ? sheared : 0, "shear after P", none,
+               "f p0");
    study.results["zones"] = evolution;
    // The remote load goes from none to its peak: the pressed state is the cycle's other end.
    fretting::MarchedStates edges{problem, o.tightened, o.first_peak};

@@ -51,13 +51,18 @@ double separated_length(const Extent &found, double overhang)
 
 void load(Study &study, Run &run, double overhang)
 {
+   run.leaves = false;
    run.to({{overhang_load(overhang), 1}});
+   run.leaves = true;
+   // One of several states is shown before the study says so and ends.
+   if (!has_state(run.report)) { run.leave(); }
    const Extent found = extent(run.solver.problem(), run.state, overhang);
    study.title(text("Loading, n = %g, f = %g", overhang, run.solver.problem().friction[0]));
    study.value("separation", found.separation, "separation s/t", found.separation_error);
    study.value("stick_slip", found.stick, "border of stick e/t", found.stick_error);
    study.value("separated_length", separated_length(found, overhang));
    study.results["zones"] = to_json(found.zones);
+   if (run.report.status != FrictionStatus::converged) { run.leave(); }
 }
 
 /// s and e over n for several f (thesis figure 5.3): one condensed pair serves all.
@@ -68,7 +73,8 @@ void map(Study &study, const ReducedProblem &problem, const std::vector<double> 
                                             {"overhang", "n", "%.4g"},
                                             {"separation", "s/t"},
                                             {"stick_slip", "e/t"},
-                                            {"separated_length"}});
+                                            {"separated_length"},
+                                            {"status"}});
    table.draw("Separation s and border of stick e", "overhang", "overhang n",
               {{"separation", "s"}, {"stick_slip", "e"}}, "s/t (upper), e/t (lower)",
               {"friction", "f"});
@@ -76,14 +82,17 @@ void map(Study &study, const ReducedProblem &problem, const std::vector<double> 
    {
       table.mark(n, value);
    }
-   map_loads(study, table, problem, overhangs, frictions, overhang_load,
-             [&](double f, double n, const Run &run)
-             {
-                const Extent found = extent(run.solver.problem(), run.state, n);
-                study.row(
-                   table, {f, n, found.separation, found.stick, separated_length(found, n)},
+   map_loads(
+      study, table, problem, overhangs, frictions, overhang_load,
+      [&](double f, double n, const Run &run)
+      {
+         const bool has = has_state(run.report);
+         const Extent found = has ? extent(run.solver.problem(), run.state, n) : Extent();
+         study.row(table,
+                   {f, n, found.separation, found.stick,
+                    has ? separated_length(found, n) : none, name(run.report.status)},
                    {{"separation", found.separation_error}, {"stick_slip", found.stick_error}});
-             });
+      });
 }
 
 Receding receding(const ReducedProblem &problem, double overhang)

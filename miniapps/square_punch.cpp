@@ -17,6 +17,8 @@
 #include "common/punch.hpp"
 #include "common/run.hpp"
 
+#include <cattaneo/input_error.hpp>
+
 using namespace cattaneo;
 using namespace miniapp;
 
@@ -90,6 +92,13 @@ void square_punch(Study &study)
    if (std::isnan(friction)) { friction = options.half_plane ? 0.4 : 0.2; }
    study.results["friction"] = friction;
    settings.stepping = stepping(march_by);
+   if (friction == 0)
+   {
+      require(shear.empty() || !study.options().says("shear"),
+              "option --shear is of Q/fP, and --friction 0 leaves no f P");
+      require(cycles == 0, "option --cycles: they are of Q/fP, and --friction 0 leaves no f P");
+      shear.clear();
+   }
 
    Scene scene = make_punch(options);
    const ReducedProblem &problem = scene.problem();

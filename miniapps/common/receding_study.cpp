@@ -62,6 +62,12 @@ void add_borders(const std::vector<Zone> &zones, std::vector<nlohmann::ordered_j
 
 } // namespace
 
+bool has_state(const MarchReport &report)
+{
+   return report.status == FrictionStatus::converged ||
+          report.status == FrictionStatus::not_unique;
+}
+
 void map_loads(Study &study, const ResultTable &table, ReducedProblem problem,
                const std::vector<double> &wanted, const std::vector<double> &frictions,
                const std::function<std::string(double)> &load,
@@ -69,22 +75,32 @@ void map_loads(Study &study, const ResultTable &table, ReducedProblem problem,
 {
    const Stopwatch watch;
    std::vector<std::vector<NodeState>> guesses(wanted.size());
+   std::size_t failed = 0;
    for (double friction : frictions)
    {
       set_friction(problem, friction);
       Run run(study, problem);
+      run.leaves = false; // one state without an answer is a row, and the others are computed
       for (std::size_t k = 0; k < wanted.size(); ++k)
       {
          run.state = ContactState::virgin(problem);
          // The states of the nodes at the friction before are where the search starts.
          if (!guesses[k].empty()) { run.state.status = guesses[k]; }
          run.to({{load(wanted[k]), 1}});
-         guesses[k] = run.state.status;
          row(friction, wanted[k], run);
+         const bool converged = run.report.status == FrictionStatus::converged;
+         failed += !converged;
+         if (converged) { guesses[k] = run.state.status; }
       }
    }
    study.results["seconds_map"] = watch.seconds();
    study.say(text("map of %zu states in %.2f s", table.json().size(), watch.seconds()));
+   if (failed == 0) { return; }
+   study.code = 2;
+   study.results["status"] = "ended early";
+   study.results["message"] = text("%zu of %zu states of the map have no answer, or several",
+                                   failed, table.json().size());
+   study.say(study.results["message"].get<std::string>());
 }
 
 UnloadingPanels unload(Study &study, Run &run, const Receding &receding,
@@ -145,6 +161,29 @@ UnloadingPanels unload(Study &study, Run &run, const Receding &receding,
    return {profiles, diagram};
 }
 
+namespace
+{
+
+/// Is nothing left of what the first cycle lost, or but the round-off of friction and slip?
+bool dies_out(const std::vector<double> &losses, const ContactState &loaded)
+{
+   const double rubbed = loaded.q.cwiseAbs().dot(loaded.v.cwiseAbs());
+   return losses.back() <= std::max(1e-9 * losses.front(), 1e-12 * rubbed);
+}
+
+/// Factor by which the last cycle lost less than the one a period before; 1 where that is no
+/// share of itself, and the loss has settled.
+double falls(const std::vector<double> &losses, int period)
+{
+   constexpr double settled = 1e-3;
+   const auto count = static_cast<int>(losses.size());
+   if (count <= period) { return 1; }
+   const double factor = losses[count - 1] / losses[count - 1 - period];
+   return factor < 1 - settled ? std::pow(factor, 1.0 / period) : 1;
+}
+
+} // namespace
+
 void cycle_the_load(Study &study, Run &run, const Receding &receding,
                     const std::vector<double> &lowest, int cycles)
 {
@@ -175,11 +214,13 @@ void cycle_the_load(Study &study, Run &run, const Receding &receding,
       run.state = loaded;
       run.state.dissipation = 0;
       std::vector<bool> opens(problem.nodes()), closes(problem.nodes());
-      run.cycle(
-         {{{receding.load, low}}}, cycles,
-         [&](const ContactState &now, const IncrementRecord &)
+      std::vector<double> all; // the loss of each cycle
+      const auto march_on = [&](int count)
+      {
+         const bool begins = all.empty();
+         const auto observe = [&](const ContactState &now, const IncrementRecord &)
          {
-            if (low == lowest[0] && now.time < 4 + 1e-9)
+            if (begins && low == lowest[0] && now.time < 4 + 1e-9)
             {
                diagram.add(now.time, zones(problem, now), shown);
                for (const auto &[time, name] :
@@ -194,22 +235,38 @@ void cycle_the_load(Study &study, Run &run, const Receding &receding,
             {
                (closed(states[i]) ? closes : opens)[i] = true;
             }
-         });
-      std::vector<double> number, loss;
-      for (const CycleRecord &cycle : run.report.cycles)
+         };
+         run.cycle({{{receding.load, low}}}, count, observe);
+         for (const CycleRecord &cycle : run.report.cycles)
+         {
+            all.push_back(cycle.dissipation);
+         }
+      };
+      march_on(cycles);
+      // The slip is called steady once it changes by little of all there is, but a loss that
+      // still falls by a share of itself in each cycle ends at none.
+      const int period = std::max(1, run.report.steady_period);
+      while (static_cast<int>(all.size()) < cycles && !dies_out(all, loaded) &&
+             falls(all, period) < 1)
       {
-         number.push_back(cycle.cycle);
-         loss.push_back(cycle.dissipation > 0 ? cycle.dissipation : none);
+         march_on(1);
+      }
+      std::vector<double> number, loss;
+      for (double one : all)
+      {
+         number.push_back(static_cast<double>(number.size() + 1));
+         loss.push_back(one > 0 ? one : none);
       }
       losses.add(exact_text("p/p0 down to ", low), number, loss, "marked");
       long both = 0;
       for (std::size_t i = 0; i < opens.size(); ++i) { both += opens[i] && closes[i]; }
-      const double first = run.report.cycles.front().dissipation,
-                   last = run.report.cycles.back().dissipation;
-      const char *const outcome = last <= 1e-9 * first          ? "shaken down"
+      const double factor = falls(all, period);
+      const std::string outcome = dies_out(all, loaded) ? "shaken down"
+                                  : factor < 1
+                                     ? text("still falls, by a factor %.2g a cycle", factor)
                                   : run.report.steady_cycle > 0 ? "slips for ever"
                                                                 : "not steady yet";
-      study.row(table, {low, first, last, run.report.cycles.size(), both, outcome});
+      study.row(table, {low, all.front(), all.back(), all.size(), both, outcome});
    }
    run.state = loaded;
 }

@@ -46,7 +46,12 @@ struct Receding
    std::function<Extent(const cattaneo::ContactState &)> extent;
 };
 
+/// Does the state of a march have all of the load: the only one, or one of several?
+bool has_state(const cattaneo::MarchReport &report);
+
 /// Loads by name from rest, at several coefficients of friction: one condensed pair serves all.
+/// States that have no answer, or several, end no map: they are rows, and what they came to is
+/// said at its end.
 /// @param load its name, of each of `wanted`
 /// @param row takes friction, which of `wanted`, and the contact
 void map_loads(Study &study, const ResultTable &table, cattaneo::ReducedProblem problem,

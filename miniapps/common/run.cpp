@@ -72,33 +72,45 @@ const MarchReport &Run::march(const LoadHistory &history, const MarchObserver &o
    settings.monitor = watch.monitor();
    const auto note = [&](const ContactState &reached, const IncrementRecord &record)
    {
-      if (film_) { film_->add(solver.problem(), reached, record); }
-      if (history_)
+      if (film_ || history_)
       {
          IncrementRecord later = record;
          later.time += began_;
-         history_->add(reached, later);
+         if (film_) { film_->add(solver.problem(), reached, later); }
+         if (history_) { history_->add(reached, later); }
       }
       if (observe) { observe(reached, record); }
    };
    report = cattaneo::march(solver, history, state, settings, note);
    settings.monitor = {};
+   started = began_;
    began_ += report.time;
    left_ = place();
    study_.counters += report.counters;
+   if (report.status != FrictionStatus::converged)
+   {
+      // The study has one clock, that of its history.
+      report.event_time += started;
+      if (report.not_unique) { report.not_unique->time += started; }
+   }
    // Ctrl-C ends a sweep as well.
    if (exit_code(solver.problem(), report) != 0 &&
        (leaves || report.status == FrictionStatus::stopped))
    {
-      add_outcome(solver.problem(), report, study_.results);
-      // The cycles that were completed are results, if the study has not reported others.
-      if (!report.cycles.empty() && !study_.results.contains("dissipation"))
-      {
-         report_cycles(study_, solver.problem(), report, unit);
-      }
-      throw Outcome();
+      leave();
    }
    return report;
+}
+
+void Run::leave()
+{
+   add_outcome(solver.problem(), report, study_.results);
+   // The cycles that were completed are results, if the study has not reported others.
+   if (!report.cycles.empty() && !study_.results.contains("dissipation"))
+   {
+      report_cycles(study_, solver.problem(), report, unit);
+   }
+   throw Outcome();
 }
 
 double Run::load(const std::string &pattern) const
@@ -121,16 +133,17 @@ Stepping stepping(const std::string &name)
 void report_exact_path(Study &study, const Run &run)
 {
    if (run.settings.stepping != Stepping::exact) { return; }
-   report_exact_path(study, run.solver.problem(), run.report);
+   report_exact_path(study, run.solver.problem(), run.report, run.started);
 }
 
-void report_exact_path(Study &study, const ReducedProblem &problem, const MarchReport &report)
+void report_exact_path(Study &study, const ReducedProblem &problem, const MarchReport &report,
+                       double started)
 {
    study.say(text("exact path: %zu changes of state", report.changes.size()));
    ordered_json &changes = study.results["state_changes"] = ordered_json::array();
    for (const StateChange &change : report.changes)
    {
-      changes.push_back({{"time", change.time},
+      changes.push_back({{"time", started + change.time},
                          {"loads", named(problem, change.multipliers)},
                          {"node", change.node},
                          {"from", name(change.from)},
@@ -273,6 +286,10 @@ void report_steady(Study &study, const MarchReport &report)
    {
       study.say(
          text("steady from cycle %d, period %d", report.steady_cycle, report.steady_period));
+   }
+   else if (!report.cycles.empty())
+   {
+      study.say(text("not steady after cycle %d", report.cycles.back().cycle));
    }
    study.results["steady_cycle"] = report.steady_cycle;
    study.results["steady_period"] = report.steady_period;

@@ -41,6 +41,10 @@ public:
    const cattaneo::MarchReport &march(const cattaneo::LoadHistory &history,
                                       const cattaneo::MarchObserver &observe = {});
 
+   /// Leaves the study with the outcome of the last march, which did not converge: for those
+   /// that first show what there is.
+   void leave();
+
    /// The multiplier of a pattern.
    double load(const std::string &pattern) const;
 
@@ -50,7 +54,10 @@ public:
    double unit = 1; ///< of the energies of cycles, if it leaves the study within them
    cattaneo::ContactState state; ///< a copy put back is where the run goes on from
    cattaneo::MarchSettings settings;
-   cattaneo::MarchReport report; ///< of the last march
+   /// Of the last march; the time of what it came to is the history's, the others begin with
+   /// the march.
+   cattaneo::MarchReport report;
+   double started = 0; ///< time of the history at which the last march began
    cattaneo::FrictionSolver solver;
 
 private:
@@ -72,8 +79,9 @@ cattaneo::Stepping stepping(const std::string &name);
 /// Of an exact march: its changes of state, printed (their number) and added to the results
 /// (the list), and whether it had to fall back. Nothing for other marches.
 void report_exact_path(Study &study, const Run &run);
+/// @param started time of the history at which the march began
 void report_exact_path(Study &study, const cattaneo::ReducedProblem &problem,
-                       const cattaneo::MarchReport &report);
+                       const cattaneo::MarchReport &report, double started = 0);
 
 /// A table of the cycles of a march, after those that Study::rows_before() has, with the loops
 /// of the loads that vary (cattaneo::Loop), which are drawn, and from where on they are steady;

@@ -421,11 +421,23 @@ void run_sweep(Study &study, const std::string &statements, const std::string &w
 
    const std::vector<std::string> names =
       wanted.empty() ? single_numbers(points, keys) : places(wanted);
-   for (const std::string &name : names)
+   const auto is_there = [&](const std::string &name)
    {
       const auto has = [&](const Point &point)
       { return !result(point.results, name).is_null(); };
-      if (points.empty() || std::any_of(points.begin(), points.end(), has)) { continue; }
+      return points.empty() || std::any_of(points.begin(), points.end(), has);
+   };
+   // Of points that end early nothing is known of what they would have had.
+   const bool ended_well = std::any_of(points.begin(), points.end(),
+                                       [](const Point &point) { return point.ended_well; });
+   require(!ended_well || names.empty() || std::any_of(names.begin(), names.end(), is_there),
+           "option --sweep-results: no point has a number or a word of the name ",
+           names.empty() ? "" : told("'", names[0], "'"), ", must be one of ",
+           listed(single_numbers(points, keys)),
+           ", or a place as levels.0.slip, with blanks in quotes");
+   for (const std::string &name : names)
+   {
+      if (is_there(name)) { continue; }
       // What was computed stays, and the others that were asked for.
       study.code = 2;
       study.results["message"] = "option --sweep-results: no point has a number or a word of "

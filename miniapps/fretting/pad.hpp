@@ -6,6 +6,7 @@
 #include <cattaneo/fretting/assessment.hpp>
 #include <cattaneo/fretting/calibration.hpp>
 #include <cattaneo/fretting/critical_plane.hpp>
+#include <cattaneo/input_error.hpp>
 #include <string>
 
 namespace miniapp
@@ -40,7 +41,14 @@ struct PadContact
    double stress_gradient = 0.0;
 };
 
-/// From closed forms. InputError for what does not go together, and for loads that slide.
+/// The loads make the whole contact slide: an outcome, and of a test record one that is
+/// refused.
+struct PadSlides : cattaneo::InputError
+{
+   using cattaneo::InputError::InputError;
+};
+
+/// From closed forms. InputError for what does not go together, PadSlides for loads that slide.
 PadContact calibrate(const Pad &pad);
 
 /// One edge of the finite element contact over one steady cycle.

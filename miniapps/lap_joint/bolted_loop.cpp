@@ -148,10 +148,12 @@ std::vector<std::vector<int>> orders(const std::string &text, const std::vector<
    return result;
 }
 
-double asymmetry(const Eigen::VectorXd &forces)
+double asymmetry(const Eigen::VectorXd &forces, double size)
 {
    const double largest = forces.cwiseAbs().maxCoeff();
-   return largest > 0 ? (forces - forces.reverse()).cwiseAbs().maxCoeff() / largest : 0.0;
+   return largest > round_off * size
+             ? (forces - forces.reverse()).cwiseAbs().maxCoeff() / largest
+             : 0.0;
 }
 
 } // namespace miniapp

@@ -68,7 +68,10 @@ double touch_load(cattaneo::FrictionSolver &solver, cattaneo::NamedLoads loads, 
 /// The order of tightening: numbers of bolts from 1, orders separated by a slash.
 std::vector<std::vector<int>> orders(const std::string &text, const std::vector<double> &bolts);
 
-/// Largest deviation from mirror symmetry, over the largest value.
-double asymmetry(const Eigen::VectorXd &forces);
+/// What is left of forces that are none, over those beside them.
+constexpr double round_off = 1e-9;
+/// Largest deviation from mirror symmetry, over the largest value. @param size of what the
+/// forces could be: those that are round-off of it are none, and symmetric
+double asymmetry(const Eigen::VectorXd &forces, double size);
 
 } // namespace miniapp

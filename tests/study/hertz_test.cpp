@@ -93,4 +93,36 @@ TEST(Hertz, BadOptionsAreOneSentenceAndExitCodeOne)
    }
 }
 
+/// Without friction there is no f P that Q could be a share of: it is pressed alone.
+TEST(Hertz, FrictionlessIsPressedAlone)
+{
+   const auto run = run_miniapp("hertz", "-friction 0");
+   ASSERT_EQ(run.code, 0) << run.output;
+   EXPECT_TRUE(run.results["levels"].empty()) << run.results["levels"];
+   for (const auto &row : run.results["references"])
+   {
+      EXPECT_EQ(row["quantity"].get<std::string>().find("Q/fP"), std::string::npos) << row;
+   }
+   EXPECT_NEAR(run.results["half_width"].get<double>(), 1, 0.01);
+   EXPECT_EQ(run_miniapp("hertz", "-friction 0 -shear 0.3").code, 1);
+}
+
+/// At Q = f P nothing sticks but the node where the mesh ends: it says nothing within its
+/// spacing, 2 * 1.67 b over 100 intervals.
+TEST(Hertz, StickOfOneNodeIsKnownToASpacing)
+{
+   const auto run = run_miniapp("hertz", "-shear 1");
+   ASSERT_EQ(run.code, 0) << run.output;
+   int found = 0;
+   for (const auto &row : run.results["references"])
+   {
+      if (row["quantity"] != "stick half-width / b, Q/fP = 1") { continue; }
+      ++found;
+      EXPECT_LE(row["computed"].get<double>(), 0.0334);
+      EXPECT_GE(row["mesh"].get<double>(), 0.0333);
+      EXPECT_FALSE(row["outside"].get<bool>()) << row;
+   }
+   EXPECT_EQ(found, 1) << run.output;
+}
+
 } // namespace

@@ -180,6 +180,22 @@ TEST(LapJoint, SweepKnowsNothingOfWhatSlidAway)
    }
 }
 
+/// Equal laps that nothing pulls are sheared nowhere: what is left of it is round-off, and
+/// shown as none.
+TEST(LapJoint, WhatNothingPullsHasNoShear)
+{
+   const auto run = run_miniapp("lap_joint", "-load 0 -spacing 0.025");
+   ASSERT_EQ(run.code, 0) << run.output;
+   EXPECT_LT(run.results["asymmetry"].get<double>(), 1e-7); // of p
+   EXPECT_EQ(run.results["residual_shear"], 0);
+   ASSERT_EQ(run.results["edges"].size(), 2u);
+   for (const auto &edge : run.results["edges"])
+   {
+      EXPECT_EQ(edge["k_t"]["value"], 0) << edge;
+      EXPECT_EQ(edge["slip_zone_predicted"], 0) << edge;
+   }
+}
+
 TEST(LapJoint, DissipationFallsWithFrictionAndRisesWithLoad)
 {
    const auto run = run_miniapp(

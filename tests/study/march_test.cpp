@@ -227,4 +227,18 @@ TEST_F(March, LawsOfFrictionThatBendOrDifferByWay)
    }
 }
 
+/// The first cycle of a shear on what was only pressed leaves slip that was not there before.
+TEST_F(March, CyclesThatAreNotSteadyAreCalledSo)
+{
+   const std::string loads = "-reduced problems/hertz.json -history "
+                             "'P=0; P=1; Q=0.1; Q=-0.1; Q=0' -cycle-start 1 -cycles ";
+   const auto once = run_miniapp("march", loads + "1"),
+              more = run_miniapp("march", loads + "4");
+   EXPECT_EQ(once.code, 0) << once.output;
+   EXPECT_NE(once.output.find("not steady after cycle 1"), std::string::npos) << once.output;
+   EXPECT_EQ(more.code, 0) << more.output;
+   EXPECT_EQ(more.output.find("not steady"), std::string::npos) << more.output;
+   EXPECT_NE(more.output.find("steady from cycle"), std::string::npos) << more.output;
+}
+
 } // namespace

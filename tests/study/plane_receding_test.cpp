@@ -209,4 +209,65 @@ TEST(PlaneReceding, UnloadingHardlyDependsOnTheSteps)
    }
 }
 
+/// The loss falls by one factor a cycle: cycles on, nothing is left of it. Where slip turns
+/// over more of the contact, a part of it slips for ever.
+TEST(PlaneReceding, CyclesWhoseLossFallsShakeDown)
+{
+   const std::string options = "-spacing 0.1 -length 40 -corner 0.01 -cycle-to '0.6 0.95'";
+   const auto run = run_miniapp("plane_receding", options);
+   ASSERT_EQ(run.code, 0) << run.output;
+   const auto &cycles = run.results["load_cycles"];
+   EXPECT_EQ(cycles[0]["outcome"], "slips for ever") << cycles;
+   EXPECT_EQ(cycles[1]["outcome"], "shaken down") << cycles;
+   EXPECT_LE(number(cycles[1]["last_loss"]), 1e-9 * number(cycles[1]["first_loss"]));
+   // On its way there it says by which factor.
+   const auto last_loss = [&](int count, std::string &outcome)
+   {
+      const auto cut =
+         run_miniapp("plane_receding", options + " -cycles " + std::to_string(count));
+      EXPECT_EQ(cut.code, 0) << cut.output;
+      outcome = cut.results["load_cycles"][1]["outcome"];
+      return number(cut.results["load_cycles"][1]["last_loss"]);
+   };
+   std::string outcome;
+   const double tenth = last_loss(10, outcome),
+                factor = std::pow(last_loss(18, outcome) / tenth, 1.0 / 8);
+   const std::string words = "still falls, by a factor ";
+   ASSERT_EQ(outcome.rfind(words, 0), 0u) << outcome;
+   EXPECT_NEAR(std::stod(outcome.substr(words.size())), factor, 0.01); // to two digits
+}
+
+/// Friction above its critical value has several answers: that is a row, and those after it are
+/// what they are without it.
+TEST(PlaneReceding, AMapGoesOnBeyondWhatIsNotUnique)
+{
+   const std::string options = "-spacing 0.05 -corner 0.01 -map '2 4' -map-friction ";
+   const auto run = run_miniapp("plane_receding", options + "'0.3 50 0.5'"),
+              good = run_miniapp("plane_receding", options + "'0.3 0.5'");
+   EXPECT_EQ(run.code, 2) << run.output;
+   ASSERT_EQ(good.code, 0) << good.output;
+   const auto &map = run.results["map"], &known = good.results["map"];
+   ASSERT_EQ(map.size(), 6u) << run.output;
+   for (int k = 0; k < 6; ++k)
+   {
+      EXPECT_EQ(map[k]["status"], k / 2 == 1 ? "not unique" : "converged") << map[k];
+      if (k / 2 == 1) { continue; }
+      const auto &same = known[k / 4 * 2 + k % 2];
+      EXPECT_NEAR(number(map[k]["separation"]), number(same["separation"]), 1e-9);
+      EXPECT_NEAR(number(map[k]["stick_slip"]), number(same["stick_slip"]), 1e-9);
+   }
+   EXPECT_NE(run.output.find("2 of 6 states of the map"), std::string::npos) << run.output;
+}
+
+/// All of the strip may stick where friction is large: that state is shown.
+TEST(PlaneReceding, OneOfSeveralStatesIsShown)
+{
+   const auto run = run_miniapp("plane_receding", "-friction 100 -spacing 0.05 -corner 0.01");
+   EXPECT_EQ(run.code, 2) << run.output;
+   EXPECT_EQ(run.results["status"], "not unique");
+   EXPECT_NE(run.output.find("Loading, n = 4"), std::string::npos) << run.output;
+   ASSERT_TRUE(run.results.contains("zones")) << run.output;
+   EXPECT_EQ(run.results["zones"][0]["state"], "stick");
+}
+
 } // namespace

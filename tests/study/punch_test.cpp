@@ -198,6 +198,15 @@ TEST(SquarePunch, FrictionlessHasNoTangentialUnknowns)
    ASSERT_EQ(run.code, 0) << run.output;
    EXPECT_EQ(run.results["counters"]["tangential_unknowns"], 0);
    EXPECT_TRUE(run.results["stick_left"].is_null());
+   // Q is in f P, which is none.
+   const auto pressed = run_miniapp("square_punch", "-friction 0 -nodes 33");
+   EXPECT_EQ(pressed.code, 0) << pressed.output;
+   EXPECT_TRUE(pressed.results["levels"].empty()) << pressed.results["levels"];
+   for (const char *options : {"-shear 0.5", "-cycles 2"})
+   {
+      const auto sheared = run_miniapp("square_punch", std::string("-friction 0 ") + options);
+      EXPECT_EQ(sheared.code, 1) << sheared.output;
+   }
 }
 
 TEST(SquarePunch, GrossSlidingIsAnAnswerWithItsLoad)
@@ -208,6 +217,31 @@ TEST(SquarePunch, GrossSlidingIsAnAnswerWithItsLoad)
    // Q = f P, whatever the elasticity.
    EXPECT_NEAR(run.results["event_loads"]["Q"].get<double>(), 0.2, 1e-8);
    EXPECT_NE(run.output.find("slides"), std::string::npos);
+}
+
+/// P in the first unit of time, Q/fP = 0.5 in the second, and of the way to 1.2 in the third
+/// what is up to 1. All that is written has that time.
+TEST(SquarePunch, AStudyHasOneClock)
+{
+   const std::string prefix = testing::TempDir() + "punch_clock", page = prefix + ".html";
+   const auto run = run_miniapp("square_punch", "-shear '0.5 1.2' -nodes 41 --csv '" + prefix +
+                                                   "' --html '" + page + "'");
+   EXPECT_EQ(run.code, 2) << run.output;
+   const double slides = 2 + (1 - 0.5) / (1.2 - 0.5);
+   EXPECT_NEAR(run.results["event_time"].get<double>(), slides, 1e-6);
+   EXPECT_NE(run.output.find("at time 2.714"), std::string::npos) << run.output;
+   std::ifstream history(prefix + "_history.csv");
+   std::string line, last;
+   while (std::getline(history, line)) { last = line; }
+   EXPECT_NEAR(std::stod(last), slides, 1e-6);
+   std::ostringstream text;
+   text << std::ifstream(page).rdbuf();
+   EXPECT_NE(text.str().find("\"time\":2.714"), std::string::npos);
+   for (const char *file : {"_history.csv", "_levels.csv", "_slip.csv", "_tractions.csv",
+                            "_references.csv", ".html"})
+   {
+      std::remove((prefix + file).c_str());
+   }
 }
 
 TEST(SquarePunch, BadOptionsAreOneSentenceAndExitCodeOne)

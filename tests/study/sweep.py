@@ -105,6 +105,9 @@ def outcomes(folder):
     results = read(out)
     assert results["status"] == "ended early" and "'peak_presure', must be one of" in results["message"], results
     assert all(isinstance(row["normal_force"], float) for row in results["sweep"]), results["sweep"]
+    # Where no point has any result that is asked for, there is nothing to be kept.
+    shown = run("march", *hertz, "--sweep", "friction=0.2 0.3", "--sweep-results", "nonsense", code=1)
+    assert "error: option --sweep-results: no point has" in shown and "'nonsense', must be one of" in shown, shown
 
 
 def refused():

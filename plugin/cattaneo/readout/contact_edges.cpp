@@ -444,6 +444,9 @@ void read_k_t(const ReducedProblem &problem, const ContactState &pressed,
       const double error = k_t.relative_error * std::abs(k_t.value) + doubtful[e] + left;
       k_t.value = value[e];
       k_t.relative_error = error > 0 ? error / std::abs(k_t.value) : 0.0;
+      // Round-off of what friction can bear is no shear.
+      const double bears = edges[e].friction * edges[e].k_n.value * edges[e].half_width;
+      if (std::abs(k_t.value) <= 1e-9 * bears) { k_t.value = k_t.relative_error = 0; }
    }
 }
 

@@ -411,6 +411,15 @@ Zone stick_zone(const ReducedProblem &problem, const std::vector<Zone> &zones)
    };
    doubt(stick.first, -1, stick.from);
    doubt(stick.last, 1, stick.to);
+   // One node alone sticks wherever slip turns, however far the mesh is from any stick.
+   if (stick.first != stick.last) { return stick; }
+   for (const Index step : {-1, 1})
+   {
+      ZoneBorder &edge = step < 0 ? stick.from : stick.to;
+      const Index next = stick.first + step;
+      if (!on_chain(next)) { continue; }
+      edge.error = std::max(edge.error, std::abs(s[next] - s[stick.first]));
+   }
    return stick;
 }
 

@@ -67,7 +67,8 @@ Zone widest_zone(const std::vector<Zone> &zones, NodeState which);
 
 /** The widest stick zone, with the errors of its ends as borders of stick: one that ends where
     the contact does, without a node of slip between, is known to a spacing only, since slip
-    between the last two nodes does not show. */
+    between the last two nodes does not show. So is one that a single node holds: there may be
+    none. */
 Zone stick_zone(const ReducedProblem &problem, const std::vector<Zone> &zones);
 /// The same of a state.
 Zone stick_zone(const ReducedProblem &problem, const ContactState &state);
