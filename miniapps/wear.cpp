@@ -218,9 +218,10 @@ void wear_contact(Study &study)
       add_outcome(problem, report.last, study.results);
       study.results["status"] = name(report.status);
       study.results["message"] = report.message;
-      study.say(
-         text("Ended after %g cycles with status '%s': ", state.cycles, name(report.status)) +
-         report.message);
+      const std::string where =
+         event_text(report.last.event_time, named(problem, report.last.event_multipliers));
+      study.say(told("Ended after ", state.cycles, " cycles with status '", name(report.status),
+                     "' at ", where, ": ", report.message));
       if (report.status != FrictionStatus::not_unique) { throw Outcome(); }
    }
    draw_loop(loops, exact_text("cycle ", state.cycles), scene, state, settings.march);

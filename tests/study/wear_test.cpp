@@ -113,4 +113,14 @@ TEST(WearStudy, EndOfOneOfTwoLines)
    EXPECT_NEAR(two.results["final_volume"], 2 * volume, 1e-6 * volume);
 }
 
+// It slides where Q = f P, with the f = 0.4 of the file.
+TEST(WearStudy, SlidingSaysAtWhichLoad)
+{
+   const auto run = run_miniapp("wear", "--reduced problems/hertz.json --history 'P=0; P=1; "
+                                        "Q=0.5; Q=-0.5; Q=0.5' --cycle-start 2 --cycles 20");
+   EXPECT_EQ(run.code, 2) << run.output;
+   EXPECT_NEAR(run.results["event_loads"]["Q"], 0.4, 1e-6);
+   EXPECT_NE(run.output.find("(P = 1, Q = 0.4)"), std::string::npos) << run.output;
+}
+
 } // namespace
