@@ -84,6 +84,7 @@ DesignReport search(Study &study, const DesignProblem &problem, const VectorXd &
       if (ends)
       {
          best.status = DesignStatus::stopped;
+         best.message = "the design was asked to stop";
          break;
       }
    }
@@ -207,6 +208,10 @@ void design_contact(Study &study)
    if (report.traces.empty())
    {
       study.say("   no design: " + report.message);
+      if (report.status == DesignStatus::no_equilibrium)
+      {
+         report_event(study, problem, variables.start, settings.march);
+      }
       throw Outcome();
    }
    study.save(problem.with(report.x));

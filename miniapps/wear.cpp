@@ -162,13 +162,12 @@ void wear_contact(Study &study)
                                                {"stick", "stick", "%.5g"}});
    table.draw("Worn volume", "cycle", "cycles", {{"volume", "volume"}}, "volume");
    std::vector<double> times, from, to;
-   double row_at = 0, drawn_at = 0;
-   const auto observe = [&](const WearState &now, const WearRecord &record)
+   double row_at = 0, drawn_at = 0, last_row = none;
+   WearRecord reached;
+   const auto add_row = [&](const WearState &now, const WearRecord &record)
    {
-      if (record.cycles < row_at && record.cycles < cycles) { return; }
-      row_at = std::max(record.cycles + 1, 1.25 * record.cycles);
-      const ReducedProblem worn = with_gap(problem, now.depth);
-      const Zone stick = stick_zone(worn, now.contact);
+      last_row = record.cycles;
+      const Zone stick = stick_zone(with_gap(problem, now.depth), now.contact);
       study.row(table, {record.cycles, record.volume, record.depth, record.dissipation,
                         record.loss, half_width(stick)});
       if (stick.last >= stick.first)
@@ -177,9 +176,17 @@ void wear_contact(Study &study)
          from.push_back(stick.from.position - scene.middle);
          to.push_back(stick.to.position - scene.middle);
       }
+   };
+   const auto observe = [&](const WearState &now, const WearRecord &record)
+   {
+      reached = record;
+      if (record.cycles < row_at && record.cycles < cycles) { return; }
+      row_at = std::max(record.cycles + 1, 1.25 * record.cycles);
+      add_row(now, record);
       if (record.cycles < drawn_at && record.cycles < cycles) { return; }
       drawn_at = std::max(0.01 * cycles, 4 * record.cycles);
       const std::string label = exact_text("cycle ", record.cycles);
+      const ReducedProblem worn = with_gap(problem, now.depth);
       profiles.add(label, x, now.depth);
       pressures.add(label, x, tractions(worn, now.contact.p));
       if (record.cycles == 0) { draw_loop(loops, label, scene, now, settings.march); }
@@ -191,6 +198,8 @@ void wear_contact(Study &study)
       report = wear(problem, law, scene.history, cycles, state, settings, observe);
       settings.march.monitor = {};
    }
+   // One that ends early ends between the rows.
+   if (last_row < reached.cycles) { add_row(state, reached); }
    study.counters += report.counters;
    warn_of_cut_off(report.cut_off);
    study.results["cycles_worn"] = state.cycles;
@@ -218,9 +227,10 @@ void wear_contact(Study &study)
       add_outcome(problem, report.last, study.results);
       study.results["status"] = name(report.status);
       study.results["message"] = report.message;
-      study.say(
-         text("Ended after %g cycles with status '%s': ", state.cycles, name(report.status)) +
-         report.message);
+      const std::string where =
+         event_text(report.last.event_time, named(problem, report.last.event_multipliers));
+      study.say(told("Ended after ", state.cycles, " cycles with status '", name(report.status),
+                     "' at ", where, ": ", report.message));
       if (report.status != FrictionStatus::not_unique) { throw Outcome(); }
    }
    draw_loop(loops, exact_text("cycle ", state.cycles), scene, state, settings.march);

@@ -296,24 +296,17 @@ void report_steady(Study &study, const MarchReport &report)
    study.results["energy_imbalance"] = report.energy_imbalance;
 }
 
-namespace
+std::string event_text(double time, const NamedLoads &loads)
 {
-
-/// "time 0.3 (P = 1, 'n = 4' = 0.2)"
-std::string event_text(const ReducedProblem &problem, double time,
-                       const Eigen::VectorXd &multipliers)
-{
-   std::vector<std::string> loads;
-   for (const auto &[name, value] : named(problem, multipliers))
+   std::vector<std::string> words;
+   for (const auto &[name, value] : loads)
    {
       // Names of studies' loads hold numbers of their own.
       const char *quote = name.find(' ') == std::string::npos ? "" : "'";
-      loads.push_back(told(quote, name, quote, " = ", value));
+      words.push_back(told(quote, name, quote, " = ", value));
    }
-   return told("time ", time, " (", listed(loads), ")");
+   return told("time ", time, " (", listed(words), ")");
 }
-
-} // namespace
 
 int exit_code(const ReducedProblem &problem, const MarchReport &report)
 {
@@ -351,13 +344,13 @@ int exit_code(const ReducedProblem &problem, const MarchReport &report)
    if (report.status == FrictionStatus::converged) { return 0; }
    if (const auto &first = report.not_unique)
    {
-      say("Not unique: from ", event_text(problem, first->time, first->multipliers),
+      say("Not unique: from ", event_text(first->time, named(problem, first->multipliers)),
           " on, the states are one of several:\n  ", first->message);
    }
    if (report.status != FrictionStatus::not_unique)
    {
       say("Ended with status '", name(report.status), "' at ",
-          event_text(problem, report.event_time, report.event_multipliers), ":\n  ",
+          event_text(report.event_time, named(problem, report.event_multipliers)), ":\n  ",
           report.message);
    }
    return 2;

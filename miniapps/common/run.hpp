@@ -100,6 +100,9 @@ void add_loops(Panel &panel, const cattaneo::ReducedProblem &problem,
 /// `steady_period` and `energy_imbalance`.
 void report_steady(Study &study, const cattaneo::MarchReport &report);
 
+/// Where a march came to an event, in words: "time 0.3 (P = 1, 'n = 4' = 0.2)".
+std::string event_text(double time, const cattaneo::NamedLoads &loads);
+
 /// Exit code of a march's outcome; prints where and why it ended early, was not unique or left
 /// its exact path, and by how much its increments matter where contact advanced with friction.
 int exit_code(const cattaneo::ReducedProblem &problem, const cattaneo::MarchReport &report);

@@ -1,6 +1,7 @@
 #include "common/study.hpp"
 
 #include "common/check.hpp"
+#include "common/run.hpp"
 #include "common/sweep.hpp"
 #include "common/watch.hpp"
 
@@ -356,6 +357,9 @@ void Study::write_html(const std::vector<Sheet> &sheets) const
               {{"study", name_},
                {"status", results["status"]},
                {"message", results.value("message", "")},
+               {"event", results.contains("event_loads")
+                            ? event_text(results["event_time"], results["event_loads"])
+                            : ""},
                {"seconds", results["seconds"]},
                {"warnings", warnings()},
                {"options", options_.values()},

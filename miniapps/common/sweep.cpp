@@ -1,5 +1,6 @@
 #include "common/sweep.hpp"
 
+#include "common/run.hpp"
 #include "common/watch.hpp"
 
 #include <algorithm>
@@ -459,6 +460,14 @@ void run_sweep(Study &study, const std::string &statements, const std::string &w
       columns.push_back({name, show ? name : "", "%.5g"});
    }
    columns.push_back({"status", "status"});
+   const bool events =
+      std::any_of(points.begin(), points.end(),
+                  [](const Point &point) { return point.results.contains("event_loads"); });
+   if (events)
+   {
+      columns.push_back({"event_time"});
+      columns.push_back({"", "at"});
+   }
    columns.push_back({"message"});
    ResultTable &table = study.table("sweep", columns);
    long converged = 0;
@@ -468,8 +477,18 @@ void run_sweep(Study &study, const std::string &statements, const std::string &w
       std::vector<ordered_json> row;
       for (const std::string &value : point.values) { row.push_back(as_number(value)); }
       for (const std::string &name : names) { row.push_back(result(point.results, name)); }
-      row.insert(row.end(), {point.status, point.message});
-      study.row(table, row);
+      row.push_back(point.status);
+      ordered_json more;
+      if (events)
+      {
+         const ordered_json &of = point.results;
+         const bool ended = of.contains("event_loads");
+         row.push_back(ended ? of["event_time"] : ordered_json());
+         row.push_back(ended ? event_text(of["event_time"], of["event_loads"]) : "");
+         if (ended) { more["event_loads"] = of["event_loads"]; }
+      }
+      row.push_back(point.message);
+      study.row(table, row, {}, more);
       if (point.status == "refused") { refusals.insert(point.message); }
       converged += point.ended_well ? 1 : 0;
       for (const auto &warning : point.results.value("warnings", ordered_json::array()))

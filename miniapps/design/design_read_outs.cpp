@@ -1,5 +1,7 @@
 #include "design/design_read_outs.hpp"
 
+#include "common/run.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -86,6 +88,27 @@ std::vector<Response> densities(const ReducedProblem &problem, const Responses &
       all.push_back(1 / weight * of.dissipation(states.front(), states.back(), i));
    }
    return all;
+}
+
+void report_event(Study &study, const DesignProblem &problem, const VectorXd &x,
+                  MarchSettings settings)
+{
+   settings.stop_at_steady_state = false;
+   const ReducedProblem with = problem.with(x);
+   for (const DesignCase &load_case : problem.cases)
+   {
+      const MarchReport march =
+         trace_march(with, with_variables(problem, load_case, x), settings).report;
+      if (march.status == FrictionStatus::converged ||
+          march.status == FrictionStatus::not_unique)
+      {
+         continue;
+      }
+      const NamedLoads loads = named(with, march.event_multipliers);
+      study.results["event_time"] = march.event_time;
+      study.results["event_loads"] = loads;
+      return study.say("   that is at " + event_text(march.event_time, loads));
+   }
 }
 
 VectorXd places(const ReducedProblem &problem)

@@ -16,6 +16,11 @@ std::vector<cattaneo::Response> densities(const cattaneo::ReducedProblem &proble
                                           const cattaneo::Responses &of,
                                           const std::vector<std::size_t> &states);
 
+/// Where the march of a case without equilibrium, the first of them, came to its event:
+/// `event_time` and `event_loads`.
+void report_event(Study &study, const cattaneo::DesignProblem &problem,
+                  const Eigen::VectorXd &x, cattaneo::MarchSettings settings);
+
 /// All cases before and after, marched: a table `cases`, the pressures where they are largest
 /// and, if the goal is the energy that a node loses, that of all nodes.
 void report_cases(Study &study, const cattaneo::DesignProblem &problem,

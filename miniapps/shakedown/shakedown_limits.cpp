@@ -21,6 +21,7 @@ void Shakedown::report(const std::string &what, const LimitReport &of, double lo
    const bool found =
       of.status == LimitStatus::certified || of.status == LimitStatus::bracketed;
    study.value(what + "_limit", of.limit, "exact limit of the " + what);
+   results[what + "_limit_status"] = name(of.status);
    study.say(found ? text("      proven between %.8f and %.8f", of.lower, of.upper)
                    : std::string("      none: ") + name(of.status));
    study.say(text("      %s; violation %.1e, %ld programmes, %d iterations, %.3f s",
@@ -235,7 +236,6 @@ void Shakedown::largest_load()
    report("load", most, most.limit, friction);
    results["load_limit_lower"] = most.lower;
    results["load_limit_upper"] = most.upper;
-   results["load_limit_status"] = name(most.status);
    if (most.status == LimitStatus::certified) { lower(); }
    if (std::isfinite(most.upper) && !part.open.empty()) { check_open_nodes(); }
    if (!standard) { return; }

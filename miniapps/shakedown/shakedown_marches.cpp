@@ -130,6 +130,7 @@ void Shakedown::marches()
    VectorXd optimal = best().slip;
    if (best().ray.size()) { optimal += lambda_max * best().ray; }
    bool opened = false;
+   std::vector<std::string> ended;
    for (const auto &[start, sign] :
         {std::pair{"zero", 0.0}, {"optimal", 1.0}, {"negative optimal", -1.0}})
    {
@@ -139,23 +140,34 @@ void Shakedown::marches()
       // What no whole cycle has shown is not known, and not zero.
       const auto seen = [&](double value) { return loss.empty() ? none : value; };
       const auto opened_nodes = static_cast<double>(run.opened.size());
+      const bool ends = run.status != FrictionStatus::converged;
+      const NamedLoads at = ends ? named(problem, run.event_multipliers) : NamedLoads();
+      ordered_json more = {{"dissipation", loss}, {"status", name(run.status)}};
+      if (ends) { more.update({{"event_time", run.event_time}, {"event_loads", at}}); }
       study.row(table,
                 {start, loss.empty() ? none : loss.front(), loss.empty() ? none : loss.back(),
                  seen(run.decay), loss.size(), seen(opened_nodes), seen(run.opened_loss),
                  outcome(run)},
-                {}, {{"dissipation", loss}, {"status", name(run.status)}});
-      if (!run.message.empty()) { study.say("      " + run.message); }
+                {}, more);
+      if (ends)
+      {
+         study.say("      " + event_text(run.event_time, at) + ": " + run.message);
+         ended.push_back(start);
+         if (ended.size() == 1)
+         {
+            // Its outcome is that of the run, whose limits have a status of their own.
+            study.code = 2;
+            results["status"] = name(run.status);
+            results["message"] = run.message;
+            results["event_time"] = run.event_time;
+            results["event_loads"] = at;
+         }
+      }
       if (!run.opened.empty())
       {
          study.say(text("      the nodes that open: x = %.4f … %.4f", x[run.opened.front()],
                         x[run.opened.back()]));
          opened = true;
-      }
-      if (run.status != FrictionStatus::converged && run.status != FrictionStatus::not_unique)
-      {
-         study.code = 2; // ended early, for want of an equilibrium
-         results["message"] = std::string("the march from ") + start +
-                              " slip ended with status '" + name(run.status) + "'";
       }
       if (sign == 0)
       {
@@ -166,6 +178,11 @@ void Shakedown::marches()
          losses.point(std::string("from ") + start + " slip", k + 1.0,
                       loss[k] > 0 ? loss[k] : none);
       }
+   }
+   if (!ended.empty())
+   {
+      results["message"] = "marches from " + listed(ended) +
+                           " slip, of the first: " + results["message"].get<std::string>();
    }
    if (opened)
    {

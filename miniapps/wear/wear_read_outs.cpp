@@ -69,6 +69,12 @@ void report_end(Study &study, const WearCase &scene, const WornOut &end, Panel &
       study.results["worn_out_message"] = end.message;
       return study.say("   none: " + end.message);
    }
+   if (end.searches == 0)
+   {
+      study.value("final_volume", 0, "volume worn off");
+      study.value("final_depth", 0, "largest depth");
+      return study.say("   nothing slips in a cycle, and nothing wears");
+   }
    const ReducedProblem &problem = scene.problem;
    const Zone stick = stick_zone(problem, zones(problem, end.unworn, end.range));
    // Of several lines that on which the widest zone sticks.
@@ -99,7 +105,7 @@ void report_end(Study &study, const WearCase &scene, const WornOut &end, Panel &
    Index centre = 0;
    (s.array() - 0.5 * (stick.from.position + stick.to.position)).abs().minCoeff(&centre);
    study.value("final_pressure_centre", p[begin + centre], "pressure amid the stick zone");
-   study.value("final_loss", end.loss, "loss of a cycle, of the unworn one");
+   study.value("final_loss", settled(end.loss, 1), "loss of a cycle, of the unworn one");
    study.results["final_depths"] =
       std::vector<double>(end.depth.data(), end.depth.data() + end.depth.size());
    const VectorXd x = problem.arc_length.array() - scene.middle;

@@ -65,6 +65,7 @@ TEST(DesignStudy, SaysThatItWasStopped)
    EXPECT_EQ(run.code, 2) << run.output;
    EXPECT_EQ(run.results["status"], "stopped");
    EXPECT_EQ(run.results["design"], "stopped");
+   EXPECT_EQ(run.results["message"], "the design was asked to stop");
    EXPECT_NE(run.output.find("asked to stop"), std::string::npos) << run.output;
 }
 
@@ -389,6 +390,17 @@ TEST(DesignStudy, MiddleOfHalfALine)
          EXPECT_GT(chosen[end == 0 ? last : 0], 1e-5) << profile;
       }
    }
+}
+
+// It slides where Q = f P, with the f = 0.4 of the file.
+TEST(DesignStudy, SlidingSaysAtWhichLoad)
+{
+   const auto run =
+      run_miniapp("design", "--reduced problems/hertz.json --history 'P=0; P=1; Q=0.5'");
+   EXPECT_EQ(run.code, 2) << run.output;
+   EXPECT_NEAR(run.results["event_loads"]["Q"], 0.4, 1e-6);
+   EXPECT_NEAR(run.results["event_time"], 1.8, 1e-5);
+   EXPECT_NE(run.output.find("(P = 1, Q = 0.4)"), std::string::npos) << run.output;
 }
 
 } // namespace

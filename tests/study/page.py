@@ -99,6 +99,13 @@ def main():
         bad = subprocess.run([programs / "march", *RUN, "--html", folder / "page.txt"], cwd=root, text=True,
                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
         assert bad.returncode == 1 and "must end in .html" in bad.stdout, bad.stdout
+        sliding = subprocess.run([programs / "march", "-reduced", "problems/hertz.json", "-history", "P=0; P=1; Q=.5", "--html", folder / "slides.html"],
+                                 cwd=root, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+        assert sliding.returncode == 2, sliding.stdout
+        at = "time 1.8 (P = 1, Q = 0.4)" # it slides where Q = f P
+        data = re.search(r'<script type="application/json" id="run">(.*?)</script>', (folder / "slides.html").read_text(encoding="utf-8"), re.S)
+        assert json.loads(data.group(1))["event"] == at, data.group(1)[:300]
+        assert not browser or f"gross sliding at {at}" in shown(browser, folder / "slides.html")
         if not browser:
             print("no chromium: the page is not opened")
             sys.exit(77)

@@ -380,4 +380,28 @@ TEST(ShakedownStudy, RefusesBadOptions)
    EXPECT_EQ(run.code, 2) << run.output;
 }
 
+// A body that P presses slides where Q is f P: the outcome of the marches is that of the run,
+// whatever is proven of the limit.
+TEST(ShakedownStudy, MarchesThatSlideSayAtWhichLoads)
+{
+   const Outcome run = run_miniapp("shakedown", "-nodes 41 -find load -friction 0.85 -march "
+                                                "-cycles 3 -lambda-max 0.9");
+   EXPECT_EQ(run.code, 2) << run.output;
+   EXPECT_EQ(run.results["load_limit_status"], "certified");
+   EXPECT_EQ(run.results["status"], "gross sliding");
+   const std::string message = run.results["message"];
+   EXPECT_NE(message.find("from zero, optimal, negative optimal slip"), std::string::npos)
+      << message;
+   ASSERT_EQ(run.results["marches"].size(), 3u);
+   // Bisection, to a millionth.
+   EXPECT_NEAR(run.results["event_loads"]["Q"], 0.85, 1e-6);
+   for (const auto &march : run.results["marches"])
+   {
+      EXPECT_EQ(march["event_loads"]["P"], 1);
+      EXPECT_NEAR(march["event_loads"]["Q"], 0.85, 1e-6);
+   }
+   EXPECT_NE(run.output.find("(P = 1, Q = 0.85): the loads exceed"), std::string::npos)
+      << run.output;
+}
+
 } // namespace

@@ -55,11 +55,15 @@ def outcomes(folder):
     out = folder / "o.json"
     shown = run("march", "--case", case, "--json", out, code=2)
     results = read(out)
+    assert "(P = 1, Q = 0.2)" in shown, shown
     assert "5 of 6 points converged" in shown and results["status"] == "ended early", shown
     for row in results["sweep"]:
         holds = row["history.2.Q"] < row["friction"]
         assert row["status"] == ("converged" if holds else "gross sliding"), row
         assert (row["message"] == "") == holds, row
+        assert ("event_loads" in row) != holds and (row["event_time"] is None) == holds, row
+        if not holds: # it slides at Q = f P
+            assert abs(row["event_loads"]["Q"] - row["friction"]) < 1e-6, row
         if holds: # equilibrium
             assert abs(row["tangential_force"] + row["history.2.Q"] * row["normal_force"]) < 1e-12, row
     # A case of contact2d, by an entry of a list and a word of its own.

@@ -113,4 +113,60 @@ TEST(WearStudy, EndOfOneOfTwoLines)
    EXPECT_NEAR(two.results["final_volume"], 2 * volume, 1e-6 * volume);
 }
 
+// It slides where Q = f P, with the f = 0.4 of the file.
+TEST(WearStudy, SlidingSaysAtWhichLoad)
+{
+   const auto run = run_miniapp("wear", "--reduced problems/hertz.json --history 'P=0; P=1; "
+                                        "Q=0.5; Q=-0.5; Q=0.5' --cycle-start 2 --cycles 20");
+   EXPECT_EQ(run.code, 2) << run.output;
+   EXPECT_NEAR(run.results["event_loads"]["Q"], 0.4, 1e-6);
+   EXPECT_NE(run.output.find("(P = 1, Q = 0.4)"), std::string::npos) << run.output;
+}
+
+// Two equal bodies that are pressed alone do not slip (B = 0), and what does not slip does not
+// wear: neither where they part in the cycle, nor where only the edges of contact do.
+TEST(WearStudy, NothingWearsWhereNothingSlips)
+{
+   for (const std::string least : {"0", "0.5"})
+   {
+      const auto run = run_miniapp("wear", "--reduced problems/hertz.json --history 'P=0; P=1; "
+                                           "P=" +
+                                              least +
+                                              "; P=1' --cycle-start 1 --cycles 5 "
+                                              "--wear 10");
+      ASSERT_EQ(run.code, 0) << run.output;
+      for (const char *none : {"volume", "depth", "energy", "final_volume", "final_depth"})
+      {
+         EXPECT_EQ(run.results[none], 0) << none << run.output;
+      }
+      EXPECT_EQ(run.results["worn_out"], "converged");
+      EXPECT_TRUE(run.results["explicit_limit"].is_null());
+      EXPECT_NE(run.output.find("nothing slips in a cycle, and nothing wears"),
+                std::string::npos)
+         << run.output;
+   }
+}
+
+// What is left of the loss where a contact of equal bodies is worn out is round-off.
+TEST(WearStudy, ACycleOfTheWornOutContactLosesNothing)
+{
+   const auto run = run_miniapp("wear", "--cycles 0 --nodes 97");
+   ASSERT_EQ(run.code, 0) << run.output;
+   EXPECT_GT(run.results["final_depth"], 0);
+   EXPECT_EQ(run.results["final_loss"], 0);
+}
+
+// Ctrl-C: a cycle that is not whole is none, and the table goes up to the last one.
+TEST(WearStudy, TheTableOfAnInterruptedRunHasItsLastState)
+{
+   const auto run = run_miniapp("wear", "--cycles 1e9 --tolerance 0 --wear 1e-6 --nodes 49",
+                                "timeout --foreground --preserve-status -s INT 2");
+   EXPECT_EQ(run.code, 2) << run.output;
+   EXPECT_EQ(run.results["status"], "stopped");
+   EXPECT_GT(run.results["cycles_worn"], 1);
+   EXPECT_EQ(run.results["cycles_marched"], run.results["cycles_worn"]);
+   EXPECT_EQ(run.results["cycles"].back()["cycle"], run.results["cycles_worn"]);
+   EXPECT_EQ(run.results["cycles"].back()["volume"], run.results["volume"]);
+}
+
 } // namespace

@@ -70,6 +70,7 @@ TransientReport transient(FrictionSolver &solver, const LimitProblem &problem,
    report.counters -= before;
    report.status = pressed.status;
    report.message = pressed.message;
+   report.event_multipliers = cycle.constant;
    report.slip = state.v;
    if (!solved(pressed.status)) { return report; }
 
@@ -88,6 +89,8 @@ TransientReport transient(FrictionSolver &solver, const LimitProblem &problem,
    const MarchReport marched = march(solver, history, state, settings.march, observe);
    report.status = marched.status;
    report.message = marched.message;
+   report.event_time = marched.event_time;
+   report.event_multipliers = marched.event_multipliers;
    report.steady_cycle = marched.steady_cycle;
    report.steady_period = marched.steady_period;
    report.cut_off = marched.cut_off;

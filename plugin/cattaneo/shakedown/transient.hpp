@@ -49,8 +49,12 @@ const char *name(TransientVerdict verdict);
 struct TransientReport
 {
    FrictionStatus status = FrictionStatus::converged; ///< of the march
-   std::string message;    ///< of the march, empty if it went to its end
-   double load_factor = 0; ///< λ at which was marched
+   std::string message; ///< of the march, empty if it went to its end
+   /// As MarchReport, of a status that is not `converged`; of constant loads that have no
+   /// equilibrium time 0 and these loads.
+   double event_time = 0;
+   Eigen::VectorXd event_multipliers;
+   double load_factor = 0;                                      ///< λ at which was marched
    TransientVerdict verdict = TransientVerdict::no_equilibrium; ///< what the slip came to
    std::vector<double> dissipation;                             ///< of each cycle, until steady
    /// Elastic energy that the slip of a stuck contact could release, the scale of dissipation:

@@ -47,14 +47,14 @@ WearCycle WearCycles::march(const LoadHistory &part, ContactState &contact,
    solver_.set_gap(problem_.gap + depth);
    const ReducedProblem &worn = solver_.problem();
    ContactState before = contact;
-   VectorXd way = VectorXd::Zero(n), along = way, in_time = way;
+   VectorXd way = VectorXd::Zero(n), along = way, in_time = way, worn_off = way, lost = way;
    double duration = 0;
    const auto note = [&](const ContactState &after, const IncrementRecord &record)
    {
       const Rubbing rub = rubbing(worn, before, after);
       const VectorXd p = 0.5 * (rub.p_from + rub.p_to);
-      cycle.depth += worn_depth(worn, law_, before, after);
-      cycle.loss += frictional_loss(worn, before, after);
+      worn_off += worn_depth(worn, law_, before, after);
+      lost += frictional_loss(worn, before, after);
       cycle.opening = cycle.opening.cwiseMin((after.w + worn.gap).cwiseMax(0.0));
       cycle.range.note(after);
       way += rub.way;
@@ -65,8 +65,16 @@ WearCycle WearCycles::march(const LoadHistory &part, ContactState &contact,
       before = after;
    };
    cycle.report = cattaneo::march(solver_, part, contact, settings_, note);
+   // Slip or force that is none to a march, see settled_states(), wears nothing however often
+   // it comes: force times slip must exceed that of the least slip under the largest force.
+   const VectorXd least = contact.peak_force * least_slip(worn, contact);
    for (Index i = 0; i < n; ++i)
    {
+      if (along[i] > least[i])
+      {
+         cycle.depth[i] += worn_off[i];
+         cycle.loss[i] += lost[i];
+      }
       cycle.force[i] = along[i] > 0   ? along[i] / way[i]
                        : duration > 0 ? in_time[i] / duration
                                       : 0;
@@ -91,10 +99,10 @@ WearCycle WearCycles::opening(ContactState &contact, const VectorXd &depth)
 WearCycle WearCycles::march(ContactState &contact, const VectorXd &depth, bool update)
 {
    contact.time = start_;
-   ++marched;
-   if (!update) { return march(history_, contact, depth, none()); }
    WearCycle all = none();
-   for (Index point = history_.cycle_start; point + 1 < history_.times.size(); ++point)
+   if (!update) { all = march(history_, contact, depth, none()); }
+   for (Index point = history_.cycle_start; update && point + 1 < history_.times.size();
+        ++point)
    {
       LoadHistory piece;
       piece.times = history_.times.segment(point, 2);
@@ -103,6 +111,7 @@ WearCycle WearCycles::march(ContactState &contact, const VectorXd &depth, bool u
       all = march(piece, contact, so_far, std::move(all));
       if (!all.found()) { break; }
    }
+   marched += all.found();
    return all;
 }
 

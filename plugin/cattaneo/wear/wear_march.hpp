@@ -76,7 +76,8 @@ struct WearReport
    FrictionStatus status = FrictionStatus::converged; ///< of the whole of it
    std::string message;                               ///< one sentence, empty if converged
    MarchReport last; ///< of the last cycle marched: where and why it ended, if it did
-   long marched = 0; ///< cycles marched, also those that only look where a jump leads
+   long marched =
+      0; ///< cycles marched to their end, also those that only look where a jump leads
    long jumps = 0;   ///< over cycles that were not marched
    double error = 0; ///< sum of the jumps' WearRecord::error
    /** Largest number of cycles that may share one update of the gap: the explicit update

@@ -90,6 +90,15 @@ WornOut worn_out(const ReducedProblem &problem, const LoadHistory &history,
    result.unworn = result.contact;
    result.cut_off = cut_off_contact(problem, result.unworn);
    result.range = first.range;
+   if (first.idle())
+   {
+      // Also where no node sticks throughout the cycle, as bodies part in it.
+      result.status = FrictionStatus::converged;
+      result.depth = none;
+      result.overlap = -first.opening;
+      result.stick.assign(n, false);
+      return result;
+   }
    const auto moved = [&](const WearCycle &cycle)
    {
       const VectorXd range = cycle.range.range(), least = least_slip(problem, result.contact);
@@ -128,7 +137,7 @@ WornOut worn_out(const ReducedProblem &problem, const LoadHistory &history,
       WearCycle worn = check.march(result.contact, result.depth, false);
       if (worn.found()) { worn = check.march(result.contact, result.depth, false); }
       if (fails(worn)) { return result; }
-      result.loss = first.idle() ? 0.0 : worn.loss.sum() / first.loss.sum();
+      result.loss = worn.loss.sum() / first.loss.sum();
       if (result.loss <= 1e-8)
       {
          result.status = FrictionStatus::converged;

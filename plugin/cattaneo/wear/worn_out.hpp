@@ -21,7 +21,7 @@ struct WornOut
    SlipRange range;         ///< of the unworn cycle that was found first
    ContactState unworn;     ///< at its end
    double loss = 0;         ///< energy of a cycle, over that of the unworn contact
-   int searches = 0;        ///< sets of sticking nodes that were tried
+   int searches = 0; ///< sets of sticking nodes that were tried; 0: nothing slips, none wears
    /// Ends of the line that contact or wear reaches although the bodies go on there: depth and
    /// volume are too small then, and may be zero.
    std::vector<CutOffContact> cut_off;

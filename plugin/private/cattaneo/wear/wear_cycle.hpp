@@ -50,7 +50,7 @@ public:
    WearCycle repeated(ContactState &contact, const Eigen::VectorXd &depth, double share,
                       double least = 0);
 
-   long marched = 0;
+   long marched = 0; ///< cycles, to their end
    Counters counters;
 
 private:
