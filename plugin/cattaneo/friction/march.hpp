@@ -117,11 +117,11 @@ struct MarchReport
    int steady_cycle = 0;        ///< first cycle of the steady state; 0: not reached
    int steady_period = 0;       ///< 1 or 2
    /// Energy balance of the march: external work - change of elastic energy - dissipation -
-   /// normal work, over the largest of them on the way, or a millionth of the elastic energy that
-   /// it began with where none is as large. Normal work, of pressures on nodes that close or open
-   /// within an increment, is none of the path; what it is there changes no state. It measures what the increments miss of the path (of nodes
-   /// that begin to slip within one, for instance) and goes to zero with them; on the exact
-   /// path it is round-off.
+   /// normal work, over the largest of them on the way, or a millionth of the elastic energy
+   /// that it began with where none is as large. Normal work, of pressures on nodes that close
+   /// or open within an increment, is none of the path; what it is there changes no state. It
+   /// measures what the increments miss of the path (of nodes that begin to slip within one,
+   /// for instance) and goes to zero with them; on the exact path it is round-off.
    double energy_imbalance = 0;
    /// Friction forces depend on how a contact that advances is cut into increments, since
    /// friction acts on a node from the beginning of the increment in which it closes: four
