@@ -230,12 +230,14 @@ void cycle(Study &study, Disc &disc, Run &run, double amplitude, int cycles)
    for (std::size_t k = 0; k < records.size() && 2 * k + 2 < ends.size(); ++k)
    {
       const Extent &there = ends[2 * k + 1], &back = ends[2 * k + 2];
-      const Loop &loop = records[k].loops[problem.pattern("twist")];
+      const LoopFigures loop =
+         figures(problem, run.report, records[k], problem.pattern("twist"));
       study.row(
          table,
          {k + 1, torques[2 * k + 1] / disc.limit, torques[2 * k + 2] / disc.limit, there.stick,
           back.stick, there.separation, back.separation, records[k].dissipation,
-          records[k].external_work, loop.work(), loop.stiffness(), loop.loss_factor()},
+          external_work(problem, run.report, records[k]), loop.work, loop.stiffness,
+          loop.loss_factor},
          {},
          {{"normal_work", records[k].normal_work}, {"slip_change", records[k].slip_change}});
    }

@@ -40,6 +40,17 @@ void check_start(const ContactState &state, const LoadHistory &history)
            history.piece(history.pieces() - 1).end);
 }
 
+/// Did the last whole cycle that a state knows of end as it had begun?
+bool was_steady(const ContactState &state, double tolerance)
+{
+   const std::vector<VectorXd> &past = state.cycle_slip;
+   if (past.size() < 2) { return false; }
+   const VectorXd &last = past.back(), &before = past[past.size() - 2];
+   const auto largest = [](const VectorXd &x)
+   { return x.size() ? x.cwiseAbs().maxCoeff() : 0; };
+   return largest(last - before) <= tolerance * std::max(largest(last), largest(before));
+}
+
 void check_energies(std::initializer_list<double> energies)
 {
    for (double energy : energies)
@@ -204,9 +215,10 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
    std::optional<HistoryWriter> history;
    std::optional<NodeWriter> nodes;
    std::optional<StateSaver> saver;
+   int ended = 0;
+   const bool steady = goes_on && was_steady(state, settings.steady_tolerance);
    if (goes_on)
    {
-      int ended = 0;
       for (int k = 0; k < history_.pieces() && history_.piece(k).end <= state.time; ++k)
       {
          if (history_.piece(k).ends_cycle) { ended = history_.piece(k).cycle; }
@@ -280,6 +292,18 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
    report = cattaneo::march(problem, history_, state, settings, note);
    check_energies({report.energy_imbalance, state.dissipation});
    report.increments.assign(last_increments.begin(), last_increments.end());
+   // A march that had not been cut would have ended there.
+   const bool idle = goes_on && report.counters.increments == 0;
+   if (steady && (idle || report.steady_period == 1))
+   {
+      report.steady_cycle = ended;
+      report.steady_period = 1;
+   }
+   if (idle && report.status == FrictionStatus::converged)
+   {
+      warn(told("option --load-state: the saved state stands at the end of the history, time ",
+                state.time, ": nothing was left to march"));
+   }
    if (!zones_in_time.empty()) { zones_in_time.draw(problem, state); }
    zones_in_time.show(diagrams);
    study_.counters += report.counters;

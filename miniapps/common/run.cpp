@@ -156,13 +156,16 @@ void report_exact_path(Study &study, const ReducedProblem &problem, const MarchR
 namespace
 {
 
-/// Does a load move what it acts on in a cycle by more than round-off? Forces on held nodes do
-/// not: theirs is measured by what it moves at other times, and other loads in the cycle.
-bool moves(const ReducedProblem &problem, const MarchReport &report, const CycleRecord &cycle,
-           std::size_t load)
+double product(const Loop &loop)
 {
-   const auto product = [](const Loop &loop)
-   { return loop.force_range() * loop.displacement_range(); };
+   return loop.force_range() * loop.displacement_range();
+}
+
+/// The energy that a loop's is to be measured by: that of all loads of its cycle, and of its
+/// own with all that it moves at any time.
+double energy_about(const ReducedProblem &problem, const MarchReport &report,
+                    const CycleRecord &cycle, std::size_t load)
+{
    const Loop &loop = cycle.loops[load];
    const double range = problem.patterns[load].control == Control::force
                            ? loop.force_range()
@@ -173,7 +176,7 @@ bool moves(const ReducedProblem &problem, const MarchReport &report, const Cycle
    {
       size = std::max(size, range * std::abs(record.conjugates[static_cast<long>(load)]));
    }
-   return settled(product(loop), size) != 0;
+   return size;
 }
 
 /// The loads that varied in any whole cycle: the others have no loop.
@@ -190,7 +193,41 @@ std::set<std::size_t> varied_loads(const MarchReport &report)
    return varied;
 }
 
+/// A work in a cycle without what is none: round-off of energies of this size and, where the
+/// cycle loses nothing, what its increments miss of the path (CycleRecord::normal_work).
+double without_error(double work, const CycleRecord &cycle, double size)
+{
+   const bool loses = settled(cycle.dissipation, size) != 0;
+   if (!loses && std::abs(work) <= 2 * std::abs(cycle.normal_work)) { return 0; }
+   return settled(work, size);
+}
+
 } // namespace
+
+LoopFigures figures(const ReducedProblem &problem, const MarchReport &report,
+                    const CycleRecord &cycle, std::size_t load)
+{
+   const Loop &loop = cycle.loops[load];
+   const double size = energy_about(problem, report, cycle, load);
+   LoopFigures of;
+   of.moves = std::isnan(loop.stiffness()) || settled(product(loop), size) != 0;
+   if (!of.moves) { return of; }
+   of.work = without_error(loop.work(), cycle, size);
+   of.stiffness = loop.stiffness();
+   if (of.work != 0) { of.loss_factor = loop.loss_factor(); }
+   return of;
+}
+
+double external_work(const ReducedProblem &problem, const MarchReport &report,
+                     const CycleRecord &cycle)
+{
+   double size = 0;
+   for (std::size_t k = 0; k < cycle.loops.size(); ++k)
+   {
+      size = std::max(size, energy_about(problem, report, cycle, k));
+   }
+   return without_error(cycle.external_work, cycle, size);
+}
 
 const ResultTable &report_cycles(Study &study, const ReducedProblem &problem,
                                  const MarchReport &report, double unit)
@@ -233,14 +270,13 @@ const ResultTable &report_cycles(Study &study, const ReducedProblem &problem,
          continue;
       }
       std::vector<ordered_json> row = {cycle.cycle, cycle.dissipation / unit,
-                                       cycle.external_work / unit, cycle.slip_change};
+                                       external_work(problem, report, cycle) / unit,
+                                       cycle.slip_change};
       for (std::size_t k : varied)
       {
-         const Loop &loop = cycle.loops[k];
-         const bool moved = std::isnan(loop.stiffness()) || moves(problem, report, cycle, k);
-         if (!moved) { still.insert(problem.patterns[k].name); }
-         row.insert(row.end(), {moved ? loop.work() / unit : 0, moved ? loop.stiffness() : none,
-                                moved ? loop.loss_factor() : none});
+         const LoopFigures of = figures(problem, report, cycle, k);
+         if (!of.moves) { still.insert(problem.patterns[k].name); }
+         row.insert(row.end(), {of.work / unit, of.stiffness, of.loss_factor});
       }
       study.row(cycles, row);
       losses.push_back(cycle.dissipation / unit);
@@ -334,7 +370,10 @@ int exit_code(const ReducedProblem &problem, const MarchReport &report)
    }
    if (report.stalled > 0)
    {
-      say(report.stalled, " increments stalled and were passed by shorter ones");
+      const bool passed = report.status == FrictionStatus::converged ||
+                          report.status == FrictionStatus::not_unique;
+      say(report.stalled, " increments stalled and ",
+          passed ? "were passed by shorter ones" : "shorter ones were tried in their place");
    }
    if (report.taken_up_clearance > 0)
    {

@@ -83,6 +83,23 @@ void report_exact_path(Study &study, const Run &run);
 void report_exact_path(Study &study, const cattaneo::ReducedProblem &problem,
                        const cattaneo::MarchReport &report, double started = 0);
 
+/// What is printed of the loop of a load in a cycle, without what is round-off of the energies
+/// that are there.
+struct LoopFigures
+{
+   /// Does the load move what it acts on? Forces on held nodes do not.
+   bool moves = false;
+   double work = 0;
+   /// None of a load that moves nothing, and no loss factor of one that loses nothing.
+   double stiffness = none, loss_factor = none;
+};
+LoopFigures figures(const cattaneo::ReducedProblem &problem,
+                    const cattaneo::MarchReport &report, const cattaneo::CycleRecord &cycle,
+                    std::size_t load);
+/// Work of all loads in a cycle, likewise.
+double external_work(const cattaneo::ReducedProblem &problem,
+                     const cattaneo::MarchReport &report, const cattaneo::CycleRecord &cycle);
+
 /// A table of the cycles of a march, after those that Study::rows_before() has, with the loops
 /// of the loads that vary (cattaneo::Loop), which are drawn, and from where on they are steady;
 /// `dissipation`, `steady_cycle`, `steady_period` and `energy_imbalance` of the results.

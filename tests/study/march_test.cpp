@@ -241,4 +241,55 @@ TEST_F(March, CyclesThatAreNotSteadyAreCalledSo)
    EXPECT_NE(more.output.find("steady from cycle"), std::string::npos) << more.output;
 }
 
+// Equal bodies that are pressed and let go as far as 0.5 lose nothing (B = 0), and a loop that
+// encloses nothing has no loss factor; the secant of the load is that of its elastic way.
+TEST_F(March, ALoopThatLosesNothingHasNoLossFactor)
+{
+   const auto run =
+      run_miniapp("march", "-reduced problems/hertz.json -cycle-start 1 -cycles 2 "
+                           "-history 'P=0; P=1; P=0.5; P=1'");
+   ASSERT_EQ(run.code, 0) << run.output;
+   for (const auto &cycle : run.results["cycles"])
+   {
+      EXPECT_EQ(cycle["work P"], 0) << cycle;
+      EXPECT_EQ(cycle["external_work"], 0) << cycle;
+      EXPECT_TRUE(cycle["loss_factor P"].is_null()) << cycle;
+      EXPECT_GT(cycle["stiffness P"], 0) << cycle;
+   }
+}
+
+// Equal bodies in partial slip are steady from the first cycle on; a march that is cut after it
+// says the same as one that is not, also where nothing is left of it.
+TEST_F(March, IsSteadyFromTheSameCycleWhereverItWasCut)
+{
+   const std::string run = "-reduced problems/hertz.json -history 'P=0; P=1; Q=.2; Q=-.2; "
+                           "Q=.2' -cycle-start 2 -cycles ",
+                     state = folder + "steady.json'";
+   const auto whole = run_miniapp("march", run + "4");
+   EXPECT_EQ(whole.results["steady_cycle"], 1);
+   ASSERT_EQ(run_miniapp("march", run + "1 -save-state '" + state).code, 0);
+   for (const char *cycles : {"4", "1"})
+   {
+      const auto rest = run_miniapp("march", run + cycles + " -load-state '" + state);
+      EXPECT_EQ(rest.code, 0) << rest.output;
+      EXPECT_EQ(rest.results["steady_cycle"], 1) << rest.output;
+      EXPECT_EQ(rest.results["steady_period"], 1);
+      const bool said = rest.output.find("nothing was left to march") != std::string::npos;
+      EXPECT_EQ(said, std::string(cycles) == "1") << rest.output;
+   }
+}
+
+// Sweeps that are too few find no increment, however short.
+TEST_F(March, IncrementsThatStallAreSaidToBePassedOnlyWhereTheyAre)
+{
+   const auto run = run_miniapp("march", "-reduced problems/hertz.json -history 'P=0; P=1; "
+                                         "Q=0.2' -method gauss-seidel -max-sweeps 1");
+   EXPECT_EQ(run.code, 2);
+   EXPECT_EQ(run.results["event_time"], 0);
+   EXPECT_NE(run.output.find("increments stalled and shorter ones were tried"),
+             std::string::npos)
+      << run.output;
+   EXPECT_EQ(run.output.find("passed by shorter"), std::string::npos) << run.output;
+}
+
 } // namespace

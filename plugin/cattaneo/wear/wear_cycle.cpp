@@ -65,12 +65,12 @@ WearCycle WearCycles::march(const LoadHistory &part, ContactState &contact,
       before = after;
    };
    cycle.report = cattaneo::march(solver_, part, contact, settings_, note);
-   // Slip or force that is none to a march, see settled_states(), wears nothing however often
-   // it comes: force times slip must exceed that of the least slip under the largest force.
-   const VectorXd least = contact.peak_force * least_slip(worn, contact);
+   // What a solver's tolerance slips, a hundredth of least_slip(), wears nothing however often
+   // it comes; nor does what slips more, as good as without a force.
+   const VectorXd least = 0.01 * least_slip(worn, contact);
    for (Index i = 0; i < n; ++i)
    {
-      if (along[i] > least[i])
+      if (way[i] > least[i] && along[i] > 0.01 * contact.peak_force * least[i])
       {
          cycle.depth[i] += worn_off[i];
          cycle.loss[i] += lost[i];
