@@ -224,11 +224,17 @@ void wear_contact(Study &study)
    if (report.status != FrictionStatus::converged)
    {
       study.code = 2;
-      add_outcome(problem, report.last, study.results);
-      study.results["status"] = name(report.status);
-      study.results["message"] = report.message;
+      MarchReport last = report.last;
+      last.status = report.status;
+      last.message = report.message;
+      if (report.last.status == FrictionStatus::converged) // it ended between two cycles
+      {
+         last.event_time = state.contact.time;
+         last.event_multipliers = state.contact.multipliers;
+      }
+      add_outcome(problem, last, study.results);
       const std::string where =
-         event_text(report.last.event_time, named(problem, report.last.event_multipliers));
+         event_text(last.event_time, named(problem, last.event_multipliers));
       study.say(told("Ended after ", state.cycles, " cycles with status '", name(report.status),
                      "' at ", where, ": ", report.message));
       if (report.status != FrictionStatus::not_unique) { throw Outcome(); }

@@ -161,8 +161,9 @@ TEST(WearStudy, TheTableOfAnInterruptedRunHasItsLastState)
 {
    const auto run = run_miniapp("wear", "--cycles 1e9 --tolerance 0 --wear 1e-6 --nodes 49",
                                 "timeout --foreground --preserve-status -s INT 2");
-   EXPECT_EQ(run.code, 2) << run.output;
+   ASSERT_EQ(run.code, 2) << run.output;
    EXPECT_EQ(run.results["status"], "stopped");
+   EXPECT_EQ(run.results["event_loads"]["P"], 1); // within a cycle or between two
    EXPECT_GT(run.results["cycles_worn"], 1);
    EXPECT_EQ(run.results["cycles_marched"], run.results["cycles_worn"]);
    EXPECT_EQ(run.results["cycles"].back()["cycle"], run.results["cycles_worn"]);
