@@ -428,28 +428,46 @@ TEST(Fretting, EdgesThatFeelTheSameAreNotChosenByRoundOff)
 /// f P = 0.7 * 400 N/mm bears no more shear than 280 N/mm: an outcome, not bad input.
 TEST(Fretting, SlidingIsAnAnswerWithItsLoad)
 {
-   const auto run = run_miniapp("fretting", "-Q 300 -f 0.7");
-   EXPECT_EQ(run.code, 2) << run.output;
-   EXPECT_EQ(run.results["status"], "gross sliding") << run.results;
-   EXPECT_NE(run.output.find("fP = 280 N/mm"), std::string::npos) << run.output;
+   for (const char *pad : {"hertz", "fe"})
+   {
+      const auto run = run_miniapp("fretting", std::string("-Q 300 -f 0.7 -p ") + pad);
+      EXPECT_EQ(run.code, 2) << run.output;
+      EXPECT_EQ(run.results["status"], "gross sliding") << run.results;
+      EXPECT_NE(run.output.find("fP = 280 N/mm"), std::string::npos) << run.output;
+   }
 }
 
 TEST(Fretting, BadOptionsAreOneSentenceAndExitCodeOne)
 {
-   for (const char *options : {"-p ball",        "-p kn",
-                               "-p kn -kn 1",    "-p flat-rounded",
-                               "-kn 3",          "-b 2",
-                               "-f 0",           "-f -1",
-                               "-P -1",          "-P 0",
-                               "-r 0",           "-lr 1",
-                               "-lr -2",         "-m Unobtainium",
-                               "-nu 0.5",        "-E 0",
-                               "-kth 0",         "-sfl -1",
-                               "-c best",        "-mf /nonexistent.json",
-                               "-rec x.csv",     "-p fe -nodes 100",
-                               "-p fe -order 0", "-p fe -nodes 5",
-                               "-p fe -Q 1000",  "--unknown",
-                               "-Q many",        "-Q"})
+   for (const char *options : {"-p ball",
+                               "-p kn",
+                               "-p kn -kn 1",
+                               "-p flat-rounded",
+                               "-kn 3",
+                               "-b 2",
+                               "-f 0",
+                               "-f -1",
+                               "-P -1",
+                               "-P 0",
+                               "-Q none",
+                               "-r 0",
+                               "-lr 1",
+                               "-lr -2",
+                               "-m Unobtainium",
+                               "-nu 0.5",
+                               "-E 0",
+                               "-kth 0",
+                               "-sfl -1",
+                               "-c best",
+                               "-mf /nonexistent.json",
+                               "-rec x.csv",
+                               "-p fe -nodes 100",
+                               "-p fe -order 0",
+                               "-p fe -nodes 5",
+                               "-p fe -Q 1e3x",
+                               "--unknown",
+                               "-Q many",
+                               "-Q"})
    {
       const auto run = run_miniapp("fretting", options);
       EXPECT_EQ(run.code, 1) << options << "\n" << run.output;
