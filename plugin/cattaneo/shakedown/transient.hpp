@@ -53,7 +53,7 @@ struct TransientReport
    /// As MarchReport, of a status that is not `converged`; of constant loads that have no
    /// equilibrium time 0 and these loads.
    double event_time = 0;
-   Eigen::VectorXd event_multipliers;
+   Eigen::VectorXd event_multipliers; ///< of the load patterns, at that time
    double load_factor = 0;                                      ///< λ at which was marched
    TransientVerdict verdict = TransientVerdict::no_equilibrium; ///< what the slip came to
    std::vector<double> dissipation;                             ///< of each cycle, until steady
