@@ -54,7 +54,7 @@ struct TransientReport
    /// equilibrium time 0 and these loads.
    double event_time = 0;
    Eigen::VectorXd event_multipliers; ///< of the load patterns, at that time
-   double load_factor = 0;                                      ///< λ at which was marched
+   double load_factor = 0;            ///< λ at which was marched
    TransientVerdict verdict = TransientVerdict::no_equilibrium; ///< what the slip came to
    std::vector<double> dissipation;                             ///< of each cycle, until steady
    /// Elastic energy that the slip of a stuck contact could release, the scale of dissipation:
