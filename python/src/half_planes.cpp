@@ -66,7 +66,7 @@ CondensedBody warned(nb::handle body, nb::handle line, nb::handle order, nb::han
              result.line.formulation == Formulation::axisymmetric)
          {
             warn("condense: a linear element lies beside the axis, whose node on it takes no "
-                 "force: pressures next to it are wrong by some 5 to 10 % however fine the "
+                 "force: pressures next to it are wrong by 5 % or more however fine the "
                  "elements are; take order 2");
             return result;
          }

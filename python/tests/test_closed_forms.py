@@ -1,5 +1,7 @@
 """Half-planes in contact against Hertz, Cattaneo and Mindlin, and single nodes by hand."""
 
+import warnings
+
 import cattaneo
 import numpy as np
 import pytest
@@ -78,6 +80,16 @@ def test_two_half_spaces_twisted_while_they_stick():
     assert torque == pytest.approx(16 / 3 * shear_modulus * a**3 / 2, rel=2e-3)
     with pytest.raises(cattaneo.InputError, match="torsion"):
         cattaneo.reduce(*bodies[1])
+
+
+def test_linear_elements_beside_the_axis_are_warned_of():
+    body = cattaneo.HalfPlane(cattaneo.Material(1.0, 0.3), depth=1e4)
+    with pytest.warns(cattaneo.OutcomeWarning, match="beside the axis"):
+        cattaneo.condense(body, [0, 0.5, 1], 1, "axisymmetric")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        cattaneo.condense(body, [0, 0.5, 1], 2, "axisymmetric")
+        cattaneo.condense(body, [0.2, 0.5, 1], 1, "axisymmetric")
 
 
 def slider(k=2.0, f=0.5):

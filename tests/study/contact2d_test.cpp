@@ -229,6 +229,16 @@ TEST_F(Contact2D, RoundedPunchReachesASteadyCycle)
       EXPECT_NEAR(fitted["value"].get<double>(), 3693, 0.03 * 3693);
       EXPECT_LT(fitted["relative_error"].get<double>(), 0.1);
    }
+   // Sheared alike, too: what K_T of one has more than that of the other is of the shear that
+   // pressing left, which points outward at both and has none; each must know that of itself.
+   double k_t[2], wrong[2];
+   for (const int e : {0, 1})
+   {
+      const auto &fitted = run.results["edges"][e]["k_t"];
+      k_t[e] = fitted["value"].get<double>();
+      wrong[e] = std::abs(k_t[e]) * fitted["relative_error"].get<double>();
+   }
+   EXPECT_LT(std::abs(k_t[0] + k_t[1]), wrong[0] + wrong[1]);
 }
 
 /// Moves the contact candidates onto a cylinder of radius 100, with curved elements: facets

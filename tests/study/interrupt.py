@@ -29,7 +29,7 @@ def interrupted(program, options, folder, terminal, seconds=None):
     os.set_blocking(ours, False)
     shown, start = b"", time.monotonic()
     with open(folder / "out", "w", encoding="utf-8") as out:
-        run = subprocess.Popen([program, *options.split(), "--json", str(results)], stdout=out, stderr=theirs)
+        run = subprocess.Popen([program, *options.split(), "--json", str(results), "--csv", str(folder / "i")], stdout=out, stderr=theirs)
         os.close(theirs)
         while (b" steps, " not in shown) if terminal else time.monotonic() < start + seconds:
             assert run.poll() is None, f"{program} ended by itself: " + (folder / "out").read_text(encoding="utf-8")
@@ -69,7 +69,7 @@ def check(programs, program, options):
             assert (" steps, " in shown and ("%" in shown or program == "shakedown")) if terminal else shown == "", (program, terminal, shown)
             assert " steps, " not in out, (program, out)
             if program != "shakedown":  # two points of the load's history a cycle, after all that the study marched before
-                before = {"lap_joint": 1, "axisymmetric_receding": 54}.get(program, 0)
+                before = [row[0] for row in rows(pathlib.Path(folder) / "i_history.csv")[1:] if row[1] == 0][-1]
                 whole = int((results["event_time"] - before) / 2)
                 assert len(results["dissipation"]) == len(results["cycles"]) == whole > 0, (program, whole, len(results["cycles"]))
 

@@ -65,16 +65,18 @@ WearCycle WearCycles::march(const LoadHistory &part, ContactState &contact,
       before = after;
    };
    cycle.report = cattaneo::march(solver_, part, contact, settings_, note);
-   // What a solver's tolerance slips, a hundredth of least_slip(), wears nothing however often
-   // it comes; nor does what slips more, as good as without a force.
+   // Where no node slips more than a solver's tolerance, a hundredth of least_slip(), or more
+   // as good as without a force, nothing wears however often it comes.
    const VectorXd least = 0.01 * least_slip(worn, contact);
+   if ((way.array() > least.array() &&
+        along.array() > 0.01 * contact.peak_force * least.array())
+          .any())
+   {
+      cycle.depth += worn_off;
+      cycle.loss += lost;
+   }
    for (Index i = 0; i < n; ++i)
    {
-      if (way[i] > least[i] && along[i] > 0.01 * contact.peak_force * least[i])
-      {
-         cycle.depth[i] += worn_off[i];
-         cycle.loss[i] += lost[i];
-      }
       cycle.force[i] = along[i] > 0   ? along[i] / way[i]
                        : duration > 0 ? in_time[i] / duration
                                       : 0;
