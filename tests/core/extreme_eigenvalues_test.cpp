@@ -2,6 +2,7 @@
 #include <cattaneo/algebra/extreme_eigenvalues.hpp>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <string>
 
 using namespace cattaneo;
 using Eigen::Index;
@@ -68,6 +69,29 @@ TEST(ExtremeEigenvalues, OfSpectraWithClustersAndDecades)
    expect_ends(rotated(decades), 1e-8, 1, "decades");
    expect_ends(rotated(near), 1, near.maxCoeff(), "near each other");
    expect_ends(MatrixXd::Identity(n, n), 1, 1, "identity");
+}
+
+/// Where the vectors end before the matrix does, round-off must not go on as a direction.
+TEST(ExtremeEigenvalues, OfFewDistinctValues)
+{
+   for (Index n : {2, 3, 5, 8, 9, 17, 30, 60})
+   {
+      for (Index distinct : {1, 2, 3, 5, 9})
+      {
+         for (double scale : {1e-9, 1.0, 3.7e11})
+         {
+            VectorXd values(n);
+            for (Index i = 0; i < n; ++i)
+            {
+               values[i] = scale * (1 + 0.73 * static_cast<double>(i % distinct));
+            }
+            const std::string name = std::to_string(distinct) + " of " + std::to_string(n);
+            const double largest = values.maxCoeff();
+            expect_ends(MatrixXd(values.asDiagonal()), scale, largest, name.c_str());
+            expect_ends(rotated(values), scale, largest, name.c_str());
+         }
+      }
+   }
 }
 
 TEST(ExtremeEigenvalues, NothingBelowZeroIsCalledPositive)

@@ -47,7 +47,9 @@ double lanczos(Index n, Operator times)
       const auto basis = V.leftCols(k + 1);
       for (int twice = 0; twice < 2; ++twice) { v -= basis * (basis.transpose() * v); }
       below[k] = v.norm();
-      const bool last = k + 1 == n || !(below[k] > 0);
+      // What round-off leaves of a vector in the span of those before is no new direction.
+      const double round_off = 1e-12 * diagonal.head(k + 1).cwiseAbs().maxCoeff();
+      const bool last = k + 1 == n || !(below[k] > round_off);
       if (last || (k >= 7 && (k & (k + 1)) == 0)) // after 8, 16, 32, … vectors
       {
          Eigen::SelfAdjointEigenSolver<MatrixXd> ritz;
