@@ -321,8 +321,6 @@ void lap_joint(Study &study)
    joint.scene = make_lap_joint(options);
    set_friction(joint.problem(), joint.friction);
    study.reduced(joint.scene);
-   if (bolts == 1) { single(study, joint); }
-   else { row(study, joint, all); }
    if (touch)
    {
       FrictionSolver solver(joint.problem());
@@ -332,6 +330,8 @@ void lap_joint(Study &study)
       study.title("Compression at which the free ends touch");
       study.value("touch_load", found / joint.P0(), "T/P0");
    }
+   if (bolts == 1) { single(study, joint); }
+   else { row(study, joint, all); }
    if (!loads.empty()) { sweep(study, joint, loads, frictions, widths); }
 }
 

@@ -1,5 +1,7 @@
 #include "common/case_file.hpp"
 
+#include "common/table.hpp"
+
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/whole_file.hpp>
 #include <cattaneo/words.hpp>
@@ -19,7 +21,7 @@ CaseFile read_case(const std::string &file, int newest)
    {
       const std::string text = cattaneo::read_whole(file, "case file: ");
       cattaneo::require_single_keys(where, text);
-      keys = json::parse(text);
+      keys = parsed(text);
    }
    catch (const json::exception &error)
    {

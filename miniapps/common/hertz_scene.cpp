@@ -3,6 +3,7 @@
 #include "common/contact_grid.hpp"
 #include "common/miniapp.hpp"
 
+#include <cattaneo/algebra/least_squares.hpp>
 #include <cattaneo/halfplane/half_plane.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/mesh/graded_mesh.hpp>
@@ -123,18 +124,16 @@ double peak_pressure(const ReducedProblem &problem, const ContactState &state,
    const Eigen::VectorXd p = tractions(problem, state.p), x = problem.position.col(0);
    Eigen::Index top = 0;
    p.maxCoeff(&top);
-   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-   Eigen::Vector3d rhs = Eigen::Vector3d::Zero();
+   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(x.size(), 3), squares = rows.leftCols(1);
    for (Eigen::Index i = 0; i < x.size(); ++i)
    {
-      const double s = (x[i] - x[top]) / half_width;
+      const double s = (x[i] - x[top]) / half_width, weight = std::sqrt(problem.weights[i]);
       if (std::abs(s) > 0.5) { continue; }
-      const Eigen::Vector3d row(1, s, s * s);
-      normal += problem.weights[i] * row * row.transpose();
-      rhs += problem.weights[i] * p[i] * p[i] * row;
+      rows.row(i) << weight, weight * s, weight * s * s;
+      squares(i, 0) = weight * p[i] * p[i];
    }
-   const Eigen::Vector3d c = normal.ldlt().solve(rhs);
-   return std::sqrt(c[0] - c[1] * c[1] / (4 * c[2]));
+   const Eigen::MatrixXd c = least_squares(rows, squares);
+   return std::sqrt(c(0) - c(1) * c(1) / (4 * c(2)));
 }
 
 Deviation deviation(const ReducedProblem &problem, const Eigen::VectorXd &nodal_forces,

@@ -2,6 +2,7 @@
 
 #include "common/case_file.hpp"
 #include "common/miniapp.hpp"
+#include "common/table.hpp"
 #include "common/text.hpp"
 
 #include <algorithm>
@@ -93,7 +94,7 @@ std::string replaced_in(const std::string &structure, const std::string &key,
                         const std::string &value)
 {
    const std::vector<std::string> path = split(key, ".");
-   auto all = nlohmann::ordered_json::parse(structure.empty() ? "{}" : structure);
+   auto all = parsed(structure.empty() ? "{}" : structure);
    nlohmann::ordered_json *place = &all;
    for (std::size_t k = 1; k < path.size(); ++k)
    {

@@ -40,17 +40,6 @@ void check_start(const ContactState &state, const LoadHistory &history)
            history.piece(history.pieces() - 1).end);
 }
 
-/// Did the last whole cycle that a state knows of end as it had begun?
-bool was_steady(const ContactState &state, double tolerance)
-{
-   const std::vector<VectorXd> &past = state.cycle_slip;
-   if (past.size() < 2) { return false; }
-   const VectorXd &last = past.back(), &before = past[past.size() - 2];
-   const auto largest = [](const VectorXd &x)
-   { return x.size() ? x.cwiseAbs().maxCoeff() : 0; };
-   return largest(last - before) <= tolerance * std::max(largest(last), largest(before));
-}
-
 void check_energies(std::initializer_list<double> energies)
 {
    for (double energy : energies)
@@ -216,7 +205,7 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
    std::optional<NodeWriter> nodes;
    std::optional<StateSaver> saver;
    int ended = 0;
-   const bool steady = goes_on && was_steady(state, settings.steady_tolerance);
+   const int period = goes_on ? state.steady_period(settings.steady_tolerance) : 0;
    if (goes_on)
    {
       for (int k = 0; k < history_.pieces() && history_.piece(k).end <= state.time; ++k)
@@ -266,6 +255,12 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
               "of those before",
               state.time));
    }
+   if (ended > 0 && !study_.csv().empty() && study_.rows_before("cycles").empty())
+   {
+      study_.say(text("The table of cycles begins after cycle %d, where the march is taken up: "
+                      "there is no file of those before",
+                      ended));
+   }
    Film *film = study_.film(problem);
    std::deque<IncrementRecord> last_increments;
    auto next = wanted_.begin();
@@ -294,10 +289,10 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
    report.increments.assign(last_increments.begin(), last_increments.end());
    // A march that had not been cut would have ended there.
    const bool idle = goes_on && report.counters.increments == 0;
-   if (steady && (idle || report.steady_period == 1))
+   if (period > 0 && (idle || report.steady_period == period))
    {
-      report.steady_cycle = ended;
-      report.steady_period = 1;
+      report.steady_cycle = ended - period + 1;
+      report.steady_period = period;
    }
    if (idle && report.status == FrictionStatus::converged)
    {

@@ -2,9 +2,11 @@
 
 #include "common/miniapp.hpp"
 #include "common/shipped.hpp"
+#include "common/table.hpp"
 
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/whole_file.hpp>
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -102,15 +104,14 @@ double mesh_share(const ordered_json &term, const Meaning &meaning)
 References::References(const std::string &study) : entries_(ordered_json::array())
 {
    const std::string file = shipped("data/references.json");
-   std::ifstream in(file);
-   if (!in.good())
+   if (!std::ifstream(file).good())
    {
       warn("nothing is compared with references: file '" + file + "' cannot be read");
       return;
    }
    try
    {
-      const ordered_json data = ordered_json::parse(in);
+      const ordered_json data = parsed(cattaneo::read_whole(file));
       for (const ordered_json &entry : data.at("references"))
       {
          if (entry.at("study") == study) { entries_.push_back(entry); }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/whole_file.hpp>
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -220,9 +221,9 @@ void finish(Point &point, int status, const std::string &json, const std::string
    point.ran = true;
    point.process = 0;
    point.ended_well = WIFEXITED(status) && WEXITSTATUS(status) == 0;
-   if (std::ifstream in(json); in.good())
+   if (std::ifstream(json).good())
    {
-      point.results = ordered_json::parse(in);
+      point.results = parsed(cattaneo::read_whole(json));
       point.status = point.results["status"];
       point.message = point.results.value("message", "");
       return;

@@ -81,6 +81,11 @@ const ResultTable *&on_screen()
 
 } // namespace
 
+ordered_json parsed(const std::string &text)
+{
+   return ordered_json::parse(text);
+}
+
 double settled(double sum, double size)
 {
    return std::abs(sum) < 1e-12 * size ? 0 : sum;

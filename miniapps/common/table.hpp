@@ -7,6 +7,9 @@
 namespace miniapp
 {
 
+/// JSON of a text, or the library's own error. Compiled once: a parser takes long.
+nlohmann::ordered_json parsed(const std::string &text);
+
 /// A sum without what is round-off of parts of this size.
 double settled(double sum, double size);
 

@@ -1,5 +1,6 @@
 #include "common/williams.hpp"
 
+#include <cattaneo/algebra/least_squares.hpp>
 #include <cmath>
 #include <limits>
 
@@ -29,7 +30,7 @@ MatrixXd williams_strengths(const Eigen::VectorXd &x, const MatrixXd &tractions)
          scale * std::pow(x[k], real - 1) * std::sin(phase);
       scaled.row(k) *= scale;
    }
-   return modes.colPivHouseholderQr().solve(scaled).topRows(2);
+   return cattaneo::least_squares(modes, scaled).topRows(2);
 }
 
 } // namespace miniapp

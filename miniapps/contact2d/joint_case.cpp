@@ -483,7 +483,7 @@ ordered_json structure(const std::string &key, const std::string &text)
 {
    try
    {
-      return text.empty() ? ordered_json() : ordered_json::parse(text);
+      return text.empty() ? ordered_json() : parsed(text);
    }
    catch (const ordered_json::exception &error)
    {

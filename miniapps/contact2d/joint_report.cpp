@@ -17,7 +17,7 @@ using nlohmann::ordered_json;
 
 JointReport::JointReport(Study &study, const JointCase &joint, const Reduction &reduction)
    : study_(study), joint_(joint), reduction_(reduction), courses_(reduction.interfaces.size()),
-     range_(joint.bolts.size(), {1e300, -1e300})
+     range_(joint.bolts.size())
 {
 }
 
@@ -109,7 +109,14 @@ void JointReport::note(const ContactState &state, int cycle)
    const std::vector<double> now = shanks(state);
    for (std::size_t k = 0; k < now.size(); ++k)
    {
-      range_[k] = {std::min(range_[k][0], now[k]), std::max(range_[k][1], now[k])};
+      // What a bolt bears while its own load grows is of the way there.
+      Range &range = range_[k];
+      const double load =
+         std::abs(state.multipliers[reduction_.problem.pattern(joint_.bolts[k].name)]);
+      if (load > range.load) { range = {load, now[k], now[k], range.push}; }
+      range.push = std::max(range.push, -now[k]);
+      range.least = std::min(range.least, now[k]);
+      range.most = std::max(range.most, now[k]);
    }
    if (state.q.size() == 0) { return; }
    const Index n = state.p.size(), around = twists() ? n : 0; // first of the components
@@ -131,10 +138,18 @@ void JointReport::note(const ContactState &state, int cycle)
       if (cycle > 0)
       {
          const bool first = course.slip.empty(); // of a march that is taken up in a cycle
-         course.loops
-            .emplace(cycle, Loop(Control::force, first ? shear : course.shear.back(),
-                                 first ? slip : course.slip.back()))
-            .first->second.add(shear, slip);
+         Course::Cycle &its =
+            course.cycles
+               .try_emplace(
+                  cycle, Course::Cycle{Loop(Control::force, first ? shear : course.shear.back(),
+                                            first ? slip : course.slip.back())})
+               .first->second;
+         its.loop.add(shear, slip);
+         // Meshes that are symmetric to their digits leave millionths of what presses.
+         its.force =
+            std::max({its.force, forces.lpNorm<1>(),
+                      twists() ? 0 : 1e6 * state.p.segment(face.first, face.nodes).sum()});
+         its.slip = std::max(its.slip, slips.cwiseAbs().maxCoeff());
       }
       if (course.slip.size() == 2 * most_drawn)
       {
@@ -253,13 +268,17 @@ void JointReport::report_cycles(const MarchReport &march)
       for (std::size_t k = 0; k < courses_.size() && cycle.whole; ++k)
       {
          const InterfaceReport &face = reduction_.interfaces[k];
-         const auto loop = courses_[k].loops.find(cycle.cycle);
-         if (face.tied || loop == courses_[k].loops.end()) { continue; }
-         const Loop &its = loop->second;
-         study_.row(table, {cycle.cycle, face.name,
-                            cycle.node_dissipation.segment(face.first, face.nodes).sum(),
-                            its.work(), its.force_range(), its.displacement_range(),
-                            its.stiffness(), its.loss_factor()});
+         const auto found = courses_[k].cycles.find(cycle.cycle);
+         if (face.tied || found == courses_[k].cycles.end()) { continue; }
+         const auto &[loop, most_force, most_slip] = found->second;
+         const double force = settled(loop.force_range(), most_force),
+                      way = settled(loop.displacement_range(), most_slip);
+         const bool swings = force > 0 && way > 0;
+         study_.row(table,
+                    {cycle.cycle, face.name,
+                     cycle.node_dissipation.segment(face.first, face.nodes).sum(),
+                     swings ? loop.work() : 0, force, way, swings ? loop.stiffness() : none,
+                     swings ? loop.loss_factor() : none});
       }
    }
 }
@@ -274,13 +293,13 @@ void JointReport::report_bolts(const ContactState &state)
    for (std::size_t k = 0; k < now.size(); ++k)
    {
       const JointCase::Bolt &bolt = joint_.bolts[k];
-      study_.row(table, {bolt.name, now[k], range_[k][0], range_[k][1]});
+      study_.row(table, {bolt.name, now[k], range_[k].least, range_[k].most});
       // Bolts that are still to be tightened give a little with those that are.
-      if (range_[k][0] >= -1e-3 * bolt.pretension) { continue; }
+      if (range_[k].push <= 1e-3 * bolt.pretension) { continue; }
       warn(text("bolt '%s' pushes its ends apart, by up to %g: a shank here resists both ways, "
                 "a real one falls loose; tighten it before what brings the ends together, or "
                 "give it more pretension",
-                bolt.name.c_str(), -range_[k][0]));
+                bolt.name.c_str(), range_[k].push));
    }
 }
 

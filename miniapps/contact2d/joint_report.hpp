@@ -57,12 +57,23 @@ private:
    struct Course
    {
       std::vector<double> slip, shear; ///< as far as a picture can show
-      /// Of each cycle the last point before it begins it.
-      std::map<int, cattaneo::Loop> loops;
+      /// The last point before a cycle begins its loop.
+      struct Cycle
+      {
+         cattaneo::Loop loop;
+         double force = 0, slip = 0; ///< what is less than 1e-12 of these is none
+      };
+      std::map<int, Cycle> cycles;
    };
    std::vector<Course> courses_;
-   int begun_ = 0;                            ///< cycle within which the march was taken up
-   std::vector<std::array<double, 2>> range_; ///< of each bolt's force
+   int begun_ = 0; ///< cycle within which the march was taken up
+   struct Range
+   {
+      double load = 0;            ///< the largest multiplier of the bolt's own load so far
+      double least = 0, most = 0; ///< since then
+      double push = 0;            ///< the most that it pushed its ends apart at any time
+   };
+   std::vector<Range> range_; ///< of each bolt's force
 };
 
 /// What a body is called in output: its name, or "body1", ….

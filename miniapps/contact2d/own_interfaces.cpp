@@ -27,12 +27,30 @@ ScalarField distance_to_rigid_line(const ContactLine &line)
    return [=](double x, double y) { return normal.dot(Eigen::Vector2d(x, y)) - level; };
 }
 
+void warn_of_offsets(const ContactLine &line1, const ContactLine &line2, const Pairing &pairs)
+{
+   double most = 0;
+   for (Eigen::Index i = 0; i < line1.size(); ++i)
+   {
+      const LineNode &one = line1.nodes[i], &other = line2.nodes[pairs.partner[i]];
+      const Eigen::Vector2d along = (one.tangent - other.tangent).normalized();
+      most = std::max(most, std::abs((one.position - other.position).dot(along)) / one.spacing);
+   }
+   if (most <= 0.01) { return; }
+   warn(text("nodes are paired that lie up to %.2g of an element's length off along the line: "
+             "gaps and directions are those of body 1, and what comes out depends on which "
+             "body is the first; it does not without pairing (--convert makes a case file 2; "
+             "leave it out there)",
+             most));
+}
+
 /// The only interface of two bodies, whose nodes are paired one to one.
 Reduction paired(std::vector<CondensedBody> bodies, const JointCase::Face &face, bool numbered)
 {
    try
    {
       const Pairing pairs = pair_lines(bodies[0].line, bodies[1].line, face.pairing);
+      warn_of_offsets(bodies[0].line, bodies[1].line, pairs);
       return reduce(std::move(bodies[0]), std::move(bodies[1]), pairs);
    }
    catch (const InputError &error)

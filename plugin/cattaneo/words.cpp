@@ -98,7 +98,7 @@ void require_single_keys(const std::string &where, const std::string &text)
 {
    try
    {
-      parsed<nlohmann::json>(text, where);
+      parsed(text, where);
    }
    catch (const nlohmann::json::exception &)
    {

@@ -25,7 +25,9 @@ void bind_states(nb::module_ &m)
       .value("separation", NodeState::separation)
       .value("forward_slip", NodeState::forward_slip, "q = -f p")
       .value("backward_slip", NodeState::backward_slip, "q = +f p")
-      .value("slip", NodeState::slip, "with two tangential components: q = -f p v'/|v'|");
+      .value("slip", NodeState::slip,
+             "with two tangential components: q = -f p v'/|v'|; of settled_states() also "
+             "without friction");
 
    using Self = ContactState;
    nb::class_<Self> state(m, "ContactState",

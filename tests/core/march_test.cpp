@@ -175,7 +175,8 @@ TEST(March, RecognisesAStateOfPeriodTwo)
       const double last = steady % 2 ? x : -x; // v1 at the end
       EXPECT_NEAR(state.v[0], 0.5 - last, 1e-13);
       EXPECT_NEAR(state.v[1], last, 1e-13);
-      EXPECT_EQ(state.cycle_slip.size(), 2u);
+      EXPECT_EQ(state.cycle_slip.size(), 3u);
+      EXPECT_EQ(state.steady_period(1e-10), 2);
       // One that goes on steadily does so when it is not stopped.
       MarchSettings on;
       on.stop_at_steady_state = false;

@@ -1,10 +1,13 @@
 #include "expect_input_error.hpp"
 
 #include <algorithm>
+#include <cattaneo/friction/march.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/readout/zones.hpp>
+#include <cattaneo/reduced/reduced_file.hpp>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <map>
 
 namespace
 {
@@ -511,10 +514,11 @@ TEST(Zones, AreSettledByWhatEachNodeBearsAndDid)
    s.state.slip_origin << 0, 0, 0, 0, 2, 2, 1, 0;
    const NodeState out = NodeState::separation, ahead = NodeState::forward_slip,
                    back = NodeState::backward_slip;
-   // Without friction nothing sticks but what is held.
-   EXPECT_EQ(
-      settled_states(s.problem, s.state),
-      (std::vector<NodeState>{out, out, out, back, ahead, back, ahead, NodeState::stick}));
+   // Without friction nothing sticks but what is held; what has not moved slips in no
+   // direction.
+   EXPECT_EQ(settled_states(s.problem, s.state),
+             (std::vector<NodeState>{out, out, out, back, ahead, back, NodeState::slip,
+                                     NodeState::stick}));
    EXPECT_EQ(touching_nodes(s.problem, s.state), 2); // nodes 0 and 1
    // With friction a node slips if it is said to and moved since it stuck.
    set_friction(s.problem, 0.5);
@@ -535,6 +539,87 @@ TEST(Zones, AreSettledByWhatEachNodeBearsAndDid)
    EXPECT_NEAR(pressure[4], 4, 1e-14);
    EXPECT_EQ(pressure[5], 0);
    EXPECT_THROW(tractions(s.problem, Eigen::VectorXd::Ones(16)), InputError);
+}
+
+/// Contact along |x| < 1 of a closed line of length 3, stick in |x| < 0.4, with its first node
+/// `begin` spacings on.
+Sampled ring(int n, int begin)
+{
+   Sampled made = cattaneo_mindlin(n, 0.4, 0);
+   const double h = 3.0 / n, radius = h / (2 * std::sin(M_PI / n));
+   ReducedProblem &problem = made.problem;
+   ContactState &state = made.state;
+   problem.chains[0].loop = true;
+   problem.weights.setConstant(h);
+   problem.position.resize(n, 2);
+   for (int i = 0; i < n; ++i)
+   {
+      const int place = (i + begin) % n;
+      const double x = place * h - 1.487, far = std::abs(x), angle = 2 * M_PI * place / n;
+      const bool touches = far < 1, sticks = far < 0.4;
+      problem.arc_length[i] = i * h;
+      problem.position.row(i) << radius * std::cos(angle), radius * std::sin(angle);
+      state.status[i] = sticks    ? NodeState::stick
+                        : touches ? NodeState::forward_slip
+                                  : NodeState::separation;
+      state.p[i] = touches ? h * std::sqrt(1 - x * x) : 0;
+      state.q[i] = -0.5 * state.p[i] + (sticks ? 0.5 * h * std::sqrt(0.16 - x * x) : 0);
+      state.v[i] = std::pow(std::max(0.0, far - 0.4), 1.5);
+      state.w[i] = std::pow(std::max(0.0, far - 1), 1.5);
+   }
+   return made;
+}
+
+TEST(Zones, OfAClosedLineGoAllTheWayRoundWhereverItBegins)
+{
+   const int n = 61;
+   const double h = 3.0 / n;
+   std::map<double, double> at_first; // borders on the line that begins at x = -1.487
+   for (int begin = 0; begin < n; ++begin)
+   {
+      const Sampled s = ring(n, begin);
+      std::map<double, double> found;
+      double length = 0;
+      const std::vector<Zone> all = zones(s.problem, s.state);
+      for (std::size_t k = 0; k < all.size(); ++k)
+      {
+         length += all[k].to.position - all[k].from.position;
+         const Zone &next = all[(k + 1) % all.size()];
+         if (next.state == all[k].state) { continue; }
+         const double place = std::fmod(all[k].to.position + begin * h, 3.0);
+         found[place] = all[k].to.error;
+         EXPECT_EQ(next.from.error, all[k].to.error);
+      }
+      EXPECT_NEAR(length, 3, 1e-13) << begin;
+      ASSERT_EQ(found.size(), 4u) << begin;
+      if (begin == 0) { at_first = found; }
+      auto border = found.begin(), before = at_first.begin();
+      for (double x : {-1.0, -0.4, 0.4, 1.0})
+      {
+         EXPECT_LE(std::abs(border->first - 1.487 - x), border->second) << begin;
+         EXPECT_NEAR((border++)->first, (before++)->first, 1e-12) << begin;
+      }
+   }
+}
+
+/// A body that one node holds has any tilt, another one on each path. The half-width of Hertz
+/// is 1 under the whole load and grows with its root.
+TEST(Zones, EndsOfAContactOfOneNodeAreKnownToASpacing)
+{
+   const ReducedProblem problem =
+      load_reduced_problem(std::string(CATTANEO_SOURCE_DIR) + "/problems/hertz.json");
+   const double middle = problem.arc_length.mean(), load = 0.001, half = std::sqrt(load);
+   for (const auto &path :
+        {std::vector<NamedLoads>{{}, {{"P", load}}}, {{}, {{"P", 1}}, {{"P", load}}}})
+   {
+      ContactState state = ContactState::virgin(problem);
+      const MarchReport report = march(problem, LoadHistory::through(problem, path), state);
+      ASSERT_EQ(report.status, FrictionStatus::converged);
+      const Zone contact = contact_zone(problem, state);
+      EXPECT_EQ(contact.first, contact.last);
+      EXPECT_LE(std::abs(contact.from.position - (middle - half)), contact.from.error);
+      EXPECT_LE(std::abs(contact.to.position - (middle + half)), contact.to.error);
+   }
 }
 
 TEST(Zones, OfACycleLeaveOutNodesThatWereOpenAtAnyTime)

@@ -60,6 +60,15 @@ TEST_F(March, ARunCutInTwoLeavesTheSameFiles)
       run_miniapp("march", run + "alone" + loads + "; Q=-.2' -load-state '" + folder + state);
    ASSERT_EQ(alone.code, 0) << alone.output;
    EXPECT_NE(alone.output.find(begins), std::string::npos) << alone.output;
+   EXPECT_EQ(alone.output.find("The table of cycles begins"), std::string::npos);
+   // Nor of its cycles.
+   const std::string cycled = run + "cycled" + loads + "; Q=-.2; Q=.2' -cycle-start 2 -cycles ";
+   const auto one = run_miniapp("march", cycled + "1 -save-state '" + folder + state);
+   ASSERT_EQ(one.code, 0) << one.output;
+   std::filesystem::remove(folder + "/cycled_cycles.csv"); // it was killed before it wrote them
+   const auto two = run_miniapp("march", cycled + "3 -load-state '" + folder + state);
+   EXPECT_NE(two.output.find("The table of cycles begins after cycle 1,"), std::string::npos)
+      << two.output;
 }
 
 /// Forces on held nodes, of which round-off has left the reduced problem something, have no

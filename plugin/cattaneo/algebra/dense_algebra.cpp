@@ -1,5 +1,5 @@
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cattaneo/algebra/dense_algebra.hpp>
@@ -37,15 +37,22 @@ MatrixXd at_rest(const MatrixXd &Z, const MatrixXd &rows)
    return Z * modes.vectors.leftCols((modes.values.array() < 1e-14).count());
 }
 
-VectorXd least_squares(const MatrixXd &A, const VectorXd &b)
+MatrixXd solve_semidefinite(const MatrixXd &A, const MatrixXd &b)
 {
-   return A.colPivHouseholderQr().solve(b);
+   return A.ldlt().solve(b);
+}
+
+MatrixXd least_squares(const MatrixXd &A, const MatrixXd &b)
+{
+   return A.completeOrthogonalDecomposition().solve(b);
 }
 
 ScatteredFit::ScatteredFit(const MatrixXd &A, const VectorXd &b) : x(least_squares(A, b))
 {
    const double spare = static_cast<double>(A.rows() - A.cols());
-   covariance = (b - A * x).squaredNorm() / spare * (A.transpose() * A).inverse();
+   const SymmetricModes modes = symmetric_modes(A.transpose() * A);
+   covariance = (b - A * x).squaredNorm() / spare * modes.vectors *
+                modes.values.cwiseInverse().asDiagonal() * modes.vectors.transpose();
 }
 
 double ScatteredFit::error(const VectorXd &at) const

@@ -95,6 +95,13 @@ MatrixXd DenseCholesky::inverse() const
 
 #endif
 
+MatrixXd DenseCholesky::solved(MatrixXd x) const
+{
+   solve_half(x);
+   solve_other_half(x);
+   return x;
+}
+
 MatrixXd minus_square(MatrixXd S, const Eigen::Ref<const MatrixXd> &Y)
 {
 #ifdef CATTANEO_USE_LAPACK

@@ -1,3 +1,4 @@
+#include <cattaneo/algebra/dense_algebra.hpp>
 #include <cattaneo/algebra/nonnegative_fit.hpp>
 #include <vector>
 
@@ -21,7 +22,7 @@ NonnegativeFit fit_nonnegative(const MatrixXd &G, const VectorXd &g)
       if (!used.empty())
       {
          const MatrixXd active = G(Eigen::all, used);
-         r -= active * active.completeOrthogonalDecomposition().solve(r);
+         r -= active * least_squares(active, r);
       }
       return {x, r};
    };
@@ -40,7 +41,7 @@ NonnegativeFit fit_nonnegative(const MatrixXd &G, const VectorXd &g)
       while (true)
       {
          const MatrixXd active = G(Eigen::all, used);
-         const VectorXd trial = active.completeOrthogonalDecomposition().solve(g);
+         const VectorXd trial = least_squares(active, g);
          if (trial.minCoeff() > 0)
          {
             x(used) = trial;

@@ -85,8 +85,7 @@ Eigen::MatrixXd null_space(const Eigen::MatrixXd &A)
    // nothing has (A + Q Qᵀ) z = Q Qᵀ z: one solution leaves round-off of it.
    Eigen::MatrixXd Q = thin_qr(soft).Q;
    Q = thin_qr((scaled + Q * Q.transpose()).ldlt().solve(Q)).Q;
-   Q *=
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(Q.transpose() * scaled * Q).eigenvectors();
+   Q *= symmetric_modes(Q.transpose() * scaled * Q).vectors;
    std::vector<Eigen::Index> resting;
    for (Eigen::Index k = 0; k < Q.cols(); ++k)
    {

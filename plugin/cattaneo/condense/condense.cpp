@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cattaneo/algebra/dense_algebra.hpp>
 #include <cattaneo/condense/condensation.hpp>
 #include <cattaneo/condense/condense.hpp>
 #include <cattaneo/condense/stiffness_error.hpp>
@@ -289,9 +290,8 @@ Condensation with_blocks_held(AssembledBody body, const std::vector<int> &contac
    const Eigen::MatrixXd F = found.clamped.forces, F_d = F.rightCols(moved),
                          stiffness = H.bottomRightCorner(moved, moved),
                          felt = H.bottomLeftCorner(moved, count) - V;
-   const Eigen::LDLT<Eigen::MatrixXd> factor(stiffness);
-   solver->by_contact = -factor.solve(F_d.transpose());
-   solver->by_load = -factor.solve(felt);
+   solver->by_contact = -solve_semidefinite(stiffness, F_d.transpose());
+   solver->by_load = -solve_semidefinite(stiffness, felt);
    // What the minimum over d leaves of the energy.
    found.S += F_d * solver->by_contact;
    found.S = (0.5 * (found.S + found.S.transpose())).eval();

@@ -1,3 +1,4 @@
+#include <Eigen/LU>
 #include <algorithm>
 #include <cattaneo/algebra/dense_algebra.hpp>
 #include <cattaneo/condense/rigid_motion.hpp>
@@ -5,6 +6,22 @@
 
 namespace cattaneo
 {
+
+namespace
+{
+
+/// Factors of a matrix of up to three columns; columns that it lacks are zero.
+Eigen::FullPivLU<Eigen::Matrix3d> three_columns(const Eigen::MatrixXd &matrix, double threshold)
+{
+   const Eigen::MatrixXd R = thin_qr(matrix).R;
+   Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
+   square.topLeftCorner(R.rows(), R.cols()) = R;
+   Eigen::FullPivLU<Eigen::Matrix3d> factors(square);
+   factors.setThreshold(threshold);
+   return factors;
+}
+
+} // namespace
 
 Eigen::MatrixXd free_rigid_motions(const DofPlaces &places, const std::vector<int> &dofs,
                                    const std::vector<bool> &held)
@@ -48,21 +65,13 @@ Eigen::MatrixXd free_rigid_motions(const DofPlaces &places, const std::vector<in
       if (places.component[dofs[k]] == 0) { rigid.row(k) << 1, 0, -dy; }
       else { rigid.row(k) << 0, 1, dx; }
    }
-   Eigen::Matrix3d motions = Eigen::Matrix3d::Identity();
-   int rank = 0;
+   Eigen::MatrixXd motions = Eigen::Matrix3d::Identity();
    if (!resting.empty())
    {
-      // Singular values of the rows are those of their triangular factor.
-      const Eigen::MatrixXd rows = rigid(resting, Eigen::all);
-      const Eigen::MatrixXd R = Eigen::HouseholderQR<Eigen::MatrixXd>(rows).matrixQR().topRows(
-         std::min<Eigen::Index>(rows.rows(), 3));
-      const Eigen::MatrixXd upper = R.triangularView<Eigen::Upper>();
-      const Eigen::JacobiSVD<Eigen::MatrixXd> svd(upper, Eigen::ComputeFullV);
-      const auto &values = svd.singularValues();
-      rank = static_cast<int>((values.array() > 1e-9 * values[0]).count());
-      motions = svd.matrixV();
+      const auto held_by = three_columns(rigid(resting, Eigen::all), 1e-9);
+      motions = held_by.kernel().leftCols(held_by.dimensionOfKernel());
    }
-   Eigen::MatrixXd free = rigid * motions.rightCols(3 - rank);
+   Eigen::MatrixXd free = rigid * motions;
    for (const std::size_t k : resting) { free.row(k).setZero(); }
    for (auto motion : free.colwise())
    {
@@ -71,17 +80,10 @@ Eigen::MatrixXd free_rigid_motions(const DofPlaces &places, const std::vector<in
    }
    // Of a set without any y, or of one node, motions are the same or none at all.
    if (free.cols() == 0) { return free; }
-   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factor(free);
-   factor.setThreshold(1e-12);
-   const Eigen::Index independent = factor.rank();
-   if (independent == free.cols()) { return free; }
-   Eigen::MatrixXd kept =
-      factor.householderQ() * Eigen::MatrixXd::Identity(free.rows(), independent);
-   for (Eigen::Index m = 0; m < independent; ++m)
-   {
-      kept.col(m) /= kept.col(m).cwiseAbs().maxCoeff();
-   }
-   return kept;
+   const auto differing = three_columns(free, 1e-12);
+   if (differing.rank() == free.cols()) { return free; }
+   const Eigen::VectorXi order = differing.permutationQ().indices();
+   return free(Eigen::all, order.head(differing.rank()));
 }
 
 Eigen::MatrixXd unresisted(const SparseView &K, const std::vector<int> &dofs,

@@ -100,8 +100,7 @@ std::vector<FatigueMaterial> read_materials(const std::string &file)
    json document;
    try
    {
-      document =
-         parsed<json>(read_whole(file, "material file: "), "material file '" + file + "'");
+      document = parsed(read_whole(file, "material file: "), "material file '" + file + "'");
    }
    catch (const json::exception &)
    {

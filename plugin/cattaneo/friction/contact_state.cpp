@@ -67,6 +67,22 @@ ContactState ContactState::with_slip(const ReducedProblem &problem, const Eigen:
    return state;
 }
 
+int ContactState::steady_period(double tolerance) const
+{
+   const auto largest = [](const Eigen::VectorXd &x)
+   { return x.size() ? x.cwiseAbs().maxCoeff() : 0.0; };
+   const auto known = static_cast<int>(cycle_slip.size());
+   for (int period = 1; period < known; ++period)
+   {
+      const Eigen::VectorXd &last = cycle_slip.back(), &before = cycle_slip[known - 1 - period];
+      if (largest(last - before) <= tolerance * std::max(largest(last), largest(before)))
+      {
+         return period;
+      }
+   }
+   return 0;
+}
+
 void ContactState::require_finite() const
 {
    bool finite = std::isfinite(time) && std::isfinite(step) && std::isfinite(peak_force) &&

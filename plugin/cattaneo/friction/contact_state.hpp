@@ -62,7 +62,7 @@ struct ContactState
    double step = 0.0;        ///< next trial increment of time; 0: not chosen yet
    double peak_force = 0.0;  ///< of a node so far, see FrictionSettings::tolerance
    double dissipation = 0.0; ///< frictional energy lost so far
-   /// Slip at the end of the last two cycles (the latest last), to recognise a steady state.
+   /// Slip at the end of the last three cycles (the latest last), see steady_period().
    std::vector<Eigen::VectorXd> cycle_slip;
    /// What the cycle under way came to so far, so that a march that is taken up within a cycle
    /// has it whole; none between cycles.
@@ -72,6 +72,10 @@ struct ContactState
    Eigen::VectorXd displacements() const;
    /// {q; p}.
    Eigen::VectorXd forces() const;
+
+   /// After how many cycles, 1 or 2, the last of cycle_slip came again, to this share of it;
+   /// 0: none is known.
+   int steady_period(double tolerance) const;
 
    /// Before any load: no slip, and all nodes without a gap in stick.
    static ContactState virgin(const ReducedProblem &problem);

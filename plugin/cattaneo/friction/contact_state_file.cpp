@@ -95,7 +95,7 @@ void read_state_file(const std::string &what, const std::string &file,
    try
    {
       const nlohmann::json j =
-         parsed<nlohmann::json>(read_whole(file, what + ": "), what + ": file '" + file + "'");
+         parsed(read_whole(file, what + ": "), what + ": file '" + file + "'");
       require(j.at("format") == format, what, ": file '", file, "' has format ",
               j.at("format").dump(), ", must be \"", format, "\"");
       read(j);

@@ -1,3 +1,4 @@
+#include <cattaneo/algebra/dense_algebra.hpp>
 #include <cattaneo/friction/increment.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
@@ -76,7 +77,7 @@ FrictionSystem::FrictionSystem(std::shared_ptr<const ReducedProblem> given,
       const MatrixXd weighted =
          node_lengths(problem).replicate(problem.components(), 1).asDiagonal() * slides_freely;
       const MatrixXd square = slides_freely.transpose() * weighted;
-      share_of_motion = square.ldlt().solve(weighted.transpose());
+      share_of_motion = solve_semidefinite(square, weighted.transpose());
    }
    whole_arithmetic = std::make_unique<RoundOff>(problem.K);
    ++counters.dense_factorisations;
@@ -103,12 +104,17 @@ double FrictionSystem::friction(Index i, const ContactState *state) const
 
 Index FrictionSystem::above_critical(const ContactState *state) const
 {
+   Index worst = -1;
+   double most = 1; // friction over its critical value
    for (Index i = 0; !frictionless && i < n; ++i)
    {
       const bool counts = !state || closed(state->status[i]);
-      if (counts && friction(i, state) >= critical[i]) { return i; }
+      const double share = friction(i, state) / critical[i];
+      if (!counts || !(share >= most) || (worst >= 0 && share == most)) { continue; }
+      worst = i;
+      most = share;
    }
-   return -1;
+   return worst;
 }
 
 bool FrictionSystem::obeys_laws(const VectorXd &v_old, const ContactState &next, double scale,

@@ -63,7 +63,7 @@ struct IncrementRecord
    Eigen::VectorXd conjugates;  ///< of these: displacement or reaction, see conjugates()
    int stick = 0;               ///< number of nodes that stick, of settled_states()
    int separation = 0;          ///< … that are apart
-   int forward_slip = 0;        ///< … that slip forward
+   int forward_slip = 0;        ///< … that slip forward, or in no direction
    int backward_slip = 0;       ///< … that slip backward
    int slip = 0; ///< with two tangential components: nodes that slip in whatever direction
    double dissipation = 0; ///< lost by friction, summed over nodes; never negative

@@ -52,9 +52,10 @@ IncrementRecord record_of(const ReducedProblem &problem, const ContactState &sta
    { return static_cast<int>(std::count(settled.begin(), settled.end(), of)); };
    record.stick = count(NodeState::stick);
    record.separation = count(NodeState::separation);
-   record.forward_slip = count(NodeState::forward_slip);
+   record.forward_slip =
+      count(NodeState::forward_slip) + (problem.components() == 1 ? count(NodeState::slip) : 0);
    record.backward_slip = count(NodeState::backward_slip);
-   record.slip = count(NodeState::slip);
+   record.slip = problem.components() == 2 ? count(NodeState::slip) : 0;
    return record;
 }
 
@@ -102,6 +103,11 @@ void MarchRecord::accept(ContactState &&next, const LoadPiece &piece,
    record.residual_normal = increment.residual_normal;
    record.residual_tangential = increment.residual_tangential;
    record.round_off = increment.round_off;
+   // On the exact path a node closes at the event that its piece begins with, and is found to
+   // have too much friction within it.
+   const NotUnique doubtful = exact
+                                 ? NotUnique{state_.time, state_.multipliers, increment.message}
+                                 : NotUnique{next.time, next.multipliers, increment.message};
    const VectorXd lost = frictional_loss(problem_, state_, next);
    record.dissipation = lost.sum();
    record.external_work = external_work(record);
@@ -144,8 +150,10 @@ void MarchRecord::accept(ContactState &&next, const LoadPiece &piece,
    ++report.counters.increments;
    if (increment.status == FrictionStatus::not_unique && !report.not_unique)
    {
-      report.not_unique = {state_.time, state_.multipliers, increment.message};
+      report.not_unique = doubtful;
       stop(increment); // the status, which an end of the march may still replace
+      report.event_time = doubtful.time;
+      report.event_multipliers = doubtful.multipliers;
    }
    // What is observed is whole: a march that is taken up from it knows of this cycle.
    if (piece.ends_cycle && state_.time >= piece.end) { end_cycle(); }
@@ -156,21 +164,19 @@ void MarchRecord::end_cycle()
 {
    auto &past = state_.cycle_slip;
    CycleRecord &cycle = *state_.cycle;
-   for (std::size_t period = 1; period <= past.size() && !report.steady_cycle; ++period)
+   cycle.slip_change = past.empty() ? 0.0 : largest(state_.v - past.back());
+   past.push_back(state_.v);
+   if (past.size() > 3) { past.erase(past.begin()); }
+   if (!report.steady_cycle)
    {
-      const VectorXd &before = past[past.size() - period];
-      const double scale = std::max(largest(state_.v), largest(before));
-      if (largest(state_.v - before) <= settings_.steady_tolerance * scale)
+      report.steady_period = state_.steady_period(settings_.steady_tolerance);
+      if (report.steady_period > 0)
       {
-         report.steady_cycle = cycle.cycle - static_cast<int>(period) + 1;
-         report.steady_period = static_cast<int>(period);
+         report.steady_cycle = cycle.cycle - report.steady_period + 1;
       }
    }
-   cycle.slip_change = past.empty() ? 0.0 : largest(state_.v - past.back());
    report.cycles.push_back(std::move(cycle));
    state_.cycle.reset();
-   past.push_back(state_.v);
-   if (past.size() > 2) { past.erase(past.begin()); }
 }
 
 void MarchRecord::stop(const IncrementReport &failure)

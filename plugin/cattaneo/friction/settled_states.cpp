@@ -43,7 +43,10 @@ std::vector<NodeState> settled_states(const ReducedProblem &problem, const Conta
    const VectorXd way = tangential_lengths(state.v - state.slip_origin, n);
    const VectorXd least = least_slip(problem, state);
    const double force = least_force(problem, state);
-   const bool plane = problem.components() == 1, disc = problem.components() == 2;
+   const bool has_slip = problem.components() > 0, plane = problem.components() == 1;
+   // Without friction what the symmetry of a scene leaves at rest moves by what its integrals
+   // and places are wrong by.
+   const double least_way = n > 0 ? 1e-8 * state.displacements().cwiseAbs().maxCoeff() : 0;
    std::vector<bool> held(n, false); // it has no law of friction
    for (Index row : problem.held) { held[row % n] = true; }
    for (Index i = 0; i < n; ++i)
@@ -51,14 +54,14 @@ std::vector<NodeState> settled_states(const ReducedProblem &problem, const Conta
       NodeState &node = result[i];
       if (state.p[i] <= force) { node = NodeState::separation; }
       if (!closed(node)) { continue; }
-      const bool moved = way[i] > least[i];
-      if ((plane || disc) && problem.friction[i] == 0 && !held[i])
+      const bool free = has_slip && problem.friction[i] == 0 && !held[i];
+      if (free)
       {
-         node = disc                                         ? NodeState::slip
-                : moved && state.v[i] < state.slip_origin[i] ? NodeState::backward_slip
-                                                             : NodeState::forward_slip;
+         node = !plane || way[i] <= least_way       ? NodeState::slip
+                : state.v[i] < state.slip_origin[i] ? NodeState::backward_slip
+                                                    : NodeState::forward_slip;
       }
-      else if (!moved) { node = NodeState::stick; }
+      else if (way[i] <= least[i]) { node = NodeState::stick; }
    }
    return result;
 }

@@ -186,10 +186,11 @@ void release(CondensedBody &body, const HalfPlane &half_plane)
    }
    // Energy ½ (u - R y)ᵀ S (u - R y) - Fᵀ y of the translation y, which nothing holds.
    const MatrixXd held_back = body.S * motions;
-   const Eigen::LLT<MatrixXd> resistance(motions.transpose() * held_back);
-   body.S -= held_back * resistance.solve(held_back.transpose());
+   DenseCholesky resistance;
+   resistance.compute(motions.transpose() * held_back);
+   body.S -= held_back * resistance.solved(held_back.transpose());
    body.S.triangularView<Eigen::StrictlyUpper>() = body.S.transpose();
-   const MatrixXd moved = resistance.solve(forces), clamped = -held_back * moved;
+   const MatrixXd moved = resistance.solved(forces), clamped = -held_back * moved;
    body.H = forces.transpose() * moved;
    const Index n = body.line.size();
    for (Index k = 0; k < forces.cols(); ++k)

@@ -1,6 +1,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
+#include <cattaneo/algebra/dense_lu.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/mesh/element_check.hpp>
 #include <cattaneo/mesh/ranks.hpp>
@@ -54,7 +55,10 @@ struct Bernstein
             binomial *= static_cast<double>(degree - i) / (i + 1);
          }
       }
-      of_values = values.partialPivLu().inverse();
+      DenseLU factors;
+      factors.compute(values);
+      of_values.setIdentity();
+      factors.solve(of_values);
    }
 };
 

@@ -51,10 +51,10 @@ private:
 
 /** Series of a contact line for ParaView, in the folder `directory`/`name`: open `name`.pvd.
     One polyline a chain of nodes, at the reference position of body 1, with the point data
-    arc_length, gap (initial), state (0 stick, 1 separation, 2 forward slip, 3 backward slip;
-    see settled_states()), p and q (tractions: nodal forces over consistent weights), slip (v)
-    and opening (w + g), and of several interfaces the number of each node's, from 0. Plane
-    problems.
+    arc_length, gap (initial), state (0 stick, 1 separation, 2 forward slip, 3 backward slip,
+    4 slip in no direction; see settled_states()), p and q (tractions: nodal forces over
+    consistent weights), slip (v) and opening (w + g), and of several interfaces the number of
+    each node's, from 0. Plane problems.
 
     The problem must outlive this. */
 class ContactLineFields

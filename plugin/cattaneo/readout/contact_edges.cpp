@@ -41,7 +41,7 @@ void release(const ReducedProblem &problem, const std::vector<bool> &tied,
    VectorXd forces = K * u + clamped;
    if (!free.empty())
    {
-      const VectorXd x = Eigen::MatrixXd(K(free, free)).ldlt().solve(-forces(free));
+      const VectorXd x = solve_semidefinite(K(free, free), -forces(free));
       u(free) = x;
       forces = K * u + clamped;
       forces(free).setZero();

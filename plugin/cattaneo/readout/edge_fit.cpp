@@ -21,7 +21,7 @@ FittedIntensity fit(const std::vector<EdgeSample> &samples, const std::vector<do
    const Eigen::Map<const Eigen::VectorXd> values(value.data() + first, n);
    const ScatteredFit linear(powers(t, 1), values);
    const double standard = linear.error(Eigen::Vector2d(1, 0));
-   const double one_more = least_squares(powers(t, 2), values)[0];
+   const double one_more = least_squares(powers(t, 2), values)(0);
 
    FittedIntensity result;
    result.value = linear.x[0];

@@ -165,13 +165,25 @@ Profiles profiles(const ReducedProblem &problem, const ContactState &state)
    return result;
 }
 
+std::vector<int> numbers_of(const std::vector<ContactChain> &chains, Index nodes)
+{
+   std::vector<int> number(nodes, 0);
+   int k = 0;
+   for (const ContactChain &chain : chains)
+   {
+      std::fill_n(number.begin() + chain.first, chain.nodes, k++);
+   }
+   return number;
+}
+
 /// Reads the zones of some states.
 class Reader
 {
 public:
-   Reader(const ReducedProblem &problem, const Profiles &at, const VectorXd &shear)
-      : s_(problem.arc_length), at_(at), shear_(shear), chain_(chain_numbers(problem)),
-        chains_(problem.chains)
+   Reader(const VectorXd &arc_length, const std::vector<ContactChain> &chains,
+          const Profiles &at, const VectorXd &shear)
+      : s_(arc_length), at_(at), shear_(shear), chain_(numbers_of(chains, arc_length.size())),
+        chains_(chains)
    {
    }
 
@@ -207,7 +219,9 @@ ZoneBorder Reader::contact_edge(Index in, Index out, Index open_end) const
    }
    const ZoneBorder inside = separation_edge({s_, in, out, closed_end}, at_.pressure2);
    ZoneBorder outside;
-   return displacement_edge({s_, out, in, open_end}, at_.opening, outside)
+   // A body that one node holds may have any tilt: its opening says nothing of the edge.
+   const bool tells = closed_end != in;
+   return tells && displacement_edge({s_, out, in, open_end}, at_.opening, outside)
              ? surer(outside, inside)
              : inside;
 }
@@ -320,6 +334,66 @@ std::vector<Zone> Reader::zones()
    return result;
 }
 
+/// The borders of a closed line, from as many nodes on either side wherever it begins: zones
+/// first to last-1 are its own.
+void read_loop(const ReducedProblem &problem, const Profiles &at, const VectorXd &shear,
+               const ContactChain &loop, Zone *first, Zone *last)
+{
+   const Index n = loop.nodes, end = loop.first + n - 1;
+   const VectorXd &s = problem.arc_length;
+   const bool placed = problem.position.rows() == s.size();
+   const double closing =
+      placed ? (problem.position.row(loop.first) - problem.position.row(end)).norm()
+             : s[end] - s[end - 1];
+   const double round = s[end] + closing - s[loop.first];
+   last[-1].to = {s[loop.first] + round, 0};
+   // The same line twice, one after the other: what lies in the middle of it is read.
+   std::vector<Index> node(2 * n);
+   Profiles twice;
+   for (Index k = 0; k < 2 * n; ++k)
+   {
+      node[k] = loop.first + k % n;
+      twice.states.push_back(at.states[node[k]]);
+      twice.usable.push_back(at.usable[node[k]]);
+   }
+   twice.pressure2 = at.pressure2(node);
+   twice.reserve2 = at.reserve2(node);
+   twice.opening = at.opening(node);
+   twice.way = at.way(node);
+   VectorXd arc = s(node);
+   arc.tail(n).array() += round;
+   ContactChain chain = loop;
+   chain.first = 0;
+   chain.nodes = 2 * n;
+   const VectorXd shears = shear(node);
+   for (const Zone &zone : Reader(arc, {chain}, twice, shears).zones())
+   {
+      if (zone.last < n / 2 || zone.last >= n / 2 + n) { continue; }
+      ZoneBorder border = zone.to;
+      if (zone.last >= n) { border.position -= round; }
+      const Index left = loop.first + zone.last % n;
+      Zone *its = std::find_if(first, last, [&](const Zone &one) { return one.last == left; });
+      its->to = border;
+      if (its + 1 < last) { its[1].from = border; }
+      else { first->from = {border.position - round, border.error}; }
+   }
+}
+
+std::vector<Zone> read_zones(const ReducedProblem &problem, const Profiles &at,
+                             const VectorXd &shear)
+{
+   std::vector<Zone> result = Reader(problem.arc_length, problem.chains, at, shear).zones();
+   Zone *first = result.data(), *const end = first + result.size();
+   for (const ContactChain &chain : problem.chains)
+   {
+      Zone *last = first;
+      while (last < end && last->chain == first->chain) { ++last; }
+      if (chain.loop && chain.nodes > 2) { read_loop(problem, at, shear, chain, first, last); }
+      first = last;
+   }
+   return result;
+}
+
 double width(const Zone &zone)
 {
    return zone.to.position - zone.from.position;
@@ -329,14 +403,7 @@ double width(const Zone &zone)
 
 std::vector<int> chain_numbers(const ReducedProblem &problem)
 {
-   const Index n = problem.nodes();
-   std::vector<int> number(n, 0);
-   int k = 0;
-   for (const ContactChain &chain : problem.chains)
-   {
-      std::fill_n(number.begin() + chain.first, chain.nodes, k++);
-   }
-   return number;
+   return numbers_of(problem.chains, problem.nodes());
 }
 
 std::vector<Zone> zones(const ReducedProblem &problem, const ContactState &state)
@@ -358,7 +425,7 @@ std::vector<Zone> zones(const ReducedProblem &problem, const ContactState &state
       const double limit = limits[i], reserve = limit - q[i];
       if (reserve > 1e-8 * limit) { at.reserve2[i] = reserve * reserve; }
    }
-   return Reader(problem, at, q).zones();
+   return read_zones(problem, at, q);
 }
 
 std::vector<Zone> zones(const ReducedProblem &problem, const ContactState &state,
@@ -374,7 +441,7 @@ std::vector<Zone> zones(const ReducedProblem &problem, const ContactState &state
    }
    at.way = range.array().pow(2.0 / 3);
    at.usable = slip.always_closed();
-   return Reader(problem, at, VectorXd::Zero(n)).zones();
+   return read_zones(problem, at, VectorXd::Zero(n));
 }
 
 Zone widest_zone(const std::vector<Zone> &zones, NodeState which)

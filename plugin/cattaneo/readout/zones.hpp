@@ -29,8 +29,9 @@ struct Zone
 std::vector<int> chain_numbers(const ReducedProblem &problem);
 
 /** Zones of a state along the contact line, in the order of the nodes, from settled_states().
-    No zone reaches from one chain of nodes to the next. Ends of chains are exact; a loop is
-    cut where its arc length begins.
+    No zone reaches from one chain of nodes to the next. Ends of chains are exact. A
+    closed line is cut where its arc length begins, or at the border before it, which has a
+    negative arc length then: the zones add up to the whole way round.
 
     Edges are read out between the nodes by extrapolating, to zero, what is smooth there:
     - end of contact: from inside the square of the pressure (which falls as the square root of
@@ -45,7 +46,8 @@ std::vector<int> chain_numbers(const ReducedProblem &problem);
     0.2. That is luck which no one mesh can vouch for: the error is the change when other nodes
     are used, but not less than a quarter of a spacing, half of it where a straight line was all
     that the nodes allow or pressure all there is, and a whole one where there are too few
-    nodes: the edge is then the middle between the two that it lies between. A border of stick
+    nodes: the edge is then the middle between the two that it lies between, as is each end of a
+    contact of one node, whose body may have any tilt. A border of stick
     or slip k nodes from an end of the line that is a corner of one of the bodies and in
     contact, where tractions are singular, has 16/k spacings at least, or its distance from that
     end.

@@ -183,8 +183,8 @@ ReducedProblem load_reduced_problem(const std::string &file)
    ReducedProblem problem;
    try
    {
-      const nlohmann::json j = parsed<nlohmann::json>(read_whole(file, "reduced problem: "),
-                                                      "reduced problem: file '" + file + "'");
+      const nlohmann::json j =
+         parsed(read_whole(file, "reduced problem: "), "reduced problem: file '" + file + "'");
       const bool first = j.at("format") == format_1, with_laws = j.at("format") == format_laws;
       require(first || with_laws || j.at("format") == format_name, "reduced problem: file '",
               file, "' is not a '", format_name, "' (or 1, or 3)");

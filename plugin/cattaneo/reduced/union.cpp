@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cattaneo/algebra/dense_algebra.hpp>
+#include <cattaneo/algebra/dense_cholesky.hpp>
 #include <cattaneo/algebra/symmetric_matrix.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/union.hpp>
@@ -145,9 +146,9 @@ bool mirrored(const Eigen::MatrixXd &S1, const Eigen::MatrixXd &Z1, const Eigen:
          return false;
       }
       back = held * Z;
-      const Eigen::LLT<Eigen::MatrixXd> resistance(Z.transpose() * back);
-      if (resistance.info() != Eigen::Success) { return false; }
-      share = resistance.solve(back.transpose());
+      DenseCholesky resistance;
+      if (!resistance.compute(Z.transpose() * back)) { return false; }
+      share = resistance.solved(back.transpose());
    }
    const Eigen::ArrayXd own = S1.diagonal().cwiseSqrt();
    Eigen::ArrayXd sign = Eigen::ArrayXd::Ones(2 * n);

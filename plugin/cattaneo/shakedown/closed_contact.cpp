@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cattaneo/algebra/dense_algebra.hpp>
+#include <cattaneo/algebra/dense_cholesky.hpp>
 #include <cattaneo/friction/settled_states.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/shakedown/closed_contact.hpp>
@@ -57,11 +58,11 @@ ClosedContact closed_contact(const ReducedProblem &problem,
    Eigen::MatrixXd by_kept(freed.size(), kept.size()), by_load(freed.size(), patterns);
    if (n_open > 0)
    {
-      const Eigen::LLT<Eigen::MatrixXd> factor(K(freed, freed));
-      require(factor.info() == Eigen::Success, "closed contact: the motion of the ", n_open,
+      DenseCholesky factor;
+      require(factor.compute(K(freed, freed)), "closed contact: the motion of the ", n_open,
               " open nodes is not determined: their stiffness is not positive definite");
-      by_kept = -factor.solve(K(freed, kept));
-      by_load = -factor.solve(forces(freed, Eigen::all));
+      by_kept = -factor.solved(K(freed, kept));
+      by_load = -factor.solved(forces(freed, Eigen::all));
       S += K(kept, freed) * by_kept;
       S = (0.5 * (S + S.transpose())).eval();
       F += K(kept, freed) * by_load;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cattaneo/algebra/dense_lu.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/shakedown/infinity.hpp>
 #include <cattaneo/shakedown/lower_limit.hpp>
@@ -138,7 +139,11 @@ LeastPressure least_pressure(const ReducedProblem &problem, const ResidualForces
    const Eigen::MatrixXd F = f * magnitude(M, t, weight, first_shift);
    const Eigen::RowVectorXd ones = Eigen::RowVectorXd::Ones(n);
    const Eigen::MatrixXd contraction = Eigen::MatrixXd::Identity(n, n) - F;
-   const Eigen::RowVectorXd z = contraction.transpose().partialPivLu().solve(ones.transpose());
+   DenseLU factors;
+   if (!factors.compute(contraction)) { return least; }
+   Eigen::VectorXd lifted = Eigen::VectorXd::Ones(n);
+   factors.solve_transposed(lifted);
+   const Eigen::RowVectorXd z = lifted.transpose();
    if (!z.allFinite() || z.minCoeff() <= 0 || (z - z * F).minCoeff() < 0.5) { return least; }
 
    Eigen::MatrixXd y = magnitude(M, t, weight, shift);

@@ -1,4 +1,5 @@
 #include <cattaneo/algebra/dense_algebra.hpp>
+#include <cattaneo/algebra/dense_cholesky.hpp>
 #include <cattaneo/friction/energy.hpp>
 #include <cattaneo/wear/wear_cycle.hpp>
 #include <limits>
@@ -151,8 +152,9 @@ VectorXd implicit_wear(const ReducedProblem &problem, const WearCycle &cycle, do
    const MatrixXd half = root.asDiagonal() * problem.C();
    MatrixXd inner = half * root.asDiagonal();
    inner.diagonal().array() += 1;
-   const Eigen::LLT<MatrixXd> factor(inner);
-   const MatrixXd removed = half.transpose() * factor.solve(half);
+   DenseCholesky factor;
+   factor.compute(inner);
+   const MatrixXd removed = half.transpose() * factor.solved(half);
    ReducedProblem layered;
    layered.K = problem.C() - 0.5 * (removed + removed.transpose());
    layered.rigid_motions = rigid_openings(problem);
@@ -162,7 +164,7 @@ VectorXd implicit_wear(const ReducedProblem &problem, const WearCycle &cycle, do
    layered.chains = one_chain(n);
    // (1 + C c)⁻¹ p = p - C √c (1 + √c C √c)⁻¹ √c p
    const VectorXd p =
-      cycle.force - half.transpose() * factor.solve(root.cwiseProduct(cycle.force));
+      cycle.force - half.transpose() * factor.solved(root.cwiseProduct(cycle.force));
    layered.patterns = {{"pressure", Control::force, VectorXd(), p}};
    ContactState state = ContactState::virgin(layered);
    FrictionSolver solver(layered);

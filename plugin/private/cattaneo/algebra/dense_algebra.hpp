@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cattaneo/algebra/least_squares.hpp>
 
 /// Decompositions of dense matrices by Eigen, compiled once: its templates take long to
 /// compile.
@@ -28,8 +29,8 @@ Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd &matrix);
 /// its square.
 Eigen::MatrixXd at_rest(const Eigen::MatrixXd &Z, const Eigen::MatrixXd &rows);
 
-/// x with the least |A x - b|.
-Eigen::VectorXd least_squares(const Eigen::MatrixXd &A, const Eigen::VectorXd &b);
+/// A⁻¹ b of a symmetric positive semidefinite A by pivoted LDLᵀ, where b lies in its range.
+Eigen::MatrixXd solve_semidefinite(const Eigen::MatrixXd &A, const Eigen::MatrixXd &b);
 
 /// least_squares() of more values than unknowns, with the errors that the scatter of these
 /// values leaves.

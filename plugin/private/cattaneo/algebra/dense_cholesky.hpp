@@ -15,6 +15,8 @@ public:
    bool compute(Eigen::MatrixXd matrix);
    /// x <- M⁻¹ x
    void solve(Eigen::VectorXd &x) const;
+   /// M⁻¹ x, one right-hand side a column.
+   Eigen::MatrixXd solved(Eigen::MatrixXd x) const;
    /// x <- L⁻¹ x, one right-hand side a column.
    void solve_half(Eigen::Ref<Eigen::MatrixXd> x) const;
    /// x <- L⁻ᵀ x

@@ -81,8 +81,8 @@ struct FrictionSystem
    /// Of node i; of a law that bends the slope at the pressure of a state, or of the piece
    /// taken.
    double friction(Index i, const ContactState *state = nullptr) const;
-   /// The first node with friction above its critical value, closed if a state is given; -1: no
-   /// node.
+   /// The node whose friction is the most above its critical value, closed if a state is given;
+   /// -1: no node.
    Index above_critical(const ContactState *state = nullptr) const;
    /// The last word on a state as the end of an increment from slip v_old, in the equations as
    /// they are given, and what is reported of it, over the force `scale`.
