@@ -477,6 +477,18 @@ TEST(March, SaysWhereItFirstWasNotUnique)
    EXPECT_EQ(named(problem, report.not_unique->multipliers).at("P"),
              report.event_multipliers[0]);
    EXPECT_EQ(report.not_unique->message, report.message);
+   // The exact path says where the first of them closes.
+   problem.gap = Vector2d(0.3, 0.6);
+   settings.stepping = Stepping::exact;
+   state = ContactState::virgin(problem);
+   const MarchReport exact = march(
+      problem, LoadHistory::through({VectorXd::Zero(1), VectorXd::Ones(1)}), state, settings);
+   EXPECT_EQ(exact.status, FrictionStatus::not_unique);
+   EXPECT_NE(exact.message.find("node 0"), std::string::npos) << exact.message;
+   EXPECT_NEAR(exact.event_time, 0.225, 1e-14);
+   ASSERT_TRUE(exact.not_unique);
+   EXPECT_EQ(exact.not_unique->time, exact.event_time);
+   EXPECT_EQ(exact.not_unique->multipliers, exact.event_multipliers);
 }
 
 TEST(March, CountsItsOwnWorkOnly)

@@ -47,6 +47,7 @@ std::vector<NodeState> settled_states(const ReducedProblem &problem, const Conta
    // Without friction what the symmetry of a scene leaves at rest moves by what its integrals
    // and places are wrong by.
    const double least_way = n > 0 ? 1e-8 * state.displacements().cwiseAbs().maxCoeff() : 0;
+   const bool directed = plane && (way.array() > least_way).any();
    std::vector<bool> held(n, false); // it has no law of friction
    for (Index row : problem.held) { held[row % n] = true; }
    for (Index i = 0; i < n; ++i)
@@ -57,9 +58,10 @@ std::vector<NodeState> settled_states(const ReducedProblem &problem, const Conta
       const bool free = has_slip && problem.friction[i] == 0 && !held[i];
       if (free)
       {
-         node = !plane || way[i] <= least_way       ? NodeState::slip
-                : state.v[i] < state.slip_origin[i] ? NodeState::backward_slip
-                                                    : NodeState::forward_slip;
+         const bool back = way[i] > least_way && state.v[i] < state.slip_origin[i];
+         node = !directed ? NodeState::slip
+                : back    ? NodeState::backward_slip
+                          : NodeState::forward_slip;
       }
       else if (way[i] <= least[i]) { node = NodeState::stick; }
    }

@@ -19,8 +19,9 @@ namespace cattaneo
     - a node in contact slips if its status says so and it has moved since it last stuck, opened
       or turned, |v - slip_origin|, by more than that force does to it alone; otherwise it
       sticks;
-    - a node in contact without friction never sticks; where it has moved by less than 1e-8 of
-      the largest displacement its slip has no direction (NodeState::slip). */
+    - a node in contact without friction never sticks; where it has not moved it counts as
+      forward slip, and where none has moved by more than 1e-8 of the largest displacement as
+      slip in no direction (NodeState::slip). */
 std::vector<NodeState> settled_states(const ReducedProblem &problem, const ContactState &state);
 
 /// Number of nodes that touch without force: neither pressed nor open, with the tolerances of
