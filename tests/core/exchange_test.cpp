@@ -408,9 +408,9 @@ TEST_F(Exchange, SupportsAndLoadsByName)
    block.add_forces("pull", {20}, 1, 3.0);
    const AssembledBody body = block.body();
    EXPECT_EQ(body.fixed.size(), 18);
-   const Eigen::VectorXd &moved = body.loads[0].values;
-   EXPECT_EQ((moved.array() == -0.1).count(), 9);
-   EXPECT_EQ((moved.array() == 0).count(), moved.size() - 9);
+   const Eigen::VectorXd &pressing = body.loads[0].values;
+   EXPECT_EQ((pressing.array() == -0.1).count(), 9);
+   EXPECT_EQ((pressing.array() == 0).count(), pressing.size() - 9);
    EXPECT_EQ(body.loads[1].values.sum(), 3);
    const CondensedBody pressed = condense(body, block.contact_line(block.nodes_of("BOTTOM")));
    // Forces of the clamped bottom and of the pull are in balance with the held top.
