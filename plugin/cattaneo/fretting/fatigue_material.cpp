@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cattaneo/fretting/fatigue_material.hpp>
 #include <cattaneo/fretting/half_plane.hpp>
+#include <cattaneo/input_error.hpp>
 #include <cattaneo/json_text.hpp>
 #include <cattaneo/whole_file.hpp>
 #include <cctype>

@@ -1,4 +1,5 @@
 #include <cattaneo/friction/contact_state_json.hpp>
+#include <cattaneo/input_error.hpp>
 #include <cattaneo/json_text.hpp>
 #include <cattaneo/whole_file.hpp>
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cattaneo/algebra/semidefinite.hpp>
+#include <cattaneo/input_error.hpp>
 #include <cattaneo/json_text.hpp>
 #include <cattaneo/reduced/reduced_file.hpp>
 #include <cattaneo/whole_file.hpp>
