@@ -177,26 +177,37 @@ bool solve_disc(Increment &at, bool from_here)
    if (count > 0)
    {
       // Rows n·q - f p and (1 - β) t·q of the slipping nodes, then their own β k t·x.
-      MatrixXd M(2 * count, 2 * count);
+      std::vector<Index> rows(count);
+      VectorXd slope(count);
       for (Index r = 0; r < count; ++r)
       {
          const Index i = slipping[r];
-         const DiscSlip &to = at.direction[i];
-         const Vector2d across = (1 - to.share) * to.t(), own = to.share * s.ktt[i] * to.t();
-         const double slope = s.bound[i].slope(at.F[s.m(i)]);
-         const Index row = eliminated.place[i];
-         for (Index col = 0; col < 2 * count; ++col)
+         rows[r] = eliminated.place[i];
+         slope[r] = s.problem.coupled ? s.bound[i].slope(at.F[s.m(i)]) : 0.0;
+      }
+      MatrixXd M(2 * count, 2 * count);
+      for (Index col = 0; col < 2 * count; ++col)
+      {
+         const Index from = rows[col % count] + (col < count ? 0 : closed_nodes);
+         const double *radial = eliminated.K.col(from).data(),
+                      *circumferential = radial + closed_nodes,
+                      *normal = circumferential + (s.problem.coupled ? closed_nodes : 0);
+         double *along = M.col(col).data(), *across = along + count;
+         for (Index r = 0; r < count; ++r)
          {
-            const Index from =
-               eliminated.place[slipping[col % count]] + (col < count ? 0 : closed_nodes);
-            const double *column = eliminated.K.col(from).data() + row;
-            const double radial = column[0], circumferential = column[closed_nodes];
-            M(r, col) = to.n[0] * radial + to.n[1] * circumferential;
-            if (s.problem.coupled) { M(r, col) -= slope * column[2 * closed_nodes]; }
-            M(count + r, col) = across[0] * radial + across[1] * circumferential;
+            const DiscSlip &to = at.direction[slipping[r]];
+            const Index row = rows[r];
+            along[r] = to.n[0] * radial[row] + to.n[1] * circumferential[row] -
+                       slope[r] * normal[row];
+            across[r] = (1 - to.share) *
+                        (to.t()[0] * radial[row] + to.t()[1] * circumferential[row]);
          }
-         M(count + r, r) += own[0];
-         M(count + r, count + r) += own[1];
+      }
+      for (Index r = 0; r < count; ++r)
+      {
+         const DiscSlip &to = at.direction[slipping[r]];
+         M(count + r, r) += to.share * s.ktt[slipping[r]] * to.t()[0];
+         M(count + r, count + r) += to.share * s.ktt[slipping[r]] * to.t()[1];
       }
       ++s.counters.dense_factorisations;
       if (!factor.compute(std::move(M))) { return false; }
