@@ -112,15 +112,16 @@ void single(Study &study, Joint &joint)
    study.value("a", a, "contact a/t", a_error);
    study.value("c_first", c, "stick in the first loading c/t", c_error);
    study.value("c_over_a", c / a, "over the contact c/a", (c_error + c / a * a_error) / a);
-   study.value("c_steady", half_width(o.stick_steady),
-               o.report.steady_cycle ? "stick in the steady cycle c/t"
-                                     : "stick in the last cycle (not steady yet) c/t",
+   // What is not steady has another name, also for programs that read it.
+   const bool steady = o.report.steady_cycle > 0;
+   study.value(steady ? "c_steady" : "c_last", half_width(o.stick_steady),
+               steady ? "stick in the steady cycle c/t"
+                      : "stick in the last cycle (not steady yet) c/t",
                read_out_error(o.stick_steady));
    study.value("dissipation_first", o.first() / joint.unit(),
                "loss in the first cycle D E'/P0²");
-   study.value("dissipation_steady", o.steady() / joint.unit(),
-               o.report.steady_cycle ? "and in the steady one"
-                                     : "and in the last one (not steady yet)");
+   study.value(steady ? "dissipation_steady" : "dissipation_last", o.steady() / joint.unit(),
+               steady ? "and in the steady one" : "and in the last one (not steady yet)");
    study.value("work_error", o.work_error(), "work of the last cycle over it, less 1");
    const double most_p = o.tightened.p.maxCoeff(), most_q = joint.friction * most_p;
    study.value("asymmetry",

@@ -32,15 +32,15 @@ void warn_of_offsets(const ContactLine &line1, const ContactLine &line2, const P
    double most = 0;
    for (Eigen::Index i = 0; i < line1.size(); ++i)
    {
-      const LineNode &one = line1.nodes[i], &other = line2.nodes[pairs.partner[i]];
-      const Eigen::Vector2d along = (one.tangent - other.tangent).normalized();
-      most = std::max(most, std::abs((one.position - other.position).dot(along)) / one.spacing);
+      const LineNode &other = line2.nodes[pairs.partner[i]],
+                     one = mean_frame(line1.nodes[i], other);
+      most = std::max(most, std::abs((one.position - other.position).dot(one.tangent)) /
+                               std::min(one.spacing, other.spacing));
    }
-   if (most <= 0.01) { return; }
+   if (most <= 0.1) { return; }
    warn(text("nodes are paired that lie up to %.2g of an element's length off along the line: "
-             "gaps and directions are those of body 1, and what comes out depends on which "
-             "body is the first; it does not without pairing (--convert makes a case file 2; "
-             "leave it out there)",
+             "the two bodies feel one force at places as far apart; without pairing they do "
+             "not (--convert makes a case file 2; leave it out there)",
              most));
 }
 

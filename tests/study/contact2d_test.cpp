@@ -139,6 +139,77 @@ TEST_F(Contact2D, DovetailCarriesItsLoadOnTheFlank)
    EXPECT_NEAR(total, r["total_dissipation"].get<double>(), 1e-12 * total);
 }
 
+/// Of nodes that are paired one to one no body comes first: on curved lines that part, frames,
+/// gaps and areas are those between both. Cases with the names of their bodies exchanged.
+TEST_F(Contact2D, PairedBodiesMayBeNamedInEitherOrder)
+{
+   for (const std::string name : {"dovetail", "rounded_punch"})
+   {
+      const std::string file = "meshes/" + name + ".json";
+      json keys, exchanged;
+      std::ifstream(CATTANEO_SOURCE_DIR "/" + file) >> keys;
+      for (auto &[key, value] : keys.items())
+      {
+         if (key.substr(0, 4) == "mesh")
+         {
+            value = CATTANEO_SOURCE_DIR "/meshes/" + value.get<std::string>();
+         }
+         const std::string other = key.back() == '1' ? "2" : key.back() == '2' ? "1" : "";
+         exchanged[other.empty() ? key : key.substr(0, key.size() - 1) + other] = value;
+      }
+      const auto one = contact2d("--case " + file),
+                 two = contact2d("--case '" + write("exchanged.json", exchanged.dump()) + "'");
+      ASSERT_EQ(one.code, 0) << one.output;
+      ASSERT_EQ(two.code, 0) << two.output;
+      EXPECT_EQ(one.results["warnings"].size(), 0u) << one.output;
+      const double force = one.results["contact_force"][1];
+      for (int c : {0, 1})
+      {
+         EXPECT_NEAR(one.results["contact_force"][c].get<double>(),
+                     -two.results["contact_force"][c].get<double>(), 1e-9 * std::abs(force));
+      }
+      for (const char *key : {"peak_pressure", "total_dissipation"})
+      {
+         const double value = one.results[key];
+         EXPECT_NEAR(two.results[key].get<double>() / value, 1, 1e-9) << name << " " << key;
+      }
+      const json &losses = one.results["dissipation"], &others = two.results["dissipation"];
+      ASSERT_EQ(losses.size(), others.size()) << name;
+      for (std::size_t k = 0; k < losses.size(); ++k)
+      {
+         EXPECT_NEAR(others[k].get<double>() / losses[k].get<double>(), 1, 1e-9) << name;
+      }
+   }
+}
+
+/// One force at two places is a couple: where these are far apart, it is said.
+TEST_F(Contact2D, NodesThatArePairedFarOffOneAnother)
+{
+   for (double grading : {1.05, 1.01})
+   {
+      std::vector<double> x;
+      double most = 0; // of what nodes stand off by, in distances of nodes
+      for (int k = 0; k <= 8; ++k)
+      {
+         x.push_back(-2 + 4 * std::pow(k / 8.0, grading));
+         most = std::max(most, std::abs(x[k] - (-2 + 0.5 * k)) / 0.5);
+      }
+      mfem::Mesh upper = pad(8, 0), lower = cattaneo::rectangle_mesh(x, {-2, -1, 0});
+      const auto run = contact2d("--mesh1 '" + write("upper.mesh", upper) + "' --mesh2 '" +
+                                 write("lower.mesh", lower) +
+                                 "' --contact1 1 --contact2 3 --load1 'P pressure 3 1' "
+                                 "--support2 1:xy --pairing 0.4 --order 1");
+      ASSERT_EQ(run.code, 0) << run.output;
+      const json &warnings = run.results["warnings"];
+      ASSERT_EQ(warnings.size(), most > 0.1 ? 1u : 0u) << run.output;
+      if (warnings.empty()) { continue; }
+      const std::string words = warnings[0], about = "lie up to ";
+      ASSERT_NE(words.find(about), std::string::npos) << words;
+      // Of the shorter one of the two distances, which is a few per cent less.
+      EXPECT_NEAR(std::stod(words.substr(words.find(about) + about.size())) / most, 1, 0.2);
+   }
+}
+
 TEST_F(Contact2D, WhatHasNoMeshesCannotBeShown)
 {
    for (const char *program :

@@ -179,11 +179,15 @@ bool solve_disc(Increment &at, bool from_here)
       // Rows n·q - f p and (1 - β) t·q of the slipping nodes, then their own β k t·x.
       std::vector<Index> rows(count);
       VectorXd slope(count);
+      Eigen::Matrix2Xd along(2, count), across(2, count);
       for (Index r = 0; r < count; ++r)
       {
          const Index i = slipping[r];
+         const DiscSlip &to = at.direction[i];
          rows[r] = eliminated.place[i];
          slope[r] = s.problem.coupled ? s.bound[i].slope(at.F[s.m(i)]) : 0.0;
+         along.col(r) = to.n;
+         across.col(r) = (1 - to.share) * to.t();
       }
       MatrixXd M(2 * count, 2 * count);
       for (Index col = 0; col < 2 * count; ++col)
@@ -192,22 +196,20 @@ bool solve_disc(Increment &at, bool from_here)
          const double *radial = eliminated.K.col(from).data(),
                       *circumferential = radial + closed_nodes,
                       *normal = circumferential + (s.problem.coupled ? closed_nodes : 0);
-         double *along = M.col(col).data(), *across = along + count;
+         double *first = M.col(col).data(), *second = first + count;
          for (Index r = 0; r < count; ++r)
          {
-            const DiscSlip &to = at.direction[slipping[r]];
-            const Index row = rows[r];
-            along[r] = to.n[0] * radial[row] + to.n[1] * circumferential[row] -
-                       slope[r] * normal[row];
-            across[r] = (1 - to.share) *
-                        (to.t()[0] * radial[row] + to.t()[1] * circumferential[row]);
+            const double q[2] = {radial[rows[r]], circumferential[rows[r]]};
+            first[r] = along(0, r) * q[0] + along(1, r) * q[1] - slope[r] * normal[rows[r]];
+            second[r] = across(0, r) * q[0] + across(1, r) * q[1];
          }
       }
       for (Index r = 0; r < count; ++r)
       {
          const DiscSlip &to = at.direction[slipping[r]];
-         M(count + r, r) += to.share * s.ktt[slipping[r]] * to.t()[0];
-         M(count + r, count + r) += to.share * s.ktt[slipping[r]] * to.t()[1];
+         const Vector2d own = to.share * s.ktt[slipping[r]] * to.t();
+         M(count + r, r) += own[0];
+         M(count + r, count + r) += own[1];
       }
       ++s.counters.dense_factorisations;
       if (!factor.compute(std::move(M))) { return false; }

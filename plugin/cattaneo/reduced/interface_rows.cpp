@@ -127,7 +127,7 @@ Side InterfaceRows::side(const InterfaceSide &given) const
    return made;
 }
 
-/// One to one, in the frames of the first side.
+/// One to one, with frames and weights between those of both sides.
 void InterfaceRows::pair_nodes(const std::vector<int> &without)
 {
    face_all(without);
@@ -146,6 +146,17 @@ void InterfaceRows::pair_nodes(const std::vector<int> &without)
                  " in its pairing, must be from 0 to ", master_.line.size() - 1);
          other.insert(static_cast<Index>(i), partner) = 1;
       }
+   }
+   for (Index i = 0; i < mortar_.weights.size(); ++i)
+   {
+      const int node = mortar_.nodes[i], partner = pairs.partner[node];
+      const LineNode &own = slave_.line.nodes[node], &other = master_.line.nodes[partner];
+      mortar_.weights[i] = 0.5 * (own.weight + other.weight);
+      // What supports hold is along the frames that there are.
+      const CondensedBody &body = bodies_[master_.body];
+      const int faced = master_.nodes[partner];
+      if (holds(body, faced, 0) || holds(body, faced, 1)) { continue; }
+      mortar_.tangent.row(i) = mean_frame(own, other).tangent;
    }
    mortar_.gap = pairs.gap(mortar_.nodes);
 }

@@ -112,6 +112,15 @@ std::string advice(const ContactLine &line1, const ContactLine &line2)
 
 } // namespace
 
+LineNode mean_frame(LineNode node, const LineNode &other)
+{
+   if ((node.tangent + other.tangent).norm() > 1e-9)
+   {
+      node.tangent = (node.tangent - other.tangent).normalized();
+   }
+   return node;
+}
+
 std::optional<Pairing> matching_nodes(const ContactLine &line1, const ContactLine &line2,
                                       double tolerance)
 {
@@ -124,9 +133,9 @@ std::optional<Pairing> matching_nodes(const ContactLine &line1, const ContactLin
    Pairing pairing{found.partner, Eigen::VectorXd::Zero(line1.size())};
    for (Eigen::Index i = 0; i < line1.size(); ++i)
    {
-      const LineNode &node = line1.nodes[i];
-      const double gap =
-         (node.position - line2.nodes[found.partner[i]].position).dot(node.normal());
+      const LineNode &other = line2.nodes[found.partner[i]],
+                     node = mean_frame(line1.nodes[i], other);
+      const double gap = (node.position - other.position).dot(node.normal());
       pairing.gap[i] = std::abs(gap) > 1e-9 * node.spacing ? gap : 0.0;
    }
    return pairing;

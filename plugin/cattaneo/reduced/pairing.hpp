@@ -10,8 +10,13 @@ namespace cattaneo
 struct Pairing
 {
    std::vector<int> partner; ///< node of line 2 for each node of line 1
-   Eigen::VectorXd gap;      ///< from geometry: (x1 - x2)·n1, positive if apart
+   Eigen::VectorXd gap; ///< from geometry: (x1 - x2)·n, positive if apart; n: mean_frame()
 };
+
+/// A node of a first line whose tangent is the mean of its own and of the opposite one of the
+/// node that faces it: frames and gaps along it do not depend on which body is called the
+/// first. Tangents that are opposite to 1e-9 are left as they are.
+LineNode mean_frame(LineNode node, const LineNode &other);
 
 /** Pairs every node of line 1 with the node of line 2 that faces it (normals of opposite sense)
     and is nearest to it across the interface, among those whose offset along the tangent is at

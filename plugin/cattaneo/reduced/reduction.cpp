@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cattaneo/condense/local_frame.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/union.hpp>
 #include <cmath>
@@ -57,6 +59,52 @@ LineEnd goes_on_at(const ContactLine &line, Eigen::Index node)
    return first ? chain.ends[0] : last ? chain.ends[1] : LineEnd::smooth;
 }
 
+/// Gives the contact nodes of a body other tangents, and all that it knows in their frames.
+void turn(CondensedBody &body, const std::vector<LineNode> &nodes)
+{
+   const Eigen::Index n = body.line.size();
+   FrameChange frames{Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n),
+                      Eigen::VectorXd(n)};
+   for (Eigen::Index i = 0; i < n; ++i)
+   {
+      LineNode &own = body.line.nodes[i];
+      frames.a[i] = frames.d[i] = nodes[i].tangent.dot(own.tangent);
+      frames.b[i] = nodes[i].tangent.dot(own.normal());
+      frames.c[i] = -frames.b[i];
+      own.tangent = nodes[i].tangent;
+   }
+   if (frames.b.isZero(0)) { return; }
+   body.S = frames.both(std::move(body.S));
+   body.free_motions = frames.rows(body.free_motions);
+   for (LoadPattern &pattern : body.patterns)
+   {
+      Eigen::VectorXd f(2 * n);
+      f << pattern.q, pattern.p;
+      f = frames.rows(f);
+      pattern.q = f.head(n);
+      pattern.p = f.tail(n);
+   }
+}
+
+/// Gives the first body the mean frames of paired nodes, where neither holds a component.
+void lie_between(CondensedBody &first, const CondensedBody &second,
+                 const std::vector<int> &partner)
+{
+   const Eigen::Index n = first.line.size();
+   const auto holds = [&](const CondensedBody &body, int node)
+   {
+      return std::any_of(body.held.begin(), body.held.end(),
+                         [&](int row) { return row % n == node; });
+   };
+   std::vector<LineNode> nodes = first.line.nodes;
+   for (int i = 0; i < n; ++i)
+   {
+      if (holds(first, i) || holds(second, partner[i])) { continue; }
+      nodes[i] = mean_frame(nodes[i], second.line.nodes[partner[i]]);
+   }
+   turn(first, nodes);
+}
+
 } // namespace
 
 Reduction reduce(CondensedBody body, const ScalarField &gap)
@@ -108,6 +156,7 @@ Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairin
    result.counters = body1.counters;
    result.counters += body2.counters;
    ++result.counters.unions;
+   lie_between(body1, body2, pairing.partner);
    result.bodies.push_back(std::move(body1));
    result.bodies.push_back(std::move(body2));
    const CondensedBody &first = result.bodies[0], &second = result.bodies[1];
@@ -128,6 +177,10 @@ Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairin
          goes_on_at(second.line, pairing.partner[chain.first + chain.nodes - 1])};
       chain.bodies = {0, 1};
    }
+   // Their mean, as frames are: of curved lines that part the two differ.
+   const Eigen::VectorXd other_weights = second.line.each(&LineNode::weight)(pairing.partner);
+   problem.weights = 0.5 * (problem.weights + other_weights);
+   result.interfaces[0].weights = problem.weights;
    problem.gap = pairing.gap;
    problem.dofs.resize(n, 4);
    for (Eigen::Index i = 0; i < n; ++i)

@@ -184,12 +184,13 @@ Reduction reduce(CondensedBody body, const ScalarField &gap = 0.0);
 
        S = S1 - S1 (S1 + S2)⁻¹ S1,     f = f1 - S1 (S1 + S2)⁻¹ (f1 - f2);
 
-    either or both may be free. Gap of the pairing, which may be overwritten in the result. Body
-    2's frames are turned onto the opposite of body 1's first. A component that one body holds
-    is the other's alone; one that both hold is held in the problem. InputError if that is a
-    normal one, if body 2 alone holds a component across body 1's frame, if a common rigid
-    motion of two free bodies is loaded, or if a pattern is force-controlled in one and
-    displacement-controlled in the other. */
+    either or both may be free. Gap of the pairing, which may be overwritten in the result.
+    Frames (`bodies[0].line` has them) and weights of the nodes are the mean of both bodies';
+    body 2's frames are turned onto their opposite first. Where supports hold a component the
+    frame is body 1's. A component that one body holds is the other's alone; one that both hold
+    is held in the problem. InputError if that is a normal one, if body 2 alone holds a
+   component across body 1's frame, if a common rigid motion of two free bodies is loaded, or if
+   a pattern is force-controlled in one and displacement-controlled in the other. */
 Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairing);
 
 } // namespace cattaneo
