@@ -126,7 +126,8 @@ TEST_F(Contact2D, DovetailCarriesItsLoadOnTheFlank)
    EXPECT_NEAR(r["zones"].back()["to"].get<double>(), 5.4, 0.005);
    EXPECT_LT(std::abs(r["energy_imbalance"].get<double>()), 1e-4); // increments
    EXPECT_LT(r["largest_residual"].get<double>(), 1e-12);
-   ASSERT_EQ(r["dissipation"].size(), 5u);
+   EXPECT_GE(r["steady_cycle"], 1);
+   ASSERT_EQ(r["dissipation"].size(), r["steady_cycle"]); // it ends there
    for (double loss : r["dissipation"]) { EXPECT_GT(loss, 0); }
    EXPECT_EQ(r["counters"]["assemblies"], 2);
    EXPECT_EQ(r["counters"]["factorisations"], 2);
@@ -197,7 +198,7 @@ TEST_F(Contact2D, NodesThatArePairedFarOffOneAnother)
       mfem::Mesh upper = pad(8, 0), lower = cattaneo::rectangle_mesh(x, {-2, -1, 0});
       const auto run = contact2d("--mesh1 '" + write("upper.mesh", upper) + "' --mesh2 '" +
                                  write("lower.mesh", lower) +
-                                 "' --contact1 1 --contact2 3 --load1 'P pressure 3 1' "
+                                 "' --contact1 1 --contact2 3 --load1 'P pressure 3 1e-3' "
                                  "--support2 1:xy --pairing 0.4 --order 1");
       ASSERT_EQ(run.code, 0) << run.output;
       const json &warnings = run.results["warnings"];
@@ -627,7 +628,8 @@ TEST_F(Contact2D, FieldsAreRecoveredForFramesOnly)
 
 TEST_F(Contact2D, ARunCutInTwoGivesTheSameBits)
 {
-   const std::string run = "--case meshes/dovetail.json --cycles ";
+   // With this friction it settles in many cycles.
+   const std::string run = "--case meshes/dovetail.json --friction 0.5 --cycles ";
    const std::string state = " '" + folder + "/state.json'";
    const auto whole = contact2d(run + "4");
    const auto first = contact2d(run + "2 --save-state" + state);

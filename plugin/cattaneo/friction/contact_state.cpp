@@ -69,8 +69,7 @@ ContactState ContactState::with_slip(const ReducedProblem &problem, const Eigen:
 
 int ContactState::steady_period(double tolerance) const
 {
-   const auto largest = [](const Eigen::VectorXd &x)
-   { return x.size() ? x.cwiseAbs().maxCoeff() : 0.0; };
+   const auto largest = [](const Eigen::VectorXd &x) { return x.lpNorm<Eigen::Infinity>(); };
    const auto known = static_cast<int>(cycle_slip.size());
    for (int period = 1; period < known; ++period)
    {

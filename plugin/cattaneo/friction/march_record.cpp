@@ -13,11 +13,6 @@ using Eigen::VectorXd;
 namespace
 {
 
-double largest(const VectorXd &x)
-{
-   return x.size() ? x.cwiseAbs().maxCoeff() : 0.0;
-}
-
 /// Where each node last stuck, opened or turned round, see ContactState::slip_origin.
 void find_slip_origin(const ContactState &before, ContactState &next)
 {
@@ -164,7 +159,7 @@ void MarchRecord::end_cycle()
 {
    auto &past = state_.cycle_slip;
    CycleRecord &cycle = *state_.cycle;
-   cycle.slip_change = past.empty() ? 0.0 : largest(state_.v - past.back());
+   cycle.slip_change = past.empty() ? 0.0 : (state_.v - past.back()).lpNorm<Eigen::Infinity>();
    past.push_back(state_.v);
    if (past.size() > 3) { past.erase(past.begin()); }
    if (!report.steady_cycle)

@@ -187,7 +187,8 @@ void release(CondensedBody &body, const HalfPlane &half_plane)
    // Energy ½ (u - R y)ᵀ S (u - R y) - Fᵀ y of the translation y, which nothing holds.
    const MatrixXd held_back = body.S * motions;
    DenseCholesky resistance;
-   resistance.compute(motions.transpose() * held_back);
+   require(resistance.compute(motions.transpose() * held_back),
+           "half-plane: its stiffness against its translations is not positive definite");
    body.S -= held_back * resistance.solved(held_back.transpose());
    body.S.triangularView<Eigen::StrictlyUpper>() = body.S.transpose();
    const MatrixXd moved = resistance.solved(forces), clamped = -held_back * moved;

@@ -153,7 +153,7 @@ VectorXd implicit_wear(const ReducedProblem &problem, const WearCycle &cycle, do
    MatrixXd inner = half * root.asDiagonal();
    inner.diagonal().array() += 1;
    DenseCholesky factor;
-   factor.compute(inner);
+   if (!factor.compute(inner)) { return {}; }
    const MatrixXd removed = half.transpose() * factor.solved(half);
    ReducedProblem layered;
    layered.K = problem.C() - 0.5 * (removed + removed.transpose());
