@@ -596,6 +596,37 @@ TEST_F(Interfaces, WithNodesThatMatchAreThePairing)
       1e-11);
 }
 
+/// Discs that touch, with nodes paired one to one where they part: stiffness, loads, gaps and
+/// areas of the nodes are the same whichever is called the first.
+TEST_F(Interfaces, OfPairedNodesKnowNoFirstBody)
+{
+   Truss left({line_along(circle({-1, 0}, 1), uniform_grid(-0.3, 0.3, 4), 2)}, {-1, 0.2}),
+      right({line_along(circle({1.5, 0}, 1.5), uniform_grid(M_PI - 0.2, M_PI + 0.2, 4), 2)},
+            {1.5, 0.1}, 3);
+   left.load("P");
+   right.hold().load("P");
+   const CondensedBody one = left.condensed(), two = right.condensed();
+   const Pairing pairing = pair_lines(one.line, two.line, 0.2);
+   const Reduction by_one = reduce(one, two, pairing),
+                   by_two = reduce(two, one, pair_lines(two.line, one.line, 0.2));
+   const ReducedProblem &a = by_one.problem, &b = by_two.problem;
+   const std::vector<int> &node = pairing.partner;
+   std::vector<int> row = node;
+   for (int k : node) { row.push_back(a.nodes() + k); }
+   EXPECT_LT(difference(a.K, b.K(row, row)), 1e-12);
+   EXPECT_LT(difference(a.H, b.H), 1e-12);
+   EXPECT_LT(difference(a.patterns[0].q, b.patterns[0].q(node)), 1e-12);
+   EXPECT_LT(difference(a.patterns[0].p, b.patterns[0].p(node)), 1e-12);
+   EXPECT_LT(difference(a.gap, b.gap(node)), 1e-12);
+   EXPECT_LT(difference(a.weights, b.weights(node)), 1e-14);
+   // As far as circles of curvatures 1 and 2/3 are apart, to the fourth order in 0.3.
+   for (Index i = 0; i < a.nodes(); ++i)
+   {
+      const double y = one.line.nodes[i].position[1];
+      EXPECT_NEAR(a.gap[i], 0.5 * (1 + 1 / 1.5) * y * y, std::pow(0.3, 4) / 3);
+   }
+}
+
 /// Free bodies: what moves all of them together is at rest, loads in balance are carried, and
 /// others are refused. A gap between curved sides turns nothing into slip.
 TEST_F(Interfaces, OfFreeBodiesKnowTheirCommonMotions)
