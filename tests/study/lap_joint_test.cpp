@@ -112,6 +112,23 @@ TEST(LapJoint, EdgesOfTheRecedingContactHaveIntensities)
    EXPECT_NEAR(left["k_n"]["value"].get<double>(), right["k_n"]["value"].get<double>(), 1e-5);
 }
 
+/// One cycle alone can be no steady one: its figures have another name than those that are.
+TEST(LapJoint, OnlyWhatIsSteadyIsCalledSo)
+{
+   for (const bool steady : {false, true})
+   {
+      const auto run =
+         run_miniapp("lap_joint", "--spacing 0.05 --cycles " + std::string(steady ? "5" : "1"));
+      ASSERT_EQ(run.code, 0) << run.output;
+      EXPECT_EQ(run.results["steady_cycle"] > 0, steady) << run.output;
+      for (const std::string name : {"c", "dissipation"})
+      {
+         EXPECT_EQ(run.results.contains(name + "_steady"), steady);
+         EXPECT_EQ(run.results.contains(name + "_last"), !steady);
+      }
+   }
+}
+
 TEST(LapJoint, ContactIsUncoupledWhereItTouches)
 {
    miniapp::LapJointOptions options;

@@ -14,12 +14,6 @@ using Eigen::VectorXd;
 namespace
 {
 
-bool holds(const CondensedBody &body, int node, int component)
-{
-   const auto row = static_cast<int>(node + component * body.line.size());
-   return std::binary_search(body.held.begin(), body.held.end(), row);
-}
-
 /// The line of a body that lies against this one with nodes at the same places.
 ContactLine other_face(const ContactLine &line)
 {

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cattaneo/condense/local_frame.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/union.hpp>
@@ -91,15 +90,12 @@ void lie_between(CondensedBody &first, const CondensedBody &second,
                  const std::vector<int> &partner)
 {
    const Eigen::Index n = first.line.size();
-   const auto holds = [&](const CondensedBody &body, int node)
-   {
-      return std::any_of(body.held.begin(), body.held.end(),
-                         [&](int row) { return row % n == node; });
-   };
+   const auto held = [](const CondensedBody &body, int node)
+   { return holds(body, node, 0) || holds(body, node, 1); };
    std::vector<LineNode> nodes = first.line.nodes;
    for (int i = 0; i < n; ++i)
    {
-      if (holds(first, i) || holds(second, partner[i])) { continue; }
+      if (held(first, i) || held(second, partner[i])) { continue; }
       nodes[i] = mean_frame(nodes[i], second.line.nodes[partner[i]]);
    }
    turn(first, nodes);

@@ -188,9 +188,9 @@ Reduction reduce(CondensedBody body, const ScalarField &gap = 0.0);
     Frames (`bodies[0].line` has them) and weights of the nodes are the mean of both bodies';
     body 2's frames are turned onto their opposite first. Where supports hold a component the
     frame is body 1's. A component that one body holds is the other's alone; one that both hold
-    is held in the problem. InputError if that is a normal one, if body 2 alone holds a
-   component across body 1's frame, if a common rigid motion of two free bodies is loaded, or if
-   a pattern is force-controlled in one and displacement-controlled in the other. */
+    is held in the problem. InputError if that is a normal one, if body 2 alone holds one across
+    body 1's frame, if a common rigid motion of two free bodies is loaded, or if a pattern is
+    force-controlled in one and displacement-controlled in the other. */
 Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairing);
 
 } // namespace cattaneo

@@ -45,6 +45,12 @@ Eigen::VectorXd PairUnion::own(const std::vector<CondensedBody> &bodies, int b,
    return b == 0 ? u1 : to_second(relative - u1);
 }
 
+bool holds(const CondensedBody &body, int node, int component)
+{
+   const auto row = static_cast<int>(node + component * body.line.size());
+   return std::binary_search(body.held.begin(), body.held.end(), row);
+}
+
 Reduction::PatternIndex join(const std::vector<CondensedBody> &bodies,
                              std::vector<LoadPattern> &all)
 {

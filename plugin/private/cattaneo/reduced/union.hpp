@@ -28,6 +28,9 @@ private:
    Eigen::VectorXd to_second(const Eigen::VectorXd &u) const;
 };
 
+/// Do supports hold a component of a contact node, 0 along its frame or 1 across?
+bool holds(const CondensedBody &body, int node, int component);
+
 /// One or two bodies on relative displacements: f = S u + Σ λ_k f_k.
 struct Block
 {
