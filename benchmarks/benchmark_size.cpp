@@ -47,20 +47,19 @@ std::vector<std::string> pair_of_blocks(int nodes, const std::filesystem::path &
       cattaneo::write_whole(folder / (upper ? "upper.mesh" : "lower.mesh"),
                             block(nodes, upper));
    }
-   const nlohmann::json scene{{"mesh1", "upper.mesh"},
-                              {"young1", 1},
-                              {"poisson1", 0.3},
-                              {"contact1", 1},
-                              {"mesh2", "lower.mesh"},
-                              {"young2", 2},
-                              {"poisson2", 0.2},
-                              {"contact2", 3},
-                              {"support2", "1:xy"},
-                              {"friction", 0.5},
-                              {"load1", {"P pressure 3 0.001", "Q traction 3 0.001 0"}},
-                              {"history", {"P=0", "P=1", "Q=0.3", "Q=-0.3", "Q=0.3"}},
-                              {"cycle-start", 2},
-                              {"cycles", 2}};
+   nlohmann::json scene{{"version", 2},
+                        {"history", {"P=0", "P=1", "Q=0.3", "Q=-0.3", "Q=0.3"}},
+                        {"cycle-start", 2},
+                        {"cycles", 2}};
+   scene["bodies"]["upper"] = {{"mesh", "upper.mesh"},
+                               {"young", 1},
+                               {"poisson", 0.3},
+                               {"load", {"P pressure 3 0.001", "Q traction 3 0.001 0"}}};
+   scene["bodies"]["lower"] = {
+      {"mesh", "lower.mesh"}, {"young", 2}, {"poisson", 0.2}, {"support", "1:xy"}};
+   // Nodes match, one to one.
+   scene["interfaces"]["face"] = {
+      {"between", {"upper:1", "lower:3"}}, {"friction", 0.5}, {"pairing", 1e-6}};
    const std::string file = folder / "case.json";
    cattaneo::write_whole(file, scene.dump(3) + '\n');
    return {miniapp_program("contact2d"), "--case", file};

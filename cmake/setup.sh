@@ -149,18 +149,18 @@ bring_pynastran()
    mv "$target.part" "$target"
 }
 
-# What the Python package is built and tested with, in an environment of its own. Where it cannot be had
-# the package is not built, and its tests say that they are skipped.
+# What the Python package is built with, and what it and the programs are tested with, in an environment
+# of its own. Where it cannot be had the package is not built, and these tests say that they are skipped.
 bring_python()
 {
    local target=$PWD/$deps/python
-   [ -d "$target" ] || [ "$flavour$build_type" != serialRelease ] && return 0
+   [ -d "$target" ] || [ "$flavour" = core ] && return 0
    command -v python3 >/dev/null || return 0
-   say "bringing nanobind, NumPy, SciPy, scikit-fem, matplotlib and pytest (for the tests of the Python package)"
+   say "bringing nanobind, NumPy, SciPy, scikit-fem, matplotlib and pytest (for the Python package and tests)"
    mkdir -p "$deps"
    rm -rf "$target.part"
    { python3 -m venv "$target.part" && "$target.part/bin/python" -m pip install -q --disable-pip-version-check \
-      nanobind scikit-build-core numpy scipy scikit-fem matplotlib pytest &&
+      nanobind scikit-build-core numpy scipy scikit-fem matplotlib pytest pytest-xdist &&
       [ -f "$("$target.part/bin/python" -c 'import sysconfig; print(sysconfig.get_paths()["include"])')/Python.h" ]; } \
       >"$deps/python.log" 2>&1 || { say "they could not be had ($deps/python.log says why)"; return 0; }
    mv "$target.part" "$target"
@@ -175,6 +175,7 @@ prepare()
       printf '%s' "$packages" >"$deps/packages-$flavour"
    fi
    bring_mfem
+   [ -d "$deps/python" ] && CATTANEO_CMAKE_ARGS="${CATTANEO_CMAKE_ARGS:-} -DCATTANEO_PYTEST=$PWD/$deps/python/bin/python"
    if [ -d "$deps/python" ] && [ "$flavour$build_type" = serialRelease ]; then
       CATTANEO_CMAKE_ARGS="${CATTANEO_CMAKE_ARGS:-} -DCATTANEO_PYTHON=ON -DPython_EXECUTABLE=$PWD/$deps/python/bin/python"
    fi

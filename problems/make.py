@@ -71,9 +71,13 @@ def wedge(programs, file):
         inner, outer = os.path.join(folder, "wedge.mesh"), os.path.join(folder, "block.mesh")
         mesh(inner, lambda y: 0.0, flank, 12, (4, 3, 2, 1))
         mesh(outer, flank, lambda y: 4.0, 24, (2, 1, 4, 3))
-        subprocess.run([os.path.join(programs, "contact2d"), "--mesh1", inner, "--contact1", "3", "--support1", "1:x",
-                        "--load1", "P pressure 2 1", "--mesh2", outer, "--contact2", "3", "--support2", "1:xy",
-                        "--order", "1", "--friction", "0.6", "--history", "P=0; P=1", "--save", file], check=True,
+        case = os.path.join(folder, "case.json")
+        with open(case, "w") as f:
+            json.dump({"version": 2, "order": 1, "history": ["P=0", "P=1"],
+                       "bodies": {"wedge": {"mesh": inner, "young": 1, "poisson": 0.3, "support": "1:x", "load": "P pressure 2 1"},
+                                  "block": {"mesh": outer, "young": 1, "poisson": 0.3, "support": "1:xy"}},
+                       "interfaces": {"flank": {"between": ["wedge:3", "block:3"], "friction": 0.6, "pairing": 1e-6}}}, f)
+        subprocess.run([os.path.join(programs, "contact2d"), "--case", case, "--save", file], check=True,
                        stdout=subprocess.DEVNULL)
 
 

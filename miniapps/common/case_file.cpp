@@ -2,6 +2,7 @@
 
 #include "common/table.hpp"
 
+#include <algorithm>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/whole_file.hpp>
 #include <cattaneo/words.hpp>
@@ -13,7 +14,7 @@ using cattaneo::InputError;
 using cattaneo::require;
 using json = nlohmann::ordered_json;
 
-CaseFile read_case(const std::string &file, int newest)
+json read_case(const std::string &file, int version)
 {
    const std::string where = "case file '" + file + "'";
    json keys;
@@ -21,21 +22,25 @@ CaseFile read_case(const std::string &file, int newest)
    {
       const std::string text = cattaneo::read_whole(file, "case file: ");
       cattaneo::require_single_keys(where, text);
-      keys = parsed(text);
+      keys = parsed(text, true);
    }
    catch (const json::exception &error)
    {
       throw InputError(where + " is not JSON: " + error.what());
    }
    require(keys.is_object(), where, " holds a JSON ", keys.type_name(), ", must be an object");
-   const json version = keys.value("version", json(1));
-   const std::string shown = version.is_structured() ? version.type_name() : version.dump();
-   require(version == 1 || (newest > 1 && version == newest), where, ": key 'version' is ",
-           shown, ", must be 1",
-           newest > 1 ? " or " + std::to_string(newest)
-                      : ", the only version that this program knows");
+   const json said = keys.value("version", json());
+   const std::string shown = said.is_structured() ? said.type_name() : said.dump();
+   const int must = std::max(version, 1);
+   // A file without bodies is taken for one of version 1, which did not have to say so.
+   require(version < 2 || (said != 1 && (!said.is_null() || keys.contains("bodies"))), where,
+           " is of version 1, which is no longer read, key 'version' must be ", must,
+           ": docs/contact.md says under 'Case files of version 1' how to write it anew");
+   require(version < 2 || !said.is_null(), where, ": key 'version' is missing, must be ", must);
+   require(said.is_null() || said == must, where, ": key 'version' is ", shown, ", must be ",
+           must);
    for (const char *key : {"version", "$schema"}) { keys.erase(key); }
-   return {keys, version.get<int>()};
+   return keys;
 }
 
 } // namespace miniapp

@@ -6,16 +6,9 @@
 namespace miniapp
 {
 
-/// The keys of a case file that stand for options, with their values.
-struct CaseFile
-{
-   nlohmann::ordered_json keys;
-   int version = 1; ///< that the file is written in (docs/contact2d.md)
-};
-
-/** The key "version" says which version a file is written in, without it 1. InputError if the
-    file cannot be read, is no JSON object, has a key twice or is of a version beyond the newest
-    that is known. */
-CaseFile read_case(const std::string &file, int newest);
+/** The keys of a case file that stand for options, with their values. Comments are allowed.
+    InputError if the file cannot be read, is no JSON object, has a key twice, or does not name
+    this version of its form; 0: it need not name any. */
+nlohmann::ordered_json read_case(const std::string &file, int version);
 
 } // namespace miniapp

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/whole_file.hpp>
+#include <cattaneo/words.hpp>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -89,33 +90,42 @@ nlohmann::ordered_json with_paths(nlohmann::ordered_json structure, const fs::pa
    return structure;
 }
 
-/// A structure with another value, a number if it is one, in the place NAME.KEY.KEY….
-std::string replaced_in(const std::string &structure, const std::string &key,
-                        const std::string &value)
+/// A structure with another value in the place NAME.KEY.KEY…: what it is as JSON, or a text.
+std::string replaced_in(const std::string &structure, const std::string &by,
+                        const std::string &key, const std::string &value)
 {
    const std::vector<std::string> path = split(key, ".");
+   require(cattaneo::is_utf8(key + value), by, ": what it says is not UTF-8");
    auto all = parsed(structure.empty() ? "{}" : structure);
    nlohmann::ordered_json *place = &all;
    for (std::size_t k = 1; k < path.size(); ++k)
    {
-      const bool member =
-         place->is_object() && (place->contains(path[k]) || k + 1 == path.size());
-      require(member, "option --sweep: '", key, "': there is no key '", path[k], "' in ",
+      const auto number = path[k].find_first_not_of("0123456789") == std::string::npos
+                             ? std::strtoul(path[k].c_str(), nullptr, 10)
+                             : std::numeric_limits<unsigned long>::max();
+      const bool entry = place->is_array() && number < place->size(),
+                 member =
+                    place->is_object() && (place->contains(path[k]) || k + 1 == path.size());
+      require(entry || member, by, ": '", key, "': there is no key '", path[k], "' in ",
               listed(std::vector<std::string>(path.begin(), path.begin() + long(k)), "."));
-      place = &(*place)[path[k]];
+      place = entry ? &(*place)[number] : &(*place)[path[k]];
    }
-   char *end = nullptr;
-   const double x = std::strtod(value.c_str(), &end);
-   *place =
-      !value.empty() && *end == 0 ? nlohmann::ordered_json(x) : nlohmann::ordered_json(value);
+   try
+   {
+      *place = parsed(value);
+   }
+   catch (const json::exception &)
+   {
+      *place = value;
+   }
    return all.dump();
 }
 
 /// Entry k of a text of entries is another value; with a load's name, its part LOAD=value.
 std::string replaced(const std::string &text, const std::string &separators,
-                     const std::string &key, const std::string &value)
+                     const std::string &by, const std::string &key, const std::string &value)
 {
-   const std::string where = "option --sweep: '" + key + "'";
+   const std::string where = by + ": '" + key + "'";
    const std::vector<std::string> path = split_unquoted(where, key, ".");
    std::vector<std::string> entries = split_unquoted(where, text, separators);
    char *end = nullptr;
@@ -152,7 +162,6 @@ Options::Options(int argc, char *argv[]) : words_(argv, argv + argc)
 void Options::add(Value value, const Names &names, const char *help, const Check &check)
 {
    options_.push_back({names, help, value, check});
-   options_.back().version = adds_version_;
 }
 
 void Options::add(std::string *value, const Names &names, const char *help, Text kind)
@@ -169,13 +178,13 @@ void Options::add(std::string *value, const Names &names, const char *help,
    options_.back().choices = choices;
 }
 
-void Options::in_object(const std::string &name, const std::vector<std::string> &required)
+void Options::add_set()
 {
-   objects_[name] = required;
-   for (Option &option : options_)
-   {
-      if (option.names.name.find(name + "-") == 0) { option.object = name; }
-   }
+   add(&set_, "set",
+       "Another value in one place of the case, as 'interfaces.flank.friction=0.5' or "
+       "'history.2.Q=0.1'; may be given several times.",
+       Text::statements);
+   leave_out_of_cases("set");
 }
 
 void Options::leave_out_of_cases(const std::string &name)
@@ -296,7 +305,8 @@ void Options::read_words()
       if (before == given_.end()) { given_.push_back(given); }
       else
       {
-         require(option->names.name == "sweep", "option ", word, " is there twice");
+         require(option->names.name == "sweep" || option->value == Value(&set_), "option ",
+                 word, " is there twice");
          before->text += "; " + given.text;
       }
    }
@@ -397,20 +407,15 @@ void Options::parse()
    }
    for (const Given &given : given_)
    {
-      if (case_file_.empty()) { version_ = std::max(version_, given.option->version); }
-   }
-   for (const Given &given : given_)
-   {
-      check_version(*given.option, given.as);
       given.option->set(given.as, given.text);
       said_.insert(given.option->names.name);
    }
+   change();
    std::printf("Options used:\n");
    for (const Option &option : options_)
    {
       const std::string text = option.text();
       const auto &on = option.names.on;
-      if (option.version != 0 && option.version != version_) { continue; }
       if (option.is_flag()) { std::printf("   %s\n", on[text == "true" ? 1 : 3].c_str()); }
       else if (!text.empty()) { std::printf("   %s %s\n", on[1].c_str(), text.c_str()); }
    }
@@ -433,42 +438,47 @@ void Options::only_if(bool used, const std::vector<std::string> &names,
    }
 }
 
-void Options::check_version(const Option &option, const std::string &as) const
+const Options::Option &Options::changeable(const std::string &by, const std::string &key) const
 {
-   if (option.version == 0 || option.version == version_) { return; }
-   std::vector<std::string> here;
-   for (const Option &other : options_)
-   {
-      if (other.version == version_) { here.push_back(other.names.name); }
-   }
-   const std::string file = case_file_.empty() ? "" : ", '" + case_file_ + "'";
-   throw InputError("option " + as + " is of case files " + std::to_string(option.version) +
-                    ", this run is of a case file " + std::to_string(version_) + file +
-                    ": say it in one of " + listed(here));
-}
-
-const Options::Option &Options::changeable(const std::string &key) const
-{
-   const std::size_t dots = split_unquoted("option --sweep", key, ".").size() - 1;
+   const std::size_t dots = split_unquoted(by, key, ".").size() - 1;
    const std::string name = key.substr(0, key.find('.'));
    std::vector<std::string> known;
    for (const Option &option : options_)
    {
-      if (!option.in_cases || option.is_of_sweep()) { continue; }
-      if (option.version == 0 || option.version == version_)
-      {
-         known.push_back(option.names.name);
-      }
+      if (!option.has_places()) { continue; }
+      known.push_back(option.names.name);
       if (option.names.name != name) { continue; }
-      check_version(option, "--sweep: '" + key + "'");
       if (option.kind == Text::structure) { return option; }
       const std::size_t most = option.is_list() ? 1 : option.kind == Text::statements ? 2 : 0;
-      require(dots <= most, "option --sweep: '", key, "': option --", name,
+      require(dots <= most, by, ": '", key, "': option --", name,
               most == 0 ? " has no entries" : " has no entries of entries");
       return option;
    }
-   throw InputError("option --sweep: there is no option '" + name + "', must be one of " +
+   throw InputError(by + ": there is no option '" + name + "', must be one of " +
                     listed(known));
+}
+
+std::string Options::Option::changed(const std::string &now, const std::string &by,
+                                     const std::string &key, const std::string &value) const
+{
+   if (key == names.name) { return value; }
+   return kind == Text::structure
+             ? replaced_in(now, by, key, value)
+             : replaced(now, kind == Text::statements ? ";" : " ,", by, key, value);
+}
+
+void Options::change()
+{
+   const std::string by = "option --set";
+   for (const std::string &statement : split_unquoted(by, set_, ";"))
+   {
+      const auto [key, value] = assignment(by, statement, "interfaces.flank.friction=0.5");
+      const Option &option = changeable(by, key);
+      const std::string &name = option.names.name;
+      option.set("--" + name, option.changed(option.text(), by, key, value));
+      said_.insert(name);
+      changed_.insert(name);
+   }
 }
 
 std::vector<std::string>
@@ -483,11 +493,14 @@ Options::command(const std::vector<std::pair<std::string, std::string>> &changes
               " is of one run, a sweep has many");
       if (!given.option->is_written()) { values[name] = given.text; }
    }
-   values.erase("sweep-results");
+   // What was changed stands for itself, a key may be swept.
+   for (const std::string &name : changed_) { values[name] = find("--" + name)->text(); }
+   for (const char *name : {"set", "sweep-results"}) { values.erase(name); }
    values["sweep"] = "none"; // a case file may have one
    for (const auto &[key, value] : changes)
    {
-      const Option &option = changeable(key);
+      const std::string by = "option --sweep";
+      const Option &option = changeable(by, key);
       const std::string &name = option.names.name;
       const auto swept = [&](const Given &given)
       { return key == name && given.option == &option; };
@@ -496,10 +509,7 @@ Options::command(const std::vector<std::pair<std::string, std::string>> &changes
       const nlohmann::ordered_json &now = values_.at(name);
       std::string &text =
          values.try_emplace(name, now.is_string() ? now.get<std::string>() : "").first->second;
-      text = key == name ? value
-             : option.kind == Text::structure
-                ? replaced_in(text, key, value)
-                : replaced(text, option.kind == Text::statements ? ";" : " ,", key, value);
+      text = option.changed(text, by, key, value);
       option.set("--" + name, text);
       option.validate();
    }
@@ -515,58 +525,28 @@ Options::command(const std::vector<std::pair<std::string, std::string>> &changes
 
 void Options::read(const std::string &file)
 {
-   int newest = 1;
-   for (const Option &option : options_) { newest = std::max(newest, option.version); }
-   const auto [keys, version] = read_case(file, newest);
-   version_ = version;
+   const json keys = read_case(file, version_);
    const std::string where = "case file '" + file + "': ";
-   const auto set = [&](const Option &option, const json &value, const std::string &name)
+   for (const auto &[name, value] : keys.items())
    {
+      const Option &option = of_case(name, where);
       std::string text = option.from_json(value, where + "key '" + name + "'");
       const fs::path folder = fs::path(file).parent_path();
       if (option.kind == Text::input) { text = (folder / text).string(); }
       if (option.kind == Text::structure) { text = with_paths(value, folder).dump(); }
-      option.set("--" + option.names.name, text);
-      said_.insert(option.names.name);
-   };
-   for (const auto &[name, value] : keys.items())
-   {
-      if (objects_.count(name) == 0 || version_ > 1)
-      {
-         set(of_case("", name, where), value, name);
-         continue;
-      }
-      const std::string key = where + "key '" + name + "'";
-      require(value.is_object(), key, " is ",
-              value.is_array() ? value.type_name() : value.dump(), ", must be an object");
-      for (const std::string &required : objects_.at(name))
-      {
-         require(value.contains(required), key, " has no '", required, "', must have one");
-      }
-      for (const auto &[inner, its] : value.items())
-      {
-         set(of_case(name, inner, key + ": "), its, name + "." + inner);
-      }
+      option.set("--" + name, text);
+      said_.insert(name);
    }
 }
 
-const Options::Option &Options::of_case(const std::string &object, const std::string &key,
-                                        const std::string &where) const
+const Options::Option &Options::of_case(const std::string &key, const std::string &where) const
 {
    std::vector<std::string> known;
    for (const Option &option : options_)
    {
-      const bool other = option.version != 0 && option.version != version_;
-      if (!option.in_cases || option.object != object || other) { continue; }
-      if (option.key() == key) { return option; }
-      known.push_back(option.key());
-   }
-   if (object.empty())
-   {
-      for (const auto &entry : objects_)
-      {
-         if (version_ == 1) { known.push_back(entry.first); }
-      }
+      if (!option.in_cases) { continue; }
+      if (option.names.name == key) { return option; }
+      known.push_back(option.names.name);
    }
    throw InputError(where + "unknown key '" + key + "', must be one of " + listed(known));
 }
@@ -585,7 +565,6 @@ std::string Options::Option::from_json(const json &x, const std::string &where) 
    };
    const auto is_whole = [](const json &v)
    { return v.is_number() && v == std::floor(v.get<double>()); }; // 2.0 is one in JSON
-   const auto is_attribute = [&](const json &v) { return is_whole(v) && v > 0 && v < 1e9; };
    const auto all = [&x](auto is)
    { return x.is_array() && std::all_of(x.begin(), x.end(), is); };
    if (std::holds_alternative<int *>(value))
@@ -599,12 +578,6 @@ std::string Options::Option::from_json(const json &x, const std::string &where) 
    {
       expect(x.is_number() || x == "none" || all([](const json &v) { return v.is_number(); }),
              "a number or an array of numbers, or \"none\"");
-   }
-   else if (kind == Text::attributes)
-   {
-      expect(x.is_string() || is_attribute(x) || all(is_attribute),
-             "boundary attributes: a string such as \"3,4\" or \"3[-1<x<1]\", a positive "
-             "integer below 1e9, or an array of positive integers below 1e9");
    }
    else if (kind == Text::structure)
    {
@@ -627,7 +600,18 @@ std::string Options::Option::from_json(const json &x, const std::string &where) 
                       : v.is_number() ? exact_text(v.get<double>())
                                       : v.dump());
    }
-   return listed(words, kind == Text::statements ? "; " : kind == Text::attributes ? "," : " ");
+   return listed(words, kind == Text::statements ? "; " : " ");
+}
+
+std::pair<std::string, std::string>
+assignment(const std::string &by, const std::string &statement, const std::string &example)
+{
+   // A name in quotes may have an equals sign of its own.
+   const std::size_t name = split_unquoted(by, statement, "=").front().size(),
+                     equals = statement.find('=', name);
+   require(equals != std::string::npos && equals > 0, by, ": '", statement,
+           "', must be KEY=VALUE such as '", example, "'");
+   return {statement.substr(0, equals), statement.substr(equals + 1)};
 }
 
 std::vector<double> numbers(const std::string &option, const std::string &text)

@@ -2,7 +2,6 @@
 
 #include <deque>
 #include <functional>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -31,7 +30,6 @@ Check none_or_above(double low);               ///< 0, or above the bound
 enum class Text
 {
    word,
-   attributes, ///< a string, a number or an array of numbers
    statements, ///< a string with statements between semicolons, or an array of them
    structure,  ///< an object, here as JSON; files in it have the keys mesh and matrix
    input,      ///< a file that is read; a path in a case file is relative to its folder
@@ -51,7 +49,8 @@ extern const char *const domain_help;
     with nowhere to write to, or writes over what it reads.
 
     --case FILE.json gives options as well, by their long names without dashes; the command line
-    overrides it. Files that are written are named on the command line only. */
+    overrides it. Files that are written are named on the command line only. Comments are
+    allowed in it, as in C++. */
 class Options
 {
 public:
@@ -87,12 +86,11 @@ public:
    void add(std::string *value, const Names &names, const char *help,
             const std::vector<std::string> &choices);
 
-   /// In a case file the options NAME-KEY are one object, NAME: {KEY: …}, which must have some.
-   void in_object(const std::string &name, const std::vector<std::string> &required);
-   /// Those that are added from here on are of case files of one version alone; 0: of all.
-   void of_version(int version) { adds_version_ = version; }
-   /// Of the case file, 1 without one.
-   int version() const { return version_; }
+   /// Case files must name this version of their form. Without a call they need not name any.
+   void require_version(int version) { version_ = version; }
+   /// Adds --set, which gives a place in an option another value: KEY=VALUE, with a key as in
+   /// command(). It comes after the case file and all other options.
+   void add_set();
    /// Names what is no part of a case: where results go, or which of them are shown.
    void leave_out_of_cases(const std::string &name);
 
@@ -103,7 +101,8 @@ public:
    /** The words of a command that runs the same with some values changed, and without what it
        writes; a key is an option's long name, NAME.k for entry k (from 0) of a list or of
        statements, or NAME.k.LOAD for a load's multiplier at point k of a history. To be called
-       after parse(). InputError if a key is none or an option does not allow its value. */
+       after parse(). In a structure a key is NAME.KEY.KEY…, with numbers (from 0) for entries
+      of arrays. InputError if a key is none or an option does not allow its value. */
    std::vector<std::string>
    command(const std::vector<std::pair<std::string, std::string>> &changes) const;
 
@@ -127,21 +126,15 @@ private:
       Text kind = Text::word;
       std::vector<std::string> choices = {};
       bool in_cases = true;
-      int version = 0;         ///< of the case files that have it, 0: of all
-      std::string object = {}; ///< of the case file that it is in; empty: it is in none
-
-      /// In a case file.
-      std::string key() const
-      {
-         return object.empty() ? names.name : names.name.substr(object.size() + 1);
-      }
 
       bool is_flag() const { return std::holds_alternative<bool *>(value); }
       bool is_list() const { return std::holds_alternative<std::vector<double> *>(value); }
       bool is_written() const { return kind > Text::input; }
-      bool is_of_sweep() const
+      /// Does it have places that --sweep and --set can change?
+      bool has_places() const
       {
-         return names.name == "sweep" || names.name == "sweep-results";
+         const std::string &name = names.name;
+         return in_cases && name != "sweep" && name != "sweep-results" && name != "set";
       }
       std::string text() const;               ///< its value
       nlohmann::ordered_json as_json() const; ///< the same, a list as text
@@ -149,6 +142,9 @@ private:
       std::string from_json(const nlohmann::ordered_json &x, const std::string &where) const;
       /// @param as what the option is called in an error
       void set(const std::string &as, const std::string &text) const;
+      /// A text of its value with another one in the place `key`, which `by` says.
+      std::string changed(const std::string &now, const std::string &by, const std::string &key,
+                          const std::string &value) const;
       void validate() const; ///< its value
    };
    /// What the command line says.
@@ -162,23 +158,26 @@ private:
    void read_words();
    void print_help() const;
    void check_files() const;
-   /// InputError for an option of the case files of another version: nothing would read it.
-   void check_version(const Option &option, const std::string &as) const;
    void read(const std::string &file);
-   /// The option of a key in an object of the case file, or in none.
-   const Option &of_case(const std::string &object, const std::string &key,
-                         const std::string &where) const;
-   const Option &changeable(const std::string &key) const;
+   const Option &of_case(const std::string &key, const std::string &where) const;
+   /// The option in which a key is a place. @param by the option that says the key
+   const Option &changeable(const std::string &by, const std::string &key) const;
+   /// What --set says.
+   void change();
 
    const std::vector<std::string> words_; ///< of the command line
    std::deque<Option> options_;           ///< these stay where they are
    std::vector<Given> given_;
-   std::set<std::string> said_;                              ///< long names
-   std::map<std::string, std::vector<std::string>> objects_; ///< with what they must have
-   std::string case_file_;
-   int version_ = 1, adds_version_ = 0;
+   std::set<std::string> said_, changed_; ///< long names
+   std::string case_file_, set_;
+   int version_ = 0;
    nlohmann::ordered_json values_;
 };
+
+/// KEY and VALUE of a statement KEY=VALUE of option `by`; InputError if it is none, which shows
+/// the example.
+std::pair<std::string, std::string>
+assignment(const std::string &by, const std::string &statement, const std::string &example);
 
 /// Numbers of a list option, separated by spaces or commas, or "none"; InputError naming the
 /// option.

@@ -82,17 +82,13 @@ std::vector<SweptKey> read_keys(const std::string &statements)
    std::vector<SweptKey> keys;
    for (const std::string &statement : split_unquoted("option --sweep", statements, ";"))
    {
-      // A name in quotes may have one of its own.
-      const std::size_t name = split_unquoted("option --sweep", statement, "=").front().size();
-      const std::size_t equals = statement.find('=', name);
-      require(equals != std::string::npos && equals > 0, "option --sweep: '", statement,
-              "', must be OPTION=values such as 'friction=0.2 0.5'");
-      SweptKey key{statement.substr(0, equals), {}};
+      const auto [name, list] = assignment("option --sweep", statement, "friction=0.2 0.5");
+      SweptKey key{name, {}};
       for (const SweptKey &other : keys)
       {
          require(other.name != key.name, "option --sweep: '", key.name, "' is there twice");
       }
-      for (const std::string &word : split(statement.substr(equals + 1), " \t"))
+      for (const std::string &word : split(list, " \t"))
       {
          for (const std::string &value : spread(word)) { key.values.push_back(value); }
       }

@@ -81,9 +81,9 @@ const ResultTable *&on_screen()
 
 } // namespace
 
-ordered_json parsed(const std::string &text)
+ordered_json parsed(const std::string &text, bool comments)
 {
-   return ordered_json::parse(text);
+   return ordered_json::parse(text, nullptr, true, comments);
 }
 
 double settled(double sum, double size)

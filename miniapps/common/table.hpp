@@ -7,8 +7,9 @@
 namespace miniapp
 {
 
-/// JSON of a text, or the library's own error. Compiled once: a parser takes long.
-nlohmann::ordered_json parsed(const std::string &text);
+/// JSON of a text, in which comments of C++ may be allowed, or the library's own error.
+/// Compiled once: a parser takes long.
+nlohmann::ordered_json parsed(const std::string &text, bool comments = false);
 
 /// A sum without what is round-off of parts of this size.
 double settled(double sum, double size);

@@ -140,7 +140,7 @@ private:
 
 JointCase::Source source(const Key &key)
 {
-   return {"key '" + key.path() + ".", "'"};
+   return {key.path()};
 }
 
 /// Names stand in statements and in the names of files.
@@ -213,6 +213,7 @@ JointCase::Body body(const Key &key, const std::string &name)
       const Key plane = key["half-plane"];
       plane.must_be_of({"young", "poisson", "depth"});
       made.half_plane = true;
+      made.source = source(plane);
       made.young = {plane["young"].number(positive)};
       made.poisson = {plane["poisson"].number(between(-1, 0.5))};
       if (plane.has("depth")) { made.depth = plane["depth"].number(positive); }
@@ -495,7 +496,7 @@ JointCase joint_case(const JointKeys &keys, int order)
 {
    JointCase joint;
    joint.order = order;
-   const ordered_json analysis = keys.analysis.empty() ? "plane strain" : keys.analysis;
+   const ordered_json analysis = keys.analysis;
    const std::string word = Key(analysis, "analysis").choice(analyses);
    joint.plane_stress = word == "plane stress";
    if (word == "axisymmetric") { joint.formulation = Formulation::axisymmetric; }

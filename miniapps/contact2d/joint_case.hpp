@@ -13,16 +13,19 @@
 namespace miniapp
 {
 
-/** What a case of contact2d says of bodies and of where they touch: a case file 2, or what the
-    options of file 1 come to. Texts are in the language of docs/contact2d.md. */
+/** What a case says of bodies and of where they touch. Texts are in the language of
+    docs/contact.md. */
 struct JointCase
 {
-   /// What is called in an error what this was read from: "key 'bodies.pad.load'", or of file 1
-   /// "option load1".
+   /// The object that this was read from, as "bodies.pad".
    struct Source
    {
-      std::string before, after;
-      std::string called(const std::string &key) const { return before + key + after; }
+      std::string path;
+      /// In an error: "key 'bodies.pad.load'".
+      std::string called(const std::string &key) const
+      {
+         return "key '" + path + "." + key + "'";
+      }
    };
    struct Body
    {
@@ -99,7 +102,6 @@ struct JointCase
    cattaneo::Formulation formulation = cattaneo::Formulation::plane;
    bool plane_stress = false;
    int order = 2;
-   bool numbered = false; ///< of file 1, whose bodies have no names
    std::vector<Body> bodies;
    std::vector<Face> faces;
    std::vector<Bolt> bolts;
@@ -107,7 +109,7 @@ struct JointCase
    int body(const std::string &name) const; ///< its number, -1: none
 };
 
-/// What the keys of a case file 2 hold; null: it is not there.
+/// What the keys of a case hold; null: it is not there.
 struct JointKeys
 {
    std::string analysis;

@@ -23,7 +23,7 @@ JointReport::JointReport(Study &study, const JointCase &joint, const Reduction &
 
 std::string JointReport::body(int b) const
 {
-   return b < 0 ? "rigid line" : body_name(reduction_, static_cast<std::size_t>(b));
+   return b < 0 ? "rigid line" : reduction_.bodies[b].name;
 }
 
 Vector2d JointReport::middle(const InterfaceReport &face) const
@@ -173,14 +173,12 @@ std::string JointReport::of_state(const ContactState &state)
    const InterfaceReport &face = reduction_.interfaces[0];
    const Vector2d force = resultant(face, state).force;
    study_.results["contact_force"] = {force[0], force[1]};
-   return "contact force on " +
-          (joint_.numbered ? "body 1" : body(face.bodies[face.of_second])) +
+   return "contact force on " + body(face.bodies[face.of_second]) +
           text(" (%g, %g)", force[0], force[1]);
 }
 
 void JointReport::report(const ContactState &state, const MarchReport &march)
 {
-   if (joint_.numbered) { return; }
    report_interfaces(state, march);
    report_cycles(march);
    if (!joint_.bolts.empty()) { report_bolts(state); }
@@ -314,48 +312,6 @@ void JointReport::draw_loops()
    {
       panel.add(reduction_.interfaces[k].name, courses_[k].slip, courses_[k].shear);
    }
-}
-
-std::string body_name(const Reduction &reduction, std::size_t body)
-{
-   const std::string &name = reduction.bodies[body].name;
-   return name.empty() ? "body" + std::to_string(body + 1) : name;
-}
-
-void convert(Study &study, const JointKeys &joint, int order, const std::string &file)
-{
-   ordered_json keys = {{"version", 2},
-                        {"analysis", joint.analysis},
-                        {"order", order},
-                        {"bodies", joint.bodies},
-                        {"interfaces", joint.interfaces}};
-   if (!joint.bolts.is_null()) { keys["bolts"] = joint.bolts; }
-   const auto folder = std::filesystem::absolute(file).parent_path();
-   for (ordered_json &body : keys["bodies"])
-   {
-      for (const char *its : {"mesh", "matrix"})
-      {
-         if (!body.contains(its)) { continue; }
-         const std::filesystem::path path = body[its].get<std::string>();
-         body[its] = std::filesystem::relative(path, folder).generic_string();
-      }
-   }
-   const ordered_json &values = study.options().values();
-   for (const char *name : {"history", "edges"})
-   {
-      const auto said = values.at(name).get<std::string>();
-      if (said.empty()) { continue; }
-      if (std::string(name) == "history") { keys[name] = split(said, ";"); }
-      else { keys[name] = numbers(name, said); }
-   }
-   for (const char *name : {"cycle-start", "cycles", "increments", "stepping"})
-   {
-      keys[name] = values.at(name);
-   }
-   if (writes()) { write_whole(file, keys.dump(3) + "\n"); }
-   study.say("The case is in " + file);
-   study.results["status"] = "converted";
-   throw Done();
 }
 
 } // namespace miniapp

@@ -76,11 +76,4 @@ private:
    std::vector<Range> range_; ///< of each bolt's force
 };
 
-/// What a body is called in output: its name, or "body1", ….
-std::string body_name(const cattaneo::Reduction &reduction, std::size_t body);
-
-/// Writes the case as a case file 2, with the study's other options, and leaves the study.
-[[noreturn]] void convert(Study &study, const JointKeys &joint, int order,
-                          const std::string &file);
-
 } // namespace miniapp

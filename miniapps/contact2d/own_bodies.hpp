@@ -32,7 +32,7 @@ struct OwnBodies
    cattaneo::fretting::CornerModes corner(int end) const;
 };
 
-/// InputError naming body and key or option.
+/// InputError naming body and key.
 OwnBodies make_own_bodies(const JointCase &joint);
 
 } // namespace miniapp

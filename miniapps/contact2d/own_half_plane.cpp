@@ -94,8 +94,7 @@ void stand_on_half_plane(OwnBodies &own, std::vector<CondensedBody> bodies,
                              : std::max(held_share(body, Eigen::Vector2d(1, 0)),
                                         held_share(body, Eigen::Vector2d(0, 1)));
       require(most < 1e-7, "half-plane: supports or prescribed displacements hold body ",
-              body.name.empty() ? "1" : body.name,
-              " against it, whose displacements are relative to a depth: ",
+              body.name, " against it, whose displacements are relative to a depth: ",
               plane.source.called("depth"), " must state it, or forces alone act on the body");
    }
    require(!relative || joint.bolts.empty(), plane.source.called("depth"),
@@ -104,7 +103,7 @@ void stand_on_half_plane(OwnBodies &own, std::vector<CondensedBody> bodies,
    own.scene.reduction = reduce(std::move(bodies), std::move(interfaces), below);
    if (relative) { own.scene.problem().H.resize(0, 0); }
    CondensedBody &made = own.scene.reduction.bodies.back();
-   if (!joint.numbered) { made.name = plane.name; }
+   made.name = plane.name;
    own.accuracy = std::max(own.accuracy, made.error_estimate());
    own.materials.push_back({below.material});
    own.half_plane = below;

@@ -39,13 +39,13 @@ void warn_of_offsets(const ContactLine &line1, const ContactLine &line2, const P
    }
    if (most <= 0.1) { return; }
    warn(text("nodes are paired that lie up to %.2g of an element's length off along the line: "
-             "the two bodies feel one force at places as far apart; without pairing they do "
-             "not (--convert makes a case file 2; leave it out there)",
+             "the two bodies feel one force at places as far apart; without key 'pairing' they "
+             "do not",
              most));
 }
 
 /// The only interface of two bodies, whose nodes are paired one to one.
-Reduction paired(std::vector<CondensedBody> bodies, const JointCase::Face &face, bool numbered)
+Reduction paired(std::vector<CondensedBody> bodies, const JointCase::Face &face)
 {
    try
    {
@@ -55,8 +55,7 @@ Reduction paired(std::vector<CondensedBody> bodies, const JointCase::Face &face,
    }
    catch (const InputError &error)
    {
-      throw InputError((numbered ? "option " : "interface '" + face.name + "': ") +
-                       std::string(error.what()));
+      throw InputError("interface '" + face.name + "': " + error.what());
    }
 }
 
@@ -161,7 +160,7 @@ Reduction united(const JointCase &joint, std::vector<CondensedBody> condensed,
               one.source.called("pairing"),
               " is for two bodies at one interface: others need none, their nodes need not "
               "match");
-      return paired(std::move(condensed), one, joint.numbered);
+      return paired(std::move(condensed), one);
    }
    return reduce(std::move(condensed), interfaces_of(joint, lines));
 }

@@ -99,10 +99,9 @@ void OwnPart::make_of_matrix(NodalStiffness matrix)
 {
    require(matrix.formulation == joint_.formulation, "its elements are ",
            name(matrix.formulation), ", must be ", name(joint_.formulation),
-           joint_.numbered ? "; bodies of revolution are in case files of version 2"
-                           : ", as key 'analysis' says");
+           ", as key 'analysis' says");
    nodal_ = std::move(matrix);
-   const std::string key = joint_.numbered ? "option order" : body_.source.called("order");
+   const std::string key = body_.source.called("order");
    require(
       nodal_->edges.empty() || body_.order == 0, key,
       ": its elements are known, and have their orders in themselves: it must be left out");
@@ -171,7 +170,7 @@ CondensedBody OwnPart::condensed(const ContactLine &line, const CondensedBody *a
 {
    CondensedBody made = nodal_ ? condense(nodal_->body(), line)
                                : condense(*elastic_, line, condensation(), alike);
-   if (!joint_.numbered) { made.name = body_.name; }
+   made.name = body_.name;
    return made;
 }
 
@@ -250,9 +249,7 @@ void find_matrices(OwnBodies &own, const JointCase &joint, std::vector<OwnPart> 
       for (const NodalStiffness &part : bodies) { names.push_back(part.name); }
       require(static_cast<int>(bodies.size()) == asked[file], "matrix '", file, "' has ",
               bodies.size(), " bodies (", listed(names),
-              joint.numbered ? "), options contact1 and contact2 name the contact of "
-                             : "), each must be a body of the case, of this matrix; there are ",
-              asked[file]);
+              "), each must be a body of the case, of this matrix; there are ", asked[file]);
    }
    for (std::size_t b = 0; b < parts.size(); ++b)
    {

@@ -6,7 +6,7 @@
 namespace cattaneo
 {
 
-nlohmann::json parsed(const std::string &text, const std::string &what)
+nlohmann::json parsed(const std::string &text, const std::string &what, bool comments)
 {
    using nlohmann::json;
    std::map<int, std::set<std::string>> names; // so far, of the object at a depth
@@ -21,7 +21,7 @@ nlohmann::json parsed(const std::string &text, const std::string &what)
       }
       return true;
    };
-   return json::parse(text, once);
+   return json::parse(text, once, true, comments);
 }
 
 } // namespace cattaneo

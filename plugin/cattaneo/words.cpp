@@ -98,7 +98,7 @@ void require_single_keys(const std::string &where, const std::string &text)
 {
    try
    {
-      parsed(text, where);
+      parsed(text, where, true);
    }
    catch (const nlohmann::json::exception &)
    {

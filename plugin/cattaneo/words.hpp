@@ -29,7 +29,8 @@ std::string csv_field(const std::string &text);
 bool is_utf8(const std::string &text);
 
 /// InputError, which begins with `where`, for a key that an object of a JSON text has twice: of
-/// the two a parser keeps the last without a word. What is not JSON is not looked at.
+/// the two a parser keeps the last without a word. Comments are passed over, and what is not
+/// JSON is not looked at.
 void require_single_keys(const std::string &where, const std::string &text);
 
 /// InputError, which begins with `where`, for a name of a load that statements cannot hold.

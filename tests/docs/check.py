@@ -21,7 +21,7 @@ to run commands in. What is checked:
   references does. The number is right if it is within one unit of its last digit. --write writes them anew.
   Behind "numbers of tests" a row, or one above, names a test, as `core_tests Suite.Name`, that records the number
   (tests/record.hpp).
-* Tests that are named as `core_tests Suite.Name` are there.
+* Tests that are named as `core_tests Suite.Name` or `./test -R Suite.Name` are there.
 * docs/faq.md explains each outcome that the library has a name for.
 * Keys of citations, as [Hertz 1882] in headers, are in docs/references.md, and all that are there are cited.
   Years beside names without brackets are no citation.
@@ -254,6 +254,16 @@ class Guide:
             code = "".join(f.read_text(encoding="utf-8") for f in self.source.glob(f"tests/{kind}/*.cpp"))
             if not re.search(rf"^TEST(_F|_P)?\({suite}, {name}\)", code, re.M):
                 self.fault(page, f"there is no test {kind}_tests {suite}.{name}")
+
+        def in_capitals(words):
+            return "".join(word[:1].upper() + word[1:] for word in words.split("_"))
+
+        # `./test -R Contact.BadInput` is test_bad_input() of tests/programs/contact_test.py.
+        scripts = {in_capitals(f.stem[:-len("_test")]): f for f in self.source.glob("tests/programs/*_test.py")}
+        for suite, name in re.findall(r"`\./test -R (\w+)\.(\w+)`", text):
+            code = scripts[suite].read_text(encoding="utf-8") if suite in scripts else ""
+            if name not in map(in_capitals, re.findall(r"^def test_(\w+)", code, re.M)):
+                self.fault(page, f"there is no test {suite}.{name} in tests/programs")
 
     # -- outcomes ---------------------------------------------------------------------------------
 

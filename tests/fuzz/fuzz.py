@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Mutation fuzzer of the programs that read a user's files: contact2d (options, JSON case, meshes,
+"""Mutation fuzzer of the programs that read a user's files: contact2d (options, JSON cases, meshes,
 saved states) and shakedown --reduced (reduced problems).
 
     python3 tests/fuzz/fuzz.py --programs build/release/miniapps --seconds 600 --keep finds
@@ -35,9 +35,10 @@ WORDS = ["", " ", ";", "=", "3[", "3[]", "3[0<x<", "3[1<x<0]", "[0<x<1]", "3,,4"
          "/dev/null", "/", "a" * 5000, "none", "all", "P=0;P=1;P=0", "P=0;P=-1", "Q=1", "1 2 3", "1,2", "--", "-1"]
 VALUES = [None, True, False, 0, -1, 2.5, 1e300, -1e300, 1e-300, 10**30, "", "x", [], {}, [[]], [1, "2"], ["P=0"], [None],
           [1e308, 1e308], {"a": 1}, "3", "P=0; P=1"]
-CASE_KEYS = ["mesh1", "mesh2", "contact1", "contact2", "young1", "young2", "poisson1", "poisson2", "support1", "support2",
-             "load1", "load2", "order", "plane-stress", "friction", "gap", "pairing", "history", "cycle-start", "cycles",
-             "increments", "edges", "stepping", "unknown", "case"]
+CASE_KEYS = ["bodies", "interfaces", "bolts", "analysis", "mesh", "matrix", "half-plane", "young", "poisson", "expansion",
+             "support", "load", "guides", "between", "friction", "strength", "gap", "pairing", "slave", "tied", "overlap",
+             "obstacle", "motion", "order", "history", "cycle-start", "cycles", "increments", "edges", "stepping", "version",
+             "set", "unknown", "case"]
 
 MFEM_MESH = """MFEM mesh v1.0
 
@@ -121,22 +122,24 @@ def gmsh_mesh(height):
 
 def seeds(programs):
     """Each: program, arguments, files by name. The shipped cases, and small ones that are quick to run."""
-    rigid = {"mesh1": "block.mesh", "young1": 1.0, "poisson1": 0.3, "contact1": "1",
-             "load1": ["P pressure 3 1", "Q traction 3 1 0", "Q pressure 3 -2*x+3"],
-             "friction": 0.3, "history": ["P=0", "P=1", "Q=0.1", "Q=-0.1", "Q=0"], "cycle-start": 1, "cycles": 2, "increments": 3,
-             "order": 2, "plane-stress": False, "stepping": "advancing"}
-    pair = {"mesh1": "upper.msh", "mesh2": "lower.msh", "young1": [2.0], "young2": 1.0, "poisson1": 0.2, "poisson2": 0.3,
-            "contact1": "1", "contact2": "1[-1<x<4]", "support2": "3:xy", "support1": "@1.5,1:x",
-            "load1": "P pressure 3[0.5<x<2.5] 1; Q displacement-x 3 0.1",
-            "friction": 0.5, "gap": "closed", "pairing": 0.1, "history": "P=0; P=1; Q=1", "increments": 2, "order": 2,
-            "edges": [1, 2], "stepping": "exact"}
+    rigid = {"version": 2, "analysis": "plane strain",
+             "bodies": {"block": {"mesh": "block.mesh", "young": 1.0, "poisson": 0.3,
+                                  "load": ["P pressure 3 1", "Q traction 3 1 0", "Q pressure 3 -2*x+3"]}},
+             "interfaces": {"floor": {"between": "block:1", "friction": 0.3}},
+             "history": ["P=0", "P=1", "Q=0.1", "Q=-0.1", "Q=0"], "cycle-start": 1, "cycles": 2, "increments": 3,
+             "order": 2, "stepping": "advancing"}
+    pair = {"version": 2,
+            "bodies": {"upper": {"mesh": "upper.msh", "young": [2.0], "poisson": 0.2, "support": "@1.5,1:x",
+                                 "load": "P pressure 3[0.5<x<2.5] 1; Q displacement-x 3 0.1"},
+                       "lower": {"mesh": "lower.msh", "young": 1.0, "poisson": 0.3, "support": "3:xy"}},
+            "interfaces": {"face": {"between": ["upper:1", "lower:1[-1<x<4]"], "friction": 0.5, "gap": "closed", "pairing": 0.1}},
+            "history": "P=0; P=1; Q=1", "increments": 2, "order": 2, "edges": [1, 2], "stepping": "exact"}
     meshes = {"block.mesh": MFEM_MESH, "upper.msh": gmsh_mesh(1), "lower.msh": gmsh_mesh(-1)}
-    text = {"contact1": "1", "mesh1": "block.mesh", "load1": "P pressure 3 1", "friction": "0.2", "increments": "2"}
-    options = [word for key, value in text.items() for word in ("--" + key, value)]
+    options = ["--case", "rigid.json", "--set", "interfaces.floor.friction=0.2", "--increments", "2"]
     list_ = [
         ("contact2d", ["--case", "rigid.json"], {"rigid.json": json.dumps(rigid, indent=1), **meshes}),
         ("contact2d", ["--case", "pair.json"], {"pair.json": json.dumps(pair, indent=1), **meshes}),
-        ("contact2d", options + ["--frames", "all"], meshes),
+        ("contact2d", options + ["--frames", "all"], {"rigid.json": json.dumps(rigid, indent=1), **meshes}),
         ("contact2d", ["--case", "rigid.json", "--load-state", "state.json"],
          {"rigid.json": json.dumps(rigid, indent=1), "state.json": None, **meshes}),
         ("shakedown", ["--reduced", "saved.json", "--held", "P", "--cycled", "Q", "--friction", "0.3", "--find", "load",
@@ -267,7 +270,7 @@ def mutate(seed, rng):
     choice = rng.random()
     if used and choice < 0.5:
         name = rng.choice(used)
-        case = "mesh1" in files[name]
+        case = "between" in files[name]
         files[name] = mutate_json(files[name], rng, CASE_KEYS if case else []) if rng.random() < 0.8 \
             else mutate_text(files[name], rng)
     elif mesh and choice < 0.75:
@@ -291,7 +294,7 @@ def mutate(seed, rng):
 
 def too_much_asked(arguments, files):
     """Work that the user asked for may take as long as it takes."""
-    said = " ".join(arguments) + " ".join(t for n, t in files.items() if t and n.endswith(".json") and "mesh1" in t)
+    said = " ".join(arguments) + " ".join(t for n, t in files.items() if t and n.endswith(".json") and "between" in t)
     for key, most in (("increments", 100), ("cycles", 100), ("starts", 3), ("order", 4)):
         for value in re.findall(r'%s"?:?\s+\[?(\S{1,30})' % key, said):
             number = re.match(r"[-+]?\d+\.?\d*(?:[eE][-+]?\d+)?", value)

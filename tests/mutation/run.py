@@ -289,7 +289,7 @@ class Tests:
                                            capture_output=True, text=True).stdout)
         everything = hashlib.sha256()
         for file in tracked():
-            if file.startswith((LIBRARY, "miniapps", "meshes", "problems")) or file.endswith(".hpp"):
+            if file.startswith((LIBRARY, "miniapps", "meshes", "problems")) or file.endswith((".hpp", "programs/programs.py")):
                 everything.update(open(os.path.join(SOURCE, file), "rb").read())
         self.tests = {}
         for test in listed["tests"]:
@@ -307,6 +307,13 @@ class Tests:
         texts = [open(os.path.join(folder, f), "rb").read() for f in sorted(os.listdir(folder))
                  if f.endswith(".cpp")]
         suite = name.split(".")[0].split("/")[-1]
+        # Contact.BadInput is in programs/contact_test.py.
+        words = re.sub(r"(?<=[a-z])(?=[A-Z])", "_", suite).lower()
+        script = os.path.join(SOURCE, "tests", "programs", words + "_test.py")
+        if label == "study" and os.path.exists(script):
+            texts.append(open(script, "rb").read())
+            its = [t for t in texts if re.search(rb"\bTEST(_F)?\(%s," % suite.encode(), t)]
+            return b"".join([texts[-1], *its])
         own = [t for t in texts if re.search(rb"\b(TEST|TEST_F|TEST_P)\(%s," % suite.encode(), t)]
         return b"".join(own or texts)
 

@@ -1,5 +1,5 @@
-// Random case files of contact2d: what docs/contact2d.md allows runs, and a single mistake is
-// refused by one sentence that names its key, with nothing written.
+// Random case files: what docs/contact.md allows runs, and a single mistake is refused by one
+// sentence that names its key, with nothing written.
 
 #include "holds.hpp"
 #include "study/run_miniapp.hpp"
@@ -30,34 +30,46 @@ protected:
    /// Keys that are needed, and a random choice of the others.
    static json random_case()
    {
-      json j = {{"mesh1", "upper.mesh"}, {"contact1", "1"}};
+      json j = {{"version", 2}};
+      json &upper =
+         j["bodies"]["upper"] = {{"mesh", "upper.mesh"}, {"young", 1}, {"poisson", 0.3}};
+      json &face = j["interfaces"]["face"] = {{"between", json::array({"upper:1"})}};
+      const auto draw = [&](const std::string &name, const std::vector<json> &values)
+      { return values[*inRange<std::size_t>(0, values.size()).as(name)]; };
       const auto choose = [&](const char *key, const std::vector<json> &values)
-      { j[key] = values[*inRange<std::size_t>(0, values.size()).as(key)]; };
+      { j[key] = draw(key, values); };
       const auto perhaps = [&](const char *key, const std::vector<json> &values)
       {
          if (*inRange(0, 2).as(std::string("has ") + key)) { choose(key, values); }
       };
-      choose("load1", {"P pressure 3 1",
-                       {"P pressure 3 2-x", "P traction 3[-2<x<2] 0.1 0"},
-                       "P body-force 0 -1",
-                       "P displacement-y 3 -0.01"});
-      choose("support1", {"3:x", json::array({"3:x"}), "@0,1:x"});
+      const auto perhaps_of =
+         [&](json &object, const char *key, const std::vector<json> &values)
+      {
+         if (*inRange(0, 2).as(std::string("has ") + key)) { object[key] = draw(key, values); }
+      };
+      upper["load"] = draw("load", {"P pressure 3 1",
+                                    {"P pressure 3 2-x", "P traction 3[-2<x<2] 0.1 0"},
+                                    "P body-force 0 -1",
+                                    "P displacement-y 3 -0.01"});
+      upper["support"] = draw("support", {"3:x", json::array({"3:x"}), "@0,1:x"});
       if (*inRange(0, 2).as("two bodies"))
       {
-         j["mesh2"] = "lower.mesh";
-         j["contact2"] = "3";
-         j["support2"] = "1:xy";
-         perhaps("young2", {2, 0.5, json::array({3})});
-         perhaps("poisson2", {0, 0.25, json::array({0.4})});
-         perhaps("load2", {"B body-force 0 -0.1", json::array({"T traction 2 1 0"})});
+         json lower = {
+            {"mesh", "lower.mesh"}, {"young", 1}, {"poisson", 0.3}, {"support", "1:xy"}};
+         perhaps_of(lower, "young", {2, 0.5, json::array({3})});
+         perhaps_of(lower, "poisson", {0, 0.25, json::array({0.4})});
+         perhaps_of(lower, "load", {"B body-force 0 -0.1", json::array({"T traction 2 1 0"})});
+         j["bodies"]["lower"] = lower;
+         face["between"].push_back("lower:3");
+         perhaps_of(face, "pairing", {1e-6, 0.1});
+         perhaps_of(face, "slave", {"coarser", "finer", "first", "second"});
       }
-      perhaps("young1", {1, 10.5, json::array({2})});
-      perhaps("poisson1", {0, 0.3, json::array({0.45})});
+      perhaps_of(upper, "young", {1, 10.5, json::array({2})});
+      perhaps_of(upper, "poisson", {0, 0.3, json::array({0.45})});
+      perhaps("analysis", {"plane strain", "plane stress"});
+      perhaps_of(face, "friction", {0, 0.2, 0.5, "0.2+0.1*x^2"});
+      perhaps_of(face, "gap", {"geometry", "closed", 0.001});
       perhaps("order", {1, 2, 3});
-      perhaps("plane-stress", {true, false});
-      perhaps("friction", {0, 0.2, 0.5});
-      perhaps("gap", {"geometry", "closed"});
-      perhaps("pairing", {1e-6, 0.1});
       perhaps("increments", {1, 3});
       perhaps("stepping", {"advancing", "fixed", "exact"});
       if (*inRange(0, 2).as("cycle"))
@@ -105,102 +117,107 @@ TEST_F(CaseFileProperties, ValidOnesRun)
                             RC_ASSERT(result.results["status"] == "converged");
                             RC_ASSERT(fs::file_size(folder + "/out/t_history.csv") > 0u);
                             RC_ASSERT(fs::file_size(folder + "/out/p.json") > 0u);
-                            RC_ASSERT(fs::exists(folder + "/out/fields/body1/body1.pvd"));
+                            RC_ASSERT(fs::exists(folder + "/out/fields/upper/upper.pvd"));
                          });
                 });
 }
 
-/// A key, a value that it must not have, and what names it where its own name does not.
+/// A place (a JSON pointer), a value that it must not have, and what names it where its last
+/// key does not.
 struct Mistake
 {
-   const char *key;
+   const char *place;
    json value;
    const char *says = nullptr;
 };
 
 TEST_F(CaseFileProperties, SingleMistakesAreNamedAndNothingIsWritten)
 {
-   const std::vector<Mistake> mistakes = {{"yung1", 1},
-                                          {"Friction", 0.1},
-                                          {"json", "r.json"},
-                                          {"", 0},
-                                          {"mesh1", 3},
-                                          {"mesh1", "no.mesh", "no.mesh"},
-                                          {"mesh1", nullptr},
-                                          {"mesh2", "no.mesh", "contact2"},
-                                          {"contact1", 1.5},
-                                          {"contact1", {1, "3"}},
-                                          {"contact1", -1},
-                                          {"contact1", "7", "contact line"},
-                                          {"contact1", ""},
-                                          {"contact1", "1[x"},
-                                          {"young1", -1, "Young's modulus"},
-                                          {"young1", 0, "Young's modulus"},
-                                          {"young1", "1"},
-                                          {"young1", json::array()},
-                                          {"poisson1", 0.5, "Poisson's ratio"},
-                                          {"poisson1", -1, "Poisson's ratio"},
-                                          {"poisson1", "0.3"},
-
-                                          {"support1", 4},
-                                          {"support1", "4"},
-                                          {"support1", "9:x", "fix"},
-                                          {"support1", "4:z"},
-                                          {"load1", 1},
-                                          {"load1", "P"},
-                                          {"load1", "P push 3 1"},
-                                          {"load1", "P pressure 9 1", "pressure 'P'"},
-                                          {"load1", {1, 2}},
-                                          {"order", 0},
-                                          {"order", 9},
-                                          {"order", 1.5},
-                                          {"order", "2"},
-                                          {"order", 1e10},
-                                          {"plane-stress", 1},
-                                          {"plane-stress", "true"},
-                                          {"friction", -0.1},
-                                          {"friction", "0.1"},
-                                          {"friction", nullptr},
-                                          {"friction", {0.1}},
-                                          {"gap", "wide"},
-                                          {"gap", 0},
-                                          {"pairing", 0},
-                                          {"pairing", -1},
-                                          {"pairing", 0.5},
-                                          {"pairing", "0.1"},
-                                          {"history", 1},
-                                          {"history", "P=1; P=2"},
-                                          {"history", "P=0"},
-                                          {"history", "Z=1"},
-                                          {"history", "P=x"},
-                                          {"cycle-start", 40, "cycle starts at point 40"},
-                                          {"cycle-start", 0.5},
-                                          {"cycle-start", -2},
-                                          {"cycles", 0},
-                                          {"cycles", -3},
-                                          {"cycles", "2"},
-                                          {"increments", 0},
-                                          {"increments", -5},
-                                          {"increments", 2.5},
-                                          {"stepping", "fast"},
-                                          {"stepping", true},
-                                          {"edges", "1 2"},
-                                          {"edges", {1}},
-                                          {"edges", {1, 99}},
-                                          {"edges", {"1"}}};
+   const std::vector<Mistake> mistakes = {
+      {"/yung", 1},
+      {"/Friction", 0.1},
+      {"/json", "r.json"},
+      {"/version", 1},
+      {"/version", nullptr},
+      {"/bodies/upper/mesh", 3},
+      {"/bodies/upper/mesh", "no.mesh", "no.mesh"},
+      {"/bodies/upper/mesh", nullptr},
+      {"/bodies/upper/matrix", "no.sti"},
+      {"/bodies/other/mesh", "no.mesh", "bodies.other"},
+      {"/interfaces/face/between", 1.5},
+      {"/interfaces/face/between", {"upper:1", 3}},
+      {"/interfaces/face/between", "upper:-1"},
+      {"/interfaces/face/between", "upper:7", "contact line"},
+      {"/interfaces/face/between", "upper"},
+      {"/interfaces/face/between", "upper:1[x"},
+      {"/interfaces/face/between", "nobody:1"},
+      {"/bodies/upper/young", -1},
+      {"/bodies/upper/young", 0},
+      {"/bodies/upper/young", "1"},
+      {"/bodies/upper/young", json::array()},
+      {"/bodies/upper/poisson", 0.5, "Poisson's ratio"},
+      {"/bodies/upper/poisson", -1, "Poisson's ratio"},
+      {"/bodies/upper/poisson", "0.3"},
+      {"/bodies/upper/support", 4},
+      {"/bodies/upper/support", "4"},
+      {"/bodies/upper/support", "9:x", "fix"},
+      {"/bodies/upper/support", "4:z"},
+      {"/bodies/upper/load", 1},
+      {"/bodies/upper/load", "P"},
+      {"/bodies/upper/load", "P push 3 1"},
+      {"/bodies/upper/load", "P pressure 9 1", "pressure 'P'"},
+      {"/bodies/upper/load", {1, 2}},
+      {"/order", 0},
+      {"/order", 9},
+      {"/order", 1.5},
+      {"/order", "2"},
+      {"/order", 1e10},
+      {"/analysis", 1},
+      {"/analysis", "plane"},
+      {"/interfaces/face/friction", -0.1},
+      {"/interfaces/face/friction", "0.1*"},
+      {"/interfaces/face/friction", nullptr},
+      {"/interfaces/face/friction", {0.1}},
+      {"/interfaces/face/gap", "wide"},
+      {"/interfaces/face/gap", json::array()},
+      {"/interfaces/face/pairing", 0},
+      {"/interfaces/face/pairing", -1},
+      {"/interfaces/face/pairing", 0.5},
+      {"/interfaces/face/pairing", "0.1"},
+      {"/history", 1},
+      {"/history", "P=1; P=2"},
+      {"/history", "P=0"},
+      {"/history", "Z=1"},
+      {"/history", "P=x"},
+      {"/cycle-start", 40, "cycle starts at point 40"},
+      {"/cycle-start", 0.5},
+      {"/cycle-start", -2},
+      {"/cycles", 0},
+      {"/cycles", -3},
+      {"/cycles", "2"},
+      {"/increments", 0},
+      {"/increments", -5},
+      {"/increments", 2.5},
+      {"/stepping", "fast"},
+      {"/stepping", true},
+      {"/edges", "1 2"},
+      {"/edges", {1}},
+      {"/edges", {1, 99}},
+      {"/edges", {"1"}}};
    expect_holds(60,
                 [&]
                 {
                    json j = random_case();
                    const Mistake &mistake =
                       mistakes[*inRange<std::size_t>(0, mistakes.size()).as("mistake")];
-                   const std::string key = mistake.key;
+                   const std::string place = mistake.place,
+                                     key = place.substr(place.rfind('/') + 1);
                    // Only a cycle has a number of cycles, and only edges need friction.
                    RC_PRE(key != "cycles" || j.contains("cycle-start"));
-                   if (key == "edges") { j["friction"] = 0.3; }
+                   if (key == "edges") { j["interfaces"]["face"]["friction"] = 0.3; }
                    // In plane stress a body may keep its volume.
-                   if (key == "poisson1") { j.erase("plane-stress"); }
-                   j[key] = mistake.value;
+                   if (key == "poisson") { j.erase("analysis"); }
+                   j[json::json_pointer(place)] = mistake.value;
                    check(j,
                          [&]
                          {

@@ -1,9 +1,8 @@
-"""case_schema.py CONTACT2D SCHEMA SCHEMA2 CASE...: the schema of case files says what contact2d accepts, no more and no less.
+"""case_schema.py PROGRAM SCHEMA CASE...: the schema of case files says what the program accepts, no more and no less.
 
 Every key that the program or the schema knows is tried with values of all kinds, and so are case files with a random
 choice of keys: both must agree. What no schema can say (a sweep of no option, loads of a pattern that is not there, …)
-is the program's own. SCHEMA2 is that of files of version 2, whose objects are tried key by key with values of a wrong kind.
-Each is a run of the program: a third of them in the usual tests, drawn with a fixed seed, all of them in ./test --all.
+is the program's own. Bodies, interfaces and bolts are tried key by key with values of a wrong kind. Each is a run of the program: a third of them in the usual tests, drawn with a fixed seed, all of them in ./test --all.
 """
 
 import json
@@ -15,12 +14,14 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "programs"))
+from programs import read_case
+
 VALUES = [None, True, False, 0, -1, 1, 2, 3, 8, 9, -2, 2.0, 1.5, 0.25, 0.5, 0.499, 1e-9, -0.1, 2147483647, 2147483648,
-          10**30, "", "x", "3", "geometry", "closed", "exact", "advancing", "fixed", [], [1], [1, 2], [0], [-3], [1.5],
-          ["a"], ["a", "b"], ["a", 1], [None], [[1]], {}, {"a": 1}, {"young": 1}, {"young": 1, "poisson": 0.3},
-          {"young": 0, "poisson": 0}, {"young": 2, "poisson": 0.5}, {"young": 2, "poisson": "0"},
-          {"young": 2, "poisson": -0.5, "depth": 100}, {"young": 2, "poisson": 0.3, "depth": None},
-          {"young": 2, "poisson": 0.3, "width": 1}]
+          10**30, "", "x", "3", "plane strain", "axisymmetric", "exact", "advancing", "fixed", [], [1], [1, 2], [0], [-3], [1.5],
+          ["a"], ["a", "b"], ["a", 1], [None], [[1]], {}, {"a": 1}]
+# Keys with objects by names, which are tried by themselves.
+NAMED = {"bodies", "interfaces", "bolts"}
 # How a schema may say things here: a keyword that is not read would be taken for granted.
 KEYWORDS = {"description", "$ref", "type", "enum", "const", "oneOf", "items", "minimum", "maximum", "exclusiveMinimum",
             "exclusiveMaximum", "properties", "required", "additionalProperties", "minItems", "maxItems", "minProperties"}
@@ -68,7 +69,7 @@ def fits(schema, value, definitions):
 
 
 class Program:
-    """contact2d, asked what it makes of a case. No mesh of these is there: what it says of a key comes before."""
+    """The program, asked what it makes of a case. No mesh of these is there: what it says of a key comes before."""
 
     def __init__(self, program, folder):
         self.program, self.case = program, pathlib.Path(folder) / "case.json"
@@ -82,15 +83,16 @@ class Program:
 
     def refuses(self, case):
         """The key that it does not accept as such, if there is one."""
-        found = re.match(r"error: (?:case file '.*': (?:unknown )?key '|option --(?!sweep:|\S+ does nothing))([\w$-]+)", self.says(case))
-        return found and ("half-plane" if found[1].startswith("half-plane-") else found[1])
+        found = re.match(r"error: (?:case file '.*?'(?: is of version 1, which is no longer read, |: (?:unknown )?)key '|key '(?=analysis)"
+                         r"|option --(?!sweep:|\S+ does nothing))([\w$-]+)", self.says(case))
+        return found and found[1]
 
     def keys(self):
-        return set(self.says({"nonsense": 1}).split("must be one of ")[1].strip().split(", "))
+        return set(self.says({"version": 2, "nonsense": 1}).split("must be one of ")[1].strip().split(", "))
 
 
-def of_version_2(asked, schema, definitions):
-    """Objects of version 2: each key, missing and of all kinds of values."""
+def of_objects(asked, schema, definitions):
+    """Bodies, interfaces and bolts: each key, missing and of all kinds of values."""
     sound = {"version": 2,
              "bodies": {"pad": {"mesh": "no.mesh", "young": 1, "poisson": 0.3, "support": "1:x", "load": "P pressure 3 1", "expansion": 1e-5},
                         "base": {"mesh": "no.mesh", "young": [1, 2], "poisson": 0.3},
@@ -121,14 +123,16 @@ def of_version_2(asked, schema, definitions):
                     continue
                 refuses = re.match(r"error: key '", said) is not None
                 if refuses == fits(schema, case, definitions):
-                    wrong.append(f"version 2, {'.'.join(place)}.{key}: {json.dumps(value)} is accepted by one alone: {said}")
+                    wrong.append(f"{'.'.join(place)}.{key}: {json.dumps(value)} is accepted by one alone: {said}")
     return wrong
 
 
 def main():
-    program, schema_file, schema2_file, *cases = sys.argv[1:]
+    program, schema_file, *cases = sys.argv[1:]
     schema = json.loads(pathlib.Path(schema_file).read_text(encoding="utf-8"))
-    keys, definitions = schema["properties"], schema["$defs"]
+    for key in ("$schema", "title"):
+        del schema[key]
+    keys, definitions = schema["properties"], schema.pop("$defs")
     wrong = []
 
     def refused(case):
@@ -138,33 +142,19 @@ def main():
         asked = Program(program, folder)
         for key in asked.keys() ^ (set(keys) - {"$schema", "version"}):
             wrong.append(f"'{key}' is a key of one alone, of the program or of the schema")
-        for key in keys:
-            values = VALUES if key != "$schema" else ["case.schema.json"]
-            if key == "version":  # 2 has a schema of its own
-                values = [value for value in VALUES if value != 2]
-            for value in some(values):
-                if bool(asked.refuses({key: value})) != bool(refused({key: value})):
-                    wrong.append(f"'{key}': {json.dumps(value)} is accepted by one alone: {asked.says({key: value})}")
+        for key in set(keys) - NAMED:
+            for value in some(VALUES if key != "$schema" else ["case.schema.json"]):
+                case = {"version": 2, key: value}
+                if bool(asked.refuses(case)) != bool(refused(case)):
+                    wrong.append(f"'{key}': {json.dumps(value)} is accepted by one alone: {asked.says(case)}")
         for _ in some(range(150)):
-            case = {key: DRAW.choice(VALUES) for key in DRAW.sample(sorted(set(keys) - {"$schema"}), 3)}
-            case.update({key: value for key, value in (("version", 1), ("order", 2.0)) if DRAW.random() < 0.5})
-            if case.get("version") == 2:
-                continue
+            case = {"version": 2, **{key: DRAW.choice(VALUES) for key in DRAW.sample(sorted(set(keys) - {"$schema"} - NAMED), 3)}}
             found, expected = asked.refuses(case), refused(case)
             if found not in (expected or {None}):
                 wrong.append(f"{json.dumps(case)}: the program refuses {found}, the schema {expected}")
-    schema2 = json.loads(pathlib.Path(schema2_file).read_text(encoding="utf-8"))
-    for key in ("$schema", "title"):
-        del schema2[key]
-    definitions2 = schema2.pop("$defs")
-    with tempfile.TemporaryDirectory() as folder:
-        wrong += of_version_2(Program(program, folder), schema2, definitions2)
+        wrong += of_objects(asked, schema, definitions)
     for case in cases:
-        data = json.loads(pathlib.Path(case).read_text(encoding="utf-8"))
-        if data.get("version") == 2:
-            if not fits(schema2, data, definitions2):
-                wrong.append(f"{case} does not fit the schema of version 2")
-        elif refused(data) or not set(schema["required"]) <= set(data):
+        if not fits(schema, read_case(case), definitions):
             wrong.append(f"{case} does not fit the schema")
     print("\n".join(wrong))
     sys.exit(bool(wrong) or not cases)

@@ -7,7 +7,8 @@ using cattaneo_test::run_miniapp;
 
 TEST(Locking, LinearElementsAreWarnedOf)
 {
-   const std::string run = "--case meshes/dovetail.json --cycles 1 --poisson1 0.495 ";
+   const std::string run =
+      "--case meshes/dovetail.json --cycles 1 --set bodies.root.poisson=0.495 ";
    const auto linear = run_miniapp("contact2d", run + "--order 1"),
               quadratic = run_miniapp("contact2d", run + "--order 2");
    EXPECT_EQ(linear.code, 0) << linear.output;

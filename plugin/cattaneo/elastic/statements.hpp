@@ -10,7 +10,7 @@ namespace cattaneo
 {
 
 // The small language in which a user of a program writes supports and loads
-// (docs/contact2d.md). `called` is what the text is called in an error, the name of an option
+// (docs/contact.md). `called` is what the text is called in an error, the name of an option
 // for instance; every function throws an InputError that says it and quotes the statement.
 
 /// What a statement may ask of the body that it is about.

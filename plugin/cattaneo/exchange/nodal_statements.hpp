@@ -5,7 +5,7 @@
 namespace cattaneo
 {
 
-// The language of supports and loads (docs/contact2d.md) for bodies whose nodes are in sets.
+// The language of supports and loads (docs/contact.md) for bodies whose nodes are in sets.
 // `called` is what the text is called in an error.
 
 /// Supports, separated by spaces: "FLOOR:y WALL:xy".
