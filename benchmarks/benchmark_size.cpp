@@ -1,6 +1,6 @@
 //  benchmark_size: time and memory of whole studies with thousands of contact nodes
 //
-//  The miniapp contact2d on two blocks of one row of quadratic elements each, of different
+//  The miniapp contact on two blocks of one row of quadratic elements each, of different
 //  materials, pressed together and sheared to and fro in two cycles; the miniapp hertz, a pad
 //  like what it is pressed on, where friction does not change the contact; and its block on a
 //  half-plane, where it does: contact advances from one change of state to the next.
@@ -62,7 +62,7 @@ std::vector<std::string> pair_of_blocks(int nodes, const std::filesystem::path &
       {"between", {"upper:1", "lower:3"}}, {"friction", 0.5}, {"pairing", 1e-6}};
    const std::string file = folder / "case.json";
    cattaneo::write_whole(file, scene.dump(3) + '\n');
-   return {miniapp_program("contact2d"), "--case", file};
+   return {miniapp_program("contact"), "--case", file};
 }
 
 struct Study

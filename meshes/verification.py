@@ -1,9 +1,9 @@
-"""Published cases as case files of contact2d: writes them with their meshes, runs them, prints what comes out.
+"""Published cases as case files of contact: writes them with their meshes, runs them, prints what comes out.
 
 verification.py [FOLDER] [--json FILE]
 
 Run it from the top of the repository. FOLDER, results/verification unless given, holds the cases afterwards:
-./run contact2d --case results/verification/SSNV128.json is one of them. docs/verification.md has its numbers.
+./run contact --case results/verification/SSNV128.json is one of them. docs/verification.md has its numbers.
 """
 
 import csv
@@ -64,7 +64,7 @@ class Cases:
         file = self.folder / f"{name}.json"
         file.write_text(json.dumps({"version": 2, **case}, indent=3) + "\n")
         out = self.folder / name
-        self.program("contact2d", "--case", str(file), "--json", f"{out}_results.json", "--csv", str(out))
+        self.program("contact", "--case", str(file), "--json", f"{out}_results.json", "--csv", str(out))
         with open(f"{out}_nodes.csv", encoding="utf-8") as table:
             nodes = list(csv.DictReader(table))
         last = nodes[-1]["time"]

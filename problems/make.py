@@ -77,7 +77,7 @@ def wedge(programs, file):
                        "bodies": {"wedge": {"mesh": inner, "young": 1, "poisson": 0.3, "support": "1:x", "load": "P pressure 2 1"},
                                   "block": {"mesh": outer, "young": 1, "poisson": 0.3, "support": "1:xy"}},
                        "interfaces": {"flank": {"between": ["wedge:3", "block:3"], "friction": 0.6, "pairing": 1e-6}}}, f)
-        subprocess.run([os.path.join(programs, "contact2d"), "--case", case, "--save", file], check=True,
+        subprocess.run([os.path.join(programs, "contact"), "--case", case, "--save", file], check=True,
                        stdout=subprocess.DEVNULL)
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Mutation fuzzer of the programs that read a user's files: contact2d (options, JSON cases, meshes,
+"""Mutation fuzzer of the programs that read a user's files: contact (options, JSON cases, meshes,
 saved states) and shakedown --reduced (reduced problems).
 
     python3 tests/fuzz/fuzz.py --programs build/release/miniapps --seconds 600 --keep finds
@@ -137,10 +137,10 @@ def seeds(programs):
     meshes = {"block.mesh": MFEM_MESH, "upper.msh": gmsh_mesh(1), "lower.msh": gmsh_mesh(-1)}
     options = ["--case", "rigid.json", "--set", "interfaces.floor.friction=0.2", "--increments", "2"]
     list_ = [
-        ("contact2d", ["--case", "rigid.json"], {"rigid.json": json.dumps(rigid, indent=1), **meshes}),
-        ("contact2d", ["--case", "pair.json"], {"pair.json": json.dumps(pair, indent=1), **meshes}),
-        ("contact2d", options + ["--frames", "all"], {"rigid.json": json.dumps(rigid, indent=1), **meshes}),
-        ("contact2d", ["--case", "rigid.json", "--load-state", "state.json"],
+        ("contact", ["--case", "rigid.json"], {"rigid.json": json.dumps(rigid, indent=1), **meshes}),
+        ("contact", ["--case", "pair.json"], {"pair.json": json.dumps(pair, indent=1), **meshes}),
+        ("contact", options + ["--frames", "all"], {"rigid.json": json.dumps(rigid, indent=1), **meshes}),
+        ("contact", ["--case", "rigid.json", "--load-state", "state.json"],
          {"rigid.json": json.dumps(rigid, indent=1), "state.json": None, **meshes}),
         ("shakedown", ["--reduced", "saved.json", "--held", "P", "--cycled", "Q", "--friction", "0.3", "--find", "load",
                        "--reversal", "-1"], {"saved.json": None}),
@@ -153,11 +153,11 @@ def seeds(programs):
         for file in [name + ".json"] + [m + ".msh" for m in meshes_of]:
             with open(os.path.join(ROOT, "meshes", file)) as f:
                 files[file] = f.read()
-        list_.append(("contact2d", ["--case", name + ".json", "--cycles", "1"], files))
+        list_.append(("contact", ["--case", name + ".json", "--cycles", "1"], files))
     # A state and a reduced problem, as the program writes them.
     with tempfile.TemporaryDirectory() as folder:
         write(folder, list_[0][2])
-        subprocess.run([os.path.join(programs, "contact2d"), "--case", "rigid.json", "--history", "P=0;P=1", "--cycle-start",
+        subprocess.run([os.path.join(programs, "contact"), "--case", "rigid.json", "--history", "P=0;P=1", "--cycle-start",
                         "-1", "--save-state", "state.json", "--save", "saved.json"], cwd=folder, check=True,
                        stdout=subprocess.DEVNULL)
         for file in ("state.json", "saved.json"):
@@ -282,7 +282,7 @@ def mutate(seed, rng):
             at = rng.randrange(len(arguments)) if arguments else 0
             if kind == 0 and arguments:
                 del arguments[at]
-            elif kind == 1 and program == "contact2d":
+            elif kind == 1 and program == "contact":
                 arguments += ["--" + rng.choice(CASE_KEYS), rng.choice(WORDS + NUMBERS)]
             elif arguments:
                 arguments[at] = mutate_word(arguments[at], rng)
@@ -311,7 +311,7 @@ def limit_resources():
 
 
 def outputs(program):
-    if program == "contact2d":
+    if program == "contact":
         return ["--json", "out/r.json", "--csv", "out/t", "--paraview", "out/fields", "--save-state", "out/state.json",
                 "--save", "out/reduced.json"]
     return ["--json", "out/r.json", "--save", "out/reduced.json"]
@@ -357,8 +357,8 @@ def judge(programs, program, arguments, files, folder):
                     shown += f.read()
         # The echo of the options ends at the first empty line.
         shown = shown.partition("\n\n")[2]
-        # A limit may be unbounded; no result of contact2d is.
-        at = re.search(r"(?<![\w-])-?%s(?![\w-])" % ("(nan|inf)" if program == "contact2d" else "nan"), shown, re.IGNORECASE)
+        # A limit may be unbounded; no result of contact is.
+        at = re.search(r"(?<![\w-])-?%s(?![\w-])" % ("(nan|inf)" if program == "contact" else "nan"), shown, re.IGNORECASE)
         if at:
             return "not finite: ..." + shown[max(0, at.start() - 80):at.end() + 20].replace("\n", " | "), code, error
     return None, code, error

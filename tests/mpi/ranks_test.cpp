@@ -125,8 +125,8 @@ INSTANTIATE_TEST_SUITE_P(
                    Study{"axisymmetric_receding", "-spacing 0.1 -torque 0.5"},
                    Study{"lap_joint", "-spacing 0.05 -increments 8"},
                    Study{"shakedown", "-nodes 17"}, Study{"fretting", "-p fe -Q 50 -nodes 41"},
-                   Study{"contact2d", "-case meshes/rounded_punch.json"},
-                   Study{"contact2d", "-case meshes/bolted_joint.json -order 1 -cycles 1"}));
+                   Study{"contact", "-case meshes/rounded_punch.json"},
+                   Study{"contact", "-case meshes/bolted_joint.json -order 1 -cycles 1"}));
 
 class Distributed : public testing::TestWithParam<Study>
 {

@@ -22,7 +22,7 @@ def pad(elements, curvature=0, grading=1):
 
 
 def test_dovetail_carries_its_load_on_the_flank(run):
-    got = run("contact2d", "--case", "meshes/dovetail.json", "--csv", run.folder / "dovetail")
+    got = run("contact", "--case", "meshes/dovetail.json", "--csv", run.folder / "dovetail")
     assert got["status"] == "converged"
     # The neck is pulled by 200 on a half-width of 5 - √2.
     load = 200 * (5 - math.sqrt(2))
@@ -85,7 +85,7 @@ def test_nodes_that_are_paired_far_off_one_another(run, grading):
 
 
 @pytest.mark.parametrize("command", ["fretting", "march -reduced problems/hertz.json", "shakedown -reduced problems/hertz.json",
-                                     "contact2d -case meshes/calculix/laps.json"])
+                                     "contact -case meshes/calculix/laps.json"])
 def test_what_has_no_meshes_cannot_be_shown(run, command):
     got = run(*command.split(), "--check", code=1)
     assert got.error == "error: option --check: this run has no scene of meshes\n"
@@ -93,7 +93,7 @@ def test_what_has_no_meshes_cannot_be_shown(run, command):
 
 
 def test_rounded_punch_has_the_contact_width_of_the_closed_form(run):
-    got = run("contact2d", "--case", "meshes/rounded_punch.json", "--history", "P=0; P=1", "--cycle-start", -1, "--cycles", 1,
+    got = run("contact", "--case", "meshes/rounded_punch.json", "--history", "P=0; P=1", "--cycle-start", -1, "--cycles", 1,
               "--csv", run.folder / "punch")
     near(got["contact_force"][0], 0, 1e-7)
     near(got["contact_force"][1], 600, 1e-7)
@@ -116,7 +116,7 @@ def test_rounded_punch_has_the_contact_width_of_the_closed_form(run):
 
 
 def test_rounded_punch_reaches_a_steady_cycle(run):
-    got = run("contact2d", "--case", "meshes/rounded_punch.json", "--edges", "1 2 3", "--csv", run.folder / "of")
+    got = run("contact", "--case", "meshes/rounded_punch.json", "--edges", "1 2 3", "--csv", run.folder / "of")
     # What is printed of the edges is a file as well.
     head, *rows = (run.folder / "of_edges.csv").read_text(encoding="utf-8").splitlines()
     assert head.startswith("edge,position,")
@@ -199,7 +199,7 @@ def test_a_plane_of_symmetry_goes_on_in_the_half_plane(run, curvature):
 
 
 def test_fields_are_recovered_for_frames_only(run):
-    got = run("contact2d", "--case", "meshes/rounded_punch.json", "--cycles", 1, "--frames", "1 2", "--paraview", run.folder / "fields")
+    got = run("contact", "--case", "meshes/rounded_punch.json", "--cycles", 1, "--frames", "1 2", "--paraview", run.folder / "fields")
     # Two frames and the last state, two bodies.
     assert got["counters"]["field_recoveries"] == 6
     for name in ("punch", "block", "contact"):
@@ -208,7 +208,7 @@ def test_fields_are_recovered_for_frames_only(run):
 
 def test_a_run_cut_in_two_gives_the_same_bits(run):
     # With this friction it settles in many cycles.
-    words = ["contact2d", "--case", "meshes/dovetail.json", "--set", "interfaces.flank.friction=0.5", "--cycles"]
+    words = ["contact", "--case", "meshes/dovetail.json", "--set", "interfaces.flank.friction=0.5", "--cycles"]
     state = run.folder / "state.json"
     whole = run(*words, 4)
     run(*words, 2, "--save-state", state)
@@ -370,7 +370,7 @@ def test_bad_input_is_one_sentence_and_leaves_no_file(run):
     for text, words in TEXTS.items():
         refused(text, [], words)
     for words in ([], ["--case", "nowhere.json"]):
-        message = run("contact2d", *words, code=1).error
+        message = run("contact", *words, code=1).error
         assert ("cannot read" if words else "key 'bodies' is missing") in message
     # Where there is no folder for what is to be written, it is said before the work.
     for option, file in (("--save", "/nowhere/r.json"), ("--csv", "/nowhere/r"), ("--paraview", "meshes/README.md/r"), ("--save-state", "/nowhere/s")):
@@ -379,7 +379,7 @@ def test_bad_input_is_one_sentence_and_leaves_no_file(run):
 
 def test_case_files_may_have_comments(run):
     """Of both kinds of C++; what stands between quotes is none."""
-    plain = run("contact2d", "--case", "meshes/rounded_punch.json", "--cycles", 1)
+    plain = run("contact", "--case", "meshes/rounded_punch.json", "--cycles", 1)
     text = json.dumps(shipped("rounded_punch"), indent=1).replace("{", '{ // of {"these": 1}\n "version": 2, /* twice\n , "version": 3 */', 1)
     assert "//" in text
     commented = run.case(text, "--cycles", 1)
@@ -439,7 +439,7 @@ def test_an_output_is_never_written_over_an_input(run, option):
     case = {"version": 2, **block("body.msh")}
     file = run.write("case.json", json.dumps(case))
     # A prefix is not the name of a file.
-    run("contact2d", "--case", file, option, run.folder / ".." / run.folder.name / "case.json", code=0 if option == "--csv" else 1)
+    run("contact", "--case", file, option, run.folder / ".." / run.folder.name / "case.json", code=0 if option == "--csv" else 1)
     assert json.loads((run.folder / "case.json").read_text(encoding="utf-8")) == case
 
 
@@ -503,7 +503,7 @@ def test_the_documented_case_is_the_one_shipped():
 
 
 def test_options_override_the_case_file(run):
-    got = run("contact2d", "--case", "meshes/dovetail.json", "--set", "interfaces.flank.friction=0", "--order", 1, "--cycles", 1)
+    got = run("contact", "--case", "meshes/dovetail.json", "--set", "interfaces.flank.friction=0", "--order", 1, "--cycles", 1)
     assert got["counters"]["tangential_unknowns"] == 0
     assert got["total_dissipation"] == 0
     assert got["contact_nodes"] == 41

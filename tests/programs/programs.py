@@ -58,7 +58,7 @@ class Runner:
         file.unlink(missing_ok=True)
         return Run(done.returncode, output, results)
 
-    def case(self, keys, *words, code=0, program="contact2d"):
+    def case(self, keys, *words, code=0, program="contact"):
         """A run of a case: a dictionary, to which its version is added, or the text of a file."""
         text = keys if isinstance(keys, str) else json.dumps({"version": 2, **keys})
         self.write("case.json", text)

@@ -87,9 +87,9 @@ protected:
       fs::remove_all(folder + "/out");
       fs::create_directories(folder + "/out");
       std::ofstream(folder + "/case.json") << j.dump(3);
-      return run_miniapp("contact2d", "--case '" + folder + "/case.json' --csv '" + folder +
-                                         "/out/t' --paraview '" + folder +
-                                         "/out/fields' --save '" + folder + "/out/p.json'");
+      return run_miniapp("contact", "--case '" + folder + "/case.json' --csv '" + folder +
+                                       "/out/t' --paraview '" + folder +
+                                       "/out/fields' --save '" + folder + "/out/p.json'");
    }
 
    /// Checks a case, which is kept if it fails.

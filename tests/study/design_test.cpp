@@ -187,7 +187,7 @@ TEST(DesignStudy, CoatOfADovetailAgainstTheWorkOfItsTractions)
    const std::string file = testing::TempDir() + "dovetail_to_coat.json",
                      history = "P=0; P=1; P=0.6; P=1; P=0.6; P=1";
    ASSERT_EQ(
-      run_miniapp("contact2d", "--case meshes/dovetail.json --cycles 1 --save '" + file + "'")
+      run_miniapp("contact", "--case meshes/dovetail.json --cycles 1 --save '" + file + "'")
          .code,
       0);
    const std::string asked = "--reduced '" + file + "' --history '" + history +

@@ -37,7 +37,7 @@ Result dovetail(int threads)
    const std::string file = testing::TempDir() + "determinism.json";
    const std::string environment = "OPENBLAS_NUM_THREADS=" + std::to_string(threads) +
                                    " OMP_NUM_THREADS=" + std::to_string(threads);
-   Run run = run_miniapp("contact2d", "--case meshes/dovetail.json --save-state '" + file + "'",
+   Run run = run_miniapp("contact", "--case meshes/dovetail.json --save-state '" + file + "'",
                          environment);
    EXPECT_EQ(run.code, 0) << run.output;
    drop_times(run.results);

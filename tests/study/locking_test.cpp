@@ -9,8 +9,8 @@ TEST(Locking, LinearElementsAreWarnedOf)
 {
    const std::string run =
       "--case meshes/dovetail.json --cycles 1 --set bodies.root.poisson=0.495 ";
-   const auto linear = run_miniapp("contact2d", run + "--order 1"),
-              quadratic = run_miniapp("contact2d", run + "--order 2");
+   const auto linear = run_miniapp("contact", run + "--order 1"),
+              quadratic = run_miniapp("contact", run + "--order 2");
    EXPECT_EQ(linear.code, 0) << linear.output;
    EXPECT_NE(linear.output.find("warning: linear elements lock"), std::string::npos);
    EXPECT_EQ(quadratic.output.find("lock"), quadratic.output.find("locks itself"));

@@ -152,14 +152,14 @@ TEST_F(Options, FilesAreCheckedBeforeTheWork)
       expect_refused("hertz", "--" + option + " " + endless,
                      {"option --" + option, "File name too long"});
    }
-   expect_refused("contact2d", "--case meshes/dovetail.json --paraview " + endless,
+   expect_refused("contact", "--case meshes/dovetail.json --paraview " + endless,
                   {"option --paraview", "File name too long"});
-   expect_refused("contact2d", "--case meshes/dovetail.json --set bodies.root.mesh=" + endless,
+   expect_refused("contact", "--case meshes/dovetail.json --set bodies.root.mesh=" + endless,
                   {"mesh file cannot be read"});
-   for (const std::string program : {"fretting", "contact2d", "shakedown", "lap_joint", "hertz",
+   for (const std::string program : {"fretting", "contact", "shakedown", "lap_joint", "hertz",
                                      "square_punch", "plane_receding", "axisymmetric_receding"})
    {
-      const std::string what = program == "contact2d" ? "--case meshes/dovetail.json " : "";
+      const std::string what = program == "contact" ? "--case meshes/dovetail.json " : "";
       expect_refused(program, what + "--csv " + none + "'", {"option --csv", "no folder"});
       expect_refused(program, what + "--plot " + none + ".png'",
                      {"option --plot", "no folder"});
@@ -226,7 +226,7 @@ TEST_F(Options, EveryStudyDrawsAPicture)
       {"plane_receding", "-spacing 0.1 -corner 0.02"},
       {"axisymmetric_receding", "-spacing 0.1"},
       {"lap_joint", "-spacing 0.05 -increments 5"},
-      {"contact2d", "--case meshes/rounded_punch.json --cycles 1"},
+      {"contact", "--case meshes/rounded_punch.json --cycles 1"},
       {"march", "-case problems/sliders.case.json"},
       {"fretting", "-Q 50"}};
    std::size_t pictures = 0;

@@ -229,7 +229,7 @@ TEST(ReadOut, EveryStudyCountsItsFrictionProblem)
       {"square_punch", "-nodes 33", 1},
       {"square_punch", "-nodes 33 -friction 0 -shear none", 0},
       {"hertz", "-nodes 33", 1, false},
-      {"contact2d", "-case meshes/rounded_punch.json --cycles 1", 1}};
+      {"contact", "-case meshes/rounded_punch.json --cycles 1", 1}};
    for (const auto &study : studies)
    {
       const Result run = run_miniapp(study.name, study.options);

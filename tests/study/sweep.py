@@ -66,8 +66,8 @@ def outcomes(folder):
             assert abs(row["event_loads"]["Q"] - row["friction"]) < 1e-6, row
         if holds: # equilibrium
             assert abs(row["tangential_force"] + row["history.2.Q"] * row["normal_force"]) < 1e-12, row
-    # A case of contact2d, by keys of a body and of an interface.
-    run("contact2d", "--case", "meshes/dovetail.json", "--cycles", 1, "--sweep", "bodies.root.young=100 200", "--sweep", "interfaces.flank.friction=0.2 0.3",
+    # A case of contact, by keys of a body and of an interface.
+    run("contact", "--case", "meshes/dovetail.json", "--cycles", 1, "--sweep", "bodies.root.young=100 200", "--sweep", "interfaces.flank.friction=0.2 0.3",
         "--json", out)
     pressures = [row["peak_pressure"] for row in read(out)["sweep"]]
     assert len(set(pressures)) == 4, pressures

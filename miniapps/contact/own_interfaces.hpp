@@ -1,6 +1,6 @@
 #pragma once
 
-#include "contact2d/joint_case.hpp"
+#include "contact/joint_case.hpp"
 
 #include <array>
 #include <vector>

@@ -1,6 +1,6 @@
-#include "contact2d/own_interfaces.hpp"
+#include "contact/own_interfaces.hpp"
 
-#include "contact2d/own_half_plane.hpp"
+#include "contact/own_half_plane.hpp"
 
 #include <algorithm>
 #include <cattaneo/input_error.hpp>

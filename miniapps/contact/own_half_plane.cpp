@@ -1,4 +1,4 @@
-#include "contact2d/own_half_plane.hpp"
+#include "contact/own_half_plane.hpp"
 
 #include <algorithm>
 #include <cattaneo/input_error.hpp>

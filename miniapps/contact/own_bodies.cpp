@@ -1,9 +1,9 @@
-#include "contact2d/own_bodies.hpp"
+#include "contact/own_bodies.hpp"
 
-#include "contact2d/own_half_plane.hpp"
-#include "contact2d/own_interfaces.hpp"
-#include "contact2d/own_part.hpp"
-#include "contact2d/own_warnings.hpp"
+#include "contact/own_half_plane.hpp"
+#include "contact/own_interfaces.hpp"
+#include "contact/own_part.hpp"
+#include "contact/own_warnings.hpp"
 
 #include <algorithm>
 #include <cattaneo/input_error.hpp>

@@ -1,4 +1,4 @@
-#include "contact2d/own_warnings.hpp"
+#include "contact/own_warnings.hpp"
 
 #include <algorithm>
 #include <cattaneo/elastic/rotation.hpp>

@@ -25,12 +25,12 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 /// An empty folder of its own for each test, for the files it writes and reads.
-class Contact2D : public testing::Test
+class Contact : public testing::Test
 {
 protected:
    void SetUp() override
    {
-      folder = testing::TempDir() + "contact2d";
+      folder = testing::TempDir() + "contact";
       fs::remove_all(folder);
       fs::create_directories(folder);
    }
@@ -47,7 +47,7 @@ protected:
    {
       keys["version"] = 2;
       std::ofstream(folder + "/case.json") << keys.dump();
-      return run_miniapp("contact2d", "--case '" + folder + "/case.json' " + options);
+      return run_miniapp("contact", "--case '" + folder + "/case.json' " + options);
    }
 
    std::string folder;
@@ -90,7 +90,7 @@ void lift_to_the_cylinder(const mfem::Vector &x, mfem::Vector &moved)
    moved[1] += x[0] * x[0] / 200 * (1 - x[1] / layer);
 }
 
-TEST_F(Contact2D, EdgesOfAHertzContactHaveTheClosedForms)
+TEST_F(Contact, EdgesOfAHertzContactHaveTheClosedForms)
 {
    using namespace cattaneo;
    // A cylinder of radius 100 that touches a half-plane over |x| < 1, E* = 1/2. A block that
@@ -178,7 +178,7 @@ TEST_F(Contact2D, EdgesOfAHertzContactHaveTheClosedForms)
    }
 }
 
-TEST_F(Contact2D, CornersHaveIntensitiesOfTheirOwn)
+TEST_F(Contact, CornersHaveIntensitiesOfTheirOwn)
 {
    // A square block on a similar one, bonded by friction, and on a rigid line.
    const auto x = cattaneo::graded_to_ends(1, 60, 0.02);
@@ -247,7 +247,7 @@ TEST_F(Contact2D, CornersHaveIntensitiesOfTheirOwn)
    }
 }
 
-TEST_F(Contact2D, EqualsTheSquarePunch)
+TEST_F(Contact, EqualsTheSquarePunch)
 {
    for (const double domain : {-1.0, 0.0, 1e4}) // on a rigid line, a half-plane and a block
    {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "common/study.hpp"
-#include "contact2d/joint_case.hpp"
+#include "contact/joint_case.hpp"
 
 #include <cattaneo/fretting/corner.hpp>
 #include <cattaneo/halfplane/half_plane.hpp>

@@ -1,4 +1,4 @@
-#include "contact2d/joint_case.hpp"
+#include "contact/joint_case.hpp"
 
 #include <algorithm>
 #include <cattaneo/input_error.hpp>

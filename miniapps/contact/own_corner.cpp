@@ -1,4 +1,4 @@
-#include "contact2d/own_bodies.hpp"
+#include "contact/own_bodies.hpp"
 
 #include <algorithm>
 #include <cattaneo/fretting/calibration.hpp>

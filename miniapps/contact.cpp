@@ -1,24 +1,24 @@
-//  contact2d: frictional contact of your own meshes: any number of bodies and interfaces
+//  contact: frictional contact of your own meshes: any number of bodies and interfaces
 //
 //  Reads meshes (MFEM, Gmsh, ABAQUS or CalculiX), condenses each to the nodes of its interfaces
 //  and marches a load history with Coulomb friction. A JSON case file names bodies, interfaces,
 //  bolts and loads: docs/contact.md describes it. Units are the user's: forces are per unit
 //  thickness.
 //
-//  Sample runs:  contact2d -case meshes/bolted_joint.json
-//                contact2d -case meshes/pin.json
-//                contact2d -case meshes/dovetail.json
-//                contact2d -case meshes/rounded_punch.json --cycles 2 -edges "1 2 3"
-//                contact2d -case meshes/rounded_punch.json --check --plot check.png
-//                contact2d -case meshes/punch_on_half_plane.json
-//                contact2d -case meshes/calculix/laps.json
-//                contact2d -case meshes/dovetail.json -set interfaces.flank.friction=0
+//  Sample runs:  contact -case meshes/bolted_joint.json
+//                contact -case meshes/pin.json
+//                contact -case meshes/dovetail.json
+//                contact -case meshes/rounded_punch.json --cycles 2 -edges "1 2 3"
+//                contact -case meshes/rounded_punch.json --check --plot check.png
+//                contact -case meshes/punch_on_half_plane.json
+//                contact -case meshes/calculix/laps.json
+//                contact -case meshes/dovetail.json -set interfaces.flank.friction=0
 
 #include "common/contact_edges.hpp"
 #include "common/own_history.hpp"
-#include "contact2d/joint_report.hpp"
-#include "contact2d/own_bodies.hpp"
-#include "contact2d/own_warnings.hpp"
+#include "contact/joint_report.hpp"
+#include "contact/own_bodies.hpp"
+#include "contact/own_warnings.hpp"
 
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
@@ -97,7 +97,7 @@ struct CaseOptions
    }
 };
 
-void contact2d(Study &study)
+void contact(Study &study)
 {
    CaseOptions options(study);
    OwnHistory history(study);
@@ -207,5 +207,5 @@ void contact2d(Study &study)
 
 int main(int argc, char *argv[])
 {
-   return Study::run("contact2d", argc, argv, contact2d);
+   return Study::run("contact", argc, argv, contact);
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "contact2d/own_bodies.hpp"
+#include "contact/own_bodies.hpp"
 
 #include <cattaneo/readout/small_displacements.hpp>
 #include <vector>

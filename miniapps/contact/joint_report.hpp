@@ -1,7 +1,7 @@
 #pragma once
 
 #include "common/study.hpp"
-#include "contact2d/joint_case.hpp"
+#include "contact/joint_case.hpp"
 
 #include <cattaneo/friction/loop.hpp>
 #include <cattaneo/friction/march.hpp>

@@ -1,4 +1,4 @@
-#include "contact2d/joint_report.hpp"
+#include "contact/joint_report.hpp"
 
 #include <algorithm>
 #include <cattaneo/readout/zones.hpp>

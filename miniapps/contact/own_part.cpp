@@ -1,4 +1,4 @@
-#include "contact2d/own_part.hpp"
+#include "contact/own_part.hpp"
 
 #include <algorithm>
 #include <cattaneo/exchange/nodal_statements.hpp>
