@@ -11,22 +11,27 @@ set(rooms_of_tests ${CMAKE_CURRENT_LIST_DIR}/rooms.txt)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${rooms_of_tests})
 file(STRINGS ${rooms_of_tests} lines_of_tests REGEX "^[^#]")
 
-# Sets `files` to the sources of a kind of tests (a folder here) that are in a tier (everyday or rest). A new file needs its line.
+# Sets `tier` to that of a file of tests (core/march_test.cpp): everyday (a sample is), or rest. A new file
+# needs its line.
+function(tier_of_tests file tier)
+   set(lines ${lines_of_tests})
+   list(FILTER lines INCLUDE REGEX "^${file} ")
+   if(NOT lines MATCHES "^[^ ]+ +(everyday|sample|rest)( |$)")
+      message(FATAL_ERROR "tests/${file} has no line in tests/rooms.txt, which says its tier "
+         "(everyday, sample or rest) and its rooms: add '${file}  everyday  ROOM…'")
+   endif()
+   string(REPLACE "sample" "everyday" found ${CMAKE_MATCH_1})
+   set(${tier} ${found} PARENT_SCOPE)
+endfunction()
+
+# Sets `files` to the sources of a kind of tests (a folder here) that are in a tier.
 function(files_of_tests kind tier files)
    file(GLOB all CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${kind}/*.cpp)
+   list(FILTER all EXCLUDE REGEX "/stress/campaign.cpp$") # a program of its own
    set(found "")
    foreach(file IN LISTS all)
       get_filename_component(name ${file} NAME)
-      if(kind STREQUAL "stress" AND name STREQUAL "campaign.cpp") # a program of its own
-         continue()
-      endif()
-      set(lines ${lines_of_tests})
-      list(FILTER lines INCLUDE REGEX "^${kind}/${name} ")
-      if(NOT lines MATCHES "^[^ ]+ +(everyday|sample|rest)( |$)")
-         message(FATAL_ERROR "tests/${kind}/${name} has no line in tests/rooms.txt, which says its tier "
-            "(everyday, sample or rest) and its rooms: add '${kind}/${name}  everyday  ROOM…'")
-      endif()
-      string(REPLACE "sample" "everyday" its_tier ${CMAKE_MATCH_1})
+      tier_of_tests(${kind}/${name} its_tier)
       if(its_tier STREQUAL tier)
          list(APPEND found ${file})
       endif()
