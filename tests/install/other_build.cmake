@@ -22,7 +22,7 @@ function(step)
 endfunction()
 step(${CMAKE_COMMAND} -S ${SOURCE} -B ${here} -G Ninja -DCMAKE_BUILD_TYPE=Release -DMFEM_DIR=${MFEM_DIR}
    -DCATTANEO_WERROR=ON ${options})
-step(${CMAKE_COMMAND} --build ${here})
+step(${CMAKE_COMMAND} --build ${here} --target all ${TESTS})
 foreach(tests IN LISTS TESTS)
    step(${here}/tests/${tests} --gtest_brief=1)
 endforeach()

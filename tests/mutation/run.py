@@ -253,6 +253,8 @@ def instrument(options, arguments, order):
             say(f"building with {len(pool)} faults behind the switch")
             log = os.path.join(HOME, "build.log")
             targets = [kind + "_tests" for kind in options.kinds.split(",")]
+            rest = [kind + "_rest_tests" for kind in options.kinds.split(",")]
+            targets += [t for t in rest if f"\nbuild {t}: " in open(os.path.join(BUILD, "build.ninja")).read()]
             targets += ["campaign"] if "stress" in options.kinds else []
             with open(log, "w") as out:
                 failed = subprocess.run(["ninja", "-C", BUILD, "-k", "0", "-j", str(options.jobs), *targets], stdout=out,
@@ -285,17 +287,18 @@ class Tests:
             for line in open(self.file):
                 key, *value = json.loads(line)
                 self.known[key] = value
-        listed = json.loads(subprocess.run(["ctest", "--test-dir", BUILD, "--show-only=json-v1"], check=True,
+        listed = json.loads(subprocess.run(["ctest", "--test-dir", BUILD, "-C", "All", "--show-only=json-v1"], check=True,
                                            capture_output=True, text=True).stdout)
         everything = hashlib.sha256()
         for file in tracked():
-            if file.startswith((LIBRARY, "miniapps", "meshes", "problems")) or file.endswith((".hpp", "programs/programs.py")):
+            if file.startswith((LIBRARY, "miniapps", "meshes", "problems", "tests/support")) or \
+               file.endswith((".hpp", "programs/programs.py")):
                 everything.update(open(os.path.join(SOURCE, file), "rb").read())
         self.tests = {}
         for test in listed["tests"]:
             properties = {p["name"]: p["value"] for p in test.get("properties", [])}
             label = (properties.get("LABELS") or [""])[0]
-            if label not in options.kinds.split(",") or "command" not in test or properties.get("DISABLED"):
+            if label not in options.kinds.split(",") or "command" not in test or properties.get("DISABLED") or test["name"].endswith(".long"):
                 continue
             own = everything.copy()
             own.update(self.text_of(label, test["name"]))

@@ -1,6 +1,6 @@
 #include "contact_laws.hpp"
+#include "enumeration.hpp"
 #include "random_problem.hpp"
-#include "stress/enumeration.hpp"
 
 #include <cattaneo/contact/condense_body.hpp>
 #include <cattaneo/contact/interfaces_of_bodies.hpp>

@@ -1,16 +1,9 @@
-#pragma once
-
-#include <cattaneo/contact/condense_body.hpp>
-#include <cattaneo/mesh/graded_mesh.hpp>
-#include <cattaneo/reduced/reduction.hpp>
+#include "punch_problem.hpp"
 
 namespace cattaneo_test
 {
 
-/// A true square punch, |x| < 1, 0 < y < 2, of quadratic elements graded to its corners, on a
-/// rigid plane or on a similar half-plane (cut off at 1000): patterns "P" and "Q" of resultant
-/// 1, Q with the pressure that balances its moment. E' = 1.
-inline cattaneo::ReducedProblem punch_problem(int nodes, bool half_plane)
+cattaneo::ReducedProblem punch_problem(int nodes, bool half_plane)
 {
    using namespace cattaneo;
    const int order = 2, bottom = 1, top = 3, surface = 1, far_bottom = 3;

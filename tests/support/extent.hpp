@@ -17,18 +17,10 @@ enum class Extent
    full
 };
 
-inline Extent extent()
-{
-   const char *wish = std::getenv("CATTANEO_STRESS");
-   const std::string word = wish ? wish : "";
-   return word == "full" ? Extent::full : word == "short" ? Extent::brief : Extent::usual;
-}
+Extent extent();
 
 /// The number of random cases of a test.
-inline int cases(int usual, int full)
-{
-   return extent() == Extent::full ? full : extent() == Extent::brief ? usual / 8 : usual;
-}
+int cases(int usual, int full);
 
 /// The meshes of a convergence test: the first ones, and in full the finer ones too.
 template <class Mesh>

@@ -1,14 +1,10 @@
-#pragma once
-
-#include "random_problem.hpp"
+#include "disc_problems.hpp"
 
 namespace cattaneo_test
 {
 
-/// A random reduced problem with two tangential components a node and three load patterns:
-/// "press" (mostly normal), "shear" (all) and "twist" (second component only).
-inline cattaneo::ReducedProblem random_disc_problem(int n, double friction, double coupling,
-                                                    std::mt19937 &random)
+cattaneo::ReducedProblem random_disc_problem(int n, double friction, double coupling,
+                                             std::mt19937 &random)
 {
    std::normal_distribution<double> normal;
    auto matrix = [&](int rows, int cols)
@@ -34,9 +30,7 @@ inline cattaneo::ReducedProblem random_disc_problem(int n, double friction, doub
    return problem;
 }
 
-/// A plane problem with a second tangential component that is coupled to nothing and not
-/// loaded.
-inline cattaneo::ReducedProblem as_disc(const cattaneo::ReducedProblem &plane)
+cattaneo::ReducedProblem as_disc(const cattaneo::ReducedProblem &plane)
 {
    const Eigen::Index n = plane.nodes();
    cattaneo::ReducedProblem problem = plane;

@@ -1,14 +1,9 @@
-#pragma once
-
-#include <Eigen/Dense>
-#include <cattaneo/friction/contact_state.hpp>
-#include <cmath>
-#include <limits>
-#include <optional>
-#include <random>
-#include <vector>
+#include "lemke.hpp"
 
 namespace cattaneo_test
+{
+
+namespace
 {
 
 using Tableau = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -16,9 +11,8 @@ using Tableau = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::Row
 /// Row that leaves the basis: least ratio of the right-hand side to the entering column; ties
 /// are decided by the rows of the basis inverse (lexicographic rule). -1 if no entry is
 /// positive.
-inline Eigen::Index leaving_row(const Tableau &T, const Eigen::VectorXd &column,
-                                Eigen::Index rhs, const std::vector<Eigen::Index> &basis,
-                                Eigen::Index artificial)
+Eigen::Index leaving_row(const Tableau &T, const Eigen::VectorXd &column, Eigen::Index rhs,
+                         const std::vector<Eigen::Index> &basis, Eigen::Index artificial)
 {
    const Eigen::Index N = T.rows();
    const double pivot_floor = 1e-11 * std::max(1.0, column.cwiseAbs().maxCoeff());
@@ -60,19 +54,10 @@ inline Eigen::Index leaving_row(const Tableau &T, const Eigen::VectorXd &column,
    return tied.front();
 }
 
-struct LemkeReport
-{
-   bool solved = false; ///< false: ray termination or too many pivots
-   long pivots = 0;
-   Eigen::VectorXd z;
-};
+} // namespace
 
-/** Linear complementarity problem  s = M z + b,  s >= 0, z >= 0, sᵀz = 0  by Lemke's method
-    with a dense tableau and the lexicographic rule (no cycling). The path starts at z = 0 with
-    the right-hand side b + z0·cover, z0 large; for matrices that are not copositive another
-    cover (positive entries) may reach a solution where one ends in a ray. */
-inline LemkeReport lemke(const Eigen::MatrixXd &M, const Eigen::VectorXd &b,
-                         const Eigen::VectorXd &cover, long max_pivots)
+LemkeReport lemke(const Eigen::MatrixXd &M, const Eigen::VectorXd &b,
+                  const Eigen::VectorXd &cover, long max_pivots)
 {
    const Eigen::Index N = b.size();
    LemkeReport report;
@@ -122,12 +107,10 @@ inline LemkeReport lemke(const Eigen::MatrixXd &M, const Eigen::VectorXd &b,
    return report;
 }
 
-/// The state in which the linear equations of given node states hold, refined once; open nodes
-/// bear exactly nothing.
-inline cattaneo::ContactState state_of(const cattaneo::ReducedProblem &problem,
-                                       const cattaneo::ContactState &before,
-                                       const Eigen::VectorXd &multipliers,
-                                       const std::vector<cattaneo::NodeState> &states)
+cattaneo::ContactState state_of(const cattaneo::ReducedProblem &problem,
+                                const cattaneo::ContactState &before,
+                                const Eigen::VectorXd &multipliers,
+                                const std::vector<cattaneo::NodeState> &states)
 {
    using cattaneo::NodeState;
    const Eigen::Index n = problem.nodes();
@@ -175,13 +158,9 @@ inline cattaneo::ContactState state_of(const cattaneo::ReducedProblem &problem,
    return state;
 }
 
-/** An oracle for increments of one tangential component a node with friction: the
-    complementarity problem in the gap and the slip forward and backward of every node, by
-    Lemke's method. It shares nothing with the library's methods but the laws, and proves
-    nothing where it ends in a ray. */
-inline std::optional<cattaneo::ContactState>
-solve_by_lemke(const cattaneo::ReducedProblem &problem, const cattaneo::ContactState &before,
-               const Eigen::VectorXd &multipliers)
+std::optional<cattaneo::ContactState> solve_by_lemke(const cattaneo::ReducedProblem &problem,
+                                                     const cattaneo::ContactState &before,
+                                                     const Eigen::VectorXd &multipliers)
 {
    using cattaneo::NodeState;
    using Eigen::MatrixXd;

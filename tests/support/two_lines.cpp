@@ -1,14 +1,9 @@
-#pragma once
-
-#include <cattaneo/reduced/reduced_problem.hpp>
-#include <vector>
+#include "two_lines.hpp"
 
 namespace cattaneo_test
 {
 
-/// A problem twice, side by side: both are loaded alike and know nothing of each other. Where
-/// the arc length of the second begins is arbitrary.
-inline cattaneo::ReducedProblem twice(const cattaneo::ReducedProblem &one)
+cattaneo::ReducedProblem twice(const cattaneo::ReducedProblem &one)
 {
    using Eigen::Index;
    using Eigen::MatrixXd;

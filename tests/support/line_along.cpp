@@ -1,22 +1,10 @@
-#pragma once
-
-#include <cattaneo/algebra/lobatto_basis.hpp>
-#include <cattaneo/algebra/quadrature.hpp>
-#include <cattaneo/condense/contact_line.hpp>
-#include <functional>
-#include <limits>
+#include "line_along.hpp"
 
 namespace cattaneo_test
 {
 
-using Curve = std::function<Eigen::Vector2d(double)>;
-
-/** The trace of a body along a curve, on its left as the parameter grows, with elements of one
-    order that end at the given parameters. Nodes lie on the curve; weights, tangents and arc
-    lengths are those of the elements. A node at r = 0 of a body of revolution is left out. */
-inline cattaneo::ContactLine
-line_along(const Curve &curve, const std::vector<double> &grid, int order,
-           cattaneo::Formulation formulation = cattaneo::Formulation::plane, int first_dof = 0)
+cattaneo::ContactLine line_along(const Curve &curve, const std::vector<double> &grid, int order,
+                                 cattaneo::Formulation formulation, int first_dof)
 {
    using namespace cattaneo;
    using Eigen::Vector2d;
@@ -94,14 +82,12 @@ line_along(const Curve &curve, const std::vector<double> &grid, int order,
    return line;
 }
 
-/// From one point to another, the parameter from 0 to 1.
-inline Curve straight(const Eigen::Vector2d &from, const Eigen::Vector2d &to)
+Curve straight(const Eigen::Vector2d &from, const Eigen::Vector2d &to)
 {
    return [=](double t) -> Eigen::Vector2d { return (1 - t) * from + t * to; };
 }
 
-/// About a point, the parameter is the angle.
-inline Curve circle(const Eigen::Vector2d &centre, double radius, bool clockwise = false)
+Curve circle(const Eigen::Vector2d &centre, double radius, bool clockwise)
 {
    return [=](double t) -> Eigen::Vector2d
    {
@@ -110,7 +96,7 @@ inline Curve circle(const Eigen::Vector2d &centre, double radius, bool clockwise
    };
 }
 
-inline std::vector<double> uniform_grid(double from, double to, int elements)
+std::vector<double> uniform_grid(double from, double to, int elements)
 {
    std::vector<double> grid;
    for (int e = 0; e <= elements; ++e)

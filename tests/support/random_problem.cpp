@@ -1,16 +1,10 @@
-#pragma once
-
-#include <cattaneo/reduced/reduced_problem.hpp>
-#include <random>
+#include "random_problem.hpp"
 
 namespace cattaneo_test
 {
 
-/// A random reduced problem with a positive definite stiffness of moderate coupling and two
-/// load patterns: "press" (mostly normal) and "shear" (both). Dense, without any geometry
-/// behind it.
-inline cattaneo::ReducedProblem random_problem(int n, double friction, double coupling,
-                                               std::mt19937 &random)
+cattaneo::ReducedProblem random_problem(int n, double friction, double coupling,
+                                        std::mt19937 &random)
 {
    std::normal_distribution<double> normal;
    auto matrix = [&](int rows, int cols)

@@ -1,12 +1,9 @@
-#pragma once
-
-#include <vector>
+#include "straight_line.hpp"
 
 namespace cattaneo_test
 {
 
-/// From `from` to `to` in elements that halve towards `to`, the last two of the same size.
-inline std::vector<double> halving(double from, double to, int elements)
+std::vector<double> halving(double from, double to, int elements)
 {
    std::vector<double> grid{from};
    for (int e = 1; e < elements; ++e) { grid.push_back(0.5 * (grid.back() + to)); }
@@ -14,8 +11,7 @@ inline std::vector<double> halving(double from, double to, int elements)
    return grid;
 }
 
-/// Halving towards both ends of -a < x < a.
-inline std::vector<double> halving_both_ways(double a, int elements)
+std::vector<double> halving_both_ways(double a, int elements)
 {
    std::vector<double> grid;
    for (double x : halving(0, a, elements)) { grid.insert(grid.begin(), -x); }

@@ -1,13 +1,9 @@
-#pragma once
+#include "small_problems.hpp"
 
-#include <cattaneo/reduced/reduced_problem.hpp>
-
-/// Reduced problems whose answers are known by hand.
 namespace cattaneo_test
 {
 
-/// One block on a spring: slip and dissipation of a cycle are known in closed form.
-inline cattaneo::ReducedProblem one_block(double f)
+cattaneo::ReducedProblem one_block(double f)
 {
    cattaneo::ReducedProblem problem;
    problem.set_stiffness(Eigen::MatrixXd::Constant(1, 1, 2.0), Eigen::MatrixXd::Zero(1, 1),
@@ -21,11 +17,7 @@ inline cattaneo::ReducedProblem one_block(double f)
    return problem;
 }
 
-/** Four nodes on springs of their own, 2 along and 4 across the contact, f = 1/2. P presses
-    three with 1 and lifts the last by 0.4/4; Q shears. Under both, limits being 1/2: the first
-    sticks with q = 0.1; -0.5 = 2 v - 0.8 slips forward, 0.5 = 2 v + 0.7 backward; the last
-    moves freely, 0 = 2 v + 0.3. */
-inline cattaneo::ReducedProblem four_springs()
+cattaneo::ReducedProblem four_springs()
 {
    cattaneo::ReducedProblem problem;
    problem.set_stiffness(2 * Eigen::Matrix4d::Identity(), Eigen::Matrix4d::Zero(),

@@ -1,13 +1,9 @@
-#pragma once
-
-#include <cattaneo/friction/contact_state.hpp>
-#include <gtest/gtest.h>
+#include "same_state.hpp"
 
 namespace cattaneo_test
 {
 
-/// Every field of two states, to the last bit.
-inline void expect_same(const cattaneo::ContactState &a, const cattaneo::ContactState &b)
+void expect_same(const cattaneo::ContactState &a, const cattaneo::ContactState &b)
 {
    EXPECT_EQ(a.v, b.v);
    EXPECT_EQ(a.w, b.w);

@@ -1,12 +1,6 @@
-#pragma once
+#include "expect_input_error.hpp"
 
-#include <cattaneo/input_error.hpp>
-#include <functional>
-#include <gtest/gtest.h>
-#include <string>
-
-/// `act` is refused with a sentence that says `part`.
-inline void expect_input_error(const std::function<void()> &act, const std::string &part)
+void expect_input_error(const std::function<void()> &act, const std::string &part)
 {
    try
    {

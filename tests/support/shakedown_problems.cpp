@@ -1,27 +1,15 @@
-#pragma once
+#include "shakedown_problems.hpp"
 
-#include <algorithm>
-#include <cattaneo/shakedown/limit.hpp>
-#include <cmath>
-#include <limits>
-#include <random>
-
-/// Reduced problems and brute-force answers for the tests of the shakedown limits.
 namespace shakedown_test
 {
 
-using namespace cattaneo;
-
-inline Eigen::MatrixXd random_matrix(std::mt19937 &random, Eigen::Index rows, Eigen::Index cols)
+Eigen::MatrixXd random_matrix(std::mt19937 &random, Eigen::Index rows, Eigen::Index cols)
 {
    std::uniform_real_distribution<double> uniform(-1, 1);
    return Eigen::MatrixXd::NullaryExpr(rows, cols, [&]() { return uniform(random); });
 }
 
-/** A random coupled contact of @a n nodes with @a c tangential components: patterns "press"
-    (positive pressures), "shear" and "twist". @a rigid: a free body, with tangential and normal
-    translations (and, for n > 2, a rotation) that cost nothing. */
-inline ReducedProblem random_contact(unsigned seed, Eigen::Index n, Eigen::Index c, bool rigid)
+ReducedProblem random_contact(unsigned seed, Eigen::Index n, Eigen::Index c, bool rigid)
 {
    std::mt19937 random(seed);
    const Eigen::Index m = c * n;
@@ -58,10 +46,7 @@ inline ReducedProblem random_contact(unsigned seed, Eigen::Index n, Eigen::Index
    return problem;
 }
 
-/** Like a square punch on an elastic half-plane: stiffness of the two half-planes' type on a
-    mesh that is graded to both edges, a coupling like that of dissimilar materials, tractions
-    that are smooth. Zero tangential and normal translations. */
-inline ReducedProblem punch_like(Eigen::Index n, double coupling = 0.1)
+ReducedProblem punch_like(Eigen::Index n, double coupling)
 {
    Eigen::VectorXd x(n), weights(n);
    for (Eigen::Index i = 0; i < n; ++i)
@@ -104,8 +89,7 @@ inline ReducedProblem punch_like(Eigen::Index n, double coupling = 0.1)
    return problem;
 }
 
-/// A cycle of random vertices around a constant first pattern.
-inline LoadCycle random_cycle(unsigned seed, Eigen::Index patterns, Eigen::Index vertices)
+LoadCycle random_cycle(unsigned seed, Eigen::Index patterns, Eigen::Index vertices)
 {
    std::mt19937 random(seed + 1000);
    LoadCycle cycle{Eigen::VectorXd::Zero(patterns), random_matrix(random, patterns, vertices)};
@@ -114,19 +98,7 @@ inline LoadCycle random_cycle(unsigned seed, Eigen::Index patterns, Eigen::Index
    return cycle;
 }
 
-/// A contact and its loads.
-struct RandomLimit
-{
-   ReducedProblem problem;
-   LoadCycle cycle;
-};
-
-/** A limit of any kind: with and without coupling, up to one so strong that friction wedges the
-    contact and nothing limits the load; bodies held or free; friction from 0.05 to 5, one
-    coefficient or many; constant loads that press everywhere, somewhere or nowhere, with shear
-    from none to more than friction can hold; load varying to and fro, from zero, once or round
-    a polygon, with or without changes of pressure; forces and lengths in any unit. */
-inline RandomLimit random_limit(unsigned seed, Eigen::Index components)
+RandomLimit random_limit(unsigned seed, Eigen::Index components)
 {
    std::mt19937 random(seed);
    std::uniform_real_distribution<double> uniform(-1, 1);
@@ -186,11 +158,7 @@ inline RandomLimit random_limit(unsigned seed, Eigen::Index components)
    return {std::move(problem), std::move(cycle)};
 }
 
-/** The largest λ of a linear programme with one tangential component by brute force: every
-    corner of the admissible set of (λ, v) is the meeting of as many conditions as there are
-    unknowns.
-    @a n at most 3. A rigid slip is fixed by holding node 0. */
-inline double brute_force_load(const ReducedProblem &problem, const LoadCycle &cycle)
+double brute_force_load(const ReducedProblem &problem, const LoadCycle &cycle)
 {
    const Eigen::Index n = problem.nodes();
    const bool rigid = (problem.A() * Eigen::VectorXd::Ones(n)).norm() < 1e-10;
