@@ -208,6 +208,18 @@ prepare()
    build_targets "$build" "$@"
 }
 
+# OpenBLAS may not know this processor, and choose kernels that are far below it. Others are taken that multiply
+# right on it, unless OPENBLAS_CORETYPE says which. The same stands in miniapps/cattaneo.in.
+choose_kernels()
+{
+   [ -n "${OPENBLAS_CORETYPE+set}" ] && return
+   local asked=$build/miniapps/blas_kernels better
+   better=$("$asked" --better)
+   if [ -n "$better" ] && OPENBLAS_CORETYPE=$better "$asked" --check >/dev/null 2>&1; then
+      export OPENBLAS_CORETYPE="$better"
+   fi
+}
+
 # build_targets FOLDER TARGET…: shows its progress where there is something to do, else nothing.
 build_targets()
 {

@@ -17,7 +17,8 @@
 //  Sample runs:  shakedown
 //                shakedown -nodes 101 -find load -friction 1 -reversal -1 -march -cycles 30
 //                shakedown -nodes 81 -map -adhesion-map
-//                shakedown -find friction -tractions
+//                shakedown -find friction -tractions -transposed
+//                shakedown -find load -load-ratios -transposed -lower
 //                shakedown -nodes 33 -mesh-study "33 65 101"
 //                shakedown -nodes 33 -mismatch "0.1 1 10"
 //                shakedown -nodes 33 -find load -mismatch 1 -mismatch-poisson "0.3 0.45"
@@ -106,6 +107,17 @@ void Shakedown::options()
    study.option(&starts, "starts",
                 "Random starts of the search for one that slips for ever (0: none).",
                 not_negative);
+   study.option(
+      &lower_limits, "lower",
+      "What is proven of loads that shake down from every start, also but for slip at "
+      "nodes near the ends.");
+   study.option(&load_ratios, "load-ratios",
+                "Largest loads over f for R = -1 with f = 0.85 and 1, and R = -0.5 with 0.85 "
+                "(chapter 4).");
+   study.option(
+      &transposed, "transposed",
+      "The smallest friction, and the ratios of --load-ratios, with the block B of the "
+      "stiffness transposed, as (4.10) is printed.");
    study.option(&corner, "corner",
                 "Share of the contact length that pointwise figures leave out at each end, "
                 "where nodal ratios do not converge.",

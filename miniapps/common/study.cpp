@@ -35,6 +35,9 @@ void Study::parse(const char *json)
    option(&check_, "check",
           "Show bodies, contact, supports and loads (tables, --plot), and stop there.");
    options_.leave_out_of_cases("check");
+   option(&verbose_, "verbose",
+          "At the end, how often each expensive act was done, and the kernels of OpenBLAS.");
+   options_.leave_out_of_cases("verbose");
    option(&save_, "save", "File for the reduced problem (shakedown --reduced reads it).",
           Text::output);
    option(&sweep_, "sweep",
@@ -315,7 +318,10 @@ void Study::finish()
    }
    results["seconds"] = watch.seconds();
    results["counters"] = to_json(counters);
+   const cattaneo::BlasKernels kernels = cattaneo::blas_kernels();
+   results["blas_kernels"] = kernels.name;
    write_json(results, json_);
+   if (verbose_) { say_more(kernels); }
    std::vector<Sheet> sheets;
    for (const auto &sheet : sheets_)
    {
@@ -329,6 +335,22 @@ void Study::finish()
    if (nothing) { say("no picture: the study ended before there was anything to draw"); }
    output(sheets, code != 0 && sheets.empty() ? "" : csv_, nothing ? "" : plot_);
    if (!html_.empty() && writes()) { write_html(drawn ? sheets : std::vector<Sheet>()); }
+}
+
+void Study::say_more(const cattaneo::BlasKernels &kernels)
+{
+   title(text("What it took, %.3g s", results["seconds"].get<double>()));
+   cattaneo::Counters::for_each(counters,
+                                [&](std::string counter, long times)
+                                {
+                                   std::replace(counter.begin(), counter.end(), '_', ' ');
+                                   if (times > 0)
+                                   {
+                                      say("   " + padded(counter, 40) + " " +
+                                          std::to_string(times));
+                                   }
+                                });
+   say("   " + kernels.statement());
 }
 
 void Study::write_html(const std::vector<Sheet> &sheets) const

@@ -9,6 +9,7 @@
 #include "common/table.hpp"
 #include "common/text.hpp"
 
+#include <cattaneo/algebra/blas_kernels.hpp>
 #include <cattaneo/counters.hpp>
 #include <deque>
 #include <functional>
@@ -34,9 +35,9 @@ struct Done
     or a row of a table, which is printed, goes to JSON and CSV, may be drawn, and is compared
     with the references of the study (miniapps/data/references.json).
 
-    All studies have the options --case, --json, --csv, --plot, --html, --save and --sweep, and
-    end with their references, sizes, times, counters and warnings. Made first: it holds the
-    clock. */
+    All studies have the options --case, --json, --csv, --plot, --html, --save, --sweep and
+   --verbose, and end with their references, sizes, times, counters and warnings. Made first: it
+   holds the clock. */
 class Study
 {
 public:
@@ -138,6 +139,8 @@ public:
 
 private:
    void finish();
+   /// What --verbose prints at the end.
+   void say_more(const cattaneo::BlasKernels &kernels);
    void compare_references();
    void write_html(const std::vector<Sheet> &sheets) const;
    /// What a name means: a column of the row, a single result or an option.
@@ -170,7 +173,7 @@ private:
    std::vector<Found> found_; ///< to be compared at the end
    Eigen::Index nodes_ = 0;
    int dofs_ = 0;
-   bool check_ = false, checked_ = false, saved_ = false;
+   bool check_ = false, verbose_ = false, checked_ = false, saved_ = false;
    double seconds_ = 0; ///< up to the reduced problem
 };
 

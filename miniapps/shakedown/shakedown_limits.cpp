@@ -195,13 +195,18 @@ void Shakedown::smallest_friction()
    if (problem.components() == 1) { method2(first.value); }
    least = smallest(limit);
    report("friction", least, lambda_max, least.limit);
-   if (!standard || lambda_max != 0.8 || std::abs(reversal + 0.5) > 1e-12) { return; }
-   // With (4.10) as printed, whose coupling block is the transpose of (3.25)'s.
-   ReducedProblem transposed = problem;
-   transposed.B() = problem.B().transpose().eval();
-   complete(transposed); // rigid motions of the bodies do not belong to this matrix
-   const LimitReport other = smallest(limit_problem(transposed, cycle));
+   if (!transposed) { return; }
+   const LimitReport other = smallest(limit_problem(with_B_transposed(), cycle));
    study.value("friction_limit_transposed", other.limit, "exact with B transposed");
+}
+
+/// The coupling block of (4.10) as printed is the transpose of (3.25)'s.
+ReducedProblem Shakedown::with_B_transposed() const
+{
+   ReducedProblem other = problem;
+   other.B() = problem.B().transpose().eval();
+   complete(other); // rigid motions of the bodies do not belong to this matrix
+   return other;
 }
 
 void Shakedown::method2(double f1)
@@ -238,15 +243,31 @@ void Shakedown::largest_load()
    results["load_limit_upper"] = most.upper;
    if (most.status == LimitStatus::certified) { lower(); }
    if (std::isfinite(most.upper) && !part.open.empty()) { check_open_nodes(); }
-   if (!standard) { return; }
-   ResultTable &table = study.table(
-      "load_ratio",
-      {{"reversal", "R", "%g"}, {"friction", "f", "%g"}, {"ratio", "exact λ/f", "%.5f"}});
+   if (load_ratios) { ratios(); }
+}
+
+void Shakedown::ratios()
+{
+   std::vector<Column> columns = {
+      {"reversal", "R", "%g"}, {"friction", "f", "%g"}, {"ratio", "exact λ/f", "%.5f"}};
+   if (transposed) { columns.push_back({"transposed", "with B transposed", "%.5f"}); }
+   ResultTable &table = study.table("load_ratio", columns);
+   LimitProblem other;
+   if (transposed) { other = limit_problem(with_B_transposed(), cycle); }
    for (const auto &[R, f] : {std::pair{-1.0, 0.85}, {-1.0, 1.0}, {-0.5, 0.85}})
    {
-      limit.cycle = cycle_of(problem, R);
+      limit.cycle = other.cycle = cycle_of(problem, R);
       set_friction(limit.reduced, f);
-      study.row(table, {R, f, largest(limit).limit / f});
+      // One of them is often the limit that was just found.
+      const bool known = R == reversal && f == friction;
+      const double load = known ? most.limit : largest(limit).limit;
+      std::vector<ordered_json> row = {R, f, load / f};
+      if (transposed)
+      {
+         set_friction(other.reduced, f);
+         row.emplace_back(largest(other).limit / f);
+      }
+      study.row(table, row);
    }
    as_before();
    study.value("method1_ratio",
@@ -256,6 +277,17 @@ void Shakedown::largest_load()
 
 void Shakedown::lower()
 {
+   // Of uncoupled contacts and of two nodes it is known without a programme.
+   const bool known = limit.residual.uncoupled || problem.nodes() == 2;
+   if (!known && !lower_limits && starts == 0)
+   {
+      const char *const statement =
+         "slip changes the pressure here (B is not zero): up to this load some starts shake "
+         "down, and others may slip for ever";
+      study.say(std::string("      ") + statement + "; --lower tells what is proven of all");
+      results["lower_limit_statement"] = statement;
+      return;
+   }
    Watch watch("lower limit");
    LimitSettings settings;
    settings.monitor = watch.monitor();
@@ -265,7 +297,8 @@ void Shakedown::lower()
    study.say("   lower limit λ1: " + proven.message);
    if (proven.kind != LowerLimitKind::none) { study.value("lower_limit", proven.value, "λ1"); }
    results["lower_limit_statement"] = proven.message;
-   if (proven.kind == LowerLimitKind::bound || proven.kind == LowerLimitKind::none)
+   if (lower_limits &&
+       (proven.kind == LowerLimitKind::bound || proven.kind == LowerLimitKind::none))
    {
       lower_apart(settings);
    }

@@ -69,6 +69,9 @@ private:
    void draw_monolith();
    void draw_estimates(const cattaneo::Method2Estimate &second, double f1);
    void largest_load();
+   /// Largest loads over f of three cycles and frictions of chapter 4.
+   void ratios();
+   cattaneo::ReducedProblem with_B_transposed() const;
    /// The cycle and the friction of the limit problem.
    void as_before();
    cattaneo::TransientReport counted(cattaneo::TransientReport run);
@@ -76,7 +79,8 @@ private:
    /// Of the nodes taken to stay open: their gaps at the limit, and marches of the whole
    /// contact in which they are free to close.
    void check_open_nodes();
-   /// λ1: what is proven, and what marches from many starts show.
+   /// λ1: what is proven, if it is asked for or costs nothing, and what marches from many
+   /// starts show.
    void lower();
    /// What is proven of λ1 but for slip at nodes near the ends.
    void lower_apart(const cattaneo::LimitSettings &settings);
@@ -103,6 +107,7 @@ private:
    double friction = none, lambda_max = 0.8, lambda_min = -0.4, reversal = none, corner = 0.01;
    std::string find = "both", reduced, held = "P", cycled = "Q";
    bool map = false, adhesion = false, march = false, closed = false, steps = false;
+   bool transposed = false, load_ratios = false, lower_limits = false;
    int cycles = 200, starts = 0;
    std::vector<double> mesh_study, mismatch, mismatch_poisson;
 

@@ -1,5 +1,7 @@
 #include "shakedown/shakedown_study.hpp"
 
+#include <cmath>
+
 namespace miniapp
 {
 
@@ -21,6 +23,27 @@ void add_bounds(Panel &panel, const VectorXd &x, double f, const MatrixXd &q, co
       panel.add(std::string("most at ") + loads[k], x, VectorXd(f * p.col(k) - q.col(k)));
    }
    panel.say("inside: 0.1"); // singular at the ends
+}
+
+/// First and last place among these nodes between which y is positive, linear between nodes;
+/// not numbers if it is so nowhere.
+std::pair<double, double> exceeded(const VectorXd &x, const NodeList &nodes, const VectorXd &y)
+{
+   double from = none, to = none;
+   for (std::size_t k = 0; k < nodes.size(); ++k)
+   {
+      const Index i = nodes[k], before = nodes[k > 0 ? k - 1 : 0];
+      const double zero = y[before] == y[i]
+                             ? x[i]
+                             : x[before] + (x[i] - x[before]) * y[before] / (y[before] - y[i]);
+      if (y[i] > 0)
+      {
+         if (std::isnan(from)) { from = y[before] > 0 ? x[i] : zero; }
+         to = x[i];
+      }
+      else if (k > 0 && y[before] > 0) { to = zero; }
+   }
+   return {from, to};
 }
 
 double at(const VectorXd &x, const VectorXd &y, double place)
@@ -91,16 +114,16 @@ void Shakedown::draw_estimates(const Method2Estimate &second, double f1)
    };
    extreme(0, "at_largest", "Monolith at Qmax, f of method 1");
    extreme(1, "at_smallest", "Monolith at Qmin, f of method 1");
-   // Where the stuck shear at Qmax is more than friction holds.
-   double from = none, to = none;
-   for (const Index i : inner)
-   {
-      if (q(i, 0) <= f1 * p(i, 0)) { continue; }
-      from = std::isnan(from) ? x[i] : from;
-      to = x[i];
-   }
+   const auto [from, to] = exceeded(x, inner, q.col(0) - f1 * p.col(0));
    study.value("exceeded_from", from, "q > f p of method 1 at Qmax, from x/a");
    study.value("exceeded_to", to, "to x/a");
+   if (standard)
+   {
+      constexpr double of_thesis = 0.83; // its method 1
+      const auto [first, last] = exceeded(x, inner, q.col(0) - of_thesis * p.col(0));
+      study.value("exceeded_from_thesis", first, "q > 0.83 p, from x/a");
+      study.value("exceeded_to_thesis", last, "to x/a");
+   }
    add_bounds(lines("bounds", "Room for residual shear, method 1", "-a q/P"), x, f1, q, p);
    if (!second.exists) { return; }
    const VectorXd pressure = problem.weights.cwiseInverse().asDiagonal() *

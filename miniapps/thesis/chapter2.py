@@ -165,7 +165,7 @@ for number, friction in (("2.2a", 0.8), ("2.2b", 0.6)):
 Von Mises' stress over K_N √d below the surface; t > 0 is under the pad, 0 < t < d slips.""", fields)
 figure("2.3", "Equivalent stress along the surface", EDGE, """
 It is nearly constant over the slip zone, so that this yields almost at once: the smaller f, the less so.""", lambda run: f.panels((run, "surface", {"title": "", "rename": plain})), wrong="""
-The thesis' (2.12) and (2.14) have 2 for √2, and (2.17) is three times the usual invariant; the curves are of the corrected field.""", proof=FIELD)
+The thesis' (2.12) has 2 for √2, its (2.14) is √2 too large, and (2.17) is three times the usual invariant; the curves are of the corrected field.""", proof=FIELD)
 figure("2.4", "Load at which the slip zone yields", [*(command for command, _ in TESTS.values()), NICKEL], INVENTED + """
 Lower curve: the load at which some point yields, upper one: the whole slip zone, 1/f whatever ν. They differ for little friction only.""", spots)
 figure("2.4 (Hertz)", "Where a Hertz contact is severest", EDGE, """
@@ -174,7 +174,9 @@ sheared by Q: about 0.26 if it slides, more in partial slip.""", lambda run: f.p
 figure("Table 2.1", "Materials", "fretting -m Al", "The records that the program ships; the thesis' values, with their sources in its bibliography.", lambda run: materials())
 for letter, (command, words) in TESTS.items():
     figure("2.5" + letter, f"Stress at the edge against life: {words}", command, INVENTED + "Range of the stress along the surface at the contact's edge, √(8 f K_N K_T) at peak load. Hollow: not broken.",
-           tests("stress"), wrong="The thesis has half of this stress: √(2 f K_N K_T). It follows from the misprint in (2.12).", proof=FIELD)
+           tests("stress"), wrong="""
+The thesis has half of this stress, √(2 f K_N K_T) = f K_N √d: at the edge σ_xx is 2 f K_N √d, and the 2 is left out. The misprint in (2.12), 2 for √2, is another fault, which would make the stress √2 too large.""",
+           proof=FIELD)
 figure("2.6", "Stress intensity of a crack at the edge", [EDGE, *CRITICAL], """
 Largest K_I over √(K_N K_T d) of a crack of depth c, normal to the surface, for reversed loads (R = -1). The pressure closes longer cracks. Red: what a crack must be driven by to grow,
 after Kitagawa and Takahashi, σ_fl √(πc) for short ones and ΔK_th for long ones, which meet at the length a0. It is drawn for the edge with f = 0.8 and X = 0.2 whose trajectory passes through the

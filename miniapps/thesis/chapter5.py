@@ -77,7 +77,11 @@ s and e for four friction coefficients. Below a certain n nothing separates (no 
 longer matters.""", small, rows="n = 1.6|n = 1.2|n = 4, f = 0.7", wrong=WRONG, proof="plane_receding -obstacle th0 -friction 0.7")
 figure("5.3b", "Separation and stick against friction", LARGE, """
 The same for a long end (n = 4). With little friction slip reaches far under the load; with much the border of stick comes to the edge of the load
-and beyond.""", large, rows="n = 4", wrong=WRONG, proof="plane_receding -obstacle th0 -friction 0.7")
+and beyond.""", large, rows="n = 4", wrong="""
+The thesis says that with little friction the strip separates about under the edge of the load, s → 0. It doesn't: a layer that is pressed onto a half-plane without friction separates 0.60 t from there (its other end is
+right: with much friction the slip zone is about 2 t long). """ + WRONG, proof="plane_receding -obstacle th0 -friction 0.7",
+       stated=[("s/t, n = 4, f = 0.1", None, None, 0, lambda run: run.rows("map", friction=0.1)[0]["separation"]),
+               ("length of the slip zone s - e over t, n = 4, f = 2", None, None, 2, lambda run: (lambda row: row["separation"] - row["stick_slip"])(run.rows("map", friction=2)[0]))])
 figure("5.4", "Tractions during loading", LOADING, """
 Pressure, and shear over f (dashed), for f = 0.7; they grow in proportion to p. Where the curves meet the strip slips.""",
        lambda run: f.panels((run, "tractions", {"title": ""})), rows="n = 4, f = 0.7", wrong=WRONG, proof=LOADING + " -domain-study")

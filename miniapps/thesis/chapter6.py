@@ -143,7 +143,8 @@ does (left): the contact is wider there.""", proof=SWEEP)
 figure("6.11", "Loss against the width of the bolt", WIDTHS, """
 The same pull of 0.025 p0 t on bolts of other widths, with which the free ends stay apart in compression; from 0.028 p0 t on they touch at w = 2 t with the same force and at w = t/2 with the same pressure, and
 take most of the loss. With the same pressure a wider bolt loses less, and at the same width so does a higher pressure; of bolts of the same force the narrow one, whose pressure is
-highest, loses least.""", widths)
+highest, loses least.""", widths, wrong="""
+The thesis concludes that a wider pinch loses less. That holds for the same pressure p0 (solid); for the same force P0 a wider one loses more (dashed).""", proof=WIDTHS)
 figure("6.2.2", "Where compression ends", TOUCH, """
 The text's remark on compression: at a certain load the free ends touch. It depends on how far they reach (-0.0397 at 2 t, -0.0417 at 1.9 t beyond the bolt).""",
        lambda run: f.panels((run, "tractions", {"title": "at Tmax = -0.04 P0"})), rows="touch")

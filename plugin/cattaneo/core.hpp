@@ -1,6 +1,7 @@
 #pragma once
 
 // All of Cattaneo::core, which knows no MFEM.
+#include <cattaneo/algebra/blas_kernels.hpp>
 #include <cattaneo/algebra/least_squares.hpp>
 #include <cattaneo/condense/condense.hpp>
 #include <cattaneo/condense/straight_line.hpp>

@@ -20,6 +20,7 @@ from . import (
     wear as wear,
 )
 from ._core import (
+    BlasKernels as BlasKernels,
     CondensedBody as CondensedBody,
     ContactLine as ContactLine,
     ContactState as ContactState,
@@ -46,6 +47,7 @@ from ._core import (
     SeparateBodies as SeparateBodies,
     StateChange as StateChange,
     absorb_gap as absorb_gap,
+    blas_kernels as blas_kernels,
     can_lock as can_lock,
     condense as condense,
     conjugates as conjugates,

@@ -1,6 +1,7 @@
 #include "module.hpp"
 
 #include "watch.hpp"
+#include <cattaneo/algebra/blas_kernels.hpp>
 #include <cattaneo/counters.hpp>
 #include <cattaneo/version.hpp>
 
@@ -44,6 +45,21 @@ void bind_common(nb::module_ &m)
       .def_ro("steps", &Progress::steps, "increments of a march, iterations of a limit")
       .def_ro("time", &Progress::time, "of a march, in its load history")
       .def_ro("seconds", &Progress::seconds, "since it began");
+   nb::class_<BlasKernels>(m, "BlasKernels",
+                           "The kernels of OpenBLAS that work in this process.")
+      .def_ro("name", &BlasKernels::name,
+              "OpenBLAS's own name, as 'Haswell'; '' with another BLAS or with none")
+      .def_ro("better", &BlasKernels::better,
+              "of safe ones that are far faster on this processor; '': there are none")
+      .def_prop_ro("statement", &BlasKernels::statement,
+                   "one sentence, with what to do where others are far faster")
+      .def("__repr__", &BlasKernels::statement);
+   m.def(
+      "blas_kernels", &blas_kernels,
+      "The kernels of OpenBLAS that work in this process. It chooses them as it is loaded, by "
+      "the name of the processor; the environment variable OPENBLAS_CORETYPE, set before "
+      "Python "
+      "starts, chooses others.");
    nb::class_<Counters> counters(m, "Counters",
                                  "How often each expensive act was done: dict(counters).");
    counters.def(

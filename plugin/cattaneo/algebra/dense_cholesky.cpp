@@ -1,6 +1,8 @@
 #include <cattaneo/algebra/dense_cholesky.hpp>
 #include <cattaneo/algebra/lapack.hpp>
+#include <cattaneo/algebra/one_thread.hpp>
 #include <cattaneo/algebra/symmetric_matrix.hpp>
+#include <cmath>
 
 namespace cattaneo
 {
@@ -14,6 +16,7 @@ bool DenseCholesky::compute(MatrixXd matrix)
    factor_ = std::move(matrix);
    const int n = static_cast<int>(factor_.rows());
    int info = 0;
+   const OneThread alone(std::pow(n, 3) / 6);
    if (n > 0) { dpotrf_("L", &n, factor_.data(), &n, &info); }
    return info == 0 && factor_.diagonal().allFinite();
 }
@@ -23,6 +26,7 @@ void DenseCholesky::solve(Eigen::VectorXd &x) const
    const int n = static_cast<int>(factor_.rows()), columns = 1;
    if (n == 0) { return; }
    int info = 0;
+   const OneThread alone(OneThread::reads_once * n * n);
    dpotrs_("L", &n, &columns, factor_.data(), &n, x.data(), &n, &info);
 }
 
@@ -33,6 +37,7 @@ void DenseCholesky::solve_triangle(const char *transposed, Eigen::Ref<MatrixXd> 
    const int n = static_cast<int>(factor_.rows()), columns = static_cast<int>(x.cols()),
              stride = columns > 1 ? static_cast<int>(x.outerStride()) : n, next = 1;
    const double one = 1;
+   const OneThread alone((columns > 1 ? columns : OneThread::reads_once) * 0.5 * n * n);
    if (columns == 1)
    {
       dtrsv_("L", transposed, "N", &n, factor_.data(), &n, x.data(), &next);
@@ -56,6 +61,7 @@ MatrixXd DenseCholesky::inverse() const
    MatrixXd result = factor_;
    const int n = static_cast<int>(factor_.rows());
    int info = 0;
+   const OneThread alone(std::pow(n, 3) / 3);
    if (n > 0) { dpotri_("L", &n, result.data(), &n, &info); }
    mirror_lower(result);
    return result;
@@ -108,6 +114,7 @@ MatrixXd minus_square(MatrixXd S, const Eigen::Ref<const MatrixXd> &Y)
    const int n = static_cast<int>(S.rows()), inner = static_cast<int>(Y.rows()),
              stride = static_cast<int>(Y.outerStride());
    const double minus = -1, keep = 1;
+   const OneThread alone(0.5 * n * n * inner);
    if (Y.size() > 0)
    {
       dsyrk_("L", "T", &n, &inner, &minus, Y.data(), &stride, &keep, S.data(), &n);
@@ -127,6 +134,7 @@ void subtract_product(MatrixXd &C, const Eigen::Ref<const MatrixXd> &X,
              inner = static_cast<int>(X.rows()), X_stride = static_cast<int>(X.outerStride()),
              Y_stride = static_cast<int>(Y.outerStride());
    const double minus = -1, keep = 1;
+   const OneThread alone(1.0 * rows * columns * inner);
    if (C.size() > 0 && inner > 0)
    {
       dgemm_("T", "N", &rows, &columns, &inner, &minus, X.data(), &X_stride, Y.data(),

@@ -39,7 +39,7 @@ bool DenseLU::compute(Eigen::MatrixXd matrix)
    const int n = static_cast<int>(factors_.rows());
    exchanges_.resize(n);
    int info = 0;
-   const OneThread alone(n);
+   const OneThread alone(std::pow(n, 3) / 3);
    if (n > 0) { dgetrf_(&n, &n, factors_.data(), &n, exchanges_.data(), &info); }
    return info == 0 && pivot_ratio() > singular;
 }
@@ -53,6 +53,7 @@ void DenseLU::solve(Eigen::Ref<Eigen::MatrixXd> x) const
    const int stride = columns > 1 ? static_cast<int>(x.outerStride()) : n,
              together = columns > 8 ? columns : 1;
    int info = 0;
+   const OneThread alone((together > 1 ? columns : OneThread::reads_once) * n * n);
    for (int k = 0; k < columns; k += together)
    {
       dgetrs_("N", &n, &together, factors_.data(), &n, exchanges_.data(), x.col(k).data(),
@@ -67,6 +68,7 @@ void DenseLU::solve_transposed(Eigen::Ref<Eigen::VectorXd> x) const
    if (n == 0) { return; }
    if (column_scale_.size()) { x = column_scale_.asDiagonal() * x; }
    int info = 0;
+   const OneThread alone(OneThread::reads_once * n * n);
    dgetrs_("T", &n, &one, factors_.data(), &n, exchanges_.data(), x.data(), &n, &info);
    if (row_scale_.size()) { x = row_scale_.asDiagonal() * x; }
 }

@@ -1,14 +1,6 @@
 #include <cattaneo/algebra/one_thread.hpp>
+#include <cattaneo/algebra/openblas.hpp>
 #include <mutex>
-
-#if defined(CATTANEO_USE_LAPACK) && defined(__ELF__)
-// OpenBLAS's own; null with another BLAS.
-extern "C"
-{
-   __attribute__((weak)) void openblas_set_num_threads(int threads);
-   __attribute__((weak)) int openblas_get_num_threads();
-}
-#endif
 
 namespace cattaneo
 {
@@ -16,45 +8,47 @@ namespace cattaneo
 namespace
 {
 
-#if defined(CATTANEO_USE_LAPACK) && defined(__ELF__)
-int blas_threads()
+/// OpenBLAS's own; null with another BLAS, and where it cannot change the number of threads.
+struct Threads
 {
-   return openblas_set_num_threads && openblas_get_num_threads ? openblas_get_num_threads() : 1;
-}
-void set_blas_threads(int threads)
-{
-   openblas_set_num_threads(threads);
-}
-#else
-int blas_threads()
-{
-   return 1;
-}
-void set_blas_threads(int) {}
-#endif
+   using Get = int (*)();
+   using Set = void (*)(int);
+   const Get get = reinterpret_cast<Get>(openblas_function("openblas_get_num_threads"));
+   const Set set = reinterpret_cast<Set>(openblas_function("openblas_set_num_threads"));
 
-/// OpenBLAS spends some ten milliseconds of two threads on an LU factor before they pay.
-constexpr Eigen::Index small = 1000;
+   int count() const { return get && set ? get() : 1; }
+};
+
+const Threads &threads()
+{
+   static const Threads found;
+   return found;
+}
+
+/// Some 20 milliseconds of one thread: an LU factor of 1,400 rows, a product of 1,000. Below,
+/// two threads that have two processors to themselves win a third at most, and where
+/// another program is at work each call waits for it, some milliseconds.
+constexpr double worth_sharing = 1e9;
 
 std::mutex guard;
 int askers = 0, threads_before = 1; // who lives, and what the first of them found
 
 } // namespace
 
-OneThread::OneThread(Eigen::Index rows) : asked_(rows < small)
+OneThread::OneThread(double multiplications) : asked_(multiplications < worth_sharing)
 {
    if (!asked_) { return; }
    const std::lock_guard<std::mutex> lock(guard);
    if (askers++ > 0) { return; }
-   threads_before = blas_threads();
-   if (threads_before > 1) { set_blas_threads(1); }
+   threads_before = threads().count();
+   if (threads_before > 1) { threads().set(1); }
 }
 
 OneThread::~OneThread()
 {
    if (!asked_) { return; }
    const std::lock_guard<std::mutex> lock(guard);
-   if (--askers == 0 && threads_before > 1) { set_blas_threads(threads_before); }
+   if (--askers == 0 && threads_before > 1) { threads().set(threads_before); }
 }
 
 } // namespace cattaneo

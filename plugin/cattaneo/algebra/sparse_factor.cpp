@@ -4,6 +4,7 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cattaneo/algebra/lapack.hpp>
+#include <cattaneo/algebra/one_thread.hpp>
 #include <cattaneo/algebra/symmetric_matrix.hpp>
 #include <cmath>
 #include <numeric>
@@ -83,6 +84,7 @@ struct LowerTriangle
 Eigen::MatrixXd times_own_transpose(const Eigen::MatrixXd &L)
 {
    const Eigen::Index n = L.rows(), width = 96;
+   const OneThread alone(std::pow(static_cast<double>(n), 3) / 3);
    Eigen::MatrixXd S(n, n);
    for (Eigen::Index j = 0; j < n; j += width)
    {
@@ -370,6 +372,9 @@ public:
             "order the matrix");
       L_ = cholmod_analyze_p(&A, order.data(), nullptr, 0, &common_);
       check(L_ != nullptr, "analyse the matrix");
+      // A multiplication has two of these operations, and most fronts are small.
+      constexpr double share_of_large_fronts = 0.2;
+      const OneThread alone(share_of_large_fronts * 0.5 * common_.fl);
       check(cholmod_factorize(&A, L_, &common_), "factor the matrix");
       if (L_->minor < L_->n)
       {
@@ -422,6 +427,7 @@ public:
    Eigen::MatrixXd solve(const Eigen::MatrixXd &rhs) const override
    {
       const OneOpenMPThread one_thread;
+      const OneThread alone(OneThread::reads_once * common_.lnz);
       cholmod_dense b = {};
       b.nrow = rhs.rows();
       b.ncol = rhs.cols();

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cattaneo/algebra/lapack.hpp>
+#include <cattaneo/algebra/one_thread.hpp>
 #include <cattaneo/algebra/symmetric_matrix.hpp>
 #include <cmath>
 
@@ -59,6 +60,7 @@ MatrixXd symmetric_times(const Eigen::Ref<const MatrixXd> &S,
    const int n = static_cast<int>(S.rows()), stride = static_cast<int>(S.outerStride()),
              next = 1;
    const double once = 1, nothing = 0;
+   const OneThread alone(OneThread::reads_once * n * n);
    for (Index k = 0; k < X.cols(); ++k)
    {
       dsymv_("L", &n, &once, S.data(), &stride, X.col(k).data(), &next, &nothing,

@@ -294,7 +294,7 @@ double slip_violation(const ContactNode &node, double uncertain)
 {
    const double length = magnitude(node.slip),
                 beyond = std::max(magnitude(node.q) - bound_against(node, -node.q), 0.0);
-   if (length == 0) { return beyond; }
+   if (length <= uncertain) { return beyond; }
    const double bound = bound_against(node, node.slip),
                 off = magnitude(node.q + bound / length * node.slip) -
                       bound * (uncertain / length);
@@ -308,7 +308,7 @@ double slip_round_off(double size)
 
 LawCheck check_laws(const ReducedProblem &problem, const VectorXd &v_old,
                     const ContactState &state, const VectorXd &forces, double allowed,
-                    const VectorXd &round_off)
+                    const VectorXd &round_off, const VectorXd &slip_error)
 {
    const Index n = problem.nodes(), m = problem.slips(), c = problem.components();
    LawCheck check;
@@ -326,7 +326,7 @@ LawCheck check_laws(const ReducedProblem &problem, const VectorXd &v_old,
       ContactNode node{
          NodeVector(c), NodeVector(c),     state.w[i] + problem.gap[i], forces[m + i],
          0.0,           problem.C()(i, i), friction_bound(problem, i)};
-      double most = std::max(allowed, round_off[m + i]), size = 0;
+      double most = std::max(allowed, round_off[m + i]), size = 0, known_to = 0;
       note(check.normal, std::abs(node.p - state.p[i]), most);
       note(check.normal, std::abs(std::min(node.p, node.kn * node.gap)), most);
       if (c == 0) { continue; }
@@ -339,12 +339,14 @@ LawCheck check_laws(const ReducedProblem &problem, const VectorXd &v_old,
          node.slip[k] = state.v[row] - v_old[row];
          node.kt = std::max(node.kt, problem.A()(row, row));
          size = std::max(size, std::abs(state.v[row]));
+         if (slip_error.size()) { known_to = std::max(known_to, slip_error[row]); }
          note(check.tangential, std::abs(forces[row] - state.q[row]), most);
       }
       // An open node bears nothing, and no law but that holds for its slip.
       if (!closed(state.status[i])) { node.slip.setZero(); }
       check.tangential = std::max(check.tangential, slip_violation(node));
-      judge(slip_violation(node, c == 2 ? slip_round_off(size) : 0.0), most);
+      judge(slip_violation(node, std::max(known_to, c == 2 ? slip_round_off(size) : 0.0)),
+            most);
    }
    return check;
 }

@@ -361,6 +361,7 @@ bool ExactPath::advance(ContactState &state, double time, const VectorXd &multip
    const VectorXd drift = (forces - F_).cwiseAbs() - 0.5 * equations_.round_off(clamped, u_);
    const bool drifted = drift.maxCoeff() > 0;
    VectorXd correction, corrected;
+   slip_error_ = VectorXd::Zero(n);
    // A step may be so short that what is removed would turn its slip, which is an error of
    // displacements that are as right without it.
    if ((way == 1 || drifted) && equations_.solve(forces, correction, corrected) &&
@@ -368,6 +369,8 @@ bool ExactPath::advance(ContactState &state, double time, const VectorXd &multip
    {
       u_ += correction;
       F_ = corrected;
+      // The state before had this error already, which is no slip.
+      slip_error_ = correction.head(n).cwiseAbs();
       // What hardly resists a turn turns by more than that: the event comes before it.
       const double back = std::min(way, way_past_event());
       way -= back;

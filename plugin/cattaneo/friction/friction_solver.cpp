@@ -332,11 +332,15 @@ bool FrictionSolver::frictionless() const
 {
    return system_->frictionless;
 }
-IncrementReport FrictionSolver::judge(const ContactState &before, const ContactState &after)
+IncrementReport FrictionSolver::judge(const ContactState &before, const ContactState &after,
+                                      const VectorXd &slip_error)
 {
    before.validate(problem());
    after.validate(problem());
-   return system_->judge(before, after);
+   require(slip_error.size() == 0 || slip_error.size() == problem().slips(),
+           "friction solver: ", slip_error.size(), " errors of slips, must be none or ",
+           problem().slips());
+   return system_->judge(before, after, slip_error);
 }
 const Counters &FrictionSolver::counters() const
 {

@@ -110,8 +110,12 @@ public:
    /// Is `after` the end of an increment from `before`? By the equations and the laws as they
    /// are given, however it was found: converged, or not_unique if a closed node has friction
    /// above its critical value (see CriticalFriction), with its residuals; or stalled with what
-   /// it breaks. InputError as solve().
-   IncrementReport judge(const ContactState &before, const ContactState &after);
+   /// it breaks. `slip_error`: how well each slip between them is known, a length >= 0 for each
+   /// tangential displacement, as where the closed nodes hardly hold a body; a shorter slip
+   /// need not oppose its friction. Empty: to round-off. InputError as solve(), and for another
+   /// size.
+   IncrementReport judge(const ContactState &before, const ContactState &after,
+                         const Eigen::VectorXd &slip_error = {});
    /// What was done since it was made.
    const Counters &counters() const;
 

@@ -118,7 +118,7 @@ Index FrictionSystem::above_critical(const ContactState *state) const
 }
 
 bool FrictionSystem::obeys_laws(const VectorXd &v_old, const ContactState &next, double scale,
-                                IncrementReport &report) const
+                                IncrementReport &report, const VectorXd &slip_error) const
 {
    // With the tangential displacements also where they were eliminated: what slips without
    // friction may go far, and bears on the pressure.
@@ -130,20 +130,21 @@ bool FrictionSystem::obeys_laws(const VectorXd &v_old, const ContactState &next,
    report.round_off = std::max(report.round_off, rows.maxCoeff() / scale);
    if (!(report.round_off < lost)) { return false; }
    const LawCheck check =
-      check_laws(problem, v_old, next, forces, settings.tolerance * scale, rows);
+      check_laws(problem, v_old, next, forces, settings.tolerance * scale, rows, slip_error);
    report.residual_normal = check.normal / scale;
    report.residual_tangential = check.tangential / scale;
    return check.obeyed;
 }
 
-IncrementReport FrictionSystem::judge(const ContactState &before,
-                                      const ContactState &after) const
+IncrementReport FrictionSystem::judge(const ContactState &before, const ContactState &after,
+                                      const VectorXd &slip_error) const
 {
    const VectorXd clamped = problem.clamped_forces(after.multipliers);
    const double reference =
       std::max({before.peak_force, after.peak_force, clamped.cwiseAbs().maxCoeff()});
    IncrementReport report = uniqueness(after);
-   const bool obeyed = obeys_laws(before.v, after, reference > 0 ? reference : 1.0, report);
+   const bool obeyed =
+      obeys_laws(before.v, after, reference > 0 ? reference : 1.0, report, slip_error);
    std::ostringstream message;
    if (!(report.round_off < lost))
    {

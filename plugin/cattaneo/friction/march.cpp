@@ -364,7 +364,7 @@ bool March::march_exactly(double until, bool stalled)
          if (path_->advance(event.state, until, loads_then, changes))
          {
             // However a state was found, it is judged like any other.
-            event.increment = solver_.judge(state_, event.state);
+            event.increment = solver_.judge(state_, event.state, path_->slip_error());
             event.event = path_->event();
             if (event.solved())
             {

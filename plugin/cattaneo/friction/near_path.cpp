@@ -58,12 +58,18 @@ bool NearPath::advance(ContactState &state, double time, const VectorXd &multipl
       u_ = next.displacements();
       part_ = std::move(way->part);
       event_ = path_->event() < 0 ? -1 : near_->node(path_->event());
+      slip_error_ = VectorXd::Zero(state.v.size());
+      for (Eigen::Index i = 0; i < path_->slip_error().size(); ++i)
+      {
+         slip_error_[near_->node(i)] = path_->slip_error()[i];
+      }
       state = std::move(next);
       return true;
    }
    last_ = &whole_;
    const bool advanced = whole_.advance(state, time, multipliers, changes);
    event_ = whole_.event();
+   slip_error_ = whole_.slip_error();
    return advanced;
 }
 

@@ -4,6 +4,8 @@
 #include <IpIpoptApplication.hpp>
 #include <IpSolveStatistics.hpp>
 #include <IpTNLP.hpp>
+#include <cattaneo/algebra/one_thread.hpp>
+#include <cmath>
 
 namespace cattaneo
 {
@@ -35,6 +37,11 @@ inline Ipopt::ApplicationReturnStatus optimize(Ipopt::IpoptApplication &app,
 {
    // An empty file name: otherwise a file ipopt.opt in the working directory rules.
    const Ipopt::ApplicationReturnStatus status = app.Initialize("");
+   // The equations of a step have a row for each unknown and for each condition.
+   Ipopt::Index unknowns = 0, conditions = 0, other = 0;
+   Ipopt::TNLP::IndexStyleEnum style = Ipopt::TNLP::C_STYLE;
+   nlp->get_nlp_info(unknowns, conditions, other, other, style);
+   const OneThread alone(std::pow(unknowns + conditions, 3) / 6);
    return status == Ipopt::Solve_Succeeded ? app.OptimizeTNLP(nlp) : status;
 }
 

@@ -1,22 +1,27 @@
 #pragma once
 
-#include <Eigen/Core>
-
 namespace cattaneo
 {
 
-/// While one of these lives that was made for a small matrix, OpenBLAS works on it with one
-/// thread: to share so little work out costs several times as much as the work. The number of
-/// threads is the process's own, so that others who work meanwhile have one as well. Nothing
-/// happens with another BLAS.
+/** While one of these lives that was made for little work, OpenBLAS does it with one thread.
+    Threads wait for each other several times in a call: to share little work out costs more
+   than the work, and where other programs have the processors, many times as much. The bits of
+   what is done do not depend on the number of threads then.
+
+    The number of threads is the process's own, so that others who work meanwhile have one as
+    well. Nothing happens with another BLAS. */
 class OneThread
 {
 public:
-   /// `rows`: of the matrix that is factored.
-   explicit OneThread(Eigen::Index rows);
+   /// `multiplications` of what is done meanwhile.
+   explicit OneThread(double multiplications);
    ~OneThread();
    OneThread(const OneThread &) = delete;
    OneThread &operator=(const OneThread &) = delete;
+
+   /// Of products and solutions that use each entry of a matrix once: they wait for memory, and
+   /// take as long as so many times the multiplications of products of matrices.
+   static constexpr double reads_once = 16;
 
 private:
    const bool asked_;

@@ -209,15 +209,19 @@ struct LawCheck
     caller from the stiffness as it is given. `allowed`: what is allowed to each node, a force
     (tolerance); `round_off` what arithmetic leaves, for each row of {q; p}. The direction of a
     slip in the disc is known to the round-off of displacements over its length only, which is
-    allowed too (and counted all the same). */
+    allowed too (and counted all the same).
+
+    `slip_error`: how well each slip since v_old is known, if it is known worse than to the
+    round-off of its displacement, as where the closed nodes hardly hold a body. A shorter slip
+    has no direction. Empty: nothing is known of that. */
 LawCheck check_laws(const ReducedProblem &problem, const Eigen::VectorXd &v_old,
                     const ContactState &state, const Eigen::VectorXd &forces, double allowed,
-                    const Eigen::VectorXd &round_off);
+                    const Eigen::VectorXd &round_off, const Eigen::VectorXd &slip_error = {});
 
 /// By how much a closed node breaks the law of friction: a force beyond the bound; or, of a
 /// slip x that does not oppose it, the smaller of the force that is missing, |q + bound x/|x||,
-/// and of that of the slip itself. `uncertain`: what round-off leaves of x, which excuses that
-/// much of an angle.
+/// and of that of the slip itself. `uncertain`: how well x is known, which excuses that much of
+/// an angle, and any of a shorter slip.
 double slip_violation(const ContactNode &node, double uncertain = 0);
 /// That of displacements of such size.
 double slip_round_off(double size);

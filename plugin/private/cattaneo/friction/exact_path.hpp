@@ -42,6 +42,9 @@ public:
 
    /// Node that met the boundary of its state where the last advance() ended; -1: none did.
    Eigen::Index event() const { return event_; }
+   /// How well the slips of the last advance() are known, one for each node: round-off of the
+   /// state before, times what the conditioning of the equations makes of it.
+   const Eigen::VectorXd &slip_error() const { return slip_error_; }
    const std::string &failure() const { return failure_; }
    /// The last advance() failed since no rates meet the laws, with equations that can be
    /// solved.
@@ -68,6 +71,7 @@ private:
    // Where u_rate_ and F_rate_ hold with the states of the equations, as long as those stay.
    Eigen::VectorXd reached_, target_;
    ComplementarityProblem rates_;
+   Eigen::VectorXd slip_error_;
    Eigen::VectorXd noise_; // of each node: forces below this are round-off
    // A motion that nothing resists and nothing drives, and the node that is said to touch while
    // rates are found; -1: there is none.

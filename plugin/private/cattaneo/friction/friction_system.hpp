@@ -86,13 +86,15 @@ struct FrictionSystem
    Index above_critical(const ContactState *state = nullptr) const;
    /// The last word on a state as the end of an increment from slip v_old, in the equations as
    /// they are given, and what is reported of it, over the force `scale`.
+   /// @param slip_error see check_laws()
    bool obeys_laws(const VectorXd &v_old, const ContactState &next, double scale,
-                   IncrementReport &report) const;
+                   IncrementReport &report, const VectorXd &slip_error = {}) const;
    /// Takes the pieces of the laws at these normal forces.
    void take_pieces(const VectorXd &p);
    // See FrictionSolver.
    IncrementReport solve(ContactState &state, const VectorXd &multipliers);
-   IncrementReport judge(const ContactState &before, const ContactState &after) const;
+   IncrementReport judge(const ContactState &before, const ContactState &after,
+                         const VectorXd &slip_error = {}) const;
    /// converged, or not_unique with a closed node that is above_critical().
    IncrementReport uniqueness(const ContactState &state) const;
 };

@@ -18,6 +18,7 @@ public:
    bool advance(ContactState &state, double time, const Eigen::VectorXd &multipliers,
                 std::vector<StateChange> &changes);
    Eigen::Index event() const { return event_; }
+   const Eigen::VectorXd &slip_error() const { return slip_error_; }
    const std::string &failure() const { return last_->failure(); }
    bool ended() const { return last_->ended(); }
    Counters counters() const;
@@ -37,6 +38,7 @@ private:
    int steps_ = 0;
    ExactPath *last_ = &whole_; // that was advanced
    Eigen::Index event_ = -1;
+   Eigen::VectorXd slip_error_;
    Counters counters_; // of paths that are gone
 };
 

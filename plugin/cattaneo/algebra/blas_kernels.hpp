@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+namespace cattaneo
+{
+
+/** The kernels of OpenBLAS that work in this process. OpenBLAS chooses them when the process
+    starts, by the name of the processor; one that its version does not know yet may get those
+    of a processor twenty years old. The environment variable OPENBLAS_CORETYPE, set before the
+    process starts, chooses others. */
+struct BlasKernels
+{
+   std::string name;   ///< OpenBLAS's own, as "Haswell"; empty with another BLAS or with none
+   std::string better; ///< of safe ones that are far faster on this processor; empty: none
+
+   /// One sentence with the name and, where others are far faster, with what to do.
+   std::string statement() const;
+};
+
+BlasKernels blas_kernels();
+
+/// Kernels that are far faster than the named ones on a processor that has AVX2 and FMA, or
+/// not; empty: there are none. Kernels whose name is not known are taken to be good.
+std::string better_blas_kernels(const std::string &name, bool has_avx2);
+
+} // namespace cattaneo
