@@ -1,4 +1,4 @@
-"""The examples, and every example of docs/python.md, as a user runs them."""
+"""The examples, and every Python example of README.md and docs/python.md, as a user runs them."""
 
 import os
 import re
@@ -73,12 +73,16 @@ def test_shakedown_map():
         assert fully_reversed <= half + 1e-6 <= from_zero + 2e-6  # a smaller range is borne at least as well
 
 
-BLOCKS = re.findall(r"```python\n(.*?)```", (ROOT / "docs" / "python.md").read_text(encoding="utf-8"), re.S)
+BLOCKS = [
+    block
+    for page in ("README.md", "docs/python.md")
+    for block in re.findall(r"```python\n(.*?)```", (ROOT / page).read_text(encoding="utf-8"), re.S)
+]
 
 
 @pytest.mark.parametrize("k", range(len(BLOCKS)))
 def test_page(k, tmp_path):
-    """Each block of the page is a script of its own, run in the repository."""
+    """Each block of the pages is a script of its own, run in the repository."""
     if "skfem" in BLOCKS[k]:
         pytest.importorskip("skfem")
     script = tmp_path / f"block{k}.py"
