@@ -19,6 +19,7 @@ printf '#!/bin/sh\necho "${OPENBLAS_CORETYPE-none}"\n' >"$folder/libexec/cattane
 chmod +x "$folder/miniapps/blas_kernels" "$folder/libexec/cattaneo/tell"
 cp "$folder/miniapps/blas_kernels" "$folder/libexec/cattaneo/"
 cp "$command" "$folder/bin/"
+chmod +x "$folder/bin/cattaneo"
 cd "$source" || exit 1
 . cmake/setup.sh
 build=$folder

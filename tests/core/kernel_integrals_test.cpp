@@ -1,5 +1,6 @@
 #include <cattaneo/algebra/quadrature.hpp>
-#include <cattaneo/halfplane/kernel_integrals.hpp>
+#include <cattaneo/halfplane/half_plane.hpp>
+#include <cattaneo/halfplane/kept_rings.hpp>
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -119,11 +120,34 @@ TEST(KernelIntegrals, MirrorImage)
 TEST(KernelIntegrals, SeveralAtOnceAreEachAlone)
 {
    const SurfaceTrace trace = three_elements(0);
-   const std::vector<MatrixXd> both =
-      kernel_integrals(trace, trace, std::vector{ring_odd(), ring_even()});
-   ASSERT_EQ(both.size(), 2u);
-   EXPECT_EQ(both[0], kernel_integrals(trace, trace, ring_odd()));
-   EXPECT_EQ(both[1], kernel_integrals(trace, trace, ring_even()));
+   const RingIntegrals rings = ring_integrals(trace);
+   EXPECT_EQ(rings.even, kernel_integrals(trace, trace, ring_even()));
+   EXPECT_EQ(rings.odd, kernel_integrals(trace, trace, ring_odd()));
+   SurfaceKernel levered = ring_odd();
+   levered.value = [](double distance, double r, double s)
+   { return r * s * ring_odd().value(distance, r, s); };
+   EXPECT_EQ(rings.levered, kernel_integrals(trace, trace, levered));
+}
+
+/// A half-space and its torsion have the same integrals, which are made once; another line has
+/// its own.
+TEST(KernelIntegrals, TorsionHasThoseOfItsBody)
+{
+   const std::vector<double> grid = {0, 0.4, 0.7, 1}, other = {0, 0.5, 1};
+   HalfPlane body;
+   body.material = {1, 0.3};
+   const CondensedBody pressed = condense(body, grid, 2, Formulation::axisymmetric);
+   HalfPlane copy = body;
+   const CondensedBody turned = condense(copy, grid, 2, Formulation::torsion);
+   EXPECT_EQ(body.rings->made(), 1);
+   HalfPlane alone;
+   alone.material = body.material;
+   EXPECT_EQ(condense(alone, grid, 2, Formulation::torsion).S, turned.S);
+   EXPECT_EQ(alone.rings->made(), 1);
+   EXPECT_EQ(condense(alone, grid, 2, Formulation::axisymmetric).S, pressed.S);
+   EXPECT_EQ(alone.rings->made(), 1);
+   condense(alone, other, 2, Formulation::torsion);
+   EXPECT_EQ(alone.rings->made(), 2);
 }
 
 /// Moments ∫∫ x^m s^n G(x, s) over 0 < x, s < 1 of one element, and of parts that differ by 10⁶

@@ -307,7 +307,8 @@ TEST(ShakedownStudy, LowerLimitIsProvenForLittleFriction)
 
 TEST(ShakedownStudy, LowerLimitButForTheCornersIsProven)
 {
-   const Outcome run = run_miniapp("shakedown", "-nodes 33 -find load -lower -starts 4 -cycles 60");
+   const Outcome run =
+      run_miniapp("shakedown", "-nodes 33 -find load -lower -starts 4 -cycles 60");
    ASSERT_EQ(run.code, 0) << run.output;
    const auto &apart = run.results["lower_limits_apart"];
    ASSERT_GE(apart.size(), 3u) << run.output;

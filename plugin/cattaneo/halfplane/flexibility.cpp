@@ -65,24 +65,19 @@ Flexibility plane_flexibility(const SurfaceTrace &trace, const Material &materia
    return joined(scale * tangential, -beta * sign, scale * normal);
 }
 
-Flexibility axisymmetric_flexibility(const SurfaceTrace &trace, const Material &material,
-                                     double side)
+Flexibility axisymmetric_flexibility(const SurfaceTrace &trace, const RingIntegrals &rings,
+                                     const Material &material, double side)
 {
    const double round = 2 * M_PI, scale = round * (1 - material.poisson) / material.mu();
    // ∫∫ φ_i (p s / r) φ_j ds 2πr dr over s < r
    const MatrixXd inside = trace.ordered_integral(one, [](double s) { return s; });
    const double beta = round * (0.5 - material.poisson) / material.mu();
-   const std::vector<MatrixXd> rings =
-      kernel_integrals(trace, trace, std::vector{ring_odd(), ring_even()});
-   return joined(scale * rings[0], side * beta * inside, scale * rings[1]);
+   return joined(scale * rings.odd, side * beta * inside, scale * rings.even);
 }
 
-Flexibility torsion_flexibility(const SurfaceTrace &trace, const Material &material)
+Flexibility torsion_flexibility(const RingIntegrals &rings, const Material &material)
 {
-   SurfaceKernel levered = ring_odd();
-   levered.value = [](double distance, double r, double s)
-   { return r * s * ring_odd().value(distance, r, s); };
-   return 2 * M_PI / material.mu() * kernel_integrals(trace, trace, levered);
+   return 2 * M_PI / material.mu() * rings.levered;
 }
 
 } // namespace cattaneo

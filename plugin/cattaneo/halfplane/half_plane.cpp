@@ -4,6 +4,7 @@
 #include <cattaneo/condense/straight_line.hpp>
 #include <cattaneo/halfplane/flexibility.hpp>
 #include <cattaneo/halfplane/half_plane.hpp>
+#include <cattaneo/halfplane/kept_rings.hpp>
 #include <cattaneo/halfplane/surface.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
@@ -16,6 +17,26 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
+
+std::shared_ptr<const RingIntegrals> KeptRings::of(const SurfaceTrace &trace)
+{
+   const std::lock_guard<std::mutex> lock(guard_);
+   const auto same = [](const SurfaceElement &a, const SurfaceElement &b)
+   { return a.unknowns == b.unknowns && a.x == b.x; };
+   const std::vector<SurfaceElement> &now = trace.elements();
+   if (!rings_ || !std::equal(now.begin(), now.end(), of_.begin(), of_.end(), same))
+   {
+      rings_ = std::make_shared<RingIntegrals>(ring_integrals(trace));
+      of_ = now;
+      ++made_;
+   }
+   return rings_;
+}
+
+std::shared_ptr<KeptRings> keep_rings()
+{
+   return std::make_shared<KeptRings>();
+}
 
 SurfaceTrace trace_of(const ContactLine &line, const Surface &surface)
 {
@@ -269,8 +290,9 @@ CondensedBody condense(const HalfPlane &body, const ContactLine &other)
    const Flexibility F =
       formulation == Formulation::plane
          ? plane_flexibility(trace, body.material, body.depth, body.is_symmetric())
-      : torsion ? torsion_flexibility(trace, body.material)
-                : axisymmetric_flexibility(trace, body.material, -tangent(body)[0]);
+      : torsion ? torsion_flexibility(*body.rings->of(trace), body.material)
+                : axisymmetric_flexibility(trace, *body.rings->of(trace), body.material,
+                                           -tangent(body)[0]);
    const Eigen::SparseMatrix<double> mass = trace.mass(
       [&](double x)
       { return measure(formulation, x) * lever(formulation, x) * lever(formulation, x); });

@@ -2,6 +2,7 @@
 
 #include <cattaneo/material.hpp>
 #include <cattaneo/reduced/interfaces.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,10 @@ struct FarForce
    std::string pattern;   ///< load pattern it belongs to
    Eigen::Vector2d force; ///< per unit multiplier, in x and y
 };
+
+/// Integrals about an axis of the contact line that was condensed last (an inner matter).
+class KeptRings;
+std::shared_ptr<KeptRings> keep_rings();
 
 /** An elastic half-plane, in axisymmetry and torsion half-space, with a straight surface: a
     body without a mesh. It is as large as it looks: no domain, and no error of one. */
@@ -43,6 +48,9 @@ struct HalfPlane
        its displacements there. Beside a plane of symmetry they act along the normal. None of
        them twists. */
    std::vector<FarForce> forces = {};
+   /// What condense() has integrated about an axis: the torsion of the same contact line has
+   /// the same integrals. Copies share it.
+   std::shared_ptr<KeptRings> rings = keep_rings();
 
    /// InputError for a material that is none, a normal of another length than 1 (not along the
    /// axis, if there is one), and what is said above.

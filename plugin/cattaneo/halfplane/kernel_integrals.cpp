@@ -1,6 +1,7 @@
 #include <cattaneo/algebra/quadrature.hpp>
 #include <cattaneo/halfplane/kernel_integrals.hpp>
 #include <cmath>
+#include <functional>
 
 namespace cattaneo
 {
@@ -58,14 +59,17 @@ const QuadratureRule &regular_rule(const Panel &p, const Panel &q)
    return gauss_rule(static_cast<int>(p.element->order() + q.element->order()) + 17);
 }
 
-/// The integrals of all pairs of elements.
+/// The values of several kernels at a pair of points, of the distance |x - s|, x and s.
+using Values = std::function<void(double distance, double x, double s, double *values)>;
+
+/// The integrals of all pairs of elements, of `count` kernels.
 class Integrals
 {
 public:
-   Integrals(const SurfaceTrace &first, const SurfaceTrace &second,
-             const std::vector<SurfaceKernel> &kernels)
-      : first_(first), second_(second), kernels_(kernels), blocks_(kernels.size()),
-        about_axis_(kernels.front().about_axis), whole_{std::vector<std::map<int, Samples>>(
+   Integrals(const SurfaceTrace &first, const SurfaceTrace &second, std::size_t count,
+             bool about_axis, Values kernels)
+      : first_(first), second_(second), kernels_(std::move(kernels)), values_(count),
+        blocks_(count), about_axis_(about_axis), whole_{std::vector<std::map<int, Samples>>(
                                                            first.elements().size()),
                                                         std::vector<std::map<int, Samples>>(
                                                            second.elements().size())}
@@ -75,7 +79,7 @@ public:
    std::vector<MatrixXd> all()
    {
       const bool same = &first_ == &second_;
-      std::vector<MatrixXd> results(kernels_.size(),
+      std::vector<MatrixXd> results(values_.size(),
                                     MatrixXd::Zero(first_.unknowns(), second_.unknowns()));
       const std::vector<Panel> rows = panels(first_), columns = panels(second_);
       for (const Panel &p : rows)
@@ -101,7 +105,8 @@ public:
 
 private:
    const SurfaceTrace &first_, &second_;
-   const std::vector<SurfaceKernel> &kernels_;
+   const Values kernels_;
+   std::vector<double> values_;   ///< of each kernel at the pair of points at hand
    std::vector<MatrixXd> blocks_; ///< of each kernel, of the pair of elements at hand
    bool about_axis_;
    std::vector<std::map<int, Samples>> whole_[2]; ///< of whole elements, by the points
@@ -179,18 +184,19 @@ private:
       Samples of_p, of_q;
       const Samples &x = by_gauss(p, 0, np, of_p), &s = by_gauss(q, 1, nq, of_q);
       const double xp = p.element->x[0], sq = q.element->x[0];
-      MatrixXd G(np, nq);
-      for (std::size_t m = 0; m < kernels_.size(); ++m)
+      std::vector<MatrixXd> G(values_.size(), MatrixXd(np, nq));
+      for (Index l = 0; l < nq; ++l)
       {
-         for (Index l = 0; l < nq; ++l)
+         for (Index k = 0; k < np; ++k)
          {
-            for (Index k = 0; k < np; ++k)
-            {
-               G(k, l) = kernels_[m].value(std::abs(xp - sq + (x.x[k] - s.x[l])), xp + x.x[k],
-                                           sq + s.x[l]);
-            }
+            kernels_(std::abs(xp - sq + (x.x[k] - s.x[l])), xp + x.x[k], sq + s.x[l],
+                     values_.data());
+            for (std::size_t m = 0; m < G.size(); ++m) { G[m](k, l) = values_[m]; }
          }
-         blocks_[m].noalias() += x.phi * G * s.phi.transpose();
+      }
+      for (std::size_t m = 0; m < G.size(); ++m)
+      {
+         blocks_[m].noalias() += x.phi * G[m] * s.phi.transpose();
       }
    }
 
@@ -241,20 +247,21 @@ private:
    }
    /// Of each kernel.
    std::vector<MatrixXd> integrals(const Panel &p, const Panel &q, const Pairs &pairs,
-                                   const VectorXd &distance) const
+                                   const VectorXd &distance)
    {
       const Samples x = samples(p, first_, pairs.x, pairs.weights),
                     s = samples(q, second_, pairs.s, VectorXd::Ones(pairs.s.size()));
-      std::vector<MatrixXd> all;
-      VectorXd G(distance.size());
-      for (const SurfaceKernel &kernel : kernels_)
+      MatrixXd G(distance.size(), values_.size());
+      for (Index k = 0; k < G.rows(); ++k)
       {
-         for (Index k = 0; k < G.size(); ++k)
-         {
-            G[k] =
-               kernel.value(distance[k], p.element->x[0] + x.x[k], q.element->x[0] + s.x[k]);
-         }
-         all.push_back(x.phi * G.asDiagonal() * s.phi.transpose());
+         kernels_(distance[k], p.element->x[0] + x.x[k], q.element->x[0] + s.x[k],
+                  values_.data());
+         for (Index m = 0; m < G.cols(); ++m) { G(k, m) = values_[m]; }
+      }
+      std::vector<MatrixXd> all;
+      for (Index m = 0; m < G.cols(); ++m)
+      {
+         all.push_back(x.phi * G.col(m).asDiagonal() * s.phi.transpose());
       }
       return all;
    }
@@ -335,13 +342,22 @@ struct ArithmeticGeometricMean
 MatrixXd kernel_integrals(const SurfaceTrace &first, const SurfaceTrace &second,
                           const SurfaceKernel &kernel)
 {
-   return kernel_integrals(first, second, std::vector{kernel}).front();
+   const auto value = [&](double distance, double x, double s, double *values)
+   { *values = kernel.value(distance, x, s); };
+   return Integrals(first, second, 1, kernel.about_axis, value).all().front();
 }
 
-std::vector<MatrixXd> kernel_integrals(const SurfaceTrace &first, const SurfaceTrace &second,
-                                       const std::vector<SurfaceKernel> &kernels)
+RingIntegrals ring_integrals(const SurfaceTrace &trace)
 {
-   return Integrals(first, second, kernels).all();
+   const auto values = [](double distance, double r, double s, double *values)
+   {
+      const ArithmeticGeometricMean agm(distance, r, s);
+      values[0] = r * s / agm.mean;
+      values[1] = 0.5 * agm.differences / agm.mean;
+      values[2] = r * s * values[1];
+   };
+   std::vector<MatrixXd> all = Integrals(trace, trace, 3, true, values).all();
+   return {std::move(all[0]), std::move(all[1]), std::move(all[2])};
 }
 
 SurfaceKernel logarithm()

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cattaneo/halfplane/surface_trace.hpp>
+#include <cattaneo/halfplane/kernel_integrals.hpp>
 #include <cattaneo/material.hpp>
 
 namespace cattaneo
@@ -31,12 +31,12 @@ Flexibility plane_flexibility(const SurfaceTrace &trace, const Material &materia
        u_z = (1-ν)/G ∫∫ J₀(kr) J₀(ks) dk p s ds + side (1-2ν)/2G ∫_{s>r} q ds
 
     relative to infinity, in frames whose tangent runs outwards (side -1) or inwards (side 1),
-    all integrated over the circumference. */
-Flexibility axisymmetric_flexibility(const SurfaceTrace &trace, const Material &material,
-                                     double side);
+    all integrated over the circumference. `rings`: of the trace. */
+Flexibility axisymmetric_flexibility(const SurfaceTrace &trace, const RingIntegrals &rings,
+                                     const Material &material, double side);
 
 /// Torsion, unknowns ψ = u_θ/r: u_θ = 1/G ∫∫ J₁(kr) J₁(ks) dk t_θ s ds, t_θ = r Σ t_j φ_j, and
-/// the work of a force has the lever r.
-Flexibility torsion_flexibility(const SurfaceTrace &trace, const Material &material);
+/// the work of a force has the lever r. `rings`: of the trace.
+Flexibility torsion_flexibility(const RingIntegrals &rings, const Material &material);
 
 } // namespace cattaneo

@@ -25,10 +25,6 @@ struct SurfaceKernel
     pairs the longer one is halved. */
 Eigen::MatrixXd kernel_integrals(const SurfaceTrace &first, const SurfaceTrace &second,
                                  const SurfaceKernel &kernel);
-/// The same of several kernels, all about an axis or none, at the same points.
-std::vector<Eigen::MatrixXd> kernel_integrals(const SurfaceTrace &first,
-                                              const SurfaceTrace &second,
-                                              const std::vector<SurfaceKernel> &kernels);
 
 /// The logarithm of the distance.
 SurfaceKernel logarithm();
@@ -38,5 +34,13 @@ SurfaceKernel logarithm();
     1. */
 SurfaceKernel ring_even();
 SurfaceKernel ring_odd();
+
+/// Of one surface about an axis, with the kernels ring_even(), ring_odd(), and this one times
+/// r s, which torsion has. All of them come from one mean for each pair of points.
+struct RingIntegrals
+{
+   Eigen::MatrixXd even, odd, levered;
+};
+RingIntegrals ring_integrals(const SurfaceTrace &trace);
 
 } // namespace cattaneo
