@@ -62,7 +62,8 @@ struct CaseOptions
    double friction = 0, pairing = 1e-6;
    std::string matrix, gap = "geometry", paraview, convert;
    std::vector<double> edges;
-   std::string analysis, joined, interfaces, bolts; ///< the keys of a case file 2
+   std::string analysis, geometry = "smooth", joined, interfaces,
+                         bolts; ///< the keys of a case file 2
 
    explicit CaseOptions(Study &study)
    {
@@ -94,6 +95,10 @@ struct CaseOptions
       study.option(&paraview, "paraview", "Folder for ParaView files.", Text::folder);
       all.of_version(2);
       study.option(&analysis, "analysis", "plane strain, plane stress or axisymmetric.");
+      study.option(&geometry, "geometry",
+                   "Sides of straight edges: smooth (curves through their vertices where these "
+                   "turn as on one) or as meshed (polygons).",
+                   {"smooth", "as meshed"});
       study.option(&joined, "bodies", "Bodies by their names (case file 2).", Text::structure);
       study.option(&interfaces, "interfaces", "Where they touch, by names (case file 2).",
                    Text::structure);
@@ -158,7 +163,7 @@ struct CaseOptions
       if (of_file_2())
       {
          return {analysis.empty() ? "plane strain" : analysis, structure("bodies", joined),
-                 structure("interfaces", interfaces), structure("bolts", bolts)};
+                 structure("interfaces", interfaces), structure("bolts", bolts), geometry};
       }
       check_bodies(said);
       using Json = nlohmann::ordered_json;
@@ -278,7 +283,8 @@ void contact2d(Study &study)
       fields.emplace(
          own.scene.fields(options.paraview, own.half_plane ? &*own.half_plane : nullptr));
    }
-   Eigen::VectorXd pressed = Eigen::VectorXd::Zero(problem.nodes()); // at the largest of all
+   // At the largest pressure of all.
+   Eigen::VectorXd pressed = Eigen::VectorXd::Zero(problem.nodes()), away = pressed;
    const Counters &spent = own.scene.reduction.counters;
    int frames = 0;
    history.march(problem,
@@ -288,7 +294,11 @@ void contact2d(Study &study)
                     for (auto &side : beyond_corners) { side.note(reached); }
                     joint_report.note(reached, history.cycle);
                     small.note(reached);
-                    if (reached.p.maxCoeff() > pressed.maxCoeff()) { pressed = reached.p; }
+                    if (reached.p.maxCoeff() > pressed.maxCoeff())
+                    {
+                       pressed = reached.p;
+                       away = reached.w;
+                    }
                     if (!fields || !frame) { return; }
                     study.counters -= spent; // what the frame costs is added
                     fields->write(reached);
@@ -298,7 +308,7 @@ void contact2d(Study &study)
    study.save(problem);
    if (fields) { study.say(text("%d frames in %s", frames, options.paraview.c_str())); }
    for (const auto &side : beyond_corners) { side.warn(); }
-   warn_of_chords(own.scene.reduction, pressed);
+   warn_of_chords(own.scene.reduction, pressed, away);
    warn_of_linear_axis(own.scene.reduction, pressed);
    warn_of_large_displacements(own, small, history.state);
    if (history.report.status != FrictionStatus::converged) { warn_of_loose_bodies(own); }
