@@ -57,13 +57,18 @@ struct Snapshots
 struct CaseOptions
 {
    int order = 2;
-   std::string paraview, analysis = "plane strain", bodies, interfaces, bolts;
+   std::string paraview, analysis = "plane strain", geometry = "smooth", bodies, interfaces,
+                         bolts;
    std::vector<double> edges;
 
    explicit CaseOptions(Study &study)
    {
       study.options().require_version(2);
       study.option(&analysis, "analysis", "plane strain, plane stress or axisymmetric.");
+      study.option(&geometry, "geometry",
+                   "Sides of straight edges: smooth (curves through their vertices where these "
+                   "turn as on one) or as meshed (polygons).",
+                   {"smooth", "as meshed"});
       study.option(&bodies, "bodies", "Bodies by their names, as JSON.", Text::structure);
       study.option(&interfaces, "interfaces", "Where they touch, by names, as JSON.",
                    Text::structure);
@@ -93,7 +98,8 @@ struct CaseOptions
    JointCase joint() const
    {
       return joint_case({analysis, structure("bodies", bodies),
-                         structure("interfaces", interfaces), structure("bolts", bolts)},
+                         structure("interfaces", interfaces), structure("bolts", bolts),
+                         geometry},
                         order);
    }
 };
@@ -159,8 +165,10 @@ void contact(Study &study)
       fields.emplace(
          own.scene.fields(options.paraview, own.half_plane ? &*own.half_plane : nullptr));
    }
-   Eigen::VectorXd pressed = Eigen::VectorXd::Zero(problem.nodes()), // at the largest of all
-      most = pressed;                                                // of each node
+   // Pressures and openings at the largest pressure of all, and the largest pressure of each
+   // node.
+   Eigen::VectorXd pressed = Eigen::VectorXd::Zero(problem.nodes()), away = pressed,
+                   most = pressed;
    const Counters &spent = own.scene.reduction.counters;
    int frames = 0;
    history.march(problem,
@@ -170,7 +178,11 @@ void contact(Study &study)
                     for (auto &side : beyond_corners) { side.note(reached); }
                     joint_report.note(reached, history.cycle);
                     small.note(reached);
-                    if (reached.p.maxCoeff() > pressed.maxCoeff()) { pressed = reached.p; }
+                    if (reached.p.maxCoeff() > pressed.maxCoeff())
+                    {
+                       pressed = reached.p;
+                       away = reached.w;
+                    }
                     most = most.cwiseMax(reached.p);
                     if (!fields || !frame) { return; }
                     study.counters -= spent; // what the frame costs is added
@@ -182,7 +194,7 @@ void contact(Study &study)
    if (fields) { study.say(text("%d frames in %s", frames, options.paraview.c_str())); }
    for (const auto &side : beyond_corners) { side.warn(); }
    for (const std::string &said : geometry_warnings(own.scene.reduction, most)) { warn(said); }
-   warn_of_chords(own.scene.reduction, pressed);
+   warn_of_chords(own.scene.reduction, pressed, away);
    warn_of_linear_axis(own.scene.reduction, pressed);
    warn_of_large_displacements(own, small, history.state);
    if (history.report.status != FrictionStatus::converged) { warn_of_loose_bodies(own); }

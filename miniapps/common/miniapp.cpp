@@ -150,6 +150,7 @@ namespace
 {
 
 std::vector<std::string> given; ///< warnings of this run
+std::vector<std::string> noted;
 
 } // namespace
 
@@ -166,10 +167,19 @@ void warn(const std::string &text)
    std::cout << "warning: " << text << std::endl;
 }
 
+void note(const std::string &text)
+{
+   if (std::find(noted.begin(), noted.end(), text) != noted.end()) { return; }
+   noted.push_back(text);
+   ProgressLine::clear();
+   std::cout << "note: " << text << std::endl;
+}
+
 void write_json(nlohmann::ordered_json results, const std::string &file)
 {
    if (file.empty() || !writes()) { return; }
    results["warnings"] = given;
+   if (!noted.empty()) { results["notes"] = noted; }
    cattaneo::write_whole(file, results.dump(2) + '\n');
 }
 

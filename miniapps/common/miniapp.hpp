@@ -56,8 +56,12 @@ void warn(const Parts &...parts)
 /// Those that were given.
 const std::vector<std::string> &warnings();
 
-/// Writes results as JSON, whole or not at all, and with them the list `warnings`; nothing if
-/// the file name is empty.
+/// Prints what was done that the user may not expect, though it is right; the results of
+/// write_json() list it.
+void note(const std::string &text);
+
+/// Writes results as JSON, whole or not at all, and with them the lists `warnings` and `notes`
+/// (if there are any); nothing if the file name is empty.
 void write_json(nlohmann::ordered_json results, const std::string &file);
 
 /// Wall time since construction, seconds.

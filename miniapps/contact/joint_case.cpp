@@ -15,6 +15,7 @@ namespace
 {
 
 const std::vector<std::string> analyses = {"plane strain", "plane stress", "axisymmetric"};
+const std::vector<std::string> geometries = {"smooth", "as meshed"};
 const std::vector<std::string> slaves = {"coarser", "finer", "first", "second"};
 
 /// A JSON value with its place in the case file, for errors.
@@ -187,14 +188,14 @@ JointCase::Body::Guided guided(const Key &key)
    return made;
 }
 
-JointCase::Body body(const Key &key, const std::string &name)
+JointCase::Body body(const Key &key, const std::string &name, bool as_meshed)
 {
    check_name(key, name);
    JointCase::Body made;
    made.name = name;
    made.source = source(key);
-   key.must_be_of({"mesh", "matrix", "half-plane", "young", "poisson", "order", "expansion",
-                   "support", "load", "guides"});
+   key.must_be_of({"mesh", "matrix", "half-plane", "young", "poisson", "order", "geometry",
+                   "expansion", "support", "load", "guides"});
    const int kinds = key.has("mesh") + key.has("matrix") + key.has("half-plane");
    require(kinds == 1, key.called(), " has ", kinds,
            " of the keys mesh, matrix and half-plane, must have one");
@@ -209,7 +210,8 @@ JointCase::Body body(const Key &key, const std::string &name)
    if (key.has("half-plane"))
    {
       goes_without("half-plane",
-                   {"young", "poisson", "order", "expansion", "support", "load", "guides"});
+                   {"young", "poisson", "order", "geometry", "expansion", "support", "load",
+                    "guides"});
       const Key plane = key["half-plane"];
       plane.must_be_of({"young", "poisson", "depth"});
       made.half_plane = true;
@@ -236,6 +238,8 @@ JointCase::Body body(const Key &key, const std::string &name)
       require(made.order == key["order"].number(), key["order"].called(), " is ",
               key["order"].number(), ", must be a whole number");
    }
+   made.as_meshed = key.has("geometry") ? key["geometry"].choice(geometries) == "as meshed"
+                                        : as_meshed;
    if (key.has("expansion")) { made.expansion = key["expansion"].number(); }
    if (key.has("support")) { made.support = key["support"].statements(); }
    if (key.has("load")) { made.load = key["load"].statements(); }
@@ -500,12 +504,14 @@ JointCase joint_case(const JointKeys &keys, int order)
    const std::string word = Key(analysis, "analysis").choice(analyses);
    joint.plane_stress = word == "plane stress";
    if (word == "axisymmetric") { joint.formulation = Formulation::axisymmetric; }
+   const ordered_json geometry = keys.geometry.empty() ? "smooth" : keys.geometry;
+   const bool as_meshed = Key(geometry, "geometry").choice(geometries) == "as meshed";
    require(!keys.bodies.is_null(), "key 'bodies' is missing, must name the bodies");
    require(!keys.interfaces.is_null(),
            "key 'interfaces' is missing, must name where they touch");
    each(keys.bodies, "bodies",
         [&](const Key &key, const std::string &name)
-        { joint.bodies.push_back(body(key, name)); });
+        { joint.bodies.push_back(body(key, name, as_meshed)); });
    // It has no mesh, and is condensed to the lines of those that stand on it.
    std::stable_partition(joint.bodies.begin(), joint.bodies.end(),
                          [](const JointCase::Body &one) { return !one.half_plane; });

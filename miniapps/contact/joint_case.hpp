@@ -45,6 +45,8 @@ struct JointCase
       int order = 0;       ///< of its elements, 0: that of the case, or what a matrix knows
       double depth = none; ///< of a half-plane
       bool half_plane = false;
+      /// Its sides are the polygons that they are meshed as, and not smooth curves.
+      bool as_meshed = false;
    };
    /// A number, a table over the arc length with straight lines between its points (beyond its
    /// ends constant), or a function of it and the place.
@@ -114,6 +116,7 @@ struct JointKeys
 {
    std::string analysis;
    nlohmann::ordered_json bodies, interfaces, bolts;
+   std::string geometry = {};
 };
 
 /// A key that is said by a text; null if that is empty. InputError if it is not JSON.

@@ -84,6 +84,9 @@ OwnBodies make_own_bodies(const JointCase &joint)
    else { own.scene.reduction = united(joint, std::move(condensed), lines); }
    if (twists) { own.scene.reduction.add_torsion(condensed_twisting(joint, parts)); }
    complete(own.scene.reduction, joint, lines);
+   std::vector<SmoothSides> sides;
+   for (const OwnPart &part : parts) { sides.push_back(part.sides()); }
+   note_smooth_sides(joint, own.scene.reduction, sides);
    return own;
 }
 

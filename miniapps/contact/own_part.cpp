@@ -45,15 +45,15 @@ OwnPart::OwnPart(OwnBodies &own, const JointCase &joint, int b)
    if (!body_.mesh.empty()) { make_of_mesh(own, b); }
 }
 
-std::vector<int> OwnPart::of_slits(int b) const
+std::vector<int> OwnPart::of_sides(int b, bool slits) const
 {
    std::vector<int> attributes;
    for (const JointCase::Face &face : joint_.faces)
    {
-      if (face.sides[0].body != b || face.sides[1].body != b) { continue; }
+      if (slits && (face.sides[0].body != b || face.sides[1].body != b)) { continue; }
       for (const JointCase::Side &side : face.sides)
       {
-         if (side.part.empty()) { continue; }
+         if (side.body != b || side.part.empty()) { continue; }
          const BoundaryPart part = boundary_part(side.called, side.part, terms_);
          attributes.insert(attributes.end(), part.attributes.begin(), part.attributes.end());
       }
@@ -66,7 +66,8 @@ void OwnPart::make_of_mesh(OwnBodies &own, int b)
    named(
       [&]
       {
-         mfem::Mesh mesh = read_mesh(body_.mesh);
+         std::vector<int> curves;
+         mfem::Mesh mesh = read_mesh(body_.mesh, &curves);
          const MeshNames names = mesh_names(body_.mesh);
          require(!names.axisymmetric || joint_.formulation == Formulation::axisymmetric,
                  "its elements are axisymmetric (CAX), key 'analysis' must be axisymmetric");
@@ -76,11 +77,13 @@ void OwnPart::make_of_mesh(OwnBodies &own, int b)
                  " are passed over, supports and loads are those of the case");
          }
          terms_ = {names.boundary, names.numbered, body_.expansion};
-         for (const std::string &warning : {unjoined_vertices(mesh, body_.mesh, of_slits(b)),
-                                            missed_curves(mesh, order(), body_.mesh)})
+         for (const std::string &warning :
+              {unjoined_vertices(mesh, body_.mesh, of_sides(b, true)),
+               missed_curves(mesh, order(), body_.mesh)})
          {
             if (!warning.empty()) { warn(warning); }
          }
+         if (!body_.as_meshed) { sides_ = curve_sides(mesh, order(), of_sides(b), curves); }
          const int attributes = mesh.attributes.Size() ? mesh.attributes.Max() : 1;
          own.materials.push_back(materials(body_, attributes, joint_.plane_stress));
          elastic_ =
@@ -134,8 +137,13 @@ void OwnPart::add_twisting(OwnBodies &own, std::size_t b)
 ContactLine OwnPart::line(const JointCase::Side &side) const
 {
    require(!side.part.empty(), side.called, " is empty, must name boundary attributes");
-   return nodal_ ? nodal_->contact_line(nodal_->nodes_of(side.part), body_.order)
-                 : contact_line(*elastic_, boundary_part(side.called, side.part, terms_));
+   ContactLine made =
+      nodal_ ? nodal_->contact_line(nodal_->nodes_of(side.part), body_.order)
+             : contact_line(*elastic_, boundary_part(side.called, side.part, terms_));
+   made.as_meshed = body_.as_meshed;
+   // The file knows more than a line alone.
+   bend_elements(made, sides_.chords, sides_.moved);
+   return made;
 }
 
 bool OwnPart::has_load(const std::string &load) const

@@ -5,6 +5,7 @@
 #include <cattaneo/elastic/statements.hpp>
 #include <cattaneo/exchange/nodal_stiffness.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/mesh/smooth_sides.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +30,7 @@ public:
                         const Eigen::Vector2d &F);
    cattaneo::CondensedBody condensed(const cattaneo::ContactLine &line,
                                      const cattaneo::CondensedBody *alike) const;
+   const cattaneo::SmoothSides &sides() const { return sides_; }
    /// Is something said of what happens around the axis?
    bool twists() const { return cattaneo::twists(body_.support, body_.load); }
    /// To the nodes of its sides of interfaces, in their order.
@@ -51,8 +53,8 @@ public:
 
 private:
    void make_of_mesh(OwnBodies &own, int b);
-   /// Boundary attributes on which the body meets itself.
-   std::vector<int> of_slits(int b) const;
+   /// Boundary attributes of the body's sides of interfaces; of slits: on which it meets itself.
+   std::vector<int> of_sides(int b, bool slits = false) const;
    int order() const { return body_.order > 0 ? body_.order : joint_.order; }
 
    const JointCase &joint_;
@@ -60,6 +62,7 @@ private:
    cattaneo::ElasticBody *elastic_ = nullptr, *twisting_ = nullptr;
    std::optional<cattaneo::NodalStiffness> nodal_;
    cattaneo::BodyTerms terms_;
+   cattaneo::SmoothSides sides_; ///< of the mesh, and what was done to it
 };
 
 /// Of bodies that are matrices each takes the part of its file that has the sets which its

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cattaneo/elastic/rotation.hpp>
 #include <cattaneo/reduced/interfaces.hpp>
+#include <cattaneo/words.hpp>
 #include <cmath>
 #include <limits>
 
@@ -93,9 +94,38 @@ void warn_of_loose_bodies(const OwnBodies &own)
    }
 }
 
-void warn_of_chords(const Reduction &reduction, const Eigen::VectorXd &p)
+void note_smooth_sides(const JointCase &joint, const Reduction &reduction,
+                       const std::vector<SmoothSides> &sides)
 {
-   const double share = chordal_error(reduction, p);
+   for (std::size_t k = 0; k < reduction.interfaces.size(); ++k)
+   {
+      const InterfaceReport &face = reduction.interfaces[k];
+      std::vector<std::string> names;
+      bool folds = false;
+      for (int b : face.bodies)
+      {
+         // Round-off of coordinates is no curve.
+         const bool smooth = b >= 0 && b < static_cast<int>(sides.size()) &&
+                             sides[b].most > 1e-5 * face.spacing.mean();
+         if (!smooth || (!names.empty() && face.bodies[0] == face.bodies[1])) { continue; }
+         names.push_back(joint.bodies[b].name);
+         folds = folds || sides[b].folds;
+      }
+      if (names.empty()) { continue; }
+      const double change = face.curved.size() > 0 ? face.curved.cwiseAbs().maxCoeff() : 0;
+      note("interface '" + joint.faces[k].name + "': straight edges of " + listed(names) +
+           " are taken for chords of smooth curves through their vertices, " +
+           (change > 0 ? told("which changes the gap by up to ", change)
+                       : "which leaves the gap as it is") +
+           (folds ? "; elements beside them would fold, and stay straight" : "") +
+           " (key geometry: as meshed takes the polygons)");
+   }
+}
+
+void warn_of_chords(const Reduction &reduction, const Eigen::VectorXd &p,
+                    const Eigen::VectorXd &w)
+{
+   const double share = chordal_error(reduction, p, w);
    if (share <= 0.05) { return; }
    const InterfaceReport *worst = nullptr;
    double most = 0;
@@ -117,8 +147,9 @@ void warn_of_chords(const Reduction &reduction, const Eigen::VectorXd &p)
         ": ",
         std::isfinite(share) ? told("to close that takes ", share, " of the largest pressure")
                              : "nothing bears, and the curves may",
-        "; a mesh of elements of a higher order (in Gmsh: -order 2) or of more of them follows "
-        "the curve, or key 'gap' may say what the gap is");
+        "; key geometry: smooth follows the curves where the vertices tell them, a mesh of "
+        "elements of a higher order (in Gmsh: -order 2) does so everywhere, or key 'gap' may "
+        "say what the gap is");
 }
 
 void warn_of_linear_axis(const Reduction &reduction, const Eigen::VectorXd &p)

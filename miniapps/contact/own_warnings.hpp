@@ -2,6 +2,8 @@
 
 #include "contact/own_bodies.hpp"
 
+#include <cattaneo/mesh/smooth_sides.hpp>
+
 #include <cattaneo/readout/small_displacements.hpp>
 #include <vector>
 
@@ -27,9 +29,14 @@ void warn_of_accuracy(double accuracy);
 /// bodies with elements in its last state.
 void warn_of_large_displacements(OwnBodies &own, const cattaneo::SmallDisplacements &noted,
                                  const cattaneo::ContactState &last);
+/// Notes which sides were taken as smooth curves, and what that made of gaps; `sides`: of each
+/// body with a mesh.
+void note_smooth_sides(const JointCase &joint, const cattaneo::Reduction &reduction,
+                       const std::vector<cattaneo::SmoothSides> &sides);
 /// Warns where chords of curved sides make more than a twentieth of the largest pressure. The
 /// nodal forces p are those of the state with the largest of a march.
-void warn_of_chords(const cattaneo::Reduction &reduction, const Eigen::VectorXd &p);
+void warn_of_chords(const cattaneo::Reduction &reduction, const Eigen::VectorXd &p,
+                    const Eigen::VectorXd &w);
 /// Warns where what bears next to the axis are linear elements, whose node on it takes no
 /// force.
 void warn_of_linear_axis(const cattaneo::Reduction &reduction, const Eigen::VectorXd &p);

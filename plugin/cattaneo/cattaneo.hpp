@@ -10,4 +10,5 @@
 #include <cattaneo/mesh/filled_corner.hpp>
 #include <cattaneo/mesh/graded_mesh.hpp>
 #include <cattaneo/mesh/mesh_file.hpp>
+#include <cattaneo/mesh/smooth_sides.hpp>
 #include <cattaneo/output/paraview.hpp>

@@ -593,6 +593,12 @@ void bind_lines(nb::module_ &m)
             return array<Integers>(std::move(all));
          },
          "(n, 2), rows of the stiffness")
+      .def_prop_rw(
+         "as_meshed", [](const Self &self) { return self.as_meshed; },
+         [](Self &self, Flag as_meshed) { self.as_meshed = flag(as_meshed, "as_meshed"); },
+         nb::for_setter(arg("as_meshed")),
+         "gaps are those of the edges as they are; else straight edges whose ends lie as on a "
+         "smooth curve are taken for chords of it")
       .def_prop_ro(
          "chains", &line_chains, nb::sig("def chains(self) -> list[dict[str, typing.Any]]"),
          "nodes that follow each other: first, nodes, loop, and how the boundary goes "

@@ -202,6 +202,70 @@ void give_weights_of_axis(std::vector<SegmentNode> &nodes, const std::string &wh
    }
 }
 
+/// The way on from an end of a chain; zero if none is known.
+Eigen::Vector2d way_on(const std::vector<WayOn> &ways, const SegmentNode &end,
+                       const Eigen::Vector2d &out)
+{
+   if (end.on_axis) { return {0, 1}; }
+   Eigen::Vector2d found(0, 0);
+   for (const WayOn &way : ways)
+   {
+      const Eigen::Vector2d leaves(way.x, way.y);
+      if (way.node == end.id && (found.isZero(0) || leaves.dot(out) > found.dot(out)))
+      {
+         found = leaves;
+      }
+   }
+   return found;
+}
+
+/// How far inner nodes of an element are off its chord, in lengths of it.
+double off_chord(const LineElement &element)
+{
+   const Eigen::Vector2d from = element.points.leftCols(1),
+                         along = element.points.rightCols(1) - from;
+   double off = 0;
+   for (Eigen::Index a = 1; a < element.order(); ++a)
+   {
+      const Eigen::Vector2d e = element.points.col(a) - from;
+      off = std::max(off, std::abs(along[0] * e[1] - along[1] * e[0]) / along.squaredNorm());
+   }
+   return off;
+}
+
+/// Tells elements that are straight what smooth curve their ends lie on. Where others of the
+/// chain are curved the mesh knows of curves, and straight ones are what they are.
+void find_bends(JoinedSegments &joined, const std::vector<const Segment *> &chain, bool loop,
+                const std::vector<WayOn> &ways)
+{
+   SidePolygon side;
+   side.loop = loop;
+   for (const LineElement &element : joined.elements)
+   {
+      side.vertices.emplace_back(element.points.leftCols(1));
+   }
+   if (!loop)
+   {
+      side.vertices.emplace_back(joined.elements.back().points.rightCols(1));
+      const SegmentNode &first = chain.front()->front(), &last = chain.back()->back();
+      side.beyond = {way_on(ways, first, -first.node.tangent),
+                     way_on(ways, last, last.node.tangent)};
+   }
+   const std::vector<EdgeBend> bends = smooth_curve(side);
+   // Nodes of a file with few digits are off a chord as well.
+   std::vector<bool> curved;
+   for (std::size_t e = 0; e < bends.size(); ++e)
+   {
+      curved.push_back(off_chord(joined.elements[e]) >
+                       std::max(1e-4, 0.1 * std::abs(bends[e].off(0.5))));
+   }
+   const bool knows = std::count(curved.begin(), curved.end(), true) > 0;
+   for (std::size_t e = 0; e < bends.size(); ++e)
+   {
+      if (!curved[e]) { joined.elements[e].bend = knows ? EdgeBend() : bends[e]; }
+   }
+}
+
 /// Appends a chain to the line.
 void append(JoinedSegments joined, LineChain chain, ContactLine &line, const std::string &where)
 {
@@ -242,7 +306,9 @@ ContactLine line_of(const std::vector<Segment> &segments, const std::vector<WayO
       LineChain described;
       described.loop = chain.front()->front().id == chain.back()->back().id;
       described.ends = ends_of(chain, described.loop, ways);
-      append(join(chain, start), described, line, where);
+      JoinedSegments all = join(chain, start);
+      find_bends(all, chain, described.loop, ways);
+      append(std::move(all), described, line, where);
    }
    line.validate();
    check_joined(line, where);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cattaneo/algebra/lobatto_basis.hpp>
 #include <cattaneo/condense/contact_line.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
@@ -68,6 +69,61 @@ void check_spacing(const ContactLine &line, const LineChain &chain)
 
 } // namespace
 
+Eigen::Vector2d LineElement::off_chord(double s) const
+{
+   if (!bend || bend->straight() || bent) { return {0, 0}; }
+   const Eigen::Vector2d chord = points.rightCols(1) - points.leftCols(1);
+   return bend->off(s) * Eigen::Vector2d(chord[1], -chord[0]);
+}
+
+Eigen::MatrixX2d ContactLine::off_chords() const
+{
+   Eigen::MatrixX2d all = Eigen::MatrixX2d::Zero(size(), 2);
+   for (const LineChain &chain : chains)
+   {
+      for (const LineElement &element : chain.elements)
+      {
+         if (!element.bend || element.bend->straight() || element.bent) { continue; }
+         const Eigen::VectorXd &at = lobatto_basis(element.order()).nodes;
+         for (Eigen::Index a = 1; a < element.order(); ++a)
+         {
+            all.row(element.nodes[a]) = element.off_chord(at[a]);
+         }
+      }
+   }
+   return all;
+}
+
+Eigen::MatrixX2d ContactLine::outline() const
+{
+   const Eigen::MatrixX2d places = each(&LineNode::position);
+   return as_meshed ? places : Eigen::MatrixX2d(places + off_chords());
+}
+
+Eigen::MatrixX2d ContactLine::bulges() const
+{
+   Eigen::MatrixX2d all = Eigen::MatrixX2d::Zero(size(), 2);
+   const Eigen::MatrixX2d places = outline();
+   for (const LineChain &chain : chains)
+   {
+      for (const LineElement &element : chain.elements)
+      {
+         const bool smooth = element.bend && !element.bend->straight() && !as_meshed;
+         for (Eigen::Index a = 1; a < element.order() && smooth; ++a)
+         {
+            const Eigen::Index node = element.nodes[a];
+            const Eigen::Vector2d from = element.points.col(0);
+            const Eigen::Vector2d chord = element.points.rightCols(1) - from,
+                                  e = places.row(node).transpose() - from;
+            // Across the chord, wherever along it the node is.
+            const Eigen::Vector2d right(chord[1], -chord[0]);
+            all.row(node) = right.dot(e) / right.squaredNorm() * right;
+         }
+      }
+   }
+   return all;
+}
+
 const LineChain &ContactLine::chain_of(Eigen::Index node) const
 {
    return *std::find_if(chains.begin(), chains.end(),
@@ -112,6 +168,35 @@ void ContactLine::validate() const
 double angle_between(const Eigen::Vector2d &one, const Eigen::Vector2d &other)
 {
    return std::atan2(std::abs(one[0] * other[1] - one[1] * other[0]), one.dot(other));
+}
+
+void bend_elements(ContactLine &line, const std::vector<SideChord> &chords, bool moved)
+{
+   // In the order of their beginnings along x, where few are near each other.
+   std::vector<const SideChord *> all;
+   for (const SideChord &chord : chords) { all.push_back(&chord); }
+   std::sort(all.begin(), all.end(),
+             [](const SideChord *a, const SideChord *b) { return a->from[0] < b->from[0]; });
+   for (LineChain &chain : line.chains)
+   {
+      for (LineElement &element : chain.elements)
+      {
+         const Eigen::Vector2d from = element.points.leftCols(1),
+                               to = element.points.rightCols(1);
+         const double near = 1e-6 * (to - from).norm();
+         const auto begin = std::lower_bound(all.begin(), all.end(), from[0] - near,
+                                             [](const SideChord *chord, double x)
+                                             { return chord->from[0] < x; });
+         for (auto at = begin; at != all.end() && (*at)->from[0] <= from[0] + near; ++at)
+         {
+            if (((*at)->from - from).norm() <= near && ((*at)->to - to).norm() <= near)
+            {
+               element.bend = (*at)->bend;
+               element.bent = moved;
+            }
+         }
+      }
+   }
 }
 
 ContactLine joined(const std::vector<ContactLine> &lines)

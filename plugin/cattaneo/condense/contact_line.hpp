@@ -2,9 +2,11 @@
 
 #include <Eigen/Dense>
 #include <array>
+#include <cattaneo/condense/smooth_side.hpp>
 #include <cattaneo/formulation.hpp>
 #include <cattaneo/line_end.hpp>
 #include <functional>
+#include <optional>
 #include <type_traits>
 #include <vector>
 
@@ -39,9 +41,17 @@ struct LineElement
    /// which is no contact node.
    std::vector<Eigen::Index> nodes;
    Eigen::Matrix2Xd points; ///< where all of them are, one a column
+   /// The smooth curve that the chord between its ends belongs to, straight where the side is a
+   /// polygon. Not known: of elements that are curved by their mesh, and of a script that says
+   /// nothing (smooth_curve() may be asked).
+   std::optional<EdgeBend> bend = std::nullopt;
+   bool bent = false; ///< its points are on that curve (curve_sides()), not on the chord
 
    /// Degree of the polynomials: one less than its nodes.
    Eigen::Index order() const { return points.cols() - 1; }
+   /// How far its smooth curve lies from the element at 0 <= s <= 1; zero if none is known, or
+   /// if it is bent to it.
+   Eigen::Vector2d off_chord(double s) const;
 };
 
 /// Nodes that follow each other along the boundary.
@@ -101,9 +111,20 @@ struct ContactLine
    Formulation formulation = Formulation::plane; ///< decides what dofs and weights are
    std::vector<LineNode> nodes;                  ///< along the boundary, chain after chain
    std::vector<LineChain> chains; ///< in the order of the nodes, each node on one
+   /// Gaps are those of the elements as they are, and not of the smooth curves that they may be
+   /// chords of (LineElement::bend).
+   bool as_meshed = false;
 
    /// Number of contact nodes.
    Eigen::Index size() const { return static_cast<Eigen::Index>(nodes.size()); }
+   /// n × 2: how far the smooth curves that elements are chords of (LineElement::bend) lie from
+   /// the nodes; zero at the ends of elements.
+   Eigen::MatrixX2d off_chords() const;
+   /// n × 2: where gaps are measured from, nodes on those curves; as meshed the nodes
+   /// themselves.
+   Eigen::MatrixX2d outline() const;
+   /// n × 2: how far the outline is from chords that were taken for smooth curves.
+   Eigen::MatrixX2d bulges() const;
    /// The chain that a node is on.
    const LineChain &chain_of(Eigen::Index node) const;
 
@@ -143,5 +164,10 @@ double angle_between(const Eigen::Vector2d &one, const Eigen::Vector2d &other);
     beginning of the other) has the frame of the first, and the chain of the later ones loses
     it. InputError if the lines are of different formulations, or of none. */
 ContactLine joined(const std::vector<ContactLine> &lines);
+
+/// Gives the elements of a line the curves that are known of the side it is on
+/// (SmoothSides::chords of a mesh, whose file may know more than the line's vertices tell), and
+/// whether their nodes were moved onto these.
+void bend_elements(ContactLine &line, const std::vector<SideChord> &chords, bool moved);
 
 } // namespace cattaneo

@@ -17,6 +17,7 @@ Reduction reduce(const std::vector<NamedBody> &bodies,
               "': a side is of body ", of.body, ", must be from 0 to ", count - 1,
               ", or -1 for a rigid obstacle as the second");
       lines[of.body].push_back(contact_line(*bodies[of.body].body, of.part));
+      lines[of.body].back().as_meshed = interface.as_meshed;
       return InterfaceSide{of.body, lines[of.body].back()};
    };
    std::vector<Interface> all;

@@ -31,6 +31,11 @@ struct BoundaryInterface
    double most_overlap =
       Interface().most_overlap; ///< in lengths of an element: more is taken for a mistake
    bool tied = false;           ///< joined, whatever happens
+   /// Gaps are those of the meshes' edges. Else straight edges whose vertices lie as on a
+   /// smooth curve are taken for chords of it (smooth_curve()), which gaps are measured
+   /// between; the meshes stay as they are. With elements of order 2 or more curve_sides()
+   /// before the bodies are made is better: it moves their nodes onto the curves.
+   bool as_meshed = false;
 };
 
 /** Any number of MFEM bodies over any number of interfaces, whose meshes need not match: each

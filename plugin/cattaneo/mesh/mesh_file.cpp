@@ -294,8 +294,9 @@ private:
 
 } // namespace
 
-mfem::Mesh read_mesh(const std::string &file)
+mfem::Mesh read_mesh(const std::string &file, std::vector<int> *curves)
 {
+   if (curves) { curves->clear(); }
    std::error_code why_not;
    const auto type = std::filesystem::status(file, why_not).type();
    require(type != std::filesystem::file_type::not_found,
@@ -310,6 +311,13 @@ mfem::Mesh read_mesh(const std::string &file)
    {
       const GmshMesh mesh = is_deck(file) ? deck_mesh(file).mesh : read_gmsh(file, size);
       check_gmsh(mesh);
+      for (const GmshMesh::Element &element : mesh.elements)
+      {
+         // Those of a deck are this program's own.
+         if (!curves || is_deck(file) || gmsh_types().at(element.type).corners != 2) { continue; }
+         curves->push_back(
+            element.tags.size() > 1 && element.tags[1] > 0 ? static_cast<int>(element.tags[1]) : -1);
+      }
       converted = mesh.text();
    }
    else

@@ -12,8 +12,11 @@ namespace cattaneo
     2.2, ASCII or binary, or an .inp of CalculiX or ABAQUS, of triangles and quadrilaterals.
 
     MFEM's reader trusts its file: a node number that is out of range reads foreign memory. The
-    file is therefore checked first, section by section. InputError saying what is wrong. */
-mfem::Mesh read_mesh(const std::string &file);
+    file is therefore checked first, section by section. InputError saying what is wrong.
+
+    @param curves where it is to be said on which curve of the file (Gmsh's entity) each boundary
+           element is, -1: not known; for curve_sides() */
+mfem::Mesh read_mesh(const std::string &file, std::vector<int> *curves = nullptr);
 
 /// What a mesh file says beside the mesh.
 struct MeshNames

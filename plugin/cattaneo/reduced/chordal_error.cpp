@@ -2,6 +2,7 @@
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/interfaces.hpp>
 #include <cmath>
+#include <optional>
 
 namespace cattaneo
 {
@@ -10,40 +11,88 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-double chordal_error(const Reduction &reduction, const VectorXd &p)
+namespace
+{
+
+/// Normal forces after gaps have changed, at displacements across the interface alone: nodes
+/// that bear may open, and open ones close. No solution: not found.
+std::optional<VectorXd> forces_after(const MatrixXd &C, const VectorXd &p, VectorXd open,
+                                     const VectorXd &change)
+{
+   open += change;
+   std::vector<bool> bears(p.size());
+   for (Index i = 0; i < p.size(); ++i) { bears[i] = p[i] > 0 || open[i] < 0; }
+   std::optional<VectorXd> found;
+   // The sets of nodes settle in a few rounds; of those that turn in a circle the last is taken.
+   for (int round = 0; round < 50; ++round)
+   {
+      std::vector<int> closed, free;
+      for (Index i = 0; i < p.size(); ++i)
+      {
+         (bears[i] ? closed : free).push_back(static_cast<int>(i));
+      }
+      // Closed nodes move by what is between them; on the others no force is left.
+      VectorXd moved = VectorXd::Zero(p.size());
+      moved(closed) = -open(closed);
+      if (!free.empty())
+      {
+         DenseCholesky follows;
+         if (!follows.compute(C(free, free))) { return found; }
+         VectorXd its = -p(free) - C(free, closed) * moved(closed);
+         follows.solve(its);
+         moved(free) = its;
+      }
+      VectorXd force = p + C * moved;
+      force(free).setZero();
+      found = force.cwiseMax(0);
+      bool settled = true;
+      const double least = 1e-12 * p.cwiseAbs().maxCoeff();
+      for (Index i = 0; i < p.size(); ++i)
+      {
+         const bool bears_on = bears[i] ? force[i] > -least : open[i] + moved[i] < 0;
+         settled = settled && bears_on == bears[i];
+         bears[i] = bears_on;
+      }
+      if (settled) { break; }
+   }
+   return found;
+}
+
+} // namespace
+
+double chordal_error(const Reduction &reduction, const VectorXd &p, const VectorXd &w)
 {
    const ReducedProblem &problem = reduction.problem;
    const Index n = problem.nodes();
    require(p.size() == n, "chordal error: ", p.size(), " normal forces, must be ", n);
+   require(w.size() == n || w.size() == 0, "chordal error: ", w.size(),
+           " normal displacements, must be ", n, " or none");
    VectorXd off = VectorXd::Zero(n);
    for (const InterfaceReport &face : reduction.interfaces)
    {
       if (face.tied || face.chords.size() != face.nodes) { continue; }
       off.segment(face.first, face.nodes) = face.chords;
    }
-   std::vector<int> bear, open;
-   for (Index i = 0; i < n; ++i) { (p[i] > 0 ? bear : open).push_back(static_cast<int>(i)); }
-   if (bear.empty())
+   if (off.isZero(0)) { return 0; }
+   const bool bears = p.maxCoeff() > 0;
+   // How far nodes are open. Where that is not known those that are stay so.
+   VectorXd open = VectorXd::Constant(n, HUGE_VAL);
+   if (w.size() == n) { open = problem.gap + w; }
+   else if (!bears) { open = problem.gap; }
+   for (Index i = 0; i < n; ++i)
+   {
+      if (p[i] > 0 || open[i] < 0) { open[i] = 0; }
+   }
+   if (!bears)
    {
       // Smooth sides may meet, as far as the estimate is known, which is to a tenth of itself.
-      const Eigen::Array<bool, Eigen::Dynamic, 1> meet =
-         off.array() < 0 && (problem.gap + 1.1 * off).array() < 0;
-      return (meet && problem.gap.array() >= 0).any() ? HUGE_VAL : 0;
+      const bool meet = (off.array() < 0 && (open + 1.1 * off).array() < 0).any();
+      return meet && (problem.gap.array() >= 0).any() ? HUGE_VAL : 0;
    }
-   if (off(bear).isZero(0)) { return 0; }
-   // Open nodes move freely meanwhile.
-   const MatrixXd C = problem.C();
-   VectorXd force = C(bear, bear) * off(bear);
-   DenseCholesky follows;
-   if (!open.empty() && follows.compute(C(open, open)))
-   {
-      VectorXd moved = C(open, bear) * off(bear);
-      follows.solve(moved);
-      force -= C(bear, open) * moved;
-   }
-   const VectorXd weights = problem.weights(bear);
-   return force.cwiseQuotient(weights).cwiseAbs().maxCoeff() /
-          p(bear).cwiseQuotient(weights).maxCoeff();
+   const auto after = forces_after(problem.C(), p, open, off);
+   if (!after) { return HUGE_VAL; }
+   return (*after - p).cwiseQuotient(problem.weights).cwiseAbs().maxCoeff() /
+          p.cwiseQuotient(problem.weights).maxCoeff();
 }
 
 } // namespace cattaneo

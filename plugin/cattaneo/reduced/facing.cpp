@@ -47,13 +47,23 @@ double ElementCurve::length() const
 
 Vector2d ElementCurve::bulge(double s) const
 {
+   if (element->bend) { return {0, 0}; }
    // A polynomial that is zero at the nodes, with the slopes that turn the element's own
-   // tangents to those of the line.
-   const Eigen::VectorXd &nodes = lobatto_basis(order()).nodes;
-   const Index last = order();
+   // tangents to those of the line. Inner nodes of a straight element are on its chord, and not
+   // on the curve.
+   const Vector2d chord = element->points.rightCols(1) - element->points.leftCols(1);
+   double off = 0;
+   for (Index a = 1; a < order(); ++a)
+   {
+      const Vector2d e = element->points.col(a) - element->points.col(0);
+      off = std::max(off, std::abs(chord[0] * e[1] - chord[1] * e[0]));
+   }
+   const bool straight = off <= 1e-6 * chord.squaredNorm();
+   const Eigen::VectorXd &nodes = lobatto_basis(straight ? 1 : order()).nodes;
+   const Index last = nodes.size() - 1;
    const auto factor = [&](Index end)
    {
-      const Vector2d along = derivative(nodes[end]), t = tangents.col(end);
+      const Vector2d along = derivative(nodes[end]), t = tangents.col(end == 0 ? 0 : order());
       const double slope = along[0] * t[1] - along[1] * t[0], size = along.norm();
       if (std::abs(slope) > 0.3 * size) { return 0.0; } // half of a turn by 35 degrees
       double product = 1;

@@ -38,6 +38,7 @@ ContactLine other_face(const ContactLine &line)
          std::reverse(element.nodes.begin(), element.nodes.end());
          for (Index &node : element.nodes) { node = number(node); }
          element.points = element.points.rowwise().reverse().eval();
+         if (element.bend) { element.bend = {-element.bend->end, -element.bend->begin}; }
       }
    }
    return made;
@@ -146,6 +147,42 @@ void InterfaceRows::pair_nodes(const std::vector<int> &without)
       mortar_.turn[i] = angle_between(own.tangent, -other.tangent);
    }
    mortar_.gap = pairs.gap(mortar_.nodes);
+   add_curves(master_.line, pairs.partner);
+}
+
+/// What smooth curves that elements are chords of make of gaps from node to node; of an
+/// obstacle the line is empty.
+void InterfaceRows::add_curves(const ContactLine &other, const std::vector<int> &partner)
+{
+   const auto rows = [&](const auto &of_line)
+   {
+      Eigen::MatrixX2d all = of_line(slave_.line)(mortar_.nodes, Eigen::all);
+      if (other.size() == 0) { return all; }
+      const Eigen::MatrixX2d its = of_line(other);
+      for (Index i = 0; i < all.rows(); ++i)
+      {
+         all.row(i) -= its.row(partner[mortar_.nodes[i]]);
+      }
+      return all;
+   };
+   const Eigen::MatrixX2d moved =
+                             rows([](const ContactLine &line) -> Eigen::MatrixX2d
+                                  { return line.outline() - line.each(&LineNode::position); }),
+                          left = rows([](const ContactLine &line) -> Eigen::MatrixX2d
+                                      { return line.off_chords() * (line.as_meshed ? 1 : 0); }),
+                          curved = rows([](const ContactLine &line) { return line.bulges(); });
+   Eigen::MatrixX2d normal(mortar_.tangent.rows(), 2);
+   normal << -mortar_.tangent.col(1), mortar_.tangent.col(0);
+   const auto across = [&](const Eigen::MatrixX2d &all) -> VectorXd
+   { return normal.cwiseProduct(all).rowwise().sum(); };
+   mortar_.gap += across(moved);
+   for (Index i = 0; i < mortar_.gap.size(); ++i) // round-off of what is the same on both sides
+   {
+      const double least = 1e-9 * slave_.line.nodes[mortar_.nodes[i]].spacing;
+      if (std::abs(mortar_.gap[i]) <= least) { mortar_.gap[i] = 0; }
+   }
+   mortar_.chords = across(left);
+   mortar_.curved = across(curved);
 }
 
 void InterfaceRows::meet(const std::vector<int> &without)
@@ -175,6 +212,7 @@ void InterfaceRows::meet(const std::vector<int> &without)
                                       [](const LineChain &c) { return c.elements.empty(); }))
    {
       face_all(without);
+      add_curves({}, {});
       return;
    }
    // Also on an obstacle neighbours carry the part of a node without a row: it is what lies
@@ -184,6 +222,7 @@ void InterfaceRows::meet(const std::vector<int> &without)
    {
       other = Mortar::Matrix(mortar_.gap.size(), 0);
    }
+   add_curves({}, {});
    mortar_.gap.setZero();
    mortar_.arm.setZero();
 }
@@ -209,7 +248,8 @@ void InterfaceRows::face_all(const std::vector<int> &without)
    for (Mortar::Matrix &other : mortar_.other) { other.resize(n, 0); }
    mortar_.tangent = line.each(&LineNode::tangent)(mortar_.nodes, Eigen::all);
    mortar_.weights = line.each(&LineNode::weight)(mortar_.nodes);
-   mortar_.gap = mortar_.arm = mortar_.turn = Eigen::VectorXd::Zero(n);
+   mortar_.gap = mortar_.arm = mortar_.turn = mortar_.chords = mortar_.curved =
+      Eigen::VectorXd::Zero(n);
 }
 
 /// A node of the master that is at the same place along a tangent as a row's node, the nearest
@@ -457,6 +497,7 @@ InterfaceReport InterfaceRows::report() const
    report.tied = given_.tied;
    report.of_second = of_second_;
    report.position = line.each(&LineNode::position)(mortar_.nodes, Eigen::all);
+   report.outline = line.outline()(mortar_.nodes, Eigen::all);
    report.tangent = mortar_.tangent;
    report.turn = mortar_.turn;
    for (int c : {0, 1})
@@ -480,9 +521,12 @@ InterfaceReport InterfaceRows::report() const
       if (differing >= 0) { report.differing = line.nodes[differing].position; }
    }
    report.chords = mortar_.chords;
-   if (given_.gap || given_.tied || report.matching || report.chords.size() == 0)
+   report.curved = mortar_.curved;
+   // On an obstacle the gap that is given is that of its shape.
+   if ((given_.gap && master_.body >= 0) || given_.tied || report.matching)
    {
-      report.chords = VectorXd::Zero(report.nodes);
+      report.chords.setZero(report.nodes);
+      report.curved.setZero(report.nodes);
    }
    for (int k : mortar_.free_surface) { report.free_surface.push_back(line.nodes[k].position); }
    for (int k : without_row_) { report.without_row.push_back(line.nodes[k].position); }
@@ -503,12 +547,18 @@ void InterfaceRows::add_facts(ReducedProblem &problem, Index first, bool matchin
                               const std::vector<InterfaceRows> &all) const
 {
    const ContactLine &line = slave_.line;
+   const Eigen::MatrixX2d outline = line.outline();
    const auto n = static_cast<Index>(mortar_.nodes.size());
    for (Index i = 0; i < n; ++i)
    {
       const LineNode &node = line.nodes[mortar_.nodes[i]];
       const double x = node.position[0], y = node.position[1];
-      const double gap = given_.gap ? (*given_.gap)(x, y) : mortar_.gap[i];
+      // An obstacle is as far away as the outline of the side is, of a pair of bodies a gap is
+      // said of the nodes.
+      const double gap = !given_.gap        ? mortar_.gap[i]
+                         : master_.body < 0 ? (*given_.gap)(outline(mortar_.nodes[i], 0),
+                                                            outline(mortar_.nodes[i], 1))
+                                            : (*given_.gap)(x, y);
       require(std::isfinite(gap), what_, ": the gap at ", node.position, " is ", gap,
               ", must be finite");
       problem.gap[first + i] = gap;

@@ -82,12 +82,17 @@ struct Interface
     other side is not, or nothing holds the bodies together. */
 Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface> &interfaces);
 
-/** What chords of curved sides (InterfaceReport::chords) may make of tractions, as a share of
-    the largest one: the largest pressure that closes as much where nodes bear, whose normal
-    forces are p, while open nodes follow. An estimate; 0 where sides are straight or nodes
-    match. Where nothing bears it is infinite if smooth sides may meet, else 0. InputError
-    unless there is a force for each contact node. */
-double chordal_error(const Reduction &reduction, const Eigen::VectorXd &p);
+/** What chords of curved sides (InterfaceReport::chords) make of tractions, as a share of the
+    largest pressure: the largest change of a pressure if gaps were those of the curves, with the
+    displacements along the interface as they are. An estimate; 0 where sides are straight or
+    nodes match. Where nothing bears it is infinite if smooth sides may meet, else 0.
+
+    @param p normal forces of the contact nodes
+    @param w their normal displacements, which tell how far nodes are open that may close; left
+           out, open nodes stay open
+    @return the share. InputError unless there is one of each for each contact node. */
+double chordal_error(const Reduction &reduction, const Eigen::VectorXd &p,
+                     const Eigen::VectorXd &w = {});
 
 /** Bodies that meet at interfaces but keep displacements of their own, for programs of joint
     dynamics. U: contact displacements of all bodies that are not held, {v; w} of each in the

@@ -75,8 +75,28 @@ struct Point
    double s, weight;
    std::size_t other;    ///< element of the master
    VectorXd own, facing; ///< functions of both elements
-   Vector2d apart;       ///< x_s - x_m
+   Vector2d apart;       ///< x_s - x_m, on the outlines
    Vector2d chords;      ///< what smooth curves would add to it
+   Vector2d curved;      ///< what chords would take from it
+};
+
+/// A point of a line's outline.
+struct Outline
+{
+   Vector2d place, left;  ///< and what a smooth curve is off it
+   Vector2d curved{0, 0}; ///< how far it is off a chord that was taken for a curve
+
+   Outline(const ElementCurve &curve, double s, bool as_meshed)
+      : place(curve.place(s)), left(curve.bulge(s))
+   {
+      const LineElement &element = *curve.element;
+      const Vector2d off = element.off_chord(s), from = element.points.col(0);
+      (as_meshed ? left : place) += off;
+      if (as_meshed || !element.bend || element.bend->straight()) { return; }
+      // Across the chord, wherever along it the point is.
+      const Vector2d chord = element.points.rightCols(1) - from, right(chord[1], -chord[0]);
+      curved = right.dot(place - from) / right.squaredNorm() * right;
+   }
 };
 
 /// Linear from each place to the next and constant beyond the outer ones, never negative, at
@@ -173,7 +193,7 @@ private:
    std::vector<std::vector<Index>> functions_;  ///< rows on each slave element, along it
    std::vector<Trace> master_traces_;
    std::array<std::map<std::pair<Index, Index>, double>, 2> own_, other_;
-   Eigen::MatrixX2d apart_, chords_; ///< ∫ψ of what points have, of each slave node
+   Eigen::MatrixX2d apart_, chords_, curved_; ///< ∫ψ of what points have, of each slave node
    VectorXd weights_, size_;
    double left_out_ = 0;
 };
@@ -184,7 +204,7 @@ Assembly::Assembly(const ContactLine &slave, const ContactLine &master,
      faced_(slave.size(), false), has_row_(slave.size(), false),
      lines_(facing(slave, master, what)), parts_(lines_.first.size()),
      functions_(lines_.first.size()), apart_(Eigen::MatrixX2d::Zero(slave.size(), 2)),
-     chords_(apart_), weights_(VectorXd::Zero(slave.size())),
+     chords_(apart_), curved_(apart_), weights_(VectorXd::Zero(slave.size())),
      size_(VectorXd::Zero(slave.size()))
 {
    for (int node : without)
@@ -239,9 +259,11 @@ std::vector<Point> Assembly::points_of(std::size_t element) const
       {
          const double s = part.from + (part.to - part.from) * rule.points[k];
          const double t = lines_.opposite(part, s);
+         const Outline own(curve, s, slave_.as_meshed), faced(other, t, master_.as_meshed);
          points.push_back({s, rule.weights[k] * (part.to - part.from) * weight_at(curve, s),
                            part.other, curve.functions(s), other.functions(t),
-                           curve.place(s) - other.place(t), curve.bulge(s) - other.bulge(t)});
+                           own.place - faced.place, own.left - faced.left,
+                           own.curved - faced.curved});
       }
    }
    return points;
@@ -369,6 +391,7 @@ void Assembly::add_rows(const Trace &trace, std::size_t element,
             if (component == 1) { weights_[row] += value; }
             apart_(row, component) += value * point.apart[component];
             chords_(row, component) += value * point.chords[component];
+            curved_(row, component) += value * point.curved[component];
             const Trace &other = master_traces_[point.other];
             const VectorXd facing = other.x[component].transpose() * point.facing;
             for (std::size_t m = 0; m < other.nodes.size(); ++m)
@@ -467,7 +490,8 @@ Mortar Assembly::result()
    made.size = size_(made.nodes);
    made.left_out = left_out_;
    Eigen::MatrixX2d apart = apart_(made.nodes, Eigen::all),
-                    chords = chords_(made.nodes, Eigen::all);
+                    chords = chords_(made.nodes, Eigen::all),
+                    curved = curved_(made.nodes, Eigen::all);
    Eigen::MatrixX2d normal(n, 2), own_normal(n, 2), other_normal(n, 2);
    const auto normals1 = slave_.each(&LineNode::normal),
               normals2 = master_.each(&LineNode::normal);
@@ -491,6 +515,7 @@ Mortar Assembly::result()
       made.other[c] = rows(other_[c], master_.size());
       apart.col(c).array() /= sums.array();
       chords.col(c).array() /= sums.array();
+      curved.col(c).array() /= sums.array();
       own_normal.col(c) = made.own[c] * normals1.col(c);
       other_normal.col(c) = made.other[c] * normals2.col(c);
       normal.col(c) = own_normal.col(c) - other_normal.col(c);
@@ -505,6 +530,7 @@ Mortar Assembly::result()
    made.tangent << normal.col(1), -normal.col(0);
    made.gap = normal.cwiseProduct(apart).rowwise().sum();
    made.chords = normal.cwiseProduct(chords).rowwise().sum();
+   made.curved = normal.cwiseProduct(curved).rowwise().sum();
    made.arm = made.tangent.cwiseProduct(apart).rowwise().sum();
    for (Index i = 0; i < n; ++i) // round-off of coordinates
    {

@@ -44,12 +44,16 @@ struct Mortar
        the moment that a normal force of 1 there leaves. Zero on straight lines; of the size of
        the chordal error on curved ones, and of a gap times the angle between both tangents. */
    Eigen::VectorXd arm;
-   /// What the gap would grow by if the elements of both lines were smooth curves through their
-   /// nodes, with the tangents of the lines: an estimate of how far chords are off it. None at
-   /// corners, where a line turns by more than 35 degrees.
+   /** What the gap would grow by if elements were smooth curves that they are not taken for:
+       those that a straight element of a line that is as meshed is a chord of
+       (LineElement::bend), and where none is known curves through its nodes with the tangents
+      of the line, an estimate that is none at corners, where a line turns by more than 35
+       degrees. */
    Eigen::VectorXd chords;
    /// The angle between the normals of both lines, in radians; 0: they are opposite.
    Eigen::VectorXd turn;
+   /// By how much the gap has grown since straight elements were taken for smooth curves.
+   Eigen::VectorXd curved;
    std::vector<int> free_surface; ///< nodes of the slave that nothing faces
    /// Length (area, about an axis) that is faced but that no contact node stands for: a master
    /// between two nodes of the slave, beside no row.

@@ -19,9 +19,11 @@ template <class Distance>
 VectorXd gaps(const InterfaceReport &nodes, Distance distance)
 {
    VectorXd all(nodes.nodes);
+   const Eigen::MatrixX2d &places =
+      nodes.outline.rows() == nodes.nodes ? nodes.outline : nodes.position;
    for (Index i = 0; i < nodes.nodes; ++i)
    {
-      const Vector2d x = nodes.position.row(i), t = nodes.tangent.row(i);
+      const Vector2d x = places.row(i), t = nodes.tangent.row(i);
       all[i] = distance(x, Vector2d(t[1], -t[0]));
       require(std::isfinite(all[i]), "interface '", nodes.name, "': the node at (", x[0], ", ",
               x[1], ") does not face the obstacle, the contact must end before it");

@@ -17,6 +17,7 @@ InterfaceReport fill(ReducedProblem &problem, Block block, const ContactLine &li
    report.name = "contact";
    report.nodes = n;
    report.position = line.each(&LineNode::position);
+   report.outline = line.outline();
    report.tangent = line.each(&LineNode::tangent);
    report.acts_at = {report.position, report.position};
    report.weights = line.each(&LineNode::weight);
@@ -134,12 +135,20 @@ Reduction reduce(CondensedBody body, const ScalarField &gap)
    const auto count = static_cast<Eigen::Index>(problem.patterns.size());
    result.interfaces = {fill(problem, alone(only, result.pattern_[0], count), only.line)};
    const Eigen::Index n = only.line.size();
+   InterfaceReport &report = result.interfaces[0];
+   const auto normal = only.line.each(&LineNode::normal);
+   report.chords = Eigen::VectorXd::Zero(n);
+   if (only.line.as_meshed)
+   {
+      report.chords = normal.cwiseProduct(only.line.off_chords()).rowwise().sum();
+   }
+   report.curved = normal.cwiseProduct(only.line.bulges()).rowwise().sum();
    problem.gap.resize(n);
    problem.dofs.resize(n, 2);
    for (Eigen::Index i = 0; i < n; ++i)
    {
       const LineNode &node = only.line.nodes[i];
-      problem.gap[i] = gap(node.position[0], node.position[1]);
+      problem.gap[i] = gap(report.outline(i, 0), report.outline(i, 1));
       require(std::isfinite(problem.gap[i]), "reduce: the gap at ", node.position, " is ",
               problem.gap[i], ", must be finite");
       problem.dofs.row(i) << node.dofs[0], node.dofs[1];

@@ -23,6 +23,7 @@ struct InterfaceReport
    /// The nodes are those of Interface::second: forces on the first body are the opposite.
    bool of_second = false;
    Eigen::MatrixX2d position; ///< n × 2, of the nodes
+   Eigen::MatrixX2d outline; ///< n × 2, ContactLine::outline: where gaps are measured from
    Eigen::MatrixX2d tangent;  ///< n × 2, of their frames: unit vectors
    /// n × 2 each: where the nodes' forces act on the body that has the nodes, and on what faces
    /// it. The first is the node's own place but on an element that is faced in part; the second
@@ -40,6 +41,7 @@ struct InterfaceReport
    /// n, Mortar::chords: what the gap is off by, if it is that of the geometry; 0 of nodes that
    /// match.
    Eigen::VectorXd chords = {};
+   Eigen::VectorXd curved = {}; ///< n, Mortar::curved; likewise
    double arm = 0; ///< largest size of Mortar::arm: moment left by a normal force of 1
    /// n: the angle between the normals of both bodies at each node, in radians, 0 where they
    /// are opposite. The frame of the node is the mean of both. 0 on a rigid obstacle.

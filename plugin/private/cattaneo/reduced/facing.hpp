@@ -18,8 +18,9 @@ struct ElementCurve
    Eigen::Vector2d derivative(double s) const;
    Eigen::Vector2d tangent(double s) const; ///< not of length 1
    double length() const;
-   /// How far a smooth curve lies from the element at s: one through the same nodes, with the
-   /// tangents of the line at both ends. An estimate of what chords miss; 0 at corners.
+   /// An estimate of how far a smooth curve lies from the element at s, where no curve is known
+   /// that it is a chord of: one through the same nodes, with the tangents of the line at both
+   /// ends. 0 at corners.
    Eigen::Vector2d bulge(double s) const;
 };
 

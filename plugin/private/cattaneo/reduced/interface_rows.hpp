@@ -49,6 +49,7 @@ public:
 
 private:
    Side side(const InterfaceSide &given) const;
+   void add_curves(const ContactLine &other, const std::vector<int> &partner);
    void face_all(const std::vector<int> &without);
    void pair_nodes(const std::vector<int> &without);
    void meet(const std::vector<int> &without);

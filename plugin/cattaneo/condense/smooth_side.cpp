@@ -1,0 +1,347 @@
+#include <algorithm>
+#include <cattaneo/condense/smooth_side.hpp>
+#include <cmath>
+
+namespace cattaneo
+{
+
+using Eigen::Vector2d;
+
+namespace
+{
+
+const double degree = std::acos(-1.0) / 180;
+
+double cross(const Vector2d &a, const Vector2d &b)
+{
+   return a[0] * b[1] - a[1] * b[0];
+}
+
+/// How many vertices are added beyond an end to see it as one that goes on: more than a run of
+/// turns that decides.
+constexpr int beyond_end = 8;
+
+/** A side without ends where it has none: loops and mirror images go on beyond them. */
+class OpenSide
+{
+public:
+   explicit OpenSide(const SidePolygon &side);
+   std::vector<EdgeBend> bends();
+
+private:
+   using Vertices = std::vector<Vector2d>;
+
+   void measure();
+   bool find_corners();
+   void find_short_runs();
+   bool drop_profile();
+   EdgeBend bend(int edge) const;
+   void meet(std::vector<EdgeBend> &all) const;
+
+   int last() const { return static_cast<int>(x_.size()) - 1; }
+   bool inside(int i) const { return curve_[i - 1] >= 0 && curve_[i - 1] == curve_[i]; }
+   bool parts(int i) const { return curve_[i - 1] != curve_[i]; }
+   /// Does the circle through this vertex and its neighbours tell the curvature of both edges?
+   bool tells(int i) const { return i > 0 && i < last() && !corner_[i] && !parts(i); }
+   double arc(int edge, double curvature) const
+   {
+      return std::asin(std::clamp(0.5 * length_[edge] * curvature, -0.9, 0.9));
+   }
+
+   Vertices x_;
+   std::vector<int> curve_; ///< of each edge
+   int first_ = 0;          ///< edge that was the first
+   std::size_t edges_ = 0;  ///< how many there were
+   std::vector<double> length_, along_, turn_, curvature_, centre_;
+   std::vector<bool> corner_;
+};
+
+OpenSide::OpenSide(const SidePolygon &side) : x_(side.vertices)
+{
+   const auto n = static_cast<int>(x_.size());
+   edges_ = side.loop ? n : n - 1;
+   curve_ = side.curves.size() == edges_ ? side.curves : std::vector<int>(edges_, -1);
+   if (side.loop)
+   {
+      // A vertex and an edge before the first are those before the last, as often as need be.
+      Vertices around;
+      std::vector<int> curves;
+      for (int k = -beyond_end; k <= n + beyond_end; ++k)
+      {
+         const int at = ((k % n) + n) % n;
+         around.push_back(x_[at]);
+         if (k < n + beyond_end) { curves.push_back(curve_[at]); }
+      }
+      x_ = std::move(around);
+      curve_ = std::move(curves);
+      first_ = beyond_end;
+      return;
+   }
+   for (const bool end : {true, false})
+   {
+      const Vector2d &way = side.beyond[end];
+      const int tip = end ? last() : 0, step = end ? -1 : 1;
+      if (way.isZero(0) || last() < 1) { continue; }
+      const Vector2d axis = way.normalized(), out = (x_[tip] - x_[tip + step]).normalized();
+      // Half of the turn between the edge and its image.
+      if (std::abs(out.dot(axis)) > std::sin(0.5 * SidePolygon::corner * degree)) { continue; }
+      const int images = std::min(beyond_end, last());
+      Vertices more;
+      std::vector<int> curves;
+      for (int k = 1; k <= images; ++k)
+      {
+         const Vector2d from = x_[tip + k * step] - x_[tip];
+         more.push_back(x_[tip] + 2 * axis.dot(from) * axis - from);
+         curves.push_back(curve_[end ? static_cast<int>(curve_.size()) - k : k - 1]);
+      }
+      if (end)
+      {
+         x_.insert(x_.end(), more.begin(), more.end());
+         curve_.insert(curve_.end(), curves.begin(), curves.end());
+      }
+      else
+      {
+         x_.insert(x_.begin(), more.rbegin(), more.rend());
+         curve_.insert(curve_.begin(), curves.rbegin(), curves.rend());
+         first_ = images;
+      }
+   }
+}
+
+/// Turns at the vertices, and curvatures of circles through three of them, which are those of
+/// the curve at the mean of their places.
+void OpenSide::measure()
+{
+   const auto n = x_.size();
+   length_.assign(n - 1, 0);
+   along_.assign(n, 0);
+   turn_ = curvature_ = centre_ = std::vector<double>(n, 0);
+   for (std::size_t e = 0; e + 1 < n; ++e)
+   {
+      length_[e] = (x_[e + 1] - x_[e]).norm();
+      along_[e + 1] = along_[e] + length_[e];
+   }
+   for (std::size_t i = 1; i + 1 < n; ++i)
+   {
+      const Vector2d before = x_[i] - x_[i - 1], after = x_[i + 1] - x_[i];
+      turn_[i] = std::atan2(cross(before, after), before.dot(after));
+      curvature_[i] = 2 * cross(before, after) /
+                      (length_[i - 1] * length_[i] * std::max((before + after).norm(), 1e-300));
+      centre_[i] = (along_[i - 1] + along_[i] + along_[i + 1]) / 3;
+   }
+}
+
+/// Corners by the angle, and by what the vertices beside them let expect. False if one is
+/// within a curve of the file, which is none then.
+bool OpenSide::find_corners()
+{
+   corner_.assign(x_.size(), false);
+   bool true_curves = true;
+   for (int i = 1; i < last(); ++i)
+   {
+      const double most = inside(i) ? SidePolygon::corner_within : SidePolygon::corner;
+      corner_[i] = std::abs(turn_[i]) > most * degree;
+      true_curves = true_curves && !(corner_[i] && inside(i));
+   }
+   for (bool more = true; more;)
+   {
+      const std::vector<bool> before = corner_;
+      more = false;
+      for (int i = 1; i < last(); ++i)
+      {
+         if (before[i] || parts(i)) { continue; }
+         const auto known = [&](int j)
+         { return j > 0 && j < last() && !before[j] && !parts(j); };
+         const bool left = known(i - 1), right = known(i + 1);
+         bool is_corner = false;
+         if (!left && !right) { is_corner = !inside(i); }
+         else
+         {
+            // A neighbour that tells nothing is taken to be like the other one.
+            const double on_left = curvature_[left ? i - 1 : i + 1],
+                         on_right = curvature_[right ? i + 1 : i - 1];
+            const double expected = arc(i - 1, on_left) + arc(i, on_right);
+            const double largest = std::max(std::abs(on_left), std::abs(on_right)) * 0.5 *
+                                   (length_[i - 1] + length_[i]);
+            is_corner =
+               std::abs(turn_[i] - expected) > (inside(i) ? 1.5 : 1.2) * largest + 1e-9;
+         }
+         if (is_corner)
+         {
+            corner_[i] = more = true;
+            true_curves = true_curves && !inside(i);
+         }
+      }
+   }
+   return true_curves;
+}
+
+/// Where no curve is known: turns in one direction that are too few to tell an arc from a
+/// chamfer.
+void OpenSide::find_short_runs()
+{
+   const auto counts = [&](int i)
+   {
+      if (i < 1 || i >= last() || corner_[i]) { return false; }
+      const double beside = std::max(i > 1 ? std::abs(turn_[i - 1]) : 0,
+                                     i + 1 < last() ? std::abs(turn_[i + 1]) : 0);
+      return std::abs(turn_[i]) > 0.1 * beside;
+   };
+   for (int begin = 1; begin < last();)
+   {
+      if (!counts(begin))
+      {
+         ++begin;
+         continue;
+      }
+      int end = begin + 1;
+      double least = std::abs(curvature_[begin]), most = least;
+      bool known = inside(begin);
+      while (counts(end) && turn_[end] * turn_[begin] > 0)
+      {
+         least = std::min(least, std::abs(curvature_[end]));
+         most = std::max(most, std::abs(curvature_[end]));
+         known = known || inside(end);
+         ++end;
+      }
+      const int turns = end - begin;
+      // A straight flank on the same curve as an arc says that this is no curve of the file's.
+      const auto flank = [&](int i)
+      { return i > 0 && i < last() && inside(i) && !corner_[i] && !counts(i); };
+      known = known && !flank(begin - 1) && !flank(end);
+      if (!known && (turns < 3 || (turns == 3 && least < 0.6 * most)))
+      {
+         for (int i = begin; i < end; ++i) { corner_[i] = true; }
+      }
+      begin = end;
+   }
+}
+
+/// A measured profile: where a third of the vertices that turn do so against their neighbours,
+/// the others do not lie on a curve either.
+bool OpenSide::drop_profile()
+{
+   int turns = 0, odd = 0;
+   double largest = 0;
+   for (int i = 1; i < last(); ++i)
+   {
+      if (std::abs(turn_[i]) < SidePolygon::corner * degree)
+      {
+         largest = std::max(largest, std::abs(turn_[i]));
+      }
+   }
+   for (int i = 1; i < last(); ++i)
+   {
+      const double turn = std::abs(turn_[i]);
+      if (turn > SidePolygon::corner * degree || turn < 0.02 * largest) { continue; }
+      ++turns;
+      odd += corner_[i];
+   }
+   return turns > 0 && 3 * odd > turns;
+}
+
+/// From the curvature of circles through the vertices at its ends.
+EdgeBend OpenSide::bend(int e) const
+{
+   const int i = e, j = e + 1;
+   const double middle = 0.5 * (along_[i] + along_[j]), h = length_[e];
+   const auto slope = [&](int a, int b)
+   { return (curvature_[b] - curvature_[a]) / (centre_[b] - centre_[a]); };
+   double at = 0, change = 0;
+   const bool from_left = tells(i), from_right = tells(j);
+   const bool left = from_left && tells(i - 1), right = from_right && tells(j + 1);
+   const auto one_sided = [&](int near, int far, bool both)
+   {
+      at = curvature_[near];
+      if (!both) { return; }
+      const double s = slope(std::min(near, far), std::max(near, far)),
+                   there = at + s * (middle - centre_[near]);
+      // Never turned round, nor doubled: that is no curve that goes on.
+      if (there * at < 0 || std::abs(there) > 2 * std::abs(at)) { return; }
+      at = there;
+      change = s;
+   };
+   if (from_left && from_right)
+   {
+      const double across = slope(i, j);
+      const double before = left ? slope(i - 1, i) : HUGE_VAL,
+                   after = right ? slope(j, j + 1) : HUGE_VAL;
+      // At a jump one side knows nothing of it.
+      if (std::min(std::abs(before), std::abs(after)) < 0.3 * std::abs(across))
+      {
+         if (std::abs(before) < std::abs(after)) { one_sided(i, i - 1, true); }
+         else { one_sided(j, j + 1, true); }
+      }
+      else
+      {
+         change = across;
+         at = curvature_[i] + across * (middle - centre_[i]);
+      }
+   }
+   else if (from_left) { one_sided(i, i - 1, left); }
+   else if (from_right) { one_sided(j, j + 1, right); }
+   const double half = arc(e, at), more = change * h * h / 12;
+   return {half - more, half + more};
+}
+
+/// Makes the curves of neighbours have one tangent where they meet smoothly.
+void OpenSide::meet(std::vector<EdgeBend> &all) const
+{
+   for (int i = 1; i < last(); ++i)
+   {
+      EdgeBend &before = all[i - 1], &after = all[i];
+      if (!tells(i)) { continue; }
+      const double missing = turn_[i] - before.end - after.begin;
+      if (std::abs(missing) > 0.5 * std::abs(turn_[i])) { continue; }
+      const double share = length_[i - 1] / (length_[i - 1] + length_[i]);
+      before.end += share * missing;
+      after.begin += (1 - share) * missing;
+   }
+}
+
+std::vector<EdgeBend> OpenSide::bends()
+{
+   std::vector<EdgeBend> all(edges_);
+   if (last() < 2) { return all; }
+   measure();
+   if (!find_corners())
+   {
+      std::fill(curve_.begin(), curve_.end(), -1);
+      find_corners();
+   }
+   find_short_runs();
+   if (drop_profile())
+   {
+      for (int i = 1; i < last(); ++i) { corner_[i] = corner_[i] || !inside(i); }
+   }
+   std::vector<EdgeBend> found;
+   for (int e = 0; e < last(); ++e) { found.push_back(bend(e)); }
+   meet(found);
+   // Round-off of coordinates is no curve.
+   const double least = 1e-6;
+   for (std::size_t k = 0; k < edges_; ++k)
+   {
+      const EdgeBend &its = found[first_ + k];
+      if (std::max(std::abs(its.begin), std::abs(its.end)) > least) { all[k] = its; }
+   }
+   return all;
+}
+
+} // namespace
+
+double EdgeBend::off(double s) const
+{
+   // The arc of a circle with the mean of both angles, and a cubic that leans to one end.
+   const double mean = 0.5 * (begin + end), sine = std::sin(mean);
+   const double arc =
+      2 * sine * s * (1 - s) /
+      (std::sqrt(1 - 4 * sine * sine * (s - 0.5) * (s - 0.5)) + std::cos(mean));
+   return arc + 0.5 * (std::tan(begin) - std::tan(end)) * s * (1 - s) * (1 - 2 * s);
+}
+
+std::vector<EdgeBend> smooth_curve(const SidePolygon &side)
+{
+   return side.vertices.size() < 2 ? std::vector<EdgeBend>() : OpenSide(side).bends();
+}
+
+} // namespace cattaneo

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <array>
+#include <vector>
+
+namespace cattaneo
+{
+
+/** A smooth curve over a straight edge, through both of its ends. Seen along the edge with the
+    body on the left, the curve leaves the chord to the right by the angle `begin` and comes back
+    to it by the angle `end` (radians): both positive where the body is convex, negative in a
+    hole, zero where the edge is what it seems. Of an arc of a circle both are half of the angle
+    that it spans, and the curve is that arc. */
+struct EdgeBend
+{
+   double begin = 0, end = 0;
+
+   bool straight() const { return begin == 0 && end == 0; }
+   /// How far to the right of the chord the curve is at 0 <= s <= 1 along it, in lengths of the
+   /// edge.
+   double off(double s) const;
+   /// The same seen from the other end.
+   EdgeBend reversed() const { return {end, begin}; }
+};
+
+/// An edge of a side with the curve that it is a chord of.
+struct SideChord
+{
+   Eigen::Vector2d from, to; ///< the body on the left
+   EdgeBend bend;
+};
+
+/// What is said of a side whose vertices may lie on smooth curves.
+struct SidePolygon
+{
+   std::vector<Eigen::Vector2d> vertices; ///< along the side, the body on the left
+   bool loop = false;                     ///< the last vertex is followed by the first
+   /// The curve of the file that each edge is on (an entity of Gmsh), -1: not known. Empty: of
+   /// none.
+   std::vector<int> curves = {};
+   /// Directions in which the boundary goes on beyond the ends, zero: not known. Where that is
+   /// nearly across the side it may be a plane or an axis of symmetry, beyond which the curve
+   /// goes on as its mirror image.
+   std::array<Eigen::Vector2d, 2> beyond{Eigen::Vector2d(0, 0), Eigen::Vector2d(0, 0)};
+
+   static constexpr double corner = 31;        ///< degrees: a circle of twelve edges has 30
+   static constexpr double corner_within = 46; ///< degrees: a circle of eight edges has 45
+};
+
+/** The smooth curve that each edge of a side is a chord of; straight ones where the side is a
+    polygon. Told by three things, in this order.
+
+    1. The file: vertices within one of its curves are smooth, its ends may be corners, and the
+       curvature may jump there. Curves with a corner inside are no curves, the file's are then
+       not looked at.
+    2. The run of turns. A vertex is a corner that turns much more, or less, than the vertices
+       beside it let expect: a chamfer with straight flanks. Where no curve is known an arc has
+       four turns in a row in one direction, or three alike: less is taken for a chamfer. Where a
+       third of the vertices are such corners the side is a profile of points, which is left.
+    3. The angle: a turn of more than `corner` degrees (within one of the file's curves
+       `corner_within`) is a corner.
+
+    Between corners the curvature is that of circles through three vertices, linear within an
+    edge; where it jumps (an arc that joins a straight flank) it is taken from the side that it
+    changes less on, so that the flank stays straight. Circles are exact, whatever the distances
+    of their vertices; other curves are met to the fourth order of the edges' length. Open ends
+    are one-sided, or mirrored (SidePolygon::beyond), loops periodic. */
+std::vector<EdgeBend> smooth_curve(const SidePolygon &side);
+
+} // namespace cattaneo

@@ -1,0 +1,402 @@
+#include <algorithm>
+#include <cattaneo/input_error.hpp>
+#include <cattaneo/mesh/smooth_sides.hpp>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <set>
+
+namespace cattaneo
+{
+
+using Eigen::Vector2d;
+
+namespace
+{
+
+/// An edge of the boundary, in the direction with the body on its left.
+struct OuterEdge
+{
+   int from = 0, to = 0;      ///< vertices
+   int element = 0, side = 0; ///< the element, and the number of its edge
+   int curve = -1;            ///< of the file
+   bool wanted = false;       ///< it is on a side that is looked at
+   EdgeBend bend = {};
+};
+
+/// The vertices of an element's edge, counterclockwise.
+std::array<int, 2> ends_of(const mfem::Mesh &mesh, int element, int side)
+{
+   mfem::Array<int> vertices;
+   mesh.GetElementVertices(element, vertices);
+   const int *at = mesh.GetElement(element)->GetEdgeVertices(side);
+   return {vertices[at[0]], vertices[at[1]]};
+}
+
+std::vector<OuterEdge> outer_edges(mfem::Mesh &mesh, const std::vector<int> &attributes,
+                                   const std::vector<int> &curves)
+{
+   std::map<std::pair<int, int>, int> elements; // of the boundary, by their ends
+   mfem::Array<int> ends;
+   for (int i = 0; i < mesh.GetNBE(); ++i)
+   {
+      mesh.GetBdrElementVertices(i, ends);
+      elements[std::minmax(ends[0], ends[1])] = i;
+   }
+   std::vector<OuterEdge> all;
+   for (int face = 0; face < mesh.GetNumFaces(); ++face)
+   {
+      if (mesh.FaceIsInterior(face)) { continue; }
+      OuterEdge edge;
+      int none = 0, info = 0, other = 0;
+      mesh.GetFaceElements(face, &edge.element, &none);
+      mesh.GetFaceInfos(face, &info, &other);
+      edge.side = info / 64;
+      const auto [from, to] = ends_of(mesh, edge.element, edge.side);
+      edge.from = from;
+      edge.to = to;
+      const auto found = elements.find(std::minmax(from, to));
+      if (found != elements.end())
+      {
+         const int i = found->second;
+         if (i < static_cast<int>(curves.size())) { edge.curve = curves[i]; }
+         edge.wanted =
+            std::count(attributes.begin(), attributes.end(), mesh.GetBdrAttribute(i)) > 0;
+      }
+      all.push_back(edge);
+   }
+   return all;
+}
+
+/// Edges that follow each other along the boundary, those of a hole or a body each.
+std::vector<std::vector<OuterEdge *>> rims(std::vector<OuterEdge> &edges)
+{
+   std::map<int, std::vector<OuterEdge *>> starting;
+   std::map<int, int> ending;
+   for (OuterEdge &edge : edges)
+   {
+      starting[edge.from].push_back(&edge);
+      ++ending[edge.to];
+   }
+   // Where two rims touch at a vertex none goes on.
+   const auto next = [&](const OuterEdge *edge) -> OuterEdge *
+   {
+      const auto found = starting.find(edge->to);
+      const bool one =
+         found != starting.end() && found->second.size() == 1 && ending[edge->to] == 1;
+      return one ? found->second[0] : nullptr;
+   };
+   std::set<const OuterEdge *> used;
+   std::vector<std::vector<OuterEdge *>> all;
+   const auto follow = [&](OuterEdge *edge)
+   {
+      all.emplace_back();
+      for (; edge && used.insert(edge).second; edge = next(edge))
+      {
+         all.back().push_back(edge);
+      }
+   };
+   for (OuterEdge &edge : edges)
+   {
+      if (starting[edge.from].size() > 1 || ending[edge.from] != 1) { follow(&edge); }
+   }
+   for (OuterEdge &edge : edges)
+   {
+      if (!used.count(&edge)) { follow(&edge); }
+   }
+   return all;
+}
+
+Vector2d place(const mfem::Mesh &mesh, int vertex)
+{
+   const double *at = mesh.GetVertex(vertex);
+   return {at[0], at[1]};
+}
+
+/// What the vertices of a rim are the vertices of.
+void find_bends(const mfem::Mesh &mesh, std::vector<OuterEdge *> rim)
+{
+   const bool loop = rim.front()->from == rim.back()->to;
+   const auto n = static_cast<int>(rim.size());
+   const auto along = [&](int k)
+   {
+      const OuterEdge &edge = *rim[(k + n) % n];
+      return Vector2d(place(mesh, edge.to) - place(mesh, edge.from));
+   };
+   // Between corners, which a side ends at: beyond them may be a plane of symmetry.
+   const auto is_corner = [&](int k) // at the beginning of edge k
+   {
+      const Vector2d a = along(k - 1), b = along(k);
+      const double turn = std::abs(std::atan2(a[0] * b[1] - a[1] * b[0], a.dot(b)));
+      return turn > SidePolygon::corner_within * std::acos(-1.0) / 180;
+   };
+   std::vector<int> corners;
+   for (int k = loop ? 0 : 1; k < n; ++k)
+   {
+      if (is_corner(k)) { corners.push_back(k); }
+   }
+   if (loop && !corners.empty())
+   {
+      const int first = corners.front();
+      std::rotate(rim.begin(), rim.begin() + first, rim.end());
+      for (int &corner : corners) { corner -= first; }
+   }
+   else { corners.insert(corners.begin(), 0); }
+   const bool whole = loop && corners.size() == 1 && !is_corner(0);
+   corners.push_back(n);
+   for (std::size_t c = 0; c + 1 < corners.size(); ++c)
+   {
+      const int begin = corners[c], end = corners[c + 1];
+      const auto wanted = [](const OuterEdge *edge) { return edge->wanted; };
+      if (std::none_of(rim.begin() + begin, rim.begin() + end, wanted)) { continue; }
+      SidePolygon side;
+      side.loop = whole;
+      for (int k = begin; k < end; ++k)
+      {
+         side.vertices.push_back(place(mesh, rim[k]->from));
+         side.curves.push_back(rim[k]->curve);
+      }
+      if (!whole)
+      {
+         side.vertices.push_back(place(mesh, rim[end - 1]->to));
+         if (loop || begin > 0) { side.beyond[0] = along(begin - 1); }
+         if (loop || end < n) { side.beyond[1] = along(end); }
+      }
+      const std::vector<EdgeBend> bends = smooth_curve(side);
+      for (int k = begin; k < end; ++k) { rim[k]->bend = bends[k - begin]; }
+   }
+}
+
+/// Where a point of an element lies along one of its edges, and how much of what moves the
+/// edge moves it.
+struct Blend
+{
+   double along, share;
+};
+
+Blend blend(mfem::Geometry::Type shape, const int *at, const mfem::IntegrationPoint &ip)
+{
+   const mfem::IntegrationRule &corners = *mfem::Geometries.GetVertices(shape);
+   const Vector2d from(corners[at[0]].x, corners[at[0]].y),
+      to(corners[at[1]].x, corners[at[1]].y), here(ip.x, ip.y);
+   if (shape == mfem::Geometry::SQUARE)
+   {
+      const Vector2d t = to - from, e = here - from;
+      return {t.dot(e), 1 - std::abs(t[0] * e[1] - t[1] * e[0])};
+   }
+   const std::array<double, 3> weights{1 - ip.x - ip.y, ip.x, ip.y};
+   const double a = weights[at[0]], b = weights[at[1]], difference = b - a;
+   const double left = (1 - difference) * (1 + difference);
+   return {0.5 * (1 + difference), left > 1e-12 ? 4 * a * b / left : 0};
+}
+
+/// How far the nodes of an edge are off its chord, in what its curve is: 0 of a straight edge,
+/// 1 of one that is curved as its vertices say.
+double curved(mfem::Mesh &mesh, const OuterEdge &edge)
+{
+   if (!mesh.GetNodes()) { return 0; }
+   const Vector2d from = place(mesh, edge.from), chord = place(mesh, edge.to) - from;
+   mfem::IsoparametricTransformation plane;
+   mesh.GetElementTransformation(edge.element, &plane);
+   const mfem::IntegrationRule &nodes = plane.GetFE()->GetNodes();
+   const int *at = mesh.GetElement(edge.element)->GetEdgeVertices(edge.side);
+   double off = 0, expected = 0;
+   for (int k = 0; k < nodes.GetNPoints(); ++k)
+   {
+      const Blend of = blend(plane.GetGeometryType(), at, nodes[k]);
+      if (of.share < 1 - 1e-9) { continue; }
+      const Vector2d e = Vector2d(plane.GetPointMat()(0, k), plane.GetPointMat()(1, k)) - from;
+      off = std::max(off, std::abs(chord[0] * e[1] - chord[1] * e[0]) / chord.squaredNorm());
+      expected = std::max(expected, std::abs(edge.bend.off(of.along)));
+   }
+   return expected > 0 ? off / expected : off > 1e-4 ? 1 : 0;
+}
+
+/// Where the nodes of an element that is beside an edge go with it: calls move(node, share of
+/// what is on the edge, displacement).
+template <class Move>
+void along_edge(const mfem::Mesh &mesh, const OuterEdge &edge, Move move)
+{
+   const mfem::FiniteElementSpace &space = *mesh.GetNodalFESpace();
+   const Vector2d chord = place(mesh, edge.to) - place(mesh, edge.from);
+   const mfem::FiniteElement &map = *space.GetFE(edge.element);
+   const int *at = mesh.GetElement(edge.element)->GetEdgeVertices(edge.side);
+   mfem::Array<int> dofs;
+   space.GetElementDofs(edge.element, dofs);
+   for (int k = 0; k < dofs.Size(); ++k)
+   {
+      const Blend of = blend(map.GetGeomType(), at, map.GetNodes()[k]);
+      move(dofs[k], of.share,
+           Vector2d(of.share * edge.bend.off(of.along) * Vector2d(chord[1], -chord[0])));
+   }
+}
+
+void add(mfem::Mesh &mesh, const std::vector<std::pair<int, Vector2d>> &moved)
+{
+   const mfem::FiniteElementSpace &space = *mesh.GetNodalFESpace();
+   for (const auto &[node, by] : moved)
+   {
+      for (int c : {0, 1}) { (*mesh.GetNodes())(space.DofToVDof(node, c)) += by[c]; }
+   }
+   mesh.NodesUpdated();
+}
+
+/// Moves nodes of the elements beside bent edges.
+void move_beside(mfem::Mesh &mesh, const std::vector<const OuterEdge *> &bent)
+{
+   std::vector<std::pair<int, Vector2d>> moved;
+   for (const OuterEdge *edge : bent)
+   {
+      along_edge(mesh, *edge,
+                 [&](int node, double, const Vector2d &by) { moved.emplace_back(node, by); });
+   }
+   add(mesh, moved);
+}
+
+/// Moves all nodes by what is harmonic within, given along the bent edges and zero along all
+/// others of the boundary.
+void move_all(mfem::Mesh &mesh, const std::vector<OuterEdge> &edges,
+              const std::vector<const OuterEdge *> &bent)
+{
+   const std::set<const OuterEdge *> bends(bent.begin(), bent.end());
+   mfem::FiniteElementSpace space(&mesh, mesh.GetNodalFESpace()->FEColl());
+   std::map<int, Vector2d> known;
+   for (const OuterEdge &edge : edges)
+   {
+      along_edge(mesh, edge,
+                 [&](int node, double share, const Vector2d &by)
+                 {
+                    if (share < 1 - 1e-9) { return; }
+                    const auto at = known.emplace(node, Vector2d(0, 0)).first;
+                    if (bends.count(&edge)) { at->second += by; }
+                 });
+   }
+   mfem::Array<int> fixed;
+   for (const auto &[node, by] : known) { fixed.Append(node); }
+   mfem::BilinearForm laplace(&space);
+   laplace.AddDomainIntegrator(new mfem::DiffusionIntegrator);
+   laplace.Assemble();
+   std::vector<Vector2d> all(space.GetNDofs(), Vector2d(0, 0));
+   for (int c : {0, 1})
+   {
+      mfem::GridFunction moved(&space);
+      mfem::LinearForm none(&space);
+      none.Assemble();
+      moved = 0.0;
+      for (const auto &[node, by] : known) { moved(node) = by[c]; }
+      mfem::SparseMatrix A;
+      mfem::Vector B, X;
+      laplace.FormLinearSystem(fixed, moved, none, A, X, B);
+      mfem::GSSmoother smoother(A);
+      mfem::PCG(A, smoother, B, X, -1, 2000, 1e-16, 0.0);
+      laplace.RecoverFEMSolution(X, none, moved);
+      for (int k = 0; k < moved.Size(); ++k) { all[k][c] = moved(k); }
+   }
+   std::vector<std::pair<int, Vector2d>> list;
+   for (std::size_t k = 0; k < all.size(); ++k)
+   {
+      list.emplace_back(static_cast<int>(k), all[k]);
+   }
+   add(mesh, list);
+}
+
+/// The least determinant of an element over what it is in the mean.
+double evenness(mfem::Mesh &mesh, int element)
+{
+   mfem::IsoparametricTransformation plane;
+   mesh.GetElementTransformation(element, &plane);
+   double least = std::numeric_limits<double>::infinity(), sum = 0;
+   const auto look = [&](const mfem::IntegrationPoint &ip)
+   {
+      plane.SetIntPoint(&ip);
+      const mfem::DenseMatrix &J = plane.Jacobian();
+      const double det = J(0, 0) * J(1, 1) - J(0, 1) * J(1, 0);
+      least = std::min(least, det);
+      return det;
+   };
+   const mfem::IntegrationRule &rule =
+      mfem::IntRules.Get(plane.GetGeometryType(), 2 * plane.GetFE()->GetOrder() + 2);
+   double weights = 0;
+   for (int k = 0; k < rule.GetNPoints(); ++k)
+   {
+      sum += rule[k].weight * look(rule[k]);
+      weights += rule[k].weight;
+   }
+   const mfem::IntegrationRule &nodes = plane.GetFE()->GetNodes();
+   for (int k = 0; k < nodes.GetNPoints(); ++k) { look(nodes[k]); }
+   return least * weights / sum;
+}
+
+} // namespace
+
+SmoothSides curve_sides(mfem::Mesh &mesh, int order, const std::vector<int> &attributes,
+                        const std::vector<int> &curves)
+{
+#ifdef MFEM_USE_MPI
+   require(dynamic_cast<const mfem::ParMesh *>(&mesh) == nullptr,
+           "curve sides: the mesh is distributed, it must be curved before it is");
+#endif
+   SmoothSides found;
+   const bool splines = mesh.NURBSext != nullptr, many = !mesh.Conforming();
+   if (splines || many || mesh.Dimension() != 2 || mesh.SpaceDimension() != 2) { return found; }
+   std::vector<OuterEdge> edges = outer_edges(mesh, attributes, curves);
+   std::vector<const OuterEdge *> bent;
+   for (const std::vector<OuterEdge *> &rim : rims(edges))
+   {
+      find_bends(mesh, rim);
+      // A mesh that has curves knows which of its edges are straight.
+      const bool knows = std::any_of(rim.begin(), rim.end(),
+                                     [&](const OuterEdge *edge)
+                                     { return edge->wanted && curved(mesh, *edge) > 0.1; });
+      if (knows) { continue; }
+      for (const OuterEdge *edge : rim)
+      {
+         if (!edge->wanted) { continue; }
+         found.chords.push_back({place(mesh, edge->from), place(mesh, edge->to), edge->bend});
+         if (edge->bend.straight()) { continue; }
+         ++found.edges;
+         const Vector2d chord = found.chords.back().to - found.chords.back().from;
+         found.most = std::max(found.most, std::abs(edge->bend.off(0.5)) * chord.norm());
+         bent.push_back(edge);
+      }
+   }
+   if (bent.empty() || order < 2) { return found; }
+   // Nodes that elements do not share are those of a mesh that is periodic.
+   const mfem::FiniteElementSpace *space = mesh.GetNodalFESpace();
+   const bool periodic =
+      space && dynamic_cast<const mfem::L2_FECollection *>(space->FEColl()) != nullptr;
+   if (periodic) { return found; }
+   const int before_order = space ? space->GetMaxElementOrder() : 1;
+   std::map<int, double> before; // of elements, as meshed
+   const auto note = [&](int e) { before.emplace(e, evenness(mesh, e)); };
+   // Elements may lose so much of what their least determinant was.
+   const auto all_sound = [&]
+   {
+      return std::all_of(before.begin(), before.end(),
+                         [&](const auto &each)
+                         { return evenness(mesh, each.first) > 0.3 * each.second; });
+   };
+   for (const OuterEdge *edge : bent) { note(edge->element); }
+   if (before_order < order) { mesh.SetCurvature(order, false, 2, mfem::Ordering::byVDIM); }
+   const mfem::Vector as_meshed = *mesh.GetNodes();
+   const auto put_back = [&]
+   {
+      static_cast<mfem::Vector &>(*mesh.GetNodes()) = as_meshed;
+      mesh.NodesUpdated();
+   };
+   move_beside(mesh, bent);
+   found.moved = all_sound();
+   if (!found.moved)
+   {
+      put_back();
+      for (int e = 0; e < mesh.GetNE(); ++e) { note(e); }
+      move_all(mesh, edges, bent);
+      found.moved = all_sound();
+   }
+   if (!found.moved) { put_back(); }
+   found.folds = !found.moved;
+   return found;
+}
+
+} // namespace cattaneo

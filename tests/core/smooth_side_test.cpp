@@ -1,0 +1,254 @@
+#include <algorithm>
+#include <cattaneo/condense/smooth_side.hpp>
+#include <cmath>
+#include <functional>
+#include <gtest/gtest.h>
+#include <random>
+
+namespace
+{
+
+using namespace cattaneo;
+using Eigen::Vector2d;
+
+const double degree = std::acos(-1.0) / 180;
+using Distance = std::function<double(const Vector2d &)>;
+
+/// The farthest that the curves over a side's edges are from what they should be.
+double farthest(const SidePolygon &side, const Distance &distance)
+{
+   const std::vector<EdgeBend> bends = smooth_curve(side);
+   double most = 0;
+   for (std::size_t e = 0; e < bends.size(); ++e)
+   {
+      const Vector2d from = side.vertices[e],
+                     chord = side.vertices[(e + 1) % side.vertices.size()] - from;
+      for (double s = 0.05; s < 1; s += 0.1)
+      {
+         const Vector2d x = from + s * chord + bends[e].off(s) * Vector2d(chord[1], -chord[0]);
+         most = std::max(most, std::abs(distance(x)));
+      }
+   }
+   return most;
+}
+
+/// Degrees.
+double largest_bend(const SidePolygon &side)
+{
+   double most = 0;
+   for (const EdgeBend &bend : smooth_curve(side))
+   {
+      most = std::max({most, std::abs(bend.begin), std::abs(bend.end)});
+   }
+   return most / degree;
+}
+
+/// Edges of length 1 that turn by these degrees from one to the next.
+std::vector<Vector2d> walk(const std::vector<double> &turns)
+{
+   std::vector<Vector2d> all{{0, 0}};
+   double angle = 0;
+   for (std::size_t k = 0; k <= turns.size(); ++k)
+   {
+      all.push_back(all.back() + Vector2d(std::cos(angle), std::sin(angle)));
+      if (k < turns.size()) { angle += turns[k] * degree; }
+   }
+   return all;
+}
+
+/// Circles, whatever the distances of their vertices, their size, place and sense of turning:
+/// the radius to round-off, of noise of 1e-12 to what that makes of curvatures.
+TEST(SmoothSide, MeetsCirclesExactly)
+{
+   std::mt19937 random(1);
+   std::uniform_real_distribution<double> any(-1, 1);
+   for (int n : {12, 24, 57, 240})
+   {
+      for (double radius : {1e-3, 1.0, 250.0})
+      {
+         for (double noise : {0.0, 1e-12})
+         {
+            const Vector2d middle = 3 * radius * Vector2d(any(random), any(random));
+            const bool hole = n % 2 == 1, loop = n != 57;
+            SidePolygon side;
+            side.loop = loop;
+            for (int k = 0; k < n; ++k)
+            {
+               const double uneven = n > 12 ? 0.2 * any(random) : 0;
+               const double angle = (hole ? -1 : 1) * (k + uneven) * 2 * M_PI / n;
+               const Vector2d off(any(random), any(random));
+               side.vertices.push_back(middle +
+                                       radius * Vector2d(std::cos(angle), std::sin(angle)) +
+                                       noise * radius * off);
+            }
+            const double off = farthest(side, [&](const Vector2d &x)
+                                        { return ((x - middle).norm() - radius) / radius; });
+            EXPECT_LT(off, noise > 0 ? 10 * noise : 1e-14) << n << " " << radius;
+         }
+      }
+   }
+}
+
+/// Other curves to the fourth order of the edges' length.
+TEST(SmoothSide, ConvergesToEllipses)
+{
+   for (double a : {1.5, 3.0})
+   {
+      double before = 0;
+      for (int n : {48, 96, 192})
+      {
+         SidePolygon side;
+         side.loop = true;
+         for (int k = 0; k < n; ++k)
+         {
+            side.vertices.emplace_back(a * std::cos(2 * M_PI * k / n),
+                                       std::sin(2 * M_PI * k / n));
+         }
+         const double off = farthest(side,
+                                     [&](const Vector2d &x)
+                                     {
+                                        const double f =
+                                           x[0] * x[0] / (a * a) + x[1] * x[1] - 1;
+                                        return f / (2 * std::hypot(x[0] / (a * a), x[1]));
+                                     });
+         if (before > 0) { EXPECT_LT(off, before / 13) << a << " " << n; }
+         before = off;
+      }
+   }
+}
+
+/// An arc between two straight flanks: flanks stay straight, the arc is one of a circle,
+/// whether a file knows where it begins or not.
+TEST(SmoothSide, ArcsJoinStraightFlanks)
+{
+   for (int n : {3, 4, 9, 30})
+   {
+      for (bool known : {false, true})
+      {
+         SidePolygon side;
+         for (int k = 5; k > 0; --k) { side.vertices.emplace_back(-0.2 * k, -1); }
+         for (int k = 0; k < n; ++k)
+         {
+            const double angle = (k / double(n) - 1) * M_PI / 2;
+            side.vertices.emplace_back(std::cos(angle), std::sin(angle));
+         }
+         for (int k = 0; k <= 5; ++k) { side.vertices.emplace_back(1, 0.2 * k); }
+         if (known)
+         {
+            side.curves.assign(5, 1);
+            side.curves.insert(side.curves.end(), n, 2);
+            side.curves.insert(side.curves.end(), 5, 3);
+         }
+         const double off =
+            farthest(side,
+                     [](const Vector2d &x) {
+                        return x[0] < 0 ? x[1] + 1 : x[1] > 0 ? x[0] - 1 : x.norm() - 1;
+                     });
+         EXPECT_LT(off, 1e-14) << n << known;
+      }
+   }
+}
+
+/// Half of an ellipse at its planes of symmetry is what it is as a whole; without them its ends
+/// are one-sided.
+TEST(SmoothSide, GoesOnAsItsMirrorImage)
+{
+   const int n = 40;
+   const double a = 2;
+   SidePolygon whole, half;
+   whole.loop = true;
+   for (int k = 0; k < n; ++k)
+   {
+      const double angle = 2 * M_PI * k / n - M_PI / 2;
+      whole.vertices.emplace_back(a * std::cos(angle), std::sin(angle));
+      if (k <= n / 2) { half.vertices.push_back(whole.vertices.back()); }
+   }
+   const std::vector<EdgeBend> all = smooth_curve(whole), one_sided = smooth_curve(half);
+   half.beyond = {Vector2d(0, 1), Vector2d(0, -1)};
+   const std::vector<EdgeBend> mirrored = smooth_curve(half);
+   for (int e = 0; e < n / 2; ++e)
+   {
+      EXPECT_NEAR(mirrored[e].begin, all[e].begin, 1e-13) << e;
+      EXPECT_NEAR(mirrored[e].end, all[e].end, 1e-13) << e;
+      EXPECT_NEAR(one_sided[e].begin, all[e].begin, 0.05 * all[e].begin) << e;
+   }
+   // The other way round it is the same curve.
+   std::reverse(half.vertices.begin(), half.vertices.end());
+   half.beyond = {half.beyond[1], half.beyond[0]};
+   const std::vector<EdgeBend> back = smooth_curve(half);
+   for (int e = 0; e < n / 2; ++e)
+   {
+      EXPECT_NEAR(back[n / 2 - 1 - e].begin, -mirrored[e].end, 1e-13) << e;
+   }
+}
+
+/// What is a polygon stays one: chamfers of one edge and of several, facets, a profile of
+/// points, with a file that knows nothing and with one that calls all of it one curve.
+TEST(SmoothSide, LeavesPolygons)
+{
+   const std::vector<std::vector<double>> turns = {{0, 0, 0, 20, 0, 0, 0, 70, 0, 0},
+                                                   {0, 0, 20, 70, 0, 0},
+                                                   {0, 0, 0, 20, 20, 0, 0},
+                                                   {0, 0, 45, 45, 0, 0},
+                                                   {0, 0, 20, 0, 0, 0},
+                                                   {0, 0, 5, 0, 0, 0},
+                                                   {20},
+                                                   {0, 15, 0, 15, 0, 15, 0},
+                                                   {0, 0, 15, 0, 0, 15, 0, 0, 15}};
+   for (bool known : {false, true})
+   {
+      for (const std::vector<double> &each : turns)
+      {
+         SidePolygon side{walk(each)};
+         if (known && each.size() > 1) { side.curves.assign(each.size() + 1, 7); }
+         EXPECT_EQ(largest_bend(side), 0) << testing::PrintToString(each) << known;
+      }
+      for (int edges : {2, 3}) // of a facet
+      {
+         SidePolygon shaft;
+         shaft.loop = true;
+         for (int k = 0; k < 24 * edges; ++k)
+         {
+            const auto corner = [](int f)
+            { return Vector2d(std::cos(f * M_PI / 12), std::sin(f * M_PI / 12)); };
+            const double share = double(k % edges) / edges;
+            shaft.vertices.push_back((1 - share) * corner(k / edges) +
+                                     share * corner(k / edges + 1));
+         }
+         if (known) { shaft.curves.assign(24 * edges, 7); }
+         EXPECT_LT(largest_bend(shaft), 1e-12) << edges << known;
+      }
+      std::mt19937 random(3);
+      std::uniform_real_distribution<double> height(-0.05, 0.05);
+      SidePolygon profile;
+      for (int k = 0; k < 200; ++k) { profile.vertices.emplace_back(k, height(random)); }
+      if (known) { profile.curves.assign(199, 7); }
+      EXPECT_EQ(largest_bend(profile), 0);
+   }
+   // Facets of one edge each, which their file knows.
+   SidePolygon facets{walk(std::vector<double>(23, 15))};
+   EXPECT_NEAR(largest_bend(facets), 7.5, 1e-9);
+   for (int k = 0; k < 24; ++k) { facets.curves.push_back(k + 1); }
+   EXPECT_EQ(largest_bend(facets), 0);
+}
+
+/// Real corners between arcs stay corners: each arc is one to its end.
+TEST(SmoothSide, KeepsCorners)
+{
+   for (double corner : {-90.0, -15.0, 15.0, 40.0, 90.0})
+   {
+      const SidePolygon side{walk({5, 5, 5, 5, 5 + corner, 5, 5, 5, 5})};
+      for (const EdgeBend &bend : smooth_curve(side))
+      {
+         EXPECT_NEAR(bend.begin, 2.5 * degree, 1e-12) << corner;
+         EXPECT_NEAR(bend.end, 2.5 * degree, 1e-12) << corner;
+      }
+   }
+   // Three edges of an arc with free ends have two turns, which tell nothing but to their file.
+   SidePolygon arc{walk({12, 12})};
+   EXPECT_EQ(largest_bend(arc), 0);
+   arc.curves = {4, 4, 4};
+   EXPECT_NEAR(largest_bend(arc), 6, 1e-9);
+}
+
+} // namespace
