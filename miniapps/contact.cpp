@@ -135,7 +135,7 @@ void contact(Study &study)
    history.begin(problem);
    history.check_times("edges", options.edges);
    study.condensed(own.scene);
-   study.value("condensation_error", own.accuracy);
+   study.value("condensation_error_estimate", own.accuracy);
    study.say(text("   gap %g to %g; stiffness right to %.2g of itself", problem.gap.minCoeff(),
                   problem.gap.maxCoeff(), own.accuracy));
    warn_of_accuracy(own.accuracy);

@@ -132,7 +132,7 @@ void unload(Study &study, Run &run, double overhang, const Unloading &unloading,
                                      {"slip_at_p0", "v at p0"},
                                      {"slips_from", "sticks to", "%.3f"},
                                      {"separates_at", "separates at", "%.3f"},
-                                     {"level_error", "±", "%.2g"}});
+                                     {"level_error_estimate", "± (estimate)", "%.2g"}});
    for (const PointHistory &h : histories)
    {
       study.row(points, {h.xi, h.slip[1], h.slips_from, h.separates_at, h.step}, {},

@@ -190,7 +190,8 @@ void Shakedown::prepare()
    standard = !saved && coulomb && punch.half_plane && punch.order > 1 && punch.unbounded();
    results["standard"] = standard;
    // What the mesh adds: the extremes lie between nodes, at second order in their spacing.
-   results["mesh_error"] = 30.0 / std::pow(static_cast<double>(problem.nodes() - 1), 2);
+   results["mesh_error_estimate"] =
+      30.0 / std::pow(static_cast<double>(problem.nodes() - 1), 2);
 }
 
 void Shakedown::take_law()

@@ -12,20 +12,20 @@ Json report_edge(Study &study, const SolvedEdge &solved, const std::string &name
    const ContactEdge &edge = solved.edge;
    Json row = {{"edge", name},
                {"position", edge.position.position},
-               {"position_error", edge.position.error},
+               {"position_error_estimate", edge.position.error},
                {"side", edge.side},
                {"complete", edge.complete}};
    const auto line = [&](const char *key, const std::string &what, double x,
                          double error = none, const std::string &more = "")
    {
       row[key] = x;
-      if (!std::isnan(error)) { row[std::string(key) + "_error"] = error; }
+      if (!std::isnan(error)) { row[std::string(key) + "_error_estimate"] = error; }
       study.value("", x, name + what, error, more);
    };
    const auto intensity = [&](const char *key, const char *what, const FittedIntensity &k)
    {
       row[key] = {{"value", k.value},
-                  {"relative_error", k.relative_error},
+                  {"relative_error_estimate", k.relative_error},
                   {"window", {k.window.nearest, k.window.farthest}},
                   {"nodes", k.nodes}};
       study.value("", k.value, name + what, k.relative_error * std::abs(k.value),

@@ -284,6 +284,7 @@ void OwnHistory::march(const ReducedProblem &problem, const Observer &observe)
    Watch watch("march");
    settings.monitor = watch.monitor();
    settings.keep_increments = false;
+   settings.loss_error = true;
    report = cattaneo::march(problem, history_, state, settings, note);
    check_energies({report.energy_imbalance, state.dissipation});
    report.increments.assign(last_increments.begin(), last_increments.end());
@@ -328,9 +329,9 @@ void OwnHistory::report_state(const ReducedProblem &problem, const std::string &
       study_.table("zones", {{"state", "state"},
                              {"from", "from", "%.5g"},
                              {"to", "to (arc length)", "%.5g"},
-                             {"", "±"},
-                             {"from_error"},
-                             {"to_error"},
+                             {"", "± (estimate)"},
+                             {"from_error_estimate"},
+                             {"to_error_estimate"},
                              {"piece", one_line ? "" : "piece of the line"},
                              {"interface", names.size() > 1 ? "interface" : ""}});
    for (const Zone &zone : zones)
@@ -368,7 +369,8 @@ void OwnHistory::report_march(const ReducedProblem &problem)
    const ordered_json &cycles = report_cycles(study_, problem, report).json();
    study_.results["first_cycle"] = cycles.empty() ? ordered_json(0) : cycles[0]["cycle"];
    study_.results["total_dissipation"] = state.dissipation;
-   study_.results["advance_error"] = report.advance_error;
+   report_loss_error(study_, report);
+   study_.results["advance_error_estimate"] = report.advance_error;
    study_.results["largest_residual"] = report.largest_residual;
    if (settings.stepping == Stepping::exact) { report_exact_path(study_, problem, report); }
 }

@@ -143,8 +143,8 @@ UnloadingPanels unload(Study &study, Run &run, const Receding &receding,
          {receding.separation.key, found.separation_error},
          {receding.stick.key, found.stick_error}};
       const nlohmann::ordered_json more = {
-         {receding.separation.key + "_error", found.separation_error},
-         {receding.stick.key + "_error", found.stick_error}};
+         {receding.separation.key + "_error_estimate", found.separation_error},
+         {receding.stick.key + "_error_estimate", found.stick_error}};
       add_borders(found.zones, row, errors);
       row.push_back(to_json(found.zones));
       study.row(table, row, errors, more);

@@ -20,8 +20,8 @@ struct Extent
    /// The errors and the zones.
    nlohmann::ordered_json json() const
    {
-      return {{"separation_error", separation_error},
-              {"stick_error", stick_error},
+      return {{"separation_error_estimate", separation_error},
+              {"stick_error_estimate", stick_error},
               {"zones", to_json(zones)}};
    }
    std::vector<std::pair<std::string, double>> errors() const

@@ -332,6 +332,24 @@ void report_steady(Study &study, const MarchReport &report)
    study.results["energy_imbalance"] = report.energy_imbalance;
 }
 
+void report_loss_error(Study &study, const MarchReport &report)
+{
+   const LossError &error = report.loss_error;
+   if (error.by.empty()) { return; } // no friction
+   const char *word = error.bound ? "bound" : "estimate";
+   study.results[std::string("loss_error_") + word] = error.value;
+   study.results["loss_error_by"] = error.by;
+   if (std::isnan(error.value))
+   {
+      study.say("How wrong the increments make the loss is not known: " + error.by);
+   }
+   else if (error.value > 0)
+   {
+      study.say("The increments change the loss, in all or of a cycle, by up to " +
+                error_text(error.value) + " (" + word + ": " + error.by + ")");
+   }
+}
+
 std::string event_text(double time, const NamedLoads &loads)
 {
    std::vector<std::string> words;
@@ -477,8 +495,8 @@ ordered_json to_json(const std::vector<Zone> &zones, double shift)
       list.push_back({{"state", name(zone.state)},
                       {"from", zone.from.position + shift},
                       {"to", zone.to.position + shift},
-                      {"from_error", zone.from.error},
-                      {"to_error", zone.to.error}});
+                      {"from_error_estimate", zone.from.error},
+                      {"to_error_estimate", zone.to.error}});
    }
    return list;
 }

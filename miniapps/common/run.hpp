@@ -117,6 +117,11 @@ void add_loops(Panel &panel, const cattaneo::ReducedProblem &problem,
 /// `steady_period` and `energy_imbalance`.
 void report_steady(Study &study, const cattaneo::MarchReport &report);
 
+/// How far the loss may be from that of the path (MarchSettings::loss_error):
+/// `loss_error_bound` or `loss_error_estimate`, and `loss_error_by`. A sentence where
+/// increments are not exact.
+void report_loss_error(Study &study, const cattaneo::MarchReport &report);
+
 /// Where a march came to an event, in words: "time 0.3 (P = 1, 'n = 4' = 0.2)".
 std::string event_text(double time, const cattaneo::NamedLoads &loads);
 
@@ -148,8 +153,9 @@ std::vector<double> joined_once(std::vector<double> first, const std::vector<dou
 double half_width(const cattaneo::Zone &zone);
 double read_out_error(const cattaneo::Zone &zone);
 
-/// Zones as they go to JSON, each {"state", "from", "to", "from_error", "to_error"}, with
-/// positions that are shifted. A table prints their states and where they end.
+/// Zones as they go to JSON, each {"state", "from", "to", "from_error_estimate",
+/// "to_error_estimate"}, with positions that are shifted. A table prints their states and where
+/// they end.
 nlohmann::ordered_json to_json(const std::vector<cattaneo::Zone> &zones, double shift = 0);
 
 } // namespace miniapp

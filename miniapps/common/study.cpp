@@ -185,7 +185,7 @@ void Study::value(const std::string &key, double x, const std::string &label, do
                   const std::string &unit)
 {
    if (!key.empty()) { results[key] = x; }
-   if (!key.empty() && !std::isnan(error)) { results[key + "_error"] = error; }
+   if (!key.empty() && !std::isnan(error)) { results[key + "_error_estimate"] = error; }
    if (references_.has(key)) { found_.push_back({key, x, error, {}}); }
    if (label.empty()) { return; }
    std::string line =
@@ -193,8 +193,8 @@ void Study::value(const std::string &key, double x, const std::string &label, do
    values_.push_back({{"label", label}, {"value", x}, {"unit", unit}});
    if (error > 0)
    {
-      line += " ± " + error_text(error);
-      values_.back()["error"] = error_text(error);
+      line += " ± " + error_text(error) + " (estimate)";
+      values_.back()["error_estimate"] = error_text(error);
    }
    say(line + (unit.empty() ? "" : " " + unit));
 }

@@ -96,8 +96,9 @@ public:
    void title(const std::string &text);
    /// A line that is printed and nothing else.
    void say(const std::string &line);
-   /// A number with its error, if it has one (`key`_error in the results), printed with a label
-   /// and a unit, if it has a label; without a key it is printed alone.
+   /// A number with the estimate of its error, if it has one (`key`_error_estimate in the
+   /// results), printed with a label and a unit, if it has a label; without a key it is printed
+   /// alone.
    void value(const std::string &key, double x, const std::string &label = "",
               double error = none, const std::string &unit = "");
 

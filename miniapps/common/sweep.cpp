@@ -330,7 +330,7 @@ std::vector<std::string> single_numbers(const std::vector<Point> &points,
    {
       for (const auto &[name, x] : point.results.items())
       {
-         const bool error = name.size() > 6 && name.substr(name.size() - 6) == "_error";
+         const bool error = name.find("_error") != std::string::npos;
          if (x.is_number() && !error && known.insert(name).second) { names.push_back(name); }
       }
    }

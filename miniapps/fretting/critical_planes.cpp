@@ -154,12 +154,13 @@ void report_critical_planes(Study &study, const Pad &pad, const SolvedPad &solve
    }
    study.title(text("7. Criteria on critical planes, stresses averaged over %.4g µm of depth",
                     1e3 * depth));
-   ResultTable &table = study.table("critical_planes", {{"criterion", "           criterion"},
-                                                        {"edge", "    edge"},
-                                                        {"share", "of the limit", "%.4g"},
-                                                        {"error", "      ±", "%.1g"},
-                                                        {"x", "at x / a", "%.3f"},
-                                                        {"angle", "normal, °", "%.1f"}});
+   ResultTable &table =
+      study.table("critical_planes", {{"criterion", "           criterion"},
+                                      {"edge", "    edge"},
+                                      {"share", "of the limit", "%.4g"},
+                                      {"error_estimate", "± (estimate)", "%.1g"},
+                                      {"x", "at x / a", "%.3f"},
+                                      {"angle", "normal, °", "%.1f"}});
    const std::size_t middle = places.size() / 2;
    for (std::size_t c = 0; c < limits.size(); ++c)
    {

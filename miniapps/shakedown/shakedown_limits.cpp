@@ -35,32 +35,22 @@ void Shakedown::report(const std::string &what, const LimitReport &of, double lo
       results["status"] = name(of.status);
    }
    if (!found) { return; }
-   // One that is decided where the stuck tractions are singular is one of the mesh: at an
-   // edge within the contact line, where the pressure falls to zero and the shear does not,
-   // and at the ends of the line, if the mechanism does much of its work there.
-   const StuckForces stuck = stuck_forces(problem, cycle);
-   const double share = share_of_ends(problem, stuck, of, load_factor);
-   const Index end = singular_end(whole, part, stuck);
-   std::string why;
-   if (end >= 0)
-   {
-      why = text("the contact ends within its line, at x = %.4f: there the pressure falls to "
-                 "zero and the stuck shear is singular",
-                 x[end]);
-   }
-   else if (share > 0.2 || (standard && f < williams_ratio[0]))
+   results[what + "_limit_starts"] = of.starts;
+   if (what == "friction") { study.say("      " + of.starts); }
+   const double share = share_of_ends(problem, stuck_forces(problem, cycle), of, load_factor);
+   // The report says where the mesh decides a limit; that of the punch is known to do so below
+   // the friction that its corners ask for.
+   std::string why = of.of_the_mesh;
+   if (why.empty() && standard && f < williams_ratio[0])
    {
       why = text("%.0f %% of the mechanism's work is done within 1 %% of the ends of the "
                  "contact line, where tractions are singular",
-                 100 * share);
+                 100 * share) +
+            figure_of_the_mesh(what == "friction");
    }
    results[what + "_limit_work_at_ends"] = share;
    results[what + "_limit_of_the_mesh"] = !why.empty();
    if (why.empty()) { return; }
-   why += std::string("; the figure ") +
-          (what == "load" ? "falls with the spacing of the nodes"
-                          : "rises as the spacing of the nodes falls") +
-          " and is no limit of the bodies";
    study.say("      of this mesh only: " + why);
    results[what + "_limit_statement"] = why;
 }
@@ -294,7 +284,9 @@ void Shakedown::lower()
    const LowerLimitReport proven = lower_limit(limit, most, settings);
    study.counters += proven.counters;
    if (proven.status == LimitStatus::stopped) { stopped("the lower limit was not found yet"); }
-   study.say("   lower limit λ1: " + proven.message);
+   tell_starts(most, proven);
+   study.say("   " + most.starts);
+   results["load_limit_starts"] = most.starts;
    if (proven.kind != LowerLimitKind::none) { study.value("lower_limit", proven.value, "λ1"); }
    results["lower_limit_statement"] = proven.message;
    if (lower_limits &&

@@ -27,8 +27,7 @@ public:
 
 private:
    /// Of the limits.
-   static constexpr const char *assumption =
-      "all nodes of the contact stay closed throughout the cycle";
+   static constexpr const char *assumption = cattaneo::limit_assumption;
 
    void options();
    void prepare();

@@ -143,7 +143,7 @@ def planes(*all_runs):
     names = [row["criterion"] for row in all_runs[0].rows("critical_planes") if row["edge"] == "trailing"]
     for k, name in enumerate(names):
         rows = [next(row for row in run.rows("critical_planes") if row["criterion"] == name and row["edge"] == "trailing") for run in all_runs]
-        worst.errorbar(DEPTHS, [row["share"] for row in rows], yerr=[row["error"] for row in rows], color=f.COLOURS[k], linestyle=f.DASHES[k], marker=f.plot.MARKERS[k],
+        worst.errorbar(DEPTHS, [row["share"] for row in rows], yerr=[row["error_estimate"] for row in rows], color=f.COLOURS[k], linestyle=f.DASHES[k], marker=f.plot.MARKERS[k],
                        markersize=4, capsize=3, label=name)
     run = all_runs[0]
     for k, (words, share) in enumerate((("range of the edge stress (2.5)", run["edge_stress_range"] / run["fatigue_limit"]), ("range of K_II (2.9)", run["mode_two_utilisation"]),

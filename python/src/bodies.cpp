@@ -253,7 +253,7 @@ nb::object sparse(const NodalStiffness::Matrix &K)
 
 nb::list line_chains(const ContactLine &line)
 {
-   const char *const ends[] = {"unknown", "smooth", "corner", "symmetry"};
+   const char *const ends[] = {"unknown", "smooth", "corner", "symmetry", "open"};
    nb::list all;
    for (const LineChain &chain : line.chains)
    {

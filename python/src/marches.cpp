@@ -145,7 +145,14 @@ std::string brief(const March &self)
    text << "\n  normal force " << self.state.p.sum() << ", tangential force "
         << self.state.q.sum() << ", dissipation " << self.state.dissipation
         << "\n  largest residual " << report.largest_residual << ", energy imbalance "
-        << report.energy_imbalance << ", error of advancing contact " << report.advance_error;
+        << report.energy_imbalance << ", error of advancing contact " << report.advance_error
+        << " (estimate)";
+   const LossError &loss = report.loss_error;
+   if (loss.value > 0)
+   {
+      text << "\n  the increments change the loss by up to " << loss.value << " ("
+           << (loss.bound ? "bound" : "estimate") << ": " << loss.by << ")";
+   }
    if (report.not_unique)
    {
       text << "\n  not unique from time " << report.not_unique->time << ": "
@@ -448,9 +455,23 @@ void bind_marches(nb::module_ &m)
          "0: not reached")
       .def_prop_ro("steady_period", [](const Self &self) { return self.report.steady_period; })
       .def_prop_ro(
+         "loss_error", [](const Self &self) { return self.report.loss_error.value; },
+         "how far the loss, in all or of a cycle, may be from that of the path; nan: not known")
+      .def_prop_ro(
+         "loss_error_is",
+         [](const Self &self) { return self.report.loss_error.bound ? "bound" : "estimate"; },
+         "'bound' where the exact path was followed beside the march, else 'estimate'")
+      .def_prop_ro(
+         "loss_error_by", [](const Self &self) { return self.report.loss_error.by; },
+         "what was marched beside it, or why nothing is known")
+      .def_prop_ro(
          "energy_imbalance", [](const Self &self) { return self.report.energy_imbalance; },
-         "what the increments miss of the path, relative")
-      .def_prop_ro("advance_error", [](const Self &self) { return self.report.advance_error; })
+         "balance of the energies, relative; of second order in the increments, so that it is "
+         "no "
+         "measure of loss_error")
+      .def_prop_ro(
+         "advance_error", [](const Self &self) { return self.report.advance_error; },
+         "estimate, of friction forces where contact advances in increments")
       .def_prop_ro("largest_residual",
                    [](const Self &self) { return self.report.largest_residual; })
       .def_prop_ro("taken_up_clearance",
@@ -478,13 +499,15 @@ void bind_marches(nb::module_ &m)
       [](Of<ReducedProblem> problem, nb::object history, nb::object state, Whole increments,
          Text stepping, Flag single_increment_if_exact, Whole max_halvings,
          Flag stop_at_steady_state, Number steady_tolerance, Text method, Number tolerance,
-         Flag keep_states, nb::object observer, nb::object progress, nb::object stop)
+         Flag keep_states, Flag loss_error, nb::object observer, nb::object progress,
+         nb::object stop)
       {
          MarchSettings settings = march_settings(
             increments, stepping, single_increment_if_exact, max_halvings, method);
          settings.stop_at_steady_state = flag(stop_at_steady_state, "stop_at_steady_state");
          settings.steady_tolerance = number(steady_tolerance, "steady_tolerance");
          settings.friction.tolerance = number(tolerance, "tolerance");
+         settings.loss_error = flag(loss_error, "loss_error");
          settings.validate();
          return march_from(problem.object, history, state, settings, keep_states, observer,
                            progress, stop);
@@ -496,7 +519,8 @@ void bind_marches(nb::module_ &m)
       arg("stop_at_steady_state") = settings.stop_at_steady_state,
       arg("steady_tolerance") = settings.steady_tolerance, arg("method") = "automatic",
       arg("tolerance") = friction.tolerance, arg("keep_states") = false,
-      arg("observer") = nb::none(), arg("progress") = false, arg("stop") = nb::none(),
+      arg("loss_error") = true, arg("observer") = nb::none(), arg("progress") = false,
+      arg("stop") = nb::none(),
       nb::sig(
          "def march(problem: ReducedProblem, history: LoadHistory | "
          "collections.abc.Sequence[collections.abc.Mapping[str, float]], state: None | "
@@ -504,7 +528,7 @@ void bind_marches(nb::module_ &m)
          "single_increment_if_exact: bool = True, max_halvings: int = 12, "
          "stop_at_steady_state: "
          "bool = True, steady_tolerance: float = 1e-10, method: str = 'automatic', tolerance: "
-         "float = 1e-12, keep_states: bool = False, observer: "
+         "float = 1e-12, keep_states: bool = False, loss_error: bool = True, observer: "
          "None | collections.abc.Callable[[ContactState], object] = None, progress: bool | "
          "collections.abc.Callable[[Progress], object] = False, stop: None | threading.Event = "
          "None) -> MarchReport"),
@@ -517,6 +541,9 @@ void bind_marches(nb::module_ &m)
       "increments: of each piece of the history. stepping: 'advancing', 'fixed', or 'exact', "
       "from one change of state to the next without increments.\n"
       "keep_states: keeps the state of every increment. observer: is called with each.\n"
+      "loss_error: where increments are taken, march beside them to say how wrong their loss "
+      "may be; that takes as long again in the plane, half as long with two tangential "
+      "components.\n"
       "progress: True shows a line on stderr; a function is called with Progress. Other "
       "threads "
       "run meanwhile; Ctrl-C raises KeyboardInterrupt, and `stop`, a threading.Event, ends the "

@@ -43,7 +43,7 @@ const ReducedProblem &problem_of(const Of<ReducedProblem> &problem,
 std::string with_error(double value, double error)
 {
    std::ostringstream text;
-   text << value << " ± " << error;
+   text << value << " ± " << error << " (estimate)";
    return text.str();
 }
 
@@ -51,7 +51,8 @@ void bind_zones(nb::module_ &m)
 {
    nb::class_<ZoneBorder>(m, "ZoneBorder", "A point on the contact line found between nodes.")
       .def_ro("position", &ZoneBorder::position, "arc length")
-      .def_ro("error", &ZoneBorder::error, "bound of the distance to the finest mesh's")
+      .def_ro("error", &ZoneBorder::error,
+              "estimate of the distance to the finest mesh's, no bound")
       .def("__float__", [](const ZoneBorder &self) { return self.position; })
       .def("__repr__",
            [](const ZoneBorder &self) { return with_error(self.position, self.error); });
@@ -112,7 +113,7 @@ void bind_edges(nb::module_ &m)
 {
    nb::class_<FittedIntensity>(m, "FittedIntensity", "An intensity at an edge of contact.")
       .def_ro("value", &FittedIntensity::value)
-      .def_ro("relative_error", &FittedIntensity::relative_error)
+      .def_ro("relative_error", &FittedIntensity::relative_error, "estimate")
       .def_ro("nodes", &FittedIntensity::nodes, "used by the fit")
       .def_prop_ro(
          "window",
@@ -175,7 +176,7 @@ void bind_edges(nb::module_ &m)
       .def_ro("k_t", &ContactEdge::k_t)
       .def_ro("friction", &ContactEdge::friction)
       .def_ro("slip_zone", &ContactEdge::slip_zone)
-      .def_ro("slip_zone_error", &ContactEdge::slip_zone_error)
+      .def_ro("slip_zone_error", &ContactEdge::slip_zone_error, "estimate")
       .def_ro("slides", &ContactEdge::slides)
       .def("__repr__",
            [](const ContactEdge &self)

@@ -84,7 +84,7 @@ ReducedProblem made_by_hand(nb::handle A, nb::handle B, nb::handle C, nb::handle
 
 nb::list chains(const Self &self)
 {
-   const char *const ends[] = {"unknown", "smooth", "corner", "symmetry"};
+   const char *const ends[] = {"unknown", "smooth", "corner", "symmetry", "open"};
    const auto both = [&](const std::array<LineEnd, 2> &of)
    { return nb::make_tuple(ends[static_cast<int>(of[0])], ends[static_cast<int>(of[1])]); };
    nb::list all;

@@ -159,7 +159,22 @@ void bind_limits(nb::module_ &m)
       .def_prop_ro(
          "mechanism_opening", [](const Self &self) { return array(self.mechanism.opening); },
          "(n, vertices)")
-      .def_ro("coupling", &Self::coupling)
+      .def_ro("coupling", &Self::coupling, "degree of coupling, 0 to 1")
+      .def_ro(
+         "coupled", &Self::coupled,
+         "slip changes the pressures: some start shakes down below the limit, and not every "
+         "start has to")
+      .def_ro("every_start", &Self::every_start,
+              "lower limit λ1 of a load, or a load factor that it is proven not to be below: "
+              "there every start shakes down; nan if nothing is known")
+      .def_ro("starts", &Self::starts, "which starts shake down, in one sentence")
+      .def_prop_ro(
+         "assumption", [](const Self &) { return std::string(limit_assumption); },
+         "what the bounds assume")
+      .def_ro("of_the_mesh", &Self::of_the_mesh,
+              "why the limit is one of this mesh only, '' if nothing shows that it is")
+      .def_prop_ro("statement", &Self::statement, nb::sig("def statement(self) -> list[str]"),
+                   "assumption, starts, and whether it is one of the mesh: a sentence each")
       .def_ro("iterations", &Self::iterations)
       .def_ro("seconds", &Self::seconds)
       .def_ro("counters", &Self::counters)
@@ -171,6 +186,10 @@ void bind_limits(nb::module_ &m)
               text << "<LimitReport: " << name(self.status) << ", " << self.limit
                    << ", proven between " << self.lower << " and " << self.upper;
               if (!self.message.empty()) { text << ": " << self.message; }
+              for (const std::string &sentence : self.statement())
+              {
+                 text << "\n  " << sentence;
+              }
               text << ">";
               return text.str();
            });
@@ -179,21 +198,25 @@ void bind_limits(nb::module_ &m)
    m.def(
       "load_limit",
       [](Of<LimitProblem> problem, Number tolerance, Whole max_iterations,
-         Number largest_factor, MaybeReport start, ProgressLike progress, StopLike stop)
+         Number largest_factor, Flag every_start, MaybeReport start, ProgressLike progress,
+         StopLike stop)
       {
          const nb::object friction = nb::cast(LimitSettings().largest_friction);
-         return watched("load_limit", problem,
-                        limit_settings(tolerance, max_iterations, largest_factor, friction),
-                        start, progress, stop,
+         LimitSettings with =
+            limit_settings(tolerance, max_iterations, largest_factor, friction);
+         with.every_start = flag(every_start, "every_start");
+         return watched("load_limit", problem, with, start, progress, stop,
                         [](const LimitProblem &of, const LimitSettings &with)
                         { return load_limit(of, with); });
       },
       arg("problem"), nb::kw_only(), arg("tolerance") = settings.tolerance,
       arg("max_iterations") = settings.max_iterations,
-      arg("largest_factor") = settings.largest_factor, arg("start") = nb::none(),
-      arg("progress") = false, arg("stop") = nb::none(),
+      arg("largest_factor") = settings.largest_factor, arg("every_start") = true,
+      arg("start") = nb::none(), arg("progress") = false, arg("stop") = nb::none(),
       "The largest load factor under which some slip keeps all nodes stuck and closed, for the "
-      "friction of the problem. start: an earlier report of a sweep.");
+      "friction of the problem. every_start: of a coupled contact λ1 is asked for too, below "
+      "which every start shakes down, one more programme. start: an earlier report of a "
+      "sweep.");
    m.def(
       "friction_limit",
       [](Of<LimitProblem> problem, Number load_factor, Number tolerance, Whole max_iterations,
@@ -339,6 +362,10 @@ void bind_estimates(nb::module_ &m)
          },
          "of each cycle, until steady")
       .def_ro("decay", &TransientReport::decay)
+      .def_ro("elastic_slip", &TransientReport::elastic_slip,
+              "largest slip of the stuck contact if it is let go, the scale of cycle_slip")
+      .def_prop_ro("cycle_slip", viewed(&TransientReport::cycle_slip),
+                   "way of each node that bears at some time of the last cycle")
       .def_prop_ro(
          "opened", [](const TransientReport &self) { return array_of_indices(self.opened); },
          "nodes that are open at some time of the last cycle")
@@ -353,7 +380,8 @@ void bind_estimates(nb::module_ &m)
            });
    m.def(
       "transient",
-      [](Of<LimitProblem> problem, Number load_factor, Numbers start, Whole cycles)
+      [](Of<LimitProblem> problem, Number load_factor, Numbers start, Whole cycles,
+         MaybeReport limit)
       {
          const LimitProblem copy = given(problem, "problem");
          const double factor = number(load_factor, "load_factor");
@@ -363,6 +391,11 @@ void bind_estimates(nb::module_ &m)
                : vector(start, "start", copy.reduced.slips());
          TransientSettings settings;
          settings.cycles = static_cast<int>(whole(cycles, "cycles", 1, 1 << 24));
+         if (!limit.is_none())
+         {
+            const LimitReport &known = given<LimitReport>(limit, "limit");
+            if (known.proven()) { settings.upper = known.upper; }
+         }
          Watch watch(nb::bool_(false), nb::none());
          settings.march.monitor = watch.monitor();
          return unlocked(
@@ -373,8 +406,11 @@ void bind_estimates(nb::module_ &m)
             });
       },
       arg("problem"), arg("load_factor"), arg("start") = 0.0,
-      arg("cycles") = TransientSettings().cycles,
-      "Marches the cycle from the slip `start`: does it shake down, and how fast?");
+      arg("cycles") = TransientSettings().cycles, arg("limit") = nb::none(),
+      "Marches the cycle from the slip `start`: does it shake down, and how fast? limit: the "
+      "report of load_limit, above whose upper bound no contact that stays closed is said to "
+      "have "
+      "shaken down.");
 }
 
 } // namespace

@@ -177,6 +177,17 @@ def test_lower_limit_with_nodes_apart():
         assert lower.value == pytest.approx(value, abs=1e-7)
     with pytest.raises(cattaneo.InputError, match="apart"):
         shakedown.lower_limit(contact, upper, apart=[3])
+    # The report of the limit says what it is worth: λ1 = 0.4, below which every start shakes down.
+    assert upper.coupled and upper.every_start == pytest.approx(0.4, abs=1e-7)
+    for words in ("stay closed", "some start shakes down, and not every start", "λ1", "at least 0.4"):
+        assert words in str(upper) and words in " ".join([upper.assumption, *upper.statement])
+    unasked = shakedown.load_limit(contact, every_start=False)
+    assert np.isnan(unasked.every_start) and "not asked for" in str(unasked)
+    assert "with more friction some start" in str(shakedown.friction_limit(contact, 0.3))
+    # From rest the chain shakes down below λ1; above the upper limit nothing does, as far as it is known.
+    assert shakedown.transient(contact, 0.39, cycles=100).verdict == "shaken down"
+    above = shakedown.transient(contact, upper.upper * 1.00001, upper.slip, cycles=100, limit=upper)
+    assert above.verdict in ("cyclic slip", "still slipping")
 
 
 def test_fretting_closed_forms():

@@ -5,6 +5,7 @@
 #include <cattaneo/shakedown/limit_of_the_mesh.hpp>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <numeric>
 
 // Where a limit is one of the mesh, and which nodes stay closed, on nodes that do not feel each
 // other: each bears its own load.
@@ -100,7 +101,7 @@ TEST(LimitOfTheMesh, ContactThatEndsWithinItsLineIsSingularWhereItIsSheared)
    {
       const ClosedContact part = closed_contact(problem, closed);
       const LoadCycle cycle = held_and_cycled(part.reduced, "P", 1, "Q", -1);
-      return singular_end(problem, part, stuck_forces(part.reduced, cycle));
+      return singular_end(part.reduced, stuck_forces(part.reduced, cycle));
    };
    EXPECT_EQ(found({0, 1, 2, 3, 4, 5}), -1); // ends of the line are none within it
    EXPECT_EQ(found({0, 1, 2}), 2);
@@ -112,6 +113,36 @@ TEST(LimitOfTheMesh, ContactThatEndsWithinItsLineIsSingularWhereItIsSheared)
    EXPECT_EQ(found({3, 4}), 1);
    problem.patterns[1].q[4] = 0; // no shear there, nor at its neighbour
    EXPECT_EQ(found({3, 4}), -1);
+}
+
+/// The report says it itself: every node bears alone, and the mechanism is of one node.
+TEST(LimitOfTheMesh, IsSaidByTheReport)
+{
+   ReducedProblem problem = springs(201);
+   problem.patterns[1].p.setZero();
+   const auto limit_of = [](const ReducedProblem &of)
+   { return load_limit(limit_problem(of, held_and_cycled(of, "P", 1, "Q", -1))); };
+   problem.patterns[1].q[100] = 0.4; // the weakest node, in the middle
+   const LimitReport inside = limit_of(problem);
+   ASSERT_EQ(inside.status, LimitStatus::certified) << inside.message;
+   EXPECT_EQ(inside.of_the_mesh, "");
+   problem.patterns[1].q[0] = 0.5; // at an end
+   const LimitReport at_end = limit_of(problem);
+   EXPECT_NE(at_end.of_the_mesh.find("100 % of the mechanism's work"), std::string::npos)
+      << at_end.of_the_mesh;
+   EXPECT_NE(at_end.of_the_mesh.find("falls with the spacing"), std::string::npos);
+   ASSERT_FALSE(at_end.statement().empty());
+   EXPECT_EQ(at_end.statement().back(), "of this mesh only: " + at_end.of_the_mesh);
+   // Contact that ends within its line.
+   Nodes closed(150);
+   std::iota(closed.begin(), closed.end(), 20);
+   const LimitReport part = limit_of(closed_contact(problem, closed).reduced);
+   EXPECT_NE(part.of_the_mesh.find("ends within its line"), std::string::npos)
+      << part.of_the_mesh;
+   EXPECT_NE(
+      friction_limit(limit_problem(problem, held_and_cycled(problem, "P", 1, "Q", -1)), 1)
+         .of_the_mesh.find("rises as the spacing"),
+      std::string::npos);
 }
 
 } // namespace

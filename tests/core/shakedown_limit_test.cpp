@@ -39,6 +39,54 @@ TEST(LoadLimit, IsThatOfTheWeakestSpring)
    EXPECT_EQ(report.counters.limit_solves, 1);
 }
 
+/// What a limit does not say is in its report: for whom it holds, and for which starts.
+TEST(LoadLimit, SaysOfWhichStartsItSpeaks)
+{
+   const auto says = [](const LimitReport &report, const std::string &words)
+   {
+      std::string all;
+      for (const std::string &sentence : report.statement()) { all += sentence + "\n"; }
+      EXPECT_NE(all.find(words), std::string::npos) << words << " in\n" << all;
+   };
+   const ReducedProblem alone = springs(Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(1, 3, 2));
+   const LimitReport uncoupled =
+      load_limit(limit_problem(alone, held_and_cycled(alone, "P", 2, "Q", -0.5)));
+   EXPECT_FALSE(uncoupled.coupled);
+   EXPECT_EQ(uncoupled.every_start, uncoupled.limit);
+   says(uncoupled, "all nodes of the contact stay closed");
+   says(uncoupled, "every start shakes down below the limit");
+   EXPECT_EQ(uncoupled.of_the_mesh, "");
+   // Node 1 feels the slip of node 0, the third node neither: λ1 is proven to be 0.4 at least
+   // (see the lower limit's test of this chain).
+   ReducedProblem chain;
+   chain.set_stiffness(2 * Eigen::Matrix3d::Identity(),
+                       Eigen::Matrix3d{{0, 0, 0}, {0.8, 0, 0}, {0, 0, 0}},
+                       2 * Eigen::Matrix3d::Identity());
+   chain.patterns = {
+      {"P", Control::force, Eigen::Vector3d::Zero(), Eigen::Vector3d(1, 1, 1)},
+      {"Q", Control::force, Eigen::Vector3d(0.3, 1, 0), Eigen::Vector3d::Zero()}};
+   chain.H = Eigen::Matrix2d::Zero();
+   chain.gap = Eigen::Vector3d::Zero();
+   set_friction(chain, 0.5);
+   const LimitProblem limit = limit_problem(chain, held_and_cycled(chain, "P", 1, "Q", -1));
+   const LimitReport unasked = load_limit(limit);
+   EXPECT_TRUE(unasked.coupled);
+   EXPECT_TRUE(std::isnan(unasked.every_start));
+   EXPECT_EQ(unasked.counters.limit_solves, 1);
+   says(unasked, "below the limit some start shakes down, and not every start has to");
+   says(unasked, "was not asked for: lower_limit()");
+   LimitSettings settings;
+   settings.every_start = true;
+   const LimitReport asked = load_limit(limit, settings);
+   EXPECT_NEAR(asked.every_start, 0.4, 1e-7);
+   EXPECT_LT(asked.every_start, asked.limit);
+   says(asked, "is at least 0.4");
+   const LimitReport friction = friction_limit(limit, 0.3);
+   says(friction, "with more friction some start shakes down");
+   // Nothing is said of a limit that is not there.
+   EXPECT_TRUE(LimitReport().statement().empty());
+}
+
 TEST(LoadLimit, IsGrossSlidingForAFreeBodyUnderSteadyShear)
 {
    // R = 1: any distribution of the shear is within reach, until all nodes slide: λ ΣQ = Σ f P.

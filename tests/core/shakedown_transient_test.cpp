@@ -153,6 +153,90 @@ TEST(Transient, SaysWhichNodesOpenAndSlipForEver)
    EXPECT_EQ(below.opened_loss, 0);
 }
 
+TEST(Transient, SlipThatLosesNextToNothingGoesOn)
+{
+   // A spring alone, q = v + Q/2, p = 1 - 2 Q, Q from 0 to λ: the slip v = -1/4 holds it up to
+   // λ = 1/2, where p = q = 0. Above, at λ = (1 + e)/2, it opens at Q = 1/2 and moves on with
+   // Q, by e/4, without a force: closed again it sticks. Whatever increments make of that loses
+   // e² of what a whole slip loses.
+   ReducedProblem problem;
+   const Eigen::MatrixXd one = Eigen::MatrixXd::Ones(1, 1);
+   const Eigen::VectorXd unit = Eigen::VectorXd::Ones(1);
+   problem.set_stiffness(one, 0 * one, one);
+   problem.patterns = {{"P", Control::force, 0 * unit, unit},
+                       {"Q", Control::force, 0.5 * unit, -2 * unit}};
+   problem.H = Eigen::Matrix2d::Zero();
+   problem.gap = 0 * unit;
+   set_friction(problem, 0.5);
+   const LimitProblem limit = limit_problem(problem, held_and_cycled(problem, "P", 1, "Q", 0));
+   const LimitReport report = load_limit(limit);
+   ASSERT_EQ(report.status, LimitStatus::certified) << report.message;
+   EXPECT_NEAR(report.upper, 0.5, 1e-6);
+   FrictionSolver solver(problem);
+   for (const double e : {1e-7, 1e-5, 1e-3, 1e-1})
+   {
+      for (const Stepping stepping : {Stepping::advancing, Stepping::exact})
+      {
+         TransientSettings settings;
+         settings.march.stepping = stepping;
+         const TransientReport run =
+            transient(solver, limit, report.upper * (1 + e), report.slip, settings);
+         ASSERT_EQ(run.status, FrictionStatus::converged) << run.message;
+         EXPECT_EQ(run.opened, NodeList{0}) << e;
+         EXPECT_EQ(run.verdict, TransientVerdict::slips_and_opens) << e << name(run.verdict);
+         EXPECT_LT(run.opened_loss, 10 * e * e) << e;
+         EXPECT_NEAR(run.cycle_slip[0], 2 * 0.25 * e, 1e-3 * e + 1e-9) << e;
+      }
+   }
+   const TransientReport below = transient(solver, limit, report.lower, report.slip);
+   EXPECT_EQ(below.verdict, TransientVerdict::shaken_down);
+   EXPECT_LT(below.cycle_slip[0], 1e-12 * below.elastic_slip);
+}
+
+/// Above a certified upper limit nothing has shaken down, from whatever start, however close.
+TEST(Transient, NothingShakesDownAboveACertifiedLimit)
+{
+   int certified = 0;
+   for (unsigned seed = 1; seed <= 40; ++seed)
+   {
+      const Eigen::Index n = 1 + seed % 6;
+      ReducedProblem problem = random_contact(seed, n, 1, false);
+      if (seed % 2 == 0)
+      {
+         problem.B().setZero();
+         join_coupling(problem);
+      }
+      const LimitProblem limit = limit_problem(
+         problem, held_and_cycled(problem, "press", 1, "shear", seed % 3 == 0 ? 0 : -1));
+      const LimitReport report = load_limit(limit);
+      if (report.status != LimitStatus::certified) { continue; }
+      ++certified;
+      FrictionSolver solver(problem);
+      TransientSettings settings;
+      settings.cycles = 60;
+      for (const double above : {1e-6, 1e-5, 1e-4, 1e-2})
+      {
+         for (const double start : {0.0, 1.0})
+         {
+            const double load_factor = report.upper * (1 + above);
+            const Eigen::VectorXd slip = start * report.slip;
+            const TransientReport run = transient(solver, limit, load_factor, slip, settings);
+            EXPECT_NE(run.verdict, TransientVerdict::shaken_down)
+               << seed << ' ' << above << ' ' << start;
+            // Where the bound is known, whatever the tolerances are.
+            settings.shaken_down = 0.9;
+            settings.upper = report.upper;
+            EXPECT_NE(transient(solver, limit, load_factor, slip, settings).verdict,
+                      TransientVerdict::shaken_down)
+               << seed << ' ' << above << ' ' << start;
+            settings = {};
+            settings.cycles = 60;
+         }
+      }
+   }
+   EXPECT_GT(certified, 20);
+}
+
 TEST(Transient, AStateOfPeriodTwoIsJudgedByTheCycleThatLosesMore)
 {
    // A cycle loses 33/16 or 29/16, and what is nothing, 1e-9 of the elastic energy, lies
@@ -381,7 +465,7 @@ TEST(Transient, SaysWhenThereIsNoEquilibriumAndRefusesBadSettings)
       name(TransientVerdict::cyclic_slip), name(TransientVerdict::still_slipping),
       name(TransientVerdict::no_equilibrium)};
    EXPECT_EQ(names,
-             (std::vector<std::string>{"shaken down", "shaken down but at nodes that open",
+             (std::vector<std::string>{"shaken down", "moves only at nodes that open",
                                        "cyclic slip", "still slipping", "no equilibrium"}));
    const auto refused = [](auto spoil)
    {
@@ -395,6 +479,7 @@ TEST(Transient, SaysWhenThereIsNoEquilibriumAndRefusesBadSettings)
    refused([](CounterExampleSettings &s) { s.transient.cycles = 0; });
    refused([](CounterExampleSettings &s) { s.transient.shaken_down = 0; });
    refused([](CounterExampleSettings &s) { s.transient.shaken_down = 1; });
+   refused([](CounterExampleSettings &s) { s.transient.upper = std::nan(""); });
    refused([](CounterExampleSettings &s) { s.transient.march.increments = 0; });
    LimitReport none;
    EXPECT_THROW(transient_bracket(limit, none, 0.1), InputError);

@@ -76,16 +76,16 @@ TEST(LapJoint, EdgesOfTheRecedingContactHaveIntensities)
       {
          const auto &normal = (*run)["k_n"], &tangential = (*run)["k_t"];
          const double n = normal["value"], t = tangential["value"];
-         EXPECT_NEAR(n, 0.9218, normal["relative_error"].get<double>() * n);
+         EXPECT_NEAR(n, 0.9218, normal["relative_error_estimate"].get<double>() * n);
          EXPECT_NEAR(std::abs(t), 0.01098,
-                     tangential["relative_error"].get<double>() * std::abs(t));
+                     tangential["relative_error_estimate"].get<double>() * std::abs(t));
       }
       // The error of the edge's position, a quarter of a spacing, is half of these.
-      EXPECT_LT(edge["k_n"]["relative_error"].get<double>(), 0.04);
-      EXPECT_LT(edge["k_t"]["relative_error"].get<double>(), 0.04);
+      EXPECT_LT(edge["k_n"]["relative_error_estimate"].get<double>(), 0.04);
+      EXPECT_LT(edge["k_t"]["relative_error_estimate"].get<double>(), 0.04);
       // Half the spacing, half the error at most.
-      EXPECT_LT(edge["k_t"]["relative_error"].get<double>(),
-                0.5 * other["k_t"]["relative_error"].get<double>());
+      EXPECT_LT(edge["k_t"]["relative_error_estimate"].get<double>(),
+                0.5 * other["k_t"]["relative_error_estimate"].get<double>());
       EXPECT_NEAR(k_n, 0.9218, 0.005 * k_n);
       EXPECT_NEAR(std::abs(k_t), 0.01098, 0.01 * std::abs(k_t));
       EXPECT_NEAR(other["k_n"]["value"].get<double>(), k_n, 0.02 * k_n);

@@ -46,7 +46,8 @@ TEST(ReadOut, SteadyStickOfTheLapJointDependsOnMechanicsAlone)
             SCOPED_TRACE(options);
             const Result run = run_miniapp("lap_joint", options);
             ASSERT_EQ(run.code, 0) << run.output;
-            const double c = run.results["c_steady"], error = run.results["c_steady_error"];
+            const double c = run.results["c_steady"],
+                         error = run.results["c_steady_error_estimate"];
             // The error that is printed bounds the difference, and is no more than a spacing.
             EXPECT_LE(std::abs(c - reference.c), error + reference.spread);
             EXPECT_LE(error, spacing * (1 + 1e-9));
@@ -70,7 +71,7 @@ TEST(ReadOut, EdgesOfTheLapJointAreWithinTheirErrors)
          ASSERT_EQ(run.code, 0) << run.output;
          const auto check = [&](const char *key, double value, double spread)
          {
-            const double error = run.results[std::string(key) + "_error"];
+            const double error = run.results[std::string(key) + "_error_estimate"];
             EXPECT_LE(std::abs(run.results[key].get<double>() - value), error + spread)
                << key << " at spacing " << spacing;
             EXPECT_LE(error, h * (1 + 1e-9)) << key << " at spacing " << spacing;
@@ -99,7 +100,8 @@ TEST(ReadOut, IntensitiesOfTheLapJointAreWithinTheirErrors)
       for (const char *key : {"k_n", "k_t"})
       {
          const double value = edge[key]["value"], best = finest[key]["value"],
-                      error = edge[key]["relative_error"], left = finest[key]["relative_error"];
+                      error = edge[key]["relative_error_estimate"],
+                      left = finest[key]["relative_error_estimate"];
          EXPECT_LE(std::abs(value - best), error * std::abs(value) + left * std::abs(best))
             << key << " at spacing " << spacing;
       }
@@ -126,8 +128,9 @@ TEST(ReadOut, EdgesOfTheStripAreWithinTheirErrors)
                                              row.friction + " -spacing " + spacing);
          ASSERT_EQ(run.code, 0) << run.output;
          SCOPED_TRACE(run.output);
-         const double h = std::stod(spacing), s_error = run.results["separation_error"],
-                      e_error = run.results["stick_slip_error"];
+         const double h = std::stod(spacing),
+                      s_error = run.results["separation_error_estimate"],
+                      e_error = run.results["stick_slip_error_estimate"];
          EXPECT_LE(std::abs(number(run.results["separation"]) - row.s), s_error + 0.003);
          EXPECT_LE(std::abs(number(run.results["stick_slip"]) - row.e), e_error + 0.003);
          EXPECT_LE(std::max(s_error, e_error), h * (1 + 1e-9));
@@ -153,8 +156,9 @@ TEST(ReadOut, EdgesOfTheDiscAreWithinTheirErrors)
                         std::string(row.load) + " -domain 100 -spacing " + spacing);
          ASSERT_EQ(run.code, 0) << run.output;
          SCOPED_TRACE(run.output);
-         const double h = std::stod(spacing), d_error = run.results["separation_error"],
-                      c_error = run.results["stick_error"];
+         const double h = std::stod(spacing),
+                      d_error = run.results["separation_error_estimate"],
+                      c_error = run.results["stick_error_estimate"];
          EXPECT_LE(std::abs(number(run.results["separation"]) - row.d), d_error + 0.001);
          EXPECT_LE(std::abs(number(run.results["stick"]) - row.c), c_error + 0.001);
          EXPECT_LE(std::max(d_error, c_error), h * (1 + 1e-9));
@@ -168,7 +172,8 @@ TEST(ReadOut, HalfWidthsOfHertzAreWithinTheirErrors)
    {
       const Result run = run_miniapp("hertz", std::string("-nodes ") + nodes);
       ASSERT_EQ(run.code, 0) << run.output;
-      const double error = run.results["half_width_error"], h = 3.34 / (std::stod(nodes) - 1);
+      const double error = run.results["half_width_error_estimate"],
+                   h = 3.34 / (std::stod(nodes) - 1);
       EXPECT_LE(std::abs(run.results["half_width"].get<double>() - 1), error) << nodes;
       EXPECT_LE(error, h);
    }

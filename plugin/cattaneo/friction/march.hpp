@@ -5,6 +5,7 @@
 #include <cattaneo/friction/load_history.hpp>
 #include <cattaneo/monitor.hpp>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -48,6 +49,9 @@ struct MarchSettings
    /// Keep every IncrementRecord in the report; else only the observer sees them, and the
    /// report of a march of millions of increments stays small.
    bool keep_increments = true;
+   /// Where increments are taken that are not exact, march a second time to say how wrong their
+   /// loss may be, see MarchReport::loss_error. That may take as long again.
+   bool loss_error = false;
    Monitor monitor; ///< hears of progress, and may stop the march
 
    /// InputError naming the setting, its value and what is allowed.
@@ -93,6 +97,25 @@ struct NotUnique
    std::string message;         ///< the node and its friction
 };
 
+/** How far the loss of a march by increments may be from that of its path: the whole loss, and
+    the loss of each of its cycles.
+
+    Increments know the path at their ends alone: a node that turns round or comes to rest
+   within one is given one way and one direction. The loss is wrong by that to the first order
+   of the increments, the balance of energy to the second: MarchReport::energy_imbalance is no
+   measure of it. */
+struct LossError
+{
+   /// In the unit of the loss, at least 0. NaN: it was not asked for, or not found.
+   double value = std::numeric_limits<double>::quiet_NaN();
+   /// True: the exact path was followed beside the march from the same state, and the value is
+   /// the difference: a bound, to round-off. False: an estimate, by a march with other
+   /// increments.
+   bool bound = false;
+   std::string by;    ///< what was marched beside it, or why nothing is known; one sentence
+   Counters counters; ///< of that march; not in the report's own
+};
+
 /// What a march came to.
 struct MarchReport
 {
@@ -116,12 +139,15 @@ struct MarchReport
    int stalled = 0;             ///< increments that the solver did not finish, passed by others
    int steady_cycle = 0;        ///< first cycle of the steady state; 0: not reached
    int steady_period = 0;       ///< 1 or 2
+   /// Of the loss by friction, with MarchSettings::loss_error.
+   LossError loss_error;
    /// Energy balance of the march: external work - change of elastic energy - dissipation -
    /// normal work, over the largest of them on the way, or a millionth of the elastic energy
-   /// that it began with where none is as large. Normal work, of pressures on nodes that close
-   /// or open within an increment, is none of the path; what it is there changes no state. It
-   /// measures what the increments miss of the path (of nodes that begin to slip within one,
-   /// for instance) and goes to zero with them; on the exact path it is round-off.
+   /// that it began with where none is as large; 0 where it is no more than the round-off of
+   /// these. Normal work, of pressures on nodes that close or open within an increment, is none
+   /// of the path; what it is there changes no state. It is of the second order of the
+   /// increments, and goes to zero faster than the error of the loss: see `loss_error` for
+   /// that.
    double energy_imbalance = 0;
    /// Friction forces depend on how a contact that advances is cut into increments, since
    /// friction acts on a node from the beginning of the increment in which it closes: four

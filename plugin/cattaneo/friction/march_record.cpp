@@ -123,11 +123,24 @@ void MarchRecord::accept(ContactState &&next, const LoadPiece &piece,
          cycle.loops[k].add(record.multipliers[k], record.conjugates[k]);
       }
    }
+   if (piece.end != piece_end_)
+   {
+      piece_losses_.push_back(0);
+      piece_end_ = piece.end;
+   }
+   piece_losses_.back() += record.dissipation;
+   if (node_losses_.size() == 0) { node_losses_ = VectorXd::Zero(lost.size()); }
+   node_losses_ += lost;
+   inexact_ = inexact_ || !exact;
    if (!exact) { changed_ = std::max(changed_, changed_while_closing(problem_, state_, next)); }
    external_work_ += record.external_work;
    most_work_ = std::max(most_work_, std::abs(external_work_));
    dissipation_ += record.dissipation;
    normal_work_ += normal_work;
+   // Work is a load times the difference of two places, which may lie far away.
+   moved_energy_ += std::abs(record.external_work) + record.dissipation +
+                    std::abs(normal_work) +
+                    record.multipliers.cwiseAbs().dot(record.conjugates.cwiseAbs());
    next.dissipation += record.dissipation;
    state_ = std::move(next);
    conjugates_ = record.conjugates;
@@ -191,10 +204,11 @@ void MarchRecord::close()
    // work on the way; of a closed elastic cycle of the energy that it began with.
    const double most =
       std::max({most_work_, std::abs(stored), dissipation_, 1e-6 * std::abs(energy_at_start_)});
-   if (most > 0)
-   {
-      report.energy_imbalance = (external_work_ - stored - dissipation_ - normal_work_) / most;
-   }
+   const double left = external_work_ - stored - dissipation_ - normal_work_;
+   // Sums of so many terms, each right to the solver's residual or to rounding.
+   const double right_to = std::max(report.largest_residual, 1e-14),
+                known_to = right_to * (moved_energy_ + std::abs(energy_at_start_));
+   if (std::abs(left) > known_to) { report.energy_imbalance = left / most; }
 }
 
 } // namespace cattaneo

@@ -33,7 +33,7 @@ struct ContactEdge
    FittedIntensity k_t;    ///< zero if there are none; signed as fretting::Edge::k_t
    double friction = 0.0;  ///< at the outermost node in contact
    double slip_zone = 0.0; ///< computed: from the edge to where stick begins, 0 if it sticks
-   double slip_zone_error = 0.0; ///< of the two positions it is the difference of
+   double slip_zone_error = 0.0; ///< estimate, of the two positions it is the difference of
    bool slides = false; ///< no stick in this stretch of contact: slip_zone is its whole width
 
    /// InputError if its nodes are not some of the problem's, or if that has no weights.

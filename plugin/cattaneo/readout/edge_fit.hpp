@@ -76,7 +76,7 @@ UsableSamples usable_samples(const EdgeTractions &tractions, const FitSettings &
 struct FittedIntensity
 {
    double value = 0.0;          ///< K_N or K_T, in the units of tractions and distances
-   double relative_error = 0.0; ///< of the value
+   double relative_error = 0.0; ///< estimate, of the value
    FitWindow window;            ///< that was used
    int nodes = 0;               ///< used
 };

@@ -273,7 +273,7 @@ void Reader::untangle(std::vector<Zone> &all) const
 
 /// Tractions at a corner that is in contact are singular, and wrong over the first few nodes: a
 /// border four nodes from it may as well lie there, and the doubt fades as the number of nodes
-/// between. (A rule: 16 spacings over that number bound what uniform meshes of 12 to 80
+/// between. (A rule: 16 spacings over that number cover what uniform meshes of 12 to 80
 /// elements leave of borders on finer ones.) Nodes i and j have the border between them.
 double Reader::doubt_of_ends(Index i, Index j, double position) const
 {

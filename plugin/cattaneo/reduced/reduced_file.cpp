@@ -17,7 +17,7 @@ const char *const format_laws = "cattaneo reduced problem 3"; // only where it h
 const char *const format_1 = "cattaneo reduced problem 1";    // without the facts
 
 // "axis" is any symmetry: files keep the word that they began with.
-const std::vector<std::string> end_names = {"unknown", "smooth", "corner", "axis"};
+const std::vector<std::string> end_names = {"unknown", "smooth", "corner", "axis", "open"};
 
 nlohmann::json to_json(const std::array<LineEnd, 2> &ends)
 {
@@ -33,7 +33,7 @@ std::array<LineEnd, 2> ends_from_json(const nlohmann::json &j)
       const auto word = j.at(k).get<std::string>();
       const auto found = std::find(end_names.begin(), end_names.end(), word);
       require(found != end_names.end(), "reduced problem: a line that ends '", word,
-              "', must be unknown, smooth, corner or axis");
+              "', must be unknown, smooth, corner, axis or open");
       ends[k] = static_cast<LineEnd>(found - end_names.begin());
    }
    return ends;

@@ -101,7 +101,8 @@ ClosedContact closed_contact(const ReducedProblem &problem,
    }
    if (problem.dofs.size()) { reduced.dofs = problem.dofs(contact.closed, Eigen::all); }
 
-   // Runs of nodes that still follow each other; what ends at a node that is gone is not known.
+   // Runs of nodes that still follow each other; what ends at a node that is gone ends there
+   // open.
    const std::vector<Eigen::Index> &left = contact.closed;
    for (const ContactChain &chain : problem.chains)
    {
@@ -125,8 +126,8 @@ ClosedContact closed_contact(const ReducedProblem &problem,
          {
             const bool there = (!chain.loop || whole) &&
                                (end == 0 ? left[run.first] == chain.first : node == last);
-            run.ends[end] = there ? chain.ends[end] : LineEnd::unknown;
-            run.other_ends[end] = there ? chain.other_ends[end] : LineEnd::unknown;
+            run.ends[end] = there ? chain.ends[end] : LineEnd::open;
+            run.other_ends[end] = there ? chain.other_ends[end] : LineEnd::open;
          }
       }
    }

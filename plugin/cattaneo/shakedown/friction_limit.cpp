@@ -2,6 +2,7 @@
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/tangential_lengths.hpp>
 #include <cattaneo/shakedown/infinity.hpp>
+#include <cattaneo/shakedown/limit_of_the_mesh.hpp>
 #include <cattaneo/shakedown/limit_search.hpp>
 #include <cmath>
 
@@ -221,7 +222,20 @@ LimitReport friction_limit(const LimitProblem &problem, double load_factor,
    require(std::isfinite(load_factor), "shakedown: the load factor is not finite");
    problem.reduced.validate();
    require_coulomb(problem.reduced, "the smallest friction coefficient");
-   return FrictionLimit(problem, load_factor, settings).find();
+   LimitReport report = FrictionLimit(problem, load_factor, settings).find();
+   report.coupled = !problem.residual.uncoupled;
+   if (!report.proven()) { return report; }
+   report.starts =
+      report.coupled
+         ? "coupled (degree " + nine_digits(problem.coupling) +
+              "): with more friction some start shakes down, and not every start has to: a "
+              "march "
+              "from rest may slip for ever; λ1 is one of the load, for a given friction: "
+              "lower_limit()"
+         : "uncoupled: every start shakes down with more friction (proven)";
+   report.of_the_mesh = mesh_statement(
+      problem.reduced, stuck_forces(problem.reduced, problem.cycle), report, load_factor, true);
+   return report;
 }
 
 } // namespace cattaneo

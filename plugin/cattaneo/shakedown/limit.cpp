@@ -1,5 +1,6 @@
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/shakedown/limit.hpp>
+#include <sstream>
 
 namespace cattaneo
 {
@@ -17,6 +18,23 @@ const char *name(LimitStatus status)
    const char *const names[] = {"certified", "bracketed", "unlimited",  "no solution",
                                 "failed",    "stopped",   "unavailable"};
    return names[static_cast<int>(status)];
+}
+
+std::string nine_digits(double value)
+{
+   std::ostringstream text;
+   text.precision(9);
+   text << value;
+   return text.str();
+}
+
+std::vector<std::string> LimitReport::statement() const
+{
+   if (!proven() && status != LimitStatus::unlimited) { return {}; }
+   std::vector<std::string> all = {std::string("assumed: ") + limit_assumption};
+   if (!starts.empty()) { all.push_back(starts); }
+   if (!of_the_mesh.empty()) { all.push_back("of this mesh only: " + of_the_mesh); }
+   return all;
 }
 
 void LimitSettings::validate() const

@@ -4,6 +4,9 @@
 #include <cattaneo/monitor.hpp>
 #include <cattaneo/shakedown/load_cycle.hpp>
 #include <cattaneo/shakedown/residual_forces.hpp>
+#include <limits>
+#include <string>
+#include <vector>
 
 namespace cattaneo
 {
@@ -68,6 +71,9 @@ struct LimitSettings
    double largest_factor = 1e4;
    /// The smallest friction coefficient is searched up to here.
    double largest_friction = 100;
+   /// A load limit also asks for the lower limit λ1 (LimitReport::every_start), which is one
+   /// more programme where the contact is coupled and has more than two nodes.
+   bool every_start = false;
    /// An earlier report of a sweep over the same contact to start from. Not owned; may be null.
    const LimitReport *start = nullptr;
    /// Hears of every iteration (how many there will be nobody knows: its share is NaN until it
@@ -78,7 +84,9 @@ struct LimitSettings
    void validate() const;
 };
 
-/// A limit with the bounds that prove it.
+/** A limit with the bounds that prove it, and what it does not say: under which assumption it
+   is proven, of which starts it speaks, and whether the mesh decides it. statement() has all of
+    that in sentences. */
 struct LimitReport
 {
    LimitStatus status = LimitStatus::failed; ///< what is known of the limit
@@ -100,10 +108,35 @@ struct LimitReport
    /// The dual mechanism. Load limit: scaled to work 1 on the varying loads.
    CollapseMechanism mechanism;
    double coupling = 0; ///< of the problem
-   int iterations = 0;  ///< of Ipopt, summed over the programmes
-   double seconds = 0;  ///< wall time
-   Counters counters;   ///< limit_solves: programmes solved
+   bool coupled =
+      false; ///< slip changes the pressures: *some* start shakes down below the limit
+   /// The lower limit λ1 of a load limit, or a load factor that λ1 is proven not to be below:
+   /// there every start shakes down. NaN: nothing is known, or it was not asked for.
+   double every_start = std::numeric_limits<double>::quiet_NaN();
+   std::string starts; ///< which starts shake down, in one sentence
+   /// Why the limit is one of this mesh only and not of the bodies, in one sentence; empty if
+   /// nothing shows that it is, see mesh_statement().
+   std::string of_the_mesh;
+   int iterations = 0; ///< of Ipopt, summed over the programmes
+   double seconds = 0; ///< wall time
+   Counters counters;  ///< limit_solves: programmes solved
+
+   /// Certified or bracketed: `lower` and `upper` are bounds.
+   bool proven() const
+   {
+      return status == LimitStatus::certified || status == LimitStatus::bracketed;
+   }
+   /// What is assumed, of which starts the limit speaks, and whether it is one of the mesh
+   /// only: a sentence each. None without a limit.
+   std::vector<std::string> statement() const;
 };
+
+/// What the bounds of all limits assume.
+inline constexpr const char *limit_assumption =
+   "all nodes of the contact stay closed throughout the cycle";
+
+/// A number within a sentence on limits.
+std::string nine_digits(double value);
 
 /** Largest λ ≥ 0 for the friction of the problem, Coulomb's or a concave law (InputError of one
     that is not), and the shape of the cycle. First the constant

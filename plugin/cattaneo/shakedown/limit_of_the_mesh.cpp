@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cattaneo/shakedown/limit_of_the_mesh.hpp>
+#include <cmath>
 #include <limits>
 
 namespace cattaneo
@@ -31,29 +32,49 @@ double share_of_ends(const ReducedProblem &problem, const StuckForces &stuck,
    return at_ends / all;
 }
 
-Index singular_end(const ReducedProblem &whole, const ClosedContact &part,
-                   const StuckForces &stuck)
+Index singular_end(const ReducedProblem &problem, const StuckForces &stuck)
 {
-   // Is another node an open one on the contact line of a node?
-   const auto opens_next_to = [&](Index node, Index other)
-   {
-      const auto on = [](const ContactChain &chain, Index i)
-      { return i >= chain.first && i < chain.first + chain.nodes; };
-      for (const ContactChain &chain : whole.chains)
-      {
-         if (on(chain, node) && !on(chain, other)) { return false; }
-      }
-      return std::binary_search(part.open.begin(), part.open.end(), other);
-   };
+   const double least = 1e-6 * stuck.q1.cwiseAbs().maxCoeff();
    Index found = -1;
-   for (Index i = 0; i < static_cast<Index>(part.closed.size()); ++i)
+   for (const ContactChain &chain : problem.chains)
    {
-      const Index node = part.closed[i];
-      const bool within = opens_next_to(node, node - 1) || opens_next_to(node, node + 1);
-      const double shear = stuck.q1.row(i).cwiseAbs().maxCoeff();
-      if (within && shear > 1e-6 * stuck.q1.cwiseAbs().maxCoeff()) { found = i; }
+      for (const std::size_t end : {0, 1})
+      {
+         const Index node = chain.first + (end == 0 ? 0 : chain.nodes - 1);
+         const bool sheared = stuck.q1.row(node).cwiseAbs().maxCoeff() > least;
+         if (chain.ends[end] == LineEnd::open && sheared) { found = std::max(found, node); }
+      }
    }
    return found;
+}
+
+std::string figure_of_the_mesh(bool friction)
+{
+   return std::string("; the figure ") +
+          (friction ? "rises as the spacing of the nodes falls"
+                    : "falls with the spacing of the nodes") +
+          " and is no limit of the bodies";
+}
+
+std::string mesh_statement(const ReducedProblem &problem, const StuckForces &stuck,
+                           const LimitReport &limit, double load_factor, bool friction)
+{
+   const Eigen::VectorXd &arc = problem.arc_length;
+   if (!limit.proven() || arc.size() != problem.nodes()) { return ""; }
+   const Index end = singular_end(problem, stuck);
+   if (end >= 0)
+   {
+      return "the contact ends within its line, at the arc length " + nine_digits(arc[end]) +
+             ": there the pressure falls to zero and the stuck shear is singular" +
+             figure_of_the_mesh(friction);
+   }
+   const double share = share_of_ends(problem, stuck, limit, load_factor);
+   if (!(share > 0.2)) { return ""; }
+   return std::to_string(std::lround(100 * share)) +
+          " % of the mechanism's work is done within 1 % of the ends of the contact line, "
+          "where "
+          "tractions are singular" +
+          figure_of_the_mesh(friction);
 }
 
 } // namespace cattaneo

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <cattaneo/shakedown/closed_contact.hpp>
 #include <cattaneo/shakedown/limit.hpp>
 #include <cattaneo/shakedown/load_cycle.hpp>
+#include <string>
 
 namespace cattaneo
 {
@@ -20,11 +20,22 @@ double share_of_ends(const ReducedProblem &problem, const StuckForces &stuck,
                      const LimitReport &limit, double load_factor);
 
 /** An end of contact within the line, where the pressure falls to zero and the stuck shear does
-    not: the last node of the part that is the last one closed before open ones, on the same
-    chain, and feels shear from the cycle; numbered in the part, -1 if there is none.
-    @param whole of which @a part is the closed part
-    @param stuck of the part */
-Eigen::Index singular_end(const ReducedProblem &whole, const ClosedContact &part,
-                          const StuckForces &stuck);
+    not: the last node at which a chain ends `open`, see closed_contact(), that feels shear from
+    the cycle; -1 if there is none.
+    @param stuck of the same problem */
+Eigen::Index singular_end(const ReducedProblem &problem, const StuckForces &stuck);
+
+/** Why a limit is one of this mesh only, in one sentence without its full stop; empty if
+   nothing shows that it is. It is one where contact ends within its line (singular_end()), and
+   where more than a fifth of the mechanism's work is done at the ends of the line
+   (share_of_ends()).
+    @param stuck of the same problem
+    @param load_factor at which the mechanism moves
+    @param friction the limit is a friction coefficient, not a load factor */
+std::string mesh_statement(const ReducedProblem &problem, const StuckForces &stuck,
+                           const LimitReport &limit, double load_factor, bool friction);
+
+/// The end of a sentence on a limit of the mesh.
+std::string figure_of_the_mesh(bool friction);
 
 } // namespace cattaneo

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/shakedown/infinity.hpp>
+#include <cattaneo/shakedown/limit_of_the_mesh.hpp>
 #include <cattaneo/shakedown/limit_search.hpp>
+#include <cattaneo/shakedown/lower_limit.hpp>
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -356,9 +358,30 @@ LimitReport LoadLimit::find()
 
 LimitReport load_limit(const LimitProblem &problem, const LimitSettings &settings)
 {
-   LimitReport report = load_limit(problem.reduced, problem.residual,
-                                   stuck_forces(problem.reduced, problem.cycle), settings);
+   const StuckForces stuck = stuck_forces(problem.reduced, problem.cycle);
+   LimitReport report = load_limit(problem.reduced, problem.residual, stuck, settings);
    report.coupling = problem.coupling;
+   report.coupled = !problem.residual.uncoupled;
+   if (report.status == LimitStatus::unlimited)
+   {
+      report.starts = report.coupled
+                         ? "coupled: some start shakes down under any load, and not "
+                           "every start has to"
+                         : "uncoupled: every start shakes down under any load";
+   }
+   if (!report.proven()) { return report; }
+   report.of_the_mesh = mesh_statement(problem.reduced, stuck, report, report.limit, false);
+   // Free where it is the upper limit itself, or where two nodes are all.
+   const bool free =
+      !report.coupled || (problem.reduced.nodes() == 2 && problem.reduced.components() == 1);
+   if (free || settings.every_start)
+   {
+      const LowerLimitReport lower = lower_limit(problem, report, settings);
+      report.counters += lower.counters;
+      tell_starts(report, lower);
+      return report;
+   }
+   tell_starts(report, {});
    return report;
 }
 

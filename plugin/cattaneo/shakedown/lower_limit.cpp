@@ -270,4 +270,32 @@ LowerLimitReport lower_limit(const LimitProblem &problem, const LimitReport &upp
    return report;
 }
 
+void tell_starts(LimitReport &upper, const LowerLimitReport &lower)
+{
+   if (!upper.coupled)
+   {
+      upper.every_start = upper.limit;
+      upper.starts = "uncoupled: every start shakes down below the limit (proven)";
+      return;
+   }
+   const bool known = lower.kind != LowerLimitKind::none && lower.kind != LowerLimitKind::apart;
+   if (known) { upper.every_start = lower.value; }
+   upper.starts =
+      "coupled (degree " + nine_digits(upper.coupling) +
+      "): below the limit some start shakes down, and not every start has to: a "
+      "march from rest may slip for ever; λ1, below which every start shakes down, ";
+   if (lower.kind == LowerLimitKind::two_nodes)
+   {
+      upper.starts += "is " + nine_digits(lower.value) +
+                      " (two nodes: exact while the contact stays "
+                      "closed and the rate problem has one solution)";
+   }
+   else if (known) { upper.starts += "is at least " + nine_digits(lower.value) + " (proven)"; }
+   else if (lower.message.empty())
+   {
+      upper.starts += "was not asked for: lower_limit() has it";
+   }
+   else { upper.starts += "is not known: " + lower.message; }
+}
+
 } // namespace cattaneo

@@ -84,4 +84,8 @@ struct LowerLimitReport
 LowerLimitReport lower_limit(const LimitProblem &problem, const LimitReport &upper,
                              const LimitSettings &settings = {}, const NodeList &apart = {});
 
+/// Writes into the report of a load limit what is known of λ1: LimitReport::every_start and
+/// starts. A @a lower without a message: λ1 was not asked for.
+void tell_starts(LimitReport &upper, const LowerLimitReport &lower);
+
 } // namespace cattaneo

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cattaneo/friction/settled_states.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/reduced/tangential_lengths.hpp>
 #include <cattaneo/shakedown/transient.hpp>
 #include <cmath>
 #include <random>
@@ -26,11 +27,64 @@ bool solved(FrictionStatus status)
    return status == FrictionStatus::converged || status == FrictionStatus::not_unique;
 }
 
+/// What is no slip, over the elastic slip, and no loss, over the scale of losses.
+constexpr double nothing = 1e-9;
+
+/// The way of each node that bears at some time of a cycle, cycle by cycle. What it goes while
+/// it is apart counts too: the next cycle brings it back.
+class CycleWay
+{
+public:
+   explicit CycleWay(const ContactState &start) : v_(start.v), p_(start.p)
+   {
+      now_ = before_ = most_p_ = Eigen::VectorXd::Zero(start.p.size());
+   }
+   void note(const ContactState &state, int cycle)
+   {
+      if (cycle != cycle_)
+      {
+         before_ = last();
+         now_.setZero();
+         most_p_.setZero();
+         cycle_ = cycle;
+      }
+      now_ += tangential_lengths(state.v - v_, now_.size());
+      most_p_ = most_p_.cwiseMax(p_).cwiseMax(state.p);
+      least_ = nothing * state.peak_force;
+      v_ = state.v;
+      p_ = state.p;
+   }
+   Eigen::VectorXd last() const
+   {
+      return (most_p_.array() > least_).select(now_, Eigen::VectorXd::Zero(now_.size()));
+   }
+   Eigen::VectorXd of_two() const { return last().cwiseMax(before_); }
+
+private:
+   Eigen::VectorXd v_, p_, now_, before_, most_p_;
+   double least_ = 0; // pressure of a node that bears
+   int cycle_ = 0;
+};
+
+/** Do losses fall towards nothing? Three of them, as far apart as ten cycles where there are as
+    many, continued as a geometric series, leave less than half of the last one; a loss that
+    falls towards a level leaves the level. */
+bool falls_to_nothing(const std::vector<double> &loss, double none)
+{
+   const std::size_t last = loss.size() - 1, step = std::min<std::size_t>(10, last / 2);
+   if (loss[last] <= none) { return true; }
+   if (step == 0) { return false; }
+   const double first = loss[last - 2 * step], middle = loss[last - step], end = loss[last];
+   const double bend = first - 2 * middle + end;
+   if (!(end <= middle * std::pow(0.999, step)) || !(bend > 0)) { return false; }
+   return (first * end - middle * middle) / bend <= 0.5 * end;
+}
+
 } // namespace
 
 const char *name(TransientVerdict verdict)
 {
-   const char *const names[] = {"shaken down",    "shaken down but at nodes that open",
+   const char *const names[] = {"shaken down",    "moves only at nodes that open",
                                 "cyclic slip",    "still slipping",
                                 "no equilibrium", "stopped"};
    return names[static_cast<int>(verdict)];
@@ -40,6 +94,7 @@ void TransientSettings::validate() const
 {
    require_at_least("transient: cycles", cycles, 1);
    require_between("transient: shaken_down", shaken_down, 0, 1);
+   require(!std::isnan(upper), "transient: upper is not a number, must be a load factor");
    march.validate();
 }
 
@@ -62,6 +117,7 @@ TransientReport transient(FrictionSolver &solver, const LimitProblem &problem,
    const Eigen::MatrixXd q = stuck_forces(reduced, cycle).q(load_factor);
    report.energy =
       0.5 * q.cwiseProduct(problem.residual.flexibility * q).colwise().sum().maxCoeff();
+   report.elastic_slip = (problem.residual.flexibility * q).cwiseAbs().maxCoeff();
 
    ContactState state = ContactState::with_slip(reduced, start);
    const Counters before = solver.counters();
@@ -79,9 +135,11 @@ TransientReport transient(FrictionSolver &solver, const LimitProblem &problem,
    state.time = 0;
    state.cycle_slip.clear();
    SlipRange slip(reduced); // of the cycle at hand
+   CycleWay way(state);
    int cycle_now = 0;
    const auto observe = [&](const ContactState &now, const IncrementRecord &record)
    {
+      way.note(now, record.cycle);
       if (record.cycle != cycle_now) { slip.start(now); }
       else { slip.note(now); }
       cycle_now = record.cycle;
@@ -115,25 +173,32 @@ TransientReport transient(FrictionSolver &solver, const LimitProblem &problem,
    if (loss.empty()) { return report; }
 
    const double scale = std::max(report.dissipation[0], report.energy);
-   const double little = settings.shaken_down * scale, none = 1e-9 * scale;
+   const double little = settings.shaken_down * scale, none = nothing * scale;
    const std::size_t cycles = loss.size();
-   // A steady state of period two loses little in one of its cycles only.
-   double last = loss.back();
-   if (cycles > 1 && marched.steady_period != 1) { last = std::max(last, loss[cycles - 2]); }
-   const std::size_t back = std::min<std::size_t>(10, cycles / 2);
-   const bool decays = last <= none || last <= loss[cycles - 1 - back] * std::pow(0.999, back);
-   const bool steady = marched.steady_cycle > 0;
+   // A steady state of period two loses and slips little in one of its cycles only.
+   const bool alike = marched.steady_period == 1 || cycles < 2;
+   const double last = alike ? loss.back() : std::max(loss.back(), loss[cycles - 2]);
+   report.cycle_slip = alike ? way.last() : way.of_two();
+   Eigen::VectorXd closed_slip = report.cycle_slip;
+   closed_slip(report.opened).setZero();
+   const double slips = nothing * report.elastic_slip;
+   // Nodes that open and bear again do what the limit knows nothing of.
+   const double opened_slip =
+      report.opened.empty() ? 0 : report.cycle_slip(report.opened).maxCoeff();
+   const bool opened_moves = report.opened_loss > none || opened_slip > slips;
    if (solved(marched.status))
    {
-      if (steady ? last > none : last > little || !decays)
-      {
-         report.verdict =
-            steady ? TransientVerdict::cyclic_slip : TransientVerdict::still_slipping;
-      }
+      const bool steady = marched.steady_cycle > 0;
+      const bool goes_on = steady ? last > none || closed_slip.maxCoeff() > slips
+                                  : last > little || !falls_to_nothing(loss, none);
+      // A slip that has ended in a contact that stays closed is one that the limit forbids.
+      const bool forbidden = load_factor > settings.upper && report.opened.empty();
+      if (goes_on && steady) { report.verdict = TransientVerdict::cyclic_slip; }
+      else if (goes_on || forbidden) { report.verdict = TransientVerdict::still_slipping; }
       else
       {
-         report.verdict = report.opened_loss > none ? TransientVerdict::slips_and_opens
-                                                    : TransientVerdict::shaken_down;
+         report.verdict =
+            opened_moves ? TransientVerdict::slips_and_opens : TransientVerdict::shaken_down;
       }
    }
    std::size_t end = 0;
@@ -159,13 +224,15 @@ TransientBracket transient_bracket(const LimitProblem &problem, const LimitRepor
    require(limit.slip.size() == problem.reduced.slips(),
            "transient bracket: the limit has no optimal slip: ", limit.message);
    FrictionSolver solver(problem.reduced, settings.march.friction);
+   TransientSettings with = settings;
+   if (limit.proven()) { with.upper = std::min(with.upper, limit.upper); }
    TransientBracket bracket;
    for (const double sign : {0.0, 1.0, -1.0})
    {
       bracket.below.push_back(
-         transient(solver, problem, limit.limit * (1 - margin), sign * limit.slip, settings));
+         transient(solver, problem, limit.limit * (1 - margin), sign * limit.slip, with));
       bracket.above.push_back(
-         transient(solver, problem, limit.limit * (1 + margin), sign * limit.slip, settings));
+         transient(solver, problem, limit.limit * (1 + margin), sign * limit.slip, with));
    }
    return bracket;
 }

@@ -20,19 +20,28 @@ struct TransientSettings
    /// Loss of a cycle, over that of the first or the elastic energy of the stuck contact if
    /// that is more, below which a slip that decays from cycle to cycle counts as ended.
    double shaken_down = 1e-6;
+   /// An upper limit that is proven, LimitReport::upper: what a march above it seems to come to
+   /// in a contact that stays closed is no shakedown, but slip that still goes on.
+   double upper = std::numeric_limits<double>::infinity();
    MarchSettings march; ///< of each of them
 
    /// InputError naming the setting, its value and what is allowed.
    void validate() const;
 };
 
-/// What the slip came to. A steady cycle that loses more than 1e-9 is cyclic slip, however
-/// little that is; a loss that decays has ended when it is below
-/// TransientSettings::shaken_down.
+/** What the slip came to, as it is measured:
+    - of a steady cycle by its slip: a node slips that bears at some time of the cycle and moves
+      by more than 1e-9 of TransientReport::elastic_slip in it, however little that loses;
+    - of a cycle that is not steady yet by its loss: the loss has ended when it is below
+      TransientSettings::shaken_down and falls towards nothing: three losses, ten cycles apart,
+      that are continued as a geometric series leave less than half of the last one.
+
+    Above an upper limit that is known (TransientSettings::upper) no contact whose nodes all
+   stay closed is said to have shaken down. */
 enum class TransientVerdict
 {
    shaken_down,     ///< the slip has ended
-   slips_and_opens, ///< ended but at nodes that open in every cycle and slip as they do
+   slips_and_opens, ///< ended but at nodes that open in every cycle and move as they do
    cyclic_slip,     ///< a steady cycle with slip at nodes that stay closed
    still_slipping,  ///< neither steady nor ended after all cycles
    no_equilibrium,  ///< the march ended early: status and message say why
@@ -45,7 +54,7 @@ const char *name(TransientVerdict verdict);
 /** The theorems behind limits are of a contact whose nodes all stay closed. Where nodes open in
     the march, `opened`, its verdict is of another problem, and need not agree with a bound: at
     the corner of a square punch a few nodes open and close for ever and lose 1e-7 of what the
-    first cycle does, below the upper limit and above. */
+    first cycle does, below the upper limit and above. Such a contact has not shaken down. */
 struct TransientReport
 {
    FrictionStatus status = FrictionStatus::converged; ///< of the march
@@ -60,6 +69,12 @@ struct TransientReport
    /// Elastic energy that the slip of a stuck contact could release, the scale of dissipation:
    /// the largest ½ qᵀ A⁻¹ q over the vertices.
    double energy = 0;
+   /// The largest slip of a stuck contact that is let go, |A⁻¹ q| over the vertices, the scale
+   /// of `cycle_slip`.
+   double elastic_slip = 0;
+   /// Way of each node that bears at some time of the last cycle, of two cycles the longer one
+   /// where the steady state is not known to have period 1; size n.
+   Eigen::VectorXd cycle_slip;
    NodeList opened;        ///< nodes that are open at some time of the last cycle
    double opened_loss = 0; ///< dissipation at these in the last cycle
    /// Loss of a cycle over that of the one before, at the nodes that are not `opened`:

@@ -26,6 +26,15 @@ public:
    /// The balance of energy, and how far the march came.
    void close();
 
+   /// The loss of each piece of the history that was marched, from the first one on.
+   const std::vector<double> &piece_losses() const { return piece_losses_; }
+   /// The loss of each node; empty without friction.
+   const Eigen::VectorXd &node_losses() const { return node_losses_; }
+   /// The largest work of the loads on the way.
+   double most_work() const { return most_work_; }
+   /// Were there increments that are not exact?
+   bool inexact() const { return inexact_; }
+
 private:
    void end_cycle();
    /// Of the increment from the state to that of the record.
@@ -39,7 +48,12 @@ private:
    double external_work_ = 0, dissipation_ = 0, normal_work_ = 0;
    double most_work_ = 0; // largest |external work| on the way
    const double energy_at_start_;
-   double changed_ = 0; // see changed_while_closing()
+   double changed_ = 0;      // see changed_while_closing()
+   double moved_energy_ = 0; // all energies that were added up, without their signs
+   std::vector<double> piece_losses_;
+   Eigen::VectorXd node_losses_;
+   double piece_end_ = -std::numeric_limits<double>::infinity(); // of the last of them
+   bool inexact_ = false;
 };
 
 } // namespace cattaneo
