@@ -209,9 +209,8 @@ JointCase::Body body(const Key &key, const std::string &name, bool as_meshed)
    };
    if (key.has("half-plane"))
    {
-      goes_without("half-plane",
-                   {"young", "poisson", "order", "geometry", "expansion", "support", "load",
-                    "guides"});
+      goes_without("half-plane", {"young", "poisson", "order", "geometry", "expansion",
+                                  "support", "load", "guides"});
       const Key plane = key["half-plane"];
       plane.must_be_of({"young", "poisson", "depth"});
       made.half_plane = true;
@@ -238,8 +237,8 @@ JointCase::Body body(const Key &key, const std::string &name, bool as_meshed)
       require(made.order == key["order"].number(), key["order"].called(), " is ",
               key["order"].number(), ", must be a whole number");
    }
-   made.as_meshed = key.has("geometry") ? key["geometry"].choice(geometries) == "as meshed"
-                                        : as_meshed;
+   made.as_meshed =
+      key.has("geometry") ? key["geometry"].choice(geometries) == "as meshed" : as_meshed;
    if (key.has("expansion")) { made.expansion = key["expansion"].number(); }
    if (key.has("support")) { made.support = key["support"].statements(); }
    if (key.has("load")) { made.load = key["load"].statements(); }

@@ -53,7 +53,8 @@ public:
 
 private:
    void make_of_mesh(OwnBodies &own, int b);
-   /// Boundary attributes of the body's sides of interfaces; of slits: on which it meets itself.
+   /// Boundary attributes of the body's sides of interfaces; of slits: on which it meets
+   /// itself.
    std::vector<int> of_sides(int b, bool slits = false) const;
    int order() const { return body_.order > 0 ? body_.order : joint_.order; }
 

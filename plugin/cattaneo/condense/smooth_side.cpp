@@ -333,9 +333,8 @@ double EdgeBend::off(double s) const
 {
    // The arc of a circle with the mean of both angles, and a cubic that leans to one end.
    const double mean = 0.5 * (begin + end), sine = std::sin(mean);
-   const double arc =
-      2 * sine * s * (1 - s) /
-      (std::sqrt(1 - 4 * sine * sine * (s - 0.5) * (s - 0.5)) + std::cos(mean));
+   const double arc = 2 * sine * s * (1 - s) /
+                      (std::sqrt(1 - 4 * sine * sine * (s - 0.5) * (s - 0.5)) + std::cos(mean));
    return arc + 0.5 * (std::tan(begin) - std::tan(end)) * s * (1 - s) * (1 - 2 * s);
 }
 

@@ -8,10 +8,10 @@ namespace cattaneo
 {
 
 /** A smooth curve over a straight edge, through both of its ends. Seen along the edge with the
-    body on the left, the curve leaves the chord to the right by the angle `begin` and comes back
-    to it by the angle `end` (radians): both positive where the body is convex, negative in a
-    hole, zero where the edge is what it seems. Of an arc of a circle both are half of the angle
-    that it spans, and the curve is that arc. */
+    body on the left, the curve leaves the chord to the right by the angle `begin` and comes
+   back to it by the angle `end` (radians): both positive where the body is convex, negative in
+   a hole, zero where the edge is what it seems. Of an arc of a circle both are half of the
+   angle that it spans, and the curve is that arc. */
 struct EdgeBend
 {
    double begin = 0, end = 0;
@@ -56,8 +56,8 @@ struct SidePolygon
        not looked at.
     2. The run of turns. A vertex is a corner that turns much more, or less, than the vertices
        beside it let expect: a chamfer with straight flanks. Where no curve is known an arc has
-       four turns in a row in one direction, or three alike: less is taken for a chamfer. Where a
-       third of the vertices are such corners the side is a profile of points, which is left.
+       four turns in a row in one direction, or three alike: less is taken for a chamfer. Where
+   a third of the vertices are such corners the side is a profile of points, which is left.
     3. The angle: a turn of more than `corner` degrees (within one of the file's curves
        `corner_within`) is a corner.
 

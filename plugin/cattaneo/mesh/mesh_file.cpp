@@ -314,9 +314,13 @@ mfem::Mesh read_mesh(const std::string &file, std::vector<int> *curves)
       for (const GmshMesh::Element &element : mesh.elements)
       {
          // Those of a deck are this program's own.
-         if (!curves || is_deck(file) || gmsh_types().at(element.type).corners != 2) { continue; }
-         curves->push_back(
-            element.tags.size() > 1 && element.tags[1] > 0 ? static_cast<int>(element.tags[1]) : -1);
+         if (!curves || is_deck(file) || gmsh_types().at(element.type).corners != 2)
+         {
+            continue;
+         }
+         curves->push_back(element.tags.size() > 1 && element.tags[1] > 0
+                              ? static_cast<int>(element.tags[1])
+                              : -1);
       }
       converted = mesh.text();
    }

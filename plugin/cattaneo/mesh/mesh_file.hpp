@@ -14,8 +14,8 @@ namespace cattaneo
     MFEM's reader trusts its file: a node number that is out of range reads foreign memory. The
     file is therefore checked first, section by section. InputError saying what is wrong.
 
-    @param curves where it is to be said on which curve of the file (Gmsh's entity) each boundary
-           element is, -1: not known; for curve_sides() */
+    @param curves where it is to be said on which curve of the file (Gmsh's entity) each
+   boundary element is, -1: not known; for curve_sides() */
 mfem::Mesh read_mesh(const std::string &file, std::vector<int> *curves = nullptr);
 
 /// What a mesh file says beside the mesh.

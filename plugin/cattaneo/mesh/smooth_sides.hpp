@@ -10,8 +10,8 @@ namespace cattaneo
 /// What curve_sides() found and did.
 struct SmoothSides
 {
-   int edges = 0;    ///< boundary elements that are taken for chords of smooth curves
-   double most = 0;  ///< the farthest that a curve is from its chord
+   int edges = 0;      ///< boundary elements that are taken for chords of smooth curves
+   double most = 0;    ///< the farthest that a curve is from its chord
    bool moved = false; ///< nodes of the mesh lie on the curves now
    /// Curves that the nodes could not be moved onto without folding an element: none were.
    bool folds = false;

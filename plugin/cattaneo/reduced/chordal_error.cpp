@@ -23,7 +23,8 @@ std::optional<VectorXd> forces_after(const MatrixXd &C, const VectorXd &p, Vecto
    std::vector<bool> bears(p.size());
    for (Index i = 0; i < p.size(); ++i) { bears[i] = p[i] > 0 || open[i] < 0; }
    std::optional<VectorXd> found;
-   // The sets of nodes settle in a few rounds; of those that turn in a circle the last is taken.
+   // The sets of nodes settle in a few rounds; of those that turn in a circle the last is
+   // taken.
    for (int round = 0; round < 50; ++round)
    {
       std::vector<int> closed, free;

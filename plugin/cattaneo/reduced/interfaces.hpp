@@ -83,8 +83,8 @@ struct Interface
 Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface> &interfaces);
 
 /** What chords of curved sides (InterfaceReport::chords) make of tractions, as a share of the
-    largest pressure: the largest change of a pressure if gaps were those of the curves, with the
-    displacements along the interface as they are. An estimate; 0 where sides are straight or
+    largest pressure: the largest change of a pressure if gaps were those of the curves, with
+   the displacements along the interface as they are. An estimate; 0 where sides are straight or
     nodes match. Where nothing bears it is infinite if smooth sides may meet, else 0.
 
     @param p normal forces of the contact nodes

@@ -23,7 +23,7 @@ struct InterfaceReport
    /// The nodes are those of Interface::second: forces on the first body are the opposite.
    bool of_second = false;
    Eigen::MatrixX2d position; ///< n × 2, of the nodes
-   Eigen::MatrixX2d outline; ///< n × 2, ContactLine::outline: where gaps are measured from
+   Eigen::MatrixX2d outline;  ///< n × 2, ContactLine::outline: where gaps are measured from
    Eigen::MatrixX2d tangent;  ///< n × 2, of their frames: unit vectors
    /// n × 2 each: where the nodes' forces act on the body that has the nodes, and on what faces
    /// it. The first is the node's own place but on an element that is faced in part; the second
