@@ -51,7 +51,9 @@ Reduction paired(std::vector<CondensedBody> bodies, const JointCase::Face &face)
    {
       const Pairing pairs = pair_lines(bodies[0].line, bodies[1].line, face.pairing);
       warn_of_offsets(bodies[0].line, bodies[1].line, pairs);
-      return reduce(std::move(bodies[0]), std::move(bodies[1]), pairs);
+      Reduction made = reduce(std::move(bodies[0]), std::move(bodies[1]), pairs);
+      for (ContactChain &chain : made.problem.chains) { chain.interface = face.name; }
+      return made;
    }
    catch (const InputError &error)
    {

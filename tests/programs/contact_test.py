@@ -5,7 +5,7 @@ import math
 
 import pytest
 
-from programs import ROOT, changed, even, mesh_text, near, rectangle, shipped, to_ends
+from programs import ROOT, changed, curved, even, mesh_text, near, rectangle, shipped, to_ends
 
 
 def block(mesh, load="P pressure 3 1", **keys):
@@ -325,7 +325,6 @@ LAPS = [
     ({"bodies.lower.young": 3}, [], ["bodies.lower' has the keys matrix and young"]),
     ({"bodies.upper.mesh": "nowhere.msh"}, [], ["has 2 of the keys"]),
     ({"bodies.upper.order": 1}, [], ["bodies.upper.order'", "its elements are known"]),
-    ({}, ["--edges", "1 2"], ["edges", "a body that is a matrix"]),
     ({"bodies.lower.support": "WALL:z"}, [], ["body lower ('LOWER')", "support' 'WALL:z'", "SET:xy"]),
     ({"bodies.upper.load": "P traction X 1 0"}, [], ["body upper ('UPPER')", "there is no set 'X'"]),
     ({"bodies.upper.matrix": "nowhere.sti", "bodies.lower.matrix": "nowhere.sti"}, [], ["cannot read file", "nowhere.inp'"]),
@@ -366,6 +365,7 @@ def test_bad_input_is_one_sentence_and_leaves_no_file(run):
     for changes, options, words in LAPS:
         refused(changed(shipped("calculix/laps"), changes), options, words)
     refused(shipped("calculix/laps"), [], ["option paraview", "a matrix"])
+    assert "1 and a body that is a matrix" in run.refused(shipped("calculix/laps"), "--edges", "1 2")
     refused(changed(shipped("dovetail"), {"interfaces.flank.pairing": 1e-6}), [], ["pairing", "without a partner", "81 nodes"])
     for text, words in TEXTS.items():
         refused(text, [], words)
@@ -380,8 +380,7 @@ def test_bad_input_is_one_sentence_and_leaves_no_file(run):
 def test_case_files_may_have_comments(run):
     """Of both kinds of C++; what stands between quotes is none."""
     plain = run("contact", "--case", "meshes/rounded_punch.json", "--cycles", 1)
-    text = json.dumps(shipped("rounded_punch"), indent=1).replace("{", '{ // of {"these": 1}\n "version": 2, /* twice\n , "version": 3 */', 1)
-    assert "//" in text
+    text = json.dumps(shipped("rounded_punch"), indent=1).replace("{", '{ // of {"these": 1}\n /* not "version": 3,\n */', 1)
     commented = run.case(text, "--cycles", 1)
     for key in ("peak_pressure", "total_dissipation", "zones"):
         assert commented[key] == plain[key]
@@ -588,3 +587,45 @@ def test_a_half_plane_must_be_below_something_that_touches_it(run):
     assert "ground" in run.refused(case)
     two = changed(case, {"bodies.other": {"half-plane": FULL}, "interfaces.floor.between": ["block:1", "ground"]})
     assert "there are 2 half-planes" in run.refused(two)
+
+
+def test_warns_of_a_side_that_bears(run):
+    run.write("pad.mesh", pad(16))
+    case = block("pad.mesh")
+    around = run.case(changed(case, {"interfaces.floor.between": "block:1,4"}), code=None)
+    # A pad that is pressed so much that its side bears turns there, and closes a large gap.
+    assert len(around["warnings"]) == 3
+    assert "name no boundary around a corner" in around["warnings"][0]
+    assert run.case(case)["warnings"] == []
+
+
+@pytest.mark.parametrize("bent", [0, 0.05])
+def test_warns_of_elements_that_miss_the_curves_of_their_mesh(run, bent):
+    def place(u, v):
+        x = 4 * u - 2
+        return x, 2 * v * (1 + bent * x * x)
+
+    run.write("curved.msh", curved(4, 2, place))  # straight sides may be said by many nodes
+    case = block("curved.msh", "P pressure 3 1e-3")
+    assert run.case(case, "--order", 2)["warnings"] == []
+    warnings = run.case(case, "--order", 1)["warnings"]
+    assert len(warnings) == (1 if bent else 0)
+    if bent:
+        assert "curved.msh' is curved, elements of order 1" in warnings[0]
+        assert "use option -order 2" in warnings[0]
+
+
+def test_warns_of_a_line_that_is_named_too_short(run):
+    # A block on a block of the same width, pressed as a whole: of the joint only the middle is named, or all of it, up to the
+    # blocks' corners.
+    run.block("upper.mesh", -2, 2, 16, 0, 1, 4)
+    run.block("lower.mesh", -2, 2, 16, -1, 0, 4)
+    case = {"bodies": {"upper": {"mesh": "upper.mesh", "young": 1, "poisson": 0.3, "load": "P pressure 3 1e-3"},
+                       "lower": {"mesh": "lower.mesh", "young": 1, "poisson": 0.3, "support": "1:xy"}},
+            "interfaces": {"joint": {"between": ["upper:1", "lower:3"], "friction": 0.3, "pairing": 1e-6}}}
+    part = run.case(changed(case, {"interfaces.joint.between": ["upper:1[-1<x<1]", "lower:3[-1<x<1]"]}))
+    first, last = part["warnings"]
+    assert "first node of piece 1 of the line 'joint' (node 0 at (-1, 0)" in first
+    assert "at (1, 0)" in last
+    assert "warning: " + first in part.output
+    assert run.case(case)["warnings"] == []

@@ -4,6 +4,7 @@ import copy
 import csv
 import json
 import math
+import os
 import pathlib
 import re
 import subprocess
@@ -46,12 +47,13 @@ class Runner:
     def __init__(self, folder, programs):
         self.folder, self.programs = folder, programs
 
-    def __call__(self, program, *words, code=0):
-        """A run with --json; its exit code must be `code` (None: any)."""
+    def __call__(self, program, *words, code=0, threads=None):
+        """A run with --json; its exit code must be `code` (None: any). It computes with so many threads, if it is said."""
         file = self.folder / (program + "_results.json")
         file.unlink(missing_ok=True)
         done = subprocess.run([self.programs / program, *map(str, words), "--json", file], cwd=ROOT, stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT, check=False)
+                              stderr=subprocess.STDOUT, check=False,
+                              env={**os.environ, **dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"), str(threads))} if threads else None)
         output = done.stdout.decode("utf-8", "replace")
         assert code is None or done.returncode == code, f"{program} {' '.join(map(str, words))}\n{output}"
         results = json.loads(file.read_text(encoding="utf-8")) if file.exists() else None
@@ -69,6 +71,18 @@ class Runner:
         run = self.case(keys, *words, code=1)
         assert run.results is None
         return run.error
+
+    def refuses(self, program, options, words):
+        """A run is refused by a sentence that holds all words, and leaves no file in the folder of the test."""
+        before = set(self.folder.iterdir())
+        run = self(program, *options, code=1)
+        assert run.results is None and set(self.folder.iterdir()) == before, options
+        for word in words:
+            assert str(word) in run.error, f"{program} {options} should say '{word}': {run.error}"
+
+    def text(self, name):
+        """A file in the folder of the test."""
+        return (self.folder / name).read_text(encoding="utf-8")
 
     def write(self, name, text):
         (self.folder / name).write_text(text, encoding="utf-8")
@@ -132,14 +146,14 @@ def changed(case, changes):
     """A case with other values in places such as 'bodies.pad.load'; None takes a key away."""
     made = copy.deepcopy(case)
     for place, value in changes.items():
-        *path, key = place.split(".")
+        *path, key = [int(step) if step.isdigit() else step for step in place.split(".")]
         inner = made
         for step in path:
-            inner = inner[int(step)] if isinstance(inner, list) else inner.setdefault(step, {})
+            inner = inner[step] if isinstance(inner, list) else inner.setdefault(step, {})
         if value is None:
             del inner[key]
         else:
-            inner[key] = value
+            inner[key] = copy.deepcopy(value)
     return made
 
 
@@ -151,12 +165,13 @@ def read_case(file):
 
 def shipped(name):
     """A case of meshes/ that can stand in another folder."""
-    case = read_case(ROOT / "meshes" / (name + ".json"))
+    file = ROOT / "meshes" / (name + ".json")
+    case = read_case(file)
     case.pop("$schema", None)
     for body in case["bodies"].values():
         for key in ("mesh", "matrix"):
             if key in body:
-                body[key] = str(ROOT / "meshes" / body[key])
+                body[key] = str(file.parent / body[key])
     return case
 
 
