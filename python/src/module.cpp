@@ -4,6 +4,7 @@
 #include <cattaneo/algebra/blas_kernels.hpp>
 #include <cattaneo/counters.hpp>
 #include <cattaneo/version.hpp>
+#include <nanobind/stl/string.h>
 
 namespace nb = nanobind;
 using namespace cattaneo;
