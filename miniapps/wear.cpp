@@ -162,8 +162,7 @@ void wear_contact(Study &study)
                                                {"stick", "stick", "%.5g"}});
    table.draw("Worn volume", "cycle", "cycles", {{"volume", "volume"}}, "volume");
    std::vector<double> times, from, to;
-   double row_at = 0, drawn_at = 0, last_row = none;
-   WearRecord reached;
+   double drawn_at = 0, last_row = none;
    const auto add_row = [&](const WearState &now, const WearRecord &record)
    {
       last_row = record.cycles;
@@ -177,11 +176,14 @@ void wear_contact(Study &study)
          to.push_back(stick.to.position - scene.middle);
       }
    };
+   // A row for each of the first cycles, and then whenever their number has grown by a quarter.
+   settings.observed = [&](double before, double now)
+   {
+      const auto rows = [](double at) { return std::floor(std::log(at) / std::log(1.25)); };
+      return now <= 5 || now >= cycles || rows(now) > rows(before);
+   };
    const auto observe = [&](const WearState &now, const WearRecord &record)
    {
-      reached = record;
-      if (record.cycles < row_at && record.cycles < cycles) { return; }
-      row_at = std::max(record.cycles + 1, 1.25 * record.cycles);
       add_row(now, record);
       if (record.cycles < drawn_at && record.cycles < cycles) { return; }
       drawn_at = std::max(0.01 * cycles, 4 * record.cycles);
@@ -199,7 +201,10 @@ void wear_contact(Study &study)
       settings.march.monitor = {};
    }
    // One that ends early ends between the rows.
-   if (last_row < reached.cycles) { add_row(state, reached); }
+   if (!report.records.empty() && last_row < report.records.back().cycles)
+   {
+      add_row(state, report.records.back());
+   }
    study.counters += report.counters;
    warn_of_cut_off(report.cut_off);
    study.results["cycles_worn"] = state.cycles;
@@ -208,12 +213,20 @@ void wear_contact(Study &study)
    study.results["steady_cycle"] = report.steady_cycle;
    study.results["implicit_cycles"] = report.implicit_cycles;
    study.value("volume", worn_volume(problem, state.depth), "worn volume", none);
-   study.value("depth", state.depth.maxCoeff(), "largest depth", report.error);
+   // Where there is no estimate there is no ±.
+   study.value("depth", state.depth.maxCoeff(), "largest depth",
+               std::isfinite(report.error) ? report.error : none);
+   study.results["tolerance_reached"] = report.reached;
    study.value("energy", state.dissipation.sum(), "energy that friction took");
    study.value("explicit_limit", report.explicit_limit,
                "most cycles that may share an explicit update");
    study.say(text("   %ld cycles marched, %ld jumps, %.2g s", report.marched, report.jumps,
                   report.seconds));
+   if (report.error > 0 && std::isfinite(report.error))
+   {
+      study.say("   the ± is an estimate of what jumps over cycles err by, at any node");
+   }
+   if (!report.remark.empty()) { warn(report.remark); }
    if (report.implicit_cycles > 0)
    {
       warn(text("%ld cycles wore so much that pressures changed within them: k or the "

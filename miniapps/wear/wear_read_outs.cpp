@@ -3,6 +3,7 @@
 #include "common/run.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace miniapp
 {
@@ -57,6 +58,36 @@ double crossing(const VectorXd &s, const VectorXd &value, Index from, int way)
    return s[way > 0 ? s.size() - 1 : 0];
 }
 
+/// Pressure amid a zone, between the nodes on both sides of its middle.
+double pressure_amid(const ReducedProblem &problem, const VectorXd &p, const Zone &zone)
+{
+   const VectorXd &s = problem.arc_length;
+   const double middle = 0.5 * (zone.from.position + zone.to.position);
+   Index i = zone.first;
+   while (i < zone.last && s[i + 1] < middle) { ++i; }
+   if (i == zone.last || s[i] >= middle) { return p[i]; }
+   return p[i] + (p[i + 1] - p[i]) * (middle - s[i]) / (s[i + 1] - s[i]);
+}
+
+/// The widest zone that sticks; of those that are equal to round-off the one with the largest
+/// pressure amid it.
+Zone widest_stick(const ReducedProblem &problem, const VectorXd &p, std::vector<Zone> all)
+{
+   const Zone widest = stick_zone(problem, all);
+   const auto width = [](const Zone &zone) { return zone.to.position - zone.from.position; };
+   const auto rivals = [&](const Zone &zone)
+   { return zone.state == NodeState::stick && width(zone) >= (1 - 1e-6) * width(widest); };
+   double most = -std::numeric_limits<double>::infinity();
+   for (const Zone &zone : all)
+   {
+      if (rivals(zone)) { most = std::max(most, pressure_amid(problem, p, zone)); }
+   }
+   const auto less = [&](const Zone &zone)
+   { return rivals(zone) && pressure_amid(problem, p, zone) < most - 1e-9 * std::abs(most); };
+   all.erase(std::remove_if(all.begin(), all.end(), less), all.end());
+   return stick_zone(problem, all);
+}
+
 } // namespace
 
 void report_end(Study &study, const WearCase &scene, const WornOut &end, Panel &profiles,
@@ -76,7 +107,8 @@ void report_end(Study &study, const WearCase &scene, const WornOut &end, Panel &
       return study.say("   nothing slips in a cycle, and nothing wears");
    }
    const ReducedProblem &problem = scene.problem;
-   const Zone stick = stick_zone(problem, zones(problem, end.unworn, end.range));
+   const VectorXd p = tractions(problem, end.contact.p);
+   const Zone stick = widest_stick(problem, p, zones(problem, end.unworn, end.range));
    // Of several lines that on which the widest zone sticks.
    Index begin = 0, nodes = problem.nodes();
    for (const ContactChain &chain : problem.chains)
@@ -101,10 +133,8 @@ void report_end(Study &study, const WearCase &scene, const WornOut &end, Panel &
                "half-width that is worn or sticks");
    study.value("final_volume", worn_volume(problem, end.depth), "volume worn off");
    study.value("final_depth", end.depth.maxCoeff(), "largest depth");
-   const VectorXd p = tractions(problem, end.contact.p);
-   Index centre = 0;
-   (s.array() - 0.5 * (stick.from.position + stick.to.position)).abs().minCoeff(&centre);
-   study.value("final_pressure_centre", p[begin + centre], "pressure amid the stick zone");
+   study.value("final_pressure_centre", pressure_amid(problem, p, stick),
+               "pressure amid the stick zone");
    study.value("final_loss", settled(end.loss, 1), "loss of a cycle, of the unworn one");
    study.results["final_depths"] =
       std::vector<double>(end.depth.data(), end.depth.data() + end.depth.size());

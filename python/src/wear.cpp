@@ -34,7 +34,6 @@ struct Wear
    nb::object problem;
    WearReport report;
    WearState state;
-   std::vector<WearRecord> records;
 };
 
 /// What worn_out() found, free of the problem.
@@ -155,7 +154,8 @@ void bind_state(nb::module_ &m)
          arg("problem"), "Unworn, before any load.")
       .def_prop_ro(
          "contact", [](Self &self) -> ContactState & { return self.contact; },
-         nb::rv_policy::reference_internal, "with the slip and the forces of the worn contact")
+         nb::rv_policy::reference_internal,
+         "with the slip and the forces of the worn contact, whose gap is problem.gap + depth")
       .def_prop_ro("depth", viewed(&Self::depth), "worn off; the gap is problem.gap + depth")
       .def_prop_ro("dissipation", viewed(&Self::dissipation),
                    "energy that friction took at each node so far")
@@ -183,10 +183,14 @@ std::string brief(const Wear &self)
    if (!report.message.empty()) { text << " (" << report.message << ")"; }
    text << " after " << self.state.cycles << " cycles, " << report.marched << " marched, "
         << report.jumps << " jumps";
-   if (report.jumps > 0) { text << " with an error of depth of " << report.error; }
-   if (!self.records.empty())
+   if (report.jumps > 0 && std::isfinite(report.error))
    {
-      const WearRecord &last = self.records.back();
+      text << ", estimate of their error of depth " << report.error;
+   }
+   if (!report.remark.empty()) { text << "\n  " << report.remark; }
+   if (!self.report.records.empty())
+   {
+      const WearRecord &last = self.report.records.back();
       text << "\n  largest depth " << last.depth << ", volume " << last.volume
            << ", dissipation " << last.dissipation << ", loss of a cycle " << last.loss;
    }
@@ -210,8 +214,10 @@ void bind_report(nb::module_ &m)
       .def_ro("volume", &WearRecord::volume, "worn off so far")
       .def_ro("depth", &WearRecord::depth, "largest so far")
       .def_ro("dissipation", &WearRecord::dissipation, "energy that friction took so far")
-      .def_ro("loss", &WearRecord::loss, "of it in its last cycle")
-      .def_ro("error", &WearRecord::error, "estimate of the largest error of depth of a jump")
+      .def_ro("loss", &WearRecord::loss,
+              "of it in the last cycle; after a jump, in a cycle of the worn contact")
+      .def_ro("error", &WearRecord::error,
+              "estimate of the largest error of depth so far, by all jumps")
       .def("__repr__",
            [](const WearRecord &self)
            {
@@ -225,8 +231,8 @@ void bind_report(nb::module_ &m)
    {
       return [member](const Self &self)
       {
-         Eigen::VectorXd all(self.records.size());
-         for (Index k = 0; k < all.size(); ++k) { all[k] = self.records[k].*member; }
+         Eigen::VectorXd all(self.report.records.size());
+         for (Index k = 0; k < all.size(); ++k) { all[k] = self.report.records[k].*member; }
          return array(std::move(all));
       };
    };
@@ -248,9 +254,11 @@ void bind_report(nb::module_ &m)
       .def_prop_ro("depth", of_records(&WearRecord::depth), "largest so far")
       .def_prop_ro("dissipation", of_records(&WearRecord::dissipation),
                    "energy that friction took so far")
-      .def_prop_ro("loss", of_records(&WearRecord::loss), "of the last cycle of each record")
+      .def_prop_ro("loss", of_records(&WearRecord::loss),
+                   "of the last cycle of each record; after a jump, of a cycle of the worn "
+                   "contact")
       .def_prop_ro("errors", of_records(&WearRecord::error),
-                   "estimates of the largest error of depth, of jumps")
+                   "estimates of the largest error of depth so far, by all jumps")
       .def_prop_ro(
          "last",
          [](const Self &self)
@@ -261,7 +269,15 @@ void bind_report(nb::module_ &m)
          "cycles, also those that only look where a jump leads")
       .def_prop_ro("jumps", [](const Self &self) { return self.report.jumps; })
       .def_prop_ro(
-         "error", [](const Self &self) { return self.report.error; }, "sum of `errors`")
+         "error", [](const Self &self) { return self.report.error; },
+         "estimate of the largest error of depth at the end that comes of jumps, with all that "
+         "grew on the way; infinite where the way is too unstable for an estimate")
+      .def_prop_ro(
+         "reached", [](const Self &self) { return self.report.reached; },
+         "True if depths are estimated to be right to the tolerance")
+      .def_prop_ro(
+         "remark", [](const Self &self) { return self.report.remark; },
+         "one sentence where errors of jumps grew on the way, else empty")
       .def_prop_ro(
          "explicit_limit", [](const Self &self) { return self.report.explicit_limit; },
          "most cycles that may share one explicit update of the gap")
@@ -288,18 +304,21 @@ Wear worn(nb::handle problem, const WearLaw &law, const LoadHistory &history, do
    require_observer(observer);
    Watch watch(progress, stop);
    settings.march.monitor = watch.monitor();
-   const WearObserver each = [&](const WearState &now, const WearRecord &record)
+   const WearObserver call = [&](const WearState &now, const WearRecord &record)
    {
-      result.records.push_back(record);
-      if (observer.is_none()) { return; }
       const nb::gil_scoped_acquire lock;
       observer(nb::cast(WearState(now)), nb::cast(WearRecord(record)));
    };
-   result.report =
-      unlocked([&] { return wear(copy, law, history, cycles, result.state, settings, each); });
+   result.report = unlocked(
+      [&]
+      {
+         return wear(copy, law, history, cycles, result.state, settings,
+                     observer.is_none() ? WearObserver() : call);
+      });
    const WearReport &report = result.report;
    warn_of_status("wear", report.status,
                   "after " + exact_text(result.state.cycles) + " cycles: " + report.message);
+   if (!report.reached) { warn("wear: " + report.remark); }
    for (const CutOffContact &end : report.last.cut_off) { warn("wear: " + end.message()); }
    return result;
 }
@@ -339,19 +358,25 @@ void bind_wear_march(nb::module_ &m)
       "Wears a contact: marches the opening part of a history, then its cycle until `cycles` "
       "are over, and takes off what each cycle wears. `state` stays as it is.\n\n"
       "history: with a cycle (cycle_start); how often it repeats is not asked.\n"
-      "tolerance: cycles are jumped over with an error below this share of the largest depth, "
-      "1e-8 to 0.1; 0: every cycle is marched. final_share: ends where a cycle adds less than "
+      "tolerance: cycles are jumped over where depths are estimated to differ by no more than "
+      "this share of the largest from those of all cycles marched, 1e-8 to 0.1; 0: every cycle "
+      "is marched. The same increments and stepping are meant: an unstable way ends elsewhere "
+      "with others. Where the tolerance was not reached `reached` is False, and a warning says "
+      "so. final_share: ends where a cycle adds less than "
       "this share of the largest depth. update: the gap follows at the end of each 'cycle' or "
       "'piece' of it. increments, stepping, …: of each march, as in march().\n"
       "observer: is called with WearState and WearRecord after every cycle marched and every "
-      "jump.\n\n"
+      "jump, of jumps when their error is known.\n\n"
       "Ctrl-C, `stop` and `progress` are asked between cycles. An outcome other than "
       "'converged' is warned of (OutcomeWarning).");
 
    using Self = Worn;
    const auto of_end = [](auto member)
    { return [member](const Self &self) { return array(self.end.*member); }; };
-   nb::class_<Self> end(m, "WornOut", "The state in which a cycle wears off nothing more.");
+   nb::class_<Self> end(
+      m, "WornOut",
+      "A state in which a cycle wears off nothing more. A march may come to another one where "
+      "nodes stick that it finds worn.");
    bind_outcome(end, [](const Self &self) -> const WornOut & { return self.end; });
    end.def_prop_ro("depth", of_end(&WornOut::depth), "worn off at each node")
       .def_prop_ro("overlap", of_end(&WornOut::overlap),
@@ -386,7 +411,7 @@ void bind_wear_march(nb::module_ &m)
               if (end.depth.size() > 0)
               {
                  text << ", largest depth " << end.depth.maxCoeff() << ", loss " << end.loss
-                      << " of the unworn cycle's";
+                      << " of the unworn cycle's; a march may end elsewhere";
               }
               text << ">";
               return text.str();
@@ -419,12 +444,15 @@ void bind_wear_march(nb::module_ &m)
       arg("single_increment_if_exact") = march.single_increment_if_exact,
       arg("max_halvings") = march.max_halvings, arg("method") = "automatic",
       arg("progress") = false, arg("stop") = nb::none(),
-      "The fully worn state of partial slip, without the cycles that lead there: nodes that "
+      "A fully worn state of partial slip, without the cycles that lead there: nodes that "
       "slip carry nothing, nodes that stick stay where they are, depth is what overlaps at any "
       "point of the cycle.\n\n"
       "history: with a cycle. contact: a state before its opening part or at the start of its "
-      "cycle, of the unworn problem; rest if None. The final state is that of any law without "
-      "a threshold.");
+      "cycle, of the unworn problem; rest if None. Wear is that of any law without a "
+      "threshold.\n\n"
+      "This is a state in which wear ends: the one that a march comes to may be another where "
+      "nodes stick that it finds worn. Where A = C, B = 0 (half-planes of one material) and "
+      "pressures do not vary in the cycle it is the same.");
 }
 
 } // namespace

@@ -82,7 +82,7 @@ TEST_P(EachLaw, DerivativesOfWornDepthAreThoseOfWear)
    // The trace is that of wear(), to the last bit.
    const WearState again = worn(c, {}, 0);
    EXPECT_EQ(state.depth, again.depth);
-   EXPECT_EQ(trace.states.back().state.v, again.contact.v);
+   EXPECT_EQ(trace.states.back().state.v, again.marched->v);
    const Responses of(c.problem, trace);
    const std::size_t last = trace.last();
    EXPECT_NEAR(trace.states[last].state.time, 2 + 2 * c.cycles, 1e-12);
@@ -109,7 +109,7 @@ TEST_P(EachLaw, DerivativesOfWornDepthAreThoseOfWear)
          const Response depth = of.worn_depth(0, last, i), slip = of.slip(last, i);
          EXPECT_NEAR(depth.value, state.depth[i], 1e-13 * scale);
          const double expected = (above.depth[i] - below.depth[i]) / (2 * h),
-                      slipped = (above.contact.v[i] - below.contact.v[i]) / (2 * h);
+                      slipped = (above.marched->v[i] - below.marched->v[i]) / (2 * h);
          EXPECT_NEAR(change.of(depth), expected, 1e-7 * (scale + std::abs(expected))) << i;
          EXPECT_NEAR(change.of(slip), slipped, 1e-7 * (1 + std::abs(slipped))) << i;
          for (const Response &response : {depth, slip})

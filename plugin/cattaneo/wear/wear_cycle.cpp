@@ -38,7 +38,7 @@ WearCycle WearCycles::none() const
    const VectorXd zero = VectorXd::Zero(problem_.nodes());
    const double infinity = std::numeric_limits<double>::infinity();
    return {zero, zero, zero, VectorXd::Constant(zero.size(), infinity), 0, SlipRange(problem_),
-           {},   0};
+           {},   0,    {}};
 }
 
 WearCycle WearCycles::march(const LoadHistory &part, ContactState &contact,
@@ -119,10 +119,11 @@ WearCycle WearCycles::march(ContactState &contact, const VectorXd &depth, bool u
 }
 
 WearCycle WearCycles::repeated(ContactState &contact, const VectorXd &depth, double share,
-                               double least)
+                               double least, double cycles)
 {
    WearCycle before = march(contact, depth, false);
    std::vector<VectorXd> passed;
+   double change_before = 0;
    for (int k = 0; k < 30 && before.found(); ++k)
    {
       passed.push_back(before.depth);
@@ -130,17 +131,36 @@ WearCycle WearCycles::repeated(ContactState &contact, const VectorXd &depth, dou
       if (!cycle.found()) { return cycle; }
       const double most = std::max(cycle.depth.maxCoeff(), least),
                    change = (cycle.depth - before.depth).cwiseAbs().maxCoeff();
-      if (change <= share * most || cycle.idle())
+      // All changes that are still to come: at worst each is as large as this one. Where each
+      // was less than the one before, they go on to fall by that factor.
+      double left = cycles * change;
+      if (change < change_before)
+      {
+         left = std::min(left, change * change / (change_before - change));
+      }
+      if (left <= share * most || change <= 1e-11 * most || cycle.idle())
       {
          VectorXd off = VectorXd::Zero(depth.size());
          for (const VectorXd &lost : passed) { off += (lost - cycle.depth).cwiseAbs(); }
          cycle.passing = off.maxCoeff();
+         cycle.lag = passed.front() - cycle.depth;
          return cycle;
       }
+      change_before = change;
       before = std::move(cycle);
    }
    if (before.found()) { before.report.status = FrictionStatus::stalled; }
    return before;
+}
+
+bool WearCycles::settle(ContactState &contact, const VectorXd &depth)
+{
+   solver_.set_gap(problem_.gap + depth);
+   const Counters before = solver_.counters();
+   const FrictionStatus status = solver_.solve(contact, contact.multipliers).status;
+   counters += solver_.counters();
+   counters -= before;
+   return status == FrictionStatus::converged || status == FrictionStatus::not_unique;
 }
 
 VectorXd implicit_wear(const ReducedProblem &problem, const WearCycle &cycle, double cycles)

@@ -6,6 +6,7 @@
 #include <cattaneo/whole_file.hpp>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 namespace cattaneo
 {
@@ -18,8 +19,8 @@ namespace
 
 const char *const format_name = "cattaneo wear state 1";
 
-/// Cycles that a jump must cover to be worth those that it marches.
-constexpr double least_jump = 30;
+/// Cycles that a jump must cover to be worth those that it marches, here and beside it.
+constexpr double least_jump = 40;
 
 } // namespace
 
@@ -32,6 +33,7 @@ WearState WearState::virgin(const ReducedProblem &problem)
 void WearState::validate(const ReducedProblem &problem) const
 {
    contact.require_of(problem);
+   if (marched) { marched->require_of(problem); }
    const auto check = [&](const char *what, const VectorXd &x)
    {
       require(x.size() == problem.nodes() && x.allFinite() && x.minCoeff() >= 0,
@@ -48,13 +50,13 @@ void save(const WearState &state, const std::string &file)
    require(state.depth.allFinite() && state.dissipation.allFinite() &&
               std::isfinite(state.cycles),
            "wear state: a value is not finite");
-   write_whole(file, nlohmann::json{{"format", format_name},
-                                    {"cycles", state.cycles},
-                                    {"depth", json_list(state.depth)},
-                                    {"dissipation", json_list(state.dissipation)},
-                                    {"contact", to_json(state.contact)}}
-                           .dump(1) +
-                        '\n');
+   nlohmann::json j{{"format", format_name},
+                    {"cycles", state.cycles},
+                    {"depth", json_list(state.depth)},
+                    {"dissipation", json_list(state.dissipation)},
+                    {"contact", to_json(state.contact)}};
+   if (state.marched) { j["marched"] = to_json(*state.marched); }
+   write_whole(file, j.dump(1) + '\n');
 }
 
 WearState load_wear_state(const std::string &file)
@@ -67,6 +69,10 @@ WearState load_wear_state(const std::string &file)
                       state.depth = json_vector(j.at("depth"));
                       state.dissipation = json_vector(j.at("dissipation"));
                       state.contact = contact_state(j.at("contact"), file);
+                      if (j.contains("marched"))
+                      {
+                         state.marched = contact_state(j.at("marched"), file);
+                      }
                    });
    return state;
 }
@@ -94,6 +100,45 @@ struct Taken
    VectorXd depth, loss;
 };
 
+/// A state on its way, with what is known of a cycle there.
+struct Way
+{
+   WearState state; ///< with the contact from which the march goes on
+   /// A cycle at this depth that repeats itself, and the contact after it.
+   std::optional<WearCycle> look;
+   ContactState looked;
+   /// How much more a cycle wears off that is marched than one that repeats itself, each node:
+   /// the gap has changed before it by what the cycle before it wore.
+   VectorXd lag;
+   bool jumped = false; ///< the last cycles were jumped over
+};
+
+/// What is noticed on the way that is handed out.
+struct Noticed
+{
+   VectorXd mark; ///< depth of a cycle, a while ago
+   double marked_at = 0, steady_cycle = 0, final_cycle = 0;
+   double explicit_limit = std::numeric_limits<double>::infinity();
+   long jumps = 0, implicit_cycles = 0;
+};
+
+/// Where a jump leads.
+struct Landing
+{
+   Way way;
+   Taken taken;
+   double bend = 0;   ///< how far results of other parts are apart
+   double error = 0;  ///< of depth, of this jump alone
+   double unseen = 0; ///< of it, what shorter jumps may have as well
+};
+
+/// A record that is not handed out yet.
+struct Kept
+{
+   WearRecord record;
+   std::optional<WearState> state; ///< where the observer is to hear of it
+};
+
 /// One wear() in progress.
 class WearMarch
 {
@@ -105,24 +150,35 @@ public:
         cycles_(problem, law, history, settings.march, watch), end_(cycles),
         progress_(settings.march.monitor)
    {
-      report_.explicit_limit = std::numeric_limits<double>::infinity();
    }
 
    WearReport run();
 
 private:
-   bool march_one();
+   bool march_on();
+   bool march_one(Way &way, bool handed_out);
    bool jump();
-   bool land(const WearCycle &first, double cycles, int parts, Taken &taken,
-             ContactState &contact, std::vector<WearCycle> &looked_at);
-   void take(const Taken &taken, double cycles, double loss, double error);
-   bool take(const WearCycle &part, double cycles);
+   bool look_at(Way &way, double cycles);
+   std::optional<Landing> landing(const Way &from, double cycles);
+   bool land(const Way &from, double cycles, int parts, Taken &taken, ContactState &contact,
+             std::vector<WearCycle> &looked_at);
+   void add(Way &way, const Taken &taken, double cycles) const;
+   std::optional<Taken> taken_by(const WearCycle &cycle, bool handed_out);
+   bool give_up(double cycles);
+   void begin_again();
+   void hand_out(double covered, double loss);
+   void hand_out(Kept &&kept);
+   WearState settled(const Way &way);
+   bool is_severe(const WearCycle &cycle) const;
    bool fails(const WearCycle &cycle);
    void notice(const WearCycle &cycle);
    /// How closely a cycle is to repeat itself where a jump looks at it.
    double repeats_to() const { return 0.05 * settings_.tolerance; }
    /// Depth of a cycle that makes no difference to the whole.
-   double slow() const { return state_.depth.maxCoeff() / end_; }
+   double slow(const Way &way) const { return way.state.depth.maxCoeff() / end_; }
+   double done() const { return fine_.state.cycles; }
+   /// Estimate of the error of depth so far.
+   double error() const { return paired_ ? 1.5 * apart_ + unseen_ : 0.0; }
 
    const ReducedProblem &problem_;
    WearState &state_;
@@ -132,12 +188,26 @@ private:
    const double end_;
    ProgressReport progress_;
    WearReport report_;
-   double step_ = least_jump;     // cycles of the next jump
+
+   Way fine_, coarse_;      // the way that is handed out, and the one with longer jumps
+   bool paired_ = false;    // both are other ways since the first jump
+   double apart_ = 0;       // largest distance between both so far
+   double unseen_ = 0;      // error that both may have alike
+   double local_ = 0;       // errors of the longer jumps, each by itself
+   Noticed noticed_;        // on the fine way
+   std::vector<Kept> kept_; // since the first jump
+
+   double step_ = 2 * least_jump; // cycles of the next long jump
    double rest_ = 0;              // no jump is tried before this cycle,
    double patience_ = least_jump; // which is so many on
-   bool jumped_ = false;          // the last cycles were jumped over
-   VectorXd mark_;                // depth of a cycle, a while ago
-   double marked_at_ = 0;
+
+   // Where both ways part, and how often they were gone from there.
+   Way fork_;
+   Noticed noticed_at_fork_;
+   long marched_at_fork_ = 0;
+   double strict_ = 1; // share of the tolerance that errors of single jumps may take
+   int again_ = 0;
+   bool jumps_ = true, hopeless_ = false;
 };
 
 bool WearMarch::fails(const WearCycle &cycle)
@@ -158,97 +228,184 @@ bool WearMarch::fails(const WearCycle &cycle)
    return !cycle.found();
 }
 
-/// Adds what some cycles have taken.
-void WearMarch::take(const Taken &taken, double cycles, double loss, double error)
+/// The state of a way as it is read: the contact has the gap that is worn now.
+WearState WearMarch::settled(const Way &way)
 {
-   state_.depth += taken.depth;
-   state_.dissipation += taken.loss;
-   state_.cycles += cycles;
-   state_.contact.dissipation = state_.dissipation.sum();
-   report_.error += error;
-   WearRecord record;
-   record.cycles = state_.cycles;
-   record.covered = cycles;
-   record.volume = worn_volume(problem_, state_.depth);
-   record.depth = state_.depth.maxCoeff();
-   record.dissipation = state_.contact.dissipation;
+   WearState state = way.state;
+   state.contact.dissipation = state.dissipation.sum(); // not that of cycles that only look
+   if (way.jumped) { return state; }
+   ContactState contact = state.contact;
+   if (!cycles_.settle(contact, state.depth)) { return state; }
+   state.marched = std::move(state.contact);
+   state.contact = std::move(contact);
+   return state;
+}
+
+/// Adds what some cycles have taken.
+void WearMarch::add(Way &way, const Taken &taken, double cycles) const
+{
+   WearState &state = way.state;
+   state.depth += taken.depth;
+   state.dissipation += taken.loss;
+   state.cycles += cycles;
+   way.look.reset();
+}
+
+void WearMarch::hand_out(Kept &&kept)
+{
+   report_.records.push_back(kept.record);
+   if (kept.state && observer_) { observer_(*kept.state, kept.record); }
+}
+
+/// The fine way, where it stands now. Nothing is said of jumps before all of them are known to
+/// do.
+void WearMarch::hand_out(double covered, double loss)
+{
+   const WearState &state = fine_.state;
+   Kept kept;
+   WearRecord &record = kept.record;
+   record.cycles = state.cycles;
+   record.covered = covered;
+   record.volume = worn_volume(problem_, state.depth);
+   record.depth = state.depth.maxCoeff();
+   record.dissipation = state.dissipation.sum();
    record.loss = loss;
-   record.error = error;
-   if (observer_) { observer_(state_, record); }
-   progress_.note(state_.cycles / end_, cycles_.marched);
+   record.error = error();
+   const double from = covered > 0 ? state.cycles - covered : -1;
+   if (observer_ && (!settings_.observed || settings_.observed(from, state.cycles)))
+   {
+      kept.state = settled(fine_);
+   }
+   if (paired_) { kept_.push_back(std::move(kept)); }
+   else { hand_out(std::move(kept)); }
+   progress_.note(state.cycles / end_, cycles_.marched);
 }
 
 /// Steady and final states, and the limit of explicit updates.
 void WearMarch::notice(const WearCycle &cycle)
 {
    const double most = cycle.depth.maxCoeff();
-   if (!report_.final_cycle && most <= settings_.final_share * state_.depth.maxCoeff() &&
+   Noticed &seen = noticed_;
+   if (!seen.final_cycle && most <= settings_.final_share * fine_.state.depth.maxCoeff() &&
        settings_.final_share > 0)
    {
-      report_.final_cycle = state_.cycles;
+      seen.final_cycle = done();
    }
-   if (mark_.size() > 0 && state_.cycles < 1.25 * marked_at_) { return; }
-   report_.explicit_limit = std::min(report_.explicit_limit, explicit_limit(problem_, cycle));
+   if (seen.mark.size() > 0 && done() < 1.25 * seen.marked_at) { return; }
+   seen.explicit_limit = std::min(seen.explicit_limit, explicit_limit(problem_, cycle));
    const bool steady =
-      mark_.size() > 0 && most > 0 &&
-      (cycle.depth - mark_).cwiseAbs().maxCoeff() <= settings_.steady_tolerance * most;
-   if (!steady) { report_.steady_cycle = 0; }
-   else if (!report_.steady_cycle) { report_.steady_cycle = marked_at_; }
-   mark_ = cycle.depth;
-   marked_at_ = state_.cycles;
+      seen.mark.size() > 0 && most > 0 &&
+      (cycle.depth - seen.mark).cwiseAbs().maxCoeff() <= settings_.steady_tolerance * most;
+   if (!steady) { seen.steady_cycle = 0; }
+   else if (!seen.steady_cycle) { seen.steady_cycle = seen.marked_at; }
+   seen.mark = cycle.depth;
+   seen.marked_at = done();
 }
 
-/// What a part of the march wears becomes part of the state. False if it was not found.
-bool WearMarch::take(const WearCycle &cycle, double cycles)
+/// Whether a cycle wears off so much that its own update is implicit.
+bool WearMarch::is_severe(const WearCycle &cycle) const
 {
-   Taken taken{cycle.depth, cycle.loss};
    // No eigenvalue is larger than the largest sum of a row, which is cheap.
    const VectorXd rows = problem_.C().cwiseAbs().rowwise().sum();
    const double bound = cycle.compliance().cwiseProduct(rows).maxCoeff();
-   if (bound > 1 && explicit_limit(problem_, cycle) < 2)
+   return bound > 1 && explicit_limit(problem_, cycle) < 2;
+}
+
+/// What a part of the march wears off and loses. None if it was not found.
+std::optional<Taken> WearMarch::taken_by(const WearCycle &cycle, bool handed_out)
+{
+   Taken taken{cycle.depth, cycle.loss};
+   if (is_severe(cycle))
    {
       taken.depth = implicit_wear(problem_, cycle, 1);
       if (taken.depth.size() == 0)
       {
          report_.status = FrictionStatus::stalled;
          report_.message = "the contact that a cycle wears was not found";
-         return false;
+         return {};
       }
       for (Index i = 0; i < taken.loss.size(); ++i)
       {
          if (cycle.depth[i] > 0) { taken.loss[i] *= taken.depth[i] / cycle.depth[i]; }
       }
-      ++report_.implicit_cycles;
+      noticed_.implicit_cycles += handed_out;
    }
-   take(taken, cycles, cycle.loss.sum(), 0);
+   return taken;
+}
+
+bool WearMarch::march_one(Way &way, bool handed_out)
+{
+   ContactState contact = way.state.contact;
+   const WearCycle cycle =
+      cycles_.march(contact, way.state.depth, settings_.update == GapUpdate::piece);
+   if (fails(cycle)) { return false; }
+   if (handed_out) { notice(cycle); }
+   const std::optional<Taken> taken = taken_by(cycle, handed_out);
+   if (!taken) { return false; }
+   way.state.contact = std::move(contact);
+   add(way, *taken, 1);
+   way.jumped = false;
    return true;
 }
 
-bool WearMarch::march_one()
+/// A cycle more, on both ways. False if it was not found.
+bool WearMarch::march_on()
 {
-   ContactState contact = state_.contact;
-   const WearCycle cycle =
-      cycles_.march(contact, state_.depth, settings_.update == GapUpdate::piece);
-   if (fails(cycle)) { return false; }
-   notice(cycle);
-   state_.contact = std::move(contact);
-   jumped_ = false;
-   return take(cycle, 1);
+   const double lost = fine_.state.dissipation.sum();
+   if (!march_one(fine_, true)) { return false; }
+   const double loss = fine_.state.dissipation.sum() - lost;
+   if (paired_)
+   {
+      if (!march_one(coarse_, false)) { return false; }
+      apart_ = std::max(apart_, largest(fine_.state.depth - coarse_.state.depth));
+   }
+   hand_out(1, loss);
+   return true;
+}
+
+/// Makes sure that a cycle is known that repeats itself at the present depth, well enough for
+/// so many.
+bool WearMarch::look_at(Way &way, double cycles)
+{
+   if (way.look) { return true; }
+   ContactState contact = way.state.contact;
+   WearCycle cycle =
+      cycles_.repeated(contact, way.state.depth, repeats_to(), slow(way), cycles);
+   if (!cycle.found()) { return false; }
+   // The first cycle after one that was marched is such a one itself. Elsewhere one is marched
+   // with the gap as it was a cycle before, and one with the gap that is worn.
+   const bool piece = settings_.update == GapUpdate::piece;
+   way.lag = cycle.lag;
+   if (way.jumped || (piece && largest(way.lag) < cycle.depth.maxCoeff()))
+   {
+      for (int before = piece ? 3 : 1; before > 0; --before)
+      {
+         const VectorXd depth = way.state.depth - before * cycle.depth;
+         if (!cycles_.march(contact, depth, piece).found()) { return false; }
+      }
+      const WearCycle marched = cycles_.march(contact, way.state.depth, piece);
+      if (!marched.found()) { return false; }
+      way.lag = marched.depth - cycle.depth;
+   }
+   way.look = std::move(cycle);
+   way.looked = std::move(contact);
+   return true;
 }
 
 /// Implicit jumps in equal parts. False if the contact is not found at the end of one of them.
-bool WearMarch::land(const WearCycle &first, double cycles, int parts, Taken &taken,
+bool WearMarch::land(const Way &from, double cycles, int parts, Taken &taken,
                      ContactState &contact, std::vector<WearCycle> &looked_at)
 {
    looked_at.clear();
    const double part = cycles / parts;
    taken = {VectorXd::Zero(problem_.nodes()), VectorXd::Zero(problem_.nodes())};
-   WearCycle cycle = first;
+   WearCycle cycle = *from.look;
    for (int k = 0; k < parts; ++k)
    {
       if (k > 0)
       {
-         cycle = cycles_.repeated(contact, state_.depth + taken.depth, repeats_to(), slow());
+         cycle = cycles_.repeated(contact, from.state.depth + taken.depth, repeats_to(),
+                                  slow(from), part);
          if (!cycle.found()) { return false; }
       }
       const VectorXd depth = implicit_wear(problem_, cycle, part);
@@ -263,58 +420,36 @@ bool WearMarch::land(const WearCycle &first, double cycles, int parts, Taken &ta
    return true;
 }
 
-/// True if cycles were jumped over, or if the jump is to be tried again with fewer.
-bool WearMarch::jump()
+/// Where a jump from a state that was looked at leads, with a look at it there; none if that
+/// was not found.
+std::optional<Landing> WearMarch::landing(const Way &from, double cycles)
 {
-   const double cycles = std::min(std::floor(step_), end_ - state_.cycles);
-   ContactState contact = state_.contact;
-   const auto give_up = [&]
-   {
-      step_ = std::max(least_jump, 0.3 * cycles);
-      rest_ = state_.cycles + patience_;
-      patience_ *= 2;
-      return false;
-   };
-   const WearCycle first = cycles_.repeated(contact, state_.depth, repeats_to(), slow());
-   if (!first.found()) { return give_up(); }
-   ContactState reached = contact;
+   Landing result{from, {}};
+   const WearCycle &first = *from.look;
+   ContactState &reached = result.way.state.contact;
+   reached = from.looked;
    Taken one, two, three;
    std::vector<WearCycle> looked_at;
-   if (!land(first, cycles, 1, one, reached, looked_at) ||
-       !land(first, cycles, 2, two, reached, looked_at) ||
-       !land(first, cycles, 3, three, reached, looked_at))
+   if (!land(from, cycles, 1, one, reached, looked_at) ||
+       !land(from, cycles, 2, two, reached, looked_at) ||
+       !land(from, cycles, 3, three, reached, looked_at))
    {
-      return give_up();
+      return {};
    }
-   // To parts of one explicit cycle (see wear()), through the results of one, two and three.
-   const auto extrapolated = [cycles](const std::vector<std::pair<int, const VectorXd *>> &of)
-   {
-      VectorXd sum = VectorXd::Zero(of[0].second->size());
-      for (const auto &[parts, x] : of)
-      {
-         double weight = 1;
-         for (const auto &[others, y] : of)
-         {
-            const double part = cycles / parts, other = cycles / others;
-            if (y != x) { weight *= (-1 - other) / (part - other); }
-         }
-         sum += weight * *x;
-      }
-      return sum;
-   };
-   Taken best{extrapolated({{1, &one.depth}, {2, &two.depth}, {3, &three.depth}}),
-              extrapolated({{1, &one.loss}, {2, &two.loss}, {3, &three.loss}})};
-   // Backwards the compliance c of a part, which is that of its beginning, is the one of the
-   // end of a cycle: Σ (change of c) p too much, from the cycles at 0, 1/3 and 2/3 of the jump.
-   const VectorXd too_much =
-      1.5 *
-      (looked_at[2].compliance() - looked_at[0].compliance()).cwiseProduct(looked_at[1].force);
-   for (Index i = 0; i < too_much.size(); ++i)
-   {
-      if (!(first.depth[i] > 0)) { continue; }
-      best.depth[i] -= too_much[i];
-      best.loss[i] -= too_much[i] * first.loss[i] / first.depth[i];
-   }
+   // To parts without length, through the results of one, two and three.
+   const auto extrapolated =
+      [](const VectorXd &of_one, const VectorXd &of_two, const VectorXd &of_three)
+   { return VectorXd(0.5 * of_one - 4 * of_two + 4.5 * of_three); };
+   Taken &best = result.taken;
+   best = {extrapolated(one.depth, two.depth, three.depth),
+           extrapolated(one.loss, two.loss, three.loss)};
+   result.bend = largest(best.depth - (3 * three.depth - 2 * two.depth));
+   // Updates after each cycle wear off more: half of what a cycle wears less at the end of the
+   // jump than at its start, as cycles a third of the jump apart say.
+   const VectorXd steps = 1.5 * (looked_at[1].depth - looked_at[2].depth);
+   best.depth += steps;
+   best.loss += 1.5 * (looked_at[1].loss - looked_at[2].loss);
+   result.unseen = 0.1 * largest(steps);
    // What grows is not extrapolated to less than nothing.
    for (Index i = 0; i < best.depth.size(); ++i)
    {
@@ -322,33 +457,135 @@ bool WearMarch::jump()
       best.depth[i] = three.depth[i];
       best.loss[i] = three.loss[i];
    }
-   const double bend =
-      (best.depth + too_much - extrapolated({{2, &two.depth}, {3, &three.depth}}))
-         .cwiseAbs()
-         .maxCoeff() +
-      0.5 * too_much.cwiseAbs().maxCoeff();
    // What passes is no wear of the jump: after marched cycles it is lost, after a jump it comes
    // of the gap that has changed at once.
-   const double passing = jumped_ ? 0.0 : first.passing;
-   // The cycles that were looked at repeat themselves to this, however short the jump is.
-   const double error =
-      bend + passing + repeats_to() * std::max(best.depth.maxCoeff(), slow() * cycles);
-   // Half by what the jump adds, half by its share of all cycles.
-   const double allowed = 0.5 * settings_.tolerance * (best.depth.maxCoeff() + slow() * cycles);
-   const double factor = bend > 0 ? std::cbrt(0.5 * allowed / bend) : 4.0;
-   if (error > allowed)
+   const double passing = from.jumped ? 0.0 : std::max(0.0, first.passing - largest(first.lag));
+   result.error = result.bend + passing;
+   // What the gap adds as it changes goes with the square of what a cycle wears off.
+   const double slower = best.depth.maxCoeff() / (cycles * first.depth.maxCoeff());
+   if (first.depth.maxCoeff() > 0)
    {
-      if (cycles <= least_jump || passing > 0.5 * allowed) { return give_up(); }
+      result.way.lag = slower * slower * from.lag;
+      const VectorXd more = (cycles * result.way.lag).cwiseMax(-0.5 * best.depth);
+      for (Index i = 0; i < more.size(); ++i)
+      {
+         best.depth[i] += more[i];
+         if (first.depth[i] > 0) { best.loss[i] += more[i] * first.loss[i] / first.depth[i]; }
+      }
+      result.unseen += 0.25 * largest(more);
+   }
+   reached.time = cycles_.start();
+   add(result.way, best, cycles);
+   result.way.jumped = true;
+   if (!look_at(result.way, cycles)) { return {}; }
+   reached = result.way.looked;
+   return result;
+}
+
+/// No jump now. False, as nothing was jumped over.
+bool WearMarch::give_up(double cycles)
+{
+   step_ = std::max(least_jump, 0.3 * cycles);
+   // Where jumps have hardly covered more cycles than they took, those are marched instead.
+   const double covered = done() - fork_.state.cycles;
+   const double from = done();
+   if (paired_ && covered < 2.0 * static_cast<double>(cycles_.marched - marched_at_fork_))
+   {
+      begin_again();
+   }
+   rest_ = from + patience_;
+   patience_ *= 2;
+   return false;
+}
+
+/// Back to where both ways parted.
+void WearMarch::begin_again()
+{
+   fine_ = fork_;
+   noticed_ = noticed_at_fork_;
+   paired_ = false;
+   apart_ = unseen_ = local_ = 0;
+   kept_.clear();
+   step_ = 2 * least_jump;
+}
+
+/// True if cycles were jumped over, or if the jump is to be tried again in another way.
+bool WearMarch::jump()
+{
+   const double left = end_ - done();
+   double cycles = 2 * std::floor(0.5 * std::min(step_, left));
+   if (cycles < least_jump) { return false; }
+   if (!paired_)
+   {
+      fork_ = fine_;
+      noticed_at_fork_ = noticed_;
+      marched_at_fork_ = cycles_.marched;
+   }
+   if (!look_at(fine_, cycles)) { return give_up(cycles); }
+   if (!paired_) { coarse_ = fine_; }
+   if (!look_at(coarse_, cycles)) { return give_up(cycles); }
+   // Where a node wears only because it wears, a cycle that repeats itself says nothing of it.
+   const double pace = fine_.look->depth.maxCoeff();
+   if (largest(fine_.lag) > std::max(0.1 * pace, settings_.tolerance * slow(fine_)))
+   {
+      return give_up(cycles);
+   }
+   // An update that cycles cannot bear is no sum of many.
+   if (is_severe(*fine_.look)) { return give_up(cycles); }
+
+   // The long jump, and two of half its length from where the other way stands.
+   const std::optional<Landing> whole = landing(coarse_, cycles);
+   if (!whole) { return give_up(cycles); }
+   const double added = whole->taken.depth.maxCoeff() + slow(fine_) * cycles,
+                allowed = strict_ * settings_.tolerance * added;
+   const auto shorter = [&](double bend)
+   {
+      if (cycles <= least_jump) { return give_up(cycles); }
+      const double factor = bend > 0 ? std::cbrt(0.5 * allowed / bend) : 1.0;
       step_ = std::max(least_jump, cycles * std::clamp(factor, 0.2, 0.7));
       return true;
+   };
+   if (whole->error > allowed) { return shorter(whole->bend); }
+   const std::optional<Landing> half = landing(fine_, 0.5 * cycles);
+   if (!half) { return give_up(cycles); }
+   const std::optional<Landing> second = landing(half->way, 0.5 * cycles);
+   if (!second) { return give_up(cycles); }
+   if (half->error + second->error > allowed) { return shorter(half->bend + second->bend); }
+   const double apart = largest(second->way.state.depth - whole->way.state.depth);
+   // The jump is not as smooth as it seems if both ways part by more than its error.
+   if (apart > apart_ + allowed) { return shorter(8 * (apart - apart_)); }
+
+   paired_ = true;
+   apart_ = std::max(apart_, apart);
+   unseen_ += 0.2 * settings_.tolerance * added + half->unseen + second->unseen;
+   local_ += whole->error;
+   const double tolerated = settings_.tolerance * second->way.state.depth.maxCoeff();
+   if (!hopeless_ && error() > tolerated)
+   {
+      // Errors of jumps have grown.
+      ++again_;
+      strict_ *= std::clamp(0.5 * tolerated / error(), 0.1, 0.4);
+      begin_again();
+      const double to_march = end_ - done();
+      if (again_ > 5 || to_march < static_cast<double>(cycles_.marched - marched_at_fork_))
+      {
+         jumps_ = to_march > 1e5;
+         hopeless_ = jumps_;
+      }
+      return true;
    }
-   step_ = std::max(least_jump, cycles * std::clamp(factor, 0.5, 4.0));
-   state_.contact = std::move(reached);
-   state_.contact.time = cycles_.start();
-   notice(first);
-   take(best, cycles, first.loss.sum(), error);
-   ++report_.jumps;
-   jumped_ = true;
+   const double bend = std::max(whole->bend, 0.25 * (apart - apart_));
+   step_ =
+      std::max(least_jump,
+               cycles * std::clamp(bend > 0 ? std::cbrt(0.5 * allowed / bend) : 4.0, 0.5, 4.0));
+   coarse_ = whole->way;
+   notice(*fine_.look);
+   for (const Landing &at : {*half, *second})
+   {
+      fine_ = at.way;
+      ++noticed_.jumps;
+      hand_out(0.5 * cycles, fine_.look->loss.sum());
+   }
    patience_ = least_jump;
    return true;
 }
@@ -356,19 +593,29 @@ bool WearMarch::jump()
 WearReport WearMarch::run()
 {
    bool goes_on = true;
-   if (cycles_.begins(state_.contact))
+   fine_.state = state_;
+   if (state_.marched) { fine_.state.contact = *state_.marched; }
+   fine_.state.marched.reset();
+   if (cycles_.begins(fine_.state.contact))
    {
-      ContactState contact = state_.contact; // a state stands before the opening part or after
-      const WearCycle opening = cycles_.opening(contact, state_.depth);
+      // A state stands before the opening part or after.
+      ContactState contact = fine_.state.contact;
+      const WearCycle opening = cycles_.opening(contact, fine_.state.depth);
       goes_on = !fails(opening);
       if (goes_on)
       {
-         state_.contact = std::move(contact);
-         goes_on = take(opening, 0);
+         fine_.state.contact = std::move(contact);
+         const std::optional<Taken> taken = taken_by(opening, true);
+         goes_on = taken.has_value();
+         if (taken)
+         {
+            add(fine_, *taken, 0);
+            hand_out(0, opening.loss.sum());
+         }
       }
    }
-   rest_ = state_.cycles + 2;
-   while (goes_on && state_.cycles < end_ && !report_.final_cycle)
+   rest_ = done() + 2;
+   while (goes_on && done() < end_ && !noticed_.final_cycle)
    {
       if (settings_.march.monitor.stopped())
       {
@@ -376,14 +623,41 @@ WearReport WearMarch::run()
          report_.message = "the wear was asked to stop";
          break;
       }
-      const bool may_jump = settings_.tolerance > 0 && state_.cycles >= rest_ &&
-                            end_ - state_.cycles >= least_jump;
-      goes_on = (may_jump && jump()) || march_one();
+      const bool may_jump = settings_.tolerance > 0 && jumps_ && done() >= rest_;
+      goes_on = (may_jump && jump()) || march_on();
    }
+   report_.error = error();
+   std::ostringstream remark;
+   if (hopeless_ && error() > settings_.tolerance * fine_.state.depth.maxCoeff())
+   {
+      report_.reached = false;
+      report_.error = std::numeric_limits<double>::infinity();
+      remark << "the way of wear is unstable, and its end is not known to the tolerance: with "
+                "jumps twice as long depths end "
+             << apart_ << " elsewhere. Tolerance 0 marches all cycles";
+   }
+   else if (again_ > 0 && !jumps_)
+   {
+      remark << "the way of wear is unstable: errors of jumps grew, and all cycles were "
+                "marched. With other increments it may end elsewhere";
+   }
+   else if (again_ > 0 && apart_ > 10 * local_)
+   {
+      remark << "the way of wear is unstable: errors of jumps grew " << apart_ / local_
+             << " times. With other increments it may end elsewhere";
+   }
+   report_.remark = remark.str();
+   for (Kept &kept : kept_) { hand_out(std::move(kept)); }
+   state_ = settled(fine_);
    report_.marched = cycles_.marched;
    report_.counters = cycles_.counters;
+   report_.jumps = noticed_.jumps;
+   report_.explicit_limit = noticed_.explicit_limit;
+   report_.implicit_cycles = noticed_.implicit_cycles;
+   report_.steady_cycle = noticed_.steady_cycle;
+   report_.final_cycle = noticed_.final_cycle;
    report_.seconds = progress_.seconds();
-   progress_.end(std::min(1.0, state_.cycles / std::max(end_, 1.0)), cycles_.marched);
+   progress_.end(std::min(1.0, done() / std::max(end_, 1.0)), cycles_.marched);
    return report_;
 }
 

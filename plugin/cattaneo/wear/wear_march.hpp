@@ -3,6 +3,7 @@
 #include <cattaneo/friction/march.hpp>
 #include <cattaneo/wear/archard.hpp>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,10 +13,14 @@ namespace cattaneo
 /// All that the future of a wearing contact depends on.
 struct WearState
 {
-   ContactState contact;        ///< with the slip and the forces of the worn contact
+   /// With the slip and the forces of the worn contact, whose gap is g + depth.
+   ContactState contact;
    Eigen::VectorXd depth;       ///< worn off at each node, size n, ≥ 0: the gap is g + depth
    Eigen::VectorXd dissipation; ///< energy that friction took at each node so far, size n
    double cycles = 0;           ///< so far, marched or jumped over
+   /// The contact as the last cycle left it, before the gap took in what that cycle wore off:
+   /// the march goes on from it. None: from `contact`.
+   std::optional<ContactState> marched = std::nullopt;
 
    /// Unworn, before any load.
    static WearState virgin(const ReducedProblem &problem);
@@ -42,11 +47,13 @@ struct WearSettings
    MarchSettings march; ///< of each cycle; its monitor watches all of them and is asked between
                         ///< two; steady states of slip end nothing
    GapUpdate update = GapUpdate::cycle; ///< when the gap follows
-   /** Cycles are jumped over as long as a jump errs by less than half this share of the depth
-       that it adds, and half of its part of all cycles times the largest depth so far: together
-       less than this share of the largest depth at the end, were errors to add up (wear forgets
-       them). 0: every cycle is marched. Allowed: from 1e-8 to 0.1. */
+   /** Cycles are jumped over where depths, at each cycle that has a record, are estimated to
+       differ by no more than this share of the largest one from those of all cycles marched:
+       see WearReport::error. 0: every cycle is marched. Allowed: from 1e-8 to 0.1. */
    double tolerance = 0;
+   /// Whether the observer hears of what was marched or jumped over, between two numbers of
+   /// cycles; empty: of all.
+   std::function<bool(double from, double to)> observed;
    /// Final: a cycle adds less than this share of the largest depth so far; the march ends.
    /// 0: it goes on.
    double final_share = 0;
@@ -66,8 +73,8 @@ struct WearRecord
    double volume = 0;      ///< worn off so far
    double depth = 0;       ///< largest so far
    double dissipation = 0; ///< energy that friction took so far
-   double loss = 0;        ///< of it in its last cycle
-   double error = 0;       ///< estimate of the largest error of depth of a jump
+   double loss = 0;  ///< of it in the last cycle; after a jump, in a cycle of the worn contact
+   double error = 0; ///< estimate of the largest error of depth so far, by all jumps
 };
 
 /// What a march with wear came to.
@@ -78,8 +85,18 @@ struct WearReport
    MarchReport last; ///< of the last cycle marched: where and why it ended, if it did
    long marched =
       0; ///< cycles marched to their end, also those that only look where a jump leads
-   long jumps = 0;   ///< over cycles that were not marched
-   double error = 0; ///< sum of the jumps' WearRecord::error
+   long jumps = 0; ///< over cycles that were not marched
+   /** Estimate of the largest error of depth at the end that comes of jumps, 0 if there were
+       none: the largest distance, so far, between this way and one whose jumps are twice as
+       long. It has in it how errors of early jumps grow. Infinite: the way is too unstable for
+       an estimate, as `remark` says. */
+   double error = 0;
+   /// Whether depths are estimated to be right to WearSettings::tolerance.
+   bool reached = true;
+   /// One sentence where jumps could not be as long as usual because errors grow; empty
+   /// otherwise.
+   std::string remark;
+   std::vector<WearRecord> records; ///< of every cycle that was marched and every jump
    /** Largest number of cycles that may share one update of the gap: the explicit update
        depth += cycles × (depth of a cycle) is stable below it. With the loss of pressure δp =
        -C δdepth and the depth of a cycle c p (c a diagonal) it is 2/λ_max(c C). Jumps are
@@ -97,7 +114,8 @@ struct WearReport
    double seconds = 0; ///< wall time
 };
 
-/// Called after every cycle that was marched and every jump.
+/// Called after every cycle that was marched and every jump, as WearSettings::observed says; of
+/// jumps when their error is known.
 using WearObserver = std::function<void(const WearState &, const WearRecord &)>;
 
 /// Called after every increment that is marched, with the depth that its gap had: also those of
@@ -116,9 +134,17 @@ using WornIncrementObserver = std::function<void(const ContactState &, const Inc
     A jump over M cycles solves for the pressures at its end, p' = p - C (M c p' + openings) ≥
     0, a contact problem with c a layer that gives way: it is stable for any M. Jumps of one,
     two and three parts, each with a cycle of its own marched until it repeats itself, are
-    extrapolated to what updates after each cycle come to (parts of "minus one cycle": the error
-    of an explicit step is that of an implicit one backwards); the result without the single
-    jump gives the error.
+    extrapolated to parts without length; to that comes what updates after each cycle wear off
+    more, and what a cycle wears more because the gap has changed before it. The result without
+    the single jump gives an error, by which the length of the jump is chosen.
+
+    Small errors of early jumps may grow. So the way is gone twice side by side, the second time
+    with jumps twice as long, and the distance between both is the estimate of the error. Where
+    it comes to more than the tolerance both begin again where the first jump began, with
+    shorter jumps, in the end with none.
+
+    States are handed out with the gap worn: after a jump a cycle is marched there, and after a
+    marched cycle the contact takes in what that cycle has worn off, under the same loads.
 
     Depth must be small against the contact: frames and weights stay those of the unworn bodies.
 

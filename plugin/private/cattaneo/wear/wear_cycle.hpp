@@ -19,6 +19,8 @@ struct WearCycle
    MarchReport report;
    /// Of repeated(): how much more or less a node lost in the cycles on the way there, at most.
    double passing = 0;
+   /// Of repeated(): how much more a node lost in the first of them.
+   Eigen::VectorXd lag;
 
    bool found() const
    {
@@ -44,11 +46,14 @@ public:
    /// takes in the wear of each piece.
    WearCycle opening(ContactState &contact, const Eigen::VectorXd &depth);
    WearCycle march(ContactState &contact, const Eigen::VectorXd &depth, bool update);
-   /// Cycles at this depth, which wears no more, until one wears as the one before it, to a
-   /// share of the largest depth, or of `least` if that is more; not found if none does within
-   /// 30.
+   /// Cycles at this depth, which wears no more, until they repeat themselves: until `cycles`
+   /// more would change what a cycle wears by no more than a share of the largest depth, or of
+   /// `least` if that is more. Not found if they do not within 30.
    WearCycle repeated(ContactState &contact, const Eigen::VectorXd &depth, double share,
-                      double least = 0);
+                      double least = 0, double cycles = 1);
+   /// The contact as it is when the gap takes in what has worn off, with its loads as they are.
+   /// False, and the contact as it was, if there is none.
+   bool settle(ContactState &contact, const Eigen::VectorXd &depth);
 
    long marched = 0; ///< cycles, to their end
    Counters counters;
