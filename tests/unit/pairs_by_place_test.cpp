@@ -77,7 +77,9 @@ TEST(PairsByPlace, AUniformPressureIsUniformWhateverTheOrders)
          ASSERT_EQ(problem.nodes(), 13);
          for (Index i = 0; i < problem.nodes(); ++i)
          {
-            EXPECT_NEAR(state.p[i] / problem.weights[i], 1, 1e-12)
+            // A slave that is 1000 times as stiff loses three digits, which is not chosen.
+            const bool asked = slave == SlaveSide::first || slave == SlaveSide::second;
+            EXPECT_NEAR(state.p[i] / problem.weights[i], 1, asked ? 1e-11 : 1e-12)
                << above << " on " << below << ", node " << i;
          }
          const double shortened = 2 * (1 - 0.3 * 0.3) * (1 / above + 1 / below);

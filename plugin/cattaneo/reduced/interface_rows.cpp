@@ -82,7 +82,18 @@ InterfaceRows::InterfaceRows(const Interface &given, const std::vector<Condensed
    const double coarser = spacing(master_.line) - spacing(slave_.line);
    const double same = 0.01; // more than round-off
    if (given.pairing) { return; }
-   if (given.slave == SlaveSide::second ||
+   // Nodes as near to each other on both sides: a slave that is much stiffer loses digits.
+   const auto stiffness = [&bodies](const Side &side)
+   {
+      const Eigen::VectorXd own = bodies[side.body].S.diagonal();
+      const Index n = own.size() / 2;
+      return (own.head(n) + own.tail(n))(side.nodes).sum();
+   };
+   const bool much_stiffer =
+      std::abs(coarser) <= same &&
+      (given.slave == SlaveSide::coarser || given.slave == SlaveSide::finer) &&
+      stiffness(slave_) > 10 * stiffness(master_);
+   if (given.slave == SlaveSide::second || much_stiffer ||
        (given.slave == SlaveSide::coarser && coarser > same) ||
        (given.slave == SlaveSide::finer && coarser < -same))
    {
