@@ -290,6 +290,17 @@ TEST_F(Contact2D, RoundedPunchReachesASteadyCycle)
    EXPECT_EQ(run.results["steady_period"], 1);
    EXPECT_GT(run.results["dissipation"].back(), 0);
    EXPECT_LT(std::abs(run.results["energy_imbalance"].get<double>()), 1e-4); // increments
+   // Each number of an error is a bound or an estimate, by its own name.
+   EXPECT_TRUE(run.results.contains("loss_error_bound")) << run.output;
+   EXPECT_NE(run.output.find("± (estimate)"), std::string::npos) << run.output;
+   for (const auto &zone : run.results["zones"])
+   {
+      EXPECT_TRUE(zone.contains("from_error_estimate") && zone.contains("to_error_estimate"));
+   }
+   for (const auto &[key, value] : run.results.items())
+   {
+      EXPECT_FALSE(key.size() > 6 && key.compare(key.size() - 6, 6, "_error") == 0) << key;
+   }
    // Pressed alike at both edges. For two half-planes the closed form gives 3,693; the sides of
    // the punch and of the block are away by half a contact and by several.
    ASSERT_EQ(run.results["edges"].size(), 2u);
