@@ -198,7 +198,7 @@ void report_critical_planes(Study &study, const Pad &pad, const SolvedPad &solve
    study.say(
       "\n" +
       wrapped("The limit is what a plain specimen endures at its fatigue limit: "
-              "above 1 a crack starts. ± is the larger difference to 1/2 and 5/8 "
+              "above 1 a crack starts. ±, an estimate, is the larger difference to 1/2 and 5/8 "
               "as many nodes. Angles are of the plane's normal from the surface: 0 is a crack "
               "normal to it.",
               3));

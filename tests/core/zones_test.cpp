@@ -1,3 +1,4 @@
+#include "closed_form_borders.hpp"
 #include "expect_input_error.hpp"
 
 #include <algorithm>
@@ -91,6 +92,43 @@ TEST(Zones, StickThatGrowsIsReadFromItsReserve)
       EXPECT_NEAR(stick.to.position, 1.5 + shift + 0.6123, 0.1 * 0.03);
       EXPECT_NEAR(stick.from.position, 1.5 + shift - 0.6123, 0.1 * 0.03);
    }
+}
+
+/// The ± of a border is an estimate: beside closed forms it holds mostly, and nowhere is a
+/// border off by two spacings, on meshes from 8 elements on. benchmark_borders prints more of
+/// them.
+TEST(Zones, EstimatesOfBordersMostlyHold)
+{
+   int found = 0, inside = 0;
+   for (const int elements : {8, 10, 12, 16, 24})
+   {
+      for (const int order : {1, 2})
+      {
+         for (int k = 0; k < 9; ++k)
+         {
+            cattaneo_test::Parabola of;
+            for (int i = 0; i <= elements; ++i)
+            {
+               of.grid.push_back(1.5 * (2.0 * i / elements - 1));
+            }
+            of.order = order;
+            of.middle = 0.1 * k / elements;
+            of.shear = 0.3 + 0.3 * (k % 3);
+            of.back_to = k / 3 == 1 ? -0.4 : 1;
+            of.shift = k / 3 == 2 ? 0.25 * of.shear : 0;
+            const auto borders = cattaneo_test::borders_of(of);
+            ASSERT_EQ(borders.size(), 4u) << elements << ' ' << order << ' ' << k;
+            for (const cattaneo_test::KnownBorder &border : borders)
+            {
+               found += border.found;
+               inside += border.inside();
+               if (border.found) { EXPECT_LT(border.error(), 2 * border.spacing); }
+            }
+         }
+      }
+   }
+   EXPECT_GT(found, 350);
+   EXPECT_GT(inside, 0.9 * found);
 }
 
 TEST(Zones, FewNodesFallBackToTheMiddle)

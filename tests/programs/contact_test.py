@@ -126,6 +126,10 @@ def test_rounded_punch_reaches_a_steady_cycle(run):
     assert got["steady_cycle"] > 0 and got["steady_period"] == 1
     assert got["dissipation"][-1] > 0
     assert abs(got["energy_imbalance"]) < 1e-4  # increments
+    # Each number of an error is a bound or an estimate, by its own name.
+    assert "loss_error_bound" in got.results and "± (estimate)" in got.output
+    assert all("from_error_estimate" in zone and "to_error_estimate" in zone for zone in got["zones"])
+    assert not [key for key in got.results if key.endswith("_error")]
     # Pressed alike at both edges. For two half-planes the closed form gives 3,693; the sides of the punch and of the block
     # are away by half a contact and by several.
     edges = got["edges"]
