@@ -55,6 +55,12 @@ public:
       if (!value_.is_string()) { refuse("a string"); }
       return value_.get<std::string>();
    }
+   std::string file() const
+   {
+      const std::string name = text();
+      require(!name.empty(), called(), " is empty, must name a file");
+      return name;
+   }
    double number(const Check &check = any) const
    {
       if (!value_.is_number()) { refuse("a number"); }
@@ -223,11 +229,11 @@ JointCase::Body body(const Key &key, const std::string &name, bool as_meshed)
    if (key.has("matrix"))
    {
       goes_without("matrix", {"young", "poisson", "expansion", "guides"});
-      made.matrix = key["matrix"].text();
+      made.matrix = key["matrix"].file();
    }
    else
    {
-      made.mesh = key["mesh"].text();
+      made.mesh = key["mesh"].file();
       made.young = key["young"].numbers(positive);
       made.poisson = key["poisson"].numbers(any);
    }

@@ -158,7 +158,7 @@ def seeds(programs):
     with tempfile.TemporaryDirectory() as folder:
         write(folder, list_[0][2])
         subprocess.run([os.path.join(programs, "contact"), "--case", "rigid.json", "--history", "P=0;P=1", "--cycle-start",
-                        "-1", "--save-state", "state.json", "--save", "saved.json"], cwd=folder, check=True,
+                        "-1", "--cycles", "1", "--save-state", "state.json", "--save", "saved.json"], cwd=folder, check=True,
                        stdout=subprocess.DEVNULL)
         for file in ("state.json", "saved.json"):
             with open(os.path.join(folder, file)) as f:

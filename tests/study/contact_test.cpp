@@ -19,7 +19,7 @@
 namespace
 {
 
-using cattaneo_test::Run; // hidden inside of tests by testing::Test::Run
+using Result = cattaneo_test::Run; // Run is hidden inside of tests by testing::Test::Run
 using cattaneo_test::run_miniapp;
 using nlohmann::json;
 namespace fs = std::filesystem;
@@ -43,7 +43,7 @@ protected:
       mesh.Print(out);
       return name;
    }
-   Run run(json keys, const std::string &options = "") const
+   Result run(json keys, const std::string &options = "") const
    {
       keys["version"] = 2;
       std::ofstream(folder + "/case.json") << keys.dump();
