@@ -18,6 +18,7 @@ struct BlasKernels
    std::string statement() const;
 };
 
+/// Those of this process.
 BlasKernels blas_kernels();
 
 /// Kernels that are far faster than the named ones on a processor that has AVX2 and FMA, or

@@ -20,6 +20,7 @@ struct FarForce
 
 /// Integrals about an axis of the contact line that was condensed last (an inner matter).
 class KeptRings;
+/// None of them yet.
 std::shared_ptr<KeptRings> keep_rings();
 
 /** An elastic half-plane, in axisymmetry and torsion half-space, with a straight surface: a
