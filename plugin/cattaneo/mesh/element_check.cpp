@@ -169,7 +169,7 @@ struct Place
    double number, attribute, x, y;
 };
 
-/// Of a mesh in space of two or three dimensions.
+/// The mesh must be in space of two or three dimensions.
 Place place(mfem::Mesh &mesh, int element)
 {
    mfem::Vector centre(mesh.SpaceDimension());

@@ -392,7 +392,7 @@ std::string unjoined_vertices(const mfem::Mesh &mesh, const std::string &name,
       bool meets;
    };
    std::vector<Vertex> vertices;
-   // Of a mesh on a line the second coordinate was never read: check_elements() refuses it.
+   // The second coordinate of a mesh on a line was never read: check_elements() refuses it.
    if (mesh.SpaceDimension() < 2) { return ""; }
    for (int v = 0; v < mesh.GetNV(); ++v)
    {
@@ -451,7 +451,7 @@ std::string unjoined_vertices(const mfem::Mesh &mesh, const std::string &name,
 std::string missed_curves(mfem::Mesh &mesh, int order, const std::string &name)
 {
    const int bent = mesh.GetNodes() ? mesh.GetNodalFESpace()->GetMaxElementOrder() : 1;
-   // Of a mesh out of the plane there is nothing to say but that it is: check_elements() does.
+   // A mesh out of the plane is refused by check_elements(), nothing else is to be said of it.
    const bool plane = mesh.Dimension() == 2 && mesh.SpaceDimension() == 2;
    if (order >= bent || !plane) { return ""; }
    // How far the mesh is from the curves through the nodes of its elements. Straight sides may

@@ -82,7 +82,8 @@ InterfaceRows::InterfaceRows(const Interface &given, const std::vector<Condensed
    const double coarser = spacing(master_.line) - spacing(slave_.line);
    const double same = 0.01; // more than round-off
    if (given.pairing) { return; }
-   // Nodes as near to each other on both sides: a slave that is much stiffer loses digits.
+   // If nodes are as near to each other on both sides, a slave that is much stiffer loses
+   // digits.
    const auto stiffness = [&bodies](const Side &side)
    {
       const Eigen::VectorXd own = bodies[side.body].S.diagonal();
@@ -303,7 +304,7 @@ ContactRow InterfaceRows::row(Index i) const
    ContactRow made{slave_.body, k, mortar_.tangent.row(i), !holds(body, k, 0), {}};
    if ((holds(body, k, 0) || holds(body, k, 1)) && partner_is_free(node))
    {
-      // Of two paired nodes either may be the one that relative displacements determine.
+      // Either of two paired nodes may be the one that relative displacements determine.
       made.body = master_.body;
       made.node = master_.nodes[given_.pairing->partner[node]];
       made.slides = true;

@@ -32,8 +32,8 @@ Pairing pair_lines(const ContactLine &line1, const ContactLine &line2, double to
 std::optional<Pairing> matching_nodes(const ContactLine &line1, const ContactLine &line2,
                                       double tolerance = 1e-6);
 
-/** Of paired nodes a node of line 1 at an element that has no equal on line 2: one of the same
-    order whose nodes are the partners of its own, in the opposite order. -1: there is none. If
+/** A node of line 1 at an element that has no equal on line 2: one of the same order whose
+   nodes are the partners of its own, in the opposite order. -1: there is no such element. If
     the elements of either line are not known: a node whose weight is not that of its partner to
     5 % (weights of lines that curve and part differ by their curvature). InputError if the
     pairing is of other numbers of nodes. */

@@ -46,8 +46,9 @@ struct InterfaceReport
    /// n: the angle between the normals of both bodies at each node, in radians, 0 where they
    /// are opposite. The frame of the node is the mean of both. 0 on a rigid obstacle.
    Eigen::VectorXd turn = {};
-   /// Of nodes that a Pairing pairs one to one: where an element of the one body has no equal
-   /// on the other, if that is so (differing_element()). A traction is not right there.
+   /// A place where a Pairing pairs nodes one to one although an element of the one body has no
+   /// equal on the other (differing_element()); none: there is no such place. Tractions are not
+   /// right there.
    std::optional<Eigen::Vector2d> differing = {};
 };
 
