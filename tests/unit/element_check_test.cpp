@@ -1,6 +1,7 @@
 #include "elastic_support.hpp"
 
 #include <cattaneo/mesh/element_check.hpp>
+#include <cattaneo/mesh/mesh_file.hpp>
 #include <numeric>
 
 namespace
@@ -186,6 +187,35 @@ TEST(ElementCheck, MeshesOutOfThePlaneAreNamed)
    expect_fault(std::move(stairs), "element 2 (attribute 3, centre (2.5, 0.5)) is at z = 3");
    mfem::Mesh solid = mfem::Mesh::MakeCartesian3D(1, 1, 1, mfem::Element::HEXAHEDRON);
    expect_fault(std::move(solid), "the mesh is of dimension 3");
+}
+
+/// MFEM leaves out coordinates that are the same for all nodes: there is no second one to
+/// print.
+TEST(ElementCheck, AMeshWithoutThicknessIsSaidInOneSentence)
+{
+   for (const int order : {1, 2})
+   {
+      mfem::Mesh flat(2, 4, 1, 0, 1);
+      for (const double x : {0., 1., 1., 0.}) { flat.AddVertex(&x); }
+      flat.AddQuad(0, 1, 2, 3);
+      flat.FinalizeQuadMesh(1, 0, true);
+      if (order > 1) { flat.SetCurvature(order, false, 1); }
+      EXPECT_EQ(unjoined_vertices(flat, "flat"), "");
+      EXPECT_EQ(missed_curves(flat, 1, "flat"), "");
+      std::string said;
+      try
+      {
+         check_elements(flat);
+      }
+      catch (const InputError &error)
+      {
+         said = error.what();
+      }
+      EXPECT_EQ(said,
+                "elastic body: the mesh is of dimension 2 in space of dimension 1, both must "
+                "be 2: all of its nodes lie on one line, its elements have no thickness; "
+                "nodes must differ in x and in y");
+   }
 }
 
 TEST(ElementCheck, AMeshWithoutEdgesSaysHowToMakeThem)

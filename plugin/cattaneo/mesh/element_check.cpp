@@ -169,6 +169,7 @@ struct Place
    double number, attribute, x, y;
 };
 
+/// The mesh must be in space of two or three dimensions.
 Place place(mfem::Mesh &mesh, int element)
 {
    mfem::Vector centre(mesh.SpaceDimension());
@@ -205,7 +206,13 @@ void check_plane(mfem::Mesh &mesh)
    const int dimension = mesh.Dimension(), space = mesh.SpaceDimension();
    if (dimension == 2 && space == 2) { return; }
    std::ostringstream which;
-   if (dimension == 2 && mesh.GetNE() > 0)
+   if (dimension == 2 && space < 2)
+   {
+      // MFEM's readers leave out the coordinates that are the same for all nodes.
+      which << ": all of its nodes lie on one line, its elements have no thickness; nodes must "
+               "differ in x and in y";
+   }
+   else if (dimension == 2 && mesh.GetNE() > 0)
    {
       // The element that is the farthest from the xy plane.
       int worst = 0;
