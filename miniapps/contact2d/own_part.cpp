@@ -169,6 +169,12 @@ Eigen::Vector2d OwnPart::pull(const std::string &load, const JointCase::Side &en
 
 CondensedBody OwnPart::condensed(const ContactLine &line, const CondensedBody *alike) const
 {
+   if (nodal_)
+   {
+      const AssembledBody body = nodal_->body();
+      const std::string gone = body.grounded ? body.eliminated_warning() : std::string();
+      if (!gone.empty()) { warn(called() + ": " + gone); }
+   }
    CondensedBody made = nodal_ ? condense(nodal_->body(), line)
                                : condense(*elastic_, line, condensation(), alike);
    if (!joint_.numbered) { made.name = body_.name; }

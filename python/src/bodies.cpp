@@ -338,7 +338,9 @@ void bind_stiffness(nb::module_ &m)
          "outer edges, so that contact_line() takes nodes in any order.\n"
          "fixed: rows that are held. loads: forces on all rows by name. sets: nodes by name.\n"
          "supports_left_out: K resists motions that nothing here holds (springs to the ground, "
-         "supports whose rows are gone).")
+         "supports whose rows are gone). Rows that hold nothing but their diagonal, or "
+         "nothing, "
+         "are supports that were eliminated: they are fixed, which condense() warns of.")
       .def_prop_rw(
          "name", [](const Self &self) { return self.name; },
          [](Self &self, Text name) { self.name = text(name, "name"); },
@@ -398,8 +400,7 @@ void bind_stiffness(nb::module_ &m)
          { self.supports_left_out = flag(left_out, "supports_left_out"); },
          nb::for_setter(arg("supports_left_out")),
          "K resists motions that nothing here holds: springs to the ground, supports whose "
-         "rows "
-         "are gone")
+         "rows are gone or hold nothing but their diagonal")
       .def_prop_ro(
          "loads",
          [](const Self &self)

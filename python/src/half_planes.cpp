@@ -56,6 +56,13 @@ CondensedBody condensed(nb::handle body, nb::handle line, nb::handle order,
 /// Linear elements beside the axis have an error that no refinement takes away.
 CondensedBody warned(nb::handle body, nb::handle line, nb::handle order, nb::handle formulation)
 {
+   if (nb::isinstance<NodalStiffness>(body))
+   {
+      const AssembledBody assembled = given<NodalStiffness>(body, "body").body();
+      const std::string gone =
+         assembled.grounded ? assembled.eliminated_warning() : std::string();
+      if (!gone.empty()) { warn("condense: " + gone); }
+   }
    CondensedBody result = condensed(body, line, order, formulation);
    for (const LineChain &chain : result.line.chains)
    {

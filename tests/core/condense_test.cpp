@@ -1,6 +1,7 @@
 #include "comparison.hpp"
 #include "expect_input_error.hpp"
 
+#include <algorithm>
 #include <cattaneo/condense/condense.hpp>
 #include <cattaneo/condense/stiffness_error.hpp>
 #include <cattaneo/reduced/reduction.hpp>
@@ -465,6 +466,61 @@ TEST(CondenseMatrix, SpringsThatConnectNoComponents)
    body.fixed.clear();
    body.grounded = true;
    EXPECT_EQ(condense(body, line).free_motions.cols(), 2);
+}
+
+/// Rows of supports that were eliminated, with any number or none on their diagonal.
+TEST(CondenseMatrix, EliminatedRowsAreSupports)
+{
+   const Frame frame(4, 3, true);
+   AssembledBody body = frame.body(true);
+   ASSERT_FALSE(body.fixed.empty());
+   const auto moves = [](const BodyLoad &load)
+   { return load.control == Control::displacement; };
+   body.loads.erase(std::remove_if(body.loads.begin(), body.loads.end(), moves),
+                    body.loads.end());
+   ASSERT_FALSE(body.loads.empty());
+   const ContactLine line = frame.line();
+   const CondensedBody right = condense(body, line);
+   const MatrixXd K = MatrixXd(body.K.view());
+   for (const double diagonal : {1.0, 1e-3, 1e9, 0.0})
+   {
+      AssembledBody gone = body;
+      MatrixXd eliminated = K;
+      for (int dof : body.fixed)
+      {
+         eliminated.row(dof).setZero();
+         eliminated.col(dof).setZero();
+         eliminated(dof, dof) = diagonal;
+      }
+      gone.K = SharedMatrix(
+         Eigen::SparseMatrix<double, Eigen::RowMajor>(MatrixXd(eliminated).sparseView()));
+      gone.fixed.clear();
+      EXPECT_EQ(gone.eliminated(), body.fixed);
+      // Forces on supports do nothing.
+      for (BodyLoad &load : gone.loads)
+      {
+         for (int dof : body.fixed) { load.values[dof] = 7; }
+      }
+      if (diagonal > 0)
+      {
+         expect_input_error([&] { condense(gone, line); }, "holds nothing but its diagonal");
+      }
+      gone.grounded = true;
+      EXPECT_NE(gone.eliminated_warning().find("they are taken for supports"),
+                std::string::npos);
+      const CondensedBody condensed = condense(gone, line);
+      EXPECT_LT((condensed.S - right.S).norm(), 1e-12 * right.S.norm()) << diagonal;
+      EXPECT_LT((condensed.H - right.H).norm(), 1e-12 * right.H.norm()) << diagonal;
+      EXPECT_EQ(condensed.held, right.held);
+   }
+   // A bed of springs has no others beside it that are connected.
+   AssembledBody bed = body;
+   bed.K = SharedMatrix(Eigen::SparseMatrix<double, Eigen::RowMajor>(
+      MatrixXd(K.diagonal().asDiagonal()).sparseView()));
+   bed.fixed.clear();
+   bed.grounded = true;
+   EXPECT_TRUE(bed.eliminated().empty());
+   EXPECT_EQ(bed.eliminated_warning(), "");
 }
 
 TEST(CondenseMatrix, LinesThatArePairedAreSound)

@@ -3,9 +3,39 @@
 #include <cattaneo/input_error.hpp>
 #include <cmath>
 #include <set>
+#include <sstream>
 
 namespace cattaneo
 {
+
+std::vector<int> AssembledBody::eliminated() const
+{
+   const SparseView stiffness = K.view();
+   std::vector<bool> connected(components(places.formulation), false); // any row of a component
+   std::vector<int> alone;
+   for (int dof = 0; dof < K.size(); ++dof)
+   {
+      if (couples(stiffness, dof, dof)) { connected[places.component[dof]] = true; }
+      else if (!std::binary_search(fixed.begin(), fixed.end(), dof)) { alone.push_back(dof); }
+   }
+   alone.erase(std::remove_if(alone.begin(), alone.end(),
+                              [&](int dof) { return !connected[places.component[dof]]; }),
+               alone.end());
+   return alone;
+}
+
+std::string AssembledBody::eliminated_warning() const
+{
+   const std::vector<int> rows = eliminated();
+   if (rows.empty()) { return ""; }
+   std::ostringstream text;
+   text << rows.size()
+        << " rows of the stiffness hold nothing but their diagonal, the first is "
+        << component_name(places.formulation, places.component[rows[0]]) << " of the node at ("
+        << places.x[rows[0]] << ", " << places.y[rows[0]]
+        << "): they are taken for supports that were eliminated, and are fixed";
+   return text.str();
+}
 
 void AssembledBody::validate() const
 {
@@ -73,6 +103,17 @@ void AssembledBody::validate() const
       require(k == 0 || fixed[k - 1] < fixed[k], "assembled body: fixed dof ", fixed[k],
               " follows ", fixed[k - 1], ", they must be sorted and each there once");
       held[fixed[k]] = true;
+   }
+   for (const int dof : grounded ? std::vector<int>() : eliminated())
+   {
+      require(
+         K.diagonal(dof) == 0, "assembled body: row ", dof, " of the stiffness, component ",
+         component_name(places.formulation, places.component[dof]), " of the node (",
+         places.x[dof], ", ", places.y[dof], "), holds nothing but its diagonal ",
+         K.diagonal(dof),
+         ", as that of a support which was eliminated: pass the stiffness as assembled and "
+         "fix the row, or say that supports are in it (supports_left_out of a stiffness on "
+         "nodes, else grounded), such rows are fixed then");
    }
    std::set<std::string> names;
    for (const BodyLoad &load : loads)

@@ -37,15 +37,27 @@ struct AssembledBody
    /// True if K may resist rigid motions (elastic foundations, springs that do not connect x
    /// with y): K is then asked which it resists, and those are free no more. False: all that
    /// the supports leave are free, and a body is refused if contact nodes and supports together
-   /// leave one.
+   /// leave one, or if eliminated() rows resist them.
    bool grounded = false;
    /// Independent of each other. Rigid motions are free where they are combinations of these.
    std::vector<BlockMotion> blocks = {};
 
+   /** Rows that are not fixed and have nothing but their diagonal, or nothing at all, where
+       other rows of their component have more: those of supports that the program which wrote K
+       eliminated (zeros, and a one or another number on the diagonal). condense() takes them
+      for fixed if the body is `grounded`, and refuses them else: they would be springs of any
+       stiffness, and loads on them move nothing of the body. A component none of whose rows is
+       connected to another is a bed of springs, and kept. */
+   std::vector<int> eliminated() const;
+   /// What is to be said of eliminated() rows that condense() takes for fixed; nothing if there
+   /// are none.
+   std::string eliminated_warning() const;
+
    /// InputError that names what does not fit: blocks whose dofs are not fixed, sizes, columns,
    /// an entry that is there twice, the order of the fixed dofs, loads that are not finite,
    /// have no name of their own or displace what is not fixed or what nothing hangs on (a
-   /// matrix that was eliminated), a stiffness that is not symmetric (one triangle of it).
+   /// matrix that was eliminated), a stiffness that is not symmetric (one triangle of it), rows
+   /// that are eliminated() of a body that is not grounded.
    void validate() const;
    /// What is said of a load whose displacements nothing hangs on.
    static constexpr const char *feels_nothing =

@@ -310,6 +310,16 @@ CondensedBody condense(const AssembledBody &body, const ContactLine &line,
                        const CondensedBody *alike)
 {
    body.validate();
+   // Supports that the program which wrote the stiffness eliminated.
+   if (const std::vector<int> gone = body.eliminated(); body.grounded && !gone.empty())
+   {
+      AssembledBody supported = body;
+      std::vector<int> fixed;
+      std::merge(body.fixed.begin(), body.fixed.end(), gone.begin(), gone.end(),
+                 std::back_inserter(fixed));
+      supported.fixed = std::move(fixed);
+      return condense(supported, line, alike);
+   }
    ContactDofs contact = contact_dofs(line, body.places.formulation, body.K.size());
    require_in_place(line, body.places);
    for (std::size_t a = 0; a < contact.all.size(); ++a)

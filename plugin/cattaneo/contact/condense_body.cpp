@@ -66,7 +66,15 @@ Condensation gathered(const ElasticBody &body, const std::vector<int> &contact,
    {
       alike = other->first.get();
    }
-   ranks.on_first([&] { found = condense_by_factor(all, contact, alike); });
+   ranks.on_first(
+      [&]
+      {
+         const std::string gone = all.eliminated_warning();
+         require(gone.empty(), "condense: ", gone.substr(0, gone.find(": they are")),
+                 ": was the operator eliminated? Pass it as assembled (SpMat() after "
+                 "Finalize), or fix them in the body too");
+         found = condense_by_factor(all, contact, alike);
+      });
    if (!ranks.distributed()) { return found; }
    if (ranks.several()) { share(ranks, found); }
    auto solver = std::make_shared<GatheredSolver>();

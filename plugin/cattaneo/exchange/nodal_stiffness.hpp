@@ -54,7 +54,9 @@ public:
    /// Nodes of each outer edge of the body, along it with the body on the left. Empty if no
    /// elements are known.
    std::vector<Nodes> edges;
-   /// The program that wrote K left out rows of supports, so that K resists motions.
+   /// The program that wrote K left out rows of supports, so that K resists motions, or
+   /// eliminated them: rows that hold nothing but their diagonal are fixed then
+   /// (AssembledBody::eliminated()).
    bool supports_left_out = false;
    Nodes on_springs; ///< of a deck: where springs resist motions
 
