@@ -24,6 +24,7 @@
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/output/paraview.hpp>
+#include <cattaneo/reduced/geometry_warnings.hpp>
 #include <deque>
 #include <optional>
 
@@ -278,7 +279,8 @@ void contact2d(Study &study)
       fields.emplace(
          own.scene.fields(options.paraview, own.half_plane ? &*own.half_plane : nullptr));
    }
-   Eigen::VectorXd pressed = Eigen::VectorXd::Zero(problem.nodes()); // at the largest of all
+   Eigen::VectorXd pressed = Eigen::VectorXd::Zero(problem.nodes()), // at the largest of all
+      most = pressed;                                                // of each node
    const Counters &spent = own.scene.reduction.counters;
    int frames = 0;
    history.march(problem,
@@ -289,6 +291,7 @@ void contact2d(Study &study)
                     joint_report.note(reached, history.cycle);
                     small.note(reached);
                     if (reached.p.maxCoeff() > pressed.maxCoeff()) { pressed = reached.p; }
+                    most = most.cwiseMax(reached.p);
                     if (!fields || !frame) { return; }
                     study.counters -= spent; // what the frame costs is added
                     fields->write(reached);
@@ -298,6 +301,7 @@ void contact2d(Study &study)
    study.save(problem);
    if (fields) { study.say(text("%d frames in %s", frames, options.paraview.c_str())); }
    for (const auto &side : beyond_corners) { side.warn(); }
+   for (const std::string &said : geometry_warnings(own.scene.reduction, most)) { warn(said); }
    warn_of_chords(own.scene.reduction, pressed);
    warn_of_linear_axis(own.scene.reduction, pressed);
    warn_of_large_displacements(own, small, history.state);

@@ -26,12 +26,19 @@ double held_share(const CondensedBody &body, const Eigen::Vector2d &axis)
    return (motion - free * (free.transpose() * motion)).norm();
 }
 
-/// Number of a line's node in the line that its body was condensed to.
-Eigen::Index number_of(const LineNode &node, const ContactLine &all)
+/// The node of the line that its body was condensed to, if it is the end of it at a plane of
+/// symmetry; else none. Its tangent is that of the surface then.
+const LineNode *symmetric_end(const LineNode &node, const ContactLine &all)
 {
-   return std::find_if(all.nodes.begin(), all.nodes.end(),
-                       [&](const LineNode &other) { return other.dofs == node.dofs; }) -
-          all.nodes.begin();
+   for (const LineChain &chain : all.chains)
+   {
+      for (const std::size_t end : {0, 1})
+      {
+         const LineNode &last = all.nodes[chain.first + (end ? chain.nodes - 1 : 0)];
+         if (last.dofs == node.dofs && chain.ends[end] == LineEnd::symmetry) { return &last; }
+      }
+   }
+   return nullptr;
 }
 
 } // namespace
@@ -56,11 +63,7 @@ void stand_on_half_plane(OwnBodies &own, std::vector<CondensedBody> bodies,
       const CondensedBody &body = bodies[one.first.body];
       for (const LineNode &node : line.nodes)
       {
-         const Eigen::Index k = number_of(node, body.line);
-         const bool holds = std::any_of(body.held.begin(), body.held.end(),
-                                        [&](int row) { return row % body.line.size() == k; });
-         // As condensed, its tangent is across what is held; the meshed edge leans there.
-         if (holds && !held) { held = &body.line.nodes[k]; }
+         if (!held) { held = symmetric_end(node, body.line); }
          any = any ? any : &node;
          box.extend(node.position);
       }
@@ -70,10 +73,15 @@ void stand_on_half_plane(OwnBodies &own, std::vector<CondensedBody> bodies,
    normal.normalize();
    if (about_axis) { normal = Eigen::Vector2d(0, normal[1] > 0 ? 1 : -1); }
    Eigen::Vector2d at = any->position;
+   Eigen::Index axis = 0;
    if (held && !about_axis)
    {
       below.symmetric = true;
-      normal = held->normal();
+      // Across what is held; the line may lean there by LineChain::symmetry_turn.
+      const Eigen::Vector2d leaning = held->normal();
+      leaning.cwiseAbs().maxCoeff(&axis);
+      normal.setZero();
+      normal[axis] = std::copysign(1.0, leaning[axis]);
       at = held->position;
    }
    double level = normal.dot(at);

@@ -27,6 +27,7 @@
 #include <cattaneo/halfplane/half_plane_field.hpp>
 #include <cattaneo/output/history.hpp>
 #include <cattaneo/readout/small_displacements.hpp>
+#include <cattaneo/reduced/geometry_warnings.hpp>
 #include <cattaneo/reduced/interfaces.hpp>
 #include <cattaneo/reduced/mortar.hpp>
 #include <cattaneo/reduced/obstacle_shape.hpp>

@@ -1,9 +1,13 @@
 #include "arrays.hpp"
 #include "module.hpp"
+#include "watch.hpp"
+#include <algorithm>
 #include <cattaneo/friction/contact_state.hpp>
 #include <cattaneo/halfplane/half_plane.hpp>
+#include <cattaneo/reduced/geometry_warnings.hpp>
 #include <cattaneo/reduced/interfaces.hpp>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
 #include <sstream>
 
 // Condensed bodies meet: interfaces, reduce(), and the way back to the fields of the bodies.
@@ -84,9 +88,23 @@ Reduction reduced(nb::handle first, nb::handle second, nb::handle pairing,
    if (nb::isinstance<CondensedBody>(second))
    {
       const CondensedBody &other = given<CondensedBody>(second, "second");
-      return reduce(body, other,
-                    pairing.is_none() ? pair_lines(body.line, other.line)
-                                      : given<Pairing>(pairing, "pairing"));
+      if (!pairing.is_none())
+      {
+         return reduce(body, other, given<Pairing>(pairing, "pairing"));
+      }
+      const Pairing pairs = pair_lines(body.line, other.line);
+      const auto knows_elements = [](const CondensedBody &of)
+      {
+         return std::none_of(of.line.chains.begin(), of.line.chains.end(),
+                             [](const LineChain &chain) { return chain.elements.empty(); });
+      };
+      // Places coincide. Where elements do not, nodes do not bear one to one.
+      if (differing_element(body.line, other.line, pairs) >= 0 && knows_elements(body) &&
+          knows_elements(other))
+      {
+         return reduce({body, other}, {{"contact", {0, body.line}, {1, other.line}}});
+      }
+      return reduce(body, other, pairs);
    }
    return reduce(body, place_function(second, "gap"));
 }
@@ -95,6 +113,15 @@ Reduction with_torsion(nb::handle first, nb::handle second, nb::handle pairing,
                        nb::handle half_plane, nb::handle torsion)
 {
    Reduction result = reduced(first, second, pairing, half_plane);
+   for (const InterfaceReport &face : result.interfaces)
+   {
+      if (!face.differing) { continue; }
+      warn("reduce: interface '" + face.name +
+           "' pairs nodes one to one where the elements of the bodies differ, at (" +
+           exact_text((*face.differing)[0]) + ", " + exact_text((*face.differing)[1]) +
+           ") for instance: tractions are wrong from node to node; without a pairing nodes "
+           "need not match");
+   }
    if (!torsion.is_none()) { result.add_torsion(body_list(torsion, "torsion")); }
    return result;
 }
@@ -198,6 +225,9 @@ void bind_reductions(nb::module_ &m)
       .def_ro("left_out", &InterfaceReport::left_out,
               "length that is faced but that no node stands for")
       .def_ro("arm", &InterfaceReport::arm, "moment left by a normal force of 1")
+      .def_prop_ro(
+         "turn", [](const InterfaceReport &self) { return array(Eigen::VectorXd(self.turn)); },
+         "(nodes,), the angle between the normals of both bodies at each node, in radians")
       .def("__repr__",
            [](const InterfaceReport &self)
            {
@@ -265,6 +295,21 @@ void bind_reductions(nb::module_ &m)
          "their "
          "nodes in the order of `interfaces`.")
       .def(
+         "warnings",
+         [](const Self &self, Of<ContactState> state)
+         {
+            const ContactState &of = given(state, "state");
+            of.validate(self.problem);
+            return geometry_warnings(self, of.p);
+         },
+         arg("state"),
+         "Sentences about geometry that this state hangs on: normals of both bodies that "
+         "differ "
+         "by an angle that is not small against friction where a node bears, elements that "
+         "differ where nodes are paired, ends that are taken for planes of symmetry, nodes "
+         "that "
+         "supports hold askew. Empty: there is nothing to say.")
+      .def(
          "add_obstacle_motion",
          [](Self &self, Text name, Place ux, Place uy)
          {
@@ -301,7 +346,11 @@ void bind_reductions(nb::module_ &m)
       "reduce(body, gap=0.0): on a rigid obstacle; gap, a number or a function of (x, y), says "
       "how far it is from the body; 0.0: of the shape that the body has.\n"
       "reduce(body, half_plane): pressed on a half-plane; the gap is the geometry's.\n"
-      "reduce(body1, body2[, pairing]): two bodies whose nodes match.\n"
+      "reduce(body1, body2[, pairing]): two bodies whose nodes match. Where nodes are at the "
+      "same "
+      "places but elements differ they meet as those of an interface do; a pairing that is "
+      "given "
+      "is taken and warned of (OutcomeWarning).\n"
       "reduce([bodies], [interfaces]): any number of bodies, nodes that match or not; with "
       "half_plane=… on it, which is body number len(bodies), the second side of interfaces "
       "without a line: Interface('foot', (0, line), 1).\n"

@@ -328,3 +328,68 @@ def test_a_sparse_matrix_whose_arrays_were_changed():
     for form in ("csr", "csc", "coo", "bsr", "lil", "dok", "dia"):
         made = cattaneo.NodalStiffness(K.asformat(form), places)
         assert abs(made.K - K).max() == 0
+
+
+@pytest.mark.parametrize("diagonal", [1.0, 1e6, 0.0])
+def test_eliminated_supports_are_supports(diagonal):
+    """A strip whose left side is held: eliminated by its program it is the same body, and half of it as well."""
+    made = strip()
+    places, K = made.places, made.K.toarray()
+    left, bottom, top = (np.flatnonzero(places[:, axis] == value) for axis, value in ((0, 0), (1, 0), (1, 1)))
+    eliminated = K.copy()
+    for row in 2 * left:
+        eliminated[row, :] = eliminated[:, row] = 0
+        eliminated[row, row] = diagonal
+
+    def conjugates(stiffness, fix, **how):
+        body = cattaneo.NodalStiffness(stiffness, places, elements=strip_elements(), **how)
+        if fix:
+            body.fix(left, "x")
+        body.add_traction("P", top, (0.1, -1))
+        problem = cattaneo.reduce(cattaneo.condense(body, body.contact_line(bottom))).problem
+        problem.friction = 0.2
+        report = cattaneo.march(problem, [{}, {"P": 1}])
+        return report.conjugates["P"][-1], report.state.q
+
+    right = conjugates(K, True)
+    with pytest.warns(cattaneo.OutcomeWarning, match="rows of the stiffness hold nothing but their diagonal, the first is x of the node at"):
+        got = conjugates(eliminated, False, supports_left_out=True)
+    assert got[0] == pytest.approx(right[0], rel=1e-12)
+    assert got[1] == pytest.approx(right[1], abs=1e-12)
+    if diagonal > 0:
+        with pytest.raises(cattaneo.InputError, match="holds nothing but its diagonal"):
+            cattaneo.NodalStiffness(eliminated, places)
+
+
+def patch(nx, order, below, name):
+    skfem = pytest.importorskip("skfem")
+    from skfem.models.elasticity import lame_parameters, linear_elasticity
+
+    low = -2.0 if below else 0.0
+    mesh = skfem.MeshQuad.init_tensor(np.linspace(0, 6, nx + 1), np.linspace(low, low + 2, 3))
+    basis = skfem.Basis(mesh, skfem.ElementVector(skfem.ElementQuad2() if order == 2 else skfem.ElementQuad1()))
+    K = linear_elasticity(*lame_parameters(1e6 if below else 1e3, 0.3)).assemble(basis)
+    places = basis.doflocs.T[::2]
+    return cattaneo.NodalStiffness(K, places, elements=basis.element_dofs.T[:, ::2] // 2, name=name), places
+
+
+def test_nodes_at_the_same_places_meet_as_their_elements_do():
+    """Order 2 on order 1 whose nodes coincide: a pressure of 1 is 1 at every node, asked for in either way."""
+    (upper, above), (lower, under) = patch(6, 2, False, "up"), patch(12, 1, True, "low")
+    for body, places in ((upper, above), (lower, under)):
+        body.fix(np.abs(places[:, 0]) < 1e-9, "x")
+    lower.fix(np.abs(under[:, 1] + 2) < 1e-9, "y")
+    upper.add_traction("P", np.abs(above[:, 1] - 2) < 1e-9, (0, -1.0))
+    lines = upper.contact_line(np.abs(above[:, 1]) < 1e-9), lower.contact_line(np.abs(under[:, 1]) < 1e-9)
+    assert len(lines[0]) == len(lines[1]) == 13
+    condensed = [cattaneo.condense(body, line) for body, line in zip((upper, lower), lines)]
+    several = cattaneo.reduce(condensed, [cattaneo.Interface("i", (0, lines[0]), (1, lines[1]))])
+    for reduction in (several, cattaneo.reduce(*condensed)):
+        report = cattaneo.march(reduction.problem, [{}, {"P": 1}])
+        assert cattaneo.readout.tractions(reduction.problem, report.state.p) == pytest.approx(np.ones(13), abs=1e-12)
+        assert reduction.warnings(report.state) == []
+        assert reduction.interfaces[0].turn == pytest.approx(np.zeros(13), abs=1e-12)
+    with pytest.warns(cattaneo.OutcomeWarning, match="pairs nodes one to one where the elements of the bodies differ"):
+        paired = cattaneo.reduce(*condensed, cattaneo.pair_lines(*lines))
+    report = cattaneo.march(paired.problem, [{}, {"P": 1}])
+    assert "elements of the bodies differ" in paired.warnings(report.state)[0]

@@ -204,14 +204,15 @@ TEST(HeldContact, HalfModelOfTwoBodiesIsHalfOfTheWhole)
    expect_half_of(solved[0], solved[1], {&body1[0], &body2[0]}, {&body1[1], &body2[1]});
 }
 
-/// Both bodies whole, tied at the contact nodes by multipliers to given relative displacements:
-/// a dense system that knows no condensation.
+/// Both bodies whole, tied at the contact nodes by multipliers to given relative displacements
+/// in given frames: a dense system that knows no condensation.
 struct Tied
 {
    MatrixXd M, rhs; ///< one column a pattern, after those of unit relative displacements
    int dofs1, dofs;
 
-   Tied(const ElasticBody &body1, const ElasticBody &body2, const ReducedProblem &problem)
+   Tied(const ElasticBody &body1, const ElasticBody &body2, const ReducedProblem &problem,
+        const Eigen::MatrixX2d &tangent)
    {
       const MatrixXd K1 = dense(body1.stiffness()), K2 = dense(body2.stiffness());
       dofs1 = static_cast<int>(K1.rows());
@@ -222,10 +223,15 @@ struct Tied
       K.bottomRightCorner(K2.rows(), K2.rows()) = K2;
       for (Eigen::Index i = 0; i < problem.nodes(); ++i)
       {
-         for (int c : {0, 1})
+         const Eigen::Matrix2d frame{{tangent(i, 0), tangent(i, 1)},
+                                     {-tangent(i, 1), tangent(i, 0)}};
+         for (int row : {0, 1})
          {
-            T(c * problem.nodes() + i, problem.dofs(i, c)) = 1;
-            T(c * problem.nodes() + i, dofs1 + problem.dofs(i, 2 + c)) = -1;
+            for (int c : {0, 1})
+            {
+               T(row * problem.nodes() + i, problem.dofs(i, c)) = frame(row, c);
+               T(row * problem.nodes() + i, dofs1 + problem.dofs(i, 2 + c)) = -frame(row, c);
+            }
          }
       }
       MatrixXd F = MatrixXd::Zero(dofs, ties + problem.patterns.size());
@@ -268,8 +274,7 @@ struct Tied
 
 TEST(HeldContact, WhatOneOfTwoBodiesHoldsIsTheOthersAlone)
 {
-   mfem::Mesh upper = block("quads"), lower = block("quads");
-   for (int v = 0; v < lower.GetNV(); ++v) { lower.GetVertex(v)[1] -= 1; }
+   double slope = 0; // of the contact, to what supports hold
    struct Case
    {
       const char *name;
@@ -293,10 +298,10 @@ TEST(HeldContact, WhatOneOfTwoBodiesHoldsIsTheOthersAlone)
                                      },
                                      {0}},
                                     {"normal of the upper",
-                                     [](auto &a, auto &)
+                                     [&](auto &a, auto &)
                                      {
                                         a.fix_node(0, 0, 1);
-                                        a.fix_node(2, 0, 0);
+                                        a.fix_node(2, 2 * slope, 0);
                                      },
                                      {}},
                                     {"all of the upper's corner",
@@ -313,8 +318,20 @@ TEST(HeldContact, WhatOneOfTwoBodiesHoldsIsTheOthersAlone)
                                         b.fix(2, 1);
                                      },
                                      {}}};
-   for (double stiffer : {5.0, 0.2}) // whichever of the bodies the formulas begin with
+   // Whichever of the bodies the formulas begin with.
+   for (const auto &[stiffer, leaning] :
+        std::vector<std::pair<double, double>>{{5, 0}, {0.2, 0}, {5, 0.1}, {0.2, -0.15}})
    {
+      slope = leaning;
+      mfem::Mesh upper = block("quads"), lower = block("quads");
+      for (mfem::Mesh *mesh : {&upper, &lower})
+      {
+         for (int v = 0; v < mesh->GetNV(); ++v)
+         {
+            double *x = mesh->GetVertex(v);
+            x[1] += slope * x[0] - (mesh == &lower ? 1 : 0);
+         }
+      }
       for (const Case &one : cases)
       {
          ElasticBody top(upper, 1, Material{1.0, 0.3}),
@@ -333,11 +350,13 @@ TEST(HeldContact, WhatOneOfTwoBodiesHoldsIsTheOthersAlone)
          problem.validate();
          EXPECT_EQ(problem.held, one.held) << one.name;
 
-         const Tied tied(top, bottom, problem);
+         const Tied tied(top, bottom, problem, reduction.interfaces[0].tangent);
          MatrixXd M = tied.M, rhs = tied.rhs;
          const auto n = problem.nodes(), ties = 2 * n;
          for (Eigen::Index row : one.held) // it carries no force: its equation is empty
          {
+            M.row(tied.dofs + row).setZero();
+            M.col(tied.dofs + row).setZero();
             M(tied.dofs + row, tied.dofs + row) = 1;
             rhs.col(row).setZero();
          }

@@ -2,6 +2,7 @@
 #include <cattaneo/algebra/dense_algebra.hpp>
 #include <cattaneo/condense/condensation.hpp>
 #include <cattaneo/condense/local_frame.hpp>
+#include <cattaneo/condense/supported_nodes.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
 #include <numeric>
@@ -20,47 +21,20 @@ void spread(Eigen::MatrixXd &M, const std::vector<int> &positions, Eigen::Index 
    M(positions, Eigen::all) = dense;
 }
 
-/// Turns the frames of nodes of which one component is held along it, and returns the rows in
-/// the frames that are held. A chain that ends at a node that cannot slide ends at a plane of
-/// symmetry.
+/// The line meets its supports, and the rows in its frames that these hold.
 std::vector<int> align(ContactLine &line, const std::vector<int> &held)
 {
    if (line.formulation == Formulation::torsion) { return held; }
    const auto n = static_cast<int>(line.size());
-   const double degrees = 180 / std::acos(-1.0);
+   HeldComponents components = HeldComponents::Constant(n, 2, false);
+   for (int position : held) { components(position % n, position / n) = true; }
+   meet_supports(line, components);
    std::vector<int> rows;
    for (int position : held)
    {
       const int i = position % n, c = position / n;
-      const bool both = std::binary_search(held.begin(), held.end(), (1 - c) * n + i);
-      if (both)
-      {
-         rows.push_back(position);
-         continue;
-      }
-      LineNode &node = line.nodes[i];
-      const double along = node.tangent[c], across = node.normal()[c];
-      const bool tangential = std::abs(along) >= std::abs(across);
-      const double turn = degrees * std::asin(std::min(std::abs(along), std::abs(across)));
-      require(turn <= LineChain::smooth_turn, "condense: component ",
-              component_name(line.formulation, c), " of the contact node at ", node.position,
-              " is fixed, and the line meets it at ",
-              0.1 * std::round(10 * (tangential ? turn : 90 - turn)),
-              " degrees, must be 0 or 90, to ", LineChain::smooth_turn);
-      node.tangent.setZero();
-      node.tangent[tangential ? c : 1 - c] = std::copysign(1.0, tangential ? along
-                                                                : c == 0   ? -across
-                                                                           : across);
-      rows.push_back(tangential ? i : n + i);
-      for (LineChain &chain : line.chains)
-      {
-         const bool may_end = tangential && !chain.loop;
-         if (may_end && i == chain.first) { chain.ends[0] = LineEnd::symmetry; }
-         if (may_end && i == chain.first + chain.nodes - 1)
-         {
-            chain.ends[1] = LineEnd::symmetry;
-         }
-      }
+      const bool both = components(i, 0) && components(i, 1);
+      rows.push_back(both ? position : nearest_axis(line.nodes[i].tangent) == c ? i : n + i);
    }
    std::sort(rows.begin(), rows.end());
    return rows;
@@ -181,14 +155,18 @@ CondensedBody in_local_frames(const ContactLine &line, const std::vector<BodyLoa
    const Equilibrium equilibrium(found.free);
    equilibrium.impose_on_stiffness(found.S);
    equilibrium.impose_on_forces(found.clamped.forces);
-   const FrameChange frames = FrameChange::of(result.line);
+   const FrameChange frames = FrameChange::of(result.line, result.held);
    result.S = frames.both(std::move(found.S));
    // Displacements change with the frames as forces do, but for those of torsion, r times the
    // twist.
    const Eigen::MatrixXd &motions = equilibrium.motions();
    result.free_motions = line.formulation == Formulation::torsion
                             ? thin_qr(frames.a.cwiseInverse().asDiagonal() * motions).Q
-                            : frames.rows(motions);
+                            : frames.inverse().transposed().rows(motions);
+   if (line.formulation != Formulation::torsion && motions.cols() > 0 && !frames.rotates())
+   {
+      result.free_motions = thin_qr(result.free_motions).Q;
+   }
    Eigen::MatrixXd local = frames.rows(found.clamped.forces);
    for (int row : result.held) // not even round-off of the free motions
    {

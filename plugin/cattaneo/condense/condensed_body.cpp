@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cattaneo/algebra/dense_algebra.hpp>
 #include <cattaneo/condense/condensation.hpp>
 #include <cattaneo/condense/local_frame.hpp>
 #include <cattaneo/input_error.hpp>
@@ -16,7 +17,7 @@ Eigen::VectorXd CondensedBody::recover(const Eigen::VectorXd &u,
    require(u.allFinite() && multipliers.allFinite(),
            "recover: a contact displacement or a load multiplier is not finite");
    ++counters.field_recoveries;
-   const Eigen::VectorXd contact = FrameChange::of(line).transposed().rows(u);
+   const Eigen::VectorXd contact = FrameChange::of(line, held).transposed().rows(u);
    return solver->recover(contact(free_positions()), multipliers, counters);
 }
 
@@ -30,7 +31,8 @@ std::vector<int> CondensedBody::free_positions() const
       const LineNode &node = line.nodes[i];
       const Eigen::Vector2d axis = row < n ? node.tangent : node.normal();
       const bool both = std::binary_search(held.begin(), held.end(), row < n ? row + n : i);
-      const int c = line.formulation == Formulation::torsion || both ? row / n : axis[0] == 0;
+      const int c =
+         line.formulation == Formulation::torsion || both ? row / n : nearest_axis(axis);
       positions.push_back(c * n + i);
    }
    std::sort(positions.begin(), positions.end());
@@ -42,10 +44,14 @@ double CondensedBody::error_estimate()
    // In global components, as the operator is.
    const bool twists = line.formulation == Formulation::torsion;
    const Eigen::VectorXd r = line.each(&LineNode::position).col(0);
-   const FrameChange back =
-      twists ? FrameChange{r, {}, {}, {}} : FrameChange::of(line).transposed();
+   const FrameChange frames = FrameChange::of(line, held),
+                     back = twists ? FrameChange{r, {}, {}, {}} : frames.inverse();
    Eigen::MatrixXd motions = free_motions;
-   if (!twists) { motions = back.rows(free_motions); }
+   if (!twists)
+   {
+      motions = frames.transposed().rows(free_motions);
+      if (!frames.rotates() && motions.cols() > 0) { motions = thin_qr(motions).Q; }
+   }
    else if (motions.cols() > 0) // u_θ = r ψ
    {
       motions = r.cwiseInverse().asDiagonal() * motions;
@@ -70,7 +76,21 @@ Eigen::MatrixXd CondensedBody::rigid_motions() const
       Z.col(0).head(n).setOnes();
       Z.col(2) << -position.col(1), position.col(0);
    }
-   return FrameChange::of(line).rows(Z);
+   return FrameChange::of(line, held).inverse().transposed().rows(Z);
+}
+
+Eigen::Matrix2d CondensedBody::directions(Eigen::Index node) const
+{
+   const auto holds = [&](Eigen::Index row)
+   { return std::binary_search(held.begin(), held.end(), static_cast<int>(row)); };
+   return cattaneo::directions(line.nodes[node], holds(node), holds(node + line.size()));
+}
+
+bool CondensedBody::holds(Eigen::Index node, int component) const
+{
+   const bool along = nearest_axis(line.nodes[node].tangent) == component;
+   const auto row = static_cast<int>(along ? node : node + line.size());
+   return std::binary_search(held.begin(), held.end(), row);
 }
 
 } // namespace cattaneo

@@ -38,8 +38,10 @@ public:
    ContactLine line; ///< its contact nodes, in their order
    /// 2n × 2n (torsion: n × n), symmetric; zero in the rows and columns that are held.
    Eigen::MatrixXd S;
-   /// Rows of S of components that supports hold, increasing. At a node of which one component
-   /// is held the frame of the line lies along it.
+   /// Rows of S of components that supports hold, increasing. A node of which one component is
+   /// held keeps the frame of the line, whatever angle that has to the component: of a held v,
+   /// w is the opening along the line's own normal of a node that moves across what is held,
+   /// and p the force along that normal, of which the support takes its part. See directions().
    std::vector<int> held;
    std::vector<LoadPattern> patterns; ///< f_k, by name (torsion: p is empty)
    Eigen::MatrixXd H; ///< loads by loads with the contact clamped (see ReducedProblem::H)
@@ -66,6 +68,12 @@ public:
    /// The rigid motions of the contact nodes in local frames: plane 2n × 3 (x, y, rotation
    /// about the origin), axisymmetric 2n × 1 (z), torsion n × 1 (rotation).
    Eigen::MatrixXd rigid_motions() const;
+
+   /// Displacements in x and y of a node for v = 1 and for w = 1, as columns: its tangent and
+   /// its normal, but where supports hold one of its components.
+   Eigen::Matrix2d directions(Eigen::Index node) const;
+   /// Do supports hold the component, 0: x or r, 1: y or z, of a node? Not of torsion.
+   bool holds(Eigen::Index node, int component) const;
 
    std::shared_ptr<const BodySolver> solver; ///< shared by copies, of the free components
 

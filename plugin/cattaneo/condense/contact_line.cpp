@@ -109,6 +109,11 @@ void ContactLine::validate() const
            size());
 }
 
+double angle_between(const Eigen::Vector2d &one, const Eigen::Vector2d &other)
+{
+   return std::atan2(std::abs(one[0] * other[1] - one[1] * other[0]), one.dot(other));
+}
+
 ContactLine joined(const std::vector<ContactLine> &lines)
 {
    require(!lines.empty(), "contact lines to be joined: there are none, must be at least one");

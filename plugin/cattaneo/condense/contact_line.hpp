@@ -56,8 +56,17 @@ struct LineChain
        corner_turn; else at a corner. Of a loop: smoothly. Unknown where no outer edge goes
        on. */
    std::array<LineEnd, 2> ends{LineEnd::unknown, LineEnd::unknown};
-   /// In their order along the chain. Matching nodes are paired without them: none are needed.
+   /// In their order along the chain. Without them it is not known whether elements of two
+   /// lines match: nodes are paired by their places and weights then, and nothing else.
    std::vector<LineElement> elements = {};
+   /// At ends on a plane of symmetry that is a support: the angle, in radians, by which the
+   /// line's own tangent there is off the normal of that plane. Known once the body is
+   /// condensed.
+   std::array<double, 2> off_symmetry{0, 0};
+   /// Degrees. A line that meets a support at no more than that, off 90 degrees, ends at a
+   /// plane of symmetry: coordinates of six digits may leave so much. From there on it is one
+   /// only if the line curves so that it meets its own mirror image without a corner.
+   static constexpr double symmetry_turn = 0.01;
    static constexpr double smooth_turn =
       10; ///< degrees of the tangent between elements: less is smooth
    static constexpr double corner_turn = 45; ///< degrees: more is a corner
@@ -125,6 +134,9 @@ struct ContactLine
    /// elements do not follow the nodes.
    void validate() const;
 };
+
+/// The angle between two directions, 0 to π.
+double angle_between(const Eigen::Vector2d &one, const Eigen::Vector2d &other);
 
 /** The trace of a body with several interfaces, to be condensed to at once: the nodes of all
     lines, one after the other, each once. A node that two lines share (the end of one is the

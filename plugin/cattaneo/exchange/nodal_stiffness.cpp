@@ -388,12 +388,21 @@ std::vector<NodalStiffness> NodalStiffness::parts() const
    }
    Matrix linked(K.rows(), K.cols());
    linked.setFromTriplets(links.begin(), links.end());
-   const std::vector<std::vector<int>> groups =
+   std::vector<std::vector<int>> groups =
       SharedMatrix(K.cwiseAbs().pruned() + linked + Matrix(linked.transpose()))
          .connected_parts();
+   // Rows of supports that were eliminated are as good as none.
+   std::set<int> gone;
+   if (supports_left_out)
+   {
+      const std::vector<int> rows = body().eliminated();
+      gone.insert(rows.begin(), rows.end());
+   }
+   const auto is_gone = [&](int row) { return gone.count(row) == 1; };
    std::map<int, std::size_t> owner; // of nodes
    for (std::size_t g = 0; g < groups.size(); ++g)
    {
+      if (std::all_of(groups[g].begin(), groups[g].end(), is_gone)) { continue; }
       for (int row : groups[g]) { owner[dofs[row].node] = g; }
    }
    // Supported nodes that have no rows are those of the body whose edges they are on.
@@ -408,6 +417,16 @@ std::vector<NodalStiffness> NodalStiffness::parts() const
          {
             more = (known != edge.end() && owner.emplace(node, owner[*known]).second) || more;
          }
+      }
+   }
+   for (int row : gone)
+   {
+      const auto found = owner.find(dofs[row].node);
+      if (found == owner.end()) { continue; }
+      std::vector<int> &rows = groups[found->second];
+      if (!std::binary_search(rows.begin(), rows.end(), row))
+      {
+         rows.insert(std::upper_bound(rows.begin(), rows.end(), row), row);
       }
    }
    std::vector<std::size_t> order; // by the lowest number of a node
@@ -425,7 +444,8 @@ std::vector<NodalStiffness> NodalStiffness::parts() const
    {
       supported.insert(owner.count(node) ? owner.at(node) : order.size());
    }
-   const std::map<NodeDof, int> known = rows();
+   std::map<NodeDof, int> known = rows();
+   for (int row : gone) { known.erase(dofs[row]); }
    const double near_axis = axis();
    for (const auto &[node, place] : places)
    {
@@ -518,7 +538,7 @@ NodalStiffness nodal_stiffness(const CondensedBody &body)
    const ContactLine &line = body.line;
    require(line.formulation != Formulation::torsion,
            "stiffness of a condensed body: it is of torsion, must be plane or axisymmetric");
-   const FrameChange back = FrameChange::of(line).transposed();
+   const FrameChange back = FrameChange::of(line, body.held).inverse();
    const Index n = line.size();
    const Eigen::MatrixXd S = back.both(body.S);
    NodalStiffness result;

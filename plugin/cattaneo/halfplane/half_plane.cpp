@@ -2,6 +2,7 @@
 #include <cattaneo/algebra/dense_algebra.hpp>
 #include <cattaneo/algebra/dense_cholesky.hpp>
 #include <cattaneo/condense/straight_line.hpp>
+#include <cattaneo/condense/supported_nodes.hpp>
 #include <cattaneo/halfplane/flexibility.hpp>
 #include <cattaneo/halfplane/half_plane.hpp>
 #include <cattaneo/halfplane/surface.hpp>
@@ -389,6 +390,15 @@ Reduction reduce(std::vector<CondensedBody> bodies, std::vector<Interface> inter
                  const HalfPlane &half_plane)
 {
    const auto below = static_cast<int>(bodies.size());
+   for (Interface &one : interfaces)
+   {
+      // Where its body ends at a plane of symmetry the half-plane must know.
+      const int first = one.first.body;
+      if (one.second.body == below && first >= 0 && first < below)
+      {
+         meet_supports(one.first.line, bodies[first]);
+      }
+   }
    std::vector<Standing> standing;
    for (std::size_t k = 0; k < interfaces.size(); ++k)
    {

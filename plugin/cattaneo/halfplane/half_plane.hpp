@@ -33,8 +33,9 @@ struct HalfPlane
    Eigen::Vector2d normal{0, -1}; ///< into the half-plane, a unit vector
    /// Of the plane: the line through `point` along the normal is one of symmetry, and contact
    /// lies on one side of it. The surface must be horizontal or vertical. Not said: there is no
-   /// such line; but where a contact line ends at a node that its body holds along the surface,
-   /// as half a model does, it must be said.
+   /// such line; but where a contact line ends at a plane of symmetry (a node that its body
+   /// holds along the surface, LineChain::symmetry_turn), as half a model does, it must be
+   /// said.
    std::optional<bool> symmetric = {};
    /// What is said of it; nothing said: false.
    bool is_symmetric() const { return symmetric.value_or(false); }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cattaneo/condense/supported_nodes.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/interface_rows.hpp>
 #include <cmath>
@@ -80,7 +81,19 @@ InterfaceRows::InterfaceRows(const Interface &given, const std::vector<Condensed
    const double coarser = spacing(master_.line) - spacing(slave_.line);
    const double same = 0.01; // more than round-off
    if (given.pairing) { return; }
-   if (given.slave == SlaveSide::second ||
+   // If nodes are as near to each other on both sides, a slave that is much stiffer loses
+   // digits.
+   const auto stiffness = [&bodies](const Side &side)
+   {
+      const Eigen::VectorXd own = bodies[side.body].S.diagonal();
+      const Index n = own.size() / 2;
+      return (own.head(n) + own.tail(n))(side.nodes).sum();
+   };
+   const bool much_stiffer =
+      std::abs(coarser) <= same &&
+      (given.slave == SlaveSide::coarser || given.slave == SlaveSide::finer) &&
+      stiffness(slave_) > 10 * stiffness(master_);
+   if (given.slave == SlaveSide::second || much_stiffer ||
        (given.slave == SlaveSide::coarser && coarser > same) ||
        (given.slave == SlaveSide::finer && coarser < -same))
    {
@@ -99,7 +112,8 @@ Side InterfaceRows::side(const InterfaceSide &given) const
    }
    given.line.validate();
    Side made{given.body, given.line, {}};
-   for (LineNode &node : made.line.nodes)
+   meet_supports(made.line, body);
+   for (const LineNode &node : made.line.nodes)
    {
       const auto found = number.find(node.dofs);
       // Dofs alone are numbers that other bodies have too.
@@ -110,13 +124,7 @@ Side InterfaceRows::side(const InterfaceSide &given) const
               called(bodies_, given.body),
               " was condensed to, it must be condensed to the nodes of all of its interfaces "
               "(joined())");
-      const int k = found->second;
-      made.nodes.push_back(k);
-      if (holds(body, k, 0) || holds(body, k, 1))
-      {
-         const Vector2d &along = body.line.nodes[k].tangent;
-         node.tangent = along.dot(node.tangent) < 0 ? Vector2d(-along) : along;
-      }
+      made.nodes.push_back(found->second);
    }
    return made;
 }
@@ -146,11 +154,8 @@ void InterfaceRows::pair_nodes(const std::vector<int> &without)
       const int node = mortar_.nodes[i], partner = pairs.partner[node];
       const LineNode &own = slave_.line.nodes[node], &other = master_.line.nodes[partner];
       mortar_.weights[i] = 0.5 * (own.weight + other.weight);
-      // What supports hold is along the frames that there are.
-      const CondensedBody &body = bodies_[master_.body];
-      const int faced = master_.nodes[partner];
-      if (holds(body, faced, 0) || holds(body, faced, 1)) { continue; }
       mortar_.tangent.row(i) = mean_frame(own, other).tangent;
+      mortar_.turn[i] = angle_between(own.tangent, -other.tangent);
    }
    mortar_.gap = pairs.gap(mortar_.nodes);
 }
@@ -216,7 +221,40 @@ void InterfaceRows::face_all(const std::vector<int> &without)
    for (Mortar::Matrix &other : mortar_.other) { other.resize(n, 0); }
    mortar_.tangent = line.each(&LineNode::tangent)(mortar_.nodes, Eigen::all);
    mortar_.weights = line.each(&LineNode::weight)(mortar_.nodes);
-   mortar_.gap = mortar_.arm = Eigen::VectorXd::Zero(n);
+   mortar_.gap = mortar_.arm = mortar_.turn = Eigen::VectorXd::Zero(n);
+}
+
+/// A node of the master that is at the same place along a tangent as a row's node, the nearest
+/// one; or none.
+const int *InterfaceRows::faced(Index i, const Vector2d &tangent) const
+{
+   const Vector2d &place = slave_.line.nodes[mortar_.nodes[i]].position;
+   const LineNode *nearest = nullptr;
+   const int *found = nullptr;
+   for (std::size_t m = 0; m < master_.nodes.size(); ++m)
+   {
+      const LineNode &node = master_.line.nodes[m];
+      const double off = std::abs((node.position - place).dot(tangent));
+      if (off <= 1e-6 * node.spacing &&
+          (!nearest || (node.position - place).norm() < (nearest->position - place).norm()))
+      {
+         nearest = &node;
+         found = &master_.nodes[m];
+      }
+   }
+   return found;
+}
+
+bool InterfaceRows::partner_is_free(int node) const
+{
+   if (!given_.pairing || master_.body < 0) { return false; }
+   const std::vector<int> &partners = given_.pairing->partner;
+   const bool known = node < static_cast<int>(partners.size()) && partners[node] >= 0 &&
+                      partners[node] < static_cast<int>(master_.nodes.size());
+   if (!known) { return false; } // which pair_nodes() refuses
+   const int partner = master_.nodes[partners[node]];
+   const CondensedBody &body = bodies_[master_.body];
+   return !holds(body, partner, 0) && !holds(body, partner, 1);
 }
 
 ContactRow InterfaceRows::row(Index i) const
@@ -224,7 +262,25 @@ ContactRow InterfaceRows::row(Index i) const
    const CondensedBody &body = bodies_[slave_.body];
    const int node = mortar_.nodes[i], k = slave_.nodes[node];
    ContactRow made{slave_.body, k, mortar_.tangent.row(i), !holds(body, k, 0), {}};
-   if (!made.slides) { made.tangent = slave_.line.nodes[node].tangent; }
+   if ((holds(body, k, 0) || holds(body, k, 1)) && partner_is_free(node))
+   {
+      // Either of two paired nodes may be the one that relative displacements determine.
+      made.body = master_.body;
+      made.node = master_.nodes[given_.pairing->partner[node]];
+      made.slides = true;
+   }
+   const auto on_axes = [](const LineNode &at)
+   { return at.tangent.cwiseAbs().minCoeff() == 0; };
+   if (!made.slides && on_axes(slave_.line.nodes[node]))
+   {
+      // A plane of symmetry, if what it faces has the same one, is across the contact. The mean
+      // of all normals that the row sees beside it need not be.
+      const int *other = faced(i, slave_.line.nodes[node].tangent);
+      if (!other || on_axes(bodies_[master_.body].line.nodes[*other]))
+      {
+         made.tangent = slave_.line.nodes[node].tangent;
+      }
+   }
    std::map<NodeOfBody, Vector2d> shares;
    for (int c : {0, 1})
    {
@@ -256,22 +312,10 @@ void InterfaceRows::check_row(const ContactRow &row, Index i) const
            "before it, or the other side be the slave (slave: ",
            of_second_ ? "first" : "second", ")");
    if (row.slides || master_.body < 0) { return; }
-   // What faces it most, if it is at the same place along the line.
-   const CondensedBody &other = bodies_[master_.body];
-   const LineNode *nearest = nullptr;
-   int number = 0;
-   for (std::size_t m = 0; m < master_.nodes.size(); ++m)
-   {
-      const LineNode &node = master_.line.nodes[m];
-      const double off = std::abs((node.position - place).dot(row.tangent));
-      if (off <= 1e-6 * node.spacing &&
-          (!nearest || (node.position - place).norm() < (nearest->position - place).norm()))
-      {
-         nearest = &node;
-         number = master_.nodes[m];
-      }
-   }
-   require(nearest && holds(other, number, 0), what_, ": the contact node at ", place,
+   const int *other = given_.pairing ? &master_.nodes[given_.pairing->partner[mortar_.nodes[i]]]
+                                     : faced(i, row.tangent);
+   require(other && holds(bodies_[master_.body], *other, 0), what_, ": the contact node at ",
+           place,
            " is fixed along the line, and what it faces is not: the other side must be the "
            "slave (slave: ",
            of_second_ ? "first" : "second", "), or be fixed there as well");
@@ -304,7 +348,11 @@ void InterfaceRows::add_rows(std::vector<ContactRow> &rows, Slaves &taken)
 void InterfaceRows::add_slave(std::vector<ContactRow> &rows, Slaves &taken, bool in_rings)
 {
    const auto place = [this](int node) { return NodeOfBody(slave_.body, slave_.nodes[node]); };
-   without_row_ = clamped_ends(bodies_[slave_.body], slave_.line, slave_.nodes);
+   without_row_.clear();
+   for (int k : clamped_ends(bodies_[slave_.body], slave_.line, slave_.nodes))
+   {
+      if (!partner_is_free(k)) { without_row_.push_back(k); }
+   }
    for (int k = 0; k < static_cast<int>(slave_.nodes.size()); ++k)
    {
       if (taken.count(place(k)) && !std::count(without_row_.begin(), without_row_.end(), k))
@@ -328,13 +376,18 @@ void InterfaceRows::add_slave(std::vector<ContactRow> &rows, Slaves &taken, bool
       for (Index i = 0; i < static_cast<Index>(mortar_.nodes.size()); ++i)
       {
          own.push_back(row(i));
-         const NodeOfBody slave = place(mortar_.nodes[i]);
+         const NodeOfBody slave(own.back().body, own.back().node);
+         require(slave == place(mortar_.nodes[i]) || taken.count(slave) == 0, what_,
+                 ": the node of ", called(bodies_, slave.first), " at ",
+                 bodies_[slave.first].line.nodes[slave.second].position,
+                 " carries a row of another interface, and supports hold the one that it is "
+                 "paired with: the other interface must leave it out");
          std::vector<NodeOfBody> on;
          // A tip, which both sides have: where they match it would face itself, and its shares
          // cancel.
-         const bool tip =
-            slave_.body == master_.body &&
-            std::count(master_.nodes.begin(), master_.nodes.end(), slave.second) > 0;
+         const bool tip = slave_.body == master_.body &&
+                          std::count(master_.nodes.begin(), master_.nodes.end(),
+                                     slave_.nodes[mortar_.nodes[i]]) > 0;
          for (const TraceShare &share : own.back().shares)
          {
             const NodeOfBody node(share.body, share.node);
@@ -362,9 +415,11 @@ void InterfaceRows::add_slave(std::vector<ContactRow> &rows, Slaves &taken, bool
       for (Index i = 0; i < static_cast<Index>(own.size()); ++i) { check_row(own[i], i); }
       taken = std::move(slaves);
       slides_.clear();
-      for (ContactRow &made : own)
+      for (std::size_t i = 0; i < own.size(); ++i)
       {
+         ContactRow &made = own[i];
          slides_.push_back(made.slides);
+         mortar_.tangent.row(static_cast<Index>(i)) = made.tangent;
          rows.push_back(std::move(made));
       }
       return;
@@ -398,8 +453,7 @@ LineEnd InterfaceRows::other_end(Index i, bool last) const
          if (!faces || (at_end && beyond > 1e-6 * node.spacing)) { continue; }
          // The lines run against each other: its last node is at this one's first.
          if (end != (last ? 0 : 1)) { continue; }
-         return holds(bodies_[master_.body], master_.nodes[k], 0) ? LineEnd::symmetry
-                                                                  : chain.ends[end];
+         return chain.ends[end];
       }
    }
    return LineEnd::smooth;
@@ -416,10 +470,7 @@ InterfaceReport InterfaceRows::report() const
    report.of_second = of_second_;
    report.position = line.each(&LineNode::position)(mortar_.nodes, Eigen::all);
    report.tangent = mortar_.tangent;
-   for (Index i = 0; i < report.nodes; ++i)
-   {
-      if (!slides_[i]) { report.tangent.row(i) = line.nodes[mortar_.nodes[i]].tangent; }
-   }
+   report.turn = mortar_.turn;
    for (int c : {0, 1})
    {
       for (Eigen::MatrixX2d &at : report.acts_at) { at.resize(report.nodes, 2); }
@@ -433,7 +484,13 @@ InterfaceReport InterfaceRows::report() const
    report.spacing = line.each(&LineNode::spacing)(mortar_.nodes);
    report.left_out = mortar_.left_out;
    report.arm = report.nodes ? mortar_.arm.cwiseAbs().maxCoeff() : 0;
-   report.matching = master_.body >= 0 && matching_nodes(slave_.line, master_.line).has_value();
+   report.matching = master_.body >= 0 &&
+                     (given_.pairing || matching_nodes(slave_.line, master_.line).has_value());
+   if (given_.pairing && master_.body >= 0)
+   {
+      const int differing = differing_element(slave_.line, master_.line, *given_.pairing);
+      if (differing >= 0) { report.differing = line.nodes[differing].position; }
+   }
    report.chords = mortar_.chords;
    if (given_.gap || given_.tied || report.matching || report.chords.size() == 0)
    {
@@ -517,7 +574,6 @@ void InterfaceRows::add_facts(ReducedProblem &problem, Index first, bool matchin
                   return &other != this && other.has({slave_.body, slave_.nodes[outer]});
                });
          made.ends[last] = !at_end                                          ? LineEnd::smooth
-                           : !slides_[i]                                    ? LineEnd::symmetry
                            : goes_on && chain.ends[last] == LineEnd::smooth ? LineEnd::unknown
                                                                             : chain.ends[last];
          made.other_ends[last] = made.loop ? LineEnd::smooth : other_end(i, last);

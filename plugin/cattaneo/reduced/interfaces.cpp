@@ -106,7 +106,12 @@ Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface>
          }
       }
    }
+   return reduce_by_rows(std::move(bodies), interfaces);
+}
 
+Reduction reduce_by_rows(std::vector<CondensedBody> bodies,
+                         const std::vector<Interface> &interfaces)
+{
    Reduction result;
    for (const CondensedBody &body : bodies) { result.counters += body.counters; }
    ++result.counters.unions;

@@ -15,7 +15,8 @@ struct InterfaceSide
 };
 
 /** Which side carries the nodes of the reduced problem. Nodes are nearer to each other or not
-    in the (geometric) mean; the first side is taken if they are as near. The coarser one is the
+    in the (geometric) mean; if they are as near the first side is taken, unless it is ten times
+    as stiff as the second one. The coarser one is the
     choice that is safe: it has no more forces than either body has displacements. A finer slave
     that is stiff, on a coarse soft master, has tractions that swing from node to node
     (docs/interfaces.md has figures). Where the side that is taken cannot be the slave
@@ -46,7 +47,8 @@ struct Interface
    /// meshed in two. The nodes are none of the reduced problem.
    bool tied = false;
    /// Nodes of both lines one to one, of the first side, which has them then, whatever `slave`
-   /// says; with the gap of each unless `gap` is given.
+   /// says; with the gap of each unless `gap` is given. Where elements of both sides differ it
+   /// is taken all the same, which InterfaceReport::differing says.
    std::optional<Pairing> pairing = std::nullopt;
 };
 
@@ -57,16 +59,17 @@ struct Interface
        K = Rᵀ[S - S Z (Zᵀ S Z)⁻¹ Zᵀ S] R,
 
     for two bodies S_s - S_s P (S_m + Pᵀ S_s P)⁻¹ Pᵀ S_s, and the loads likewise. Two bodies
-    with nodes that match at their only interface go to reduce(body1, body2, pairing), one on an
-    obstacle to reduce(body, gap); nodes that match have P = 1 in any union.
+    with nodes and elements that match at their only interface (matching_nodes()) go to
+    reduce(body1, body2, pairing), one on an obstacle to reduce(body, gap); nodes that match
+   have P = 1 in any union.
 
     A body is condensed once, to joined() of all its lines, whatever the number of its
     interfaces; nodes of it that no interface has are free. A node is a slave once: of a second
     interface that has it as well it carries no row, nor where rows would go in a ring (crack
     tips of a body that touches itself, interfaces that meet at one point), nor at an end of its
     line that supports hold in both components. Relative
-    displacements of the nodes are in the common frame of both sides, (own frames where a
-    component is held).
+    displacements of the nodes are in the common frame of both sides; on a plane of symmetry of
+    both that is across it.
 
     Nodes of tied interfaces have u = 0: their rows and columns are left out, and
     Reduction::tied_forces() says what they transfer.

@@ -468,7 +468,7 @@ Mortar Assembly::result()
    made.left_out = left_out_;
    Eigen::MatrixX2d apart = apart_(made.nodes, Eigen::all),
                     chords = chords_(made.nodes, Eigen::all);
-   Eigen::MatrixX2d normal(n, 2);
+   Eigen::MatrixX2d normal(n, 2), own_normal(n, 2), other_normal(n, 2);
    const auto normals1 = slave_.each(&LineNode::normal),
               normals2 = master_.each(&LineNode::normal);
    for (int c : {0, 1})
@@ -491,7 +491,14 @@ Mortar Assembly::result()
       made.other[c] = rows(other_[c], master_.size());
       apart.col(c).array() /= sums.array();
       chords.col(c).array() /= sums.array();
-      normal.col(c) = made.own[c] * normals1.col(c) - made.other[c] * normals2.col(c);
+      own_normal.col(c) = made.own[c] * normals1.col(c);
+      other_normal.col(c) = made.other[c] * normals2.col(c);
+      normal.col(c) = own_normal.col(c) - other_normal.col(c);
+   }
+   made.turn.resize(n);
+   for (Index i = 0; i < n; ++i)
+   {
+      made.turn[i] = angle_between(own_normal.row(i), -other_normal.row(i));
    }
    normal.rowwise().normalize();
    made.tangent.resize(n, 2);

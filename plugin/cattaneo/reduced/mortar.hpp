@@ -48,6 +48,8 @@ struct Mortar
    /// nodes, with the tangents of the lines: an estimate of how far chords are off it. None at
    /// corners, where a line turns by more than 35 degrees.
    Eigen::VectorXd chords;
+   /// The angle between the normals of both lines, in radians; 0: they are opposite.
+   Eigen::VectorXd turn;
    std::vector<int> free_surface; ///< nodes of the slave that nothing faces
    /// Length (area, about an axis) that is faced but that no contact node stands for: a master
    /// between two nodes of the slave, beside no row.

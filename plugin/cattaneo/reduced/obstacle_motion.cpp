@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/reduction.hpp>
 #include <cmath>
@@ -48,6 +49,10 @@ void Reduction::add_obstacle_motion(const std::string &name,
          const Eigen::Index node = of.first + i;
          d[node] = t.dot(u);
          d[m + node] = t[0] * u[1] - t[1] * u[0];
+         // What is held lies along an axis, whichever way the frame leans.
+         const bool held = std::count(problem.held.begin(), problem.held.end(), node) > 0;
+         const int along = std::abs(t[0]) >= std::abs(t[1]) ? 0 : 1;
+         if (held) { d[node] = std::copysign(u[along], u[along] * t[along]); }
          if (!torsion.empty()) { d[n + node] = theta; }
       }
    }

@@ -4,6 +4,7 @@
 #include <cattaneo/reduced/pairing.hpp>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <sstream>
 
 namespace cattaneo
@@ -26,6 +27,13 @@ std::string listed(const ContactLine &line, const std::vector<bool> &matched)
    }
    if (count > shown) { text << " … and " << count - shown << " more"; }
    return count ? text.str() : "none";
+}
+
+/// Are the elements of all chains known?
+bool knows_elements(const ContactLine &line)
+{
+   return std::none_of(line.chains.begin(), line.chains.end(),
+                       [](const LineChain &chain) { return chain.elements.empty(); });
 }
 
 /// Nodes of line 2 for those of line 1, as far as there are.
@@ -121,8 +129,12 @@ LineNode mean_frame(LineNode node, const LineNode &other)
    return node;
 }
 
-std::optional<Pairing> matching_nodes(const ContactLine &line1, const ContactLine &line2,
-                                      double tolerance)
+namespace
+{
+
+/// All nodes one to one, if that is possible, whatever the elements are.
+std::optional<Pairing> paired_nodes(const ContactLine &line1, const ContactLine &line2,
+                                    double tolerance)
 {
    require(tolerance > 0 && tolerance < 0.5, "pairing: tolerance is ", tolerance,
            ", must be above 0 and below 0.5 (edge lengths)");
@@ -141,9 +153,65 @@ std::optional<Pairing> matching_nodes(const ContactLine &line1, const ContactLin
    return pairing;
 }
 
+} // namespace
+
+int differing_element(const ContactLine &line1, const ContactLine &line2,
+                      const Pairing &pairing)
+{
+   const Eigen::Index n = line1.size();
+   require(static_cast<Eigen::Index>(pairing.partner.size()) == n, "pairing: it is of ",
+           pairing.partner.size(), " nodes, the line has ", n);
+   for (int partner : pairing.partner)
+   {
+      require(partner >= 0 && partner < line2.size(), "pairing: partner ", partner,
+              ", must be from 0 to ", line2.size() - 1);
+   }
+   if (!knows_elements(line1) || !knows_elements(line2))
+   {
+      for (Eigen::Index i = 0; i < n; ++i)
+      {
+         const double one = line1.nodes[i].weight,
+                      other = line2.nodes[pairing.partner[i]].weight;
+         if (std::abs(one - other) > 0.05 * std::max(one, other)) { return int(i); }
+      }
+      return -1;
+   }
+   std::set<std::vector<Eigen::Index>> others; // nodes on the axis are -1 in both
+   for (const LineChain &chain : line2.chains)
+   {
+      for (const LineElement &element : chain.elements)
+      {
+         others.emplace(element.nodes.rbegin(), element.nodes.rend());
+      }
+   }
+   for (const LineChain &chain : line1.chains)
+   {
+      for (const LineElement &element : chain.elements)
+      {
+         std::vector<Eigen::Index> partners;
+         int last = -1;
+         for (Eigen::Index node : element.nodes)
+         {
+            partners.push_back(node < 0 ? node : pairing.partner[node]);
+            last = node < 0 ? last : static_cast<int>(node);
+         }
+         if (others.count(partners) == 0) { return last; }
+      }
+   }
+   return -1;
+}
+
+std::optional<Pairing> matching_nodes(const ContactLine &line1, const ContactLine &line2,
+                                      double tolerance)
+{
+   std::optional<Pairing> found = paired_nodes(line1, line2, tolerance);
+   if (found && differing_element(line1, line2, *found) >= 0) { found.reset(); }
+   return found;
+}
+
 Pairing pair_lines(const ContactLine &line1, const ContactLine &line2, double tolerance)
 {
-   if (const std::optional<Pairing> found = matching_nodes(line1, line2, tolerance))
+   if (const std::optional<Pairing> found = paired_nodes(line1, line2, tolerance))
    {
       return *found;
    }

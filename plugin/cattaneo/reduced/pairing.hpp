@@ -26,8 +26,18 @@ LineNode mean_frame(LineNode node, const LineNode &other);
     of coordinates, and zero. InputError unless every node of both lines has one partner, with
     unmatched nodes (coordinates), a tolerance that would do, and where the lines are. */
 Pairing pair_lines(const ContactLine &line1, const ContactLine &line2, double tolerance = 1e-6);
-/// The same; nothing unless every node has its partner.
+/** The same; nothing unless every node has its partner, and the elements of both lines are the
+    same ones between them (differing_element()). Forces on nodes that coincide are not those of
+    one traction where elements or orders differ. */
 std::optional<Pairing> matching_nodes(const ContactLine &line1, const ContactLine &line2,
                                       double tolerance = 1e-6);
+
+/** A node of line 1 at an element that has no equal on line 2: one of the same order whose
+   nodes are the partners of its own, in the opposite order. -1: there is no such element. If
+    the elements of either line are not known: a node whose weight is not that of its partner to
+    5 % (weights of lines that curve and part differ by their curvature). InputError if the
+    pairing is of other numbers of nodes. */
+int differing_element(const ContactLine &line1, const ContactLine &line2,
+                      const Pairing &pairing);
 
 } // namespace cattaneo

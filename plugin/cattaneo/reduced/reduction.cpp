@@ -1,6 +1,7 @@
 #include <cattaneo/condense/local_frame.hpp>
 #include <cattaneo/input_error.hpp>
-#include <cattaneo/reduced/union.hpp>
+#include <cattaneo/reduced/bodies_union.hpp>
+#include <cattaneo/reduced/interfaces.hpp>
 #include <cmath>
 
 namespace cattaneo
@@ -20,6 +21,7 @@ InterfaceReport fill(ReducedProblem &problem, Block block, const ContactLine &li
    report.acts_at = {report.position, report.position};
    report.weights = line.each(&LineNode::weight);
    report.spacing = line.each(&LineNode::spacing);
+   report.turn = Eigen::VectorXd::Zero(n);
    problem.weights = line.each(&LineNode::weight);
    problem.arc_length = line.each(&LineNode::arc_length);
    problem.position = line.each(&LineNode::position);
@@ -85,17 +87,33 @@ void turn(CondensedBody &body, const std::vector<LineNode> &nodes)
    }
 }
 
-/// Gives the first body the mean frames of paired nodes, where neither holds a component.
+/// Does a support hold one component of a node of either body that is not along the frames of
+/// both?
+bool leans_on_support(const CondensedBody &first, const CondensedBody &second,
+                      const std::vector<int> &partner)
+{
+   const auto held = [](const CondensedBody &body, int node)
+   { return holds(body, node, 0) != holds(body, node, 1); };
+   const auto leans = [](const LineNode &node)
+   { return node.tangent.cwiseAbs().minCoeff() > 0; };
+   for (int i = 0; i < static_cast<int>(partner.size()); ++i)
+   {
+      if ((held(first, i) || held(second, partner[i])) &&
+          (leans(first.line.nodes[i]) || leans(second.line.nodes[partner[i]])))
+      {
+         return true;
+      }
+   }
+   return false;
+}
+
+/// Gives the first body the mean frames of paired nodes.
 void lie_between(CondensedBody &first, const CondensedBody &second,
                  const std::vector<int> &partner)
 {
-   const Eigen::Index n = first.line.size();
-   const auto held = [](const CondensedBody &body, int node)
-   { return holds(body, node, 0) || holds(body, node, 1); };
    std::vector<LineNode> nodes = first.line.nodes;
-   for (int i = 0; i < n; ++i)
+   for (std::size_t i = 0; i < nodes.size(); ++i)
    {
-      if (held(first, i) || held(second, partner[i])) { continue; }
       nodes[i] = mean_frame(nodes[i], second.line.nodes[partner[i]]);
    }
    turn(first, nodes);
@@ -148,10 +166,28 @@ Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairin
               " in the pairing, must be each of 0 to ", n - 1, " once");
       taken[j] = true;
    }
+   if (leans_on_support(body1, body2, pairing.partner))
+   {
+      Interface contact;
+      contact.first = {0, body1.line};
+      contact.second = {1, body2.line};
+      contact.pairing = pairing;
+      std::vector<CondensedBody> bodies;
+      bodies.push_back(std::move(body1));
+      bodies.push_back(std::move(body2));
+      return reduce_by_rows(std::move(bodies), {contact});
+   }
    Reduction result;
    result.counters = body1.counters;
    result.counters += body2.counters;
    ++result.counters.unions;
+   Eigen::VectorXd angles(n);
+   for (Eigen::Index i = 0; i < n; ++i)
+   {
+      angles[i] = angle_between(body1.line.nodes[i].tangent,
+                                -body2.line.nodes[pairing.partner[i]].tangent);
+   }
+   const int differing = differing_element(body1.line, body2.line, pairing);
    lie_between(body1, body2, pairing.partner);
    result.bodies.push_back(std::move(body1));
    result.bodies.push_back(std::move(body2));
@@ -164,6 +200,11 @@ Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairin
    result.interfaces = {fill(problem, std::move(block), first.line)};
    result.interfaces[0].bodies = {0, 1};
    result.interfaces[0].matching = true;
+   result.interfaces[0].turn = angles;
+   if (differing >= 0)
+   {
+      result.interfaces[0].differing = first.line.nodes[differing].position;
+   }
    result.interfaces[0].acts_at[1] =
       second.line.each(&LineNode::position)(pairing.partner, Eigen::all);
    for (ContactChain &chain : problem.chains)

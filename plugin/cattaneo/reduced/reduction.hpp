@@ -41,6 +41,13 @@ struct InterfaceReport
    /// match.
    Eigen::VectorXd chords = {};
    double arm = 0; ///< largest size of Mortar::arm: moment left by a normal force of 1
+   /// n: the angle between the normals of both bodies at each node, in radians, 0 where they
+   /// are opposite. The frame of the node is the mean of both. 0 on a rigid obstacle.
+   Eigen::VectorXd turn = {};
+   /// A place where a Pairing pairs nodes one to one although an element of the one body has no
+   /// equal on the other (differing_element()); none: there is no such place. Tractions are not
+   /// right there.
+   std::optional<Eigen::Vector2d> differing = {};
 };
 
 /// A rigid obstacle moves (or deforms) by (ux, uy) per unit multiplier, functions of the
@@ -150,8 +157,8 @@ public:
 private:
    friend Reduction reduce(CondensedBody body, const ScalarField &gap);
    friend Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairing);
-   friend Reduction reduce(std::vector<CondensedBody> bodies,
-                           const std::vector<Interface> &interfaces);
+   friend Reduction reduce_by_rows(std::vector<CondensedBody> bodies,
+                                   const std::vector<Interface> &interfaces);
    /// With the forces of shanks in the place of their pretensions, for displacements {v; w} of
    /// which the obstacle's are a part.
    Eigen::VectorXd acting(const Eigen::VectorXd &u, Eigen::VectorXd multipliers) const;
@@ -185,12 +192,14 @@ Reduction reduce(CondensedBody body, const ScalarField &gap = 0.0);
        S = S1 - S1 (S1 + S2)⁻¹ S1,     f = f1 - S1 (S1 + S2)⁻¹ (f1 - f2);
 
     either or both may be free. Gap of the pairing, which may be overwritten in the result.
-    Frames (`bodies[0].line` has them) and weights of the nodes are the mean of both bodies';
-    body 2's frames are turned onto their opposite first. Where supports hold a component the
-    frame is body 1's. A component that one body holds is the other's alone; one that both hold
-    is held in the problem. InputError if that is a normal one, if body 2 alone holds one across
-    body 1's frame, if a common rigid motion of two free bodies is loaded, or if a pattern is
-    force-controlled in one and displacement-controlled in the other. */
+    Frames (those of the interface's report) and weights of the nodes are the mean of both
+    bodies'; body 2's frames are turned onto their opposite first. A component that one body
+    holds is the other's alone; one that both hold is held in the problem. Where supports hold a
+    component that is not along the frames of both bodies the union is that over interfaces, in
+    the same frames. InputError if the held component is a normal one, if one body holds one
+    component there and the other body the other, if a common rigid motion of two free bodies is
+    loaded, or if a pattern is force-controlled in one and displacement-controlled in the other.
+    */
 Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairing);
 
 } // namespace cattaneo

@@ -34,12 +34,13 @@ RelativeDisplacement::Matrix matrix(Index rows, const std::vector<Sum> &sums)
 }
 
 /// {v; w} of a contact node by those of a body's node: rows and columns tangential, normal.
-Matrix2d turned(const ContactRow &row, const TraceShare &share, const LineNode &node)
+Matrix2d turned(const ContactRow &row, const TraceShare &share, const Matrix2d &directions)
 {
-   const Eigen::Vector2d &t = row.tangent, n(-t[1], t[0]), weight(share.x, share.y);
+   const Eigen::Vector2d &t = row.tangent, n(-t[1], t[0]), weight(share.x, share.y),
+                         v = weight.cwiseProduct(directions.col(0)),
+                         w = weight.cwiseProduct(directions.col(1));
    Matrix2d block;
-   block << t.dot(weight.cwiseProduct(node.tangent)), t.dot(weight.cwiseProduct(node.normal())),
-      n.dot(weight.cwiseProduct(node.tangent)), n.dot(weight.cwiseProduct(node.normal()));
+   block << t.dot(v), t.dot(w), n.dot(v), n.dot(w);
    return block;
 }
 
@@ -109,9 +110,11 @@ RelativeDisplacement::RelativeDisplacement(const std::vector<CondensedBody> &bod
       std::array<Sum, 2> rest;
       for (const TraceShare &share : row.shares)
       {
-         const LineNode &node = bodies[share.body].line.nodes[share.node];
-         Matrix2d block = turned(row, share, node);
-         if (components == 1) { block = share.x * Matrix2d::Identity(); }
+         Matrix2d block = share.x * Matrix2d::Identity();
+         if (components == 2)
+         {
+            block = turned(row, share, bodies[share.body].directions(share.node));
+         }
          const bool is_own = share.body == row.body && share.node == row.node;
          if (is_own) { own += block; }
          for (int b : {0, 1})
@@ -131,7 +134,7 @@ RelativeDisplacement::RelativeDisplacement(const std::vector<CondensedBody> &bod
       {
          if (relative[i][a] >= 0) { rest[a][relative[i][a]] = 1; }
       }
-      if (!row.slides) // in the slave's own frame
+      if (!row.slides) // it moves across what is held alone
       {
          own(0, 0) = 1;
          own(0, 1) = own(1, 0) = 0;

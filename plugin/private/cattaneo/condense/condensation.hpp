@@ -54,8 +54,7 @@ void require_unmoved(const ContactLine &line, const std::string &pattern,
                      const std::vector<int> &moved);
 
 /// The same in the frames of the contact line, freed of what round-off makes of rigid motions.
-/// Of `loads` names and controls alone are asked for. InputError if one component of a node is
-/// held and the line meets it at neither 0 nor 90 degrees, to LineChain::smooth_turn.
+/// Of `loads` names and controls alone are asked for. InputError as of meet_supports().
 CondensedBody in_local_frames(const ContactLine &line, const std::vector<BodyLoad> &loads,
                               const ContactDofs &contact, Condensation found);
 

@@ -25,6 +25,10 @@ struct UnionRows
 Block united(const std::vector<CondensedBody> &bodies, const UnionRows &rows,
              const Reduction::PatternIndex &index, const std::vector<LoadPattern> &patterns);
 
+/// reduce(bodies, interfaces) by the rows of interfaces, whatever matches.
+Reduction reduce_by_rows(std::vector<CondensedBody> bodies,
+                         const std::vector<Interface> &interfaces);
+
 /// What a body is called in a sentence.
 std::string called(const std::vector<CondensedBody> &bodies, int body);
 /// What some of them are called.

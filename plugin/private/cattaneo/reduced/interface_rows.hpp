@@ -56,6 +56,9 @@ private:
    void add_slave(std::vector<ContactRow> &rows, Slaves &taken, bool in_rings);
    ContactRow row(Eigen::Index i) const;
    void check_row(const ContactRow &row, Eigen::Index i) const;
+   const int *faced(Eigen::Index i, const Eigen::Vector2d &tangent) const;
+   /// Is a node of the slave paired with one that no support holds?
+   bool partner_is_free(int node) const;
    LineEnd other_end(Eigen::Index i, bool last) const;
 
    const Interface &given_;

@@ -1,0 +1,117 @@
+#include <cattaneo/condense/local_frame.hpp>
+#include <cattaneo/condense/supported_nodes.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cmath>
+#include <map>
+
+namespace cattaneo
+{
+
+namespace
+{
+
+using Eigen::Index;
+using Eigen::Vector2d;
+
+const double in_degrees = 180 / std::acos(-1.0);
+
+/// The angle of a unit vector to the axis of a component, 0 to 90 degrees, in radians.
+double off_axis(const Vector2d &unit, int component)
+{
+   return std::asin(std::min(std::abs(unit[1 - component]), 1.0));
+}
+
+/// The tangent, at the first of three points, of the circle through them (a straight line, if
+/// that is what they lie on).
+Vector2d circle_tangent(const std::array<Vector2d, 3> &points)
+{
+   // Inversion about the first point makes a straight line along the tangent of the circle.
+   const Vector2d one = points[1] - points[0], two = points[2] - points[0];
+   return (one / one.squaredNorm() - two / two.squaredNorm()).normalized();
+}
+
+/// Does a chain curve at an end so that it meets its mirror image there without a corner?
+/// `component`: of the axis across the plane of symmetry.
+bool curves_into_symmetry(const LineChain &chain, bool last, int component)
+{
+   std::vector<Vector2d> nodes, ends; // from the end on
+   const std::size_t count = chain.elements.size();
+   for (std::size_t e = 0; e < std::min<std::size_t>(count, 2); ++e)
+   {
+      Eigen::Matrix2Xd points = chain.elements[last ? count - 1 - e : e].points;
+      if (last) { points = points.rowwise().reverse().eval(); }
+      for (Index a = e > 0 ? 1 : 0; a < points.cols(); ++a) { nodes.push_back(points.col(a)); }
+      if (e == 0) { ends.push_back(points.col(0)); }
+      ends.push_back(points.col(points.cols() - 1));
+   }
+   for (const std::vector<Vector2d> *from : {&nodes, &ends})
+   {
+      if (from->size() < 3) { continue; }
+      const Vector2d tangent = circle_tangent({(*from)[0], (*from)[1], (*from)[2]}),
+                     chord = ((*from)[1] - (*from)[0]).normalized();
+      const double turn = std::abs(
+         std::asin(std::clamp(tangent[0] * chord[1] - tangent[1] * chord[0], -1., 1.)));
+      const double off = off_axis(tangent, component);
+      // Where all that leans is round-off there is no curve.
+      if (turn > 1e-9 && off <= 0.25 * turn) { return true; }
+   }
+   return false;
+}
+
+} // namespace
+
+void meet_supports(ContactLine &line, const HeldComponents &held)
+{
+   for (Index i = 0; i < line.size(); ++i)
+   {
+      if (held(i, 0) == held(i, 1)) { continue; } // free, or clamped
+      const int c = held(i, 0) ? 0 : 1;
+      LineNode &node = line.nodes[i];
+      const int axis = nearest_axis(node.tangent); // that the line goes along
+      const double off = off_axis(node.tangent, axis), degrees = in_degrees * off;
+      require(degrees <= LineChain::smooth_turn, "condense: component ",
+              component_name(line.formulation, c), " of the contact node at ", node.position,
+              " is fixed, and the line meets it at ",
+              0.1 * std::round(10 * (axis == c ? degrees : 90 - degrees)),
+              " degrees, must be 0 or 90, to ", LineChain::smooth_turn);
+      bool onto_axis = off <= 1e-9; // round-off of the coordinates
+      // About an axis nothing has a mirror image in a cylinder, which a held r is.
+      const bool mirrors = axis == c && (line.formulation == Formulation::plane || c == 1);
+      for (LineChain &chain : line.chains)
+      {
+         for (const bool last : {false, true})
+         {
+            const Index end = last ? chain.first + chain.nodes - 1 : chain.first;
+            if (i != end || chain.loop || !mirrors) { continue; }
+            const bool curved = curves_into_symmetry(chain, last, axis);
+            if (!curved && degrees > LineChain::symmetry_turn) { continue; }
+            chain.ends[last ? 1 : 0] = LineEnd::symmetry;
+            chain.off_symmetry[last ? 1 : 0] = onto_axis ? 0 : off;
+            onto_axis = onto_axis || curved;
+         }
+      }
+      if (!onto_axis) { continue; }
+      const double sign = std::copysign(1.0, node.tangent[axis]);
+      node.tangent.setZero();
+      node.tangent[axis] = sign;
+   }
+}
+
+void meet_supports(ContactLine &line, const CondensedBody &body)
+{
+   if (line.formulation == Formulation::torsion || body.held.empty()) { return; }
+   std::map<std::array<int, 2>, Index> number;
+   for (Index k = 0; k < body.line.size(); ++k) { number[body.line.nodes[k].dofs] = k; }
+   HeldComponents held = HeldComponents::Constant(line.size(), 2, false);
+   for (Index i = 0; i < line.size(); ++i)
+   {
+      const auto found = number.find(line.nodes[i].dofs);
+      for (int c = 0; c < 2 && found != number.end(); ++c)
+      {
+         held(i, c) = body.holds(found->second, c);
+      }
+   }
+   meet_supports(line, held);
+}
+
+} // namespace cattaneo

@@ -1,0 +1,160 @@
+#include <algorithm>
+#include <cattaneo/condense/local_frame.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cattaneo/reduced/bodies_union.hpp>
+#include <cattaneo/reduced/geometry_warnings.hpp>
+#include <sstream>
+
+namespace cattaneo
+{
+
+namespace
+{
+
+using Eigen::Index;
+using Eigen::Vector2d;
+
+const double in_degrees = 180 / std::acos(-1.0);
+
+template <class... Parts>
+std::string sentence(const Parts &...parts)
+{
+   std::ostringstream text;
+   text.precision(4);
+   (text << ... << parts);
+   return text.str();
+}
+
+std::string at(const Vector2d &place)
+{
+   return sentence("(", place[0], ", ", place[1], ")");
+}
+
+/// An end that is taken for a plane of symmetry though the line is off it.
+void say_symmetry(const CondensedBody &body, const std::string &name,
+                  std::vector<std::string> &said)
+{
+   for (const LineChain &chain : body.line.chains)
+   {
+      for (const std::size_t end : {0, 1})
+      {
+         const double off = chain.off_symmetry[end], degrees = in_degrees * off;
+         const LineNode &node = body.line.nodes[chain.first + (end ? chain.nodes - 1 : 0)];
+         const bool turned = node.tangent.cwiseAbs().minCoeff() == 0;
+         if (turned && degrees > LineChain::symmetry_turn)
+         {
+            said.push_back(sentence(
+               name, ": the end of its contact at ", at(node.position),
+               ", where a support holds it, is taken for a plane of symmetry, because the side "
+               "curves towards it; the normal there is turned by ",
+               degrees,
+               " degrees onto that plane: if the side ends there in a corner, the "
+               "support must not hold its last node"));
+         }
+         else if (!turned && off > 1e-6)
+         {
+            said.push_back(sentence(
+               name, ": the end of its contact at ", at(node.position),
+               ", where a support holds it, is taken for a plane of symmetry, although the "
+               "line "
+               "is ",
+               degrees, " degrees off it (from ", LineChain::symmetry_turn,
+               " degrees on it would be none): coordinates of more digits would tell"));
+         }
+      }
+   }
+}
+
+/// Bearing nodes of an interface at which normals differ.
+void say_normals(const ReducedProblem &problem, const InterfaceReport &face,
+                 const std::vector<bool> &bears, std::vector<std::string> &said)
+{
+   if (face.turn.size() != face.nodes) { return; }
+   Index worst = -1, count = 0;
+   double most = small_turn;
+   for (Index i = 0; i < face.nodes; ++i)
+   {
+      const double f = problem.friction[face.first + i];
+      if (!bears[face.first + i] || f <= 0 || face.turn[i] <= small_turn * f) { continue; }
+      ++count;
+      if (face.turn[i] > most * f)
+      {
+         worst = i;
+         most = face.turn[i] / f;
+      }
+   }
+   if (worst < 0) { return; }
+   const double turn = face.turn[worst], f = problem.friction[face.first + worst];
+   said.push_back(sentence(
+      "interface '", face.name, "': at node ", face.first + worst, " at ",
+      at(face.position.row(worst)), ", which bears, the normals of both bodies differ by ",
+      turn, " rad (", in_degrees * turn, " degrees), which is not small against friction, ", f,
+      count > 1 ? sentence(" (so they do at ", count - 1, " more)") : "",
+      ": the node has the mean of both, by the normal of either body tangential over normal "
+      "force would be ",
+      0.5 * turn,
+      " more or less; whether it sticks, zones of slip and the loss hang on that. "
+      "Sides that touch must face each other: move the one that is off, or let the "
+      "contact end before it"));
+}
+
+/// Nodes with friction that supports hold along an axis on which their frames lean.
+void say_held(const Reduction &reduction, const InterfaceReport &face,
+              const std::vector<bool> &bears, std::vector<std::string> &said)
+{
+   const ReducedProblem &problem = reduction.problem;
+   for (Index i = 0; i < face.nodes; ++i)
+   {
+      const Index node = face.first + i;
+      const Vector2d tangent = face.tangent.row(i);
+      const double off = std::asin(std::min(tangent.cwiseAbs().minCoeff(), 1.0));
+      const bool held =
+         std::count(problem.held.begin(), problem.held.end(), node) > 0 && off > 1e-6;
+      if (!held || !bears[node] || problem.friction[node] <= 0) { continue; }
+      const Formulation formulation = reduction.bodies[face.bodies[0]].line.formulation;
+      said.push_back(
+         sentence("interface '", face.name, "': supports hold node ", node, " at ",
+                  at(face.position.row(i)), ", which bears, along ",
+                  component_name(formulation, nearest_axis(tangent)), ", ", in_degrees * off,
+                  " degrees off the contact there: how much of its tangential force is the "
+                  "support's and how much is friction is not determined, it is taken for the "
+                  "support's; the normal force hangs on that by ",
+                  std::tan(off) * problem.friction[node],
+                  " of itself. Friction is certain where supports leave contact nodes free"));
+   }
+}
+
+} // namespace
+
+std::vector<std::string> geometry_warnings(const Reduction &reduction, const Eigen::VectorXd &p)
+{
+   const ReducedProblem &problem = reduction.problem;
+   require(p.size() == problem.nodes(), "geometry warnings: ", p.size(),
+           " normal forces, must be ", problem.nodes());
+   std::vector<std::string> said;
+   for (const InterfaceReport &face : reduction.interfaces)
+   {
+      if (!face.differing) { continue; }
+      said.push_back(sentence(
+         "interface '", face.name,
+         "': its nodes are paired one to one, but elements of the bodies differ there, at ",
+         at(*face.differing),
+         " for instance: a uniform pressure is not uniform then, and tractions are wrong from "
+         "node to node; without a pairing nodes need not match"));
+   }
+   for (std::size_t b = 0; b < reduction.bodies.size(); ++b)
+   {
+      say_symmetry(reduction.bodies[b], called(reduction.bodies, static_cast<int>(b)), said);
+   }
+   std::vector<bool> bears;
+   for (const double force : p) { bears.push_back(force > 1e-6 * p.maxCoeff() && force > 0); }
+   for (const InterfaceReport &face : reduction.interfaces)
+   {
+      if (face.tied) { continue; }
+      say_normals(problem, face, bears, said);
+      say_held(reduction, face, bears, said);
+   }
+   return said;
+}
+
+} // namespace cattaneo

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cattaneo/reduced/reduction.hpp>
+#include <string>
+#include <vector>
+
+namespace cattaneo
+{
+
+/// The share of the coefficient of friction that an angle between the normals of two bodies
+/// (in radians) may have and is small: half of the angle, which is what the frame of the node
+/// is off either normal by, is a tenth of the friction then.
+constexpr double small_turn = 0.2;
+
+/** Sentences, none if there is nothing to say, about geometry that a solution hangs on without
+    any sign of it in the solution:
+
+    - nodes that are paired one to one where the elements of the bodies differ;
+    - ends of contact lines that are taken for planes of symmetry though the line meets them at
+      another angle (LineChain::off_symmetry);
+    - nodes that bear, where the normals of both bodies differ by an angle that is not small
+      against friction: the frame is the mean of both, and whether the node sticks depends on
+      that. The worst node of each interface is named;
+    - nodes that bear with friction and that supports hold along an axis on which their frames
+      lean: how much of the tangential force is the support's is not determined, and friction
+      there is taken for none.
+
+    p: normal forces of the nodes, of a state or the largest of a march; a node with more than
+    1e-6 of the largest one bears. InputError unless there is one for each contact node. */
+std::vector<std::string> geometry_warnings(const Reduction &reduction,
+                                           const Eigen::VectorXd &p);
+
+} // namespace cattaneo
