@@ -171,3 +171,33 @@ def test_outcomes(block):
         assert not wear.worn_out(problem, loads).converged
     with pytest.raises(cattaneo.InputError, match="the load history has no cycle"):
         wear.wear(problem, wear.WearLaw.uniform(problem, k), cattaneo.LoadHistory.through(problem, [{}, {"P": 1}]), 5)
+
+
+@pytest.mark.parametrize("tolerance", [0, 0.1, 1e-3])
+def test_states_are_those_of_the_worn_contact(tolerance):
+    """Two nodes that stay closed while they are dragged to and fro: p = 1 - C depth, marched or jumped over."""
+    C = np.linalg.inv(np.array([[1.0, 0.3], [0.3, 1.0]]))
+    patterns = [
+        cattaneo.LoadPattern("P", np.zeros(2), np.ones(2)),
+        cattaneo.LoadPattern("D", C @ np.ones(2), np.zeros(2), control="displacement"),
+    ]
+    problem = cattaneo.ReducedProblem(C, np.zeros((2, 2)), C, patterns, friction=0.3, weights=np.ones(2), arc_length=[0.0, 1.0])
+    seen = []
+    report = wear.wear(
+        problem,
+        wear.WearLaw.uniform(problem, 1e-4),
+        history(problem, {"P": 1.0}, {"D": 1.0}),
+        2000,
+        tolerance=tolerance,
+        observer=lambda state, record: seen.append(state),
+    )
+    assert report.reached and report.remark == ""
+    for state in [*seen, report.state]:
+        assert state.contact.p == pytest.approx(1 - C @ state.depth, abs=1e-12)
+        assert state.contact.w == pytest.approx(-state.depth, abs=1e-12)
+
+
+def test_worn_out_says_that_a_march_may_end_elsewhere(hertz):
+    problem, loads = hertz
+    assert "may be another" in wear.worn_out.__doc__
+    assert "a march may end elsewhere" in repr(wear.worn_out(problem, loads, increments=1))

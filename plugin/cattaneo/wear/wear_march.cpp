@@ -467,12 +467,18 @@ std::optional<Landing> WearMarch::landing(const Way &from, double cycles)
    {
       result.way.lag = slower * slower * from.lag;
       const VectorXd more = (cycles * result.way.lag).cwiseMax(-0.5 * best.depth);
+      double left_out = 0; // at nodes that wear so alone, of which no loss is known
       for (Index i = 0; i < more.size(); ++i)
       {
+         if (!(first.depth[i] > 0))
+         {
+            left_out = std::max(left_out, std::abs(more[i]));
+            continue;
+         }
          best.depth[i] += more[i];
-         if (first.depth[i] > 0) { best.loss[i] += more[i] * first.loss[i] / first.depth[i]; }
+         best.loss[i] += more[i] * first.loss[i] / first.depth[i];
       }
-      result.unseen += 0.25 * largest(more);
+      result.unseen += 0.25 * largest(more) + left_out;
    }
    reached.time = cycles_.start();
    add(result.way, best, cycles);
