@@ -511,7 +511,7 @@ TEST_F(Joints, OfRingsTellWhatChordsTake)
    {
       ring("in.mesh", inner, 1 + overlap, along, order);
       ring("out.mesh", 1, outer, along * 4 / 3, order);
-      json keys{{"order", order}, {"history", {"P=0", "P=1"}}};
+      json keys{{"order", order}, {"history", {"P=0", "P=1"}}, {"geometry", "as meshed"}};
       keys["bodies"] = {{"in", body("in.mesh", "1:y 3:x", {}, E, nu)},
                         {"out", body("out.mesh", "1:y 3:x", {"P pressure 2 1e-9"}, E, nu)}};
       keys["interfaces"]["fit"] = face("in:2", "out:4", 0);
