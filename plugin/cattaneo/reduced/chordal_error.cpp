@@ -34,17 +34,20 @@ std::optional<VectorXd> forces_after(const MatrixXd &C, const VectorXd &p, Vecto
       }
       // Closed nodes move by what is between them; on the others no force is left.
       VectorXd moved = VectorXd::Zero(p.size());
-      moved(closed) = -open(closed);
+      for (const int i : closed) { moved[i] = -open[i]; }
       if (!free.empty())
       {
          DenseCholesky follows;
          if (!follows.compute(C(free, free))) { return found; }
          VectorXd its = -p(free) - C(free, closed) * moved(closed);
          follows.solve(its);
-         moved(free) = its;
+         for (std::size_t k = 0; k < free.size(); ++k)
+         {
+            moved[free[k]] = its[static_cast<Index>(k)];
+         }
       }
       VectorXd force = p + C * moved;
-      force(free).setZero();
+      for (const int i : free) { force[i] = 0; }
       found = force.cwiseMax(0);
       bool settled = true;
       const double least = 1e-12 * p.cwiseAbs().maxCoeff();
