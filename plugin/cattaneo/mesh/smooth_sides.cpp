@@ -346,8 +346,9 @@ SmoothSides curve_sides(mfem::Mesh &mesh, int order, const std::vector<int> &att
    {
       find_bends(mesh, rim);
       // A mesh that has curves knows which of its edges are straight.
-      const bool knows = std::any_of(rim.begin(), rim.end(), [&](const OuterEdge *edge)
-                                     { return curved(mesh, *edge) > 0.1; });
+      const bool knows =
+         std::any_of(rim.begin(), rim.end(),
+                     [&](const OuterEdge *edge) { return curved(mesh, *edge) > 0.1; });
       if (knows) { continue; }
       for (const OuterEdge *edge : rim)
       {
