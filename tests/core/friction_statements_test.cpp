@@ -1,5 +1,6 @@
 // Statements that were wrong once: each a small problem with its answer by hand.
 
+#include <algorithm>
 #include <cattaneo/friction/march.hpp>
 #include <cattaneo/friction/mechanism.hpp>
 #include <gtest/gtest.h>
@@ -248,6 +249,22 @@ TEST(FrictionStatements, JudgesWhatItIsGiven)
    ContactState elsewhere = start;
    elsewhere.v[1] = found.v[1] - 1;
    EXPECT_EQ(solver.judge(elsewhere, found).status, FrictionStatus::stalled);
+   // A slip with its friction, of a state before that is known to so much, may be none; what
+   // the state breaks otherwise is not excused.
+   const auto node = std::find_if(found.status.begin(), found.status.end(), slips);
+   ASSERT_NE(node, found.status.end());
+   const auto k = node - found.status.begin();
+   elsewhere.v = found.v;
+   elsewhere.v[k] += 1e-6 * sense(*node);
+   EXPECT_EQ(solver.judge(elsewhere, found).status, FrictionStatus::stalled);
+   EXPECT_EQ(solver.judge(elsewhere, found, Vector2d::Constant(0.9e-6)).status,
+             FrictionStatus::stalled);
+   EXPECT_EQ(solver.judge(elsewhere, found, Vector2d::Constant(1.1e-6)).status,
+             FrictionStatus::converged);
+   ContactState loose = found;
+   loose.q[k] *= 1 + 1e-6;
+   EXPECT_EQ(solver.judge(elsewhere, loose, Vector2d::Constant(1.1e-6)).status,
+             FrictionStatus::stalled);
 }
 
 } // namespace
