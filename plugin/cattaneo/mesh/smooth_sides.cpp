@@ -108,7 +108,7 @@ std::vector<std::vector<OuterEdge *>> rims(std::vector<OuterEdge> &edges)
    return all;
 }
 
-Vector2d place(const mfem::Mesh &mesh, int vertex)
+Vector2d place_of_vertex(const mfem::Mesh &mesh, int vertex)
 {
    const double *at = mesh.GetVertex(vertex);
    return {at[0], at[1]};
@@ -122,7 +122,7 @@ void find_bends(const mfem::Mesh &mesh, std::vector<OuterEdge *> rim)
    const auto along = [&](int k)
    {
       const OuterEdge &edge = *rim[(k + n) % n];
-      return Vector2d(place(mesh, edge.to) - place(mesh, edge.from));
+      return Vector2d(place_of_vertex(mesh, edge.to) - place_of_vertex(mesh, edge.from));
    };
    // Between corners, which a side ends at: beyond them may be a plane of symmetry.
    const auto is_corner = [&](int k) // at the beginning of edge k
@@ -154,12 +154,12 @@ void find_bends(const mfem::Mesh &mesh, std::vector<OuterEdge *> rim)
       side.loop = whole;
       for (int k = begin; k < end; ++k)
       {
-         side.vertices.push_back(place(mesh, rim[k]->from));
+         side.vertices.push_back(place_of_vertex(mesh, rim[k]->from));
          side.curves.push_back(rim[k]->curve);
       }
       if (!whole)
       {
-         side.vertices.push_back(place(mesh, rim[end - 1]->to));
+         side.vertices.push_back(place_of_vertex(mesh, rim[end - 1]->to));
          if (loop || begin > 0) { side.beyond[0] = along(begin - 1); }
          if (loop || end < n) { side.beyond[1] = along(end); }
       }
@@ -196,7 +196,8 @@ Blend blend(mfem::Geometry::Type shape, const int *at, const mfem::IntegrationPo
 double curved(mfem::Mesh &mesh, const OuterEdge &edge)
 {
    if (!mesh.GetNodes()) { return 0; }
-   const Vector2d from = place(mesh, edge.from), chord = place(mesh, edge.to) - from;
+   const Vector2d from = place_of_vertex(mesh, edge.from),
+                  chord = place_of_vertex(mesh, edge.to) - from;
    mfem::IsoparametricTransformation plane;
    mesh.GetElementTransformation(edge.element, &plane);
    const mfem::IntegrationRule &nodes = plane.GetFE()->GetNodes();
@@ -219,7 +220,7 @@ template <class Move>
 void along_edge(const mfem::Mesh &mesh, const OuterEdge &edge, Move move)
 {
    const mfem::FiniteElementSpace &space = *mesh.GetNodalFESpace();
-   const Vector2d chord = place(mesh, edge.to) - place(mesh, edge.from);
+   const Vector2d chord = place_of_vertex(mesh, edge.to) - place_of_vertex(mesh, edge.from);
    const mfem::FiniteElement &map = *space.GetFE(edge.element);
    const int *at = mesh.GetElement(edge.element)->GetEdgeVertices(edge.side);
    mfem::Array<int> dofs;
@@ -353,7 +354,8 @@ SmoothSides curve_sides(mfem::Mesh &mesh, int order, const std::vector<int> &att
       for (const OuterEdge *edge : rim)
       {
          if (!edge->wanted) { continue; }
-         found.chords.push_back({place(mesh, edge->from), place(mesh, edge->to), edge->bend});
+         found.chords.push_back(
+            {place_of_vertex(mesh, edge->from), place_of_vertex(mesh, edge->to), edge->bend});
          if (edge->bend.straight()) { continue; }
          ++found.edges;
          const Vector2d chord = found.chords.back().to - found.chords.back().from;
