@@ -92,7 +92,7 @@ inline WornProblem random_worn_problem(int seed)
    settings.tolerance = decades(-4, -1);
    settings.march.stepping = random() % 2 ? Stepping::exact : Stepping::fixed;
    settings.march.increments = 1 + random() % 6;
-   settings.update = random() % 5 ? GapUpdate::cycle : GapUpdate::piece;
+   settings.update = random() % 20 ? GapUpdate::cycle : GapUpdate::piece;
    // So much wear that pressures change by a share between 1/30 and 30, were they not to fall.
    WearState once = WearState::virgin(problem);
    const double whole = decades(-1.5, 1.5);

@@ -299,7 +299,7 @@ Wear worn(nb::handle problem, const WearLaw &law, const LoadHistory &history, do
           nb::handle stop)
 {
    const ReducedProblem copy = given<ReducedProblem>(problem, "problem");
-   Wear result{nb::borrow(problem), {}, {}, {}};
+   Wear result{nb::borrow(problem), {}, {}};
    result.state = state.is_none() ? WearState::virgin(copy) : given<WearState>(state, "state");
    require_observer(observer);
    Watch watch(progress, stop);
@@ -360,7 +360,8 @@ void bind_wear_march(nb::module_ &m)
       "history: with a cycle (cycle_start); how often it repeats is not asked.\n"
       "tolerance: cycles are jumped over where depths are estimated to differ by no more than "
       "this share of the largest from those of all cycles marched, 1e-8 to 0.1; 0: every cycle "
-      "is marched. The same increments and stepping are meant: an unstable way ends elsewhere "
+      "is marched, as with update 'piece'. The same increments and stepping are meant: an "
+      "unstable way ends elsewhere "
       "with others. Where the tolerance was not reached `reached` is False, and a warning says "
       "so. final_share: ends where a cycle adds less than "
       "this share of the largest depth. update: the gap follows at the end of each 'cycle' or "

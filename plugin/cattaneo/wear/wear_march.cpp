@@ -374,16 +374,14 @@ bool WearMarch::look_at(Way &way, double cycles)
    if (!cycle.found()) { return false; }
    // The first cycle after one that was marched is such a one itself. Elsewhere one is marched
    // with the gap as it was a cycle before, and one with the gap that is worn.
-   const bool piece = settings_.update == GapUpdate::piece;
    way.lag = cycle.lag;
-   if (way.jumped || (piece && largest(way.lag) < cycle.depth.maxCoeff()))
+   if (way.jumped)
    {
-      for (int before = piece ? 3 : 1; before > 0; --before)
+      if (!cycles_.march(contact, way.state.depth - cycle.depth, false).found())
       {
-         const VectorXd depth = way.state.depth - before * cycle.depth;
-         if (!cycles_.march(contact, depth, piece).found()) { return false; }
+         return false;
       }
-      const WearCycle marched = cycles_.march(contact, way.state.depth, piece);
+      const WearCycle marched = cycles_.march(contact, way.state.depth, false);
       if (!marched.found()) { return false; }
       way.lag = marched.depth - cycle.depth;
    }
@@ -629,7 +627,9 @@ WearReport WearMarch::run()
          report_.message = "the wear was asked to stop";
          break;
       }
-      const bool may_jump = settings_.tolerance > 0 && jumps_ && done() >= rest_;
+      // What pieces of a cycle wear off as the gap follows them no cycle at one gap tells.
+      const bool may_jump = settings_.tolerance > 0 && settings_.update == GapUpdate::cycle &&
+                            jumps_ && done() >= rest_;
       goes_on = (may_jump && jump()) || march_on();
    }
    report_.error = error();
