@@ -157,8 +157,8 @@ void InterfaceRows::pair_nodes(const std::vector<int> &without)
    add_curves(master_.line, pairs.partner);
 }
 
-/// What smooth curves that elements are chords of make of gaps from node to node; of an obstacle
-/// the line is empty.
+/// What smooth curves that elements are chords of make of gaps from node to node; of an
+/// obstacle the line is empty.
 void InterfaceRows::add_curves(const ContactLine &other, const std::vector<int> &partner)
 {
    const auto rows = [&](const auto &of_line)
@@ -166,13 +166,17 @@ void InterfaceRows::add_curves(const ContactLine &other, const std::vector<int> 
       Eigen::MatrixX2d all = of_line(slave_.line)(mortar_.nodes, Eigen::all);
       if (other.size() == 0) { return all; }
       const Eigen::MatrixX2d its = of_line(other);
-      for (Index i = 0; i < all.rows(); ++i) { all.row(i) -= its.row(partner[mortar_.nodes[i]]); }
+      for (Index i = 0; i < all.rows(); ++i)
+      {
+         all.row(i) -= its.row(partner[mortar_.nodes[i]]);
+      }
       return all;
    };
-   const Eigen::MatrixX2d moved = rows([](const ContactLine &line) -> Eigen::MatrixX2d
-                                       { return line.outline() - line.each(&LineNode::position); }),
+   const Eigen::MatrixX2d moved =
+                             rows([](const ContactLine &line) -> Eigen::MatrixX2d
+                                  { return line.outline() - line.each(&LineNode::position); }),
                           left = rows([](const ContactLine &line) -> Eigen::MatrixX2d
-                                      { return line.off_chords() * (line.as_meshed ? 1 : 0); }),
+                                      { return line.off_curves() * (line.as_meshed ? 1 : 0); }),
                           curved = rows([](const ContactLine &line) { return line.bulges(); });
    Eigen::MatrixX2d normal(mortar_.tangent.rows(), 2);
    normal << -mortar_.tangent.col(1), mortar_.tangent.col(0);
@@ -505,10 +509,10 @@ void InterfaceRows::add_facts(ReducedProblem &problem, Index first, bool matchin
       const double x = node.position[0], y = node.position[1];
       // An obstacle is as far away as the outline of the side is, of a pair of bodies a gap is
       // said of the nodes.
-      const double gap = !given_.gap ? mortar_.gap[i]
-                         : master_.body < 0
-                            ? (*given_.gap)(outline(mortar_.nodes[i], 0), outline(mortar_.nodes[i], 1))
-                            : (*given_.gap)(x, y);
+      const double gap = !given_.gap        ? mortar_.gap[i]
+                         : master_.body < 0 ? (*given_.gap)(outline(mortar_.nodes[i], 0),
+                                                            outline(mortar_.nodes[i], 1))
+                                            : (*given_.gap)(x, y);
       require(std::isfinite(gap), what_, ": the gap at ", node.position, " is ", gap,
               ", must be finite");
       problem.gap[first + i] = gap;
