@@ -69,14 +69,26 @@ void check_spacing(const ContactLine &line, const LineChain &chain)
 
 } // namespace
 
-Eigen::Vector2d LineElement::off_chord(double s) const
+Eigen::Vector2d LineElement::off_curve(double s) const
 {
-   if (!bend || bend->straight() || bent) { return {0, 0}; }
+   if (!bend || bend->straight()) { return {0, 0}; }
+   double off = bend->off(s);
+   if (bent)
+   {
+      // Its nodes are on the curve, and between them it is a polynomial.
+      const LobattoBasis &basis = lobatto_basis(order());
+      Eigen::VectorXd values(order() + 1);
+      basis.evaluate(s, values);
+      for (Eigen::Index a = 1; a < order(); ++a)
+      {
+         off -= values[a] * bend->off(basis.nodes[a]);
+      }
+   }
    const Eigen::Vector2d chord = points.rightCols(1) - points.leftCols(1);
-   return bend->off(s) * Eigen::Vector2d(chord[1], -chord[0]);
+   return off * Eigen::Vector2d(chord[1], -chord[0]);
 }
 
-Eigen::MatrixX2d ContactLine::off_chords() const
+Eigen::MatrixX2d ContactLine::off_curves() const
 {
    Eigen::MatrixX2d all = Eigen::MatrixX2d::Zero(size(), 2);
    for (const LineChain &chain : chains)
@@ -87,7 +99,7 @@ Eigen::MatrixX2d ContactLine::off_chords() const
          const Eigen::VectorXd &at = lobatto_basis(element.order()).nodes;
          for (Eigen::Index a = 1; a < element.order(); ++a)
          {
-            all.row(element.nodes[a]) = element.off_chord(at[a]);
+            all.row(element.nodes[a]) = element.off_curve(at[a]);
          }
       }
    }
@@ -97,7 +109,7 @@ Eigen::MatrixX2d ContactLine::off_chords() const
 Eigen::MatrixX2d ContactLine::outline() const
 {
    const Eigen::MatrixX2d places = each(&LineNode::position);
-   return as_meshed ? places : Eigen::MatrixX2d(places + off_chords());
+   return as_meshed ? places : Eigen::MatrixX2d(places + off_curves());
 }
 
 Eigen::MatrixX2d ContactLine::bulges() const

@@ -49,9 +49,8 @@ struct LineElement
 
    /// Degree of the polynomials: one less than its nodes.
    Eigen::Index order() const { return points.cols() - 1; }
-   /// How far its smooth curve lies from the element at 0 <= s <= 1; zero if none is known, or
-   /// if it is bent to it.
-   Eigen::Vector2d off_chord(double s) const;
+   /// How far its smooth curve lies from the element at 0 <= s <= 1; zero if none is known.
+   Eigen::Vector2d off_curve(double s) const;
 };
 
 /// Nodes that follow each other along the boundary.
@@ -118,8 +117,8 @@ struct ContactLine
    /// Number of contact nodes.
    Eigen::Index size() const { return static_cast<Eigen::Index>(nodes.size()); }
    /// n × 2: how far the smooth curves that elements are chords of (LineElement::bend) lie from
-   /// the nodes; zero at the ends of elements.
-   Eigen::MatrixX2d off_chords() const;
+   /// the nodes; zero at the ends of elements, and where nodes were moved onto them.
+   Eigen::MatrixX2d off_curves() const;
    /// n × 2: where gaps are measured from, nodes on those curves; as meshed the nodes
    /// themselves.
    Eigen::MatrixX2d outline() const;

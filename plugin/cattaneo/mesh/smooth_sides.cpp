@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/mesh/element_check.hpp>
 #include <cattaneo/mesh/smooth_sides.hpp>
 #include <cmath>
 #include <limits>
@@ -375,9 +376,19 @@ SmoothSides curve_sides(mfem::Mesh &mesh, int order, const std::vector<int> &att
    // Elements may lose so much of what their least determinant was.
    const auto all_sound = [&]
    {
-      return std::all_of(before.begin(), before.end(),
-                         [&](const auto &each)
-                         { return evenness(mesh, each.first) > 0.3 * each.second; });
+      const bool even = std::all_of(before.begin(), before.end(),
+                                    [&](const auto &each)
+                                    { return evenness(mesh, each.first) > 0.3 * each.second; });
+      if (!even) { return false; }
+      try
+      {
+         check_elements(mesh); // between the points as well
+      }
+      catch (const InputError &)
+      {
+         return false;
+      }
+      return true;
    };
    for (const OuterEdge *edge : bent) { note(edge->element); }
    if (before_order < order) { mesh.SetCurvature(order, false, 2, mfem::Ordering::byVDIM); }

@@ -181,7 +181,7 @@ void InterfaceRows::add_curves(const ContactLine &other, const std::vector<int> 
                              rows([](const ContactLine &line) -> Eigen::MatrixX2d
                                   { return line.outline() - line.each(&LineNode::position); }),
                           left = rows([](const ContactLine &line) -> Eigen::MatrixX2d
-                                      { return line.off_chords() * (line.as_meshed ? 1 : 0); }),
+                                      { return line.off_curves() * (line.as_meshed ? 1 : 0); }),
                           curved = rows([](const ContactLine &line) { return line.bulges(); });
    Eigen::MatrixX2d normal(mortar_.tangent.rows(), 2);
    normal << -mortar_.tangent.col(1), mortar_.tangent.col(0);

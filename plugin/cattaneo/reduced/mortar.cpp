@@ -90,7 +90,7 @@ struct Outline
       : place(curve.place(s)), left(curve.bulge(s))
    {
       const LineElement &element = *curve.element;
-      const Vector2d off = element.off_chord(s), from = element.points.col(0);
+      const Vector2d off = element.off_curve(s), from = element.points.col(0);
       (as_meshed ? left : place) += off;
       if (as_meshed || !element.bend || element.bend->straight()) { return; }
       // Across the chord, wherever along it the point is.

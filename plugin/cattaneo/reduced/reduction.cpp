@@ -140,7 +140,7 @@ Reduction reduce(CondensedBody body, const ScalarField &gap)
    report.chords = Eigen::VectorXd::Zero(n);
    if (only.line.as_meshed)
    {
-      report.chords = normal.cwiseProduct(only.line.off_chords()).rowwise().sum();
+      report.chords = normal.cwiseProduct(only.line.off_curves()).rowwise().sum();
    }
    report.curved = normal.cwiseProduct(only.line.bulges()).rowwise().sum();
    problem.gap.resize(n);
