@@ -60,8 +60,8 @@ protected:
       json all{{"version", 2}};
       all.update(keys);
       std::ofstream(folder + "/case.json") << all.dump();
-      const Result got = run_miniapp("contact", "--case '" + folder + "/case.json' --csv '" +
-                                                     folder + "/out'");
+      const Result got =
+         run_miniapp("contact", "--case '" + folder + "/case.json' --csv '" + folder + "/out'");
       EXPECT_EQ(got.code, 0) << got.output;
       return got;
    }
