@@ -23,7 +23,10 @@ MatrixXd dense(const mfem::SparseMatrix &K);
 
 std::vector<double> uniform(double from, double to, int n);
 
-/// Rectangle [0, 2] × [0, 1], bottom = boundary attribute 1, right 2, top 3, left 4.
+/// Boundary attributes of a rectangle.
+constexpr int bottom = 1, right = 2, top = 3, left = 4;
+
+/// Rectangle [0, 2] × [0, 1].
 mfem::Mesh block(const std::string &kind, int nx = 4, int ny = 3);
 
 void rotate(mfem::Mesh &mesh, double angle);

@@ -15,8 +15,6 @@ using namespace support;
 using Eigen::Index;
 using Eigen::Vector2d;
 
-constexpr int bottom = 1, right = 2, top = 3, left = 4;
-
 /// [0, 2] × [y, y + 1], leaning up by a slope along x, its sides upright; turned by quarters.
 mfem::Mesh leaning(int elements, double y, double slope, int quarters)
 {

@@ -11,8 +11,6 @@ using namespace support;
 using Eigen::Index;
 
 const Material steel{2.0, 0.3};
-constexpr int bottom = 1, right = 2, top = 3, left = 4;
-
 /// Three plates one on the other, 0 < x < 2, of nodes of their own.
 struct Stack
 {

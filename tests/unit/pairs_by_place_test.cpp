@@ -13,8 +13,6 @@ using namespace cattaneo;
 using namespace support;
 using Eigen::Index;
 
-constexpr int bottom = 1, right = 2, top = 3, left = 4;
-
 /// Two plates, 0 < x < 6 and 2 high each, whose nodes between them coincide: 6 elements of
 /// order 2 above, 12 of order 1 below. The lower one may lean up by a slope.
 struct Plates
