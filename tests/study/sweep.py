@@ -118,7 +118,7 @@ def refused():
     """One sentence, before anything is run."""
     hertz = ["-reduced", "problems/hertz.json", "--sweep"]
     for sweep, words in (("frction=0.2", "there is no option 'frction'"), ("friction=0.2 -1", "option --friction is -1"),
-                         ("friction=0.2 much", "'much' is not a number"), ("friction", "must be OPTION=values"),
+                         ("friction=0.2 much", "'much' is not a number"), ("friction", "must be KEY=VALUE"),
                          ("friction=", "has no values"), ("friction=0:1:1", "at least 2"), ("increments=1.5", "not an integer"),
                          ("method=newton", "'newton' is not one of"), ("history.4.Q=1", "has 0 entries"), ("friction.1=2", "has no entries"),
                          ("json=a b", "there is no option 'json'"), ("sweep=a", "there is no option 'sweep'"),
