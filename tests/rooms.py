@@ -51,6 +51,8 @@ class Line:
             return {self.name.split(".")[1]}
         if self.name == "study.template":
             return {"pressed_layer"}
+        if self.name == "kernels":
+            return {f"{kind}_tests" for kind in ("core", "core_rest", "unit", "unit_rest", "stress")} | {"blas_kernels"}
         wanted = {"python": "cattaneo_python_stubs", "build": "all", "install": "all", "mpi": "all"}
         return {wanted.get(kind.split(".")[0], "miniapps")}
 

@@ -1,5 +1,6 @@
 import os
 import pathlib
+import signal
 import warnings
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -8,6 +9,9 @@ os.environ.setdefault("MPLBACKEND", "Agg")
 import pytest
 
 import cattaneo
+
+# A shell that starts tests in the background has them ignore Ctrl-C, which some of them send to themselves.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 

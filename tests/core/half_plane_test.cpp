@@ -712,6 +712,41 @@ TEST(HalfSpace, HertzAndLubkinOfTwoHalfSpaces)
    cattaneo_test::record("torque", reached);
 }
 
+/// A line of its own runs with the body on the left, whichever side that is, so that two meet
+/// node by node, and by dual functions where their nodes differ: they bear one pressure.
+TEST(HalfSpace, LinesOfTheirOwnRunWithTheBodyOnTheLeft)
+{
+   HalfPlane above = half_plane(1, 0.3), below = half_plane(1, 0.3);
+   above.normal = {0, 1};
+   for (const Formulation formulation : {Formulation::axisymmetric, Formulation::plane})
+   {
+      for (const HalfPlane *body : {&above, &below})
+      {
+         const ContactLine line = condense(*body, even(0, 1, 6), 2, formulation).line;
+         for (Index i = 1; i < line.size(); ++i)
+         {
+            const Eigen::Vector2d step = line.nodes[i].position - line.nodes[i - 1].position;
+            EXPECT_GT(step.dot(line.nodes[i].tangent), 0) << i;
+            EXPECT_NEAR(line.nodes[i].arc_length - line.nodes[i - 1].arc_length, step.norm(),
+                        1e-14);
+         }
+      }
+   }
+   const double pi = std::acos(-1.0);
+   for (const int elements : {6, 5})
+   {
+      const Reduction met =
+         reduce(condense(above, even(0, 1, 6), 2, Formulation::axisymmetric),
+                condense(below, even(0, 1, elements), 2, Formulation::axisymmetric));
+      const ReducedProblem &problem = met.problem;
+      EXPECT_NEAR(problem.weights.sum(), pi, 1e-12);
+      // Pressed flat by the displacement d, as two rigid punches: F = 2 a E d / (1 - nu^2) of
+      // each; the two are one behind the other.
+      const double force = problem.C.sum();
+      EXPECT_NEAR(force / (1 / (1 - 0.09)), 1, 0.02) << elements;
+   }
+}
+
 TEST(Pairing, NamesEachNodeOfTheOtherBodyOnce)
 {
    const CondensedBody body = frame({-1, -0.4, 0, 0.7, 1.5}, 1);

@@ -14,9 +14,9 @@ namespace cattaneo
    angle that it spans, and the curve is that arc. */
 struct EdgeBend
 {
-   double begin = 0, end = 0;
-
-   bool straight() const { return begin == 0 && end == 0; }
+   double begin = 0;                                        ///< at the first vertex of the edge
+   double end = 0;                                          ///< at the last one
+   bool straight() const { return begin == 0 && end == 0; } ///< the curve is the chord
    /// How far to the right of the chord the curve is at 0 <= s <= 1 along it, in lengths of the
    /// edge.
    double off(double s) const;
@@ -27,8 +27,9 @@ struct EdgeBend
 /// An edge of a side with the curve that it is a chord of.
 struct SideChord
 {
-   Eigen::Vector2d from, to; ///< the body on the left
-   EdgeBend bend;
+   Eigen::Vector2d from; ///< the body on the left
+   Eigen::Vector2d to;   ///< the other end
+   EdgeBend bend;        ///< of the curve against its chord
 };
 
 /// What is said of a side whose vertices may lie on smooth curves.

@@ -374,6 +374,8 @@ CondensedBody condense(const HalfPlane &body, const std::vector<double> &grid, i
       }
    }
    ContactLine facing = surface_line(own, surface);
+   // Radii grow to the right: below a surface whose line runs to the left the axis comes last.
+   if (!surface.plane && tangent(body)[0] < 0) { facing = surface_line(facing, surface); }
    set_weights(facing, trace_of(facing, surface));
    return condense(body, facing);
 }

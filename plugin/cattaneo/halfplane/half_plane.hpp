@@ -78,7 +78,8 @@ struct HalfPlane
 CondensedBody condense(const HalfPlane &body, const ContactLine &line);
 
 /// The same on a trace of its own, straight_line() along its surface from `point` on (from the
-/// axis): of two half-planes that meet the one, on whose line the other is condensed.
+/// axis; its nodes run with the body on the left, so outwards where that is above): of two
+/// half-planes that meet the one, on whose line the other is condensed.
 CondensedBody condense(const HalfPlane &body, const std::vector<double> &grid, int order,
                        Formulation formulation = Formulation::plane);
 
