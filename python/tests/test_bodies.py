@@ -393,3 +393,38 @@ def test_nodes_at_the_same_places_meet_as_their_elements_do():
         paired = cattaneo.reduce(*condensed, cattaneo.pair_lines(*lines))
     report = cattaneo.march(paired.problem, [{}, {"P": 1}])
     assert "elements of the bodies differ" in paired.warnings(report.state)[0]
+
+
+@pytest.mark.parametrize("order", [1, 2])
+def test_gaps_are_of_curves_unless_as_meshed(order):
+    """A shaft of radius 1 in a hole of radius 1.01, both of straight edges: the clearance, or as meshed that of the polygons."""
+    skfem = pytest.importorskip("skfem")
+    from skfem.models.elasticity import lame_parameters, linear_elasticity
+
+    def quarter(inner, outer, edges):
+        plain = skfem.MeshQuad.init_tensor(np.linspace(0, 1, edges + 1), np.linspace(0, 1, 3))
+        angle, r = (1 - plain.p[0]) * np.pi / 2, inner + (outer - inner) * plain.p[1]
+        mesh = skfem.MeshQuad(np.array([r * np.cos(angle), r * np.sin(angle)]), plain.t)
+        element = skfem.ElementVector(skfem.ElementQuad1() if order == 1 else skfem.ElementQuad2())
+        basis, flat = skfem.Basis(mesh, element), skfem.Basis(plain, element)
+        K = linear_elasticity(*lame_parameters(1.0, 0.3)).assemble(basis)
+        body = cattaneo.NodalStiffness(K, basis.doflocs.T[::2], elements=basis.element_dofs.T[:, ::2] // 2)
+        return body, flat.doflocs[1][::2]  # how far each node is into the ring, 0 to 1
+
+    edges, clearance = 8, 0.01
+    chord = (1 + clearance) * (1 - np.cos(np.pi / 4 / edges))  # how high its arc is
+    (shaft, into), (hole, beyond) = quarter(0.5, 1, 2 * edges), quarter(1 + clearance, 2, edges)
+    shaft.fix(into == 0, "x"), shaft.fix(into == 0, "y"), hole.fix(beyond == 1, "x"), hole.fix(beyond == 1, "y")
+    lines = shaft.contact_line(into == 1), hole.contact_line(beyond == 0)
+    assert not lines[0].as_meshed
+
+    def gap():
+        bodies = [cattaneo.condense(shaft, lines[0]), cattaneo.condense(hole, lines[1])]
+        return cattaneo.reduce(bodies, [cattaneo.Interface("fit", (0, lines[0]), (1, lines[1]), slave="first")]).problem.gap
+
+    assert gap() == pytest.approx(clearance, abs=0.01 * chord)
+    for line in lines:
+        line.as_meshed = True
+    assert np.abs(gap() - clearance).max() > 0.5 * chord
+    with pytest.raises(TypeError):
+        lines[0].as_meshed = "yes"

@@ -69,8 +69,8 @@ struct LineChain
    /// lines match: nodes are paired by their places and weights then, and nothing else.
    std::vector<LineElement> elements = {};
    /// At ends on a plane of symmetry that is a support: the angle, in radians, by which the
-   /// line's own tangent there is off the normal of that plane. Known once the body is
-   /// condensed.
+   /// line is off the normal of that plane: its tangent where it is straight, else that of the
+   /// curve through its last nodes. Known once the body is condensed.
    std::array<double, 2> off_symmetry{0, 0};
    /// Degrees. A line that meets a support at no more than that, off 90 degrees, ends at a
    /// plane of symmetry: coordinates of six digits may leave so much. From there on it is one

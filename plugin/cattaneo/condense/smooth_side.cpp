@@ -54,6 +54,7 @@ private:
    std::size_t edges_ = 0;  ///< how many there were
    std::vector<double> length_, along_, turn_, curvature_, centre_;
    std::vector<bool> corner_;
+   double round_off_ = 0; ///< of coordinates: turns that are no more than that are none
 };
 
 OpenSide::OpenSide(const SidePolygon &side) : x_(side.vertices)
@@ -129,6 +130,16 @@ void OpenSide::measure()
                       (length_[i - 1] * length_[i] * std::max((before + after).norm(), 1e-300));
       centre_[i] = (along_[i - 1] + along_[i] + along_[i + 1]) / 3;
    }
+   // Files of few digits have flanks that turn to and fro.
+   double largest = 0;
+   for (const double turn : turn_)
+   {
+      if (std::abs(turn) < SidePolygon::corner * degree)
+      {
+         largest = std::max(largest, std::abs(turn));
+      }
+   }
+   round_off_ = std::max(1e-6, 0.01 * largest);
 }
 
 /// Corners by the angle, and by what the vertices beside them let expect. False if one is
@@ -164,7 +175,7 @@ bool OpenSide::find_corners()
             const double largest = std::max(std::abs(on_left), std::abs(on_right)) * 0.5 *
                                    (length_[i - 1] + length_[i]);
             is_corner =
-               std::abs(turn_[i] - expected) > (inside(i) ? 1.5 : 1.2) * largest + 1e-9;
+               std::abs(turn_[i] - expected) > (inside(i) ? 1.5 : 1.2) * largest + round_off_;
          }
          if (is_corner)
          {
@@ -185,7 +196,7 @@ void OpenSide::find_short_runs()
       if (i < 1 || i >= last() || corner_[i]) { return false; }
       const double beside = std::max(i > 1 ? std::abs(turn_[i - 1]) : 0,
                                      i + 1 < last() ? std::abs(turn_[i + 1]) : 0);
-      return std::abs(turn_[i]) > 0.1 * beside;
+      return std::abs(turn_[i]) > std::max(0.1 * beside, round_off_);
    };
    for (int begin = 1; begin < last();)
    {

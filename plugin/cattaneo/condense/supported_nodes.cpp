@@ -3,6 +3,7 @@
 #include <cattaneo/input_error.hpp>
 #include <cmath>
 #include <map>
+#include <optional>
 
 namespace cattaneo
 {
@@ -30,10 +31,29 @@ Vector2d circle_tangent(const std::array<Vector2d, 3> &points)
    return (one / one.squaredNorm() - two / two.squaredNorm()).normalized();
 }
 
-/// Does a chain curve at an end so that it meets its mirror image there without a corner?
-/// `component`: of the axis across the plane of symmetry.
-bool curves_into_symmetry(const LineChain &chain, bool last, int component)
+/// The angle at which the curve that a chain follows is off its mirror image at an end, where
+/// it curves so that it meets that one without a corner; else none. `component`: of the axis
+/// across the plane of symmetry.
+std::optional<double> curves_into_symmetry(const LineChain &chain, bool last, int component)
 {
+   std::optional<double> least;
+   const auto judge = [&](const Vector2d &tangent, double turn)
+   {
+      const double off = off_axis(tangent, component);
+      // Where all that leans is round-off there is no curve.
+      if (turn > 1e-9 && off <= 0.25 * turn) { least = std::min(off, least.value_or(off)); }
+   };
+   // The smooth curve that the last element is a chord of.
+   if (!chain.elements.empty())
+   {
+      const LineElement &element = last ? chain.elements.back() : chain.elements.front();
+      const Eigen::Matrix2Xd &points = element.points;
+      const Vector2d chord = (points.rightCols(1) - points.leftCols(1)).normalized();
+      const EdgeBend bend = element.bend.value_or(EdgeBend());
+      const double turn = last ? bend.end : -bend.begin;
+      judge(Eigen::Rotation2Dd(turn) * chord, std::abs(turn));
+   }
+   // Circles through nodes, and through ends of elements.
    std::vector<Vector2d> nodes, ends; // from the end on
    const std::size_t count = chain.elements.size();
    for (std::size_t e = 0; e < std::min<std::size_t>(count, 2); ++e)
@@ -51,11 +71,9 @@ bool curves_into_symmetry(const LineChain &chain, bool last, int component)
                      chord = ((*from)[1] - (*from)[0]).normalized();
       const double turn = std::abs(
          std::asin(std::clamp(tangent[0] * chord[1] - tangent[1] * chord[0], -1., 1.)));
-      const double off = off_axis(tangent, component);
-      // Where all that leans is round-off there is no curve.
-      if (turn > 1e-9 && off <= 0.25 * turn) { return true; }
+      judge(tangent, turn);
    }
-   return false;
+   return least;
 }
 
 } // namespace
@@ -83,11 +101,11 @@ void meet_supports(ContactLine &line, const HeldComponents &held)
          {
             const Index end = last ? chain.first + chain.nodes - 1 : chain.first;
             if (i != end || chain.loop || !mirrors) { continue; }
-            const bool curved = curves_into_symmetry(chain, last, axis);
-            if (!curved && degrees > LineChain::symmetry_turn) { continue; }
+            const std::optional<double> curve = curves_into_symmetry(chain, last, axis);
+            if (!curve && degrees > LineChain::symmetry_turn) { continue; }
             chain.ends[last ? 1 : 0] = LineEnd::symmetry;
-            chain.off_symmetry[last ? 1 : 0] = onto_axis ? 0 : off;
-            onto_axis = onto_axis || curved;
+            chain.off_symmetry[last ? 1 : 0] = onto_axis ? 0 : curve.value_or(off);
+            onto_axis = onto_axis || curve;
          }
       }
       if (!onto_axis) { continue; }

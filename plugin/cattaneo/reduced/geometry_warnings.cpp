@@ -46,10 +46,10 @@ void say_symmetry(const CondensedBody &body, const std::string &name,
             said.push_back(sentence(
                name, ": the end of its contact at ", at(node.position),
                ", where a support holds it, is taken for a plane of symmetry, because the side "
-               "curves towards it; the normal there is turned by ",
+               "curves towards it; that curve is off it by ",
                degrees,
-               " degrees onto that plane: if the side ends there in a corner, the "
-               "support must not hold its last node"));
+               " degrees, by which the normal there is turned: if the side ends there in a "
+               "corner, the support must not hold its last node"));
          }
          else if (!turned && off > 1e-6)
          {

@@ -15,11 +15,12 @@ using HeldComponents = Eigen::Array<bool, Eigen::Dynamic, 2>;
 
     An open chain that ends at a node which one support holds along it ends at a plane of
     symmetry if it meets that plane at 90 degrees to LineChain::symmetry_turn. So it does if it
-    is a curve there that meets its mirror image without a corner: the circle through the last
-    three nodes, or through the ends of the last two elements (chords of a curve), meets the
-    plane at 90 degrees, to a quarter of what that circle turns between the end and the middle
-    of the first chord. There the frame is turned onto the axes, as the mean with that of the
-    mirror image is. LineChain::off_symmetry says by how much the line's own tangent is off.
+    is a curve there that meets its mirror image without a corner: the smooth curve that its
+    last element is a chord of (LineElement::bend), the circle through the last three nodes, or
+    that through the ends of the last two elements (chords of a curve) meets the plane at 90
+    degrees, to a quarter of what that curve turns between the end and the middle of the first
+    chord. There the frame is turned onto the axes, as the mean with that of the mirror image
+    is. LineChain::off_symmetry says by how much that curve, or a line that is straight, is off.
     About an axis a node that is held in r is on no plane of symmetry.
 
     InputError if one component of a node is held and the line meets it at neither 0 nor 90
