@@ -43,14 +43,16 @@ protected:
       mfem::Mesh made =
          mfem::Mesh::MakeCartesian2D(along, into, mfem::Element::QUADRILATERAL, true);
       if (curved) { made.SetCurvature(2); }
-      made.Transform(
+      // MFEM 4.6 takes no lambda that captures.
+      mfem::VectorFunctionCoefficient place(
+         2,
          [&](const mfem::Vector &x, mfem::Vector &y)
          {
             const auto at = map(x(0), x(1));
-            y.SetSize(2);
             y(0) = std::cos(turned) * at[0] - std::sin(turned) * at[1];
             y(1) = std::sin(turned) * at[0] + std::cos(turned) * at[1];
          });
+      made.Transform(place);
       std::ofstream out(folder + "/" + name);
       out.precision(17);
       made.Print(out);

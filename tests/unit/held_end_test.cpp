@@ -185,14 +185,15 @@ TEST(HeldEnd, ChordsOfACurveMeetItsPlaneOfSymmetry)
    const auto held_end = [](double from, int order)
    {
       mfem::Mesh mesh = rectangle_mesh(uniform(0, 2, 8), uniform(0, 1, 3));
-      mesh.Transform(
-         [=](const mfem::Vector &x, mfem::Vector &y)
-         {
-            const double angle = from + 0.1 * x(0);
-            y.SetSize(2);
-            y(0) = (10 - x(1)) * std::sin(angle);
-            y(1) = -(10 - x(1)) * std::cos(angle);
-         });
+      // MFEM 4.6 takes no lambda that captures.
+      mfem::VectorFunctionCoefficient arc(2,
+                                          [=](const mfem::Vector &x, mfem::Vector &y)
+                                          {
+                                             const double angle = from + 0.1 * x(0);
+                                             y(0) = (10 - x(1)) * std::sin(angle);
+                                             y(1) = -(10 - x(1)) * std::cos(angle);
+                                          });
+      mesh.Transform(arc);
       ElasticBody body(mesh, order, Material{1, 0.3});
       body.fix_node((10) * std::sin(from), -10 * std::cos(from), 0);
       body.fix(top, 1);
