@@ -110,7 +110,8 @@ struct Way
    /// How much more a cycle wears off that is marched than one that repeats itself, each node:
    /// the gap has changed before it by what the cycle before it wore.
    VectorXd lag;
-   bool jumped = false; ///< the last cycles were jumped over
+   double lag_error = 0; ///< of it, after a jump
+   bool jumped = false;  ///< the last cycles were jumped over
 };
 
 /// What is noticed on the way that is handed out.
@@ -159,6 +160,8 @@ private:
    bool march_one(Way &way, bool handed_out);
    bool jump();
    bool look_at(Way &way, double cycles);
+   std::optional<VectorXd> lag_ahead(ContactState &contact, const VectorXd &depth,
+                                     const WearCycle &cycle);
    std::optional<Landing> landing(const Way &from, double cycles);
    bool land(const Way &from, double cycles, int parts, Taken &taken, ContactState &contact,
              std::vector<WearCycle> &looked_at);
@@ -363,6 +366,32 @@ bool WearMarch::march_on()
    return true;
 }
 
+/// See Way::lag, of a depth where a cycle repeats itself. None if a cycle was not found.
+std::optional<VectorXd> WearMarch::lag_ahead(ContactState &contact, const VectorXd &depth,
+                                             const WearCycle &cycle)
+{
+   constexpr int most = 10;
+   VectorXd before, lag;
+   for (int k = 1; k <= most; ++k)
+   {
+      const WearCycle next = cycles_.march(contact, depth + k * cycle.depth, false);
+      if (!next.found()) { return {}; }
+      if (k > 1)
+      {
+         // Without what a cycle wears more at a gap that is worn k times: with each the same.
+         const VectorXd found = next.depth - cycle.depth - k * (next.depth - before);
+         const bool same =
+            k > 2 && largest(found - lag) <=
+                        std::max(0.1 * largest(found),
+                                 0.05 * settings_.tolerance * cycle.depth.maxCoeff());
+         lag = found;
+         if (same) { break; }
+      }
+      before = next.depth;
+   }
+   return lag;
+}
+
 /// Makes sure that a cycle is known that repeats itself at the present depth, well enough for
 /// so many.
 bool WearMarch::look_at(Way &way, double cycles)
@@ -372,18 +401,19 @@ bool WearMarch::look_at(Way &way, double cycles)
    WearCycle cycle =
       cycles_.repeated(contact, way.state.depth, repeats_to(), slow(way), cycles);
    if (!cycle.found()) { return false; }
-   // The first cycle after one that was marched is such a one itself. Elsewhere one is marched
-   // with the gap as it was a cycle before, and one with the gap that is worn.
+   // The first cycle after one that was marched is such a one itself. After a jump the gap goes
+   // on as the next cycles will change it: back and forth nodes would not slip that slip where
+   // it goes on.
+   const VectorXd predicted = way.lag;
    way.lag = cycle.lag;
+   way.lag_error = 0;
    if (way.jumped)
    {
-      if (!cycles_.march(contact, way.state.depth - cycle.depth, false).found())
-      {
-         return false;
-      }
-      const WearCycle marched = cycles_.march(contact, way.state.depth, false);
-      if (!marched.found()) { return false; }
-      way.lag = marched.depth - cycle.depth;
+      ContactState ahead = contact;
+      const std::optional<VectorXd> lag = lag_ahead(ahead, way.state.depth, cycle);
+      if (!lag) { return false; }
+      way.lag = *lag;
+      way.lag_error = largest(way.lag - predicted);
    }
    way.look = std::move(cycle);
    way.looked = std::move(contact);
@@ -482,6 +512,8 @@ std::optional<Landing> WearMarch::landing(const Way &from, double cycles)
    add(result.way, best, cycles);
    result.way.jumped = true;
    if (!look_at(result.way, cycles)) { return {}; }
+   // Between the start and the end what the gap adds changes from one to the other.
+   result.unseen += 0.5 * cycles * result.way.lag_error;
    reached = result.way.looked;
    return result;
 }
