@@ -663,11 +663,9 @@ TEST(Wear, ToleranceHoldsOnVariantsOfShippedProblems)
       const double Q = most * (0.3 + 0.6 * unit(random)),
                    P = seed % 4 < 2 ? 1.0 : 0.8 + 0.4 * unit(random),
                    back = -Q * std::min(1.0, P) * unit(random); // neither slides
-      of.history = LoadHistory::through(of.problem, {{},
-                                                     {{"P", 1}},
-                                                     {{"P", 1}, {"Q", Q}},
-                                                     {{"P", P}, {"Q", back}},
-                                                     {{"P", 1}, {"Q", Q}}});
+      of.history = LoadHistory::through(
+         of.problem,
+         {{}, {{"P", 1}}, {{"P", 1}, {"Q", Q}}, {{"P", P}, {"Q", back}}, {{"P", 1}, {"Q", Q}}});
       of.history.cycle_start = 2;
       of.law = WearLaw::uniform(of.problem, std::pow(10, -4 + 2.5 * unit(random)));
       of.cycles = std::round(std::pow(10, 2.3 + 0.7 * unit(random)));
