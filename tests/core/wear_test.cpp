@@ -598,8 +598,8 @@ struct Jumped
    int jumped = 0, all = 0, not_reached = 0;
 };
 
-/// Depths at every record of a way with jumps, beside those of all cycles marched with the same
-/// increments: within what the record says and within the tolerance.
+/// Depths at the end of a way with jumps, beside those of all cycles marched with the same
+/// increments: within what the report says, and within the tolerance.
 void compare(const cattaneo_test::WornProblem &of, const std::string &named, Jumped &count)
 {
    WearSettings each = of.settings;
