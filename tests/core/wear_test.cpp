@@ -598,8 +598,8 @@ struct Jumped
    int jumped = 0, all = 0, not_reached = 0;
 };
 
-/// Depths at every record of a way with jumps, beside those of all cycles marched with the same
-/// increments: within what the record says, and at the end within the tolerance.
+/// Depths at the end of a way with jumps, beside those of all cycles marched with the same
+/// increments: within what the report says, and within the tolerance.
 void compare(const cattaneo_test::WornProblem &of, const std::string &named, Jumped &count)
 {
    WearSettings each = of.settings;
@@ -635,7 +635,7 @@ int rounds(int few, int many)
 TEST(Wear, ToleranceHoldsOnRandomSmallProblems)
 {
    Jumped count;
-   const int seeds = rounds(40, 2000);
+   const int seeds = rounds(45, 2000);
    for (int seed = 0; seed < seeds; ++seed)
    {
       compare(cattaneo_test::random_worn_problem(seed), "seed " + std::to_string(seed), count);
@@ -649,9 +649,9 @@ TEST(Wear, ToleranceHoldsOnRandomSmallProblems)
 TEST(Wear, ToleranceHoldsOnVariantsOfShippedProblems)
 {
    Jumped count;
-   const int seeds = rounds(4, 200);
+   const int seeds = rounds(5, 200);
    const std::pair<const char *, double> shipped[] = {{"hertz", 0.35},
-                                                      {"punch_on_half_plane", 0.45}};
+                                                      {"punch_on_half_plane", 0.4}};
    for (int seed = 0; seed < seeds; ++seed)
    {
       std::mt19937 random(seed);
@@ -661,12 +661,11 @@ TEST(Wear, ToleranceHoldsOnVariantsOfShippedProblems)
       of.problem =
          load_reduced_problem(std::string(CATTANEO_SOURCE_DIR "/problems/") + name + ".json");
       const double Q = most * (0.3 + 0.6 * unit(random)),
-                   P = seed % 4 < 2 ? 1.0 : 0.8 + 0.4 * unit(random);
-      of.history = LoadHistory::through(of.problem, {{},
-                                                     {{"P", 1}},
-                                                     {{"P", 1}, {"Q", Q}},
-                                                     {{"P", P}, {"Q", -Q * unit(random)}},
-                                                     {{"P", 1}, {"Q", Q}}});
+                   P = seed % 4 < 2 ? 1.0 : 0.8 + 0.4 * unit(random),
+                   back = -Q * std::min(1.0, P) * unit(random); // neither slides
+      of.history = LoadHistory::through(
+         of.problem,
+         {{}, {{"P", 1}}, {{"P", 1}, {"Q", Q}}, {{"P", P}, {"Q", back}}, {{"P", 1}, {"Q", Q}}});
       of.history.cycle_start = 2;
       of.law = WearLaw::uniform(of.problem, std::pow(10, -4 + 2.5 * unit(random)));
       of.cycles = std::round(std::pow(10, 2.3 + 0.7 * unit(random)));
@@ -675,8 +674,8 @@ TEST(Wear, ToleranceHoldsOnVariantsOfShippedProblems)
       of.settings.march.increments = 1 + random() % 8;
       compare(of, std::string(name) + ", seed " + std::to_string(seed), count);
    }
-   EXPECT_GT(count.all, 0.6 * seeds);
-   EXPECT_GT(count.jumped, 0);
+   EXPECT_GT(count.all, 0.9 * seeds);
+   EXPECT_GT(count.jumped, 0.4 * seeds);
 }
 
 // Errors of early jumps grow on the way of these five nodes, twentyfold: all cycles marched

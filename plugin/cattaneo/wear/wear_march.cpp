@@ -110,7 +110,8 @@ struct Way
    /// How much more a cycle wears off that is marched than one that repeats itself, each node:
    /// the gap has changed before it by what the cycle before it wore.
    VectorXd lag;
-   bool jumped = false; ///< the last cycles were jumped over
+   double lag_error = 0; ///< of it, after a jump
+   bool jumped = false;  ///< the last cycles were jumped over
 };
 
 /// What is noticed on the way that is handed out.
@@ -120,6 +121,7 @@ struct Noticed
    double marked_at = 0, steady_cycle = 0, final_cycle = 0;
    double explicit_limit = std::numeric_limits<double>::infinity();
    long jumps = 0, implicit_cycles = 0;
+   double unsettled = -1; ///< last cycle whose worn gap has no equilibrium; negative: none
 };
 
 /// Where a jump leads.
@@ -159,6 +161,8 @@ private:
    bool march_one(Way &way, bool handed_out);
    bool jump();
    bool look_at(Way &way, double cycles);
+   std::optional<VectorXd> lag_ahead(ContactState &contact, const VectorXd &depth,
+                                     const WearCycle &cycle);
    std::optional<Landing> landing(const Way &from, double cycles);
    bool land(const Way &from, double cycles, int parts, Taken &taken, ContactState &contact,
              std::vector<WearCycle> &looked_at);
@@ -235,7 +239,11 @@ WearState WearMarch::settled(const Way &way)
    state.contact.dissipation = state.dissipation.sum(); // not that of cycles that only look
    if (way.jumped) { return state; }
    ContactState contact = state.contact;
-   if (!cycles_.settle(contact, state.depth)) { return state; }
+   if (!cycles_.settle(contact, state.depth))
+   {
+      noticed_.unsettled = state.cycles;
+      return state;
+   }
    state.marched = std::move(state.contact);
    state.contact = std::move(contact);
    return state;
@@ -363,6 +371,32 @@ bool WearMarch::march_on()
    return true;
 }
 
+/// See Way::lag, of a depth where a cycle repeats itself. None if a cycle was not found.
+std::optional<VectorXd> WearMarch::lag_ahead(ContactState &contact, const VectorXd &depth,
+                                             const WearCycle &cycle)
+{
+   constexpr int most = 10;
+   VectorXd before, lag;
+   for (int k = 1; k <= most; ++k)
+   {
+      const WearCycle next = cycles_.march(contact, depth + k * cycle.depth, false);
+      if (!next.found()) { return {}; }
+      if (k > 1)
+      {
+         // Without what a cycle wears more at a gap that is worn k times: with each the same.
+         const VectorXd found = next.depth - cycle.depth - k * (next.depth - before);
+         const bool same =
+            k > 2 && largest(found - lag) <=
+                        std::max(0.1 * largest(found),
+                                 0.05 * settings_.tolerance * cycle.depth.maxCoeff());
+         lag = found;
+         if (same) { break; }
+      }
+      before = next.depth;
+   }
+   return lag;
+}
+
 /// Makes sure that a cycle is known that repeats itself at the present depth, well enough for
 /// so many.
 bool WearMarch::look_at(Way &way, double cycles)
@@ -372,18 +406,19 @@ bool WearMarch::look_at(Way &way, double cycles)
    WearCycle cycle =
       cycles_.repeated(contact, way.state.depth, repeats_to(), slow(way), cycles);
    if (!cycle.found()) { return false; }
-   // The first cycle after one that was marched is such a one itself. Elsewhere one is marched
-   // with the gap as it was a cycle before, and one with the gap that is worn.
+   // The first cycle after one that was marched is such a one itself. After a jump the gap goes
+   // on as the next cycles will change it: back and forth nodes would not slip that slip where
+   // it goes on.
+   const VectorXd predicted = way.lag;
    way.lag = cycle.lag;
+   way.lag_error = 0;
    if (way.jumped)
    {
-      if (!cycles_.march(contact, way.state.depth - cycle.depth, false).found())
-      {
-         return false;
-      }
-      const WearCycle marched = cycles_.march(contact, way.state.depth, false);
-      if (!marched.found()) { return false; }
-      way.lag = marched.depth - cycle.depth;
+      ContactState ahead = contact;
+      const std::optional<VectorXd> lag = lag_ahead(ahead, way.state.depth, cycle);
+      if (!lag) { return false; }
+      way.lag = *lag;
+      way.lag_error = largest(way.lag - predicted);
    }
    way.look = std::move(cycle);
    way.looked = std::move(contact);
@@ -414,6 +449,7 @@ bool WearMarch::land(const Way &from, double cycles, int parts, Taken &taken,
       }
       taken.depth += depth;
       looked_at.push_back(cycle);
+      looked_at.back().after = depth / part;
    }
    return true;
 }
@@ -442,12 +478,24 @@ std::optional<Landing> WearMarch::landing(const Way &from, double cycles)
    best = {extrapolated(one.depth, two.depth, three.depth),
            extrapolated(one.loss, two.loss, three.loss)};
    result.bend = largest(best.depth - (3 * three.depth - 2 * two.depth));
+   // The layer says how far a cycle wears less after the first of three parts. Where nodes bear
+   // for a part of the cycle alone it may be far from it, and results of other parts, which all
+   // err alike, say nothing of that.
+   const VectorXd &expected = looked_at.front().after;
+   const double missed = largest(looked_at[1].depth - expected),
+                expected_fall = largest(first.depth - expected);
+   if (missed > 0.5 * expected_fall)
+   {
+      const double added = best.depth.maxCoeff() + slow(from) * cycles;
+      if (missed * cycles > 0.1 * strict_ * settings_.tolerance * added) { return {}; }
+      result.unseen += missed * cycles;
+   }
    // Updates after each cycle wear off more: half of what a cycle wears less at the end of the
    // jump than at its start, as cycles a third of the jump apart say.
    const VectorXd steps = 1.5 * (looked_at[1].depth - looked_at[2].depth);
    best.depth += steps;
    best.loss += 1.5 * (looked_at[1].loss - looked_at[2].loss);
-   result.unseen = 0.1 * largest(steps);
+   result.unseen += 0.1 * largest(steps);
    // What grows is not extrapolated to less than nothing.
    for (Index i = 0; i < best.depth.size(); ++i)
    {
@@ -482,6 +530,8 @@ std::optional<Landing> WearMarch::landing(const Way &from, double cycles)
    add(result.way, best, cycles);
    result.way.jumped = true;
    if (!look_at(result.way, cycles)) { return {}; }
+   // Between the start and the end what the gap adds changes from one to the other.
+   result.unseen += 0.5 * cycles * result.way.lag_error;
    reached = result.way.looked;
    return result;
 }
@@ -652,9 +702,15 @@ WearReport WearMarch::run()
       remark << "the way of wear is unstable: errors of jumps grew " << apart_ / local_
              << " times. With other increments it may end elsewhere";
    }
-   report_.remark = remark.str();
    for (Kept &kept : kept_) { hand_out(std::move(kept)); }
    state_ = settled(fine_);
+   if (noticed_.unsettled >= 0)
+   {
+      remark << (remark.str().empty() ? "" : ". ") << "after cycle " << noticed_.unsettled
+             << " no equilibrium was found at the worn gap: the contact handed out there is as "
+                "the cycle left it";
+   }
+   report_.remark = remark.str();
    report_.marched = cycles_.marched;
    report_.counters = cycles_.counters;
    report_.jumps = noticed_.jumps;

@@ -49,7 +49,8 @@ struct WearSettings
    GapUpdate update = GapUpdate::cycle; ///< when the gap follows
    /** Cycles are jumped over where depths, at each cycle that has a record, are estimated to
        differ by no more than this share of the largest one from those of all cycles marched:
-       see WearReport::error. 0: every cycle is marched. Allowed: from 1e-8 to 0.1. */
+       see WearReport::error. 0: every cycle is marched, as they all are with
+       GapUpdate::piece. Allowed: from 1e-8 to 0.1. */
    double tolerance = 0;
    /// Whether the observer hears of what was marched or jumped over, between two numbers of
    /// cycles; empty: of all.
@@ -93,8 +94,8 @@ struct WearReport
    double error = 0;
    /// Whether depths are estimated to be right to WearSettings::tolerance.
    bool reached = true;
-   /// One sentence where jumps could not be as long as usual because errors grow; empty
-   /// otherwise.
+   /// Where errors of jumps grew, and where no equilibrium was found at the worn gap, so that
+   /// the contact handed out is as the last cycle left it; empty otherwise.
    std::string remark;
    std::vector<WearRecord> records; ///< of every cycle that was marched and every jump
    /** Largest number of cycles that may share one update of the gap: the explicit update
@@ -141,7 +142,8 @@ using WornIncrementObserver = std::function<void(const ContactState &, const Inc
     Small errors of early jumps may grow. So the way is gone twice side by side, the second time
     with jumps twice as long, and the distance between both is the estimate of the error. Where
     it comes to more than the tolerance both begin again where the first jump began, with
-    shorter jumps, in the end with none.
+    shorter jumps, in the end with none. None is made where the layer says another fall of wear
+    than cycles have, and with GapUpdate::piece all cycles are marched.
 
     States are handed out with the gap worn: after a jump a cycle is marched there, and after a
     marched cycle the contact takes in what that cycle has worn off, under the same loads.
