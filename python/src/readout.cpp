@@ -43,7 +43,9 @@ const ReducedProblem &problem_of(const Of<ReducedProblem> &problem,
 std::string with_error(double value, double error)
 {
    std::ostringstream text;
-   text << value << " ± " << error << " (estimate)";
+   text << value;
+   // The end of a line is known.
+   if (error > 0) { text << " ± " << error << " (estimate)"; }
    return text.str();
 }
 
@@ -51,8 +53,9 @@ void bind_zones(nb::module_ &m)
 {
    nb::class_<ZoneBorder>(m, "ZoneBorder", "A point on the contact line found between nodes.")
       .def_ro("position", &ZoneBorder::position, "arc length")
-      .def_ro("error", &ZoneBorder::error,
-              "estimate of the distance to the finest mesh's, no bound")
+      .def_ro(
+         "error", &ZoneBorder::error,
+         "estimate of the distance to the finest mesh's, no bound; 0 at an end of the line")
       .def("__float__", [](const ZoneBorder &self) { return self.position; })
       .def("__repr__",
            [](const ZoneBorder &self) { return with_error(self.position, self.error); });

@@ -183,8 +183,13 @@ void bind_limits(nb::module_ &m)
            {
               std::ostringstream text;
               text.precision(9);
-              text << "<LimitReport: " << name(self.status) << ", " << self.limit
-                   << ", proven between " << self.lower << " and " << self.upper;
+              text << "<LimitReport: " << name(self.status);
+              if (self.proven())
+              {
+                 text << ", " << self.limit << ", proven between " << self.lower << " and "
+                      << self.upper;
+              }
+              else if (self.status == LimitStatus::unlimited) { text << ", " << self.limit; }
               if (!self.message.empty()) { text << ": " << self.message; }
               for (const std::string &sentence : self.statement())
               {
@@ -408,9 +413,9 @@ void bind_estimates(nb::module_ &m)
       arg("problem"), arg("load_factor"), arg("start") = 0.0,
       arg("cycles") = TransientSettings().cycles, arg("limit") = nb::none(),
       "Marches the cycle from the slip `start`: does it shake down, and how fast? limit: the "
-      "report of load_limit, above whose upper bound no contact that stays closed is said to "
-      "have "
-      "shaken down.");
+      "report of load_limit. Above its upper bound, if that is proven, the verdict is never "
+      "'shaken down': a slip that seems to have ended 'moves only at nodes that open' if nodes "
+      "open, else it is 'still slipping'.");
 }
 
 } // namespace

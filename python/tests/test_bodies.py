@@ -361,6 +361,76 @@ def test_eliminated_supports_are_supports(diagonal):
             cattaneo.NodalStiffness(eliminated, places)
 
 
+@pytest.mark.parametrize("noise", [1e-30, 1e-20, 1e-17, 1e-15, "turned"])
+@pytest.mark.parametrize("diagonal", [1.0, 100.0])
+def test_round_off_in_eliminated_rows_is_zero(noise, diagonal):
+    """What elimination leaves beside diagonals is round-off where it is made by products; the body is that of named supports."""
+    made = strip()
+    places, K = made.places, made.K.toarray()
+    left, bottom, top = (np.flatnonzero(places[:, axis] == value) for axis, value in ((0, 0), (1, 0), (1, 1)))
+    rows = 2 * left
+    eliminated = K.copy()
+    if noise == "turned":  # the projection onto what is free, formed in a frame that is turned
+        frame = np.kron(np.eye(len(places)), [[np.cos(0.5), np.sin(0.5)], [-np.sin(0.5), np.cos(0.5)]])
+        free = np.eye(len(K))
+        free[rows, rows] = 0
+        free = frame.T @ (frame @ free @ frame.T) @ frame
+        eliminated = free @ K @ free.T + diagonal * (np.eye(len(K)) - free)
+        eliminated = (eliminated + eliminated.T) / 2
+    else:
+        left_over = noise * K.diagonal().mean() * np.random.default_rng(1).normal(size=K.shape)
+        eliminated[rows, :], eliminated[:, rows] = left_over[rows, :], left_over[rows, :].T
+        eliminated[np.ix_(rows, rows)] = diagonal * np.eye(len(rows))
+    assert np.abs(np.delete(eliminated[rows[0]], rows[0])).max() > 0
+
+    def conjugates(stiffness, fix, **how):
+        body = cattaneo.NodalStiffness(stiffness, places, elements=strip_elements(), **how)
+        if fix:
+            body.fix(left, "x")
+        body.add_traction("P", top, (0, -1))
+        body.add_traction("Q", top, (0.1, 0))
+        problem = cattaneo.reduce(cattaneo.condense(body, body.contact_line(bottom))).problem
+        problem.friction = 0.2
+        report = cattaneo.march(problem, [{}, {"P": 1}, {"P": 1, "Q": 1}])
+        return report.conjugates["P"][-1], report.conjugates["Q"][-1], report.state.q
+
+    right = conjugates(K, True)
+    with pytest.warns(cattaneo.OutcomeWarning, match="rows of the stiffness hold nothing but their diagonal"):
+        got = conjugates(eliminated, False, supports_left_out=True)
+    for this, that in zip(got, right):
+        assert this == pytest.approx(that, rel=1e-10, abs=1e-12)
+    with pytest.raises(cattaneo.InputError, match="holds nothing but its diagonal|was it eliminated"):
+        cattaneo.NodalStiffness(eliminated, places)
+
+
+def test_round_off_in_eliminated_rows_connects_no_bodies():
+    """Two strips in one matrix, the lower one 1e-5 as stiff, each with its left side eliminated but for round-off in all columns."""
+    made = strip()
+    places, K = made.places, made.K.toarray()
+    n, nodes = len(K), len(places)
+    both = np.zeros((2 * n, 2 * n))
+    both[:n, :n], both[n:, n:] = K, 1e-5 * K
+    left = np.flatnonzero(places[:, 0] == 0)
+    rows = np.concatenate([2 * left, n + 2 * left])
+    noise = 1e-16 * K.max() * np.random.default_rng(2).normal(size=both.shape)
+    both[rows, :], both[:, rows] = noise[rows, :], noise[rows, :].T
+    both[np.ix_(rows, rows)] = np.eye(len(rows))
+    elements = np.asarray(strip_elements())
+    body = cattaneo.NodalStiffness(
+        both,
+        np.vstack([places, places - [0, 5]]),
+        elements=np.vstack([elements, elements + nodes]),
+        supports_left_out=True,
+    )
+    parts = body.parts()
+    assert [part.K.shape[0] for part in parts] == [n, n]
+    for part, scale in zip(parts, (1, 1e-5)):
+        right = scale * K
+        right[2 * left, :], right[:, 2 * left] = 0, 0
+        right[2 * left, 2 * left] = 1
+        assert abs(part.K.toarray() - right).max() == 0
+
+
 def patch(nx, order, below, name):
     skfem = pytest.importorskip("skfem")
     from skfem.models.elasticity import lame_parameters, linear_elasticity

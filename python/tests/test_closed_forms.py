@@ -34,6 +34,10 @@ def test_hertz_pressure(hertz):
     zone = readout.contact_zone(hertz, report.state)
     assert zone.width / 2 == pytest.approx(a, abs=zone.from_.error)
     assert report.state.p.sum() == pytest.approx(pressed, rel=1e-12)
+    assert str(zone.from_) == f"{zone.from_.position:.6g} ± {zone.from_.error:.6g} (estimate)"
+    # The ends of the line are no estimates.
+    first = readout.zones(hertz, report.state)[0]
+    assert first.from_.error == 0 and str(first.from_) == "0"
 
 
 def test_cattaneo_mindlin_stick_and_loss(hertz):
@@ -188,6 +192,12 @@ def test_lower_limit_with_nodes_apart():
     assert shakedown.transient(contact, 0.39, cycles=100).verdict == "shaken down"
     above = shakedown.transient(contact, upper.upper * 1.00001, upper.slip, cycles=100, limit=upper)
     assert above.verdict in ("cyclic slip", "still slipping")
+    # A limit that was not found has no bounds.
+    pulled = shakedown.limit_problem(problem, shakedown.held_and_cycled(problem, "P", -1, "Q", -1))
+    with pytest.warns(cattaneo.OutcomeWarning):
+        none = shakedown.load_limit(pulled)
+    assert none.status == "no solution" and str(none).startswith("<LimitReport: no solution: ")
+    assert "proven between" not in str(none)
 
 
 def test_fretting_closed_forms():

@@ -482,16 +482,30 @@ TEST(CondenseMatrix, EliminatedRowsAreSupports)
    const ContactLine line = frame.line();
    const CondensedBody right = condense(body, line);
    const MatrixXd K = MatrixXd(body.K.view());
-   for (const double diagonal : {1.0, 1e-3, 1e9, 0.0})
+   const double most = K.cwiseAbs().maxCoeff();
+   // Zeros may be what round-off left of them, in all columns.
+   for (const auto &[diagonal, zero] : std::vector<std::pair<double, double>>{{1, 0},
+                                                                              {1e-3, 0},
+                                                                              {1e9, 0},
+                                                                              {0, 0},
+                                                                              {1, 1e-30},
+                                                                              {most, 1e-17},
+                                                                              {1, 1e-17},
+                                                                              {0, 1e-17},
+                                                                              {most, 1e-14},
+                                                                              {1e9, 1e-14}})
    {
+      SCOPED_TRACE(testing::Message() << "diagonal " << diagonal << ", zeros " << zero);
       AssembledBody gone = body;
       MatrixXd eliminated = K;
       for (int dof : body.fixed)
       {
-         eliminated.row(dof).setZero();
-         eliminated.col(dof).setZero();
-         eliminated(dof, dof) = diagonal;
+         eliminated.row(dof) = zero * most * Eigen::RowVectorXd::Random(K.cols());
+         eliminated.col(dof) = eliminated.row(dof).transpose();
       }
+      for (int dof : body.fixed) { eliminated(dof, dof) = diagonal; }
+      eliminated.triangularView<Eigen::StrictlyLower>() =
+         eliminated.transpose().triangularView<Eigen::StrictlyLower>();
       gone.K = SharedMatrix(
          Eigen::SparseMatrix<double, Eigen::RowMajor>(MatrixXd(eliminated).sparseView()));
       gone.fixed.clear();
@@ -512,6 +526,39 @@ TEST(CondenseMatrix, EliminatedRowsAreSupports)
       EXPECT_LT((condensed.S - right.S).norm(), 1e-12 * right.S.norm()) << diagonal;
       EXPECT_LT((condensed.H - right.H).norm(), 1e-12 * right.H.norm()) << diagonal;
       EXPECT_EQ(condensed.held, right.held);
+   }
+   // A layer of another material has fewer digits than the stiff one, and is none of them.
+   for (const double soft : {1e-6, 1e-10, 1e-13})
+   {
+      MatrixXd layers = MatrixXd::Zero(K.rows() * 2, K.rows() * 2);
+      layers.topLeftCorner(K.rows(), K.rows()) = K;
+      layers.bottomRightCorner(K.rows(), K.rows()) = soft * K;
+      AssembledBody both = body;
+      both.K = SharedMatrix(
+         Eigen::SparseMatrix<double, Eigen::RowMajor>(MatrixXd(layers).sparseView()));
+      both.fixed.clear();
+      both.grounded = true;
+      both.places.x = both.places.x.replicate(2, 1).eval();
+      both.places.y = both.places.y.replicate(2, 1).eval();
+      const std::vector<int> components = both.places.component;
+      both.places.component.insert(both.places.component.end(), components.begin(),
+                                   components.end());
+      EXPECT_TRUE(both.eliminated().empty()) << soft;
+   }
+   // Nor is a spring to the ground that is coupled to the others by 1e-10 of them.
+   {
+      AssembledBody weak = body;
+      MatrixXd coupled = K;
+      const int dof = body.fixed[0];
+      coupled.row(dof).setZero();
+      coupled.col(dof).setZero();
+      coupled(dof, dof) = most;
+      coupled(dof, (dof + 4) % K.rows()) = coupled((dof + 4) % K.rows(), dof) = 1e-10 * most;
+      weak.K = SharedMatrix(
+         Eigen::SparseMatrix<double, Eigen::RowMajor>(MatrixXd(coupled).sparseView()));
+      weak.fixed.clear();
+      weak.grounded = true;
+      EXPECT_TRUE(weak.eliminated().empty());
    }
    // A bed of springs has no others beside it that are connected.
    AssembledBody bed = body;

@@ -191,6 +191,60 @@ TEST(Transient, SlipThatLosesNextToNothingGoesOn)
    const TransientReport below = transient(solver, limit, report.lower, report.slip);
    EXPECT_EQ(below.verdict, TransientVerdict::shaken_down);
    EXPECT_LT(below.cycle_slip[0], 1e-12 * below.elastic_slip);
+   // Where the limit is known it is no shakedown, though it moves by less than 1e-9.
+   for (const double e : {1e-10, 1e-9, 1e-8, 1e-7})
+   {
+      for (const double start : {0.0, 1.0})
+      {
+         TransientSettings settings;
+         settings.upper = report.upper;
+         const TransientReport run =
+            transient(solver, limit, report.upper * (1 + e), start * report.slip, settings);
+         EXPECT_EQ(run.verdict, run.opened.empty() ? TransientVerdict::still_slipping
+                                                   : TransientVerdict::slips_and_opens)
+            << e << ' ' << start << ' ' << name(run.verdict);
+      }
+   }
+}
+
+TEST(Transient, SlipThatFallsGeometricallyIsNoCyclicSlip)
+{
+   // Uncoupled: below the limit every start shakes down. Losses fall by 0.71 in each cycle, and
+   // slip changes by less than 1e-10 of the start while it loses more than 1e-9 of the elastic
+   // energy still.
+   ReducedProblem problem;
+   problem.set_stiffness(Eigen::Matrix3d{{3.08595, -2.81641, 0.0226648},
+                                         {-2.81641, 3.6189, -0.518902},
+                                         {0.0226648, -0.518902, 0.914836}},
+                         Eigen::Matrix3d::Zero(),
+                         Eigen::Matrix3d{{2.08573, -1.81664, -0.0619496},
+                                         {-1.81664, 4.76425, -2.62278},
+                                         {-0.0619496, -2.62278, 3.02895}});
+   problem.patterns = {{"P", Control::force, Eigen::Vector3d(0.0285189, -0.0214429, 0.019252),
+                        Eigen::Vector3d(0.834493, 0.550778, 1.40542)},
+                       {"Q", Control::force, Eigen::Vector3d(1.31138, -0.73997, -0.37485),
+                        Eigen::Vector3d(0.514638, 0.224715, -0.00649264)}};
+   problem.H = Eigen::Matrix2d::Zero();
+   problem.gap = Eigen::Vector3d::Zero();
+   set_friction(problem, 0.702857793);
+   const LimitProblem limit = limit_problem(problem, held_and_cycled(problem, "P", 1, "Q", -1));
+   const LimitReport report = load_limit(limit);
+   ASSERT_EQ(report.status, LimitStatus::certified) << report.message;
+   ASSERT_FALSE(report.coupled);
+   FrictionSolver solver(problem);
+   const Eigen::Vector3d start(0.5690617217816977, 1.3666663176682405, -0.31548446710817213);
+   for (const double size : {1.0, 10.0, 100.0})
+   {
+      for (const int cycles : {60, 100, 300})
+      {
+         TransientSettings settings;
+         settings.cycles = cycles;
+         const TransientReport run =
+            transient(solver, limit, 0.4 * report.lower, size * start, settings);
+         EXPECT_EQ(run.verdict, TransientVerdict::shaken_down)
+            << size << ' ' << cycles << ' ' << name(run.verdict);
+      }
+   }
 }
 
 /// Above a certified upper limit nothing has shaken down, from whatever start, however close.

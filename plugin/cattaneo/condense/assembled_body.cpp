@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cattaneo/condense/assembled_body.hpp>
+#include <cattaneo/condense/row_links.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cmath>
 #include <set>
@@ -11,11 +12,12 @@ namespace cattaneo
 std::vector<int> AssembledBody::eliminated() const
 {
    const SparseView stiffness = K.view();
+   const double most = largest_beside_diagonal(stiffness);
    std::vector<bool> connected(components(places.formulation), false); // any row of a component
    std::vector<int> alone;
    for (int dof = 0; dof < K.size(); ++dof)
    {
-      if (couples(stiffness, dof, dof)) { connected[places.component[dof]] = true; }
+      if (is_linked(stiffness, places, dof, most)) { connected[places.component[dof]] = true; }
       else if (!std::binary_search(fixed.begin(), fixed.end(), dof)) { alone.push_back(dof); }
    }
    alone.erase(std::remove_if(alone.begin(), alone.end(),
@@ -115,6 +117,7 @@ void AssembledBody::validate() const
          "fix the row, or say that supports are in it (supports_left_out of a stiffness on "
          "nodes, else grounded), such rows are fixed then");
    }
+   const double most = largest_beside_diagonal(stiffness);
    std::set<std::string> names;
    for (const BodyLoad &load : loads)
    {
@@ -132,7 +135,7 @@ void AssembledBody::validate() const
                  "' displaces dof ", dof, ", which is not fixed, it must be");
          if (load.values[dof] == 0) { continue; }
          moves = true;
-         felt = felt || couples(stiffness, dof, dof);
+         felt = felt || is_linked(stiffness, places, dof, most);
       }
       require(!moves || felt, "assembled body: load '", load.name, "' ", feels_nothing);
    }

@@ -43,11 +43,11 @@ struct AssembledBody
    std::vector<BlockMotion> blocks = {};
 
    /** Rows that are not fixed and have nothing but their diagonal, or nothing at all, where
-       other rows of their component have more: those of supports that the program which wrote K
-       eliminated (zeros, and a one or another number on the diagonal). condense() takes them
-      for fixed if the body is `grounded`, and refuses them else: they would be springs of any
-       stiffness, and loads on them move nothing of the body. A component none of whose rows is
-       connected to another is a bed of springs, and kept. */
+       other rows of their component have more: supports that the program which wrote K
+       eliminated. Entries below 1e-12 of the largest one beside a diagonal are nothing, unless
+       the diagonal is as small. condense() takes the rows for fixed if the body is `grounded`,
+       and refuses them else: as springs they move nothing of the body. A component none of
+       whose rows is connected to another is a bed of springs, and kept. */
    std::vector<int> eliminated() const;
    /// What is to be said of eliminated() rows that condense() takes for fixed; nothing if there
    /// are none.

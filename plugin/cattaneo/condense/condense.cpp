@@ -2,6 +2,7 @@
 #include <cattaneo/algebra/dense_algebra.hpp>
 #include <cattaneo/condense/condensation.hpp>
 #include <cattaneo/condense/condense.hpp>
+#include <cattaneo/condense/row_links.hpp>
 #include <cattaneo/condense/stiffness_error.hpp>
 #include <cattaneo/input_error.hpp>
 #include <limits>
@@ -318,6 +319,7 @@ CondensedBody condense(const AssembledBody &body, const ContactLine &line,
       std::merge(body.fixed.begin(), body.fixed.end(), gone.begin(), gone.end(),
                  std::back_inserter(fixed));
       supported.fixed = std::move(fixed);
+      supported.K = without_links(body.K, gone);
       return condense(supported, line, alike);
    }
    ContactDofs contact = contact_dofs(line, body.places.formulation, body.K.size());

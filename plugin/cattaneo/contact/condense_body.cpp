@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cattaneo/condense/row_links.hpp>
 #include <cattaneo/contact/assemble.hpp>
 #include <cattaneo/contact/condense_body.hpp>
 #include <cattaneo/contact/condense_by_iterations.hpp>
@@ -98,14 +99,21 @@ void require_felt(const ElasticBody &body, const BodyLoad &load)
       body.distributed_stiffness()->GetOffd(others, columns);
    }
 #endif
+   const SparseView rows = view(ranks.distributed() ? own : body.stiffness());
+   double most = largest_beside_diagonal(rows);
+   if (ranks.distributed())
+   {
+      most = ranks.max(std::max(most, largest_beside_diagonal(view(others), false)));
+   }
    bool moves = false, felt = false;
    for (int dof = 0; dof < load.values.size(); ++dof)
    {
       if (load.values[dof] == 0) { continue; }
       moves = true;
-      felt = felt || (ranks.distributed()
-                         ? couples(view(own), dof, dof) || couples(view(others), dof, -1)
-                         : couples(view(body.stiffness()), dof, dof));
+      RowEntries entries;
+      entries.add(rows, dof, dof);
+      if (ranks.distributed()) { entries.add(view(others), dof, -1); }
+      felt = felt || entries.link(most);
    }
    const bool anywhere = ranks.any(felt);
    require(!ranks.any(moves) || anywhere, "condense: load '", load.name, "' ",

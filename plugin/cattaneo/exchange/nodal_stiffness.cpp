@@ -3,6 +3,7 @@
 #include <cattaneo/algebra/quadrature.hpp>
 #include <cattaneo/condense/boundary_segments.hpp>
 #include <cattaneo/condense/local_frame.hpp>
+#include <cattaneo/condense/row_links.hpp>
 #include <cattaneo/exchange/line_reader.hpp>
 #include <cattaneo/exchange/nodal_stiffness.hpp>
 #include <cattaneo/words.hpp>
@@ -377,6 +378,22 @@ ContactLine NodalStiffness::contact_line(const Nodes &nodes, int order) const
 std::vector<NodalStiffness> NodalStiffness::parts() const
 {
    validate();
+   // Rows of supports that were eliminated are as good as none.
+   std::set<int> gone;
+   if (supports_left_out)
+   {
+      const AssembledBody all = body();
+      const std::vector<int> rows = all.eliminated();
+      gone.insert(rows.begin(), rows.end());
+      // Round-off in them connects no bodies.
+      if (const Matrix apart = without_links(all.K, rows).view();
+          apart.nonZeros() < all.K.view().nonZeros())
+      {
+         NodalStiffness made = *this;
+         made.K = apart;
+         return made.parts();
+      }
+   }
    // Rows of one node are of one body, whether K connects them or not.
    std::vector<Eigen::Triplet<double>> links;
    int last = -1, last_node = 0;
@@ -391,13 +408,6 @@ std::vector<NodalStiffness> NodalStiffness::parts() const
    std::vector<std::vector<int>> groups =
       SharedMatrix(K.cwiseAbs().pruned() + linked + Matrix(linked.transpose()))
          .connected_parts();
-   // Rows of supports that were eliminated are as good as none.
-   std::set<int> gone;
-   if (supports_left_out)
-   {
-      const std::vector<int> rows = body().eliminated();
-      gone.insert(rows.begin(), rows.end());
-   }
    const auto is_gone = [&](int row) { return gone.count(row) == 1; };
    std::map<int, std::size_t> owner; // of nodes
    for (std::size_t g = 0; g < groups.size(); ++g)

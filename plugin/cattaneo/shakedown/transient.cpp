@@ -69,10 +69,9 @@ private:
 /** Do losses fall towards nothing? Three of them, as far apart as ten cycles where there are as
     many, continued as a geometric series, leave less than half of the last one; a loss that
     falls towards a level leaves the level. */
-bool falls_to_nothing(const std::vector<double> &loss, double none)
+bool falls_to_nothing(const std::vector<double> &loss)
 {
    const std::size_t last = loss.size() - 1, step = std::min<std::size_t>(10, last / 2);
-   if (loss[last] <= none) { return true; }
    if (step == 0) { return false; }
    const double first = loss[last - 2 * step], middle = loss[last - step], end = loss[last];
    const double bend = first - 2 * middle + end;
@@ -144,7 +143,17 @@ TransientReport transient(FrictionSolver &solver, const LimitProblem &problem,
       else { slip.note(now); }
       cycle_now = record.cycle;
    };
-   const MarchReport marched = march(solver, history, state, settings.march, observe);
+   // A march ends where slip changes little from cycle to cycle: little beside the elastic
+   // slip, however large the start is. Round-off of the start is no change.
+   MarchSettings marching = settings.march;
+   const double begun = start.lpNorm<Eigen::Infinity>();
+   if (begun > report.elastic_slip && report.elastic_slip > 0)
+   {
+      const double least = std::min(1e-13, marching.steady_tolerance);
+      marching.steady_tolerance =
+         std::max(least, marching.steady_tolerance * report.elastic_slip / begun);
+   }
+   const MarchReport marched = march(solver, history, state, marching, observe);
    report.status = marched.status;
    report.message = marched.message;
    report.event_time = marched.event_time;
@@ -185,16 +194,30 @@ TransientReport transient(FrictionSolver &solver, const LimitProblem &problem,
    // Nodes that open and bear again do what the limit knows nothing of.
    const double opened_slip =
       report.opened.empty() ? 0 : report.cycle_slip(report.opened).maxCoeff();
-   const bool opened_moves = report.opened_loss > none || opened_slip > slips;
+   bool opened_moves = report.opened_loss > none || opened_slip > slips;
    if (solved(marched.status))
    {
-      const bool steady = marched.steady_cycle > 0;
-      const bool goes_on = steady ? last > none || closed_slip.maxCoeff() > slips
-                                  : last > little || !falls_to_nothing(loss, none);
-      // A slip that has ended in a contact that stays closed is one that the limit forbids.
-      const bool forbidden = load_factor > settings.upper && report.opened.empty();
+      // Two cycles together where each other one alone is alike.
+      std::vector<double> periods = loss;
+      for (std::size_t i = cycles - 1; marched.steady_period == 2 && i > 0; --i)
+      {
+         periods[i] += periods[i - 1];
+      }
+      if (marched.steady_period == 2) { periods.erase(periods.begin()); }
+      const bool falls = falls_to_nothing(periods);
+      // A slip that still falls geometrically is not steady, though it changes little.
+      const bool steady = marched.steady_cycle > 0 && !falls;
+      if (steady) { opened_moves = opened_slip > slips; }
+      const bool goes_on =
+         steady ? closed_slip.maxCoeff() > slips : last > little || !(falls || last <= none);
+      // Above the limit slip ends nowhere but at nodes that open, however little they move.
+      const bool forbidden = load_factor > settings.upper;
+      opened_moves = opened_moves || (forbidden && !report.opened.empty());
       if (goes_on && steady) { report.verdict = TransientVerdict::cyclic_slip; }
-      else if (goes_on || forbidden) { report.verdict = TransientVerdict::still_slipping; }
+      else if (goes_on || (forbidden && report.opened.empty()))
+      {
+         report.verdict = TransientVerdict::still_slipping;
+      }
       else
       {
          report.verdict =

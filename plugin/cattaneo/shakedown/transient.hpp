@@ -20,8 +20,8 @@ struct TransientSettings
    /// Loss of a cycle, over that of the first or the elastic energy of the stuck contact if
    /// that is more, below which a slip that decays from cycle to cycle counts as ended.
    double shaken_down = 1e-6;
-   /// An upper limit that is proven, LimitReport::upper: what a march above it seems to come to
-   /// in a contact that stays closed is no shakedown, but slip that still goes on.
+   /// An upper limit that is proven, LimitReport::upper: no march above it is said to have
+   /// shaken down.
    double upper = std::numeric_limits<double>::infinity();
    MarchSettings march; ///< of each of them
 
@@ -34,10 +34,12 @@ struct TransientSettings
       by more than 1e-9 of TransientReport::elastic_slip in it, however little that loses;
     - of a cycle that is not steady yet by its loss: the loss has ended when it is below
       TransientSettings::shaken_down and falls towards nothing: three losses, ten cycles apart,
-      that are continued as a geometric series leave less than half of the last one.
+      that are continued as a geometric series leave less than half of the last one. A cycle
+      whose loss falls like that is not steady, however little its slip changes.
 
-    Above an upper limit that is known (TransientSettings::upper) no contact whose nodes all
-   stay closed is said to have shaken down. */
+    Above an upper limit that is known (TransientSettings::upper) nothing is said to have shaken
+    down: a slip that seems to have ended is `slips_and_opens` if nodes open, however little
+    they move, else `still_slipping`. */
 enum class TransientVerdict
 {
    shaken_down,     ///< the slip has ended

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cattaneo/algebra/shared_matrix.hpp>
+#include <cattaneo/condense/rigid_motion.hpp>
+#include <vector>
+
+namespace cattaneo
+{
+
+/// What a row of a stiffness holds on its diagonal and beside it.
+struct RowEntries
+{
+   double diagonal = 0;
+   double largest = 0; ///< magnitude beside the diagonal
+   double sum = 0;     ///< of the magnitudes beside the diagonal
+
+   /// Adds the row of K, whose diagonal is in column `own` (-1: in none).
+   void add(const SparseView &K, int row, int own);
+   /// Is it more than round-off that links the row with others? Entries beside the diagonal of
+   /// no more than 1e-12 of `most`, the largest such entry of the matrix, are round-off, unless
+   /// the diagonal is as small as they are: that is a soft material beside a stiff one.
+   bool link(double most) const;
+   /// Does any entry beside the diagonal stand out from the round-off of `most`?
+   bool stand_out(double most) const { return largest > 1e-12 * most; }
+};
+
+/// The largest magnitude in rows of K beside the diagonal; `square`: rows and columns are of
+/// the same dofs, else there is no diagonal.
+double largest_beside_diagonal(const SparseView &K, bool square = true);
+
+/** Is the dof linked with others by more than round-off?
+
+    A row whose entries are all round-off of the largest ones is that of a support that was
+    eliminated, whatever its diagonal is, or of a material that is much softer than another one
+    in the body. The second one does not resist a translation along its own component (along z
+    only, about an axis). */
+bool is_linked(const SparseView &K, const DofPlaces &places, int dof, double most);
+
+/// K without what links the sorted `rows` with any other: round-off, of eliminated ones.
+SharedMatrix without_links(const SharedMatrix &K, const std::vector<int> &rows);
+
+} // namespace cattaneo
