@@ -165,6 +165,73 @@ TEST(SmoothSide, ArcsJoinStraightFlanks)
    }
 }
 
+/// Without a file that knows: flanks of any length, of a single edge between two arcs as well,
+/// with vertices to twelve digits, as decks have them.
+TEST(SmoothSide, FlanksOfAnyLengthStayStraight)
+{
+   std::mt19937 random(5);
+   std::uniform_real_distribution<double> any(-1e-12, 1e-12);
+   for (int edges : {1, 2, 5})
+   {
+      for (int n : {4, 5, 15})
+      {
+         for (double flank : {0.05, 0.3, 2.0})
+         {
+            SidePolygon side;
+            const double half = 0.5 * edges * flank;
+            for (int k = 0; k <= n; ++k)
+            {
+               const double angle = (k / double(n) - 2) * M_PI / 2;
+               side.vertices.emplace_back(std::cos(angle) - half, std::sin(angle) + 1);
+            }
+            for (int k = 1; k < edges; ++k) { side.vertices.emplace_back(k * flank - half, 0); }
+            for (int k = 0; k <= n; ++k)
+            {
+               const double angle = (k / double(n) - 1) * M_PI / 2;
+               side.vertices.emplace_back(std::cos(angle) + half, std::sin(angle) + 1);
+            }
+            for (Vector2d &vertex : side.vertices)
+            {
+               vertex += Vector2d(any(random), any(random));
+            }
+            const double off =
+               farthest(side,
+                        [&](const Vector2d &x)
+                        {
+                           return std::abs(x[0]) < half
+                                     ? x[1]
+                                     : Vector2d(std::abs(x[0]) - half, x[1] - 1).norm() - 1;
+                        });
+            EXPECT_LT(off, 1e-9) << edges << " " << n << " " << flank;
+         }
+      }
+   }
+}
+
+/// A circle of several curves of the file, some with a single edge, is one; and so is an arc
+/// that its file knows between flanks that it knows, also one of three edges.
+TEST(SmoothSide, GoesOnAcrossCurvesOfTheFile)
+{
+   SidePolygon circle;
+   circle.loop = true;
+   circle.curves = {1, 1, 1, 1, 1, 2, 3, 4, 4, 4, 5, 6, 6, 6, 6};
+   const double n = static_cast<double>(circle.curves.size());
+   for (int k = 0; k < n; ++k)
+   {
+      const double angle = 2 * M_PI * (k + (k % 3) * 0.2) / n;
+      circle.vertices.emplace_back(std::cos(angle), std::sin(angle));
+   }
+   EXPECT_LT(farthest(circle, [](const Vector2d &x) { return x.norm() - 1; }), 1e-13);
+   SidePolygon fillet{walk({0, 0, 7.5, 15, 15, 7.5, 0, 0})};
+   fillet.curves = {1, 1, 1, 2, 2, 2, 3, 3, 3};
+   const std::vector<EdgeBend> bends = smooth_curve(fillet);
+   for (int e = 0; e < 9; ++e)
+   {
+      EXPECT_NEAR(bends[e].begin, fillet.curves[e] == 2 ? 7.5 * degree : 0, 1e-12) << e;
+      EXPECT_NEAR(bends[e].end, fillet.curves[e] == 2 ? 7.5 * degree : 0, 1e-12) << e;
+   }
+}
+
 /// Half of an ellipse at its planes of symmetry is what it is as a whole; without them its ends
 /// are one-sided.
 TEST(SmoothSide, GoesOnAsItsMirrorImage)
@@ -241,6 +308,12 @@ TEST(SmoothSide, LeavesPolygons)
       if (known) { profile.curves.assign(199, 7); }
       EXPECT_EQ(largest_bend(profile), 0);
    }
+   // A measured profile with a curve of the file for each of its edges, also where what is
+   // beyond its ends would go on as a mirror image.
+   SidePolygon measured{walk({3, -5, 1, 4, -2, -1, 6, -7, 2, -3, 5})};
+   for (int k = 0; k < 12; ++k) { measured.curves.push_back(k + 1); }
+   measured.beyond = {Vector2d(0, -1), Vector2d(0, 1)};
+   EXPECT_EQ(largest_bend(measured), 0);
    // Facets of one edge each, which their file knows.
    SidePolygon facets{walk(std::vector<double>(23, 15))};
    EXPECT_NEAR(largest_bend(facets), 7.5, 1e-9);

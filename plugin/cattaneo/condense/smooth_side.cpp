@@ -32,17 +32,24 @@ private:
    using Vertices = std::vector<Vector2d>;
 
    void measure();
+   void join_curves();
    bool find_corners();
    void find_short_runs();
    bool drop_profile();
+   bool fits_flank(int i, int way) const;
+   void find_joints();
    EdgeBend bend(int edge) const;
    void meet(std::vector<EdgeBend> &all) const;
 
    int last() const { return static_cast<int>(x_.size()) - 1; }
-   bool inside(int i) const { return curve_[i - 1] >= 0 && curve_[i - 1] == curve_[i]; }
-   bool parts(int i) const { return curve_[i - 1] != curve_[i]; }
+   bool within(int i) const { return curve_[i - 1] >= 0 && curve_[i - 1] == curve_[i]; }
+   bool inside(int i) const { return within(i) || (curve_[i - 1] >= 0 && joined_[i]); }
+   bool parts(int i) const { return curve_[i - 1] != curve_[i] && !joined_[i]; }
    /// Does the circle through this vertex and its neighbours tell the curvature of both edges?
-   bool tells(int i) const { return i > 0 && i < last() && !corner_[i] && !parts(i); }
+   bool tells(int i) const
+   {
+      return i > 0 && i < last() && !corner_[i] && !parts(i) && joint_[i] == 0;
+   }
    double arc(int edge, double curvature) const
    {
       return std::asin(std::clamp(0.5 * length_[edge] * curvature, -0.9, 0.9));
@@ -53,8 +60,10 @@ private:
    int first_ = 0;          ///< edge that was the first
    std::size_t edges_ = 0;  ///< how many there were
    std::vector<double> length_, along_, turn_, curvature_, centre_;
-   std::vector<bool> corner_;
-   double round_off_ = 0; ///< of coordinates: turns that are no more than that are none
+   double flat_ = 0; ///< turns of no more than that are those of round-off
+   std::vector<bool> corner_, joined_;
+   std::vector<int>
+      joint_; ///< -1: of an arc before and a straight flank after, 1: of the other
 };
 
 OpenSide::OpenSide(const SidePolygon &side) : x_(side.vertices)
@@ -87,13 +96,19 @@ OpenSide::OpenSide(const SidePolygon &side) : x_(side.vertices)
       // Half of the turn between the edge and its image.
       if (std::abs(out.dot(axis)) > std::sin(0.5 * SidePolygon::corner * degree)) { continue; }
       const int images = std::min(beyond_end, last());
+      // A curve of the file with a single edge, with no vertex inside, has none at the tip
+      // either: its image is another curve.
+      const int edges = static_cast<int>(curve_.size()), at_tip = end ? edges - 1 : 0;
+      const bool single = edges < 2 || curve_[at_tip] != curve_[at_tip + step];
+      const int another = single ? 1 + *std::max_element(curve_.begin(), curve_.end()) : 0;
       Vertices more;
       std::vector<int> curves;
       for (int k = 1; k <= images; ++k)
       {
          const Vector2d from = x_[tip + k * step] - x_[tip];
          more.push_back(x_[tip] + 2 * axis.dot(from) * axis - from);
-         curves.push_back(curve_[end ? static_cast<int>(curve_.size()) - k : k - 1]);
+         const int curve = curve_[end ? edges - k : k - 1];
+         curves.push_back(curve < 0 ? curve : curve + another);
       }
       if (end)
       {
@@ -139,7 +154,37 @@ void OpenSide::measure()
          largest = std::max(largest, std::abs(turn));
       }
    }
-   round_off_ = std::max(1e-6, 0.01 * largest);
+   flat_ = std::max(1e-6, 0.01 * largest);
+   corner_ = joined_ = std::vector<bool>(n, false);
+   joint_.assign(n, 0);
+}
+
+/// An arc may be several curves of the file, of which some have a single edge. Where the
+/// curvature is the same at both vertices beside an end of a curve it is no end, if that of a
+/// vertex within a curve is the same: else all of them are facets.
+void OpenSide::join_curves()
+{
+   const auto alike = [&](int i, int j)
+   {
+      const double a = curvature_[i], b = curvature_[j];
+      return std::min(std::abs(turn_[i]), std::abs(turn_[j])) > flat_ &&
+             std::abs(a - b) <= 0.05 * std::max(std::abs(a), std::abs(b));
+   };
+   for (int begin = 1, end = 1; begin < last(); begin = end)
+   {
+      bool arc = within(begin);
+      for (end = begin + 1; end < last() && alike(end - 1, end); ++end)
+      {
+         arc = arc || within(end);
+      }
+      if (!arc) { continue; }
+      for (int i = begin; i < end; ++i)
+      {
+         const bool before = i > begin || i == 1, after = i + 1 < end || i + 1 == last();
+         joined_[i] = before && after && end - begin > 1 && curve_[i - 1] != curve_[i] &&
+                      std::min(curve_[i - 1], curve_[i]) >= 0;
+      }
+   }
 }
 
 /// Corners by the angle, and by what the vertices beside them let expect. False if one is
@@ -175,7 +220,7 @@ bool OpenSide::find_corners()
             const double largest = std::max(std::abs(on_left), std::abs(on_right)) * 0.5 *
                                    (length_[i - 1] + length_[i]);
             is_corner =
-               std::abs(turn_[i] - expected) > (inside(i) ? 1.5 : 1.2) * largest + round_off_;
+               std::abs(turn_[i] - expected) > (inside(i) ? 1.5 : 1.2) * largest + flat_;
          }
          if (is_corner)
          {
@@ -196,7 +241,7 @@ void OpenSide::find_short_runs()
       if (i < 1 || i >= last() || corner_[i]) { return false; }
       const double beside = std::max(i > 1 ? std::abs(turn_[i - 1]) : 0,
                                      i + 1 < last() ? std::abs(turn_[i + 1]) : 0);
-      return std::abs(turn_[i]) > std::max(0.1 * beside, round_off_);
+      return std::abs(turn_[i]) > std::max(flat_, 0.1 * beside);
    };
    for (int begin = 1; begin < last();)
    {
@@ -219,7 +264,7 @@ void OpenSide::find_short_runs()
       // A straight flank on the same curve as an arc says that this is no curve of the file's.
       const auto flank = [&](int i)
       { return i > 0 && i < last() && inside(i) && !corner_[i] && !counts(i); };
-      known = known && !flank(begin - 1) && !flank(end);
+      known = known && !(flank(begin - 1) && !parts(begin)) && !(flank(end) && !parts(end - 1));
       if (!known && (turns < 3 || (turns == 3 && least < 0.6 * most)))
       {
          for (int i = begin; i < end; ++i) { corner_[i] = true; }
@@ -251,9 +296,40 @@ bool OpenSide::drop_profile()
    return turns > 0 && 3 * odd > turns;
 }
 
+/// Does a vertex turn as one does between an arc on this side of it (-1: before, 1: after) and
+/// a straight flank, by the half of what the edge of the arc spans?
+bool OpenSide::fits_flank(int i, int way) const
+{
+   if (!tells(i) || !tells(i + way)) { return false; }
+   const double curvature = curvature_[i + way], half = arc(way < 0 ? i - 1 : i, curvature),
+                more = arc(way < 0 ? i : i - 1, curvature);
+   return std::abs(half) > flat_ && std::abs(turn_[i] - half) < 0.1 * std::abs(more);
+}
+
+/// Vertices between an arc and a straight flank, which no curve of the file tells. The flank is
+/// straight where the next vertex does not turn, is a corner, or the joint of another arc.
+void OpenSide::find_joints()
+{
+   std::vector<int> found(joint_.size(), 0);
+   for (int i = 1; i < last(); ++i)
+   {
+      for (const int way : {-1, 1})
+      {
+         const int next = i - way;
+         if (fits_flank(i, way) &&
+             (!tells(next) || std::abs(turn_[next]) <= flat_ || fits_flank(next, -way)))
+         {
+            found[i] = way;
+         }
+      }
+   }
+   joint_ = found;
+}
+
 /// From the curvature of circles through the vertices at its ends.
 EdgeBend OpenSide::bend(int e) const
 {
+   if (joint_[e] < 0 || joint_[e + 1] > 0) { return {}; } // a flank
    const int i = e, j = e + 1;
    const double middle = 0.5 * (along_[i] + along_[j]), h = length_[e];
    const auto slope = [&](int a, int b)
@@ -301,6 +377,9 @@ void OpenSide::meet(std::vector<EdgeBend> &all) const
    for (int i = 1; i < last(); ++i)
    {
       EdgeBend &before = all[i - 1], &after = all[i];
+      // The tangent of an arc at its joint is the flank's.
+      if (joint_[i] < 0) { before.end = turn_[i]; }
+      if (joint_[i] > 0) { after.begin = turn_[i]; }
       if (!tells(i)) { continue; }
       const double missing = turn_[i] - before.end - after.begin;
       if (std::abs(missing) > 0.5 * std::abs(turn_[i])) { continue; }
@@ -315,9 +394,11 @@ std::vector<EdgeBend> OpenSide::bends()
    std::vector<EdgeBend> all(edges_);
    if (last() < 2) { return all; }
    measure();
+   join_curves();
    if (!find_corners())
    {
       std::fill(curve_.begin(), curve_.end(), -1);
+      joined_.assign(x_.size(), false);
       find_corners();
    }
    find_short_runs();
@@ -325,6 +406,7 @@ std::vector<EdgeBend> OpenSide::bends()
    {
       for (int i = 1; i < last(); ++i) { corner_[i] = corner_[i] || !inside(i); }
    }
+   find_joints();
    std::vector<EdgeBend> found;
    for (int e = 0; e < last(); ++e) { found.push_back(bend(e)); }
    meet(found);
