@@ -127,21 +127,30 @@ void warn_of_chords(const Reduction &reduction, const Eigen::VectorXd &p,
 {
    const double share = chordal_error(reduction, p, w);
    if (share <= 0.05) { return; }
+   // Where nodes bear, and beside these: chords are off their curves between vertices alone,
+   // and it may be vertices alone that bear. If it is none of these, then anywhere.
    const InterfaceReport *worst = nullptr;
    double most = 0;
-   for (const InterfaceReport &face : reduction.interfaces)
+   for (const bool anywhere : {!std::isfinite(share), true})
    {
-      for (Eigen::Index i = 0; i < face.nodes && !face.tied; ++i)
+      for (const InterfaceReport &face : reduction.interfaces)
       {
-         if (face.chords.size() != face.nodes || std::abs(face.chords[i]) <= most ||
-             (std::isfinite(share) && p[face.first + i] <= 0))
+         if (face.tied || face.chords.size() != face.nodes) { continue; }
+         for (Eigen::Index i = 0; i < face.nodes; ++i)
          {
-            continue;
+            const Eigen::Index from = std::max<Eigen::Index>(i - 1, 0),
+                               to = std::min(i + 1, face.nodes - 1);
+            const bool near = p.segment(face.first + from, to - from + 1).maxCoeff() > 0;
+            if ((anywhere || near) && std::abs(face.chords[i]) > most)
+            {
+               worst = &face;
+               most = std::abs(face.chords[i]);
+            }
          }
-         worst = &face;
-         most = std::abs(face.chords[i]);
       }
+      if (worst) { break; }
    }
+   if (!worst) { return; }
    warn("interface '", worst->name,
         "': its elements are chords of curves, which leaves the gap unknown by about ", most,
         ": ",
