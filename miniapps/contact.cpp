@@ -136,8 +136,8 @@ void contact(Study &study)
    history.check_times("edges", options.edges);
    study.condensed(own.scene);
    study.value("condensation_error_estimate", own.accuracy);
-   study.say(text("   gap %g to %g; stiffness right to %.2g of itself", problem.gap.minCoeff(),
-                  problem.gap.maxCoeff(), own.accuracy));
+   study.say(text("   gap %g to %g; relative error of the condensed stiffness: %.2g (estimate)",
+                  problem.gap.minCoeff(), problem.gap.maxCoeff(), own.accuracy));
    warn_of_accuracy(own.accuracy);
    std::deque<SidesThatBear> beyond_corners;
    const std::vector<bool> even = even_sides(joint);

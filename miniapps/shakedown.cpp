@@ -304,6 +304,8 @@ LimitReport Shakedown::counted(LimitReport report)
    study.counters += report.counters;
    if (report.status == LimitStatus::stopped)
    {
+      // Before the first programme has ended nothing is known of it.
+      if (!(report.lower < report.upper)) { stopped("a limit was not found yet"); }
       results["bound_lower"] = report.lower;
       results["bound_upper"] = report.upper;
       stopped(text("a limit that is proven to lie between %g and %g was not found yet",

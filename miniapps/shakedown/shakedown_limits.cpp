@@ -29,8 +29,11 @@ void Shakedown::report(const std::string &what, const LimitReport &of, double lo
                   of.counters.limit_solves, of.iterations, of.seconds));
    if (what == "friction" || find == "load")
    {
-      results["bound_lower"] = of.lower;
-      results["bound_upper"] = of.upper;
+      // Of a limit that was not found nothing is proven; an unlimited one is held up to
+      // `lower`.
+      const bool bounds = found || of.status == LimitStatus::unlimited;
+      results["bound_lower"] = bounds ? of.lower : std::nan("");
+      results["bound_upper"] = bounds ? of.upper : std::nan("");
       results["violation"] = of.violation;
       results["status"] = name(of.status);
    }

@@ -78,8 +78,8 @@ def verdict(row):
 
 
 def comparison(rows):
-    """reference | its ± | thesis | computed | difference, of the runs' own tables."""
-    head = "".join(f"<th>{name}</th>" for name in ("quantity", "reference", "its ±", "thesis", "computed", "difference", ""))
+    """reference | its ± (estimate) | thesis | computed | difference, of the runs' own tables."""
+    head = "".join(f"<th>{name}</th>" for name in ("quantity", "reference", "its ± (estimate)", "thesis", "computed", "difference", ""))
     body = ""
     for row in rows:
         known = row["reference"] is not None and row["computed"] is not None

@@ -661,30 +661,31 @@ TEST(CondenseMatrix, WhatOnlyRoundOffHoldsMustNotBeLoaded)
    {
       std::vector<Eigen::Triplet<double>> entries;
       AssembledBody body;
-      body.places = {VectorXd(6), VectorXd::Zero(6), {}, Formulation::plane};
-      for (int dof = 0; dof < 6; ++dof)
+      body.places = {VectorXd(8), VectorXd::Zero(8), {}, Formulation::plane};
+      for (int dof = 0; dof < 8; ++dof)
       {
          body.places.x[dof] = dof / 2;
          body.places.component.push_back(dof % 2);
-         const double own[] = {1 + weak, 1 + weak, 1}, next[] = {weak, 1};
+         // Springs from the ground to node 0, and on from node to node, the contact is 1.
+         const double own[] = {2, 1 + weak, 1 + weak, 1}, next[] = {1, weak, 1};
          entries.emplace_back(dof, dof, own[dof / 2]);
-         if (dof >= 4) { continue; }
+         if (dof >= 6) { continue; }
          entries.emplace_back(dof, dof + 2, -next[dof / 2]);
          entries.emplace_back(dof + 2, dof, -next[dof / 2]);
       }
-      Eigen::SparseMatrix<double, Eigen::RowMajor> K(6, 6);
+      Eigen::SparseMatrix<double, Eigen::RowMajor> K(8, 8);
       K.setFromTriplets(entries.begin(), entries.end());
       body.K = SharedMatrix(std::move(K));
       body.grounded = true;
-      body.loads = {{"pull", Control::force, VectorXd::Unit(6, 4)}};
+      body.loads = {{"pull", Control::force, VectorXd::Unit(8, 6)}};
       ContactLine line;
       line.chains = {{0, 1}};
-      line.nodes = {{{0, 1}, {0, 0}, {1, 0}, 1, 0, 1}};
+      line.nodes = {{{2, 3}, {1, 0}, {1, 0}, 1, 0, 1}};
       return condense(body, line);
    };
    EXPECT_NEAR(condensed(1e-8).H(0, 0), 1e8 + 1, 1e8 * 1e-7);
    expect_input_error([&] { condensed(1e-14); },
-                      "condense: load 'pull' moves the node (2, 0) by 1");
+                      "condense: load 'pull' moves the node (3, 0) by 1");
    expect_input_error([&] { condensed(1e-14); }, "at most 0.001 is allowed");
 }
 
