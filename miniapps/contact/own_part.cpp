@@ -143,6 +143,7 @@ ContactLine OwnPart::line(const JointCase::Side &side) const
    made.as_meshed = body_.as_meshed;
    // The file knows more than a line alone.
    bend_elements(made, sides_.chords, sides_.moved);
+   bend_elements(made, sides_.folding, false);
    return made;
 }
 

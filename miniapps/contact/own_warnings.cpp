@@ -101,7 +101,7 @@ void note_smooth_sides(const JointCase &joint, const Reduction &reduction,
    {
       const InterfaceReport &face = reduction.interfaces[k];
       std::vector<std::string> names;
-      bool folds = false;
+      std::string straight;
       for (int b : face.bodies)
       {
          // Round-off of coordinates is no curve.
@@ -109,7 +109,13 @@ void note_smooth_sides(const JointCase &joint, const Reduction &reduction,
                              sides[b].most > 1e-5 * face.spacing.mean();
          if (!smooth || (!names.empty() && face.bodies[0] == face.bodies[1])) { continue; }
          names.push_back(joint.bodies[b].name);
-         folds = folds || sides[b].folds;
+         const std::vector<SideChord> &folding = sides[b].folding;
+         if (folding.empty()) { continue; }
+         const Eigen::Vector2d at = 0.5 * (folding.front().from + folding.front().to);
+         straight +=
+            told("; elements beside ", folding.size(), " of the ", sides[b].edges, " of ",
+                 joint.bodies[b].name, " would fold: these stay straight, the first at (",
+                 at[0], ", ", at[1], ")");
       }
       if (names.empty()) { continue; }
       const double change = face.curved.size() > 0 ? face.curved.cwiseAbs().maxCoeff() : 0;
@@ -117,8 +123,7 @@ void note_smooth_sides(const JointCase &joint, const Reduction &reduction,
            " are taken for chords of smooth curves through their vertices, " +
            (change > 0 ? told("which changes the gap by up to ", change)
                        : "which leaves the gap as it is") +
-           (folds ? "; elements beside them would fold, and stay straight" : "") +
-           " (key geometry: as meshed takes the polygons)");
+           straight + " (key geometry: as meshed takes the polygons)");
    }
 }
 

@@ -208,6 +208,33 @@ TEST(SmoothSide, FlanksOfAnyLengthStayStraight)
    }
 }
 
+/// A wave that ends near its inflection is no flank there.
+TEST(SmoothSide, WavesAreCurvesUpToTheirEnds)
+{
+   for (double end : {1.2, 1.4, 1.5, 1.6})
+   {
+      for (int n : {12, 16, 20, 24, 32, 48})
+      {
+         SidePolygon side;
+         for (int k = 0; k <= n; ++k)
+         {
+            const double x = end * (2.0 * k / n - 1);
+            side.vertices.emplace_back(x, -0.3 * std::cos(x));
+         }
+         const std::vector<EdgeBend> bends = smooth_curve(side);
+         const double slope = 0.3 * std::sin(end - end / n), h = 2 * end / n,
+                      curvature =
+                         0.3 * std::cos(end - end / n) / std::pow(1 + slope * slope, 1.5);
+         // Half of what the last edge spans, to the next order of its length.
+         const double half = 0.5 * h * std::hypot(1, slope) * curvature;
+         for (const EdgeBend &bend : {bends.front(), bends.back()})
+         {
+            EXPECT_NEAR(0.5 * (bend.begin + bend.end), half, 0.15 * h * h) << end << " " << n;
+         }
+      }
+   }
+}
+
 /// A circle of several curves of the file, some with a single edge, is one; and so is an arc
 /// that its file knows between flanks that it knows, also one of three edges.
 TEST(SmoothSide, GoesOnAcrossCurvesOfTheFile)

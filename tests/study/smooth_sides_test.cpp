@@ -38,10 +38,9 @@ protected:
    /// A body of straight edges, or with the nodes of its quadratic elements on the curves;
    /// attributes 1 (the side), 2, 3 (opposite of it) and 4, turned about the origin.
    void mesh(const std::string &name, int along, int into, const Map &map, bool curved = false,
-             double turned = 0) const
+             double turned = 0, mfem::Element::Type type = mfem::Element::QUADRILATERAL) const
    {
-      mfem::Mesh made =
-         mfem::Mesh::MakeCartesian2D(along, into, mfem::Element::QUADRILATERAL, true);
+      mfem::Mesh made = mfem::Mesh::MakeCartesian2D(along, into, type, true);
       if (curved) { made.SetCurvature(2); }
       // MFEM 4.6 takes no lambda that captures.
       mfem::VectorFunctionCoefficient place(
@@ -243,6 +242,60 @@ TEST_F(SmoothSides, DoNotFoldThinElements)
    const double least = *std::min_element(p.begin(), p.end()),
                 most = *std::max_element(p.begin(), p.end());
    EXPECT_GT(least, 0.9 * most) << got.output;
+}
+
+/// Layers of triangles, too: vertices stay where they are. Lamé's pressure everywhere, with
+/// as many edges on both sides, which meet at vertices, and with others.
+TEST_F(SmoothSides, DoNotFoldThinTriangles)
+{
+   const auto thin = [](double radius, double into)
+   {
+      return [=](double s, double t)
+      { return arc(radius, into)(s, t < 0.1 ? 0.06 * t : 0.006 + (t - 0.1) * 0.994 / 0.9); };
+   };
+   const double inner = 0.5, outer = 2, d = 1e-3;
+   const double lame =
+      d * modulus /
+      ((outer * outer + 1) / (outer * outer - 1) + (1 + inner * inner) / (1 - inner * inner));
+   for (int others : {8, 6})
+   {
+      for (int order : {2, 3})
+      {
+         mesh("in.mesh", 8, 10, thin(1 + d, inner - 1 - d), false, 0, mfem::Element::TRIANGLE);
+         mesh("out.mesh", others, 10, thin(1, outer - 1), false, 0, mfem::Element::TRIANGLE);
+         const Result got = run(rings(order));
+         for (double p : pressures())
+         {
+            EXPECT_NEAR(p, lame, 0.05 * lame) << order << got.output;
+         }
+      }
+   }
+}
+
+/// An element with two edges on a circle has no angle between them once they are curved: these
+/// edges stay straight, with the gaps of the circle, and the others do not.
+TEST_F(SmoothSides, OnlyEdgesBesideFoldingElementsStayStraight)
+{
+   const double outer = 2, d = 1e-3;
+   const double lame = d * modulus / ((outer * outer + 1) / (outer * outer - 1) + 1);
+   const auto disc = [=](double s, double t)
+   {
+      return std::array<double, 2>{(1 + d) * s * std::sqrt(1 - t * t / 2),
+                                   (1 + d) * t * std::sqrt(1 - s * s / 2)};
+   };
+   for (int order : {2, 3})
+   {
+      mesh("in.mesh", 6, 6, disc);
+      mesh("out.mesh", 20, 8, arc(1, outer - 1));
+      json keys = rings(order);
+      keys["bodies"]["in"] = body("in.mesh", "1:y 4:x");
+      keys["interfaces"]["fit"]["between"] = {"in:2 3", "out:1"};
+      const Result got = run(keys);
+      EXPECT_NE(listed(got, "notes").find("elements beside 2 of the 12 of in would fold"),
+                std::string::npos)
+         << got.output;
+      for (double p : pressures()) { EXPECT_NEAR(p, lame, 0.1 * lame) << order << got.output; }
+   }
 }
 
 } // namespace

@@ -36,7 +36,7 @@ private:
    bool find_corners();
    void find_short_runs();
    bool drop_profile();
-   bool fits_flank(int i, int way) const;
+   bool fits_flank(int i, int way, double within = 0.1) const;
    void find_joints();
    EdgeBend bend(int edge) const;
    void meet(std::vector<EdgeBend> &all) const;
@@ -297,17 +297,19 @@ bool OpenSide::drop_profile()
 }
 
 /// Does a vertex turn as one does between an arc on this side of it (-1: before, 1: after) and
-/// a straight flank, by the half of what the edge of the arc spans?
-bool OpenSide::fits_flank(int i, int way) const
+/// a straight flank, by the half of what the edge of the arc spans? Within that share of what
+/// it would turn more by if the arc went on.
+bool OpenSide::fits_flank(int i, int way, double within) const
 {
    if (!tells(i) || !tells(i + way)) { return false; }
    const double curvature = curvature_[i + way], half = arc(way < 0 ? i - 1 : i, curvature),
                 more = arc(way < 0 ? i : i - 1, curvature);
-   return std::abs(half) > flat_ && std::abs(turn_[i] - half) < 0.1 * std::abs(more);
+   return std::abs(half) > flat_ && std::abs(turn_[i] - half) < within * std::abs(more);
 }
 
 /// Vertices between an arc and a straight flank, which no curve of the file tells. The flank is
-/// straight where the next vertex does not turn, is a corner, or the joint of another arc.
+/// straight where the next vertex does not turn, or is the joint of another arc. At a corner or
+/// an end nothing else tells: only arcs of circles fit there.
 void OpenSide::find_joints()
 {
    std::vector<int> found(joint_.size(), 0);
@@ -316,11 +318,11 @@ void OpenSide::find_joints()
       for (const int way : {-1, 1})
       {
          const int next = i - way;
-         if (fits_flank(i, way) &&
-             (!tells(next) || std::abs(turn_[next]) <= flat_ || fits_flank(next, -way)))
-         {
-            found[i] = way;
-         }
+         const bool fits = tells(next)
+                              ? fits_flank(i, way) &&
+                                   (std::abs(turn_[next]) <= flat_ || fits_flank(next, -way))
+                              : fits_flank(i, way, 1e-3);
+         if (fits) { found[i] = way; }
       }
    }
    joint_ = found;

@@ -163,6 +163,27 @@ private:
    MatrixXd by_xi_, by_eta_; // nodes × samples
 };
 
+/// The shapes of a mesh, each made once.
+class Shapes
+{
+public:
+   explicit Shapes(mfem::Mesh &mesh) : mesh_(mesh) {}
+   Fault fault(int element)
+   {
+      mesh_.GetElementTransformation(element, &transformation_);
+      const mfem::FiniteElement &map = *transformation_.GetFE();
+      auto &shape = shapes_[map.GetGeomType()];
+      // The functions of splines are those of the element at hand.
+      if (!shape || mesh_.NURBSext) { shape = std::make_unique<Shape>(map); }
+      return shape->fault(transformation_.GetPointMat());
+   }
+
+private:
+   mfem::Mesh &mesh_;
+   mfem::IsoparametricTransformation transformation_;
+   std::array<std::unique_ptr<Shape>, mfem::Geometry::NUM_GEOMETRIES> shapes_;
+};
+
 /// What is said of an element, as numbers that ranks can exchange.
 struct Place
 {
@@ -236,6 +257,15 @@ void check_plane(mfem::Mesh &mesh)
 
 } // namespace
 
+std::vector<int> folded_elements(mfem::Mesh &mesh, const std::vector<int> &elements)
+{
+   Shapes shapes(mesh);
+   std::vector<int> found;
+   std::copy_if(elements.begin(), elements.end(), std::back_inserter(found),
+                [&](int e) { return shapes.fault(e) != Fault::none; });
+   return found;
+}
+
 void check_elements(mfem::Mesh &mesh)
 {
    check_plane(mesh);
@@ -244,17 +274,11 @@ void check_elements(mfem::Mesh &mesh)
       "elastic body: the mesh has no edges, which the boundary is found by: finalize it with "
       "FinalizeMesh() or generate_edges = 1");
    const Ranks ranks(mesh);
-   std::array<std::unique_ptr<Shape>, mfem::Geometry::NUM_GEOMETRIES> shapes;
-   mfem::IsoparametricTransformation transformation;
+   Shapes shapes(mesh);
    std::vector<double> faulty;
    for (int e = 0; e < mesh.GetNE() && faulty.empty(); ++e)
    {
-      mesh.GetElementTransformation(e, &transformation);
-      const mfem::FiniteElement &map = *transformation.GetFE();
-      auto &shape = shapes[map.GetGeomType()];
-      // The functions of splines are those of the element at hand.
-      if (!shape || mesh.NURBSext) { shape = std::make_unique<Shape>(map); }
-      const Fault fault = shape->fault(transformation.GetPointMat());
+      const Fault fault = shapes.fault(e);
       if (fault == Fault::none) { continue; }
       const Place at = place(mesh, e);
       faulty = {static_cast<double>(fault), at.number, at.attribute, at.x, at.y};

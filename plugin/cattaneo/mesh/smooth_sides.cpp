@@ -3,6 +3,7 @@
 #include <cattaneo/mesh/element_check.hpp>
 #include <cattaneo/mesh/smooth_sides.hpp>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <memory>
@@ -189,7 +190,8 @@ Blend blend(mfem::Geometry::Type shape, const int *at, const mfem::IntegrationPo
    const std::array<double, 3> weights{1 - ip.x - ip.y, ip.x, ip.y};
    const double a = weights[at[0]], b = weights[at[1]], difference = b - a;
    const double left = (1 - difference) * (1 + difference);
-   return {0.5 * (1 + difference), left > 1e-12 ? 4 * a * b / left : 0};
+   // Both ends belong to the edge.
+   return {0.5 * (1 + difference), left > 1e-12 ? 4 * a * b / left : 1};
 }
 
 /// How far the nodes of an edge are off its chord, in what its curve is: 0 of a straight edge,
@@ -373,22 +375,18 @@ SmoothSides curve_sides(mfem::Mesh &mesh, int order, const std::vector<int> &att
    const int before_order = space ? space->GetMaxElementOrder() : 1;
    std::map<int, double> before; // of elements, as meshed
    const auto note = [&](int e) { before.emplace(e, evenness(mesh, e)); };
-   // Elements may lose so much of what their least determinant was.
-   const auto all_sound = [&]
+   const auto unsound = [&]
    {
-      const bool even = std::all_of(before.begin(), before.end(),
-                                    [&](const auto &each)
-                                    { return evenness(mesh, each.first) > 0.3 * each.second; });
-      if (!even) { return false; }
-      try
+      std::vector<int> noted;
+      for (const auto &each : before) { noted.push_back(each.first); }
+      const std::vector<int> folded = folded_elements(mesh, noted);
+      std::set<int> found_so(folded.begin(), folded.end());
+      // Elements may lose so much of what their least determinant was.
+      for (const auto &[e, was] : before)
       {
-         check_elements(mesh); // between the points as well
+         if (!(evenness(mesh, e) > 0.3 * was)) { found_so.insert(e); }
       }
-      catch (const InputError &)
-      {
-         return false;
-      }
-      return true;
+      return found_so;
    };
    for (const OuterEdge *edge : bent) { note(edge->element); }
    if (before_order < order) { mesh.SetCurvature(order, false, 2, mfem::Ordering::byVDIM); }
@@ -398,17 +396,38 @@ SmoothSides curve_sides(mfem::Mesh &mesh, int order, const std::vector<int> &att
       static_cast<mfem::Vector &>(*mesh.GetNodes()) = as_meshed;
       mesh.NodesUpdated();
    };
+   // The elements beside the curves, where these are sound then.
    move_beside(mesh, bent);
-   found.moved = all_sound();
-   if (!found.moved)
+   const std::set<int> folding = unsound();
+   found.moved = true;
+   if (folding.empty()) { return found; }
+   // Else all of them.
+   put_back();
+   for (int e = 0; e < mesh.GetNE(); ++e) { note(e); }
+   move_all(mesh, edges, bent);
+   if (unsound().empty()) { return found; }
+   // Else edges of those beside the curves that are not sound stay straight. No element has
+   // nodes that move with another one's edge.
+   put_back();
+   std::vector<const OuterEdge *> sound;
+   std::copy_if(bent.begin(), bent.end(), std::back_inserter(sound),
+                [&](const OuterEdge *edge) { return folding.count(edge->element) == 0; });
+   move_beside(mesh, sound);
+   found.moved = !sound.empty();
+   const auto stays = [&](const SideChord &chord)
    {
-      put_back();
-      for (int e = 0; e < mesh.GetNE(); ++e) { note(e); }
-      move_all(mesh, edges, bent);
-      found.moved = all_sound();
-   }
-   if (!found.moved) { put_back(); }
-   found.folds = !found.moved;
+      return std::any_of(bent.begin(), bent.end(),
+                         [&](const OuterEdge *edge)
+                         {
+                            return folding.count(edge->element) > 0 &&
+                                   place_of_vertex(mesh, edge->from) == chord.from &&
+                                   place_of_vertex(mesh, edge->to) == chord.to;
+                         });
+   };
+   const auto first = std::stable_partition(found.chords.begin(), found.chords.end(),
+                                            [&](const SideChord &c) { return !stays(c); });
+   found.folding.assign(first, found.chords.end());
+   found.chords.erase(first, found.chords.end());
    return found;
 }
 

@@ -12,12 +12,13 @@ struct SmoothSides
 {
    int edges = 0;      ///< boundary elements that are taken for chords of smooth curves
    double most = 0;    ///< the farthest that a curve is from its chord
-   bool moved = false; ///< nodes of the mesh lie on the curves now
-   /// Curves that the nodes could not be moved onto without folding an element: none were.
-   bool folds = false;
-   /// All edges along those sides, with the curve of each (straight ones too): for
-   /// bend_elements(), where the mesh stays as it is.
+   bool moved = false; ///< nodes of the mesh lie on the curves of `chords` now
+   /// The edges along those sides, with the curve of each (straight ones too): for
+   /// bend_elements(line, chords, moved).
    std::vector<SideChord> chords;
+   /// Those of them that are not in `chords`, as the elements beside them would fold: their
+   /// nodes stay on the chord, for bend_elements(line, folding, false).
+   std::vector<SideChord> folding;
 };
 
 /** Takes sides of a mesh with straight edges for the smooth curves that their vertices are of
@@ -25,8 +26,9 @@ struct SmoothSides
     them: the mesh gets nodes of that order (mfem::Mesh::SetCurvature), of which those along the
     sides, and those within the elements beside them, move; vertices stay. Real corners stay,
     and so do sides whose edges are curved already. Elements beside the sides that would fold
-    take the next ones with them; where that does not help nothing is moved. With `order` 1
-    nothing is moved either: contact_line() knows of curves by itself.
+    take the next ones with them; where that does not help their edges stay straight
+    (SmoothSides::folding), and only theirs. With `order` 1 nothing is moved: contact_line()
+    knows of curves by itself.
 
     @param attributes boundary attributes of the sides that are looked at
     @param curves of each boundary element the curve of the file that it is on, see

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <mfem.hpp>
+#include <vector>
 
 namespace cattaneo
 {
@@ -20,5 +21,8 @@ namespace cattaneo
     and centre, and says what to do. Collective on an mfem::ParMesh: the number is that of all
     ranks, and all throw. */
 void check_elements(mfem::Mesh &mesh);
+
+/// Those of the elements of this rank, by their numbers, whose own shape is not as above.
+std::vector<int> folded_elements(mfem::Mesh &mesh, const std::vector<int> &elements);
 
 } // namespace cattaneo
