@@ -289,7 +289,7 @@ TEST_F(SmoothSides, OnlyEdgesBesideFoldingElementsStayStraight)
       mesh("out.mesh", 20, 8, arc(1, outer - 1));
       json keys = rings(order);
       keys["bodies"]["in"] = body("in.mesh", "1:y 4:x");
-      keys["interfaces"]["fit"]["between"] = {"in:2 3", "out:1"};
+      keys["interfaces"]["fit"]["between"] = {"in:2,3", "out:1"};
       const Result got = run(keys);
       EXPECT_NE(listed(got, "notes").find("elements beside 2 of the 12 of in would fold"),
                 std::string::npos)

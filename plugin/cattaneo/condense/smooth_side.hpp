@@ -53,8 +53,9 @@ struct SidePolygon
     polygon. Told by three things, in this order.
 
     1. The file: vertices within one of its curves are smooth, its ends may be corners, and the
-       curvature may jump there. Curves with a corner inside are no curves, the file's are then
-       not looked at.
+       curvature may jump there. Where it is the same on both sides of an end, and within one of
+       these curves, the arc goes on. Curves with a corner inside are no curves, the file's are
+       then not looked at.
     2. The run of turns. A vertex is a corner that turns much more, or less, than the vertices
        beside it let expect: a chamfer with straight flanks. Where no curve is known an arc has
        four turns in a row in one direction, or three alike: less is taken for a chamfer. Where
