@@ -8,6 +8,7 @@
 #include <cattaneo/friction/march.hpp>
 #include <cattaneo/halfplane/half_plane.hpp>
 #include <cattaneo/readout/zones.hpp>
+#include <cattaneo/reduced/interfaces.hpp>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <record.hpp>
@@ -735,14 +736,16 @@ TEST(HalfSpace, LinesOfTheirOwnRunWithTheBodyOnTheLeft)
    const double pi = std::acos(-1.0);
    for (const int elements : {6, 5})
    {
-      const Reduction met =
-         reduce(condense(above, even(0, 1, 6), 2, Formulation::axisymmetric),
-                condense(below, even(0, 1, elements), 2, Formulation::axisymmetric));
+      const std::vector<CondensedBody> bodies{
+         condense(above, even(0, 1, 6), 2, Formulation::axisymmetric),
+         condense(below, even(0, 1, elements), 2, Formulation::axisymmetric)};
+      const Interface contact{"contact", {0, bodies[0].line}, {1, bodies[1].line}};
+      const Reduction met = reduce(bodies, {contact});
       const ReducedProblem &problem = met.problem;
       EXPECT_NEAR(problem.weights.sum(), pi, 1e-12);
       // Pressed flat by the displacement d, as two rigid punches: F = 2 a E d / (1 - nu^2) of
       // each; the two are one behind the other.
-      const double force = problem.C.sum();
+      const double force = problem.C().sum();
       EXPECT_NEAR(force / (1 / (1 - 0.09)), 1, 0.02) << elements;
    }
 }

@@ -97,7 +97,7 @@ TEST(CurveSides, MoveNodesOntoCircles)
          EXPECT_EQ(found.chords.size(), std::size_t(edges));
          EXPECT_NEAR(found.most, 1 - std::cos(half), 1e-14);
          EXPECT_EQ(found.moved, order > 1);
-         EXPECT_FALSE(found.folds);
+         EXPECT_TRUE(found.folding.empty());
          for (const SideChord &chord : found.chords)
          {
             // The body is outside of the circle.
