@@ -37,9 +37,8 @@ WearCycle WearCycles::none() const
 {
    const VectorXd zero = VectorXd::Zero(problem_.nodes());
    const double infinity = std::numeric_limits<double>::infinity();
-   return {
-      zero, zero, zero, VectorXd::Constant(zero.size(), infinity), 0, SlipRange(problem_), {},
-      0,    {},   {}};
+   return {zero, zero, zero, VectorXd::Constant(zero.size(), infinity), 0, SlipRange(problem_),
+           {},   0,    {}};
 }
 
 WearCycle WearCycles::march(const LoadHistory &part, ContactState &contact,

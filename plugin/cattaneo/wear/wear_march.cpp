@@ -449,7 +449,6 @@ bool WearMarch::land(const Way &from, double cycles, int parts, Taken &taken,
       }
       taken.depth += depth;
       looked_at.push_back(cycle);
-      looked_at.back().after = depth / part;
    }
    return true;
 }
@@ -478,24 +477,12 @@ std::optional<Landing> WearMarch::landing(const Way &from, double cycles)
    best = {extrapolated(one.depth, two.depth, three.depth),
            extrapolated(one.loss, two.loss, three.loss)};
    result.bend = largest(best.depth - (3 * three.depth - 2 * two.depth));
-   // The layer says how far a cycle wears less after the first of three parts. Where nodes bear
-   // for a part of the cycle alone it may be far from it, and results of other parts, which all
-   // err alike, say nothing of that.
-   const VectorXd &expected = looked_at.front().after;
-   const double missed = largest(looked_at[1].depth - expected),
-                expected_fall = largest(first.depth - expected);
-   if (missed > 0.5 * expected_fall)
-   {
-      const double added = best.depth.maxCoeff() + slow(from) * cycles;
-      if (missed * cycles > 0.1 * strict_ * settings_.tolerance * added) { return {}; }
-      result.unseen += missed * cycles;
-   }
    // Updates after each cycle wear off more: half of what a cycle wears less at the end of the
    // jump than at its start, as cycles a third of the jump apart say.
    const VectorXd steps = 1.5 * (looked_at[1].depth - looked_at[2].depth);
    best.depth += steps;
    best.loss += 1.5 * (looked_at[1].loss - looked_at[2].loss);
-   result.unseen += 0.1 * largest(steps);
+   result.unseen = 0.1 * largest(steps);
    // What grows is not extrapolated to less than nothing.
    for (Index i = 0; i < best.depth.size(); ++i)
    {

@@ -21,8 +21,6 @@ struct WearCycle
    double passing = 0;
    /// Of repeated(): how much more a node lost in the first of them.
    Eigen::VectorXd lag;
-   /// Of a cycle from which a jump goes on: depth of a cycle at its end, as the layer says.
-   Eigen::VectorXd after;
 
    bool found() const
    {
