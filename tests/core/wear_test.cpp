@@ -13,6 +13,7 @@
 #include <cattaneo/wear/worn_out.hpp>
 #include <cmath>
 #include <cstdlib>
+#include <sstream>
 
 using namespace cattaneo;
 using Eigen::Index;
@@ -699,6 +700,45 @@ TEST(Wear, ErrorsOfJumpsThatGrowAreCounted)
    Jumped count;
    compare(of, "five nodes", count);
    EXPECT_EQ(count.all, 1);
+}
+
+// One node that lifts off in each cycle and wears down to the largest load. Lifted off, it
+// slips far without wear.
+TEST(Wear, ToleranceHoldsWhereANodeLiftsOff)
+{
+   Jumped count;
+   for (const auto &[least, Q] : {std::pair{0.5, 1.0}, {0.7, 2.0}, {0.3, 0.6}, {-1.0, 1.0}})
+   {
+      for (const double tolerance : {1e-2, 1e-3, 3e-4})
+      {
+         cattaneo_test::WornProblem of;
+         ReducedProblem &problem = of.problem;
+         const Eigen::MatrixXd one = Eigen::MatrixXd::Ones(1, 1);
+         problem.set_stiffness(one, 0 * one, one);
+         problem.patterns = {{"P", Control::force, VectorXd::Zero(1), VectorXd::Ones(1)},
+                             {"Q", Control::force, VectorXd::Ones(1), VectorXd::Zero(1)}};
+         problem.gap = VectorXd::Zero(1);
+         problem.weights = VectorXd::Ones(1);
+         problem.chains = one_chain(1);
+         set_friction(problem, 0.5);
+         of.history = LoadHistory::through(problem, {{},
+                                                     {{"P", 1}},
+                                                     {{"P", 1}, {"Q", Q}},
+                                                     {{"P", least}, {"Q", -Q}},
+                                                     {{"P", 1}, {"Q", Q}}});
+         of.history.cycle_start = 2;
+         of.law = WearLaw::uniform(problem, 0.1);
+         of.cycles = 3000;
+         of.settings.tolerance = tolerance;
+         of.settings.march.stepping = Stepping::exact;
+         std::ostringstream named;
+         named << "P to " << least << ", Q " << Q << ", tolerance " << tolerance;
+         compare(of, named.str(), count);
+      }
+   }
+   EXPECT_EQ(count.all, 12);
+   EXPECT_EQ(count.jumped, 12);
+   EXPECT_EQ(count.not_reached, 0);
 }
 
 // Two nodes are dragged to and fro, and stay closed: p = 1 - C depth, whatever has been marched

@@ -58,7 +58,8 @@ WearCycle WearCycles::march(const LoadHistory &part, ContactState &contact,
       lost += frictional_loss(worn, before, after);
       cycle.opening = cycle.opening.cwiseMin((after.w + worn.gap).cwiseMax(0.0));
       cycle.range.note(after);
-      way += rub.way;
+      // The way of a node that bears: where it is lifted off, wear takes no pressure from it.
+      way += (p.array() > 0).select(rub.way, 0);
       along += p.cwiseProduct(rub.way);
       in_time += (after.time - before.time) * p;
       duration += after.time - before.time;
@@ -66,8 +67,8 @@ WearCycle WearCycles::march(const LoadHistory &part, ContactState &contact,
       before = after;
    };
    cycle.report = cattaneo::march(solver_, part, contact, settings_, note);
-   // Where no node slips more than a solver's tolerance, a hundredth of least_slip(), or more
-   // as good as without a force, nothing wears however often it comes.
+   // Where no node slips under pressure by more than a solver's tolerance, a hundredth of
+   // least_slip(), or slips as good as without a force, nothing wears however often it comes.
    const VectorXd least = 0.01 * least_slip(worn, contact);
    if ((way.array() > least.array() &&
         along.array() > 0.01 * contact.peak_force * least.array())

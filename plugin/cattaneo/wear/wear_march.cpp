@@ -170,6 +170,7 @@ private:
    std::optional<Taken> taken_by(const WearCycle &cycle, bool handed_out);
    bool give_up(double cycles);
    void begin_again();
+   bool errors_have_grown(const Way &fine);
    void hand_out(double covered, double loss);
    void hand_out(Kept &&kept);
    WearState settled(const Way &way);
@@ -366,6 +367,7 @@ bool WearMarch::march_on()
    {
       if (!march_one(coarse_, false)) { return false; }
       apart_ = std::max(apart_, largest(fine_.state.depth - coarse_.state.depth));
+      if (errors_have_grown(fine_)) { return true; }
    }
    hand_out(1, loss);
    return true;
@@ -477,6 +479,7 @@ std::optional<Landing> WearMarch::landing(const Way &from, double cycles)
    best = {extrapolated(one.depth, two.depth, three.depth),
            extrapolated(one.loss, two.loss, three.loss)};
    result.bend = largest(best.depth - (3 * three.depth - 2 * two.depth));
+   const VectorXd sum = best.depth; // of cycles between those at the start and at the end
    // Updates after each cycle wear off more: half of what a cycle wears less at the end of the
    // jump than at its start, as cycles a third of the jump apart say.
    const VectorXd steps = 1.5 * (looked_at[1].depth - looked_at[2].depth);
@@ -519,6 +522,20 @@ std::optional<Landing> WearMarch::landing(const Way &from, double cycles)
    if (!look_at(result.way, cycles)) { return {}; }
    // Between the start and the end what the gap adds changes from one to the other.
    result.unseen += 0.5 * cycles * result.way.lag_error;
+   // The layer is no more than a model of how a cycle wears less as the gap grows. Cycles that
+   // were marched on the way judge it: the jump wears off no more than its number of cycles
+   // times the most that one of them wears, and no less than that times the least. All jumps
+   // may fail so alike.
+   VectorXd least = result.way.look->depth, most = least;
+   for (const WearCycle &cycle : looked_at)
+   {
+      least = least.cwiseMin(cycle.depth);
+      most = most.cwiseMax(cycle.depth);
+   }
+   const double outside =
+      std::max({0.0, (cycles * least - sum).maxCoeff(), (sum - cycles * most).maxCoeff()});
+   result.error += outside;
+   result.unseen += outside;
    reached = result.way.looked;
    return result;
 }
@@ -548,6 +565,24 @@ void WearMarch::begin_again()
    apart_ = unseen_ = local_ = 0;
    kept_.clear();
    step_ = 2 * least_jump;
+}
+
+/// Where the error comes to more than the tolerance, both ways begin again with shorter jumps,
+/// in the end with none.
+bool WearMarch::errors_have_grown(const Way &fine)
+{
+   const double tolerated = settings_.tolerance * fine.state.depth.maxCoeff();
+   if (hopeless_ || error() <= tolerated) { return false; }
+   ++again_;
+   strict_ *= std::clamp(0.5 * tolerated / error(), 0.1, 0.4);
+   begin_again();
+   const double to_march = end_ - done();
+   if (again_ > 5 || to_march < static_cast<double>(cycles_.marched - marched_at_fork_))
+   {
+      jumps_ = to_march > 1e5;
+      hopeless_ = jumps_;
+   }
+   return true;
 }
 
 /// True if cycles were jumped over, or if the jump is to be tried again in another way.
@@ -600,21 +635,7 @@ bool WearMarch::jump()
    apart_ = std::max(apart_, apart);
    unseen_ += 0.2 * settings_.tolerance * added + half->unseen + second->unseen;
    local_ += whole->error;
-   const double tolerated = settings_.tolerance * second->way.state.depth.maxCoeff();
-   if (!hopeless_ && error() > tolerated)
-   {
-      // Errors of jumps have grown.
-      ++again_;
-      strict_ *= std::clamp(0.5 * tolerated / error(), 0.1, 0.4);
-      begin_again();
-      const double to_march = end_ - done();
-      if (again_ > 5 || to_march < static_cast<double>(cycles_.marched - marched_at_fork_))
-      {
-         jumps_ = to_march > 1e5;
-         hopeless_ = jumps_;
-      }
-      return true;
-   }
+   if (errors_have_grown(second->way)) { return true; }
    const double bend = std::max(whole->bend, 0.25 * (apart - apart_));
    step_ =
       std::max(least_jump,

@@ -142,8 +142,9 @@ using WornIncrementObserver = std::function<void(const ContactState &, const Inc
     Small errors of early jumps may grow. So the way is gone twice side by side, the second time
     with jumps twice as long, and the distance between both is the estimate of the error. Where
     it comes to more than the tolerance both begin again where the first jump began, with
-    shorter jumps, in the end with none. None is made where the layer says another fall of wear
-    than cycles have, and with GapUpdate::piece all cycles are marched.
+    shorter jumps, in the end with none. A jump that wears off more than its cycles times the
+   most, or less than that times the least, of what cycles marched on the way wear is shortened
+   too. With GapUpdate::piece all cycles are marched.
 
     States are handed out with the gap worn: after a jump a cycle is marched there, and after a
     marched cycle the contact takes in what that cycle has worn off, under the same loads.
