@@ -12,6 +12,10 @@ def pytest_addoption(parser):
     parser.addoption("--programs", default=ROOT / "build" / "release" / "miniapps", help="folder of the programs")
 
 
+def pytest_configure(config):
+    config.addinivalue_line("markers", "rest: a test that ./test leaves to ./test --all and ./test --room")
+
+
 @pytest.fixture
 def run(request):
     """Runs programs; an empty folder of its own has the files of the test."""

@@ -121,6 +121,7 @@ def test_every_study_takes_a_case_file(run):
     run.refuses("hertz", case({"body": 3}), ["key 'body'", "3", "a string"])
 
 
+@pytest.mark.rest
 def test_every_study_draws_a_picture(run):
     """--plot FILE of every study, in every format, is a picture and leaves nothing else behind."""
     folder = run.folder / "pictures"
