@@ -383,6 +383,7 @@ int main()
    {
       compare_own_operator(direct_dofs);
       compare_founded_operator(direct_dofs);
+      eliminated_operators(direct_dofs);
    }
    errors_of_own_operators();
    errors();
