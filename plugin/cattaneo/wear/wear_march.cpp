@@ -534,8 +534,19 @@ std::optional<Landing> WearMarch::landing(const Way &from, double cycles)
    }
    const double outside =
       std::max({0.0, (cycles * least - sum).maxCoeff(), (sum - cycles * most).maxCoeff()});
-   result.error += outside;
-   result.unseen += outside;
+   // Nor does wear go on past the gap at which a node just touches: a node that the jump wore
+   // and that no longer comes to touch was worn too far, and on both ways alike, as nothing
+   // grows on.
+   double past = 0;
+   for (Index i = 0; i < best.depth.size(); ++i)
+   {
+      if (first.depth[i] > 0 && best.depth[i] > 0)
+      {
+         past = std::max(past, std::min(best.depth[i], result.way.look->opening[i]));
+      }
+   }
+   result.error += outside + past;
+   result.unseen += outside + past;
    reached = result.way.looked;
    return result;
 }
