@@ -598,6 +598,7 @@ namespace
 struct Jumped
 {
    int jumped = 0, all = 0, not_reached = 0;
+   long rows = 0, rows_missed = 0;
 };
 
 /// Depths on a way with jumps, and at its end, beside those of all cycles marched with the same
@@ -617,12 +618,11 @@ void compare(const cattaneo_test::WornProblem &of, const std::string &named, Jum
       wear(of.problem, of.law, of.history, of.cycles, some, of.settings,
            [&](const WearState &now, const WearRecord &record)
            {
-              // An estimate: one row in some thousand is missed by some per cent of the
-              // tolerance.
-              const VectorXd &true_depth = depths.at(now.cycles);
-              const double small = 0.05 * of.settings.tolerance * largest(true_depth);
-              EXPECT_LE(largest(now.depth - true_depth), std::max(record.error, small) + leave)
-                 << named << ", cycle " << now.cycles;
+              // An estimate: seldom a row is missed, by less than itself.
+              const double off = largest(now.depth - depths.at(now.cycles)) - leave;
+              ++count.rows;
+              count.rows_missed += off > record.error;
+              EXPECT_LE(off, 2 * record.error) << named << ", cycle " << now.cycles;
            });
    ASSERT_EQ(report.status, FrictionStatus::converged) << named;
    ++count.all;
@@ -659,6 +659,7 @@ TEST(Wear, ToleranceHoldsOnRandomSmallProblems)
    EXPECT_GT(count.all, 0.9 * seeds);
    EXPECT_GT(count.jumped, 0.6 * seeds);
    EXPECT_LE(count.not_reached, 0.01 * seeds);
+   EXPECT_LE(static_cast<double>(count.rows_missed), 1e-3 * static_cast<double>(count.rows));
 }
 
 // Shipped problems, with loads, wear and increments that vary.
@@ -787,6 +788,7 @@ TEST(Wear, ToleranceHoldsWhereANodeLiftsOff)
    EXPECT_EQ(count.all, 24);
    EXPECT_EQ(count.jumped, 24);
    EXPECT_EQ(count.not_reached, 0);
+   EXPECT_EQ(count.rows_missed, 0);
 }
 
 // What each cycle takes of that node is known by hand, whatever round-off its pressure has when
