@@ -277,7 +277,9 @@ void bind_report(nb::module_ &m)
          "True if depths are estimated to be right to the tolerance")
       .def_prop_ro(
          "remark", [](const Self &self) { return self.report.remark; },
-         "one sentence where errors of jumps grew on the way, else empty")
+         "what a warning says too: where errors of jumps grew on the way, and where no "
+         "equilibrium "
+         "was found at the worn gap; else empty")
       .def_prop_ro(
          "explicit_limit", [](const Self &self) { return self.report.explicit_limit; },
          "most cycles that may share one explicit update of the gap")
@@ -318,7 +320,7 @@ Wear worn(nb::handle problem, const WearLaw &law, const LoadHistory &history, do
    const WearReport &report = result.report;
    warn_of_status("wear", report.status,
                   "after " + exact_text(result.state.cycles) + " cycles: " + report.message);
-   if (!report.reached) { warn("wear: " + report.remark); }
+   if (!report.remark.empty()) { warn("wear: " + report.remark); }
    for (const CutOffContact &end : report.last.cut_off) { warn("wear: " + end.message()); }
    return result;
 }
@@ -362,9 +364,9 @@ void bind_wear_march(nb::module_ &m)
       "this share of the largest from those of all cycles marched, 1e-8 to 0.1; 0: every cycle "
       "is marched, as with update 'piece'. The same increments and stepping are meant: an "
       "unstable way ends elsewhere "
-      "with others. Where the tolerance was not reached `reached` is False, and a warning says "
-      "so. final_share: ends where a cycle adds less than "
-      "this share of the largest depth. update: the gap follows at the end of each 'cycle' or "
+      "with others. Where the tolerance was not reached `reached` is False; of that and of any "
+      "other remark a warning says so. final_share: ends where a cycle adds less than this "
+      "share of the largest depth. update: the gap follows at the end of each 'cycle' or "
       "'piece' of it. increments, stepping, …: of each march, as in march().\n"
       "observer: is called with WearState and WearRecord after every cycle marched and every "
       "jump, of jumps when their error is known.\n\n"

@@ -5,6 +5,7 @@ import os
 import pickle
 import signal
 import threading
+import warnings
 
 import cattaneo
 import numpy as np
@@ -196,6 +197,41 @@ def test_states_are_those_of_the_worn_contact(tolerance):
     for state in [*seen, report.state]:
         assert state.contact.p == pytest.approx(1 - C @ state.depth, abs=1e-12)
         assert state.contact.w == pytest.approx(-state.depth, abs=1e-12)
+
+
+@pytest.mark.parametrize("tolerance", [0, 1e-3])
+def test_a_worn_gap_without_an_equilibrium_is_warned_of(tolerance):
+    """Two nodes that a spring kt joins, on springs of 1 across. Q pushes the first, which slips and wears; the second
+    sticks, and bears Q - f p of the first. Both slide where that is more than f: once the first has worn by more than
+    2 - Q/f, which the recurrence of its depth says by hand."""
+    stiffness, f, Q, k = 1.0, 0.5, 0.8, 0.02
+    problem = cattaneo.ReducedProblem(
+        stiffness * np.array([[1.0, -1.0], [-1.0, 1.0]]),
+        np.zeros((2, 2)),
+        np.eye(2),
+        [cattaneo.LoadPattern("P", np.zeros(2), np.ones(2)), cattaneo.LoadPattern("Q", [1.0, 0.0], np.zeros(2))],
+        friction=f,
+        weights=1.0,
+        arc_length=[0.0, 1.0],
+    )
+    depth = [k * (Q - f) / stiffness]
+    before = 1.0
+    while 1 - depth[-1] > Q / f - 1:
+        p = 1 - depth[-1]
+        way = 0.5 * (before + p) * f * (before - p) + 4 * p * (Q - f * p)
+        depth.append(depth[-1] + k * way / stiffness)
+        before = p
+    last = len(depth) - 1
+    loads = history(problem, {"P": 1.0}, {"Q": Q})
+    law = wear.WearLaw.uniform(problem, k)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert wear.wear(problem, law, loads, last - 1, tolerance=tolerance, stepping="exact").remark == ""
+    with pytest.warns(cattaneo.OutcomeWarning, match=f"after cycle {last} no equilibrium was found at the worn gap"):
+        report = wear.wear(problem, law, loads, last, tolerance=tolerance, stepping="exact")
+    assert report.converged and report.reached and report.state.cycles == last
+    assert report.state.depth == pytest.approx([depth[-1], 0], abs=1e-12)
+    assert report.state.contact.p == pytest.approx([1 - depth[-2], 1], abs=1e-12)
 
 
 def test_worn_out_says_that_a_march_may_end_elsewhere(hertz):

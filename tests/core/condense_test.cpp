@@ -484,16 +484,22 @@ TEST(CondenseMatrix, EliminatedRowsAreSupports)
    const MatrixXd K = MatrixXd(body.K.view());
    const double most = K.cwiseAbs().maxCoeff();
    // Zeros may be what round-off left of them, in all columns.
-   for (const auto &[diagonal, zero] : std::vector<std::pair<double, double>>{{1, 0},
-                                                                              {1e-3, 0},
-                                                                              {1e9, 0},
-                                                                              {0, 0},
-                                                                              {1, 1e-30},
-                                                                              {most, 1e-17},
-                                                                              {1, 1e-17},
-                                                                              {0, 1e-17},
-                                                                              {most, 1e-14},
-                                                                              {1e9, 1e-14}})
+   for (const auto &[diagonal, zero] :
+        std::vector<std::pair<double, double>>{{1, 0},
+                                               {1e-3, 0},
+                                               {1e9, 0},
+                                               {0, 0},
+                                               {1, 1e-30},
+                                               {most, 1e-17},
+                                               {1, 1e-17},
+                                               {0, 1e-17},
+                                               {most, 1e-14},
+                                               {1e9, 1e-14},
+                                               {1e3 * most, 1e-13},
+                                               {1e6 * most, 1e-10},
+                                               {1e6 * most, 1e-8},
+                                               {1e9 * most, 1e-7},
+                                               {1e12 * most, 1e-4}})
    {
       SCOPED_TRACE(testing::Message() << "diagonal " << diagonal << ", zeros " << zero);
       AssembledBody gone = body;
@@ -559,6 +565,19 @@ TEST(CondenseMatrix, EliminatedRowsAreSupports)
       weak.fixed.clear();
       weak.grounded = true;
       EXPECT_TRUE(weak.eliminated().empty());
+   }
+   // Nor are springs that hold a node however stiff, as long as their stiffness shows.
+   for (const double stiff : {1e3, 1e6, 1e9, 1e12})
+   {
+      AssembledBody sprung = body;
+      MatrixXd held = K;
+      for (int dof : body.fixed) { held(dof, dof) += stiff * most; }
+      sprung.K = SharedMatrix(
+         Eigen::SparseMatrix<double, Eigen::RowMajor>(MatrixXd(held).sparseView()));
+      sprung.fixed.clear();
+      sprung.grounded = true;
+      EXPECT_TRUE(sprung.eliminated().empty()) << stiff;
+      EXPECT_LT((condense(sprung, line).S - right.S).norm(), 100 / stiff * right.S.norm());
    }
    // A bed of springs has no others beside it that are connected.
    AssembledBody bed = body;

@@ -655,6 +655,7 @@ TEST(March, LossErrorOfADiscIsAnEstimateThatHoldsMostly)
       covered += apart <= report.loss_error.value;
       EXPECT_LE(apart, 2 * report.loss_error.value) << k << ' ' << report.loss_error.by;
    }
+   std::printf("   %d of %d estimates of the error of the loss held\n", covered, marched);
    EXPECT_GT(marched, 80);
    EXPECT_GE(covered, 0.97 * marched);
 }

@@ -287,6 +287,48 @@ void errors_of_own_operators()
    expect_error("symmetric", [&] { ElasticBody(space, skew); });
 }
 
+/// An operator whose supports are eliminated is refused however it is condensed, also where
+/// they are on one rank alone; with the same dofs fixed in the body it is right.
+void eliminated_operators(int direct_dofs)
+{
+   mfem::Mesh whole = mesh();
+   mfem::ParMesh shared(MPI_COMM_WORLD, whole);
+   mfem::H1_FECollection collection(2, 2);
+   mfem::ParFiniteElementSpace space(&shared, &collection, 2);
+   mfem::ConstantCoefficient first(1.5), second(0.8);
+   CondenseSettings settings;
+   settings.direct_dofs = direct_dofs;
+   const mfem::Array<int> on_top({0, 0, 1, 0});
+   mfem::Array<int> all, one;
+   space.GetEssentialTrueDofs(on_top, all);
+   if (all.Size() > 0) { one.Append(all[0]); }
+   MatrixXd expected;
+   for (const mfem::Array<int> *dofs : {&one, &all})
+   {
+      mfem::ParBilinearForm form(&space);
+      form.AddDomainIntegrator(new mfem::ElasticityIntegrator(first, second));
+      form.Assemble();
+      form.Finalize();
+      const std::unique_ptr<mfem::HypreParMatrix> K(form.ParallelAssemble());
+      const mfem::HypreParMatrix sound(*K);
+      delete K->EliminateRowsCols(*dofs);
+      ElasticBody body(space, *K);
+      body.add_pressure("P", right, 1.0);
+      const ContactLine line = contact_line(body, bottom);
+      expect_error("was the operator eliminated?", [&] { condense(body, line, settings); });
+      if (dofs != &all) { continue; }
+      ElasticBody as_assembled(space, sound);
+      for (ElasticBody *each : {&body, &as_assembled})
+      {
+         each->fix(top, 0);
+         each->fix(top, 1);
+      }
+      const std::string name = direct_dofs ? "eliminated, gathered" : "eliminated, iterated";
+      expect_close(condense(body, line, settings).S, condense(as_assembled, line, settings).S,
+                   1e-10, name, "S");
+   }
+}
+
 /// On all ranks alike.
 void errors()
 {
@@ -341,6 +383,7 @@ int main()
    {
       compare_own_operator(direct_dofs);
       compare_founded_operator(direct_dofs);
+      eliminated_operators(direct_dofs);
    }
    errors_of_own_operators();
    errors();

@@ -13,11 +13,15 @@ std::vector<int> AssembledBody::eliminated() const
 {
    const SparseView stiffness = K.view();
    const double most = largest_beside_diagonal(stiffness);
+   const Eigen::VectorXd diagonals = diagonal_of(stiffness);
    std::vector<bool> connected(components(places.formulation), false); // any row of a component
    std::vector<int> alone;
    for (int dof = 0; dof < K.size(); ++dof)
    {
-      if (is_linked(stiffness, places, dof, most)) { connected[places.component[dof]] = true; }
+      if (is_linked(stiffness, places, dof, most, diagonals))
+      {
+         connected[places.component[dof]] = true;
+      }
       else if (!std::binary_search(fixed.begin(), fixed.end(), dof)) { alone.push_back(dof); }
    }
    alone.erase(std::remove_if(alone.begin(), alone.end(),
@@ -30,12 +34,18 @@ std::string AssembledBody::eliminated_warning() const
 {
    const std::vector<int> rows = eliminated();
    if (rows.empty()) { return ""; }
+   return eliminated_rows(rows.size(), places.formulation, places.component[rows[0]],
+                          {places.x[rows[0]], places.y[rows[0]]}) +
+          ": they are taken for supports that were eliminated, and are fixed";
+}
+
+std::string eliminated_rows(std::size_t count, Formulation formulation, int component,
+                            const Eigen::Vector2d &place)
+{
    std::ostringstream text;
-   text << rows.size()
-        << " rows of the stiffness hold nothing but their diagonal, the first is "
-        << component_name(places.formulation, places.component[rows[0]]) << " of the node at ("
-        << places.x[rows[0]] << ", " << places.y[rows[0]]
-        << "): they are taken for supports that were eliminated, and are fixed";
+   text << count << " rows of the stiffness hold nothing but their diagonal, the first is "
+        << component_name(formulation, component) << " of the node at (" << place[0] << ", "
+        << place[1] << ")";
    return text.str();
 }
 
@@ -118,6 +128,7 @@ void AssembledBody::validate() const
          "nodes, else grounded), such rows are fixed then");
    }
    const double most = largest_beside_diagonal(stiffness);
+   const Eigen::VectorXd diagonals = diagonal_of(stiffness);
    std::set<std::string> names;
    for (const BodyLoad &load : loads)
    {
@@ -135,7 +146,7 @@ void AssembledBody::validate() const
                  "' displaces dof ", dof, ", which is not fixed, it must be");
          if (load.values[dof] == 0) { continue; }
          moves = true;
-         felt = felt || is_linked(stiffness, places, dof, most);
+         felt = felt || is_linked(stiffness, places, dof, most, diagonals);
       }
       require(!moves || felt, "assembled body: load '", load.name, "' ", feels_nothing);
    }

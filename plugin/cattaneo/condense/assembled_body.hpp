@@ -45,7 +45,9 @@ struct AssembledBody
    /** Rows that are not fixed and have nothing but their diagonal, or nothing at all, where
        other rows of their component have more: supports that the program which wrote K
        eliminated. Entries below 1e-12 of the largest one beside a diagonal are nothing, unless
-       the diagonal is as small. condense() takes the rows for fixed if the body is `grounded`,
+       the diagonal is as small, and so are those that are round-off of a large diagonal: the
+       row is a support for all others to round-off then, be it eliminated or a spring that
+       much stiffer. condense() takes the rows for fixed if the body is `grounded`,
        and refuses them else: as springs they move nothing of the body. A component none of
        whose rows is connected to another is a bed of springs, and kept. */
    std::vector<int> eliminated() const;
@@ -64,5 +66,9 @@ struct AssembledBody
       "moves nothing, the rows of the displaced dofs hold nothing but a diagonal: was the "
       "matrix eliminated? Pass it as assembled (SpMat() after Finalize)";
 };
+
+/// What is said of so many eliminated rows, and of the first of them.
+std::string eliminated_rows(std::size_t count, Formulation formulation, int component,
+                            const Eigen::Vector2d &place);
 
 } // namespace cattaneo

@@ -1,21 +1,26 @@
 #include <algorithm>
 #include <cattaneo/condense/row_links.hpp>
 #include <cmath>
+#include <limits>
 
 namespace cattaneo
 {
 
-void RowEntries::add(const SparseView &K, int row, int own)
+void RowEntries::add(const SparseView &K, int row, int own, const Eigen::VectorXd &diagonals)
 {
    for (SparseView::InnerIterator entry(K, row); entry; ++entry)
    {
+      const double value = entry.value();
       if (entry.col() == own)
       {
-         diagonal = entry.value();
+         diagonal = value;
          continue;
       }
-      largest = std::max(largest, std::abs(entry.value()));
-      sum += std::abs(entry.value());
+      if (value == 0) { continue; }
+      largest = std::max(largest, std::abs(value));
+      sum += std::abs(value);
+      const double other = diagonals[entry.col()];
+      squares += other > 0 ? value / other * value : std::numeric_limits<double>::infinity();
    }
 }
 
@@ -24,31 +29,54 @@ bool RowEntries::link(double most) const
    return stand_out(most) || (largest > 0 && diagonal <= 2 * sum);
 }
 
-double largest_beside_diagonal(const SparseView &K, bool square)
+Eigen::VectorXd diagonal_of(const SparseView &K)
 {
-   RowEntries all;
-   for (int row = 0; row < K.rows(); ++row) { all.add(K, row, square ? row : -1); }
-   return all.largest;
+   Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(K.rows());
+   for (int row = 0; row < K.rows(); ++row)
+   {
+      for (SparseView::InnerIterator entry(K, row); entry; ++entry)
+      {
+         if (entry.col() == row) { diagonal[row] = entry.value(); }
+      }
+   }
+   return diagonal;
 }
 
-bool is_linked(const SparseView &K, const DofPlaces &places, int dof, double most)
+double largest_beside_diagonal(const SparseView &K, bool square)
 {
-   if (!couples(K, dof, dof)) { return false; }
-   RowEntries entries;
-   entries.add(K, dof, dof);
-   if (entries.stand_out(most)) { return true; }
-   const int component = places.component[dof];
-   if (!entries.link(most)) { return false; }
-   if (places.formulation != Formulation::plane && component == 0)
+   double largest = 0;
+   for (int row = 0; row < K.rows(); ++row)
    {
-      return entries.diagonal > 0;
+      for (SparseView::InnerIterator entry(K, row); entry; ++entry)
+      {
+         if (square && entry.col() == row) { continue; }
+         largest = std::max(largest, std::abs(entry.value()));
+      }
    }
+   return largest;
+}
+
+bool is_linked(const RowEntries &entries, Formulation formulation, int component, double most,
+               double resistance)
+{
+   if (entries.stand_out(most)) { return true; }
+   if (!entries.link(most)) { return false; }
+   if (formulation != Formulation::plane && component == 0) { return entries.diagonal > 0; }
+   return std::abs(resistance) <= 1e-6 * entries.sum;
+}
+
+bool is_linked(const SparseView &K, const DofPlaces &places, int dof, double most,
+               const Eigen::VectorXd &diagonals)
+{
+   RowEntries entries;
+   entries.add(K, dof, dof, diagonals);
+   const int component = places.component[dof];
    double resistance = 0;
    for (SparseView::InnerIterator entry(K, dof); entry; ++entry)
    {
       if (places.component[entry.col()] == component) { resistance += entry.value(); }
    }
-   return std::abs(resistance) <= 1e-6 * entries.sum;
+   return is_linked(entries, places.formulation, component, most, resistance);
 }
 
 SharedMatrix without_links(const SharedMatrix &K, const std::vector<int> &rows)

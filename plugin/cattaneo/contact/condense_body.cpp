@@ -12,6 +12,10 @@ namespace cattaneo
 namespace
 {
 
+constexpr const char *was_eliminated =
+   ": was the operator eliminated? Pass it as assembled (SpMat() after Finalize), or fix them "
+   "in the body too";
+
 /// Of a body that was gathered: the first rank's solver, what it finds on all.
 class GatheredSolver : public BodySolver
 {
@@ -72,8 +76,7 @@ Condensation gathered(const ElasticBody &body, const std::vector<int> &contact,
       {
          const std::string gone = all.eliminated_warning();
          require(gone.empty(), "condense: ", gone.substr(0, gone.find(": they are")),
-                 ": was the operator eliminated? Pass it as assembled (SpMat() after "
-                 "Finalize), or fix them in the body too");
+                 was_eliminated);
          found = condense_by_factor(all, contact, alike);
       });
    if (!ranks.distributed()) { return found; }
@@ -86,39 +89,139 @@ Condensation gathered(const ElasticBody &body, const std::vector<int> &contact,
    return found;
 }
 
+/// The rows of a body's stiffness that this rank has.
+class RowsHere
+{
+public:
+   explicit RowsHere(const ElasticBody &body) : ranks_(body.ranks())
+   {
+#ifdef MFEM_USE_MPI
+      if (ranks_.distributed())
+      {
+         const mfem::HypreParMatrix &K = *body.distributed_stiffness();
+         HYPRE_BigInt *columns = nullptr;
+         K.GetDiag(own_);
+         K.GetOffd(others_, columns);
+         other_diagonals_ = diagonals_of_others(K, diagonal_of(view(own_)));
+      }
+#endif
+      rows_ = &(ranks_.distributed() ? own_ : body.stiffness());
+      diagonals_ = diagonal_of(view(*rows_));
+      most_ = largest_beside_diagonal(view(*rows_));
+      if (!ranks_.distributed()) { return; }
+      most_ = ranks_.max(std::max(most_, largest_beside_diagonal(view(others_), false)));
+   }
+   RowEntries entries(int dof) const
+   {
+      RowEntries entries;
+      entries.add(view(*rows_), dof, dof, diagonals_);
+      if (ranks_.distributed()) { entries.add(view(others_), dof, -1, other_diagonals_); }
+      return entries;
+   }
+   /// The largest magnitude beside the diagonal, of all ranks.
+   double most() const
+   {
+      return most_;
+   }
+
+private:
+#ifdef MFEM_USE_MPI
+   /// The diagonal of K in the columns of other ranks that are coupled with rows of this one.
+   static Eigen::VectorXd diagonals_of_others(const mfem::HypreParMatrix &K,
+                                              const Eigen::VectorXd &here)
+   {
+      hypre_ParCSRMatrix *matrix = K;
+      if (!hypre_ParCSRMatrixCommPkg(matrix)) { hypre_MatvecCommPkgCreate(matrix); }
+      hypre_ParCSRCommPkg *package = hypre_ParCSRMatrixCommPkg(matrix);
+      const auto sends = hypre_ParCSRCommPkgNumSends(package);
+      Eigen::VectorXd sent(hypre_ParCSRCommPkgSendMapStart(package, sends));
+      for (Eigen::Index k = 0; k < sent.size(); ++k)
+      {
+         sent[k] = here[hypre_ParCSRCommPkgSendMapElmt(package, k)];
+      }
+      Eigen::VectorXd received(hypre_CSRMatrixNumCols(hypre_ParCSRMatrixOffd(matrix)));
+      hypre_ParCSRCommHandleDestroy(
+         hypre_ParCSRCommHandleCreate(1, package, sent.data(), received.data()));
+      return received;
+   }
+#endif
+
+   const Ranks &ranks_;
+   mfem::SparseMatrix own_, others_;
+   const mfem::SparseMatrix *rows_ = nullptr;
+   Eigen::VectorXd diagonals_, other_diagonals_;
+   double most_ = 0;
+};
+
 /// InputError, on all ranks, for a load of displacements that nothing in the body feels.
 void require_felt(const ElasticBody &body, const BodyLoad &load)
 {
    const Ranks &ranks = body.ranks();
-   mfem::SparseMatrix own, others;
-#ifdef MFEM_USE_MPI
-   if (ranks.distributed())
-   {
-      HYPRE_BigInt *columns = nullptr;
-      body.distributed_stiffness()->GetDiag(own);
-      body.distributed_stiffness()->GetOffd(others, columns);
-   }
-#endif
-   const SparseView rows = view(ranks.distributed() ? own : body.stiffness());
-   double most = largest_beside_diagonal(rows);
-   if (ranks.distributed())
-   {
-      most = ranks.max(std::max(most, largest_beside_diagonal(view(others), false)));
-   }
+   const RowsHere rows(body);
    bool moves = false, felt = false;
    for (int dof = 0; dof < load.values.size(); ++dof)
    {
       if (load.values[dof] == 0) { continue; }
       moves = true;
-      RowEntries entries;
-      entries.add(rows, dof, dof);
-      if (ranks.distributed()) { entries.add(view(others), dof, -1); }
-      felt = felt || entries.link(most);
+      felt = felt || rows.entries(dof).link(rows.most());
    }
    const bool anywhere = ranks.any(felt);
    require(!ranks.any(moves) || anywhere, "condense: load '", load.name, "' ",
            AssembledBody::feels_nothing);
 }
+
+#ifdef MFEM_USE_MPI
+
+/// InputError, on all ranks, for rows of an operator on them that are those of supports which
+/// were eliminated: see AssembledBody::eliminated().
+void require_not_eliminated(const ElasticBody &body)
+{
+   if (body.has_material()) { return; }
+   const Ranks &ranks = body.ranks();
+   const RowsHere rows(body);
+   const DofPlaces places = places_of(body);
+   const mfem::Array<int> essential = body.essential_dofs();
+   const auto size = static_cast<int>(places.component.size());
+   std::vector<double> first; // of this rank: its place and component
+   long alone = 0;
+   for (int c = 0; c < body.components(); ++c)
+   {
+      // Forces of a translation along the component.
+      Eigen::VectorXd moved(size);
+      for (int dof = 0; dof < size; ++dof) { moved[dof] = places.component[dof] == c; }
+      mfem::Vector forces(size);
+      body.distributed_stiffness()->Mult(to_mfem(moved), forces);
+      bool connected = false; // any row of the component
+      std::vector<int> gone;
+      for (int dof = 0; dof < size; ++dof)
+      {
+         if (places.component[dof] != c) { continue; }
+         if (is_linked(rows.entries(dof), places.formulation, c, rows.most(), forces[dof]))
+         {
+            connected = true;
+         }
+         else if (!std::binary_search(essential.begin(), essential.end(), dof))
+         {
+            gone.push_back(dof);
+         }
+      }
+      if (!ranks.any(connected)) { continue; } // a bed of springs
+      alone += static_cast<long>(gone.size());
+      if (first.empty() && !gone.empty())
+      {
+         first = {places.x[gone[0]], places.y[gone[0]], static_cast<double>(c)};
+      }
+   }
+   alone = ranks.sum(alone);
+   first = ranks.gather(first);
+   if (alone == 0) { return; }
+   require(false, "condense: ",
+           eliminated_rows(static_cast<std::size_t>(alone), places.formulation,
+                           static_cast<int>(first[2]), {first[0], first[1]}),
+           was_eliminated);
+}
+
+#endif
 
 /// contact_dofs() of an MFEM body, global numbers, and which are held. InputError, on all
 /// ranks, if one is displaced by a load pattern.
@@ -182,6 +285,7 @@ CondensedBody condense(const ElasticBody &body, const ContactLine &line,
               "condense: the body has guides, which only a factor knows: "
               "CondenseSettings::direct_dofs must be above its ",
               body.dofs(), " dofs");
+      require_not_eliminated(body);
       found = condense_by_iterations(body, line, dofs, settings.max_iterations, other);
    }
    else

@@ -20,6 +20,8 @@ bool closes(const ReducedProblem &problem, const ContactState &before,
 bool advances_too_far(const ReducedProblem &problem, const ContactState &before,
                       const ContactState &after)
 {
+   // Nodes that touch without force open and close by round-off, which is no advance.
+   const std::vector<NodeState> settled = settled_states(problem, after);
    for (const ContactChain &chain : problem.chains)
    {
       const Index first = chain.first, count = chain.nodes;
@@ -33,7 +35,7 @@ bool advances_too_far(const ReducedProblem &problem, const ContactState &before,
       for (Index k = 0; k < count; ++k)
       {
          bore = bore || was_closed(k);
-         if (!closed(after.status[first + k]) || was_closed(k) || was_closed(k - 1) ||
+         if (!closed(settled[first + k]) || was_closed(k) || was_closed(k - 1) ||
              was_closed(k + 1))
          {
             continue;

@@ -16,7 +16,7 @@ VectorXd WearCycle::compliance() const
    VectorXd c = VectorXd::Zero(depth.size());
    for (Index i = 0; i < c.size(); ++i)
    {
-      if (depth[i] > 0) { c[i] = depth[i] / force[i]; }
+      if (depth[i] > 0 && force[i] > 0) { c[i] = depth[i] / force[i]; }
    }
    return c;
 }
@@ -58,9 +58,11 @@ WearCycle WearCycles::march(const LoadHistory &part, ContactState &contact,
       lost += frictional_loss(worn, before, after);
       cycle.opening = cycle.opening.cwiseMin((after.w + worn.gap).cwiseMax(0.0));
       cycle.range.note(after);
-      // The way of a node that bears: where it is lifted off, wear takes no pressure from it.
-      way += (p.array() > 0).select(rub.way, 0);
-      along += p.cwiseProduct(rub.way);
+      // The way of a node that bears: where it is lifted off, wear takes no pressure from it,
+      // and a node that has just lifted off has one of round-off over all of its way.
+      const VectorXd slid = (p.array() > 1e-12 * after.peak_force).select(rub.way, 0);
+      way += slid;
+      along += p.cwiseProduct(slid);
       in_time += (after.time - before.time) * p;
       duration += after.time - before.time;
       if (watch_) { watch_(after, record, depth); }

@@ -183,7 +183,10 @@ private:
    double slow(const Way &way) const { return way.state.depth.maxCoeff() / end_; }
    double done() const { return fine_.state.cycles; }
    /// Estimate of the error of depth so far.
-   double error() const { return paired_ ? 1.5 * apart_ + unseen_ : 0.0; }
+   double error() const
+   {
+      return paired_ ? std::max(1.5 * apart_, 0.5 * single_) + unseen_ : 0.0;
+   }
 
    const ReducedProblem &problem_;
    WearState &state_;
@@ -198,7 +201,8 @@ private:
    bool paired_ = false;    // both are other ways since the first jump
    double apart_ = 0;       // largest distance between both so far
    double unseen_ = 0;      // error that both may have alike
-   double local_ = 0;       // errors of the longer jumps, each by itself
+   double single_ = 0;      // errors of the jumps on the fine way, each by itself
+   double local_ = 0;       // of the longer jumps
    Noticed noticed_;        // on the fine way
    std::vector<Kept> kept_; // since the first jump
 
@@ -534,8 +538,19 @@ std::optional<Landing> WearMarch::landing(const Way &from, double cycles)
    }
    const double outside =
       std::max({0.0, (cycles * least - sum).maxCoeff(), (sum - cycles * most).maxCoeff()});
-   result.error += outside;
-   result.unseen += outside;
+   // Nor does wear go on past the gap at which a node just touches: a node that the jump wore
+   // and that no longer comes to touch was worn too far, and on both ways alike, as nothing
+   // grows on.
+   double past = 0;
+   for (Index i = 0; i < best.depth.size(); ++i)
+   {
+      if (first.depth[i] > 0 && best.depth[i] > 0)
+      {
+         past = std::max(past, std::min(best.depth[i], result.way.look->opening[i]));
+      }
+   }
+   result.error += outside + past;
+   result.unseen += outside + past;
    reached = result.way.looked;
    return result;
 }
@@ -562,7 +577,7 @@ void WearMarch::begin_again()
    fine_ = fork_;
    noticed_ = noticed_at_fork_;
    paired_ = false;
-   apart_ = unseen_ = local_ = 0;
+   apart_ = unseen_ = single_ = local_ = 0;
    kept_.clear();
    step_ = 2 * least_jump;
 }
@@ -634,6 +649,7 @@ bool WearMarch::jump()
    paired_ = true;
    apart_ = std::max(apart_, apart);
    unseen_ += 0.2 * settings_.tolerance * added + half->unseen + second->unseen;
+   single_ += half->error + second->error;
    local_ += whole->error;
    if (errors_have_grown(second->way)) { return true; }
    const double bend = std::max(whole->bend, 0.25 * (apart - apart_));

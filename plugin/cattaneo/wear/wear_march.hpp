@@ -89,7 +89,8 @@ struct WearReport
    long jumps = 0; ///< over cycles that were not marched
    /** Estimate of the largest error of depth at the end that comes of jumps, 0 if there were
        none: the largest distance, so far, between this way and one whose jumps are twice as
-       long. It has in it how errors of early jumps grow. Infinite: the way is too unstable for
+       long, or half of the errors of single jumps if that is more, and what both may have
+      alike. It has in it how errors of early jumps grow. Infinite: the way is too unstable for
        an estimate, as `remark` says. */
    double error = 0;
    /// Whether depths are estimated to be right to WearSettings::tolerance.

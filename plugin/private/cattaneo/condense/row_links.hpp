@@ -14,16 +14,27 @@ struct RowEntries
    double diagonal = 0;
    double largest = 0; ///< magnitude beside the diagonal
    double sum = 0;     ///< of the magnitudes beside the diagonal
+   double squares = 0; ///< sum of k_ij²/k_jj beside the diagonal; infinite where a k_jj is 0
 
-   /// Adds the row of K, whose diagonal is in column `own` (-1: in none).
-   void add(const SparseView &K, int row, int own);
+   /// Adds the row of K, whose diagonal is in column `own` (-1: in none). `diagonals`: of the
+   /// matrix, in the columns of K.
+   void add(const SparseView &K, int row, int own, const Eigen::VectorXd &diagonals);
    /// Is it more than round-off that links the row with others? Entries beside the diagonal of
    /// no more than 1e-12 of `most`, the largest such entry of the matrix, are round-off, unless
    /// the diagonal is as small as they are: that is a soft material beside a stiff one.
    bool link(double most) const;
-   /// Does any entry beside the diagonal stand out from the round-off of `most`?
-   bool stand_out(double most) const { return largest > 1e-12 * most; }
+   /// Does any entry beside the diagonal stand out from the round-off of `most`, and from that
+   /// of the diagonal?
+   bool stand_out(double most) const { return largest > 1e-12 * most && !holds_alone(); }
+   /** Does the diagonal hold the dof whatever the others do? They move it by no more than 1e-12
+       of what they move by, and it adds less than a rounding to the stiffness of the others:
+       Σ k_ij²/(k_ii k_jj) ≤ 1e-16. It is a support for them, be it a spring or an eliminated
+       row whose zeros are round-off of a large diagonal. */
+   bool holds_alone() const { return sum <= 1e-12 * diagonal && squares <= 1e-16 * diagonal; }
 };
+
+/// The diagonal of a square K.
+Eigen::VectorXd diagonal_of(const SparseView &K);
 
 /// The largest magnitude in rows of K beside the diagonal; `square`: rows and columns are of
 /// the same dofs, else there is no diagonal.
@@ -31,11 +42,17 @@ double largest_beside_diagonal(const SparseView &K, bool square = true);
 
 /** Is the dof linked with others by more than round-off?
 
-    A row whose entries are all round-off of the largest ones is that of a support that was
-    eliminated, whatever its diagonal is, or of a material that is much softer than another one
-    in the body. The second one does not resist a translation along its own component (along z
-    only, about an axis). */
-bool is_linked(const SparseView &K, const DofPlaces &places, int dof, double most);
+    A row whose entries are all round-off, of the largest ones or of its own diagonal, is that
+    of a support that was eliminated, whatever its diagonal is, or of a material that is much
+    softer than another one in the body. The second one does not resist a translation along its
+    own component (along z only, about an axis).
+    @param diagonals of K */
+bool is_linked(const SparseView &K, const DofPlaces &places, int dof, double most,
+               const Eigen::VectorXd &diagonals);
+/// The same of a row whose entries are known, with the forces that a translation of all along
+/// its component takes there.
+bool is_linked(const RowEntries &entries, Formulation formulation, int component, double most,
+               double resistance);
 
 /// K without what links the sorted `rows` with any other: round-off, of eliminated ones.
 SharedMatrix without_links(const SharedMatrix &K, const std::vector<int> &rows);
