@@ -159,9 +159,9 @@ std::string gmsh_file(const std::vector<int> &curves, double degrees)
          if (curves[k] == curve) { out << ++number << " " << k + 1 << " " << k + 2 << "\n"; }
       }
    }
-   out << "1 " << other << " 1 " << n + 2 << "\n"
-       << ++number << " 1 " << n + 2 << "\n"
-       << ++number << " " << n + 1 << " " << 2 * n + 2 << "\n";
+   out << "1 " << other << " 1 " << n + 2 << "\n";
+   out << ++number << " 1 " << n + 2 << "\n";
+   out << ++number << " " << n + 1 << " " << 2 * n + 2 << "\n";
    for (int k = 0; k < n; ++k)
    {
       out << ++number << " " << n + 2 + k << " " << n + 3 + k << "\n";
@@ -186,7 +186,6 @@ TEST(CurveSides, FollowTheCurvesOfAFile)
       double degrees;
       bool known, round;
    } const sides[] = {{{5, 5, 5}, 20, true, true},            // one curve
-                      {{5, 5, 5}, 20, false, false},          // of no file: a chamfer
                       {{5, 6, 7}, 20, true, false},           // facets
                       {{5, 6, 7, 8, 9, 10}, 10, true, false}, // more of them
                       {{5, 6, 7, 8, 9, 10}, 10, false, true}, // an arc, if nothing is known
