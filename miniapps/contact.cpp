@@ -194,7 +194,13 @@ void contact(Study &study)
    if (fields) { study.say(text("%d frames in %s", frames, options.paraview.c_str())); }
    for (const auto &side : beyond_corners) { side.warn(); }
    for (const std::string &said : geometry_warnings(own.scene.reduction, most)) { warn(said); }
-   warn_of_chords(own.scene.reduction, pressed, away);
+   const ChordalError chords = warn_of_chords(own.scene.reduction, pressed, away);
+   // Less is round-off of sides that are straight.
+   if (chords.at_a_node > 1e-6 && std::isfinite(chords.at_a_node))
+   {
+      study.value("chords_peak_pressure_change_estimate", chords.of_peak);
+      study.value("chords_node_pressure_change_estimate", chords.at_a_node);
+   }
    warn_of_linear_axis(own.scene.reduction, pressed);
    warn_of_large_displacements(own, small, history.state);
    if (history.report.status != FrictionStatus::converged) { warn_of_loose_bodies(own); }

@@ -127,7 +127,7 @@ void check_overlap(const ReducedProblem &problem, const InterfaceReport &report,
               Eigen::Vector2d(report.position.row(i)), ", at most ",
               face.most_overlap * element, " is allowed (", face.most_overlap,
               " of the element's length): if it is to be pressed open, key 'overlap' must "
-              "allow more");
+              "allow more; a side that looks away from the obstacle is no part of the contact");
    }
 }
 
@@ -177,6 +177,11 @@ void complete(Reduction &reduction, const JointCase &joint,
       const JointCase::Face &face = joint.faces[k];
       InterfaceReport &report = reduction.interfaces[k];
       report.name = face.name;
+      if (face.gap && face.sides[1].body >= 0) // whatever the geometry is
+      {
+         report.chords.setZero();
+         report.curved.setZero();
+      }
       for (Eigen::Index i = report.first; i < report.first + report.nodes && !face.tied; ++i)
       {
          const Eigen::Vector2d place = problem.position.row(i);

@@ -127,16 +127,17 @@ void note_smooth_sides(const JointCase &joint, const Reduction &reduction,
    }
 }
 
-void warn_of_chords(const Reduction &reduction, const Eigen::VectorXd &p,
-                    const Eigen::VectorXd &w)
+ChordalError warn_of_chords(const Reduction &reduction, const Eigen::VectorXd &p,
+                            const Eigen::VectorXd &w)
 {
-   const double share = chordal_error(reduction, p, w);
-   if (share <= 0.05) { return; }
+   const ChordalError shares = chordal_error(reduction, p, w);
+   const bool known = std::isfinite(shares.at_a_node);
+   if (shares.at_a_node <= 0.05) { return shares; }
    // Where nodes bear, and beside these: chords are off their curves between vertices alone,
    // and it may be vertices alone that bear. If it is none of these, then anywhere.
    const InterfaceReport *worst = nullptr;
    double most = 0;
-   for (const bool anywhere : {!std::isfinite(share), true})
+   for (const bool anywhere : {!known, true})
    {
       for (const InterfaceReport &face : reduction.interfaces)
       {
@@ -155,15 +156,18 @@ void warn_of_chords(const Reduction &reduction, const Eigen::VectorXd &p,
       }
       if (worst) { break; }
    }
-   if (!worst) { return; }
+   if (!worst) { return shares; }
    warn("interface '", worst->name,
         "': its elements are chords of curves, which leaves the gap unknown by about ", most,
         ": ",
-        std::isfinite(share) ? told("to close that takes ", share, " of the largest pressure")
-                             : "nothing bears, and the curves may",
+        known ? told("to close that takes ", shares.of_peak,
+                     " of the largest pressure, and changes that of a single node by up to ",
+                     shares.at_a_node, " of the largest (estimates)")
+              : "nothing bears, and the curves may",
         "; key geometry: smooth follows the curves where the vertices tell them, a mesh of "
         "elements of a higher order (in Gmsh: -order 2) does so everywhere, or key 'gap' may "
         "say what the gap is");
+   return shares;
 }
 
 void warn_of_linear_axis(const Reduction &reduction, const Eigen::VectorXd &p)

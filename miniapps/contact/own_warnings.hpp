@@ -5,6 +5,7 @@
 #include <cattaneo/mesh/smooth_sides.hpp>
 
 #include <cattaneo/readout/small_displacements.hpp>
+#include <cattaneo/reduced/interfaces.hpp>
 #include <vector>
 
 namespace miniapp
@@ -33,10 +34,11 @@ void warn_of_large_displacements(OwnBodies &own, const cattaneo::SmallDisplaceme
 /// body with a mesh.
 void note_smooth_sides(const JointCase &joint, const cattaneo::Reduction &reduction,
                        const std::vector<cattaneo::SmoothSides> &sides);
-/// Warns where chords of curved sides make more than a twentieth of the largest pressure. The
-/// nodal forces p are those of the state with the largest of a march.
-void warn_of_chords(const cattaneo::Reduction &reduction, const Eigen::VectorXd &p,
-                    const Eigen::VectorXd &w);
+/// Warns where chords of curved sides change the pressure of a node by more than a twentieth of
+/// the largest one. The nodal forces p are those of the state with the largest of a march.
+/// Returns what chords make of pressures.
+cattaneo::ChordalError warn_of_chords(const cattaneo::Reduction &reduction,
+                                      const Eigen::VectorXd &p, const Eigen::VectorXd &w);
 /// Warns where what bears next to the axis are linear elements, whose node on it takes no
 /// force.
 void warn_of_linear_axis(const cattaneo::Reduction &reduction, const Eigen::VectorXd &p);

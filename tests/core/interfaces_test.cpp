@@ -1112,4 +1112,28 @@ TEST(ObstacleShape, PolylinesByHand)
    for (Index i = 0; i < report.nodes; ++i) { EXPECT_NEAR(gaps[i], nodes[i].gap, 1e-14) << i; }
 }
 
+/// A side that ends in the direction of what the obstacle looks along is open there, whichever
+/// way round-off turns its last normal, and one that looks away is not taken for it.
+TEST_F(Interfaces, NodesThatLookAlongAnObstacleAreOpen)
+{
+   for (const double unit : {1e-3, 1.0, 1e3})
+   {
+      for (const double turned : {0.0, 1e-14, -1e-14, 1e-8, -1e-8, 1e-3, -1e-3, 0.05, -0.05})
+      {
+         InterfaceReport report;
+         report.nodes = 2;
+         report.position = (Eigen::MatrixX2d(2, 2) << 1, 1, 0, 0).finished() * unit;
+         // The one looks to the right, the other down.
+         report.tangent =
+            (Eigen::MatrixX2d(2, 2) << std::sin(turned), std::cos(turned), 1, 0).finished();
+         const VectorXd gaps = gaps_to_polyline(report, {{-unit, 0}, {unit, 0}});
+         EXPECT_NEAR(gaps[0], unit / std::sin(5 * M_PI / 180), 1e-12 * unit) << turned;
+         EXPECT_NEAR(gaps[1], 0, 1e-15);
+         report.tangent.row(0) = Vector2d(std::sin(0.1), std::cos(0.1));
+         EXPECT_NEAR(std::abs(gaps_to_polyline(report, {{-unit, 0}, {unit, 0}})[0]),
+                     unit / std::sin(0.1), 1e-12 * unit);
+      }
+   }
+}
+
 } // namespace

@@ -421,6 +421,49 @@ TEST(Mortar, OfTwoDiscsHasTheGapBetweenThem)
    }
 }
 
+/// Where a long element of the slave ends at a short one both see what faces them there, and
+/// not what the long one cannot follow: a kink of the master amid the long element. Polynomials
+/// and a constant pressure are what they are with any mesh.
+TEST(Mortar, LongElementsBesideShortOnesSeeWhatIsNear)
+{
+   for (int order = 1; order <= 4; ++order)
+   {
+      for (const double size : {0.1, 0.01, 1e-4})
+      {
+         // A short one between long ones, and long ones beside many that are short.
+         for (const std::vector<double> &grid :
+              {std::vector<double>{-2, -1, 0, size, 1, 2},
+               std::vector<double>{-2, -1, 0, size, 2 * size, 3 * size, 1, 2}})
+         {
+            const std::vector<double> faces{-2, -1.3, -0.6, 0.4, 1.2, 2};
+            const ContactLine slave = above(grid, order), master = below(faces, order);
+            const Mortar found = mortar(slave, master);
+            ASSERT_EQ(Index(found.nodes.size()), slave.size());
+            for (int degree = 0; degree <= order; ++degree)
+            {
+               const auto power = [=](double x) { return std::pow(x, degree); };
+               EXPECT_LT(
+                  largest(found.other[1] * of_nodes(master, power) - of_nodes(slave, power)),
+                  1e-11)
+                  << order << " " << size << " " << degree;
+            }
+            const auto one = [](double) { return 1.0; };
+            EXPECT_LT(largest(found.other[1].transpose() * found.weights -
+                              integrals(master, one, -2, 2)),
+                      1e-12);
+            const auto kink = [](double x) { return std::abs(x + 0.6) + std::abs(x - 0.4); };
+            const VectorXd seen = found.other[1] * of_nodes(master, kink);
+            for (Index i = 0; i < slave.size(); ++i)
+            {
+               const double x = slave.nodes[i].position[0];
+               if (x < 0 || x > (grid.size() - 5) * size) { continue; }
+               EXPECT_NEAR(seen[i], kink(x), 2 * size) << order << " " << size << " " << x;
+            }
+         }
+      }
+   }
+}
+
 /// The same whatever the plane is called, and whatever the unit of length.
 TEST(Mortar, DoesNotDependOnFrameAndUnit)
 {

@@ -4,8 +4,11 @@
 #include <cattaneo/contact/boundary_line.hpp>
 #include <cattaneo/contact/interfaces_of_bodies.hpp>
 #include <cattaneo/mesh/element_check.hpp>
+#include <cattaneo/mesh/mesh_file.hpp>
 #include <cattaneo/mesh/smooth_sides.hpp>
+#include <fstream>
 #include <functional>
+#include <set>
 
 namespace
 {
@@ -119,6 +122,91 @@ TEST(CurveSides, MoveNodesOntoCircles)
          // Of a ring's quarter whose outer side is a polygon.
          const double expected = edges * 2 * std::sin(2 * half) - pi / 4;
          EXPECT_NEAR(area_of(mesh), expected, order == 2 ? 2e-5 : 2e-7) << order;
+      }
+   }
+}
+
+/// A part of a ring between the radii 1 and 2 in Gmsh's format 4.1, one row of quadrilaterals
+/// over edges of so many degrees. Group 1 is the hole, whose edges are on these curves.
+std::string gmsh_file(const std::vector<int> &curves, double degrees)
+{
+   const int n = static_cast<int>(curves.size()), other = 100; // the curve of all other sides
+   const std::set<int> own(curves.begin(), curves.end());
+   const std::string name = testing::TempDir() + "curve_sides.msh";
+   std::ofstream out(name);
+   out.precision(17);
+   out << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 " << own.size() + 1 << " 1 0\n";
+   for (int curve : own) { out << curve << " 0 0 0 2 2 0 1 1 0\n"; }
+   out << other << " 0 0 0 2 2 0 1 2 0\n1 0 0 0 2 2 0 1 3 0\n$EndEntities\n";
+   out << "$Nodes\n1 " << 2 * n + 2 << " 1 " << 2 * n + 2 << "\n2 1 0 " << 2 * n + 2 << "\n";
+   for (int k = 1; k <= 2 * n + 2; ++k) { out << k << "\n"; }
+   for (int radius : {1, 2})
+   {
+      for (int k = 0; k <= n; ++k)
+      {
+         const double angle = k * degrees * pi / 180;
+         out << radius * std::cos(angle) << " " << radius * std::sin(angle) << " 0\n";
+      }
+   }
+   out << "$EndNodes\n$Elements\n"
+       << own.size() + 2 << " " << 3 * n + 2 << " 1 " << 3 * n + 2 << "\n";
+   int number = 0;
+   for (int curve : own)
+   {
+      out << "1 " << curve << " 1 " << std::count(curves.begin(), curves.end(), curve) << "\n";
+      for (int k = 0; k < n; ++k)
+      {
+         if (curves[k] == curve) { out << ++number << " " << k + 1 << " " << k + 2 << "\n"; }
+      }
+   }
+   out << "1 " << other << " 1 " << n + 2 << "\n";
+   out << ++number << " 1 " << n + 2 << "\n";
+   out << ++number << " " << n + 1 << " " << 2 * n + 2 << "\n";
+   for (int k = 0; k < n; ++k)
+   {
+      out << ++number << " " << n + 2 + k << " " << n + 3 + k << "\n";
+   }
+   out << "2 1 3 " << n << "\n";
+   for (int k = 0; k < n; ++k)
+   {
+      out << ++number << " " << k + 1 << " " << n + 2 + k << " " << n + 3 + k << " " << k + 2
+          << "\n";
+   }
+   out << "$EndElements\n";
+   return name;
+}
+
+/// Gmsh's curves tell arcs of few edges from a chamfer, and facets from an arc of as many
+/// edges.
+TEST(CurveSides, FollowTheCurvesOfAFile)
+{
+   struct
+   {
+      std::vector<int> curves;
+      double degrees;
+      bool known, round;
+   } const sides[] = {{{5, 5, 5}, 20, true, true},            // one curve
+                      {{5, 6, 7}, 20, true, false},           // facets
+                      {{5, 6, 7, 8, 9, 10}, 10, true, false}, // more of them
+                      {{5, 6, 7, 8, 9, 10}, 10, false, true}, // an arc, if nothing is known
+                      {{5, 5, 5, 5, 6, 7}, 10, true, true},   // it goes on
+                      {{5, 5, 5, 9, 9, 9}, 15, true, true}};
+   for (const auto &side : sides)
+   {
+      const int n = static_cast<int>(side.curves.size());
+      const double sagitta = 1 - std::cos(side.degrees * pi / 360);
+      std::vector<int> curves;
+      mfem::Mesh mesh = read_mesh(gmsh_file(side.curves, side.degrees), &curves);
+      ASSERT_EQ(static_cast<int>(curves.size()), mesh.GetNBE());
+      const SmoothSides found =
+         curve_sides(mesh, 2, {1}, side.known ? curves : std::vector<int>());
+      const std::string what = std::to_string(n) + (side.known ? " edges" : " edges, no file");
+      EXPECT_EQ(found.edges, side.round ? n : 0) << what;
+      EXPECT_EQ(found.moved, side.round) << what;
+      EXPECT_NEAR(found.most, side.round ? sagitta : 0, 1e-14) << what;
+      for (const Vector2d &x : along(mesh, 1))
+      {
+         if (side.round) { EXPECT_NEAR(x.norm(), 1, 1e-13) << what; }
       }
    }
 }

@@ -216,6 +216,8 @@ ContactLine joined(const std::vector<ContactLine> &lines)
    require(!lines.empty(), "contact lines to be joined: there are none, must be at least one");
    ContactLine all;
    all.formulation = lines.front().formulation;
+   all.as_meshed = std::all_of(lines.begin(), lines.end(),
+                               [](const ContactLine &line) { return line.as_meshed; });
    std::set<std::array<int, 2>> known;
    for (const ContactLine &line : lines)
    {

@@ -161,7 +161,8 @@ double angle_between(const Eigen::Vector2d &one, const Eigen::Vector2d &other);
 /** The trace of a body with several interfaces, to be condensed to at once: the nodes of all
     lines, one after the other, each once. A node that two lines share (the end of one is the
     beginning of the other) has the frame of the first, and the chain of the later ones loses
-    it. InputError if the lines are of different formulations, or of none. */
+    it. As meshed if all of them are. InputError if the lines are of different formulations, or
+   of none. */
 ContactLine joined(const std::vector<ContactLine> &lines);
 
 /// Gives the elements of a line the curves that are known of the side it is on

@@ -87,11 +87,6 @@ void meet_supports(ContactLine &line, const HeldComponents &held)
       LineNode &node = line.nodes[i];
       const int axis = nearest_axis(node.tangent); // that the line goes along
       const double off = off_axis(node.tangent, axis), degrees = in_degrees * off;
-      require(degrees <= LineChain::smooth_turn, "condense: component ",
-              component_name(line.formulation, c), " of the contact node at ", node.position,
-              " is fixed, and the line meets it at ",
-              0.1 * std::round(10 * (axis == c ? degrees : 90 - degrees)),
-              " degrees, must be 0 or 90, to ", LineChain::smooth_turn);
       bool onto_axis = off <= 1e-9; // round-off of the coordinates
       // About an axis nothing has a mirror image in a cylinder, which a held r is.
       const bool mirrors = axis == c && (line.formulation == Formulation::plane || c == 1);
@@ -108,6 +103,12 @@ void meet_supports(ContactLine &line, const HeldComponents &held)
             onto_axis = onto_axis || curve;
          }
       }
+      // The first chord of a coarse circle leans more than any line may that is straight there.
+      require(onto_axis || degrees <= LineChain::smooth_turn, "condense: component ",
+              component_name(line.formulation, c), " of the contact node at ", node.position,
+              " is fixed, and the line meets it at ",
+              0.1 * std::round(10 * (axis == c ? degrees : 90 - degrees)),
+              " degrees, must be 0 or 90, to ", LineChain::smooth_turn);
       if (!onto_axis) { continue; }
       const double sign = std::copysign(1.0, node.tangent[axis]);
       node.tangent.setZero();

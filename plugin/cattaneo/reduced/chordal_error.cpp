@@ -64,7 +64,7 @@ std::optional<VectorXd> forces_after(const MatrixXd &C, const VectorXd &p, Vecto
 
 } // namespace
 
-double chordal_error(const Reduction &reduction, const VectorXd &p, const VectorXd &w)
+ChordalError chordal_error(const Reduction &reduction, const VectorXd &p, const VectorXd &w)
 {
    const ReducedProblem &problem = reduction.problem;
    const Index n = problem.nodes();
@@ -77,7 +77,8 @@ double chordal_error(const Reduction &reduction, const VectorXd &p, const Vector
       if (face.tied || face.chords.size() != face.nodes) { continue; }
       off.segment(face.first, face.nodes) = face.chords;
    }
-   if (off.isZero(0)) { return 0; }
+   if (off.isZero(0)) { return {}; }
+   const ChordalError unknown{HUGE_VAL, HUGE_VAL};
    const bool bears = p.maxCoeff() > 0;
    // How far nodes are open. Where that is not known those that are stay so.
    VectorXd open = VectorXd::Constant(n, HUGE_VAL);
@@ -91,12 +92,15 @@ double chordal_error(const Reduction &reduction, const VectorXd &p, const Vector
    {
       // Smooth sides may meet, as far as the estimate is known, which is to a tenth of itself.
       const bool meet = (off.array() < 0 && (open + 1.1 * off).array() < 0).any();
-      return meet && (problem.gap.array() >= 0).any() ? HUGE_VAL : 0;
+      if (meet && (problem.gap.array() >= 0).any()) { return unknown; }
+      return {};
    }
    const auto after = forces_after(problem.C(), p, open, off);
-   if (!after) { return HUGE_VAL; }
-   return (*after - p).cwiseQuotient(problem.weights).cwiseAbs().maxCoeff() /
-          p.cwiseQuotient(problem.weights).maxCoeff();
+   if (!after) { return unknown; }
+   const VectorXd now = p.cwiseQuotient(problem.weights),
+                  then = after->cwiseQuotient(problem.weights);
+   const double peak = now.maxCoeff();
+   return {(then - now).cwiseAbs().maxCoeff() / peak, std::abs(then.maxCoeff() - peak) / peak};
 }
 
 } // namespace cattaneo

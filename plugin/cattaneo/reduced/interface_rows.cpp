@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cattaneo/condense/supported_nodes.hpp>
 #include <cattaneo/input_error.hpp>
+#include <cattaneo/reduced/curve_gaps.hpp>
 #include <cattaneo/reduced/interface_rows.hpp>
 #include <cmath>
 #include <set>
@@ -166,35 +167,16 @@ void InterfaceRows::pair_nodes(const std::vector<int> &without)
 /// obstacle the line is empty.
 void InterfaceRows::add_curves(const ContactLine &other, const std::vector<int> &partner)
 {
-   const auto rows = [&](const auto &of_line)
-   {
-      Eigen::MatrixX2d all = of_line(slave_.line)(mortar_.nodes, Eigen::all);
-      if (other.size() == 0) { return all; }
-      const Eigen::MatrixX2d its = of_line(other);
-      for (Index i = 0; i < all.rows(); ++i)
-      {
-         all.row(i) -= its.row(partner[mortar_.nodes[i]]);
-      }
-      return all;
-   };
-   const Eigen::MatrixX2d moved =
-                             rows([](const ContactLine &line) -> Eigen::MatrixX2d
-                                  { return line.outline() - line.each(&LineNode::position); }),
-                          left = rows([](const ContactLine &line) -> Eigen::MatrixX2d
-                                      { return line.off_curves() * (line.as_meshed ? 1 : 0); }),
-                          curved = rows([](const ContactLine &line) { return line.bulges(); });
-   Eigen::MatrixX2d normal(mortar_.tangent.rows(), 2);
-   normal << -mortar_.tangent.col(1), mortar_.tangent.col(0);
-   const auto across = [&](const Eigen::MatrixX2d &all) -> VectorXd
-   { return normal.cwiseProduct(all).rowwise().sum(); };
-   mortar_.gap += across(moved);
+   const CurveGaps curves =
+      curve_gaps(slave_.line, mortar_.nodes, mortar_.tangent, other, partner);
+   mortar_.gap += curves.moved;
    for (Index i = 0; i < mortar_.gap.size(); ++i) // round-off of what is the same on both sides
    {
       const double least = 1e-9 * slave_.line.nodes[mortar_.nodes[i]].spacing;
       if (std::abs(mortar_.gap[i]) <= least) { mortar_.gap[i] = 0; }
    }
-   mortar_.chords = across(left);
-   mortar_.curved = across(curved);
+   mortar_.chords = curves.left;
+   mortar_.curved = curves.curved;
 }
 
 void InterfaceRows::meet(const std::vector<int> &without)
@@ -534,8 +516,10 @@ InterfaceReport InterfaceRows::report() const
    }
    report.chords = mortar_.chords;
    report.curved = mortar_.curved;
-   // On an obstacle the gap that is given is that of its shape.
-   if ((given_.gap && master_.body >= 0) || given_.tied || report.matching)
+   // On an obstacle the gap that is given is that of its shape. Sides that match have the same
+   // chords; of those that are paired by name one may be straight.
+   const bool same = report.matching && !given_.pairing;
+   if ((given_.gap && master_.body >= 0) || given_.tied || same)
    {
       report.chords.setZero(report.nodes);
       report.curved.setZero(report.nodes);

@@ -97,12 +97,18 @@ Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface>
          if (auto pairing =
                 one.pairing ? one.pairing : matching_nodes(bodies[0].line, bodies[1].line))
          {
-            for (Index i = 0; one.gap && i < pairing->gap.size(); ++i)
+            Reduction made =
+               named(reduce(std::move(bodies[0]), std::move(bodies[1]), *pairing));
+            if (!one.gap) { return made; }
+            // Said of the nodes, whatever the geometry is.
+            for (Index i = 0; i < made.problem.nodes(); ++i)
             {
-               const Vector2d &x = bodies[0].line.nodes[i].position;
-               pairing->gap[i] = (*one.gap)(x[0], x[1]);
+               const Vector2d x = made.problem.position.row(i);
+               made.problem.gap[i] = (*one.gap)(x[0], x[1]);
             }
-            return named(reduce(std::move(bodies[0]), std::move(bodies[1]), *pairing));
+            made.interfaces[0].chords.setZero();
+            made.interfaces[0].curved.setZero();
+            return made;
          }
       }
    }

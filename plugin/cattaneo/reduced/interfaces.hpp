@@ -85,17 +85,25 @@ struct Interface
     other side is not, or nothing holds the bodies together. */
 Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface> &interfaces);
 
-/** What chords of curved sides (InterfaceReport::chords) make of tractions, as a share of the
-    largest pressure: the largest change of a pressure if gaps were those of the curves, with
-   the displacements along the interface as they are. An estimate; 0 where sides are straight or
-    nodes match. Where nothing bears it is infinite if smooth sides may meet, else 0.
+/// What chords of curved sides (InterfaceReport::chords) make of pressures, as shares of the
+/// largest one. Estimates, of gaps alone.
+struct ChordalError
+{
+   double at_a_node = 0; ///< the largest change of the pressure of a node
+   double of_peak = 0;   ///< the change of the largest pressure, which may move to another node
+};
+
+/** How pressures would change if gaps were those of the curves, with the displacements along
+   the interface as they are. 0 where sides are straight, their elements match, or are linear
+   and gaps are those of nodes (on obstacles, on half-planes and paired): vertices are on the
+   curve. Where nothing bears both are infinite if smooth sides may meet, else 0.
 
     @param p normal forces of the contact nodes
     @param w their normal displacements, which tell how far nodes are open that may close; left
            out, open nodes stay open
-    @return the share. InputError unless there is one of each for each contact node. */
-double chordal_error(const Reduction &reduction, const Eigen::VectorXd &p,
-                     const Eigen::VectorXd &w = {});
+    @return the shares. InputError unless there is one of each for each contact node. */
+ChordalError chordal_error(const Reduction &reduction, const Eigen::VectorXd &p,
+                           const Eigen::VectorXd &w = {});
 
 /** Bodies that meet at interfaces but keep displacements of their own, for programs of joint
     dynamics. U: contact displacements of all bodies that are not held, {v; w} of each in the

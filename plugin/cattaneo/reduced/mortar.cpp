@@ -24,6 +24,8 @@ constexpr double least_share = 0.25;
 /// Of what a dual function sees of all nodes on an element that is faced in part: what must be
 /// of its own.
 constexpr double least_own = 0.1;
+/// Of the length of an element: a neighbour that is shorter has the end of it for its own.
+constexpr double short_neighbour = 0.2;
 
 /// In parameters of an element: round-off of roots.
 constexpr double near = 1e-9;
@@ -121,6 +123,35 @@ MatrixXd hats(const VectorXd &places, const std::vector<Point> &points)
    return values;
 }
 
+/// How far the ends of an element reach that are its neighbours', in parameters; 0: not.
+using NearEnds = std::array<double, 2>;
+
+/// The functions of an element's nodes at the points, with others in the place of those at ends
+/// that belong to a short neighbour: hats as narrow as that one. The rest of theirs goes to the
+/// node beside. They sum to 1 as before.
+MatrixXd narrowed(MatrixXd functions, const VectorXd &places, const std::vector<Point> &points,
+                  const NearEnds &ends)
+{
+   const Index last = places.size() - 1;
+   const bool has_first = ends[0] > 0 && places[0] == 0,
+              has_last = ends[1] > 0 && places[last] == 1;
+   // Two nodes have no third function for what both leave.
+   if (last < 1 || (last == 1 && has_first && has_last)) { return functions; }
+   const auto narrow = [&](Index end, Index beside, double from, double reach)
+   {
+      for (std::size_t p = 0; p < points.size(); ++p)
+      {
+         const auto at = static_cast<Index>(p);
+         const double hat = std::max(0.0, 1 - std::abs(points[p].s - from) / reach);
+         functions(beside, at) += functions(end, at) - hat;
+         functions(end, at) = hat;
+      }
+   };
+   if (has_first) { narrow(0, 1, 0, ends[0]); }
+   if (has_last) { narrow(last, last - 1, 1, ends[1]); }
+   return functions;
+}
+
 /// Dual functions at the points (times their weights) for some of an element's nodes.
 struct DualFunctions
 {
@@ -128,6 +159,22 @@ struct DualFunctions
    MatrixXd weighted;      ///< nodes × points
    bool positive = false;  ///< each sees enough of its own node
 };
+
+/// For the functions `phi` of all nodes of an element, made of `tests`, each × points.
+DualFunctions made_of(const MatrixXd &tests, const MatrixXd &phi, const VectorXd &weights,
+                      const std::vector<int> &nodes)
+{
+   // ψ = diag(D) N⁻¹ B for N = ∫B φᵀ: ∫ψ_i φ_j = D_i δ_ij among the nodes with functions.
+   const MatrixXd own = phi(nodes, Eigen::all);
+   const MatrixXd B = tests * weights.asDiagonal();
+   const VectorXd D = own * weights;
+   const Eigen::PartialPivLU<MatrixXd> N(MatrixXd(B * own.transpose()));
+   DualFunctions found{nodes, D.asDiagonal() * N.solve(B)};
+   const VectorXd sums = found.weighted.rowwise().sum();
+   found.positive = sums.minCoeff() > 0 && (D - least_own * sums).minCoeff() > 0 &&
+                    found.weighted.allFinite();
+   return found;
+}
 
 /// Of lines of which no part faces the other.
 std::string why_apart(const FacingLines &lines)
@@ -171,8 +218,9 @@ private:
    bool is_faced(std::size_t element, double s) const;
    std::vector<Point> points_of(std::size_t element) const;
    double weight_at(const ElementCurve &curve, double s) const;
-   DualFunctions dual(const Trace &trace, const std::vector<Point> &points, int component,
-                      std::vector<int> nodes) const;
+   void find_near_ends();
+   DualFunctions dual(const Trace &trace, std::size_t element, const std::vector<Point> &points,
+                      int component, const std::vector<int> &nodes) const;
    std::vector<int> functions_of(const Trace &trace, std::size_t element,
                                  const std::vector<Point> &points);
    void add_rows(const Trace &trace, std::size_t element, const std::vector<Point> &points,
@@ -190,6 +238,7 @@ private:
    std::vector<bool> without_, faced_, has_row_;
    FacingLines lines_;
    std::vector<std::vector<FacingPart>> parts_; ///< of each slave element
+   std::vector<NearEnds> near_ends_;            ///< of each slave element
    std::vector<std::vector<Index>> functions_;  ///< rows on each slave element, along it
    std::vector<Trace> master_traces_;
    std::array<std::map<std::pair<Index, Index>, double>, 2> own_, other_;
@@ -203,9 +252,9 @@ Assembly::Assembly(const ContactLine &slave, const ContactLine &master,
    : slave_(slave), master_(master), what_(what), without_(slave.size(), false),
      faced_(slave.size(), false), has_row_(slave.size(), false),
      lines_(facing(slave, master, what)), parts_(lines_.first.size()),
-     functions_(lines_.first.size()), apart_(Eigen::MatrixX2d::Zero(slave.size(), 2)),
-     chords_(apart_), curved_(apart_), weights_(VectorXd::Zero(slave.size())),
-     size_(VectorXd::Zero(slave.size()))
+     near_ends_(lines_.first.size(), NearEnds{0, 0}), functions_(lines_.first.size()),
+     apart_(Eigen::MatrixX2d::Zero(slave.size(), 2)), chords_(apart_), curved_(apart_),
+     weights_(VectorXd::Zero(slave.size())), size_(VectorXd::Zero(slave.size()))
 {
    for (int node : without)
    {
@@ -221,8 +270,37 @@ Assembly::Assembly(const ContactLine &slave, const ContactLine &master,
    require(!lines_.parts.empty(), what_,
            ": the lines face each other nowhere: ", why_apart(lines_), " (one reaches ",
            extent(slave_), ", the other ", extent(master_), ")");
+   find_near_ends();
    for (std::size_t e = 0; e < lines_.first.size(); ++e) { add(e); }
    for (std::size_t e = 0; e < lines_.first.size(); ++e) { extend(e); }
+}
+
+/** Where a long element ends at a short one. What its end node sees of the other body would be
+    a mean over the long element, and that of nodes on the short one would be what faces them:
+    both differ by what the long element cannot follow, which would strain the short one by as
+    much over its own length, and press its nodes many times as hard as all others. So what is
+    near the end decides there, as far as the short element reaches. */
+void Assembly::find_near_ends()
+{
+   std::map<Index, std::vector<std::pair<std::size_t, int>>>
+      at; // element and its end, of nodes
+   for (std::size_t e = 0; e < lines_.first.size(); ++e)
+   {
+      const std::vector<Index> &nodes = lines_.first[e].element->nodes;
+      if (nodes.front() >= 0) { at[nodes.front()].emplace_back(e, 0); }
+      if (nodes.back() >= 0) { at[nodes.back()].emplace_back(e, 1); }
+   }
+   for (const auto &[node, both] : at)
+   {
+      if (both.size() != 2) { continue; }
+      for (std::size_t k : {0, 1})
+      {
+         const auto &[element, end] = both[k];
+         const double ratio =
+            lines_.first[both[1 - k].first].length() / lines_.first[element].length();
+         if (ratio < short_neighbour) { near_ends_[element][end] = ratio; }
+      }
+   }
 }
 
 double Assembly::covered(std::size_t element) const
@@ -248,7 +326,20 @@ std::vector<Point> Assembly::points_of(std::size_t element) const
 {
    const ElementCurve &curve = lines_.first[element];
    std::vector<Point> points;
-   for (const FacingPart &part : parts_[element])
+   std::vector<FacingPart> pieces = parts_[element];
+   // Functions that are narrow near an end are integrated by themselves.
+   const auto &[first, last] = near_ends_[element];
+   for (double cut : {first, 1 - last})
+   {
+      const std::size_t count = cut > 0 && cut < 1 ? pieces.size() : 0;
+      for (std::size_t k = 0; k < count; ++k)
+      {
+         if (cut <= pieces[k].from + near || cut >= pieces[k].to - near) { continue; }
+         pieces.push_back(pieces[k]);
+         pieces.back().from = pieces[k].to = cut;
+      }
+   }
+   for (const FacingPart &part : pieces)
    {
       const ElementCurve &other = lines_.other[part.other];
       // Exact for the product of three functions of straight elements, with some to spare for
@@ -269,8 +360,9 @@ std::vector<Point> Assembly::points_of(std::size_t element) const
    return points;
 }
 
-DualFunctions Assembly::dual(const Trace &trace, const std::vector<Point> &points,
-                             int component, std::vector<int> nodes) const
+DualFunctions Assembly::dual(const Trace &trace, std::size_t element,
+                             const std::vector<Point> &points, int component,
+                             const std::vector<int> &nodes) const
 {
    const auto count = static_cast<Index>(points.size());
    const bool all = nodes.size() == trace.nodes.size();
@@ -281,16 +373,14 @@ DualFunctions Assembly::dual(const Trace &trace, const std::vector<Point> &point
       phi.col(p) = trace.x[component].transpose() * points[p].own;
       weights[p] = points[p].weight;
    }
-   // ψ = diag(D) N⁻¹ B for N = ∫B φᵀ: ∫ψ_i φ_j = D_i δ_ij among the nodes with functions.
-   const MatrixXd own = phi(nodes, Eigen::all);
-   const MatrixXd B = (all ? phi : hats(trace.places(nodes), points)) * weights.asDiagonal();
-   const VectorXd D = own * weights;
-   const Eigen::PartialPivLU<MatrixXd> N(MatrixXd(B * own.transpose()));
-   DualFunctions found{std::move(nodes), D.asDiagonal() * N.solve(B)};
-   const VectorXd sums = found.weighted.rowwise().sum();
-   found.positive = sums.minCoeff() > 0 && (D - least_own * sums).minCoeff() > 0 &&
-                    found.weighted.allFinite();
-   return found;
+   const NearEnds &ends = near_ends_[element];
+   if (all && ends != NearEnds{0, 0} && covered(element) > 1 - near)
+   {
+      DualFunctions found =
+         made_of(narrowed(phi, trace.places, points, ends), phi, weights, nodes);
+      if (found.positive) { return found; }
+   }
+   return made_of(all ? phi : hats(trace.places(nodes), points), phi, weights, nodes);
 }
 
 /// Which of an element's nodes have functions on what is faced of it; none: it leaves the line.
@@ -342,8 +432,8 @@ std::vector<int> Assembly::functions_of(const Trace &trace, std::size_t element,
    for (int end : ends) { choices.push_back({end}); }
    for (const std::vector<int> &nodes : choices)
    {
-      if (!nodes.empty() && dual(trace, points, 0, nodes).positive &&
-          dual(trace, points, 1, nodes).positive)
+      if (!nodes.empty() && dual(trace, element, points, 0, nodes).positive &&
+          dual(trace, element, points, 1, nodes).positive)
       {
          return nodes;
       }
@@ -370,7 +460,8 @@ void Assembly::add(std::size_t element)
       size_[row] = std::max(size_[row], lines_.first[element].length());
    }
    add_rows(trace, element, points, rows,
-            {dual(trace, points, 0, nodes).weighted, dual(trace, points, 1, nodes).weighted});
+            {dual(trace, element, points, 0, nodes).weighted,
+             dual(trace, element, points, 1, nodes).weighted});
 }
 
 /// Adds functions (times the weights of the points) on an element to rows.

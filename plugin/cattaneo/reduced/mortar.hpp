@@ -18,6 +18,10 @@ namespace cattaneo
     other is P = D⁻¹ M: a constant pressure is a constant, whatever the meshes. Nodes that match
     have P = 1.
 
+    Where an element ends at one of less than a fifth of its length its end sees what faces it
+    as near as that one is long, and not all along the element: what both see must agree over
+   the short one.
+
     On an element that is faced in part, nodes that are left less than a quarter of their weight
     there have no function on it: those within the part share it, with positive weights, and
     own has entries beside its diagonal. What is faced of an element whose nodes have none goes

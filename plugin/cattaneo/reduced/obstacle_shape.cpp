@@ -31,6 +31,30 @@ VectorXd gaps(const InterfaceReport &nodes, Distance distance)
    return all;
 }
 
+/// The sine of the angle between what a node looks along and a straight obstacle from which on
+/// it meets that: 5 degrees. What leans less is parallel to it, as far as is known of a curve.
+const double least_sine = std::sin(5 * std::acos(-1.0) / 180);
+
+/// A side of a polyline, of which the first and the last go on without end.
+struct PolylineSide
+{
+   Vector2d from, along;
+   bool first, last;
+
+   bool has(double s) const
+   {
+      const double slack = 1e-12;
+      return (s >= -slack || first) && (s <= 1 + slack || last);
+   }
+   double distance(const Vector2d &x) const
+   {
+      double s = along.dot(x - from) / along.squaredNorm();
+      if (!first) { s = std::max(s, 0.0); }
+      if (!last) { s = std::min(s, 1.0); }
+      return (x - from - s * along).norm();
+   }
+};
+
 } // namespace
 
 VectorXd gaps_to_polyline(const InterfaceReport &nodes, const std::vector<Vector2d> &points)
@@ -42,26 +66,35 @@ VectorXd gaps_to_polyline(const InterfaceReport &nodes, const std::vector<Vector
       require(points[k] != points[k - 1], "obstacle: the point (", points[k][0], ", ",
               points[k][1], ") is there twice in a row");
    }
-   const double unbounded = std::numeric_limits<double>::infinity();
+   std::vector<PolylineSide> sides;
+   for (std::size_t k = 1; k < points.size(); ++k)
+   {
+      sides.push_back(
+         {points[k - 1], points[k] - points[k - 1], k == 1, k + 1 == points.size()});
+   }
    return gaps(nodes,
                [&](const Vector2d &x, const Vector2d &looks)
                {
-                  double nearest = unbounded;
-                  for (std::size_t k = 1; k < points.size(); ++k)
+                  const double unbounded = std::numeric_limits<double>::infinity();
+                  double nearest = unbounded, beside = unbounded;
+                  bool parallel = false;
+                  for (const PolylineSide &side : sides)
                   {
                      // x + g looks = from + s along
-                     const Vector2d from = points[k - 1], along = points[k] - from;
+                     const Vector2d &along = side.along, to = x - side.from;
                      const double det = along[0] * looks[1] - along[1] * looks[0];
-                     if (std::abs(det) <= 1e-12 * along.norm()) { continue; }
-                     const Vector2d to = x - from;
+                     beside = std::min(beside, side.distance(x));
+                     if (std::abs(det) <= least_sine * along.norm())
+                     {
+                        parallel = true;
+                        continue;
+                     }
                      const double s = (to[0] * looks[1] - to[1] * looks[0]) / det,
                                   g = (to[0] * along[1] - to[1] * along[0]) / det;
-                     const double slack = 1e-12;
-                     const bool on =
-                        (s >= -slack || k == 1) && (s <= 1 + slack || k + 1 == points.size());
-                     if (on && std::abs(g) < std::abs(nearest)) { nearest = g; }
+                     if (side.has(s) && std::abs(g) < std::abs(nearest)) { nearest = g; }
                   }
-                  return nearest;
+                  // What looks past the obstacle is as far away as if it leaned towards it.
+                  return std::isfinite(nearest) || !parallel ? nearest : beside / least_sine;
                });
 }
 

@@ -13,7 +13,9 @@ namespace cattaneo
 // faces nothing, and points or a radius that are none.
 
 /// A polyline through two points or more, of which the first and the last side go on without
-/// end: of two points a straight line.
+/// end: of two points a straight line. A node that looks along the obstacle to 5 degrees, and
+/// meets no other side of it, is open, however round-off turns its normal: its gap is that of
+/// one at the same distance that leans towards the obstacle by those 5 degrees.
 Eigen::VectorXd gaps_to_polyline(const InterfaceReport &nodes,
                                  const std::vector<Eigen::Vector2d> &points);
 

@@ -1,8 +1,10 @@
 #include <cattaneo/condense/local_frame.hpp>
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/bodies_union.hpp>
+#include <cattaneo/reduced/curve_gaps.hpp>
 #include <cattaneo/reduced/interfaces.hpp>
 #include <cmath>
+#include <numeric>
 
 namespace cattaneo
 {
@@ -108,6 +110,14 @@ bool leans_on_support(const CondensedBody &first, const CondensedBody &second,
    return false;
 }
 
+/// Numbers from 0.
+std::vector<int> each_of(Eigen::Index count)
+{
+   std::vector<int> all(count);
+   std::iota(all.begin(), all.end(), 0);
+   return all;
+}
+
 /// Gives the first body the mean frames of paired nodes.
 void lie_between(CondensedBody &first, const CondensedBody &second,
                  const std::vector<int> &partner)
@@ -136,13 +146,9 @@ Reduction reduce(CondensedBody body, const ScalarField &gap)
    result.interfaces = {fill(problem, alone(only, result.pattern_[0], count), only.line)};
    const Eigen::Index n = only.line.size();
    InterfaceReport &report = result.interfaces[0];
-   const auto normal = only.line.each(&LineNode::normal);
-   report.chords = Eigen::VectorXd::Zero(n);
-   if (only.line.as_meshed)
-   {
-      report.chords = normal.cwiseProduct(only.line.off_curves()).rowwise().sum();
-   }
-   report.curved = normal.cwiseProduct(only.line.bulges()).rowwise().sum();
+   const CurveGaps curves = curve_gaps(only.line, each_of(n), report.tangent);
+   report.chords = curves.left;
+   report.curved = curves.curved;
    problem.gap.resize(n);
    problem.dofs.resize(n, 2);
    for (Eigen::Index i = 0; i < n; ++i)
@@ -227,7 +233,11 @@ Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairin
    const Eigen::VectorXd other_weights = second.line.each(&LineNode::weight)(pairing.partner);
    problem.weights = 0.5 * (problem.weights + other_weights);
    result.interfaces[0].weights = problem.weights;
-   problem.gap = pairing.gap;
+   const CurveGaps curves = curve_gaps(first.line, each_of(n), result.interfaces[0].tangent,
+                                       second.line, pairing.partner);
+   result.interfaces[0].chords = curves.left;
+   result.interfaces[0].curved = curves.curved;
+   problem.gap = pairing.gap + curves.moved;
    problem.dofs.resize(n, 4);
    for (Eigen::Index i = 0; i < n; ++i)
    {

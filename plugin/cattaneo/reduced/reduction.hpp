@@ -38,8 +38,8 @@ struct InterfaceReport
    std::vector<Eigen::Vector2d> free_surface = {}; ///< nodes of the slave that nothing faces
    std::vector<Eigen::Vector2d> without_row = {};  ///< see above
    double left_out = 0;                            ///< Mortar::left_out
-   /// n, Mortar::chords: what the gap is off by, if it is that of the geometry; 0 of nodes that
-   /// match.
+   /// n, Mortar::chords: what the gap is off by, if it is that of the geometry; 0 of sides
+   /// whose elements match.
    Eigen::VectorXd chords = {};
    Eigen::VectorXd curved = {}; ///< n, Mortar::curved; likewise
    double arm = 0; ///< largest size of Mortar::arm: moment left by a normal force of 1
@@ -193,14 +193,15 @@ Reduction reduce(CondensedBody body, const ScalarField &gap = 0.0);
 
        S = S1 - S1 (S1 + S2)⁻¹ S1,     f = f1 - S1 (S1 + S2)⁻¹ (f1 - f2);
 
-    either or both may be free. Gap of the pairing, which may be overwritten in the result.
-    Frames (those of the interface's report) and weights of the nodes are the mean of both
-    bodies'; body 2's frames are turned onto their opposite first. A component that one body
-    holds is the other's alone; one that both hold is held in the problem. Where supports hold a
-    component that is not along the frames of both bodies the union is that over interfaces, in
-    the same frames. InputError if the held component is a normal one, if one body holds one
-    component there and the other body the other, if a common rigid motion of two free bodies is
-    loaded, or if a pattern is force-controlled in one and displacement-controlled in the other.
+    either or both may be free. Gap of the pairing, and of smooth curves that elements are
+   chords of (ContactLine::off_curves()); it may be overwritten in the result. Frames (those of
+   the interface's report) and weights of the nodes are the mean of both bodies'; body 2's
+   frames are turned onto their opposite first. A component that one body holds is the other's
+   alone; one that both hold is held in the problem. Where supports hold a component that is not
+   along the frames of both bodies the union is that over interfaces, in the same frames.
+   InputError if the held component is a normal one, if one body holds one component there and
+   the other body the other, if a common rigid motion of two free bodies is loaded, or if a
+   pattern is force-controlled in one and displacement-controlled in the other.
     */
 Reduction reduce(CondensedBody body1, CondensedBody body2, const Pairing &pairing);
 

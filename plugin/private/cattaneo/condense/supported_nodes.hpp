@@ -24,7 +24,8 @@ using HeldComponents = Eigen::Array<bool, Eigen::Dynamic, 2>;
     About an axis a node that is held in r is on no plane of symmetry.
 
     InputError if one component of a node is held and the line meets it at neither 0 nor 90
-    degrees, to LineChain::smooth_turn. */
+    degrees, to LineChain::smooth_turn, unless it curves into a plane of symmetry there (the
+    first chord of a circle of 8 edges leans by 22.5 degrees). */
 void meet_supports(ContactLine &line, const HeldComponents &held);
 
 /// The same of a line whose nodes are some of those that the body was condensed to.

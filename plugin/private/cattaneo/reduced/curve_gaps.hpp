@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cattaneo/condense/contact_line.hpp>
+#include <vector>
+
+namespace cattaneo
+{
+
+/// What smooth curves that elements are chords of (LineElement::bend) make of gaps from node to
+/// node, n each. Less than 1e-9 of the distance of nodes is round-off, and zero.
+struct CurveGaps
+{
+   Eigen::VectorXd moved;  ///< gaps of the outlines over those of the nodes' places
+   Eigen::VectorXd left;   ///< what curves that lines which are as meshed are not taken for
+                           ///< would add
+   Eigen::VectorXd curved; ///< gaps of the outlines over those of chords
+};
+
+/// Of n nodes of a line in frames with these tangents (n × 2). `partner`: of each node of the
+/// line the node of the other one that faces it; an obstacle's line is empty.
+CurveGaps curve_gaps(const ContactLine &line, const std::vector<int> &nodes,
+                     const Eigen::MatrixX2d &tangents, const ContactLine &other = {},
+                     const std::vector<int> &partner = {});
+
+} // namespace cattaneo
