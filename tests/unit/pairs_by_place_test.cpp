@@ -87,6 +87,33 @@ TEST(PairsByPlace, AUniformPressureIsUniformWhateverTheOrders)
    }
 }
 
+/// An edge of a tenth of its neighbours is no matter while the pressure is uniform, and is
+/// named where its nodes bear more than the others.
+TEST(PairsByPlace, ShortEdgesThatBearMoreThanTheirNeighboursAreNamed)
+{
+   mfem::Mesh mesh = rectangle_mesh({0, 1, 2, 3, 3.1, 4, 5, 6}, uniform(0, 2, 2));
+   ElasticBody body(mesh, 1, Material{1e3, 0.3});
+   body.fix(left, 0);
+   body.add_pressure("P", top, 1.0);
+   const ContactLine line = contact_line(body, bottom);
+   const Reduction reduction = reduce(condense(body, line));
+   const VectorXd even = reduction.problem.weights;
+   EXPECT_TRUE(geometry_warnings(reduction, even).empty());
+   for (Index i = 0; i < even.size(); ++i)
+   {
+      VectorXd uneven = even;
+      uneven[i] *= 1.5;
+      const double x = reduction.interfaces[0].position(i, 0);
+      const bool at_short_edge = x > 2.9 && x < 3.2;
+      const std::vector<std::string> said = geometry_warnings(reduction, uneven);
+      ASSERT_EQ(said.size(), at_short_edge ? 1u : 0u) << x;
+      if (at_short_edge)
+      {
+         EXPECT_NE(said[0].find("bears 1.5 times"), std::string::npos) << said[0];
+      }
+   }
+}
+
 /// One to one is what was asked for, and what comes of it is said.
 TEST(PairsByPlace, APairingThatIsAskedForIsTakenAndWarnedOf)
 {

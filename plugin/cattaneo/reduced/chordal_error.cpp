@@ -100,6 +100,8 @@ ChordalError chordal_error(const Reduction &reduction, const VectorXd &p, const 
    const VectorXd now = p.cwiseQuotient(problem.weights),
                   then = after->cwiseQuotient(problem.weights);
    const double peak = now.maxCoeff();
+   // What bears is no more than round-off of what the curves would press: nothing is known.
+   if (peak <= 1e-9 * then.maxCoeff()) { return unknown; }
    return {(then - now).cwiseAbs().maxCoeff() / peak, std::abs(then.maxCoeff() - peak) / peak};
 }
 

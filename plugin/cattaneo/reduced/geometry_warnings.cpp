@@ -124,6 +124,97 @@ void say_held(const Reduction &reduction, const InterfaceReport &face,
    }
 }
 
+/// Distance of a place from the straight line between two others.
+double distance_from(const Vector2d &place, const Vector2d &from, const Vector2d &to)
+{
+   const Vector2d along = to - from;
+   const double share = (place - from).dot(along) / along.squaredNorm();
+   return (place - from - std::clamp(share, 0.0, 1.0) * along).norm();
+}
+
+/// An element that is much shorter than one beside it.
+struct ShortEdge
+{
+   int body = -1;
+   Vector2d from, to;
+   double ratio = 1; ///< its length over that of its longest neighbour
+};
+
+std::vector<ShortEdge> short_edges(const CondensedBody &body, int number)
+{
+   std::vector<ShortEdge> found;
+   for (const LineChain &chain : body.line.chains)
+   {
+      const std::size_t count = chain.elements.size();
+      const auto length = [&](std::size_t k)
+      {
+         const Eigen::Matrix2Xd &points = chain.elements[k].points;
+         return (points.rightCols(1) - points.leftCols(1)).norm();
+      };
+      for (std::size_t k = 0; k < count; ++k)
+      {
+         double longest = 0;
+         if (k > 0 || chain.loop) { longest = length((k + count - 1) % count); }
+         if (k + 1 < count || chain.loop)
+         {
+            longest = std::max(longest, length((k + 1) % count));
+         }
+         if (length(k) >= uneven_edges * longest) { continue; }
+         const Eigen::Matrix2Xd &points = chain.elements[k].points;
+         found.push_back({number, points.col(0), points.rightCols(1), length(k) / longest});
+      }
+   }
+   return found;
+}
+
+/// Nodes at edges that are much shorter than those beside them, where they bear more than all
+/// other nodes of the interface.
+void say_short_edges(const Reduction &reduction, const InterfaceReport &face,
+                     const Eigen::VectorXd &p, std::vector<std::string> &said)
+{
+   std::vector<ShortEdge> edges;
+   for (const int body : face.bodies)
+   {
+      if (body < 0) { continue; }
+      for (const ShortEdge &edge : short_edges(reduction.bodies[body], body))
+      {
+         edges.push_back(edge);
+      }
+      if (face.bodies[0] == face.bodies[1]) { break; }
+   }
+   if (edges.empty()) { return; }
+   double elsewhere = 0, most = 0;
+   Index worst = -1;
+   const ShortEdge *at_edge = nullptr;
+   for (Index i = 0; i < face.nodes; ++i)
+   {
+      const double pressure = p[face.first + i] / face.weights[i];
+      const Vector2d place = face.position.row(i);
+      const auto edge =
+         std::find_if(edges.begin(), edges.end(),
+                      [&](const ShortEdge &short_edge) {
+                         return distance_from(place, short_edge.from, short_edge.to) <=
+                                0.5 * face.spacing[i];
+                      });
+      if (edge == edges.end()) { elsewhere = std::max(elsewhere, pressure); }
+      else if (pressure > most)
+      {
+         most = pressure;
+         worst = i;
+         at_edge = &*edge;
+      }
+   }
+   if (worst < 0 || most <= 1.25 * elsewhere) { return; }
+   said.push_back(sentence(
+      "interface '", face.name, "': node ", face.first + worst, " at ",
+      at(face.position.row(worst)), " bears ",
+      elsewhere > 0 ? sentence(most / elsewhere, " times the largest pressure elsewhere")
+                    : std::string("alone"),
+      "; an edge of ", called(reduction.bodies, at_edge->body), " there has ", at_edge->ratio,
+      " of the length of the edge beside it. On curved sides such a short edge takes pressure "
+      "that its neighbours should: make the lengths of the edges change more slowly"));
+}
+
 } // namespace
 
 std::vector<std::string> geometry_warnings(const Reduction &reduction, const Eigen::VectorXd &p)
@@ -153,6 +244,7 @@ std::vector<std::string> geometry_warnings(const Reduction &reduction, const Eig
       if (face.tied) { continue; }
       say_normals(problem, face, bears, said);
       say_held(reduction, face, bears, said);
+      say_short_edges(reduction, face, p, said);
    }
    return said;
 }

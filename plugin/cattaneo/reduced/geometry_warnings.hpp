@@ -12,6 +12,9 @@ namespace cattaneo
 /// is off either normal by, is a tenth of the friction then.
 constexpr double small_turn = 0.2;
 
+/// An edge of a contact side that is shorter than this share of one beside it is uneven.
+constexpr double uneven_edges = 0.2;
+
 /** Sentences, none if there is nothing to say, about geometry that a solution hangs on without
     any sign of it in the solution:
 
@@ -23,7 +26,9 @@ constexpr double small_turn = 0.2;
       that. The worst node of each interface is named;
     - nodes that bear with friction and that supports hold along an axis on which their frames
       lean: how much of the tangential force is the support's is not determined, and friction
-      there is taken for none.
+      there is taken for none;
+    - a node at an edge of less than uneven_edges of the length of the edge beside it, where it
+      bears more than 1.25 times the largest pressure at all other nodes of its interface.
 
     p: normal forces of the nodes, of a state or the largest of a march; a node with more than
     1e-6 of the largest one bears. InputError unless there is one for each contact node. */
