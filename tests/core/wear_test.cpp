@@ -402,6 +402,43 @@ TEST(Wear, GoesOnFromASavedStateToTheSameBits)
    EXPECT_EQ(half.cycles, 7);
 }
 
+// A cycle that begins and ends without loads, at the start of the history or after an opening
+// part: what wears in twelve cycles is what wears in three and then in nine.
+TEST(Wear, CyclesFromNoLoadsGoOnFromTheirStates)
+{
+   const Pad pad = small_pad();
+   const ReducedProblem &problem = pad.problem;
+   const WearLaw law = WearLaw::uniform(problem, 1e-2);
+   LoadHistory whole = LoadHistory::through(
+      problem, {{}, {{"P", 1}}, {{"P", 1}, {"Q", 0.3}}, {{"P", 0.9}, {"Q", 0.1}}, {}});
+   whole.cycle_start = 0;
+   LoadHistory opened = LoadHistory::through(
+      problem, {{}, {}, {{"P", 1}}, {{"P", 1}, {"Q", 0.3}}, {{"P", 0.9}, {"Q", 0.1}}, {}});
+   opened.cycle_start = 1;
+   VectorXd depth;
+   for (const LoadHistory &history : {whole, opened})
+   {
+      WearState at_once = WearState::virgin(problem), cut = at_once;
+      EXPECT_EQ(wear(problem, law, history, 12, at_once, settings_with(0)).status,
+                FrictionStatus::converged);
+      for (const double cycles : {3, 12})
+      {
+         EXPECT_EQ(wear(problem, law, history, cycles, cut, settings_with(0)).status,
+                   FrictionStatus::converged);
+         cut.validate(problem);
+      }
+      EXPECT_GT(largest(cut.depth), 1e-4);
+      EXPECT_LT(largest(cut.depth - at_once.depth), 1e-12 * largest(at_once.depth));
+      // The opening part, without loads, wears nothing.
+      if (depth.size() > 0) { EXPECT_LT(largest(cut.depth - depth), 1e-12 * largest(depth)); }
+      depth = cut.depth;
+      const WornOut end =
+         worn_out(problem, history, ContactState::virgin(problem), one_increment());
+      EXPECT_NE(end.message.find("no node was found that sticks"), std::string::npos)
+         << end.message;
+   }
+}
+
 TEST(Wear, WithoutKNothingWears)
 {
    const Pad pad = small_pad();
