@@ -142,8 +142,8 @@ ContactLine OwnPart::line(const JointCase::Side &side) const
              : contact_line(*elastic_, boundary_part(side.called, side.part, terms_));
    made.as_meshed = body_.as_meshed;
    // The file knows more than a line alone.
-   bend_elements(made, sides_.chords, sides_.moved);
-   bend_elements(made, sides_.folding, false);
+   bend_elements(made, sides_.chords);
+   bend_elements(made, sides_.folding);
    return made;
 }
 

@@ -222,13 +222,10 @@ Eigen::Vector2d way_on(const std::vector<WayOn> &ways, const SegmentNode &end,
 /// How far inner nodes of an element are off its chord, in lengths of it.
 double off_chord(const LineElement &element)
 {
-   const Eigen::Vector2d from = element.points.leftCols(1),
-                         along = element.points.rightCols(1) - from;
    double off = 0;
    for (Eigen::Index a = 1; a < element.order(); ++a)
    {
-      const Eigen::Vector2d e = element.points.col(a) - from;
-      off = std::max(off, std::abs(along[0] * e[1] - along[1] * e[0]) / along.squaredNorm());
+      off = std::max(off, std::abs(element.off_chord(a)));
    }
    return off;
 }

@@ -69,20 +69,23 @@ void check_spacing(const ContactLine &line, const LineChain &chain)
 
 } // namespace
 
+double LineElement::off_chord(Eigen::Index node) const
+{
+   const Eigen::Vector2d from = points.col(0), chord = points.rightCols(1) - from,
+                         to_node = points.col(node) - from;
+   return (chord[1] * to_node[0] - chord[0] * to_node[1]) / chord.squaredNorm();
+}
+
 Eigen::Vector2d LineElement::off_curve(double s) const
 {
    if (!bend || bend->straight()) { return {0, 0}; }
+   // The element is the polynomial through its nodes, wherever these are.
    double off = bend->off(s);
-   if (bent)
+   if (order() > 1)
    {
-      // Its nodes are on the curve, and between them it is a polynomial.
-      const LobattoBasis &basis = lobatto_basis(order());
       Eigen::VectorXd values(order() + 1);
-      basis.evaluate(s, values);
-      for (Eigen::Index a = 1; a < order(); ++a)
-      {
-         off -= values[a] * bend->off(basis.nodes[a]);
-      }
+      lobatto_basis(order()).evaluate(s, values);
+      for (Eigen::Index a = 1; a < order(); ++a) { off -= values[a] * off_chord(a); }
    }
    const Eigen::Vector2d chord = points.rightCols(1) - points.leftCols(1);
    return off * Eigen::Vector2d(chord[1], -chord[0]);
@@ -95,7 +98,7 @@ Eigen::MatrixX2d ContactLine::off_curves() const
    {
       for (const LineElement &element : chain.elements)
       {
-         if (!element.bend || element.bend->straight() || element.bent) { continue; }
+         if (!element.bend || element.bend->straight()) { continue; }
          const Eigen::VectorXd &at = lobatto_basis(element.order()).nodes;
          for (Eigen::Index a = 1; a < element.order(); ++a)
          {
@@ -182,7 +185,7 @@ double angle_between(const Eigen::Vector2d &one, const Eigen::Vector2d &other)
    return std::atan2(std::abs(one[0] * other[1] - one[1] * other[0]), one.dot(other));
 }
 
-void bend_elements(ContactLine &line, const std::vector<SideChord> &chords, bool moved)
+void bend_elements(ContactLine &line, const std::vector<SideChord> &chords)
 {
    // In the order of their beginnings along x, where few are near each other.
    std::vector<const SideChord *> all;
@@ -204,7 +207,6 @@ void bend_elements(ContactLine &line, const std::vector<SideChord> &chords, bool
             if (((*at)->from - from).norm() <= near && ((*at)->to - to).norm() <= near)
             {
                element.bend = (*at)->bend;
-               element.bent = moved;
             }
          }
       }

@@ -45,10 +45,11 @@ struct LineElement
    /// polygon. Not known: of elements that are curved by their mesh, and of a script that says
    /// nothing (smooth_curve() may be asked).
    std::optional<EdgeBend> bend = std::nullopt;
-   bool bent = false; ///< its points are on that curve (curve_sides()), not on the chord
 
    /// Degree of the polynomials: one less than its nodes.
    Eigen::Index order() const { return points.cols() - 1; }
+   /// How far a node is to the right of the chord between the ends, over the chord's length.
+   double off_chord(Eigen::Index node) const;
    /// How far its smooth curve lies from the element at 0 <= s <= 1; zero if none is known.
    Eigen::Vector2d off_curve(double s) const;
 };
@@ -166,8 +167,7 @@ double angle_between(const Eigen::Vector2d &one, const Eigen::Vector2d &other);
 ContactLine joined(const std::vector<ContactLine> &lines);
 
 /// Gives the elements of a line the curves that are known of the side it is on
-/// (SmoothSides::chords of a mesh, whose file may know more than the line's vertices tell), and
-/// whether their nodes were moved onto these.
-void bend_elements(ContactLine &line, const std::vector<SideChord> &chords, bool moved);
+/// (SmoothSides::chords of a mesh, whose file may know more than the line's vertices tell).
+void bend_elements(ContactLine &line, const std::vector<SideChord> &chords);
 
 } // namespace cattaneo

@@ -14,10 +14,10 @@ struct SmoothSides
    double most = 0;    ///< the farthest that a curve is from its chord
    bool moved = false; ///< nodes of the mesh lie on the curves of `chords` now
    /// The edges along those sides, with the curve of each (straight ones too): for
-   /// bend_elements(line, chords, moved).
+   /// bend_elements(line, chords).
    std::vector<SideChord> chords;
    /// Those of them that are not in `chords`, as the elements beside them would fold: their
-   /// nodes stay on the chord, for bend_elements(line, folding, false).
+   /// nodes stay on the chord, for bend_elements(line, folding).
    std::vector<SideChord> folding;
 };
 
