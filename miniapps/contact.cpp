@@ -147,7 +147,10 @@ void contact(Study &study)
       warn_of_overlap(problem, face);
       warn_of_left_out(face);
       if (face.tied) { continue; }
-      if (face.bodies[1] < 0 && even[k]) { beyond_corners.emplace_back(face); }
+      if (face.bodies[1] < 0 && even[k])
+      {
+         beyond_corners.emplace_back(face, joint.faces[k].obstacle);
+      }
       else { beyond_corners.emplace_back(face, own.scene.reduction.bodies); }
    }
    JointReport joint_report(study, joint, own.scene.reduction);

@@ -244,12 +244,20 @@ static double angle_of(double cosine)
    return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::acos(-1.0);
 }
 
-SidesThatBear::SidesThatBear(const InterfaceReport &interface) : face_(interface)
+SidesThatBear::SidesThatBear(const InterfaceReport &interface,
+                             const std::vector<Eigen::Vector2d> &rigid_line)
+   : face_(interface)
 {
    Eigen::MatrixX2d normals(interface.nodes, 2);
    normals << -interface.tangent.col(1), interface.tangent.col(0);
-   const Eigen::Vector2d mean = (normals.transpose() * interface.weights).normalized();
-   const Eigen::VectorXd cosine = normals * mean;
+   Eigen::Vector2d across = (normals.transpose() * interface.weights).normalized();
+   if (rigid_line.size() == 2)
+   {
+      const Eigen::Vector2d along = (rigid_line[1] - rigid_line[0]).normalized(),
+                            normal(-along[1], along[0]);
+      across = normal.dot(across) < 0 ? Eigen::Vector2d(-normal) : normal;
+   }
+   const Eigen::VectorXd cosine = normals * across;
    for (Eigen::Index i = 0; i < interface.nodes; ++i)
    {
       if (angle_of(cosine[i]) > 15)

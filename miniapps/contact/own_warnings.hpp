@@ -51,8 +51,10 @@ std::vector<bool> even_sides(const JointCase &joint);
 class SidesThatBear
 {
 public:
-   /// On a straight rigid line.
-   explicit SidesThatBear(const cattaneo::InterfaceReport &interface);
+   /// On a straight rigid line through two points; without them on one that is parallel to the
+   /// side in the mean.
+   explicit SidesThatBear(const cattaneo::InterfaceReport &interface,
+                          const std::vector<Eigen::Vector2d> &rigid_line);
    /// At corners of the bodies' lines.
    SidesThatBear(const cattaneo::InterfaceReport &interface,
                  const std::vector<cattaneo::CondensedBody> &bodies);

@@ -852,6 +852,75 @@ TEST(Wear, ANodeThatLiftsOffWearsByItsRecurrence)
    }
 }
 
+// One node above a threshold: wear ends where its pressure is that of the threshold, and a jump
+// must not go beyond what all cycles have worn by then.
+TEST(Wear, ToleranceHoldsAboveAThreshold)
+{
+   Jumped count;
+   for (const double tolerance : {0.1, 0.03, 1e-3})
+   {
+      cattaneo_test::WornProblem of;
+      ReducedProblem &problem = of.problem;
+      const Eigen::MatrixXd one = Eigen::MatrixXd::Ones(1, 1);
+      problem.set_stiffness(one, 0 * one, one);
+      problem.patterns = {{"P", Control::displacement, VectorXd::Zero(1), VectorXd::Ones(1)},
+                          {"Q", Control::displacement, VectorXd::Ones(1), VectorXd::Zero(1)}};
+      problem.gap = VectorXd::Zero(1);
+      problem.weights = VectorXd::Ones(1);
+      problem.chains = one_chain(1);
+      set_friction(problem, 0.5);
+      of.history = LoadHistory::through(
+         problem,
+         {{}, {{"P", 1}}, {{"P", 1}, {"Q", 1}}, {{"P", 0.8}, {"Q", -1}}, {{"P", 1}, {"Q", 1}}});
+      of.history.cycle_start = 2;
+      of.law = WearLaw::uniform(problem, 0.1);
+      of.law.threshold = VectorXd::Constant(1, 0.1);
+      of.cycles = 400;
+      of.settings.tolerance = tolerance;
+      of.settings.march.stepping = Stepping::exact;
+      of.settings.march.increments = 1;
+      compare(of, "tolerance " + std::to_string(tolerance), count);
+   }
+   EXPECT_EQ(count.all, 3);
+}
+
+// The second node slips in no cycle that repeats itself at one gap. It wears only as its
+// neighbour does, a little more from cycle to cycle, until both run away.
+TEST(Wear, ToleranceHoldsWhereANodeWearsOnlyAsItsNeighbourDoes)
+{
+   Jumped count;
+   for (const double tolerance : {0.1, 0.01})
+   {
+      cattaneo_test::WornProblem of;
+      ReducedProblem &problem = of.problem;
+      Eigen::Matrix2d A, C;
+      A << 5.67, -3.67, -3.67, 4.01;
+      C << 3.45, -2, -2, 4.61;
+      problem.set_stiffness(A, Eigen::Matrix2d::Zero(), C);
+      const VectorXd none = VectorXd::Zero(2);
+      problem.patterns = {{"P", Control::force, none, Eigen::Vector2d(1.3, 1.1)},
+                          {"Q", Control::force, Eigen::Vector2d(2, 1.2), none}};
+      problem.gap = Eigen::Vector2d(0.06, 0);
+      problem.weights = VectorXd::Ones(2);
+      problem.chains = one_chain(2);
+      set_friction(problem, 0.75);
+      problem.friction[1] = 0.59;
+      of.history = LoadHistory::through(problem, {{},
+                                                  {{"P", 1}},
+                                                  {{"P", 1}, {"Q", 0.57}},
+                                                  {{"P", 0.41}, {"Q", 0}},
+                                                  {{"P", 1}, {"Q", 0.57}}});
+      of.history.cycle_start = 2;
+      of.law.coefficient = Eigen::Vector2d(0.07, 0.15);
+      of.cycles = 201;
+      of.settings.tolerance = tolerance;
+      of.settings.march.stepping = Stepping::exact;
+      of.settings.march.increments = 1;
+      compare(of, "tolerance " + std::to_string(tolerance), count);
+   }
+   EXPECT_EQ(count.all, 2);
+}
+
 // Two nodes are dragged to and fro, and stay closed: p = 1 - C depth, whatever has been marched
 // or jumped over. A cycle there loses f p times the way of each node, 4 (1 - f p/k) with the
 // stiffness k = 1/1.3 of both together.

@@ -48,12 +48,18 @@ WearCycle WearCycles::march(const LoadHistory &part, ContactState &contact,
    solver_.set_gap(problem_.gap + depth);
    const ReducedProblem &worn = solver_.problem();
    ContactState before = contact;
+   // Force of each node above which it wears.
+   const VectorXd threshold = law_.threshold.size() > 0
+                                 ? VectorXd(law_.threshold.cwiseProduct(problem_.weights))
+                                 : VectorXd::Zero(n);
    VectorXd way = VectorXd::Zero(n), along = way, in_time = way, worn_off = way, lost = way;
+   VectorXd way_over = way, along_over = way; // where it wears
    double duration = 0;
    const auto note = [&](const ContactState &after, const IncrementRecord &record)
    {
       const Rubbing rub = rubbing(worn, before, after);
       const VectorXd p = 0.5 * (rub.p_from + rub.p_to);
+      const VectorXd over = (p - threshold).cwiseMax(0.0);
       worn_off += worn_depth(worn, law_, before, after);
       lost += frictional_loss(worn, before, after);
       cycle.opening = cycle.opening.cwiseMin((after.w + worn.gap).cwiseMax(0.0));
@@ -63,6 +69,8 @@ WearCycle WearCycles::march(const LoadHistory &part, ContactState &contact,
       const VectorXd slid = (p.array() > 1e-12 * after.peak_force).select(rub.way, 0);
       way += slid;
       along += p.cwiseProduct(slid);
+      way_over += (over.array() > 0).select(slid, 0);
+      along_over += over.cwiseProduct(slid);
       in_time += (after.time - before.time) * p;
       duration += after.time - before.time;
       if (watch_) { watch_(after, record, depth); }
@@ -81,9 +89,11 @@ WearCycle WearCycles::march(const LoadHistory &part, ContactState &contact,
    }
    for (Index i = 0; i < n; ++i)
    {
-      cycle.force[i] = along[i] > 0   ? along[i] / way[i]
-                       : duration > 0 ? in_time[i] / duration
-                                      : 0;
+      // Wear ends at the threshold: what lies above it is the force that wear takes away.
+      cycle.force[i] = along_over[i] > 0 ? along_over[i] / way_over[i]
+                       : along[i] > 0    ? along[i] / way[i]
+                       : duration > 0    ? in_time[i] / duration
+                                         : 0;
       if (cycle.force[i] > 0) { cycle.opening[i] = 0; }
    }
    const VectorXd pressure = contact.peak_force * problem_.weights.cwiseInverse();
