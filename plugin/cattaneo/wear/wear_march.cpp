@@ -518,8 +518,8 @@ std::optional<Landing> WearMarch::landing(const Way &from, double cycles)
          best.depth[i] += more[i];
          best.loss[i] += more[i] * first.loss[i] / first.depth[i];
       }
-      // Such a node wears because its neighbours do. All jumps leave it where it is, and what it
-      // is left out by may grow without end.
+      // Such a node wears because its neighbours do. All jumps leave it where it is, and what
+      // it is left out by may grow without end.
       result.error += 10 * left_out;
       result.unseen += 0.25 * largest(more) + left_out;
    }
