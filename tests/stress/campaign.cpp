@@ -68,8 +68,10 @@ struct Row
    long increments = 0, accepted = 0, sliding = 0, none = 0, not_unique = 0, fallbacks = 0;
    long count[classes] = {};
    double worst = 0, slowest = 0, seconds = 0;
+   std::map<std::string, long> methods; ///< that found an answer, and how often
    void add(const Row &o)
    {
+      for (const auto &[method, times] : o.methods) methods[method] += times;
       increments += o.increments, accepted += o.accepted, sliding += o.sliding, none += o.none;
       not_unique += o.not_unique, fallbacks += o.fallbacks, seconds += o.seconds;
       for (int k = 0; k < classes; ++k) count[k] += o.count[k];
@@ -279,9 +281,13 @@ private:
          if (report.status == FrictionStatus::not_unique) ++row_->not_unique;
          if (report.status == FrictionStatus::converged ||
              report.status == FrictionStatus::not_unique)
+         {
+            ++row_->methods[report.found_by];
             accepted(state, stated(report), nullptr);
+         }
          else
          {
+            ++row_->methods["none"];
             if (Laws::displacements(state) != u_)
                note(violated, 1, "a failure moved the state");
             failed(report.status, report.message, made_->history[k]);
@@ -305,6 +311,7 @@ private:
                [&](const ContactState &now, const IncrementRecord &record)
                {
                   ++row_->increments;
+                  ++row_->methods[record.found_by];
                   timed(since(last), now.time);
                   accepted(now, stated(record), &record.dissipation);
                   last = Clock::now();
@@ -398,6 +405,39 @@ void print(const std::string &family, const std::string &stepping, const Row *r)
    else std::puts("    worst slowest/ms seconds");
    std::fflush(stdout);
 }
+/// Which method found the answers, by family: over all ways of stepping, failures of single
+/// increments under "none".
+void print_methods(const std::map<std::string, std::map<std::string, Row>> &table,
+                   const Row &total)
+{
+   std::printf("\nanswers by the method that found them\n%-20s", "family");
+   for (const auto &[method, times] : total.methods) std::printf("  %s", method.c_str());
+   std::puts("");
+   const auto line = [&](const std::string &family, const std::map<std::string, long> &found)
+   {
+      std::printf("%-20s", family.c_str());
+      for (const auto &[method, times] : total.methods)
+      {
+         const auto here = found.find(method);
+         std::printf("  %*ld", int(method.size()), here == found.end() ? 0 : here->second);
+      }
+      std::puts("");
+   };
+   long answers = 0;
+   for (const auto &[method, times] : total.methods)
+      if (method != "none") answers += times;
+   for (const auto &[family, rows] : table)
+   {
+      Row sum;
+      for (const auto &[stepping, row] : rows) sum.add(row);
+      line(family, sum.methods);
+   }
+   line("all", total.methods);
+   std::printf("%-20s", "% of the answers");
+   for (const auto &[method, times] : total.methods)
+      std::printf("  %*.2f", int(method.size()), 100.0 * times / std::max(1L, answers));
+   std::puts("\n");
+}
 } // namespace
 
 int main(int argc, char **argv)
@@ -471,6 +511,7 @@ int main(int argc, char **argv)
          }
    }
    print("all", "", &total);
+   print_methods(campaign.table, total);
    std::sort(campaign.finds.begin(), campaign.finds.end(),
              [](const Find &a, const Find &b)
              { return a.kind != b.kind ? a.kind < b.kind : a.size > b.size; });

@@ -153,6 +153,7 @@ bool ExactPath::find_rates(const ContactState &state, const VectorXd &multiplier
    }
    ComplementarityReport found = solve_by_newton(equations_, rates_, 30, std::move(known));
    counters_.newton_steps += found.newton_steps;
+   found_by_ = "event path";
    unsigned seed = 0;
    for (double slack : {1.0, 0.1, 10.0, 0.01, 1.0, 1e-3, 1.0, 0.1})
    {
@@ -161,6 +162,7 @@ bool ExactPath::find_rates(const ContactState &state, const VectorXd &multiplier
       if (!equations_.set(states)) { break; }
       found = solve_by_path(equations_, rates_, rest, rest, slack, ++seed);
       counters_.pivots += found.pivots;
+      found_by_ = "event path, Lemke";
    }
    if (!found.solved && held_ < 0)
    {
@@ -180,6 +182,7 @@ bool ExactPath::find_rates(const ContactState &state, const VectorXd &multiplier
    }
    u_rate_ = found.x;
    F_rate_ = found.F;
+   if (held_ >= 0) { found_by_ = "event path, pivot"; }
    return held_ < 0 || release_pivot();
 }
 

@@ -367,6 +367,7 @@ bool March::march_exactly(double until, bool stalled)
          {
             // However a state was found, it is judged like any other.
             event.increment = solver_.judge(state_, event.state, path_->slip_error());
+            event.increment.found_by = path_->found_by();
             event.event = path_->event();
             if (event.solved())
             {
@@ -415,6 +416,7 @@ bool March::march_piece()
       same.state.time = piece_.end;
       same.state.multipliers = piece_.to;
       same.increment = solver_.judge(state_, same.state);
+      same.increment.found_by = "held";
       if (same.solved())
       {
          accept(std::move(same), true);

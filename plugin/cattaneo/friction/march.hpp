@@ -77,6 +77,9 @@ struct IncrementRecord
    double residual_normal = 0;     ///< see IncrementReport
    double residual_tangential = 0; ///< see IncrementReport
    double round_off = 0;           ///< see IncrementReport
+   /// The method that found it: one of IncrementReport's, or of the exact path ("event path",
+   /// and how its rates were found where not by Newton), or "held" where the loads stay.
+   const char *found_by = "";
    /// A march taken up from the state here goes on to the last bit. False amid an exact path:
    /// to round-off.
    bool resumes = true;

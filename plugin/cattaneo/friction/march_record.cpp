@@ -98,6 +98,7 @@ void MarchRecord::accept(ContactState &&next, const LoadPiece &piece,
    record.residual_normal = increment.residual_normal;
    record.residual_tangential = increment.residual_tangential;
    record.round_off = increment.round_off;
+   record.found_by = increment.found_by;
    // On the exact path a node closes at the event that its piece begins with, and is found to
    // have too much friction within it.
    const NotUnique doubtful = exact

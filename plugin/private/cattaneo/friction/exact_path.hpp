@@ -46,6 +46,8 @@ public:
    /// state before, times what the conditioning of the equations makes of it.
    const Eigen::VectorXd &slip_error() const { return slip_error_; }
    const std::string &failure() const { return failure_; }
+   /// The method that found the rates of the last advance(), as a march records it.
+   const char *found_by() const { return found_by_; }
    /// The last advance() failed since no rates meet the laws, with equations that can be
    /// solved.
    bool ended() const { return ended_; }
@@ -80,6 +82,7 @@ private:
    bool ended_ = false;
    Eigen::Index event_ = -1;
    std::string failure_;
+   const char *found_by_ = "";
    Counters counters_;
 };
 

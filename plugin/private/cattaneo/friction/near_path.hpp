@@ -20,6 +20,7 @@ public:
    Eigen::Index event() const { return event_; }
    const Eigen::VectorXd &slip_error() const { return slip_error_; }
    const std::string &failure() const { return last_->failure(); }
+   const char *found_by() const { return last_->found_by(); }
    bool ended() const { return last_->ended(); }
    Counters counters() const;
 
