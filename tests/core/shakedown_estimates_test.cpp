@@ -448,7 +448,7 @@ TEST(ClosedContact, LoadsDoTheSameWorkAndFactsAreKept)
    problem.weights = random_matrix(random, 6, 1).cwiseAbs();
    problem.arc_length = Eigen::VectorXd::LinSpaced(6, 0, 5);
    problem.position = random_matrix(random, 6, 2);
-   const LineEnd corner = LineEnd::corner, smooth = LineEnd::smooth, none = LineEnd::unknown;
+   const LineEnd corner = LineEnd::corner, smooth = LineEnd::smooth, open = LineEnd::open;
    problem.chains = {{"a", 0, 3, true, {corner, smooth}, {smooth, smooth}},
                      {"b", 3, 2, false, {smooth, corner}, {corner, smooth}},
                      {"c", 5, 1, false, {smooth, smooth}, {smooth, smooth}}};
@@ -492,8 +492,8 @@ TEST(ClosedContact, LoadsDoTheSameWorkAndFactsAreKept)
    EXPECT_EQ(reduced.chains[0].first, 0);
    EXPECT_EQ(reduced.chains[0].nodes, 2);
    EXPECT_FALSE(reduced.chains[0].loop);
-   EXPECT_EQ(reduced.chains[0].ends, (std::array<LineEnd, 2>{none, none}));
-   EXPECT_EQ(reduced.chains[0].other_ends, (std::array<LineEnd, 2>{none, none}));
+   EXPECT_EQ(reduced.chains[0].ends, (std::array<LineEnd, 2>{open, open}));
+   EXPECT_EQ(reduced.chains[0].other_ends, (std::array<LineEnd, 2>{open, open}));
    EXPECT_EQ(reduced.chains[1].interface, "b");
    EXPECT_EQ(reduced.chains[1].first, 2);
    EXPECT_EQ(reduced.chains[1].nodes, 2);
@@ -506,10 +506,10 @@ TEST(ClosedContact, LoadsDoTheSameWorkAndFactsAreKept)
    const std::vector<ContactChain> runs = closed_contact(line, {0, 1, 3, 4, 5}).reduced.chains;
    ASSERT_EQ(runs.size(), 2u);
    EXPECT_EQ(runs[0].nodes, 2);
-   EXPECT_EQ(runs[0].ends, (std::array<LineEnd, 2>{corner, none}));
+   EXPECT_EQ(runs[0].ends, (std::array<LineEnd, 2>{corner, open}));
    EXPECT_EQ(runs[1].first, 2);
    EXPECT_EQ(runs[1].nodes, 3);
-   EXPECT_EQ(runs[1].other_ends, (std::array<LineEnd, 2>{none, corner}));
+   EXPECT_EQ(runs[1].other_ends, (std::array<LineEnd, 2>{open, corner}));
    // What is not known of the loads stays so.
    line.H.resize(0, 0);
    EXPECT_FALSE(closed_contact(line, {0, 1, 3, 4, 5}).reduced.knows_loads());
