@@ -53,11 +53,13 @@ void check_joined(const ContactLine &line, const std::string &where)
       for (auto other = one + 1; other != along.end() && other->first - one->first <= farthest;
            ++other)
       {
-         require((node.position - other->second->position).norm() >
-                    near * std::min(node.spacing, other->second->spacing),
-                 where, ": two nodes lie on one another at ", node.position,
-                 ", the elements there are not joined: make them one node (in Gmsh: Coherence "
-                 "Mesh)");
+         require(
+            (node.position - other->second->position).norm() >
+               near * std::min(node.spacing, other->second->spacing),
+            where, ": two nodes lie on one another at ", node.position,
+            ", the elements there are not joined: if these are two lips that touch, name "
+            "each lip by itself and make a contact line of each; if the body is one piece, "
+            "make them one node (in Gmsh: Coherence Mesh)");
       }
    }
 }
