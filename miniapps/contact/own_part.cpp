@@ -1,5 +1,7 @@
 #include "contact/own_part.hpp"
 
+#include "contact/own_warnings.hpp"
+
 #include <algorithm>
 #include <cattaneo/exchange/nodal_statements.hpp>
 #include <cattaneo/exchange/read_stiffness.hpp>
@@ -119,7 +121,11 @@ void OwnPart::make_of_mesh(OwnBodies &own, int b)
          {
             if (!warning.empty()) { warn(warning); }
          }
-         if (!body_.as_meshed) { sides_ = curve_sides(mesh, order(), of_sides(b), curves); }
+         // As meshed no node moves, and the curves that the file knows are those of estimates.
+         const std::string support = body_.source.called("support");
+         sides_ = curve_sides(mesh, body_.as_meshed ? 1 : order(), of_sides(b), curves,
+                              supported_attributes(support, body_.support, terms_));
+         if (!body_.as_meshed) { warn_of_thin_wall(sides_, body_.name, order()); }
          const int attributes = mesh.attributes.Size() ? mesh.attributes.Max() : 1;
          own.materials.push_back(
             materials(with_materials(body_, names), attributes, joint_.plane_stress));

@@ -250,7 +250,7 @@ void find_bends(JoinedSegments &joined, const std::vector<const Segment *> &chai
       side.beyond = {way_on(ways, first, -first.node.tangent),
                      way_on(ways, last, last.node.tangent)};
    }
-   const std::vector<EdgeBend> bends = smooth_curve(side);
+   const std::vector<EdgeBend> bends = smooth_curve(side), possible = possible_curve(side);
    // Nodes of a file with few digits are off a chord as well.
    std::vector<bool> curved;
    for (std::size_t e = 0; e < bends.size(); ++e)
@@ -261,7 +261,9 @@ void find_bends(JoinedSegments &joined, const std::vector<const Segment *> &chai
    const bool knows = std::count(curved.begin(), curved.end(), true) > 0;
    for (std::size_t e = 0; e < bends.size(); ++e)
    {
-      if (!curved[e]) { joined.elements[e].bend = knows ? EdgeBend() : bends[e]; }
+      if (curved[e]) { continue; }
+      joined.elements[e].bend = knows ? EdgeBend() : bends[e];
+      if (!knows) { joined.elements[e].possible = possible[e]; }
    }
 }
 
