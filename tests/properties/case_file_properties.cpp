@@ -2,7 +2,7 @@
 // sentence that names its key, with nothing written.
 
 #include "holds.hpp"
-#include "study/run_miniapp.hpp"
+#include "run_miniapp.hpp"
 
 #include <cattaneo/mesh/graded_mesh.hpp>
 
