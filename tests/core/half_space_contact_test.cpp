@@ -4,7 +4,9 @@
 #include <cattaneo/algebra/quadrature.hpp>
 #include <cattaneo/friction/march.hpp>
 #include <cattaneo/halfplane/half_space.hpp>
+#include <cattaneo/halfplane/heights.hpp>
 #include <cmath>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <numeric>
 #include <random>
@@ -528,6 +530,36 @@ TEST(HalfSpaceContact, SaysWhatItCannotTake)
    one.centres = Places::Zero(1, 2);
    expect_input_error([&] { one.problem(VectorXd::Zero(1)); }, "one rectangle alone");
    expect_input_error([&] { good.displacements(Places::Zero(1, 2), gap); }, "27");
+}
+
+/// Steps of 2 and 3 µm, heights in nanometres: a plane, which is met everywhere.
+TEST(Heights, AreThoseOfTheFile)
+{
+   const auto written = [](const std::string &header, const std::string &data)
+   {
+      std::ofstream("surface.sdf") << header << data;
+      return read_heights("surface.sdf", 1e-6);
+   };
+   const std::string header = "aBCR-1.0\nManufacID   = none\nNumPoints   = 3\nNumProfiles = 2\n"
+                              "Xscale      = 2.00e-006\nYscale      = 3.00e-006\n"
+                              "Zscale      = 1.00e-009\nZresolution = -1\n*\n";
+   const Heights heights = written(header, " 100 110 120\n 130\n140 150 \n*\nby hand\n");
+   Places points(3, 2);
+   points << -2, -1.5, 0.7, 1.2, 2, 1.5;
+   const VectorXd z = heights.at(points);
+   for (Index i = 0; i < 3; ++i)
+   {
+      EXPECT_NEAR(z[i], 1e-3 * (125 + 5 * points(i, 0) + 10 * points(i, 1)), 1e-15);
+   }
+   expect_input_error([&] { heights.at(Places::Constant(1, 2, 1.6)); }, "|y| <= 1.5");
+   expect_input_error([&] { written(header, "1 2 3 4 5"); }, "there are 5 heights, must be");
+   expect_input_error([&] { written(header, "1 2 3 4 5 six"); }, "'six' is not a number");
+   expect_input_error([&] { written("aBCR-1.0\nNumPoints = 3\n*\n", ""); }, "has no Xscale");
+   expect_input_error([&] { written("bBCR-1.0", ""); }, "its first line must be");
+   expect_input_error([&] { read_heights("none.sdf"); }, "none.sdf");
+   const Heights holed = written(header, "1 2 3 4 5 BAD");
+   EXPECT_NO_THROW(holed.at(Places::Constant(1, 2, -0.1)));
+   expect_input_error([&] { holed.at(Places::Constant(1, 2, 0.1)); }, "was not measured");
 }
 
 } // namespace
