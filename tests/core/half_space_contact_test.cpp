@@ -5,6 +5,7 @@
 #include <cattaneo/friction/march.hpp>
 #include <cattaneo/halfplane/half_space.hpp>
 #include <cattaneo/halfplane/heights.hpp>
+#include <cattaneo/readout/areas.hpp>
 #include <cmath>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -308,12 +309,18 @@ TEST(HalfSpaceContact, HertzCattaneoMindlin)
       Errors error{};
       go({{}, pressed});
       error.approach = conjugate(problem, state, "P") * R / (a * a) - 1;
-      // Cells tell an area to a ring of half an edge.
-      EXPECT_NEAR(std::sqrt(number_closed(state) * edge * edge / M_PI), a, 0.5 * edge);
+      ContactAreas areas = contact_areas(problem, state);
+      EXPECT_NEAR(areas.contact.area, M_PI * a * a, areas.contact.error);
       go({{}, pressed, there});
       error.loading = conjugate(problem, state, "Q1") / shift(s) - 1;
-      EXPECT_NEAR(std::sqrt(number_of(state, NodeState::stick) * edge * edge / M_PI),
-                  a * std::cbrt(1 - s), 0.5 * edge);
+      areas = contact_areas(problem, state);
+      const double stuck = M_PI * a * a * std::pow(1 - s, 2.0 / 3);
+      EXPECT_NEAR(areas.stick.area, stuck, areas.stick.error);
+      EXPECT_NEAR(areas.slip.area, M_PI * a * a - stuck, areas.slip.error);
+      EXPECT_EQ(areas.contact.nodes, areas.stick.nodes + areas.slip.nodes);
+      // Half an edge along the circumference, which is told well.
+      EXPECT_NEAR(areas.contact.error, M_PI * a * edge, 0.02 * M_PI * a * edge);
+      EXPECT_EQ(areas.contact.nodes + areas.separation.nodes, problem.nodes());
       const double first = state.dissipation;
       go({{}, pressed, there, pressed});
       error.unloading =
@@ -530,6 +537,12 @@ TEST(HalfSpaceContact, SaysWhatItCannotTake)
    one.centres = Places::Zero(1, 2);
    expect_input_error([&] { one.problem(VectorXd::Zero(1)); }, "one rectangle alone");
    expect_input_error([&] { good.displacements(Places::Zero(1, 2), gap); }, "27");
+   ReducedProblem problem = good.problem(gap);
+   const ContactState virgin = ContactState::virgin(problem);
+   EXPECT_EQ(contact_areas(problem, virgin).contact.nodes,
+             0); // without load nothing is pressed
+   problem.weights.resize(0);
+   expect_input_error([&] { contact_areas(problem, virgin); }, "no weights");
 }
 
 /// Steps of 2 and 3 µm, heights in nanometres: a plane, which is met everywhere.
