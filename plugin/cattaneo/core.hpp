@@ -26,7 +26,10 @@
 #include <cattaneo/friction/history_statements.hpp>
 #include <cattaneo/halfplane/half_plane.hpp>
 #include <cattaneo/halfplane/half_plane_field.hpp>
+#include <cattaneo/halfplane/half_space.hpp>
+#include <cattaneo/halfplane/heights.hpp>
 #include <cattaneo/output/history.hpp>
+#include <cattaneo/readout/areas.hpp>
 #include <cattaneo/readout/small_displacements.hpp>
 #include <cattaneo/reduced/geometry_warnings.hpp>
 #include <cattaneo/reduced/interfaces.hpp>

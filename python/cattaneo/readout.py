@@ -1,12 +1,15 @@
 """What a state says: zones and edges of contact, tractions."""
 
 from ._core.readout import (
+    ContactAreas as ContactAreas,
     ContactEdge as ContactEdge,
     EdgeFit as EdgeFit,
     EdgeTractions as EdgeTractions,
     FittedIntensity as FittedIntensity,
+    SurfacePart as SurfacePart,
     Zone as Zone,
     ZoneBorder as ZoneBorder,
+    contact_areas as contact_areas,
     contact_edges as contact_edges,
     contact_zone as contact_zone,
     contact_zones as contact_zones,

@@ -99,10 +99,12 @@ NB_MODULE(_core, m)
    python::bind_bodies(m);
    python::bind_reduced_problems(m);
    python::bind_half_planes(m);
+   python::bind_half_spaces(m);
    python::bind_reductions(m);
    python::bind_states(m);
    python::bind_marches(m);
    python::bind_readout(m);
+   python::bind_areas(m);
    python::bind_shakedown(m);
    python::bind_fretting(m);
    python::bind_wear(m);

@@ -9,11 +9,13 @@ namespace cattaneo::python
 
 void bind_bodies(nanobind::module_ &m);
 void bind_half_planes(nanobind::module_ &m);
+void bind_half_spaces(nanobind::module_ &m);
 void bind_reduced_problems(nanobind::module_ &m);
 void bind_reductions(nanobind::module_ &m);
 void bind_states(nanobind::module_ &m);
 void bind_marches(nanobind::module_ &m);
 void bind_readout(nanobind::module_ &m);
+void bind_areas(nanobind::module_ &m);
 void bind_shakedown(nanobind::module_ &m);
 void bind_fretting(nanobind::module_ &m);
 void bind_wear(nanobind::module_ &m);

@@ -1,4 +1,4 @@
-"""The examples, and every Python example of README.md and docs/python.md, as a user runs them."""
+"""The examples, and every Python example of README.md, docs/python.md and docs/half_space.md, as a user runs them."""
 
 import os
 import re
@@ -75,7 +75,7 @@ def test_shakedown_map():
 
 BLOCKS = [
     block
-    for page in ("README.md", "docs/python.md")
+    for page in ("README.md", "docs/python.md", "docs/half_space.md")
     for block in re.findall(r"```python\n(.*?)```", (ROOT / page).read_text(encoding="utf-8"), re.S)
 ]
 

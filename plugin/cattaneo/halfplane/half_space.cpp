@@ -1,0 +1,306 @@
+#include <array>
+#include <cattaneo/algebra/dense_algebra.hpp>
+#include <cattaneo/algebra/dense_cholesky.hpp>
+#include <cattaneo/halfplane/half_space.hpp>
+#include <cattaneo/input_error.hpp>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <unordered_map>
+#include <vector>
+
+namespace cattaneo
+{
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+
+namespace
+{
+
+/// More digits, because the four corners of a rectangle cancel far away from it.
+using Long = long double;
+
+/// x asinh(y/|x|), which is x ln(y + r) but for x ln|x|.
+Long half_of_love(Long x, Long y)
+{
+   return x == 0 ? 0 : x * std::asinh(y / std::abs(x));
+}
+
+/// ∂²/∂x∂y of it is x/r².
+Long half_of_coupling(Long x, Long y)
+{
+   const Long square = x * x + y * y;
+   return (y == 0 ? 0 : y * std::log(square) / 2) + (x == 0 ? 0 : x * std::atan(y / x));
+}
+
+/// Integrals over a rectangle of functions of the way from its points to another point.
+struct RectangleIntegrals
+{
+   Long xx = 0; ///< x²/r³
+   Long yy = 0; ///< y²/r³; both together are 1/r
+   Long xy = 0; ///< x y/r³
+   Long x = 0;  ///< x/r²
+   Long y = 0;  ///< y/r²
+};
+
+/// @a way: from the centre of the rectangle to the point.
+RectangleIntegrals integrals(const Vector2d &size, const Vector2d &way)
+{
+   RectangleIntegrals sum;
+   for (const int right : {-1, 1})
+   {
+      for (const int upper : {-1, 1})
+      {
+         const Long x = way[0] + right * static_cast<Long>(size[0]) / 2,
+                    y = way[1] + upper * static_cast<Long>(size[1]) / 2;
+         const int sign = right * upper;
+         sum.xx += sign * half_of_love(y, x);
+         sum.yy += sign * half_of_love(x, y);
+         sum.xy -= sign * std::hypot(x, y);
+         sum.x += sign * half_of_coupling(x, y);
+         sum.y += sign * half_of_coupling(y, x);
+      }
+   }
+   return sum;
+}
+
+/// Of both bodies together: how their relative displacement follows from tractions.
+struct Compliance
+{
+   double direct = 0;   ///< Σ (1-ν)/2πG
+   double poisson = 0;  ///< Σ ν/2πG
+   double coupling = 0; ///< (1-2ν)/4πG of the body above less that of the body below
+
+   explicit Compliance(const HalfSpace &contact)
+   {
+      add(contact.material, 1);
+      const double above = coupling;
+      if (contact.other) { add(*contact.other, -1); }
+      // Equal constants of unlike materials differ by their rounding.
+      constexpr double round_off = 8 * std::numeric_limits<double>::epsilon();
+      if (std::abs(coupling) <= round_off * std::abs(above)) { coupling = 0; }
+   }
+   void add(const Material &material, int side)
+   {
+      const double unit = 1 / (2 * M_PI * material.mu());
+      direct += unit * (1 - material.poisson);
+      poisson += unit * material.poisson;
+      coupling += side * unit * (0.5 - material.poisson);
+   }
+
+   /// Displacements by uniform tractions on a rectangle.
+   Eigen::Matrix3d of(const RectangleIntegrals &I) const
+   {
+      const auto own = [&](Long tangential)
+      { return static_cast<double>(direct * (I.xx + I.yy) + poisson * tangential); };
+      const auto across = static_cast<double>(poisson * I.xy),
+                 x = static_cast<double>(coupling * I.x),
+                 y = static_cast<double>(coupling * I.y);
+      Eigen::Matrix3d F;
+      F << own(I.xx), across, -x, across, own(I.yy), -y, x, y, own(0);
+      return F;
+   }
+};
+
+/// Of each rectangle, in whole edges from the first one.
+std::vector<std::array<long, 2>> cells_of(const HalfSpace &contact)
+{
+   std::vector<std::array<long, 2>> cells;
+   std::set<std::array<long, 2>> known;
+   for (Index i = 0; i < contact.centres.rows(); ++i)
+   {
+      const Vector2d way = contact.centres.row(i) - contact.centres.row(0),
+                     edges = way.cwiseQuotient(contact.size), whole = edges.array().round();
+      const Vector2d place = contact.centres.row(i);
+      require((edges - whole).cwiseAbs().maxCoeff() <= 1e-9 &&
+                 edges.cwiseAbs().maxCoeff() < 1e9,
+              "half-space: the centre of rectangle ", i, " is ", place, ", ", edges,
+              " edges from the first, must be whole numbers of edges");
+      cells.push_back({std::lround(whole[0]), std::lround(whole[1])});
+      require(known.insert(cells.back()).second, "half-space: the rectangle at ", place,
+              " is there twice");
+   }
+   return cells;
+}
+
+/** Flexibility of nodal forces: rows and columns of the n first tangents, then of the second
+    ones, then of the normals. Rectangles that lie the same way from each other have the same
+    influence, which is integrated once; with the opposite way it is the transposed one, so that
+    the matrix is symmetric to the last bit. */
+MatrixXd flexibility(const HalfSpace &contact)
+{
+   const std::vector<std::array<long, 2>> cells = cells_of(contact);
+   const Compliance compliance(contact);
+   const auto n = static_cast<Index>(cells.size());
+   MatrixXd F(3 * n, 3 * n);
+   std::unordered_map<unsigned long, Eigen::Matrix3d> known;
+   for (Index i = 0; i < n; ++i)
+   {
+      for (Index j = 0; j <= i; ++j)
+      {
+         const long x = cells[i][0] - cells[j][0], y = cells[i][1] - cells[j][1];
+         const auto key = (static_cast<unsigned long>(std::labs(x)) << 32) +
+                          static_cast<unsigned long>(std::labs(y));
+         const auto [found, first] = known.try_emplace(key);
+         Eigen::Matrix3d &influence = found->second;
+         if (first)
+         {
+            const Vector2d way(static_cast<double>(std::labs(x)) * contact.size[0],
+                               static_cast<double>(std::labs(y)) * contact.size[1]);
+            influence = compliance.of(integrals(contact.size, way)) / contact.size.prod();
+         }
+         // Mirrored into the quadrant of this way; on an axis what is odd is zero.
+         const Eigen::Vector3d sign((x > 0) - (x < 0), (y > 0) - (y < 0), 1);
+         for (Index a = 0; a < 3; ++a)
+         {
+            for (Index b = 0; b < 3; ++b)
+            {
+               const double mirrored =
+                  a == b ? influence(a, b) : sign[a] * sign[b] * influence(a, b);
+               F(a * n + i, b * n + j) = F(b * n + j, a * n + i) = mirrored;
+            }
+         }
+      }
+   }
+   return F;
+}
+
+/// The stiffness of some rows of a contact whose far body goes where far forces take it.
+struct FreeStiffness
+{
+   MatrixXd K;
+   MatrixXd clamped; ///< forces of these rows by each far force, if none of them moved
+   MatrixXd moved;   ///< the far body's motions by each far force then
+
+   /** @a F: flexibility of these rows against a far body that is held. @a motions: what one of
+       each far motion moves them by, columns. */
+   FreeStiffness(MatrixXd F, const MatrixXd &motions)
+   {
+      DenseCholesky factor;
+      require(factor.compute(std::move(F)),
+              "half-space: its flexibility is not positive definite to round-off; its "
+              "rectangles must be fewer, or their edges less unequal");
+      K = factor.inverse();
+      // Energy ½ (u - R y)ᵀ S (u - R y) - Gᵀ y of the far motions y, which nothing holds.
+      const MatrixXd held_back = factor.solved(motions);
+      DenseCholesky resistance;
+      require(resistance.compute(motions.transpose() * held_back),
+              "half-space: nothing resists one of its motions, there must be more rectangles");
+      moved = resistance.inverse();
+      clamped = -held_back * moved;
+      MatrixXd half = held_back.transpose();
+      resistance.solve_half(half);
+      K = minus_square(std::move(K), half);
+   }
+};
+
+} // namespace
+
+void HalfSpace::validate() const
+{
+   for (const Material *each : {&material, other ? &*other : nullptr})
+   {
+      if (each == nullptr) { continue; }
+      each->validate();
+      require(each->state == PlaneState::strain,
+              "half-space: its material is one of plane stress, must be of plane strain");
+   }
+   require(size.allFinite() && size.minCoeff() > 0, "half-space: the edges of its rectangles ",
+           "are ", size, ", must be positive");
+   require(centres.rows() > 0, "half-space: there are no rectangles");
+   require(centres.allFinite(),
+           "half-space: the centre of a rectangle has an entry that is not finite");
+   cells_of(*this);
+}
+
+ReducedProblem HalfSpace::problem(const VectorXd &gap) const
+{
+   validate();
+   const Index n = centres.rows(), slips = 2 * n, rows = 3 * n;
+   require(gap.size() == n, "half-space: ", gap.size(), " gaps for ", n,
+           " rectangles, must be one for each");
+   require(n > 1, "half-space: one rectangle alone, must be at least two");
+
+   // Motions of the far body, each along its force. Those within the plane come first.
+   const std::vector<std::string> names = turns ? std::vector<std::string>{"Q1", "Q2", "T", "P"}
+                                                : std::vector<std::string>{"Q1", "Q2", "P"};
+   const auto count = static_cast<Index>(names.size());
+   MatrixXd motions = MatrixXd::Zero(rows, count);
+   motions.col(0).head(n).setOnes();
+   motions.col(1).segment(n, n).setOnes();
+   if (turns)
+   {
+      motions.col(2).head(n) = -centres.col(1);
+      motions.col(2).segment(n, n) = centres.col(0);
+   }
+   motions.col(count - 1).tail(n).setConstant(-1);
+
+   ReducedProblem result;
+   MatrixXd clamped = MatrixXd::Zero(rows, count);
+   MatrixXd F = flexibility(*this);
+   if (Compliance(*this).coupling != 0)
+   {
+      FreeStiffness all(std::move(F), motions);
+      result.K = std::move(all.K);
+      clamped = std::move(all.clamped);
+      result.H = std::move(all.moved);
+   }
+   else
+   {
+      const FreeStiffness tangential(F.topLeftCorner(slips, slips),
+                                     motions.topLeftCorner(slips, count - 1)),
+         normal(F.bottomRightCorner(n, n), motions.bottomRightCorner(n, 1));
+      result.K = std::move(F);
+      result.K.setZero();
+      result.K.topLeftCorner(slips, slips) = tangential.K;
+      result.K.bottomRightCorner(n, n) = normal.K;
+      clamped.topLeftCorner(slips, count - 1) = tangential.clamped;
+      clamped.bottomRightCorner(n, 1) = normal.clamped;
+      result.H = MatrixXd::Zero(count, count);
+      result.H.topLeftCorner(count - 1, count - 1) = tangential.moved;
+      result.H(count - 1, count - 1) = normal.moved(0, 0);
+   }
+   for (Index k = 0; k < count; ++k)
+   {
+      result.patterns.push_back({names[static_cast<std::size_t>(k)], Control::force,
+                                 clamped.col(k).head(slips), clamped.col(k).tail(n)});
+   }
+   result.gap = gap;
+   result.friction = VectorXd::Zero(n);
+   result.weights = VectorXd::Constant(n, size.prod());
+   result.position = centres;
+   result.rigid_motions = thin_qr(motions).Q;
+   join_coupling(result);
+   result.validate();
+   return result;
+}
+
+Eigen::MatrixX3d HalfSpace::displacements(const Eigen::MatrixX2d &points,
+                                          const VectorXd &forces) const
+{
+   validate();
+   const Index n = centres.rows();
+   require(forces.size() == 3 * n, "half-space: ", forces.size(), " nodal forces, must be ",
+           3 * n, ", three for each rectangle");
+   require(forces.allFinite(), "half-space: a nodal force is not finite");
+   require(points.allFinite(), "half-space: a point of the surface has an entry that is not "
+                               "finite");
+   const Compliance compliance(*this);
+   const Eigen::MatrixX3d tractions =
+      Eigen::Map<const Eigen::MatrixX3d>(forces.data(), n, 3) / size.prod();
+   Eigen::MatrixX3d result = Eigen::MatrixX3d::Zero(points.rows(), 3);
+   for (Index i = 0; i < points.rows(); ++i)
+   {
+      for (Index j = 0; j < n; ++j)
+      {
+         const Vector2d way = points.row(i) - centres.row(j);
+         result.row(i) += tractions.row(j) * compliance.of(integrals(size, way)).transpose();
+      }
+   }
+   return result;
+}
+
+} // namespace cattaneo

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cattaneo/material.hpp>
+#include <cattaneo/reduced/reduced_problem.hpp>
+#include <optional>
+
+namespace cattaneo
+{
+
+/** Two elastic half-spaces that meet in the plane z = 0, or one on a rigid body: frictional
+    contact in three dimensions without a mesh. Tractions are uniform on equal rectangles, and
+    the laws of contact hold at their centres [Kalker 1990]. Displacements are
+    Boussinesq's and Cerruti's, integrated over each rectangle in closed form [Love 1929], with
+    the coupling between normal and tangential directions. They are relative to infinity.
+
+    A rectangle is a contact node: the first tangent is x, the second y, and the normal z, into
+    the body above. Forces are those that this body takes, displacements its own less those of
+    the body below. */
+struct HalfSpace
+{
+   Material material;             ///< of the body above; plane strain
+   std::optional<Material> other; ///< of the body below, plane strain; none: it is rigid
+   Eigen::Vector2d size{1, 1};    ///< edges of each rectangle along x and y, > 0
+   /// Of the n rectangles that may touch, n × 2. They lie on one grid, that is they differ by
+   /// whole edges, and may be any of its cells, in any order.
+   Eigen::MatrixX2d centres;
+   /// Is the body above free to turn about the normal through x = y = 0? It never tilts.
+   bool turns = false;
+
+   /// InputError for a material that is none or of plane stress, edges that are not positive,
+   /// or rectangles that do not lie on one grid, to 1e-9 of an edge, or are there twice.
+   void validate() const;
+
+   /** The frictional contact of these bodies with a gap of each rectangle (size n), measured at
+       its centre, without friction until set_friction(). It has two tangential components,
+       areas as weights and centres as positions.
+
+       The body above goes where its far forces take it. Patterns "P" (towards the other body),
+       "Q1" and "Q2" (along x and y) have a unit force each, and, if it `turns`, "T" a unit
+       moment about z. Their conjugates are the approach, the shifts and the turn of the far
+       body. These motions are the problem's rigid motions.
+
+       Costs a Cholesky factor of 3n rows, or of 2n and of n where nothing couples normal and
+       tangential directions: between equal materials, and where the combined constant
+       (1 - 2ν)/G of both bodies is the same.
+
+       InputError as of validate(), for a gap of another size, one rectangle alone, or
+       rectangles so many and long that their flexibility is not positive definite. */
+   ReducedProblem problem(const Eigen::VectorXd &gap) const;
+
+   /** Displacements at points of the surface (m × 2) under nodal forces {q; p} of the
+       rectangles (size 3n): those of the body above less those of the body below, m × 3 along
+       x, y and z. The rigid motions of the far bodies are no part of them. InputError as of
+       validate(), or for other sizes. */
+   Eigen::MatrixX3d displacements(const Eigen::MatrixX2d &points,
+                                  const Eigen::VectorXd &forces) const;
+};
+
+} // namespace cattaneo

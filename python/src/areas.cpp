@@ -1,0 +1,45 @@
+#include "arrays.hpp"
+#include "module.hpp"
+#include <cattaneo/readout/areas.hpp>
+#include <nanobind/stl/string.h>
+#include <sstream>
+
+// Areas of a contact surface.
+
+namespace cattaneo::python
+{
+
+void bind_areas(nb::module_ &m)
+{
+   nb::module_ readout = m.def_submodule("readout");
+   nb::class_<SurfacePart>(readout, "SurfacePart",
+                           "A part of the contact surface: the nodes in one state.")
+      .def_ro("area", &SurfacePart::area, "sum of their weights")
+      .def_ro("error", &SurfacePart::error,
+              "estimate of what whole nodes leave of its outline, no bound")
+      .def_ro("nodes", &SurfacePart::nodes, "number of them")
+      .def("__float__", [](const SurfacePart &self) { return self.area; })
+      .def("__repr__",
+           [](const SurfacePart &self)
+           {
+              std::ostringstream text;
+              text << self.area << " ± " << self.error << " (estimate), " << self.nodes
+                   << " nodes";
+              return text.str();
+           });
+   nb::class_<ContactAreas>(readout, "ContactAreas", "Parts of the contact surface in a state.")
+      .def_ro("contact", &ContactAreas::contact, "stick and slip together")
+      .def_ro("stick", &ContactAreas::stick, "pressed, and at rest")
+      .def_ro("slip", &ContactAreas::slip, "pressed, and slipping in whatever direction")
+      .def_ro("separation", &ContactAreas::separation, "open, or touching without force");
+   readout.def(
+      "contact_areas",
+      [](const ReducedProblem &problem, const ContactState &state)
+      { return contact_areas(problem, state); },
+      nb::arg("problem"), nb::arg("state"),
+      "Areas of contact, stick, slip and separation in a state of a problem with two "
+      "tangential "
+      "components, from settled_states().");
+}
+
+} // namespace cattaneo::python

@@ -1,0 +1,112 @@
+#include "arrays.hpp"
+#include "module.hpp"
+#include <cattaneo/halfplane/half_space.hpp>
+#include <cattaneo/halfplane/heights.hpp>
+#include <nanobind/stl/optional.h>
+
+// Half-spaces in three dimensions, without a mesh.
+
+namespace cattaneo::python
+{
+
+void bind_half_spaces(nb::module_ &m)
+{
+   nb::class_<HalfSpace>(
+      m, "HalfSpace",
+      "Two elastic half-spaces that meet in the plane z = 0, or one on a rigid body: contact "
+      "in "
+      "three dimensions without a mesh, tractions uniform on equal rectangles.")
+      .def(
+         "__init__",
+         [](HalfSpace *self, const Material &material, const std::optional<Material> &other,
+            Numbers size, Numbers centres, bool turns)
+         {
+            HalfSpace body;
+            body.material = material;
+            body.other = other;
+            body.size = vector_or_number(size, "size", 2);
+            body.centres = matrix(centres, "centres", -1, 2);
+            body.turns = turns;
+            body.validate();
+            new (self) HalfSpace(std::move(body));
+         },
+         nb::arg("material"), nb::arg("other") = nb::none(), nb::kw_only(), nb::arg("size"),
+         nb::arg("centres"), nb::arg("turns") = false,
+         nb::sig("def __init__(self, material: Material, other: None | Material = None, *, "
+                 "size: numpy.typing.ArrayLike, centres: numpy.typing.ArrayLike, turns: bool = "
+                 "False) -> None"),
+         "material: of the body above. other: of the half-space below; None: it is rigid.\n"
+         "size: edges (x, y) of every rectangle, or one number for both.\n"
+         "centres: (n, 2), of the rectangles that may touch: any cells of one grid, in any "
+         "order.\n"
+         "turns: is the body above free to turn about the normal through x = y = 0?")
+      .def(
+         "problem",
+         [](const HalfSpace &self, Numbers gap)
+         {
+            const HalfSpace contact = self;
+            const Eigen::VectorXd gaps = vector_or_number(gap, "gap", self.centres.rows());
+            const nb::gil_scoped_release unlocked;
+            return contact.problem(gaps);
+         },
+         nb::arg("gap"),
+         "The frictional contact with a gap of each rectangle, (n,) at its centre, or one "
+         "number. First tangents along x, second along y, normals along z, into the body "
+         "above; weights are areas.\n"
+         "Loads are forces on this body from far away: 'P' presses it on the other one, 'Q1' "
+         "and 'Q2' act along x and y; if it turns, 'T' is a moment about z. Their conjugates "
+         "are its approach, shifts and turn.")
+      .def(
+         "displacements",
+         [](const HalfSpace &self, Numbers points, Numbers forces)
+         {
+            return array(self.displacements(matrix(points, "points", -1, 2),
+                                            vector(forces, "forces", 3 * self.centres.rows())));
+         },
+         nb::arg("points"), nb::arg("forces"),
+         "At points (m, 2) of the surface under nodal forces {q; p}, (3 n,): displacements (m, "
+         "3) along x, y and z of the body above less those of the body below, without the "
+         "rigid motions of far bodies.")
+      .def_ro("material", &HalfSpace::material, "of the body above")
+      .def_ro("other", &HalfSpace::other, nb::sig("def other(self) -> None | Material"),
+              "of the half-space below; None: it is rigid")
+      .def_prop_ro(
+         "size", [](const HalfSpace &self) { return array(Eigen::VectorXd(self.size)); },
+         "(2,), edges of every rectangle along x and y")
+      .def_prop_ro(
+         "centres", [](const HalfSpace &self) { return array(Eigen::MatrixXd(self.centres)); },
+         "(n, 2), of the rectangles")
+      .def_ro("turns", &HalfSpace::turns, "is the body above free to turn?");
+
+   nb::class_<Heights>(
+      m, "Heights",
+      "Heights of a surface on a regular grid, linear between its points along "
+      "x and y. The middle of the grid is x = y = 0.")
+      .def(
+         "__init__",
+         [](Heights *self, Numbers z, Numbers step) {
+            new (self) Heights{vector_or_number(step, "step", 2), matrix(z, "z").transpose()};
+         },
+         nb::arg("z"), nb::kw_only(), nb::arg("step"),
+         "z: (lines, points), a row each line along x, the first with the least y. step: from "
+         "one point to the next along x and y, or one number for both.")
+      .def(
+         "at",
+         [](const Heights &self, Numbers points)
+         { return array(self.at(matrix(points, "points", -1, 2))); },
+         nb::arg("points"), "At points (m, 2) within the grid.")
+      .def_prop_ro(
+         "z", [](const Heights &self) { return array(Eigen::MatrixXd(self.z.transpose())); },
+         "(lines, points); nan: not measured")
+      .def_prop_ro(
+         "step", [](const Heights &self) { return array(Eigen::VectorXd(self.step)); },
+         "(2,), from one point to the next along x and y");
+   m.def(
+      "read_heights", [](File name, double unit) { return read_heights(file(name), unit); },
+      nb::arg("file"), nb::arg("unit") = 1.0,
+      "Reads a text file of surface data, SDF of ISO 25178-71. Its lengths are in metres; "
+      "unit: "
+      "that they are wanted in, 1e-3 for mm.");
+}
+
+} // namespace cattaneo::python

@@ -1,0 +1,92 @@
+"""Contact of half-spaces in three dimensions."""
+
+import cattaneo
+import numpy as np
+import pytest
+from cattaneo import NodeState
+from conftest import ROOT
+
+MATERIAL = cattaneo.Material(young=2.0 * 1.3, poisson=0.3)  # G = 1
+
+
+def squares(across, edge):
+    places = edge * (np.arange(across) - (across - 1) / 2)
+    x, y = np.meshgrid(places, places)
+    return np.column_stack([x.ravel(), y.ravel()])
+
+
+def test_sphere_in_stick_and_slip():
+    """Two spheres of one material: Hertz' approach a²/R, and the radius of stick a (1 - Q/fP)^⅓ of Cattaneo and Mindlin. At
+    ν = 0.3 the latter is right to a few per cent: half the width of a square here."""
+    a, radius, friction, share = 1.0, 20.0, 0.4, 0.7
+    load = 4 / 3 / (1 - 0.3) * a**3 / radius  # E* = G/(1 - ν)
+    edge = 2 * a / 15
+    space = cattaneo.HalfSpace(MATERIAL, MATERIAL, size=edge, centres=squares(17, edge))
+    problem = space.problem(gap=(space.centres**2).sum(axis=1) / (2 * radius))
+    problem.friction = friction
+    assert problem.loads == ["Q1", "Q2", "P"] and problem.components == 2 and not problem.coupled
+    history = [{}, {"P": load}, {"P": load, "Q2": share * friction * load}]
+    state = cattaneo.march(problem, history, increments=1).state
+    approach = cattaneo.conjugates(problem, state)[problem.loads.index("P")]
+    assert approach == pytest.approx(a**2 / radius, rel=2e-3)
+    stick = problem.weights[state.status == NodeState.stick].sum()
+    assert np.sqrt(stick / np.pi) == pytest.approx(a * np.cbrt(1 - share), abs=edge / 2)
+    q = state.q.reshape(2, -1)
+    assert q[1].sum() == pytest.approx(-share * friction * load, rel=1e-9)  # against the far force on the same body
+    slips = state.status == NodeState.slip
+    assert np.hypot(*q)[slips] == pytest.approx(friction * state.p[slips], rel=1e-9)
+
+    areas = cattaneo.readout.contact_areas(problem, state)
+    assert float(areas.stick) == pytest.approx(stick) and areas.slip.nodes == slips.sum()
+    for part, exact in ((areas.contact, a), (areas.stick, a * np.cbrt(1 - share))):
+        assert abs(part.area - np.pi * exact**2) < part.error
+    assert areas.contact.area + areas.separation.area == pytest.approx(problem.weights.sum())
+    with pytest.raises(cattaneo.InputError, match="must have two; zones"):
+        plane = cattaneo.load_reduced_problem(ROOT / "problems" / "hertz.json")
+        cattaneo.readout.contact_areas(plane, cattaneo.ContactState.virgin(plane))
+
+
+def test_displacements_of_a_square():
+    """Love: under a uniform pressure p the middle of a square of edge l sinks by (4/π) ln(1 + √2) (1 - ν²) p l/E."""
+    space = cattaneo.HalfSpace(MATERIAL, size=[0.5, 0.5], centres=[[0.0, 0.0]])
+    moved = space.displacements([[0.0, 0.0], [0.25, 0.25]], [0.0, 0.0, 0.25])
+    sinks = 4 / np.pi * np.log(1 + np.sqrt(2)) * (1 - 0.3**2) * 0.5 / 2.6
+    assert moved[:, 2] == pytest.approx([sinks, sinks / 2], rel=1e-13)
+    assert space.other is None and space.material.young == 2.6 and not space.turns
+
+
+def test_what_is_refused():
+    good = {"size": 0.1, "centres": squares(3, 0.1)}
+    cattaneo.HalfSpace(MATERIAL, **good)
+    for change, sentence in (
+        ({"size": -1.0}, "must be positive"),
+        ({"size": [0.1, 0.2, 0.3]}, "size"),
+        ({"centres": np.zeros((2, 2))}, "is there twice"),
+        ({"centres": [[0, 0], [0.15, 0]]}, "must be whole numbers of edges"),
+        ({"other": cattaneo.Material(1.0, 0.3, plane_stress=True)}, "must be of plane strain"),
+    ):
+        with pytest.raises(cattaneo.InputError, match=sentence):
+            cattaneo.HalfSpace(MATERIAL, **{**good, **change})
+    with pytest.raises(cattaneo.InputError, match="gap"):
+        cattaneo.HalfSpace(MATERIAL, **good).problem(gap=np.zeros(4))
+
+
+def test_a_measured_surface(tmp_path):
+    """A sphere that was measured every 0.05 is pressed as the sphere is: gaps differ by 0.05²/8R at most."""
+    places = np.linspace(-1.2, 1.2, 49)
+    sphere = -(places[:, None] ** 2 + places**2) / 20
+    (tmp_path / "sphere.sdf").write_text(
+        "aISO-1.0\nNumPoints = 49\nNumProfiles = 49\nXscale = 5e-5\nYscale = 5e-5\nZscale = 1e-3\n*\n"
+        + "\n".join(" ".join(map(repr, row.tolist())) for row in sphere) + "\n*\n")
+    heights = cattaneo.read_heights(tmp_path / "sphere.sdf", unit=1e-3)
+    assert heights.step == pytest.approx([0.05, 0.05], rel=1e-12) and heights.z == pytest.approx(sphere, rel=1e-12)
+    assert cattaneo.Heights(sphere, step=0.05).at([[0.1, -0.2]]) == pytest.approx([-0.05 / 20], rel=1e-12)
+    space = cattaneo.HalfSpace(MATERIAL, MATERIAL, size=0.13, centres=squares(17, 0.13))
+    gaps = heights.z.max() - heights.at(space.centres), (space.centres**2).sum(axis=1) / 20
+    assert np.abs(gaps[0] - gaps[1]).max() <= 2 * 0.05**2 / 8 / 10
+    approaches = []
+    for gap in gaps:
+        problem = space.problem(gap)
+        state = cattaneo.march(problem, [{}, {"P": 0.19}], increments=1).state
+        approaches.append(cattaneo.conjugates(problem, state)[problem.loads.index("P")])
+    assert approaches[0] == pytest.approx(approaches[1], abs=2 * 0.05**2 / 8 / 10)

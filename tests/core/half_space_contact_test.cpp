@@ -1,0 +1,578 @@
+#include "expect_input_error.hpp"
+
+#include <algorithm>
+#include <cattaneo/algebra/quadrature.hpp>
+#include <cattaneo/friction/march.hpp>
+#include <cattaneo/halfplane/half_space.hpp>
+#include <cattaneo/halfplane/heights.hpp>
+#include <cattaneo/readout/areas.hpp>
+#include <cmath>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <numeric>
+#include <random>
+#include <record.hpp>
+
+// Contact of half-spaces in three dimensions, tractions uniform on rectangles: against point
+// forces, closed solutions, invariances, and the output of Kalker's CONTACT.
+
+namespace
+{
+
+using namespace cattaneo;
+using Eigen::Index;
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+using Places = Eigen::MatrixX2d;
+
+Material of_shear(double shear_modulus, double poisson)
+{
+   return {2 * shear_modulus * (1 + poisson), poisson};
+}
+
+/// Centres of the m × m cells about a middle that lie within a radius of it.
+Places cells(int m, double edge, double radius, const Vector2d &middle = {0, 0})
+{
+   std::vector<Vector2d> within;
+   for (int j = 0; j < m; ++j)
+   {
+      for (int i = 0; i < m; ++i)
+      {
+         const Vector2d place = 0.5 * edge * Vector2d(2 * i + 1 - m, 2 * j + 1 - m);
+         if (place.norm() <= radius) { within.emplace_back(middle + place); }
+      }
+   }
+   Places centres(static_cast<Index>(within.size()), 2);
+   for (Index i = 0; i < centres.rows(); ++i)
+   {
+      centres.row(i) = within[static_cast<std::size_t>(i)];
+   }
+   return centres;
+}
+
+HalfSpace contact_of(const Material &material, std::optional<Material> other, double edge,
+                     Places centres)
+{
+   HalfSpace contact;
+   contact.material = material;
+   contact.other = std::move(other);
+   contact.size = {edge, edge};
+   contact.centres = std::move(centres);
+   return contact;
+}
+
+int number_of(const ContactState &state, NodeState status)
+{
+   return static_cast<int>(std::count(state.status.begin(), state.status.end(), status));
+}
+
+int number_closed(const ContactState &state)
+{
+   return static_cast<int>(state.status.size()) - number_of(state, NodeState::separation);
+}
+
+double conjugate(const ReducedProblem &problem, const ContactState &state, const char *load)
+{
+   return conjugates(problem, state)[problem.pattern(load)];
+}
+
+/// From one point to the next by one increment each.
+MarchReport marched(const ReducedProblem &problem, const std::vector<NamedLoads> &points,
+                    ContactState &state, int increments = 1)
+{
+   MarchSettings settings;
+   settings.stepping = Stepping::fixed;
+   settings.increments = increments;
+   return march(problem, LoadHistory::through(problem, points), state, settings);
+}
+
+/// Boussinesq and Cerruti: surface displacements of a half-space z > 0 by a force at a point of
+/// its surface (Johnson 1985, 3.19 and 3.75), columns: forces along x, y and z.
+Matrix3d point_force(double G, double nu, const Vector2d &way)
+{
+   const double r = way.norm(), x = way[0], y = way[1], c = 1 / (4 * M_PI * G),
+                odd = (1 - 2 * nu) / (r * r);
+   Matrix3d u;
+   u << 2 * (1 - nu) / r + 2 * nu * x * x / (r * r * r), 2 * nu * x * y / (r * r * r), -odd * x,
+      2 * nu * x * y / (r * r * r), 2 * (1 - nu) / r + 2 * nu * y * y / (r * r * r), -odd * y,
+      odd * x, odd * y, 2 * (1 - nu) / r;
+   return c * u;
+}
+
+TEST(HalfSpaceContact, ARectangleIsTheIntegralOfPointForces)
+{
+   // The second body takes the opposite shear, and its normal is the other one.
+   const double G = 2, nu = 0.2, other_G = 5, other_nu = 0.4;
+   HalfSpace contact;
+   contact.material = of_shear(G, nu);
+   contact.other = of_shear(other_G, other_nu);
+   contact.size = {0.7, 0.3};
+   contact.centres = Places(1, 2);
+   contact.centres << 0.2, -0.1;
+   const Matrix3d turned = Eigen::Vector3d(-1, -1, 1).asDiagonal();
+   const QuadratureRule &rule = gauss_rule(64);
+   Places points(5, 2);
+   points << 0.2, 0.6, 1.3, -0.1, 2, 2, -0.7, 0.4, 40, -3;
+   for (const Vector2d point : points.rowwise())
+   {
+      Matrix3d expected = Matrix3d::Zero();
+      for (Index i = 0; i < 64; ++i)
+      {
+         for (Index j = 0; j < 64; ++j)
+         {
+            const Vector2d from =
+               contact.centres.row(0).transpose() +
+               contact.size.cwiseProduct(Vector2d(rule.points[i] - 0.5, rule.points[j] - 0.5));
+            expected += rule.weights[i] * rule.weights[j] *
+                        (point_force(G, nu, point - from) +
+                         turned * point_force(other_G, other_nu, point - from) * turned);
+         }
+      }
+      for (Index k = 0; k < 3; ++k)
+      {
+         const VectorXd moved =
+            contact.displacements(point.transpose(), VectorXd::Unit(3, k)).row(0).transpose();
+         EXPECT_LT((moved - expected.col(k)).norm(), 1e-13 * expected.norm()) << k;
+      }
+   }
+}
+
+/// Love: the middle of a square of edge l under a uniform pressure p sinks by
+/// (4/π) ln(1 + √2) (1 - ν²) p l/E, its corners by half of that.
+TEST(HalfSpaceContact, UniformPressureOnASquare)
+{
+   const double E = 3, nu = 0.3, edge = 0.8, p = 2;
+   const HalfSpace contact = contact_of({E, nu}, {}, edge, Places::Zero(1, 2));
+   Places points(3, 2);
+   points << 0, 0, edge / 2, edge / 2, edge / 2, 0;
+   const Eigen::MatrixX3d u =
+      contact.displacements(points, Eigen::Vector3d(0, 0, p * edge * edge));
+   const double sinks = 4 / M_PI * std::log(1 + std::sqrt(2.0)) * (1 - nu * nu) * p * edge / E;
+   EXPECT_NEAR(u(0, 2), sinks, 1e-14 * sinks);
+   EXPECT_NEAR(u(1, 2), sinks / 2, 1e-14 * sinks);
+   // The middle of a side: half of what two such squares side by side have in their middle,
+   // where four rectangles of edges l and l/2 meet with their corners.
+   const auto corner = [](double a, double b) // of ∫ 1/r over a rectangle
+   { return a * std::asinh(b / a) + b * std::asinh(a / b); };
+   EXPECT_NEAR(u(2, 2), 2 * corner(edge, edge / 2) * (1 - nu * nu) * p / (M_PI * E),
+               1e-14 * sinks);
+   EXPECT_TRUE(u.leftCols(2).row(0).isZero(0));
+}
+
+/// Forces do the same work on displacements of others as the others' on theirs, and the
+/// stiffness is symmetric to the last bit; what nothing resists meets no force.
+TEST(HalfSpaceContact, TheStiffnessIsSymmetric)
+{
+   HalfSpace contact = contact_of(of_shear(1, 0.1), of_shear(4, 0.3), 0.1, cells(9, 0.1, 0.4));
+   contact.size = {0.1, 0.2};
+   contact.centres.col(1) *= 2;
+   contact.turns = true;
+   const Index n = contact.centres.rows();
+   std::mt19937 random(1);
+   std::normal_distribution<double> normal;
+   const auto forces = [&]
+   { return VectorXd::NullaryExpr(3 * n, [&] { return normal(random); }); };
+   const VectorXd first = forces(), second = forces();
+   const auto work = [&](const VectorXd &of, const VectorXd &on)
+   {
+      const Eigen::MatrixX3d u = contact.displacements(contact.centres, of);
+      return on.dot(Eigen::Map<const VectorXd>(u.data(), u.size()));
+   };
+   EXPECT_NEAR(work(first, second), work(second, first), 1e-13 * work(first, first));
+   EXPECT_GT(work(first, first), 0);
+
+   const ReducedProblem problem = contact.problem(VectorXd::Zero(n));
+   EXPECT_TRUE(problem.coupled);
+   EXPECT_EQ(problem.components(), 2);
+   EXPECT_TRUE((problem.K - problem.K.transpose()).isZero(0));
+   EXPECT_EQ(problem.rigid_motions.cols(), 4);
+   EXPECT_LT((problem.K * problem.rigid_motions).norm(), 1e-13 * problem.K.norm());
+   // Displacements of forces that balance are those of the closed forms but for the far body's
+   // motion: K of them is the forces again.
+   const MatrixXd &Z = problem.rigid_motions;
+   const VectorXd balanced = first - Z * (Z.transpose() * first);
+   const Eigen::MatrixX3d u = contact.displacements(contact.centres, balanced);
+   EXPECT_LT((problem.K * Eigen::Map<const VectorXd>(u.data(), u.size()) - balanced).norm(),
+             1e-11 * balanced.norm());
+}
+
+/// Bodies of one material, and unlike ones with the same (1-2ν)/G, have no coupling, exactly.
+TEST(HalfSpaceContact, WhereNothingCouples)
+{
+   const Places centres = cells(5, 0.1, 1);
+   const VectorXd gap = VectorXd::Zero(centres.rows());
+   const Material soft = of_shear(1, 0.1), stiff = of_shear(0.4 / 0.8, 0.3);
+   for (const auto &[above, below, coupled] :
+        {std::tuple(soft, std::optional<Material>(soft), false),
+         {soft, std::optional<Material>(stiff), false},
+         {soft, std::optional<Material>(), true},
+         {soft, std::optional<Material>(of_shear(1, 0.3)), true}})
+   {
+      const ReducedProblem problem = contact_of(above, below, 0.1, centres).problem(gap);
+      EXPECT_EQ(problem.coupled, coupled);
+      EXPECT_EQ(problem.B().isZero(0), !coupled);
+   }
+   // Incompressible on a rigid body: 1 - 2ν is zero.
+   const HalfSpace rubber = contact_of({1, 0.5 - 1e-16}, {}, 0.1, centres);
+   EXPECT_LT(rubber.problem(gap).B().norm(), 1e-14 * rubber.problem(gap).C().norm());
+}
+
+/** Kalker's CONTACT, example "cattaneo" (its own reference output): two equal spheres pressed,
+    then sheared. All digits that it prints. */
+TEST(HalfSpaceContact, KalkersContactCattaneo)
+{
+   const double edge = 0.13333, P = 9.1954, f = 0.4;
+   const Material material = of_shear(200, 0.42);
+   const HalfSpace contact = contact_of(material, material, edge, cells(19, edge, 10));
+   ReducedProblem problem = contact.problem(0.01 * contact.centres.rowwise().squaredNorm());
+   set_friction(problem, f);
+   ContactState state = ContactState::virgin(problem);
+   ASSERT_EQ(marched(problem, {{}, {{"P", P}}}, state).status, FrictionStatus::converged);
+   EXPECT_NEAR(conjugate(problem, state, "P"), 1.998e-2, 0.5e-5);
+   EXPECT_NEAR(state.p.maxCoeff() / (edge * edge), 4.393, 0.5e-3);
+   EXPECT_EQ(number_closed(state), 177);
+   cattaneo_test::record("approach", conjugate(problem, state, "P"));
+   cattaneo_test::record("pressure", state.p.maxCoeff() / (edge * edge));
+
+   const MarchReport sheared =
+      marched(problem, {{}, {{"P", P}}, {{"P", P}, {"Q1", 7.0 / 8 * f * P}}}, state);
+   ASSERT_EQ(sheared.status, FrictionStatus::converged);
+   EXPECT_NEAR(conjugate(problem, state, "Q1"), 8.155e-3, 0.5e-6);
+   EXPECT_EQ(number_of(state, NodeState::stick), 45);
+   EXPECT_EQ(number_of(state, NodeState::slip), 132);
+   EXPECT_NEAR(state.dissipation, 2.750e-3, 0.5e-6);
+   const VectorXd forces = state.forces();
+   const Eigen::MatrixX3d u = contact.displacements(contact.centres, forces);
+   const double energy = forces.dot(Eigen::Map<const VectorXd>(u.data(), u.size())) / 2;
+   EXPECT_NEAR(energy, 8.525e-2, 0.5e-5);
+   cattaneo_test::record("shift", conjugate(problem, state, "Q1"));
+   cattaneo_test::record("loss", state.dissipation);
+   cattaneo_test::record("energy", energy);
+}
+
+/** CONTACT, example "spence35": a rigid sphere on a half-space, coupled, force in stages. Cells
+    far from the contact stay open and say nothing; the last one is 0.6 wide. */
+TEST(HalfSpaceContact, KalkersContactSpence)
+{
+   const double edge = 0.2;
+   // 45 cells from -4.4999 on.
+   const HalfSpace contact =
+      contact_of(of_shear(0.5, 0), {}, edge, cells(45, edge, 1.3, {1e-4, 1e-4}));
+   ReducedProblem problem = contact.problem(0.004116 * contact.centres.rowwise().squaredNorm());
+   set_friction(problem, 0.2986);
+   ContactState state = ContactState::virgin(problem);
+   FrictionSolver solver(problem);
+   for (const double P : {1.1e-5, 8.8e-5, 2.96e-4, 7.02e-4, 1.372e-3, 2.37e-3})
+   {
+      VectorXd loads = VectorXd::Zero(3);
+      loads[problem.pattern("P")] = P;
+      ASSERT_EQ(solver.solve(state, loads).status, FrictionStatus::converged) << P;
+   }
+   EXPECT_NEAR(conjugate(problem, state, "P"), 2.901e-3, 0.5e-6);
+   EXPECT_NEAR(state.p.maxCoeff() / (edge * edge), 3.941e-3, 0.5e-6);
+   EXPECT_EQ(number_closed(state), 29);
+   EXPECT_EQ(number_of(state, NodeState::stick), 5);
+   cattaneo_test::record("approach", conjugate(problem, state, "P"));
+   cattaneo_test::record("pressure", state.p.maxCoeff() / (edge * edge));
+}
+
+/** Two equal spheres, ν = 0: Hertz' approach a²/R; Cattaneo's and Mindlin's stick radius
+    c = a (1 - s)^⅓, s = Q/fP, and shift (3fP/16a) Σ(2-ν)/G (1 - (1-s)^⅔); unloading and loss
+    by Masing. Each leg is one increment: slip keeps its direction, so that it is exact. */
+TEST(HalfSpaceContact, HertzCattaneoMindlin)
+{
+   const double G = 1, f = 0.3, s = 0.9, R = 10, a = 1, P = 4.0 / 3 * a * a * a / R; // E* = 1
+   const double full = 3 * f * P / (16 * a) * 4 / G, Q = s * f * P;
+   const auto shift = [&](double share) { return full * (1 - std::pow(1 - share, 2.0 / 3)); };
+   const double loss =
+      4 * Q * shift(s) - 8 * f * P * full * (s - 0.6 * (1 - std::pow(1 - s, 5.0 / 3)));
+   struct Errors
+   {
+      double approach, loading, unloading, loss;
+   };
+   const auto errors = [&](int across)
+   {
+      const double edge = 2 * a / across;
+      const HalfSpace contact = contact_of(of_shear(G, 0), of_shear(G, 0), edge,
+                                           cells(across + 4, edge, a + 1.5 * edge));
+      // Both have the radius 2 R.
+      ReducedProblem problem =
+         contact.problem(contact.centres.rowwise().squaredNorm() / (2 * R));
+      set_friction(problem, f);
+      const NamedLoads pressed{{"P", P}}, there{{"P", P}, {"Q1", Q}},
+         back{{"P", P}, {"Q1", -Q}};
+      ContactState state = ContactState::virgin(problem);
+      const auto go = [&](const std::vector<NamedLoads> &points)
+      { EXPECT_EQ(marched(problem, points, state).status, FrictionStatus::converged); };
+      Errors error{};
+      go({{}, pressed});
+      error.approach = conjugate(problem, state, "P") * R / (a * a) - 1;
+      ContactAreas areas = contact_areas(problem, state);
+      EXPECT_NEAR(areas.contact.area, M_PI * a * a, areas.contact.error);
+      go({{}, pressed, there});
+      error.loading = conjugate(problem, state, "Q1") / shift(s) - 1;
+      areas = contact_areas(problem, state);
+      const double stuck = M_PI * a * a * std::pow(1 - s, 2.0 / 3);
+      EXPECT_NEAR(areas.stick.area, stuck, areas.stick.error);
+      EXPECT_NEAR(areas.slip.area, M_PI * a * a - stuck, areas.slip.error);
+      EXPECT_EQ(areas.contact.nodes, areas.stick.nodes + areas.slip.nodes);
+      // Half an edge along the circumference, which is told well.
+      EXPECT_NEAR(areas.contact.error, M_PI * a * edge, 0.02 * M_PI * a * edge);
+      EXPECT_EQ(areas.contact.nodes + areas.separation.nodes, problem.nodes());
+      const double first = state.dissipation;
+      go({{}, pressed, there, pressed});
+      error.unloading =
+         (conjugate(problem, state, "Q1") - shift(s) + 2 * shift(s / 2)) / shift(s);
+      go({{}, pressed, there, pressed, back, there});
+      error.loss = (state.dissipation - first) / loss - 1;
+      return error;
+   };
+   // 177 and 489 cells in contact: two parts in a thousand of the shift, and half of one, more
+   // where differences count and where loss collects both ways.
+   const Errors coarse = errors(15), fine = errors(25);
+   for (const auto &[error, allowed] : {std::pair(coarse, 2e-3), {fine, 5e-4}})
+   {
+      EXPECT_NEAR(error.approach, 0, allowed);
+      EXPECT_NEAR(error.loading, 0, allowed);
+      EXPECT_NEAR(error.unloading, 0, 2 * allowed);
+      EXPECT_NEAR(error.loss, 0, 5 * allowed);
+   }
+   cattaneo_test::record("approach", 1 + fine.approach);
+   cattaneo_test::record("loading", 1 + fine.loading);
+   cattaneo_test::record("unloading", fine.unloading);
+   cattaneo_test::record("loss", 1 + fine.loss);
+}
+
+/// Hertz (Johnson 1985, 4.26 to 4.28): unlike curvatures, an ellipse of contact.
+TEST(HalfSpaceContact, HertzOfAnEllipse)
+{
+   const double a = 1.5, b = 0.8, p0 = 0.05, E = 2, nu = 0.25, modulus = E / (1 - nu * nu),
+                k = std::sqrt(1 - b * b / (a * a)), K = std::comp_ellint_1(k),
+                L = std::comp_ellint_2(k), unit = p0 / modulus;
+   const double along = unit * b / (a * a) * (K - L) / (k * k),
+                across = unit * b / (a * a) * (a * a / (b * b) * L - K) / (k * k),
+                P = 2.0 / 3 * p0 * M_PI * a * b, approach = unit * b * K;
+   HalfSpace contact = contact_of({E, nu}, {}, 1, cells(23, 1, 11.2));
+   contact.size = {2 * a / 19, 2 * b / 19};
+   contact.centres = contact.centres * contact.size.asDiagonal();
+   const VectorXd x = contact.centres.col(0), y = contact.centres.col(1);
+   const ReducedProblem problem =
+      contact.problem(along * x.cwiseAbs2() + across * y.cwiseAbs2());
+   ContactState state = ContactState::virgin(problem); // no friction
+   ASSERT_EQ(marched(problem, {{}, {{"P", P}}}, state).status, FrictionStatus::converged);
+   EXPECT_NEAR(conjugate(problem, state, "P") / approach, 1, 2e-3);
+   cattaneo_test::record("approach", conjugate(problem, state, "P") / approach);
+   for (Index i = 0; i < problem.nodes(); ++i)
+   {
+      const double r = std::hypot(x[i] / a, y[i] / b);
+      const double p = state.p[i] / problem.weights[i];
+      if (r < 0.8) { EXPECT_NEAR(p, p0 * std::sqrt(1 - r * r), 1e-2 * p0) << r; }
+      EXPECT_FALSE(r > 1.1 && p > 0) << r;
+   }
+}
+
+/** Torsion of two equal spheres (Lubkin 1951), the closed form that
+    HalfSpace.HertzAndLubkinOfTwoHalfSpaces holds the axisymmetric path against. Normal and
+    tangential directions are uncoupled, so that any ν is exact. */
+TEST(HalfSpaceContact, Lubkin)
+{
+   const double nu = 0.3, R = 5, a = 0.7, f = 0.3, G = 1.5,
+                P = 8.0 / 3 * G / (1 - nu) / 2 * a * a * a / R;
+   const double edge = 2 * a / 15, c = 0.4, m = 1 - c * c / (a * a), k = std::sqrt(m);
+   HalfSpace contact =
+      contact_of(of_shear(G, nu), of_shear(G, nu), edge, cells(19, edge, a + 1.5 * edge));
+   contact.turns = true;
+   ReducedProblem problem = contact.problem(contact.centres.rowwise().squaredNorm() / (2 * R));
+   set_friction(problem, f);
+   const double turn =
+      3 * f * P * (std::comp_ellint_1(k) - std::comp_ellint_2(k)) / (2 * M_PI * G * a * a);
+   const QuadratureRule &rule = gauss_rule(40);
+   double torque = 0;
+   for (Index i = 0; i < rule.points.size(); ++i)
+   {
+      const double s = c + (a - c) * rule.points[i];
+      torque +=
+         (a - c) * rule.weights[i] * s * s * std::comp_ellint_2(std::sqrt(1 - s * s / (a * a)));
+   }
+   torque *= 4 * f * P / (M_PI * a * a);
+   ContactState state = ContactState::virgin(problem);
+   const NamedLoads pressed{{"P", P}}, twisted{{"P", P}, {"T", torque}};
+   ASSERT_EQ(marched(problem, {{}, pressed, twisted}, state).status, FrictionStatus::converged);
+   EXPECT_NEAR(conjugate(problem, state, "P") / (a * a / R), 1, 2e-3);
+   EXPECT_NEAR(conjugate(problem, state, "T") / turn, 1, 1e-2);
+   EXPECT_NEAR(std::sqrt(number_of(state, NodeState::stick) * edge * edge / M_PI), c,
+               0.5 * edge);
+   EXPECT_NEAR(conjugate(problem, state, "Q1"), 0, 1e-9 * a * turn);
+   cattaneo_test::record("turn", conjugate(problem, state, "T") / turn);
+   // It spins at 3π f P a/16.
+   FrictionSolver solver(problem);
+   VectorXd loads = VectorXd::Zero(4);
+   loads[problem.pattern("P")] = P;
+   for (const auto &[share, status] :
+        {std::pair(0.99, FrictionStatus::converged), {1.01, FrictionStatus::gross_sliding}})
+   {
+      loads[problem.pattern("T")] = share * 3 * M_PI / 16 * f * P * a;
+      EXPECT_EQ(solver.solve(state, loads).status, status) << share;
+   }
+}
+
+/// Turned by a right angle, mirrored, numbered otherwise, in other units, or with the bodies
+/// exchanged, a coupled contact has the same answer.
+TEST(HalfSpaceContact, NothingDependsOnTheFrame)
+{
+   const Index m = 7;
+   HalfSpace contact = contact_of(of_shear(1, 0.1), of_shear(6, 0.3), 0.2, cells(m, 0.2, 9));
+   contact.size = {0.2, 0.25};
+   contact.centres.col(1) *= 1.25;
+   contact.turns = true;
+   const Index n = contact.centres.rows();
+   const VectorXd x = contact.centres.col(0), y = contact.centres.col(1);
+   const VectorXd gap =
+      0.3 * x.array().square() + 0.2 * (y.array() - 0.1).square() + 0.1 * x.array() * y.array();
+   const double P = 0.6, Q1 = 0.1, Q2 = -0.07, T = 0.01;
+   struct Answer
+   {
+      VectorXd p, q1, q2;
+      Eigen::Vector4d moved; // approach, shifts, turn
+   };
+   const auto answer =
+      [&](const HalfSpace &of, const VectorXd &gaps, double q1, double q2, double torque)
+   {
+      ReducedProblem problem = of.problem(gaps);
+      set_friction(problem, 0.4);
+      ContactState state = ContactState::virgin(problem);
+      const NamedLoads pressed{{"P", P}};
+      const NamedLoads sheared{{"P", P}, {"Q1", q1}, {"Q2", q2}, {"T", torque}};
+      EXPECT_EQ(marched(problem, {{}, pressed, sheared}, state, 4).status,
+                FrictionStatus::converged);
+      EXPECT_GT(number_of(state, NodeState::slip), 5);
+      EXPECT_GT(number_of(state, NodeState::stick), 5);
+      EXPECT_GT(number_of(state, NodeState::separation), 5);
+      const VectorXd q = state.q, moved = conjugates(problem, state);
+      const auto of_load = [&](const char *load) { return moved[problem.pattern(load)]; };
+      return Answer{state.p, q.head(n), q.tail(n),
+                    Eigen::Vector4d(of_load("P"), of_load("Q1"), of_load("Q2"), of_load("T"))};
+   };
+   const Answer first = answer(contact, gap, Q1, Q2, T);
+   // Increments are solved to 1e-12 of the largest force; a flexible far body multiplies it.
+   const auto same = [&](const Answer &other, const VectorXd &p, const VectorXd &q1,
+                         const VectorXd &q2, const Eigen::Vector4d &moved)
+   {
+      EXPECT_LT((other.p - p).norm() + (other.q1 - q1).norm() + (other.q2 - q2).norm(),
+                1e-9 * first.p.norm());
+      EXPECT_LT((other.moved - moved).norm(), 1e-9 * moved.norm());
+   };
+   const auto [approach, shift1, shift2, turn] =
+      std::tuple(first.moved[0], first.moved[1], first.moved[2], first.moved[3]);
+
+   HalfSpace turned = contact;
+   turned.centres << -y, x;
+   turned.size = contact.size.reverse();
+   same(answer(turned, gap, -Q2, Q1, T), first.p, -first.q2, first.q1,
+        {approach, -shift2, shift1, turn});
+
+   HalfSpace mirrored = contact;
+   mirrored.centres.col(0) *= -1;
+   same(answer(mirrored, gap, -Q1, Q2, -T), first.p, -first.q1, first.q2,
+        {approach, -shift1, shift2, -turn});
+
+   HalfSpace exchanged = contact;
+   std::swap(exchanged.material, *exchanged.other);
+   same(answer(exchanged, gap, -Q1, -Q2, -T), first.p, -first.q1, -first.q2,
+        {approach, -shift1, -shift2, -turn});
+
+   std::vector<int> order(static_cast<std::size_t>(n));
+   std::iota(order.begin(), order.end(), 0);
+   std::shuffle(order.begin(), order.end(), std::mt19937(3));
+   HalfSpace renumbered = contact;
+   renumbered.centres = contact.centres(order, Eigen::all).eval();
+   same(answer(renumbered, gap(order), Q1, Q2, T), first.p(order), first.q1(order),
+        first.q2(order), first.moved);
+
+   // Lengths in thousandths, moduli in millionths: forces keep their numbers, torques do not.
+   HalfSpace fine = contact;
+   fine.centres *= 1e3;
+   fine.size *= 1e3;
+   fine.material.young *= 1e-6;
+   fine.other->young *= 1e-6;
+   same(answer(fine, 1e3 * gap, Q1, Q2, 1e3 * T), first.p, first.q1, first.q2,
+        {1e3 * approach, 1e3 * shift1, 1e3 * shift2, turn});
+
+   // A state goes on where it was left.
+   ReducedProblem problem = contact.problem(gap);
+   set_friction(problem, 0.4);
+   const std::vector<NamedLoads> points{{}, {{"P", P}}, {{"P", P}, {"Q1", Q1}, {"Q2", Q2}}};
+   ContactState whole = ContactState::virgin(problem), parts = whole;
+   marched(problem, points, whole, 2);
+   marched(problem, {points[0], points[1]}, parts, 2);
+   marched(problem, points, parts, 2);
+   EXPECT_EQ(whole.q, parts.q);
+}
+
+TEST(HalfSpaceContact, SaysWhatItCannotTake)
+{
+   const HalfSpace good = contact_of({1, 0.3}, {}, 0.1, cells(3, 0.1, 1));
+   const VectorXd gap = VectorXd::Zero(9);
+   const auto refused = [&](const std::function<void(HalfSpace &)> &change, const char *part)
+   {
+      HalfSpace bad = good;
+      change(bad);
+      expect_input_error([&] { bad.problem(gap); }, part);
+   };
+   EXPECT_NO_THROW(good.problem(gap));
+   expect_input_error([&] { good.problem(gap.head(8)); }, "8 gaps for 9 rectangles");
+   refused(
+      [](HalfSpace &bad) {
+         bad.other = Material{1, 0.3, PlaneState::stress};
+      },
+      "plane stress, must be of plane strain");
+   refused([](HalfSpace &bad) { bad.size[1] = 0; }, "(0.1, 0), must be positive");
+   refused([](HalfSpace &bad) { bad.centres(4, 0) += 0.01; }, "rectangle 4 is (0.01, 0)");
+   refused([](HalfSpace &bad) { bad.centres.row(4) = bad.centres.row(2); }, "is there twice");
+   refused([](HalfSpace &bad) { bad.centres.resize(0, 2); }, "no rectangles");
+   refused([](HalfSpace &bad) { bad.centres(0, 0) = NAN; }, "not finite");
+   HalfSpace one = good;
+   one.centres = Places::Zero(1, 2);
+   expect_input_error([&] { one.problem(VectorXd::Zero(1)); }, "one rectangle alone");
+   expect_input_error([&] { good.displacements(Places::Zero(1, 2), gap); }, "27");
+   ReducedProblem problem = good.problem(gap);
+   const ContactState virgin = ContactState::virgin(problem);
+   EXPECT_EQ(contact_areas(problem, virgin).contact.nodes,
+             0); // without load nothing is pressed
+   problem.weights.resize(0);
+   expect_input_error([&] { contact_areas(problem, virgin); }, "no weights");
+}
+
+/// Steps of 2 and 3 µm, heights in nanometres: a plane, which is met everywhere.
+TEST(Heights, AreThoseOfTheFile)
+{
+   const auto written = [](const std::string &header, const std::string &data)
+   {
+      std::ofstream("surface.sdf") << header << data;
+      return read_heights("surface.sdf", 1e-6);
+   };
+   const std::string header = "aBCR-1.0\nManufacID   = none\nNumPoints   = 3\nNumProfiles = 2\n"
+                              "Xscale      = 2.00e-006\nYscale      = 3.00e-006\n"
+                              "Zscale      = 1.00e-009\nZresolution = -1\n*\n";
+   const Heights heights = written(header, " 100 110 120\n 130\n140 150 \n*\nby hand\n");
+   Places points(3, 2);
+   points << -2, -1.5, 0.7, 1.2, 2, 1.5;
+   const VectorXd z = heights.at(points);
+   for (Index i = 0; i < 3; ++i)
+   {
+      EXPECT_NEAR(z[i], 1e-3 * (125 + 5 * points(i, 0) + 10 * points(i, 1)), 1e-15);
+   }
+   expect_input_error([&] { heights.at(Places::Constant(1, 2, 1.6)); }, "|y| <= 1.5");
+   expect_input_error([&] { written(header, "1 2 3 4 5"); }, "there are 5 heights, must be");
+   expect_input_error([&] { written(header, "1 2 3 4 5 six"); }, "'six' is not a number");
+   expect_input_error([&] { written("aBCR-1.0\nNumPoints = 3\n*\n", ""); }, "has no Xscale");
+   expect_input_error([&] { written("bBCR-1.0", ""); }, "its first line must be");
+   expect_input_error([&] { read_heights("none.sdf"); }, "none.sdf");
+   const Heights holed = written(header, "1 2 3 4 5 BAD");
+   EXPECT_NO_THROW(holed.at(Places::Constant(1, 2, -0.1)));
+   expect_input_error([&] { holed.at(Places::Constant(1, 2, 0.1)); }, "was not measured");
+}
+
+} // namespace
