@@ -4,6 +4,7 @@ from ._core.readout import (
     ContactEdge as ContactEdge,
     EdgeFit as EdgeFit,
     EdgeTractions as EdgeTractions,
+    FitSettings as FitSettings,
     FittedIntensity as FittedIntensity,
     Zone as Zone,
     ZoneBorder as ZoneBorder,
