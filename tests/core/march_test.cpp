@@ -1508,7 +1508,25 @@ TEST(LoadHistory, LoadsHaveNames)
    const LoadHistory history = LoadHistory::through(
       problem, {{}, {{"weight", 2}}, {{"a push", 0.5}, {"weight", 1}}, {{"a push", -0.5}}});
    EXPECT_EQ(history.times, Eigen::Vector4d(0, 1, 2, 3));
-   EXPECT_EQ(history.multipliers, (MatrixXd{{0, 2, 1, 0}, {0, 0, 0.5, -0.5}}));
+   // A load that a point does not name keeps its value.
+   EXPECT_EQ(history.multipliers, (MatrixXd{{0, 2, 1, 1}, {0, 0, 0.5, -0.5}}));
+   EXPECT_EQ(history.cycle_start, -1);
+   const LoadHistory cyclic = LoadHistory::through(
+      problem, {{}, {{"weight", 2}}, {{"a push", 0.5}}, {{"a push", 0}}}, 1, 3);
+   EXPECT_EQ(cyclic.multipliers, (MatrixXd{{0, 2, 2, 2}, {0, 0, 0.5, 0}}));
+   EXPECT_EQ(cyclic.cycle_start, 1);
+   EXPECT_EQ(cyclic.cycles, 3);
+   EXPECT_EQ(cyclic.pieces(), 7);
+   expect_input_error(
+      [&] {
+         LoadHistory::through(problem, {{}, {{"weight", 2}}, {{"a push", 0.5}}}, 1, 3);
+      },
+      "load history: load 'a push' is 0.5 at the end of the cycle and 0 at its start");
+   expect_input_error(
+      [&] {
+         LoadHistory::through(problem, {{}, {{"weight", NAN}}});
+      },
+      "load history: load 'weight' is nan at point 1, must be finite");
    expect_input_error(
       [&] {
          problem.multipliers({{"wait", 2}});

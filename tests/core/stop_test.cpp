@@ -27,14 +27,9 @@ using Eigen::VectorXd;
 
 LoadHistory to_and_fro(const ReducedProblem &problem, int cycles)
 {
-   LoadHistory history = LoadHistory::through(problem, {{},
-                                                        {{"press", 1}},
-                                                        {{"press", 1}, {"shear", 0.8}},
-                                                        {{"press", 1}, {"shear", -0.8}},
-                                                        {{"press", 1}}});
-   history.cycle_start = 1;
-   history.cycles = cycles;
-   return history;
+   return LoadHistory::through(
+      problem, {{}, {{"press", 1}}, {{"shear", 0.8}}, {{"shear", -0.8}}, {{"shear", 0}}}, 1,
+      cycles);
 }
 
 struct StoppedCase

@@ -409,12 +409,11 @@ TEST(Wear, CyclesFromNoLoadsGoOnFromTheirStates)
    const Pad pad = small_pad();
    const ReducedProblem &problem = pad.problem;
    const WearLaw law = WearLaw::uniform(problem, 1e-2);
-   LoadHistory whole = LoadHistory::through(
-      problem, {{}, {{"P", 1}}, {{"P", 1}, {"Q", 0.3}}, {{"P", 0.9}, {"Q", 0.1}}, {}});
-   whole.cycle_start = 0;
-   LoadHistory opened = LoadHistory::through(
-      problem, {{}, {}, {{"P", 1}}, {{"P", 1}, {"Q", 0.3}}, {{"P", 0.9}, {"Q", 0.1}}, {}});
-   opened.cycle_start = 1;
+   const NamedLoads none = {{"P", 0}, {"Q", 0}}, least = {{"P", 0.9}, {"Q", 0.1}};
+   const LoadHistory whole = LoadHistory::through(
+                        problem, {none, {{"P", 1}}, {{"Q", 0.3}}, least, none}, 0),
+                     opened = LoadHistory::through(
+                        problem, {none, none, {{"P", 1}}, {{"Q", 0.3}}, least, none}, 1);
    VectorXd depth;
    for (const LoadHistory &history : {whole, opened})
    {
