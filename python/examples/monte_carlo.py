@@ -28,7 +28,7 @@ def loss(friction):
     """Of a steady cycle."""
     own = problem.copy()
     own.friction = friction
-    report = cattaneo.march(own, history, settings=cattaneo.MarchSettings(stepping="exact"))
+    report = cattaneo.march(own, history)
     return report.cycles[-1].dissipation if report.converged else np.nan
 
 

@@ -384,7 +384,9 @@ void bind_marches(nb::module_ &m)
                       return all;
                    })
       .def_prop_ro("changes", copied(&Self::report, &MarchReport::changes),
-                   "stepping='exact': every change of state in the order of the path")
+                   "with every_event: the changes of state in the order of the path")
+      .def_prop_ro("events", copied(&Self::report, &MarchReport::events),
+                   "number of changes of state on an exact path")
       .def_prop_ro("event_time", copied(&Self::report, &MarchReport::event_time),
                    "where the outcome is not 'converged': when it came about")
       .def_prop_ro("event_multipliers", copied(&Self::report, &MarchReport::event_multipliers))

@@ -283,7 +283,7 @@ MISTAKES = [
     ({}, ["--order", 0], ["order", "0", "1 to 8"]),
     ({}, ["--increments", 0], ["increments", "0", "at least 1"]),
     ({FLOOR + "gap": "wide"}, [], ["floor.gap'", "wide", "geometry, closed"]),
-    ({}, ["--stepping", "fast"], ["stepping", "fast", "advancing, fixed"]),
+    ({}, ["--stepping", "fast"], ["stepping", "fast", "exact, fixed"]),
     ({SUPPORT: "3:xy"}, [], ["contact dofs are fixed", "one at least must be free"]),
     ({SUPPORT: "2"}, [], ["bodies.pad.support' '2'", "must be"]),
     ({SUPPORT: "2:z"}, [], ["bodies.pad.support' '2:z'", "x, y or xy"]),
@@ -672,7 +672,7 @@ def test_edges_of_a_hertz_contact_have_the_closed_forms(run, meshed):
         "history": ["P=0", "P=1", f"Q={share * friction!r}", f"Q={-share * friction!r}", "Q=0"],
         "edges": [1, 2, 3], "cycle-start": 1, "cycles": 3 if meshed else 2,
         # Advancing contact goes from node to node, of which the half-plane's has 481.
-        "stepping": "advancing" if meshed else "fixed"})
+        "stepping": "exact" if meshed else "fixed"})
     assert len(got["edges"]) == 2
     for edge in got["edges"]:
         assert edge["complete"] is False

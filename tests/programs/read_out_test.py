@@ -18,9 +18,9 @@ def test_steady_stick_of_the_lap_joint_depends_on_mechanics_alone(run, load, c, 
     states are ties, which once made c/t 0.6308 with 40 increments and 0.6501 with 41."""
     for spacing in meshes([0.02, 0.01], [0.005]):
         # The finer meshes take most of the time: all of them in ./test --all.
-        marches = ["-march fixed -increments 20", "-march exact"]
+        marches = ["-stepping fixed -increments 20", ""]
         if in_full() or spacing >= 0.02:
-            marches += ["-increments 40", "-increments 41", "-increments 80"]
+            marches += [f"-stepping fixed -increments {count}" for count in (40, 41, 80)]
         found = []
         for march in marches:
             got = run.line(f"lap_joint {load} -spacing {spacing} {march}")
