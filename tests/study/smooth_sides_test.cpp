@@ -173,8 +173,6 @@ TEST_F(SmoothSides, OfAShrinkFitHaveLamesPressure)
          for (const auto &[what, is] :
               {std::make_pair("node", off / most), std::make_pair("peak", 1 - lame / most)})
          {
-            // Linear elements have errors of their own, and their peak moves from node to node.
-            if (order == 1 && std::string(what) == "peak") { continue; }
             const double said = told(polygons, what);
             EXPECT_LT(said, std::max(2 * is, 0.1)) << what << order << " " << edges;
             if (is > 0.1) { EXPECT_GT(said, is / 2) << what << order << " " << edges; }
