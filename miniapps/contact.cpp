@@ -201,10 +201,7 @@ void contact(Study &study)
    // Less is round-off of sides that are straight.
    if (chords.at_a_node > 1e-6 && std::isfinite(chords.at_a_node))
    {
-      if (!std::isnan(chords.of_peak))
-      {
-         study.value("chords_peak_pressure_change_estimate", chords.of_peak);
-      }
+      study.value("chords_peak_pressure_change_estimate", chords.of_peak);
       study.value("chords_node_pressure_change_estimate", chords.at_a_node);
    }
    warn_of_linear_axis(own.scene.reduction, pressed);

@@ -189,14 +189,10 @@ ChordalError warn_of_chords(const Reduction &reduction, const Eigen::VectorXd &p
    warn("interface '", worst->name,
         "': its elements are chords of curves, which leaves the gap unknown by about ", most,
         ": ",
-        !known ? std::string("nothing bears, and the curves may")
-               : told("to close that takes ",
-                      std::isnan(shares.of_peak)
-                         ? std::string("a share of the largest pressure that is not known "
-                                       "(elements are linear, or their lengths uneven)")
-                         : told(shares.of_peak, " of the largest pressure"),
-                      ", and changes that of a single node by up to ", shares.at_a_node,
-                      " of the largest (estimates)"),
+        known ? told("to close that takes ", shares.of_peak,
+                     " of the largest pressure, and changes that of a single node by up to ",
+                     shares.at_a_node, " of the largest (estimates)")
+              : "nothing bears, and the curves may",
         "; key geometry: smooth follows the curves where the vertices tell them, a mesh of "
         "elements of a higher order (in Gmsh: -order 2) does so everywhere, or key 'gap' may "
         "say what the gap is");

@@ -1,6 +1,8 @@
 """Sides of straight edges that stand for curves."""
 
+import itertools
 import math
+import random
 
 import pytest
 
@@ -180,13 +182,65 @@ def test_of_a_polygon_beside_a_curve_are_told(run):
     assert "stay a polygon" in got.warned() and "pad" in got.warned()
     told = float(got.warned().split("is wrong by up to ")[1].split()[0])
     near(told, 1 - math.cos(math.radians(5)), 1e-2 * told)
+    assert got["chords_node_pressure_change_estimate"] > 0.05
 
 
-def test_of_uneven_edges_tell_no_largest_pressure(run):
-    """The largest pressure between graded chords moves from node to node: how it changes is not printed, that of a node is."""
-    graded = [90 * (k / 12) ** 1.5 for k in range(13)]
-    for inner, printed in ((even(0, 90, 12), True), (graded, False)):
-        got = rings(run, inner, even(0, 90, 17), ("in:2", "out:4"), geometry="as meshed", d=3e-3)
-        assert ("chords_peak_pressure_change_estimate" in got.results) == printed
-        assert got["chords_node_pressure_change_estimate"] > 0.05
-        assert ("not known (elements are linear" in got.warned()) != printed
+@pytest.mark.parametrize("order", (1, 2, 3))
+def test_of_graded_edges_tell_what_they_take(run, order):
+    """Rings as meshed whose edges are of random lengths, up to 1:16: what chords are told to change of the largest pressure, and of that
+    of a node, is what it is wrong by beside Lamé, to a factor of two."""
+    draw = random.Random(13 + order)
+
+    def angles(edges, ratio):
+        ends = list(itertools.accumulate(ratio ** draw.random() for _ in range(edges)))
+        return [0] + [90 * x / ends[-1] for x in ends]
+
+    for ratio in (1.5, 2, 4, 8, 16):
+        for d in (1e-3, 2e-2):
+            edges = draw.choice((9, 12, 18))
+            got = rings(run, angles(edges, ratio), angles(edges * 5 // 3, ratio), ("in:2", "out:4"), order=order, geometry="as meshed", d=d,
+                        overlap=100)
+            p = run.columns("fit_nodes.csv")["p"]
+            largest = max(p)
+            if largest == 0:
+                assert "nothing bears, and the curves may" in got.warned()
+                continue
+            for what, wrong in (("peak", abs(1 - lame(d) / largest)), ("node", max(abs(x - lame(d)) for x in p) / largest)):
+                told = got["chords_%s_pressure_change_estimate" % what]
+                # Less than a tenth may be the mesh's.
+                assert told < max(2 * wrong, 0.1), (what, ratio, d, told, wrong)
+                assert told > wrong / 2 or wrong < 0.1, (what, ratio, d, told, wrong)
+
+
+@pytest.mark.parametrize("order", (1, 2, 3))
+def test_of_one_circle_leave_no_gap(run, order):
+    """Rings whose edges do not match, 9 on 15, with an interference of 1e-8: Lamé's pressure at every node."""
+    rings(run, even(0, 90, 9), even(0, 90, 15), ("in:2", "out:4"), order=order, d=1e-8)
+    near_all([p / lame(1e-8) for p in run.columns("fit_nodes.csv")["p"]], 1, 0.01)
+
+
+def gmsh_sector(name, run, edges, curve_of):
+    """A sector of 60 degrees between radii 1 and 2 below the origin in Gmsh's format 2.2: group 1 the hole, whose edge k is on the curve
+    curve_of(k), group 2 the outside."""
+    angles = [math.radians(-90 - 30 + 60 * k / edges) for k in range(edges + 1)]
+    nodes = [(r * math.cos(a), r * math.sin(a)) for r in (1, 2) for a in angles]
+    n = edges + 1
+    elements = [(1, 1, curve_of(k), k + 2, k + 1) for k in range(edges)] + [(1, 2, 100, n + k + 1, n + k + 2) for k in range(edges)]
+    elements += [(3, 3, 200, k + 1, n + k + 1, n + k + 2, k + 2) for k in range(edges)]
+    text = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$Nodes", str(len(nodes))]
+    text += ["%d %.17g %.17g 0" % (i + 1, *x) for i, x in enumerate(nodes)] + ["$EndNodes", "$Elements", str(len(elements))]
+    text += ["%d %d 2 %d %d %s" % (i + 1, kind, group, curve, " ".join(map(str, corners)))
+             for i, (kind, group, curve, *corners) in enumerate(elements)]
+    run.write(name, "\n".join(text + ["$EndElements", ""]))
+
+
+@pytest.mark.parametrize("facets", (False, True))
+def test_as_meshed_are_those_of_the_curves_of_the_file(run, facets):
+    """Six edges of ten degrees on one curve of the file are chords of it, on six curves they are facets, which chords change nothing of."""
+    gmsh_sector("hole.msh", run, 6, lambda k: k + 1 if facets else 1)
+    keys = {"order": 2, "geometry": "as meshed", "history": ["D=0", "D=1"],
+            "bodies": {"hole": body("hole.msh", None, ["D displacement-y 2 3e-3", "D displacement-x 2 0"], E, NU)},
+            "interfaces": {"c": {"between": ["hole:1"], "obstacle": {"circle": {"centre": [0, 0], "radius": 1}}, "overlap": 10}}}
+    got = run.case(keys)
+    assert ("chords_node_pressure_change_estimate" in got.results) != facets
+    assert ("chords of curves" in got.warned()) != facets

@@ -2,7 +2,6 @@
 #include <cattaneo/input_error.hpp>
 #include <cattaneo/reduced/interfaces.hpp>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 namespace cattaneo
@@ -65,29 +64,6 @@ std::optional<VectorXd> forces_after(const MatrixXd &C, const VectorXd &p, Vecto
 
 } // namespace
 
-/// Do the lines of an interface have elements of order 2 and more alone, each about as long as
-/// the one beside it?
-static bool even_elements(const Reduction &reduction, const InterfaceReport &face)
-{
-   for (const int body : face.bodies)
-   {
-      if (body < 0 || body >= static_cast<int>(reduction.bodies.size())) { continue; }
-      for (const LineChain &chain : reduction.bodies[body].line.chains)
-      {
-         double before = 0;
-         for (const LineElement &element : chain.elements)
-         {
-            const double length =
-               (element.points.rightCols(1) - element.points.leftCols(1)).norm();
-            const double ratio = before > 0 ? std::max(length / before, before / length) : 1;
-            if (element.order() < 2 || ratio > ChordalError::even_edges) { return false; }
-            before = length;
-         }
-      }
-   }
-   return true;
-}
-
 ChordalError chordal_error(const Reduction &reduction, const VectorXd &p, const VectorXd &w)
 {
    const ReducedProblem &problem = reduction.problem;
@@ -96,12 +72,10 @@ ChordalError chordal_error(const Reduction &reduction, const VectorXd &p, const 
    require(w.size() == n || w.size() == 0, "chordal error: ", w.size(),
            " normal displacements, must be ", n, " or none");
    VectorXd off = VectorXd::Zero(n);
-   bool even = true;
    for (const InterfaceReport &face : reduction.interfaces)
    {
       if (face.tied || face.chords.size() != face.nodes) { continue; }
       off.segment(face.first, face.nodes) = face.chords;
-      even = even && (face.chords.isZero(0) || even_elements(reduction, face));
    }
    if (off.isZero(0)) { return {}; }
    const ChordalError unknown{HUGE_VAL, HUGE_VAL};
@@ -125,12 +99,12 @@ ChordalError chordal_error(const Reduction &reduction, const VectorXd &p, const 
    if (!after) { return unknown; }
    const VectorXd now = p.cwiseQuotient(problem.weights),
                   then = after->cwiseQuotient(problem.weights);
-   const double peak = now.maxCoeff();
+   Index largest = 0;
+   const double peak = now.maxCoeff(&largest);
    // What bears is no more than round-off of what the curves would press: nothing is known.
    if (peak <= 1e-9 * then.maxCoeff()) { return unknown; }
-   return {(then - now).cwiseAbs().maxCoeff() / peak,
-           even ? std::abs(then.maxCoeff() - peak) / peak
-                : std::numeric_limits<double>::quiet_NaN()};
+   const double of_peak = std::max(std::abs(then.maxCoeff() - peak), peak - then[largest]);
+   return {(then - now).cwiseAbs().maxCoeff() / peak, of_peak / peak};
 }
 
 } // namespace cattaneo

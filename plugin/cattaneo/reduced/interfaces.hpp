@@ -90,12 +90,10 @@ Reduction reduce(std::vector<CondensedBody> bodies, const std::vector<Interface>
 struct ChordalError
 {
    double at_a_node = 0; ///< the largest change of the pressure of a node
-   /// The change of the largest pressure, which may move to another node. NaN: not known, where
-   /// elements of sides with chords are linear or next to one of another length
-   /// (even_edges): pressures then swing from node to node by more than the curve tells.
+   /// The change of the largest pressure, which may move to another node; at least the fall of
+   /// the pressure at the node that has it now, as others may then be largest only because
+   /// pressures swing from node to node, of linear elements above all.
    double of_peak = 0;
-   /// The largest ratio of the lengths of neighbours that are even.
-   static constexpr double even_edges = 1.25;
 };
 
 /** How pressures would change if gaps were those of the curves, with the displacements along
