@@ -1,5 +1,7 @@
 """A strip that recedes from a block: borders of the studies' notes, part B."""
 
+import pytest
+
 from programs import near
 
 # ±0.003, and a tenth of the spacing, 0.02 t unless said, for the read-out of edges.
@@ -42,6 +44,7 @@ def test_finite_block_of_the_thesis(run):
     near(got["stick_slip"], -0.351, SPREAD + READ_OUT)
 
 
+@pytest.mark.rest
 def test_blocks_tend_to_the_half_plane(run):
     """The half-plane without a mesh is that to which blocks tend as they grow. (The references marked HP are those of a block of
     10⁴ t, whose remote tension, a hundredth of p0, still moves e by 0.007 to 0.016.)"""
