@@ -8,6 +8,7 @@ from programs import near
 SPREAD, READ_OUT = 0.003, 0.002
 
 
+@pytest.mark.rest  # the same run is a sample run with the same values
 def test_loading_and_unloading_meet_the_references_on_a_large_block(run):
     got = run.line("plane_receding -domain 1e4 -unload '0.9 0.5 0.2 0.1' -steps 50")
     got.meets({"s/t, n = 4, f = 0.7": (1.406, SPREAD, READ_OUT),
