@@ -636,9 +636,19 @@ def test_warns_of_a_line_that_is_named_too_short(run):
     assert run.case(case)["warnings"] == []
 
 
-@pytest.mark.parametrize("meshed", [True, False])
-def test_edges_of_a_hertz_contact_have_the_closed_forms(run, meshed):
-    """A cylinder of radius 100 that touches a half-plane over |x| < 1, E* = 1/2."""
+def test_edges_of_a_hertz_contact_have_the_closed_forms(run):
+    """On a block that stands for a half-plane."""
+    hertz_contact(run, meshed=True)
+
+
+@pytest.mark.rest
+def test_edges_of_a_hertz_contact_on_a_half_plane_have_the_closed_forms(run):
+    """On a half-plane without a mesh, of 481 contact nodes."""
+    hertz_contact(run, meshed=False)
+
+
+def hertz_contact(run, meshed):
+    """Edges of a cylinder of radius 100 that touches a half-plane over |x| < 1, E* = 1/2."""
     radius, friction, share, modulus = 100, 0.5, 0.3, 0.5
     P = math.pi * modulus / (4 * radius)
     peak, k_n, k_t = 2 * P / math.pi, P / math.pi * math.sqrt(8), share * friction * P / (math.pi * math.sqrt(2))

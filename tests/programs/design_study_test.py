@@ -50,6 +50,7 @@ def test_says_that_it_was_stopped(run):
     assert "asked to stop" in got.output
 
 
+@pytest.mark.rest
 def test_pretensions_of_a_row_of_bolts_against_a_sweep(run):
     """Three bolts whose pretensions add up to 3, pulled and pushed: against marches over all shares in steps of 0.02. Pressures are
     convex along a load, nearly, so the best of the grid is within half a step's worth of the optimum. The row is its own mirror
@@ -111,6 +112,7 @@ def test_loads_that_are_chosen_keep_their_sum(run, options, words):
     assert words in run.line("design " + options, code=1).output
 
 
+@pytest.mark.rest
 def test_coat_of_a_dovetail_against_the_work_of_its_tractions(run):
     """The criterion of fretting that asks for the largest energy per area of a cycle, on the flank of the shipped dovetail: friction
     of two zones is chosen so that it is least. Printed is the work of tractions in small increments, and no coating that is drawn at

@@ -1,11 +1,14 @@
 """A strip that recedes from a block: borders of the studies' notes, part B."""
 
+import pytest
+
 from programs import near
 
 # ±0.003, and a tenth of the spacing, 0.02 t unless said, for the read-out of edges.
 SPREAD, READ_OUT = 0.003, 0.002
 
 
+@pytest.mark.rest  # the same run is a sample run with the same values
 def test_loading_and_unloading_meet_the_references_on_a_large_block(run):
     got = run.line("plane_receding -domain 1e4 -unload '0.9 0.5 0.2 0.1' -steps 50")
     got.meets({"s/t, n = 4, f = 0.7": (1.406, SPREAD, READ_OUT),
@@ -42,6 +45,7 @@ def test_finite_block_of_the_thesis(run):
     near(got["stick_slip"], -0.351, SPREAD + READ_OUT)
 
 
+@pytest.mark.rest
 def test_blocks_tend_to_the_half_plane(run):
     """The half-plane without a mesh is that to which blocks tend as they grow. (The references marked HP are those of a block of
     10⁴ t, whose remote tension, a hundredth of p0, still moves e by 0.007 to 0.016.)"""

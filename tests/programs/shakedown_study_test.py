@@ -75,6 +75,7 @@ def test_marches_lose_what_the_references_say(run):
                 near(march["decay"], 0.885, 0.05)  # the resolved mesh's rate, 0.88 to 0.89 a cycle, with what corner nodes add
 
 
+@pytest.mark.rest
 def test_bound_and_march_name_what_they_are_of(run):
     """0.1 % above the bound for a contact that stays closed a march goes on slipping only at nodes that open, which the bound does
     not know."""
@@ -101,6 +102,7 @@ def test_adhesion_map_ends_where_the_corner_opens(run):
     assert 0.59 < got["corner_node_ratio"] < 0.77
 
 
+@pytest.mark.rest
 def test_only_dundurs_constants_of_a_block_and_its_plane_matter(run):
     """Three pairs with α = 0 and β = (1/(1-ν) - 1/(1-ν'))/4 = -1/16: by Dundurs' theorem one and the same contact. The differences
     are the mesh's, a tenth of its own error of 30/64²."""
@@ -174,6 +176,7 @@ def test_other_laws_of_friction_have_a_largest_load(run):
     assert "has no friction" in run.line("shakedown " + of_file, code=1).output
 
 
+@pytest.mark.rest
 def test_converges_with_the_mesh(run):
     words = "shakedown -find friction -nodes 65 -mesh-study '65 129 257'"
     got = run.line(words + " -domain 1e4")
