@@ -55,6 +55,19 @@ def test_displacements_of_a_square():
     assert space.other is None and space.material.young == 2.6 and not space.turns
 
 
+def test_stresses_on_the_axis_of_a_sphere():
+    """Hertz (Johnson 1985, 3.45): σ_zz = -p0/(1 + z²/a²) on the axis, in both bodies; radii are equal, so is all else."""
+    edge, load = 2 / 15, 4 / 3 / 0.7 / 20
+    space = cattaneo.HalfSpace(MATERIAL, MATERIAL, size=edge, centres=squares(17, edge))
+    problem = space.problem(gap=(space.centres**2).sum(axis=1) / 40)
+    state = cattaneo.march(problem, [{}, {"P": load}], increments=1).state
+    z = np.array([0.3, 1.0, -0.3, -1.0])
+    stresses = space.stresses(np.column_stack([0 * z, 0 * z, z]), np.concatenate([state.q, state.p]))
+    peak = 1.5 * load / np.pi
+    assert stresses[:, 2] == pytest.approx(-peak / (1 + z**2), abs=2e-3 * peak)
+    assert np.abs(stresses[:, 3:]).max() < 1e-12 * peak
+
+
 def test_what_is_refused():
     good = {"size": 0.1, "centres": squares(3, 0.1)}
     cattaneo.HalfSpace(MATERIAL, **good)

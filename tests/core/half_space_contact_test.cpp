@@ -198,6 +198,97 @@ TEST(HalfSpaceContact, TheStiffnessIsSymmetric)
              1e-11 * balanced.norm());
 }
 
+/// Boussinesq and Cerruti: stresses xx, yy, zz, yz, zx and xy of a half-space z > 0 by a unit
+/// force along z (first column) and along x (second) at the origin (Johnson 1985, 3.20, 3.76).
+Eigen::Matrix<double, 6, 2> stress_of_forces(double nu, const Eigen::Vector3d &at)
+{
+   const double x = at[0], y = at[1], z = at[2], R = at.norm(), r2 = x * x + y * y,
+                R3 = R * R * R, R5 = R3 * R * R, k = 1 - 2 * nu, s = R + z, flat = 1 - z / R;
+   Eigen::Matrix<double, 6, 2> stress;
+   stress.col(0) << k / r2 * (flat * (x * x - y * y) / r2 + z * y * y / R3) -
+                       3 * z * x * x / R5,
+      k / r2 * (flat * (y * y - x * x) / r2 + z * x * x / R3) - 3 * z * y * y / R5,
+      -3 * z * z * z / R5, -3 * y * z * z / R5, -3 * x * z * z / R5,
+      k / r2 * (2 * flat * x * y / r2 - x * y * z / R3) - 3 * x * y * z / R5;
+   const double common = 1 / (R3 * s * s) + 2 / (R * R * s * s * s);
+   stress.col(1) << -3 * x * x * x / R5 +
+                       k * (x / R3 - 3 * x / (R * s * s) + x * x * x * common),
+      -3 * x * y * y / R5 + k * (x / R3 - x / (R * s * s) + x * y * y * common),
+      -3 * x * z * z / R5, -3 * x * y * z / R5, -3 * x * x * z / R5,
+      -3 * x * x * y / R5 + k * (-y / (R * s * s) + x * x * y * common);
+   return stress / (2 * M_PI);
+}
+
+TEST(HalfSpaceContact, StressesAreThoseOfPointForces)
+{
+   const double nu = 0.2, other_nu = 0.4;
+   HalfSpace contact;
+   contact.material = of_shear(2, nu);
+   contact.other = of_shear(5, other_nu);
+   contact.size = {0.7, 0.3};
+   contact.centres = Places(1, 2);
+   contact.centres << 0.2, -0.1;
+   const QuadratureRule &rule = gauss_rule(64);
+   Eigen::MatrixX3d points(5, 3);
+   points << 0.3, -0.05, 0.4, 1.3, -0.2, 0.3, -0.4, 0.9, 1e-3, 40, -3, 7, -2, -1.5, 0.6;
+   for (const Eigen::Vector3d point : points.rowwise())
+   {
+      Eigen::Matrix<double, 6, 2> expected = expected.Zero(), below = below.Zero();
+      for (Index i = 0; i < 64; ++i)
+      {
+         for (Index j = 0; j < 64; ++j)
+         {
+            Eigen::Vector3d way = point;
+            way.head(2) -=
+               contact.centres.row(0).transpose() +
+               contact.size.cwiseProduct(Vector2d(rule.points[i] - 0.5, rule.points[j] - 0.5));
+            const double weight = rule.weights[i] * rule.weights[j];
+            expected += weight * stress_of_forces(nu, way);
+            below += weight * stress_of_forces(other_nu, way);
+         }
+      }
+      const auto stresses = [&](const Eigen::Vector3d &at, const Eigen::Vector3d &force)
+      { return VectorXd(contact.stresses(at.transpose(), force).row(0).transpose()); };
+      const double allowed = 1e-12 * expected.norm();
+      EXPECT_LT((stresses(point, {0, 0, 1}) - expected.col(0)).norm(), allowed) << point;
+      EXPECT_LT((stresses(point, {1, 0, 0}) - expected.col(1)).norm(), allowed) << point;
+      // In the body below, which shear pulls the other way: mirrored, z is -z.
+      const Eigen::Vector3d mirrored(point[0], point[1], -point[2]);
+      VectorXd other = below.col(0);
+      other.segment(3, 2) *= -1;
+      EXPECT_LT((stresses(mirrored, {0, 0, 1}) - other).norm(), allowed) << point;
+      other = -below.col(1);
+      other.segment(3, 2) *= -1;
+      EXPECT_LT((stresses(mirrored, {1, 0, 0}) - other).norm(), allowed) << point;
+      // Along y: x and y exchanged, of a rectangle likewise.
+      HalfSpace turned = contact;
+      turned.size = contact.size.reverse();
+      turned.centres = contact.centres.rowwise().reverse();
+      const VectorXd along_y = turned
+                                  .stresses(Eigen::RowVector3d(point[1], point[0], point[2]),
+                                            Eigen::Vector3d(0, 1, 0))
+                                  .row(0)
+                                  .transpose();
+      VectorXd exchanged = expected.col(1);
+      std::swap(exchanged[0], exchanged[1]);
+      std::swap(exchanged[3], exchanged[4]);
+      EXPECT_LT((along_y - exchanged).norm(), allowed) << point;
+   }
+   // Just inside, the surface bears what acts on it, and nothing beside it.
+   const Eigen::Vector3d force(0.3, -0.2, 0.5);
+   const double area = contact.size.prod();
+   Eigen::MatrixX3d surface(2, 3);
+   surface << 0.3, -0.05, 0, 0.3, 0.4, 0;
+   const auto at = contact.stresses(surface, force);
+   EXPECT_NEAR(at(0, 2), -force[2] / area, 1e-14);
+   EXPECT_NEAR(at(0, 3), -force[1] / area, 1e-14);
+   EXPECT_NEAR(at(0, 4), -force[0] / area, 1e-14);
+   EXPECT_LT(at.row(1).segment(2, 3).norm(), 1e-14);
+   contact.other.reset();
+   expect_input_error([&] { contact.stresses(Eigen::RowVector3d(0, 0, -1), force); },
+                      "z = -1 lies in the body below, which is rigid");
+}
+
 /// Bodies of one material, and unlike ones with the same (1-2ν)/G, have no coupling, exactly.
 TEST(HalfSpaceContact, WhereNothingCouples)
 {
@@ -401,6 +492,19 @@ TEST(HalfSpaceContact, Lubkin)
    const NamedLoads pressed{{"P", P}}, twisted{{"P", P}, {"T", torque}};
    ASSERT_EQ(marched(problem, {{}, pressed, twisted}, state).status, FrictionStatus::converged);
    EXPECT_NEAR(conjugate(problem, state, "P") / (a * a / R), 1, 2e-3);
+   // Under the middle, which torsion leaves as it is (Johnson 1985, 3.45): a cell of the rim is
+   // far from there.
+   const double p0 = 1.5 * P / (M_PI * a * a);
+   for (const double z : {0.2, 0.7, 1.5})
+   {
+      const double d = z / a, vertical = -1 / (1 + d * d),
+                   along = -(1 + nu) * (1 - d * std::atan(1 / d)) + 0.5 / (1 + d * d);
+      const Eigen::RowVectorXd stress =
+         contact.stresses(Eigen::RowVector3d(0, 0, z), state.forces()).row(0) / p0;
+      EXPECT_NEAR(stress[2], vertical, 2e-3) << z;
+      EXPECT_NEAR(stress[0], along, 2e-3) << z;
+      EXPECT_NEAR(stress[1], along, 2e-3) << z;
+   }
    EXPECT_NEAR(conjugate(problem, state, "T") / turn, 1, 1e-2);
    EXPECT_NEAR(std::sqrt(number_of(state, NodeState::stick) * edge * edge / M_PI), c,
                0.5 * edge);
@@ -548,10 +652,11 @@ TEST(HalfSpaceContact, SaysWhatItCannotTake)
 /// Steps of 2 and 3 µm, heights in nanometres: a plane, which is met everywhere.
 TEST(Heights, AreThoseOfTheFile)
 {
-   const auto written = [](const std::string &header, const std::string &data)
+   const std::string file = testing::TempDir() + "surface.sdf";
+   const auto written = [&](const std::string &header, const std::string &data)
    {
-      std::ofstream("surface.sdf") << header << data;
-      return read_heights("surface.sdf", 1e-6);
+      std::ofstream(file) << header << data;
+      return read_heights(file, 1e-6);
    };
    const std::string header = "aBCR-1.0\nManufacID   = none\nNumPoints   = 3\nNumProfiles = 2\n"
                               "Xscale      = 2.00e-006\nYscale      = 3.00e-006\n"
@@ -569,7 +674,7 @@ TEST(Heights, AreThoseOfTheFile)
    expect_input_error([&] { written(header, "1 2 3 4 5 six"); }, "'six' is not a number");
    expect_input_error([&] { written("aBCR-1.0\nNumPoints = 3\n*\n", ""); }, "has no Xscale");
    expect_input_error([&] { written("bBCR-1.0", ""); }, "its first line must be");
-   expect_input_error([&] { read_heights("none.sdf"); }, "none.sdf");
+   expect_input_error([&] { read_heights(file + ".none"); }, "surface.sdf.none");
    const Heights holed = written(header, "1 2 3 4 5 BAD");
    EXPECT_NO_THROW(holed.at(Places::Constant(1, 2, -0.1)));
    expect_input_error([&] { holed.at(Places::Constant(1, 2, 0.1)); }, "was not measured");
