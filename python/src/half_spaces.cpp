@@ -67,6 +67,18 @@ void bind_half_spaces(nb::module_ &m)
          "At points (m, 2) of the surface under nodal forces {q; p}, (3 n,): displacements (m, "
          "3) along x, y and z of the body above less those of the body below, without the "
          "rigid motions of far bodies.")
+      .def(
+         "stresses",
+         [](const HalfSpace &self, Numbers points, Numbers forces)
+         {
+            return array(self.stresses(matrix(points, "points", -1, 3),
+                                       vector(forces, "forces", 3 * self.centres.rows())));
+         },
+         nb::arg("points"), nb::arg("forces"),
+         "At points (m, 3) inside of the bodies under nodal forces {q; p}, (3 n,): stresses "
+         "(m, "
+         "6) xx, yy, zz, yz, zx and xy, positive in tension. z > 0 is the body above, z < 0 "
+         "the one below.")
       .def_ro("material", &HalfSpace::material, "of the body above")
       .def_ro("other", &HalfSpace::other, nb::sig("def other(self) -> None | Material"),
               "of the half-space below; None: it is rigid")

@@ -55,6 +55,50 @@ def test_displacements_of_a_square():
     assert space.other is None and space.material.young == 2.6 and not space.turns
 
 
+def test_stresses_on_the_axis_of_a_sphere():
+    """Hertz (Johnson 1985, 3.45): σ_zz = -p0/(1 + z²/a²) on the axis, in both bodies; radii are equal, so is all else."""
+    edge, load = 2 / 15, 4 / 3 / 0.7 / 20
+    space = cattaneo.HalfSpace(MATERIAL, MATERIAL, size=edge, centres=squares(17, edge))
+    problem = space.problem(gap=(space.centres**2).sum(axis=1) / 40)
+    state = cattaneo.march(problem, [{}, {"P": load}], increments=1).state
+    z = np.array([0.3, 1.0, -0.3, -1.0])
+    stresses = space.stresses(np.column_stack([0 * z, 0 * z, z]), np.concatenate([state.q, state.p]))
+    peak = 1.5 * load / np.pi
+    assert stresses[:, 2] == pytest.approx(-peak / (1 + z**2), abs=2e-3 * peak)
+    assert np.abs(stresses[:, 3:]).max() < 1e-12 * peak
+
+
+def test_torsion_of_squares_and_of_rings():
+    """Two ways to one contact: squares, and the half-space about an axis whose kernels are elliptic integrals. Two equal
+    spheres are pressed and twisted by half of what makes them spin, 3π f P a/16. Both paths are this library's own."""
+    nu, a, radius, f = 0.3, 1.0, 20.0, 0.4
+    load = 4 / 3 / (1 - nu) * a**3 / radius
+    torque = 0.5 * 3 * np.pi / 16 * f * load * a
+    edge = 2 * a / 21
+    space = cattaneo.HalfSpace(MATERIAL, MATERIAL, size=edge, centres=squares(23, edge), turns=True)
+    problem = space.problem(gap=(space.centres**2).sum(axis=1) / (2 * radius))
+    problem.friction = f
+    state = cattaneo.march(problem, [{}, {"P": load}, {"P": load, "T": torque}], increments=1).state
+    turn = cattaneo.conjugates(problem, state)[problem.loads.index("T")]
+
+    line = np.linspace(0, 1.1 * a, 45)
+    above = cattaneo.HalfPlane(MATERIAL, normal=(0, 1), forces={"P": (0, -1)})
+    bodies = [
+        [cattaneo.condense(each, line, 2, way) for each in (above, cattaneo.HalfPlane(MATERIAL))]
+        for way in ("axisymmetric", "torsion")
+    ]
+    rings = cattaneo.reduce(*bodies[0], torsion=bodies[1]).problem
+    r = rings.position[:, 0]
+    n = len(r)
+    # The far body turns by the angle that a displacement prescribes: all circumferential nodes by r.
+    turning = -np.concatenate([np.zeros(n), rings.A[n:, n:] @ r])
+    patterns = [*rings.patterns, cattaneo.LoadPattern("turn", turning, np.zeros(n), control="displacement")]
+    twisted = cattaneo.ReducedProblem(
+        rings.A, rings.B, rings.C, patterns, gap=r**2 / (2 * radius), friction=f, weights=rings.weights)
+    state = cattaneo.march(twisted, [{}, {"P": load}, {"P": load, "turn": turn}], increments=1).state
+    assert abs(state.q[n:] @ r) == pytest.approx(torque, rel=5e-3)
+
+
 def test_what_is_refused():
     good = {"size": 0.1, "centres": squares(3, 0.1)}
     cattaneo.HalfSpace(MATERIAL, **good)

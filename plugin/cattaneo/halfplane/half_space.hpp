@@ -54,6 +54,14 @@ struct HalfSpace
        validate(), or for other sizes. */
    Eigen::MatrixX3d displacements(const Eigen::MatrixX2d &points,
                                   const Eigen::VectorXd &forces) const;
+
+   /** Stresses at points (m × 3) inside of the bodies under nodal forces {q; p} of the
+       rectangles (size 3n): m × 6, xx, yy, zz, yz, zx and xy, positive in tension. Points with
+       z > 0 lie in the body above, with z < 0 in the one below, at z = 0 just inside of the
+       body above. On an edge of a rectangle at z = 0 stresses jump or have no limit. InputError
+       as of validate(), for other sizes, or for a point in a rigid body. */
+   Eigen::Matrix<double, Eigen::Dynamic, 6> stresses(const Eigen::MatrixX3d &points,
+                                                     const Eigen::VectorXd &forces) const;
 };
 
 } // namespace cattaneo

@@ -125,9 +125,7 @@ std::string node_header(const ReducedProblem &problem)
               problem.weights.size() == problem.nodes(),
            "node table: the reduced problem has no arc length, positions or weights");
    return std::string("time,node,") + (interfaces(problem) > 1 ? "interface," : "") +
-          "arc_length,x,y,state,p," +
-          (has_disc(problem) ? "q_radial,q_circumferential,slip_radial,slip_circumferential"
-                             : "q,slip") +
+          "arc_length,x,y,state,p," + (has_disc(problem) ? "q1,q2,slip1,slip2" : "q,slip") +
           ",opening";
 }
 

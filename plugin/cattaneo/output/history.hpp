@@ -11,11 +11,11 @@ namespace cattaneo
 /** Table of a march with one row an increment, as CSV, written as the march goes:
 
        time, cycle, load multipliers (column "load NAME" each), numbers of nodes in stick,
-       separation, forward and backward slip (with torsion: slip), dissipation and external work
-    of the increment, relative residuals normal and tangential, round_off (what arithmetic can
-    reach of them), and the conjugate of each multiplier, see conjugates(): column "displacement
-    NAME" of a force, "reaction NAME" of a prescribed displacement; "contact displacement NAME"
-    and "contact reaction NAME" if only the contact's part of it is known
+       separation, forward and backward slip (with two tangents: slip), dissipation and external
+   work of the increment, relative residuals normal and tangential, round_off (what arithmetic
+   can reach of them), and the conjugate of each multiplier, see conjugates(): column
+   "displacement NAME" of a force, "reaction NAME" of a prescribed displacement; "contact
+   displacement NAME" and "contact reaction NAME" if only the contact's part of it is known
     (ReducedProblem::knows_loads).
 
     add() is made to be a MarchObserver. Numbers are written so that they are read back to the
@@ -46,8 +46,9 @@ private:
     come:
 
        time, node, arc_length, x, y, state (see settled_states()), p, q (tractions: nodal forces
-    over consistent weights), slip v, opening w + g; with torsion q and slip have a radial and a
-    circumferential column each. Needs arc length, positions and weights.
+    over consistent weights), slip v, opening w + g; with two tangents q and slip have a column
+    of each, q1 and q2, slip1 and slip2: about an axis radial and circumferential. Needs arc
+   length, positions and weights.
 
     The problem must outlive this. */
 class NodeWriter

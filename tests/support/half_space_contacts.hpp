@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cattaneo/friction/march.hpp>
+#include <cattaneo/halfplane/half_space.hpp>
+#include <vector>
+
+namespace cattaneo_test
+{
+
+using Places = Eigen::MatrixX2d;
+
+cattaneo::Material of_shear(double shear_modulus, double poisson);
+
+/// Centres of the m × m cells about a middle that lie within a radius of it.
+Places cells(int m, double edge, double radius, const Eigen::Vector2d &middle = {0, 0});
+
+/// Of squares; without another body it is rigid.
+cattaneo::HalfSpace contact_of(const cattaneo::Material &material,
+                               std::optional<cattaneo::Material> other, double edge,
+                               Places centres);
+
+int number_of(const cattaneo::ContactState &state, cattaneo::NodeState status);
+int number_closed(const cattaneo::ContactState &state);
+double conjugate(const cattaneo::ReducedProblem &problem, const cattaneo::ContactState &state,
+                 const char *load);
+
+/// From one point of a history to the next by equal increments.
+cattaneo::MarchReport marched(const cattaneo::ReducedProblem &problem,
+                              const std::vector<cattaneo::NamedLoads> &points,
+                              cattaneo::ContactState &state, int increments = 1);
+
+/// A rigid sphere and a half-space, CONTACT's example "spence35": 45 cells along each side from
+/// -4.4999 on, of which those within a radius may touch. The others stay open and say nothing.
+cattaneo::ReducedProblem kalkers_spence(double radius);
+
+/** Two equal spheres of shear modulus 1 and ν = 0 that touch in r < a = 1, pressed and sheared
+    there and back. Hertz' approach a²/R; Cattaneo's and Mindlin's stick radius c = a (1-s)^⅓, s
+    = Q/fP, and shift (3fP/16a) Σ(2-ν)/G (1 - (1-s)^⅔); unloading and loss by Masing. Each leg
+    is one increment: slip keeps its direction, so that it is exact. */
+struct ShearedSpheres
+{
+   double approach = 0, loading = 0, unloading = 0, loss = 0; ///< shares of the closed forms
+};
+ShearedSpheres sheared_spheres(int cells_across);
+
+} // namespace cattaneo_test
