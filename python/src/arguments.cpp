@@ -42,6 +42,7 @@ std::string described(nb::handle object)
 {
    if (object.is_none()) { return "None"; }
    if (nb::isinstance<nb::str>(object)) { return nb::repr(object).c_str(); }
+   if (PyLong_Check(object.ptr()) || PyFloat_Check(object.ptr())) { return written(object); }
    if (nb::isinstance<nb::list>(object) || nb::isinstance<nb::tuple>(object))
    {
       return article(class_name(object.type())) + " of " + std::to_string(nb::len(object)) +

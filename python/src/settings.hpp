@@ -28,15 +28,7 @@ struct Kind
 {
    static std::string name()
    {
-      if constexpr (std::is_enum_v<Value>)
-      {
-         std::string all;
-         for (const std::string &each : words<Value>())
-         {
-            all += (all.empty() ? "'" : ", '") + each + "'";
-         }
-         return "typing.Literal[" + all + "]";
-      }
+      if constexpr (std::is_enum_v<Value>) { return "typing.Literal[" + quoted() + "]"; }
       else if constexpr (nb::detail::is_base_caster_v<nb::detail::make_caster<Value>>)
       {
          const nb::handle type = nb::type<Value>();
@@ -48,6 +40,12 @@ struct Kind
          return "collections.abc.Sequence[int]";
       }
       else { return nb::detail::make_caster<Value>::Name.text; }
+   }
+   /// As sentences say it.
+   static std::string needed()
+   {
+      if constexpr (std::is_enum_v<Value>) { return "one of " + quoted(); }
+      else { return name(); }
    }
    static nb::object get(Value &value, nb::handle owner)
    {
@@ -72,7 +70,24 @@ struct Kind
          value = chosen<Value>(text, what);
          return true;
       }
+      else if constexpr (std::is_same_v<Value, bool>)
+      {
+         const std::string kind = nb::inst_name(from).c_str(); // NumPy has truth values, too
+         value = PyObject_IsTrue(from.ptr()) == 1;
+         return kind == "bool" || kind == "numpy.bool" || kind == "numpy.bool_";
+      }
       else { return nb::try_cast(from, value); }
+   }
+
+private:
+   static std::string quoted()
+   {
+      std::string all;
+      for (const std::string &each : words<Value>())
+      {
+         all += (all.empty() ? "'" : ", '") + each + "'";
+      }
+      return all;
    }
 };
 /// Distances from an edge, (nearest, farthest), or None where the window is chosen.
@@ -82,6 +97,7 @@ struct Kind<FitWindow>
    using Window = std::optional<std::pair<double, double>>;
 
    static std::string name() { return "tuple[float, float] | None"; }
+   static std::string needed() { return "two distances, or None"; }
    static nb::object get(const FitWindow &value, nb::handle)
    {
       const bool chosen = value.nearest == 0 && value.farthest == 0;
@@ -139,12 +155,13 @@ public:
    template <class Value>
    Settings &member(const char *name, Value T::*member, const char *doc)
    {
-      const std::string what = all_->name() + "." + name, kind = Kind<Value>::name();
+      const std::string what = all_->name() + "." + name, kind = Kind<Value>::name(),
+                        needed = Kind<Value>::needed();
       // Changes a copy, which is checked before it is taken.
-      const auto set = [member, what, kind](T &settings, nb::handle value)
+      const auto set = [member, what, needed](T &settings, nb::handle value)
       {
          T changed = settings;
-         if (!Kind<Value>::set(value, changed.*member, what)) { refuse(value, what, kind); }
+         if (!Kind<Value>::set(value, changed.*member, what)) { refuse(value, what, needed); }
          check(changed, 0);
          settings = std::move(changed);
       };

@@ -309,7 +309,7 @@ def test_what_a_body_cannot_be():
     with pytest.raises(cattaneo.InputError, match="sets has 'TOP' twice"):
         cattaneo.NodalStiffness(K, places, sets={"top": [1], "Top": [2]})
     assert list(cattaneo.NodalStiffness(K, places, loads={"b\0": np.zeros(len(places) * 2), "a": np.ones(len(places) * 2)}).loads) == ["b\0", "a"]
-    with pytest.raises(TypeError, match="a name in loads is an int, must be a str"):
+    with pytest.raises(TypeError, match="a name in loads is 3, must be a str"):
         cattaneo.NodalStiffness(K, places, loads={3: np.zeros(len(places) * 2)})
 
 
