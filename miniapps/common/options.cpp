@@ -284,6 +284,11 @@ void Options::read_words()
          throw Leave();
       }
       const Option *option = find(word);
+      for (const auto &[before, name] : renamed_)
+      {
+         require(option || (word != "-" + before && word != "--" + before), "option ", word,
+                 " is called --", name, " now (-h shows its values)");
+      }
       require(option, "Unrecognized option: ", word, " (-h lists the options)");
       Given given{option, word, ""};
       if (option->is_flag())

@@ -762,7 +762,7 @@ TEST(Wear, WhatTouchesWithoutForceCutsNoIncrement)
    const Pad pad = small_pad();
    WearState state = WearState::virgin(pad.problem);
    WearSettings settings = settings_with(0);
-   settings.march.stepping = Stepping::advancing;
+   settings.march.stepping = Stepping::exact;
    const WearReport report = wear(pad.problem, WearLaw::uniform(pad.problem, 0.05), pad.history,
                                   1500, state, settings);
    EXPECT_EQ(report.status, FrictionStatus::converged);

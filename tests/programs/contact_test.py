@@ -282,7 +282,7 @@ MISTAKES = [
     ({}, ["--order", 0], ["order", "0", "1 to 8"]),
     ({}, ["--increments", 0], ["increments", "0", "at least 1"]),
     ({FLOOR + "gap": "wide"}, [], ["floor.gap'", "wide", "geometry, closed"]),
-    ({}, ["--stepping", "fast"], ["stepping", "fast", "advancing, fixed"]),
+    ({}, ["--stepping", "fast"], ["stepping", "fast", "exact, fixed"]),
     ({SUPPORT: "3:xy"}, [], ["contact dofs are fixed", "one at least must be free"]),
     ({SUPPORT: "2"}, [], ["bodies.pad.support' '2'", "must be"]),
     ({SUPPORT: "2:z"}, [], ["bodies.pad.support' '2:z'", "x, y or xy"]),

@@ -18,7 +18,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "programs")
 from programs import read_case
 
 VALUES = [None, True, False, 0, -1, 1, 2, 3, 8, 9, -2, 2.0, 1.5, 0.25, 0.5, 0.499, 1e-9, -0.1, 2147483647, 2147483648,
-          10**30, "", "x", "3", "plane strain", "axisymmetric", "exact", "advancing", "fixed", [], [1], [1, 2], [0], [-3], [1.5],
+          10**30, "", "x", "3", "plane strain", "axisymmetric", "exact", "fixed", [], [1], [1, 2], [0], [-3], [1.5],
           ["a"], ["a", "b"], ["a", 1], [None], [[1]], {}, {"a": 1}]
 # Keys with objects by names, which are tried by themselves.
 NAMED = {"bodies", "interfaces", "bolts"}

@@ -137,7 +137,7 @@ TEST_F(Contact, EdgesOfAHertzContactHaveTheClosedForms)
                 {"cycle-start", 1},
                 {"cycles", meshed ? 3 : 2},
                 // Advancing contact goes from node to node, of which the half-plane's has 481.
-                {"stepping", meshed ? "advancing" : "fixed"}};
+                {"stepping", meshed ? "exact" : "fixed"}};
       keys["bodies"]["pad"] = {{"mesh", files[0]},
                                {"young", 0.91},
                                {"poisson", 0.3},

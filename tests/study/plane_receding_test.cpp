@@ -68,7 +68,7 @@ TEST(PlaneReceding, FiniteBlockOfTheThesis)
 /// 0.007 to 0.016.)
 TEST(PlaneReceding, BlocksTendToTheHalfPlane)
 {
-   const std::string options = "-map '1.2 1.6 4' -unload '0.9 0.5 0.2' -march exact";
+   const std::string options = "-map '1.2 1.6 4' -unload '0.9 0.5 0.2'";
    const auto limit = run_miniapp("plane_receding", options),
               block = run_miniapp("plane_receding", options + " -domain 1e6");
    ASSERT_EQ(limit.code, 0) << limit.output;

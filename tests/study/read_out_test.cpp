@@ -36,13 +36,14 @@ TEST(ReadOut, SteadyStickOfTheLapJointDependsOnMechanicsAlone)
       for (const double spacing : meshes({0.02, 0.01}, {0.005}))
       {
          double first = std::nan("");
-         for (const char *march : {"-march fixed -increments 20", "-march exact",
-                                   "-increments 40", "-increments 41", "-increments 80"})
+         for (const char *increments : {"20", "", "40", "41", "80"})
          {
+            const bool exact = increments[0] == 0;
             // The finer meshes take most of the time: all of them in ./test --all.
-            if (extent() != Extent::full && spacing < 0.02 && march[1] == 'i') { continue; }
-            const std::string options = std::string(reference.load) + " -spacing " +
-                                        std::to_string(spacing) + " " + march;
+            if (extent() != Extent::full && spacing < 0.02 && increments[0] > '2') { continue; }
+            const std::string options =
+               std::string(reference.load) + " -spacing " + std::to_string(spacing) +
+               (exact ? "" : std::string(" -stepping fixed -increments ") + increments);
             SCOPED_TRACE(options);
             const Result run = run_miniapp("lap_joint", options);
             ASSERT_EQ(run.code, 0) << run.output;
