@@ -377,7 +377,7 @@ void bind_report(nb::module_ &m)
       },
       arg("problem"), arg("start"), nb::kw_only(), arg("tolerance") = settings.tolerance,
       arg("max_iterations") = settings.max_iterations, arg("increments") = march.increments,
-      arg("stepping") = "advancing",
+      arg("stepping") = "exact",
       arg("single_increment_if_exact") = march.single_increment_if_exact,
       arg("max_halvings") = march.max_halvings, arg("method") = "automatic",
       arg("progress") = false, arg("stop") = nb::none(),

@@ -239,7 +239,7 @@ MarchSettings march_settings(nb::handle increments, nb::handle stepping,
    MarchSettings settings;
    settings.increments =
       static_cast<int>(whole(increments, "increments", 1, std::numeric_limits<int>::max()));
-   settings.stepping = chosen<Stepping>(stepping, "stepping", {"fixed", "advancing", "exact"});
+   settings.stepping = chosen<Stepping>(stepping, "stepping", {"fixed", "exact"});
    settings.single_increment_if_exact =
       flag(single_increment_if_exact, "single_increment_if_exact");
    settings.max_halvings = static_cast<int>(whole(max_halvings, "max_halvings", 0, 1000));
@@ -444,7 +444,10 @@ void bind_marches(nb::module_ &m)
             return all;
          },
          nb::sig("def changes(self) -> list[StateChange]"),
-         "stepping='exact': every change of state in the order of the path")
+         "with every_event: the changes of state in the order of the path")
+      .def_prop_ro(
+         "events", [](const Self &self) { return self.report.events; },
+         "number of changes of state on an exact path")
       .def_prop_ro(
          "event_time", [](const Self &self) { return self.report.event_time; },
          "where the outcome is not 'converged': when it came about")
@@ -499,36 +502,37 @@ void bind_marches(nb::module_ &m)
       [](Of<ReducedProblem> problem, nb::object history, nb::object state, Whole increments,
          Text stepping, Flag single_increment_if_exact, Whole max_halvings,
          Flag stop_at_steady_state, Number steady_tolerance, Text method, Number tolerance,
-         Flag keep_states, Flag loss_error, nb::object observer, nb::object progress,
-         nb::object stop)
+         Flag keep_states, Flag every_event, Flag loss_error, nb::object observer,
+         nb::object progress, nb::object stop)
       {
          MarchSettings settings = march_settings(
             increments, stepping, single_increment_if_exact, max_halvings, method);
          settings.stop_at_steady_state = flag(stop_at_steady_state, "stop_at_steady_state");
          settings.steady_tolerance = number(steady_tolerance, "steady_tolerance");
          settings.friction.tolerance = number(tolerance, "tolerance");
+         settings.every_event = flag(every_event, "every_event");
          settings.loss_error = flag(loss_error, "loss_error");
          settings.validate();
          return march_from(problem.object, history, state, settings, keep_states, observer,
                            progress, stop);
       },
       arg("problem"), arg("history"), arg("state") = nb::none(), nb::kw_only(),
-      arg("increments") = settings.increments, arg("stepping") = "advancing",
+      arg("increments") = settings.increments, arg("stepping") = "exact",
       arg("single_increment_if_exact") = settings.single_increment_if_exact,
       arg("max_halvings") = settings.max_halvings,
       arg("stop_at_steady_state") = settings.stop_at_steady_state,
       arg("steady_tolerance") = settings.steady_tolerance, arg("method") = "automatic",
       arg("tolerance") = friction.tolerance, arg("keep_states") = false,
-      arg("loss_error") = true, arg("observer") = nb::none(), arg("progress") = false,
+      arg("every_event") = false, arg("loss_error") = true, arg("observer") = nb::none(), arg("progress") = false,
       arg("stop") = nb::none(),
       nb::sig(
          "def march(problem: ReducedProblem, history: LoadHistory | "
          "collections.abc.Sequence[collections.abc.Mapping[str, float]], state: None | "
-         "ContactState = None, *, increments: int = 20, stepping: str = 'advancing', "
+         "ContactState = None, *, increments: int = 20, stepping: str = 'exact', "
          "single_increment_if_exact: bool = True, max_halvings: int = 12, "
          "stop_at_steady_state: "
          "bool = True, steady_tolerance: float = 1e-10, method: str = 'automatic', tolerance: "
-         "float = 1e-12, keep_states: bool = False, loss_error: bool = True, observer: "
+         "float = 1e-12, keep_states: bool = False, every_event: bool = False, loss_error: bool = True, observer: "
          "None | collections.abc.Callable[[ContactState], object] = None, progress: bool | "
          "collections.abc.Callable[[Progress], object] = False, stop: None | threading.Event = "
          "None) -> MarchReport"),
@@ -538,8 +542,10 @@ void bind_marches(nb::module_ &m)
       "state stands; or a LoadHistory, whose times are its own: a march that was stopped is "
       "taken "
       "up with the same history and the state it came to.\n"
-      "increments: of each piece of the history. stepping: 'advancing', 'fixed', or 'exact', "
-      "from one change of state to the next without increments.\n"
+      "stepping: 'exact', from one change of state to the next, or 'fixed', in equal "
+      "increments. increments: of each piece of the history; on an exact path they are stops, "
+      "at which states are recorded. every_event: each change of state is recorded in their "
+      "place, and listed in `changes`.\n"
       "keep_states: keeps the state of every increment. observer: is called with each.\n"
       "loss_error: where increments are taken, march beside them to say how wrong their loss "
       "may be; that takes as long again in the plane, half as long with two tangential "

@@ -269,7 +269,7 @@ void bind_trace(nb::module_ &m)
          return trace;
       },
       arg("problem"), arg("history"), arg("state") = nb::none(), nb::kw_only(),
-      arg("increments") = settings.increments, arg("stepping") = "advancing",
+      arg("increments") = settings.increments, arg("stepping") = "exact",
       arg("single_increment_if_exact") = settings.single_increment_if_exact,
       arg("max_halvings") = settings.max_halvings,
       arg("stop_at_steady_state") = settings.stop_at_steady_state,
@@ -302,7 +302,7 @@ void bind_trace(nb::module_ &m)
       },
       arg("problem"), arg("law"), arg("history"), arg("cycles"), arg("state") = nb::none(),
       nb::kw_only(), arg("update") = "cycle", arg("increments") = wear.march.increments,
-      arg("stepping") = "advancing",
+      arg("stepping") = "exact",
       arg("single_increment_if_exact") = wear.march.single_increment_if_exact,
       arg("max_halvings") = wear.march.max_halvings, arg("method") = "automatic",
       arg("progress") = false, arg("stop") = nb::none(),

@@ -353,7 +353,7 @@ void bind_wear_march(nb::module_ &m)
       nb::kw_only(), arg("update") = "cycle", arg("tolerance") = settings.tolerance,
       arg("final_share") = settings.final_share,
       arg("steady_tolerance") = settings.steady_tolerance, arg("increments") = march.increments,
-      arg("stepping") = "advancing",
+      arg("stepping") = "exact",
       arg("single_increment_if_exact") = march.single_increment_if_exact,
       arg("max_halvings") = march.max_halvings, arg("method") = "automatic",
       arg("observer") = nb::none(), arg("progress") = false, arg("stop") = nb::none(),
@@ -443,7 +443,7 @@ void bind_wear_march(nb::module_ &m)
          return result;
       },
       arg("problem"), arg("history"), arg("contact") = nb::none(), nb::kw_only(),
-      arg("increments") = march.increments, arg("stepping") = "advancing",
+      arg("increments") = march.increments, arg("stepping") = "exact",
       arg("single_increment_if_exact") = march.single_increment_if_exact,
       arg("max_halvings") = march.max_halvings, arg("method") = "automatic",
       arg("progress") = false, arg("stop") = nb::none(),

@@ -33,7 +33,7 @@ def cycle(problem):
     return cattaneo.LoadHistory.through(problem, points, cycle_start=2)
 
 
-@pytest.mark.parametrize("stepping", ["exact", "advancing"])
+@pytest.mark.parametrize("stepping", ["exact", "fixed"])
 def test_gradient_of_a_loss_by_hand(stepping):
     """Loss 4 f P (d - f P/k), by friction and by the loads' size; backward, forward, and of what is made of it."""
     f = 0.4
