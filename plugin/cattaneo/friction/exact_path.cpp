@@ -4,6 +4,7 @@
 #include <cattaneo/input_error.hpp>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace cattaneo
 {
@@ -24,7 +25,8 @@ void list_changes(const ContactState &from, const std::vector<NodeState> &to,
 }
 
 ExactPath::ExactPath(const ReducedProblem &problem)
-   : problem_(problem), K_(problem.K), equations_(K_, friction_bounds(problem))
+   : problem_(problem), K_(problem.K), bounds_(friction_bounds(problem)), pieces_(bounds_),
+     equations_(K_, bounds_)
 {
    require(problem.components() == 1, "exact path: the reduced problem has ",
            problem.components(), " tangential components a node, must have 1");
@@ -38,7 +40,7 @@ void ExactPath::find_choices(const ContactState &state)
    for (Index i = 0; i < n; ++i)
    {
       Choice &choice = rates_.choice[i];
-      const FrictionBound &bound = equations_.bound()[i];
+      const FrictionBound &bound = bounds_[i];
       const double q = F_[i], p = F_[n + i], way = sense(state.status[i]),
                    forward = bound.reserve(q, p, 1), backward = bound.reserve(q, p, -1);
       if (!closed(state.status[i]))
@@ -52,6 +54,75 @@ void ExactPath::find_choices(const ContactState &state)
       else if (std::min(forward, backward) > noise_[i]) { choice = Choice::held; }
       else { choice = forward < backward ? Choice::forward : Choice::backward; }
    }
+}
+
+/// Takes the piece of a node's bound at a pressure. False if it is that already.
+bool ExactPath::take_piece(Index node, double pressure)
+{
+   const FrictionBound piece = bounds_[node].straight(pressure);
+   const auto same = [&](double sense)
+   {
+      return !pieces_[node].bends() && piece.slope(0, sense) == pieces_[node].slope(0, sense) &&
+             piece.intercept(0, sense) == pieces_[node].intercept(0, sense);
+   };
+   if (same(1) && same(-1)) { return false; }
+   pieces_[node] = piece;
+   equations_.set_bound(node, bounds_[node].of_rates(pressure));
+   return true;
+}
+
+/// The pieces of bounds that bend, at the present pressures; at a bend the one above it. True
+/// if they are others than before.
+bool ExactPath::find_pieces(const ContactState &state)
+{
+   const Index n = problem_.nodes();
+   bends_.clear();
+   bool changed = false;
+   for (Index i = 0; i < n; ++i)
+   {
+      if (!bounds_[i].bends()) { continue; }
+      const double p = closed(state.status[i]) ? std::max(F_[n + i], 0.0) : 0.0;
+      const double below = bounds_[i].bend(p, -1), above = bounds_[i].bend(p, 1);
+      const double nearest = p - below < above - p ? below : above;
+      if (std::abs(p - nearest) > noise_[i])
+      {
+         changed = take_piece(i, p) || changed;
+         continue;
+      }
+      bends_.push_back({i, nearest, 1.0});
+      changed = take_piece(i, std::nextafter(nearest, 2 * nearest)) || changed;
+   }
+   return changed;
+}
+
+/// Turns the nodes at a bend whose pressures go to its other side. False if there are none.
+bool ExactPath::turn_bends()
+{
+   const Index n = problem_.nodes();
+   const double tiny = 1e-12 * F_rate_.cwiseAbs().maxCoeff();
+   bool turned = false;
+   for (Bend &bend : bends_)
+   {
+      if (bend.side * F_rate_[n + bend.node] >= -tiny) { continue; }
+      bend.side = -bend.side;
+      take_piece(bend.node, bend.side > 0 ? std::nextafter(bend.pressure, 2 * bend.pressure)
+                                          : bend.pressure);
+      turned = true;
+   }
+   return turned;
+}
+
+/// Of the bounds of the nodes that slip, with the sense of the slip: what does not go with p.
+VectorXd ExactPath::intercepts(const std::vector<NodeState> &states) const
+{
+   const Index n = problem_.nodes();
+   VectorXd constant = VectorXd::Zero(2 * n);
+   for (Index i = 0; i < n; ++i)
+   {
+      const double way = closed(states[i]) ? sense(states[i]) : 0;
+      if (way != 0) { constant[i] = way * pieces_[i].intercept(0, way); }
+   }
+   return constant;
 }
 
 /// A body that nothing but its balance keeps from turning about the node where it touches: one
@@ -178,35 +249,47 @@ bool ExactPath::search_rates(std::optional<ComplementarityReport> known)
 /// Rates of displacements and forces over the rest of the way.
 bool ExactPath::find_rates(const ContactState &state, const PathWay &way)
 {
-   // 1. Rates that were found before hold as long as states and way are the same.
+   // 1. The pieces of bounds that bend.
+   const bool pieces_changed = find_pieces(state);
+   // 2. Rates that were found before hold as long as pieces, states and way are the same.
    std::optional<ComplementarityReport> known;
-   if (known_.to.size() == way.multipliers.size() && known_.to == way.multipliers &&
-       known_.from == state.multipliers && equations_.states() == state.status)
+   if (!pieces_changed && bends_.empty() && known_.to.size() == way.multipliers.size() &&
+       known_.to == way.multipliers && known_.from == state.multipliers &&
+       equations_.states() == state.status)
    {
       known.emplace();
       known->x = u_rate_;
       known->F = F_rate_;
    }
    known_.to.resize(0);
-   // 2. Equations that can be solved.
-   pivot_.node = -1;
    last_.ended = false;
-   if (!set_states(state))
+   // 3. Each node at a bend goes to one side of it, which few turns find if there is one.
+   const std::size_t most_turns = 2 * bends_.size() + 1;
+   for (std::size_t turns = 0; turns < most_turns; ++turns)
    {
-      last_.failure = "the equations of the present states are singular";
-      return false;
+      // 4. Equations that can be solved.
+      find_choices(state);
+      pivot_.node = -1;
+      if (!set_states(state))
+      {
+         last_.failure = "the equations of the present states are singular";
+         return false;
+      }
+      // 5. Rates that meet the laws.
+      last_.ended = !search_rates(std::exchange(known, std::nullopt));
+      if (last_.ended)
+      {
+         last_.failure = "no rates meet the laws of contact and friction";
+         return false;
+      }
+      if (turn_bends()) { continue; }
+      // 6. A node that was said to touch is let go.
+      if (pivot_.node < 0) { return true; }
+      last_.found_by = "event path, pivot";
+      return release_pivot();
    }
-   // 3. Rates that meet the laws.
-   last_.ended = !search_rates(std::move(known));
-   if (last_.ended)
-   {
-      last_.failure = "no rates meet the laws of contact and friction";
-      return false;
-   }
-   // 4. A node that was said to touch is let go.
-   if (pivot_.node < 0) { return true; }
-   last_.found_by = "event path, pivot";
-   return release_pivot();
+   last_.failure = "no rates are on one side of each bend of a law of friction";
+   return false;
 }
 
 /// What a node has left of its state, in forces: of its gap if it is open, else of its friction
@@ -215,7 +298,7 @@ double ExactPath::left(Index i, double sense) const
 {
    const Index m = problem_.nodes() + i;
    if (rates_.choice[i] == Choice::open) { return K_(m, m) * (u_[m] + problem_.gap[i]); }
-   return sense == 0 ? F_[m] : equations_.bound()[i].reserve(F_[i], F_[m], sense);
+   return sense == 0 ? F_[m] : bounds_[i].reserve(F_[i], F_[m], sense);
 }
 double ExactPath::rate(Index i, double sense) const
 {
@@ -272,6 +355,22 @@ double ExactPath::share_to_event(double stop)
          share = to;
          last_.event = i;
       });
+   // A closed node may come to the next bend of its bound.
+   const Index n = problem_.nodes();
+   for (Index i = 0; i < n; ++i)
+   {
+      const double change = F_rate_[n + i];
+      if (!bounds_[i].bends() || !closed(equations_.states()[i]) || change == 0) { continue; }
+      const double p = F_[n + i],
+                   bend = bounds_[i].bend(p + std::copysign(noise_[i], change), change),
+                   to = (bend - p) / change;
+      if (std::abs(bend - p) - stop * std::abs(change) >= -noise_[i] || to >= share)
+      {
+         continue;
+      }
+      share = to;
+      last_.event = i;
+   }
    return share;
 }
 
@@ -320,7 +419,7 @@ bool ExactPath::starts_from(const ContactState &state) const
    {
       const double limit = std::max({allowed, round_off[i], round_off[n + i]}),
                    way = sense(state.status[i]),
-                   off = equations_.bound()[i].reserve(state.q[i], state.p[i], way),
+                   off = bounds_[i].reserve(state.q[i], state.p[i], way),
                    gap = K_(n + i, n + i) * (state.w[i] + problem_.gap[i]);
       starts = starts && (!closed(state.status[i]) || gap <= limit) &&
                (way == 0 || std::abs(off) <= limit);
@@ -366,17 +465,18 @@ double ExactPath::go(double share, const std::vector<NodeState> &states, const V
    const VectorXd forces = clamped + equations_.forces(u_);
    const VectorXd drift = (forces - F_).cwiseAbs() - 0.5 * equations_.round_off(clamped, u_);
    const bool drifted = drift.maxCoeff() > 0;
+   const VectorXd constant = intercepts(states);
    VectorXd correction, corrected;
    last_.slip_error = VectorXd::Zero(n);
    // A step may be so short that what is removed would turn its slip, which is an error of
    // displacements that are as right without it.
-   if ((share < 1 && !drifted) || !equations_.solve(forces, correction, corrected) ||
+   if ((share < 1 && !drifted) || !equations_.solve(forces + constant, correction, corrected) ||
        (!drifted && turns(step, correction, states)))
    {
       return 0;
    }
    u_ += correction;
-   F_ = corrected;
+   F_ = corrected - constant;
    // The state before had this error already, which is no slip.
    last_.slip_error = correction.head(n).cwiseAbs();
    // What hardly resists a turn turns by more than that: the event comes before it.
@@ -413,7 +513,6 @@ bool ExactPath::advance(ContactState &state, const PathWay &way,
    const double present = set_out(state, way),
                 peak = std::max(present,
                                 problem_.clamped_forces(way.multipliers).cwiseAbs().maxCoeff());
-   find_choices(state);
    const long factored = equations_.factorisations();
    const bool found = find_rates(state, way);
    counters_.dense_factorisations += equations_.factorisations() - factored;

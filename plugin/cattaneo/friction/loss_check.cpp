@@ -132,11 +132,7 @@ bool LossCheck::bounded(double &apart)
 {
    apart = 0;
    const ReducedProblem &problem = solver_.problem();
-   if (problem.components() != 1 || settings_.stepping == Stepping::exact ||
-       friction_bends(problem))
-   {
-      return false;
-   }
+   if (problem.components() != 1 || settings_.stepping == Stepping::exact) { return false; }
    const std::string why = march_again(Stepping::exact, 1);
    if (!why.empty()) { return false; }
    apart = difference();

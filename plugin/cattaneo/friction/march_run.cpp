@@ -119,7 +119,7 @@ bool MarchRun::is_stopped()
 /// Is there a path from one change of state to the next? Sweeps are of increments.
 bool MarchRun::has_path() const
 {
-   return problem_.components() == 1 && !friction_bends_ &&
+   return problem_.components() == 1 &&
           solver_.settings().method != FrictionMethod::gauss_seidel;
 }
 
@@ -402,18 +402,13 @@ bool MarchRun::march_piece()
    if (piece_.loads().from == piece_.loads().to && hold()) { return true; }
    // 2. One increment where that is exact.
    const bool exact = exact_in_one();
-   const bool follows = !exact && settings_.stepping == Stepping::exact;
    // 3. The path, from one change of state to the next.
-   if (follows && has_path()) { return follow_path(); }
-   // 4. Increments where there is none. With two tangential components they are the march;
-   // where a law of friction bends they stand for its path.
-   const bool instead = follows && friction_bends_ && problem_.components() == 1;
-   if (instead) { record_.report.fallback_reason = "the law of friction bends with pressure"; }
+   if (!exact && settings_.stepping == Stepping::exact && has_path()) { return follow_path(); }
+   // 4. Increments where there is none.
    while (state_.time < piece_.end())
    {
       const double target = exact ? piece_.end() : piece_.end_of_step(state_.time);
       if (is_stopped() || !take_increment(target, exact)) { return false; }
-      record_.report.fallbacks += instead;
    }
    return true;
 }

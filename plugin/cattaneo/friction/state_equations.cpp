@@ -231,7 +231,8 @@ bool StateEquations::adopt()
 
 bool StateEquations::set(std::vector<NodeState> states, std::vector<bool> held)
 {
-   if (!anew_ && states == states_ && held == held_) { return true; }
+   if (!anew_ && !bound_changed_ && states == states_ && held == held_) { return true; }
+   bound_changed_ = false;
    states_.swap(states);
    held_.swap(held);
    if (adopt()) { return true; }

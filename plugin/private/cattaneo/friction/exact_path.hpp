@@ -66,6 +66,10 @@ public:
 private:
    double set_out(const ContactState &state, const PathWay &way);
    void find_choices(const ContactState &state);
+   bool take_piece(Eigen::Index node, double pressure);
+   bool find_pieces(const ContactState &state);
+   bool turn_bends();
+   Eigen::VectorXd intercepts(const std::vector<NodeState> &states) const;
    bool set_states(const ContactState &state);
    bool hold_pivot(std::vector<NodeState> states);
    bool release_pivot();
@@ -81,8 +85,17 @@ private:
    void write(ContactState &state, std::vector<NodeState> states, double present) const;
 
    const ReducedProblem &problem_;
-   const Eigen::MatrixXd &K_; // the problem's
-   StateEquations equations_;
+   const Eigen::MatrixXd &K_;                // the problem's
+   const std::vector<FrictionBound> bounds_; // of the nodes
+   std::vector<FrictionBound> pieces_;       // of them, straight ones, at the present pressures
+   /// A node at a bend of its bound, and the side of it to which its pressure goes.
+   struct Bend
+   {
+      Eigen::Index node;
+      double pressure, side;
+   };
+   std::vector<Bend> bends_;
+   StateEquations equations_;        // with the bounds of rates
    Eigen::VectorXd u_, F_;           // displacements {v; w} and forces {q; p}
    Eigen::VectorXd u_rate_, F_rate_; // over the rest of the way
    /// Where the rates hold with the states of the equations, as long as these stay: the loads

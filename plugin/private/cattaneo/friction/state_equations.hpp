@@ -34,6 +34,12 @@ public:
    StateEquations(const Eigen::Ref<const Eigen::MatrixXd> &K, std::vector<FrictionBound> bound);
 
    Eigen::Index nodes() const { return n_; }
+   /// Another bound of a node, which the next set() takes up.
+   void set_bound(Eigen::Index node, const FrictionBound &bound)
+   {
+      bound_[node] = bound;
+      bound_changed_ = true;
+   }
    bool tangential() const { return tangential_; } ///< has tangential unknowns
    const Eigen::Ref<const Eigen::MatrixXd> &stiffness() const { return K_; }
    const Eigen::VectorXd &diagonal() const { return diagonal_; }      ///< of K
@@ -121,7 +127,8 @@ private:
 
    const Eigen::Ref<const Eigen::MatrixXd> K_;
    const SymmetricProduct times_K_;
-   const std::vector<FrictionBound> bound_;
+   std::vector<FrictionBound> bound_;
+   bool bound_changed_ = false; // since set()
    const Eigen::Index n_;
    const bool tangential_;
    const Eigen::VectorXd diagonal_;
