@@ -281,6 +281,70 @@ TEST(FrictionLaw, BendsWithPressureByHand)
    EXPECT_NEAR(state.dissipation, 0.18, 1e-12); // bends are met exactly
 }
 
+/// With one answer to each increment the path is that to which ever smaller increments come,
+/// and its work is what the loads put in, whatever bends the pressures pass on their way.
+TEST(FrictionLaw, BendsAreEventsOfThePath)
+{
+   int passed = 0, marched = 0;
+   for (unsigned seed = 1; seed <= 60; ++seed)
+   {
+      SCOPED_TRACE(seed);
+      std::mt19937 random(seed);
+      ReducedProblem problem = some_contact(random, seed % 3 > 0);
+      add_load(problem, random);
+      problem.H = MatrixXd::Zero(2, 2);
+      std::vector<VectorXd> loads{VectorXd::Zero(2)};
+      for (int k = 0; k < 4; ++k) { loads.push_back(some_loads(random)); }
+      const LoadHistory history = LoadHistory::through(loads);
+      MarchSettings settings;
+      settings.every_event = true;
+      ContactState path = ContactState::virgin(problem), before = path;
+      const MarchReport report = march(
+         problem, history, path, settings,
+         [&](const ContactState &now, const IncrementRecord &)
+         {
+            for (Index i = 0; i < 3; ++i)
+            {
+               const FrictionLaw &law = problem.laws[i];
+               const double p = std::max(now.p[i], 0.0), tiny = 1e-11 * now.peak_force;
+               EXPECT_GE(now.q[i], -strength(law.forward, p) - tiny);
+               EXPECT_LE(now.q[i], strength(law.backward, p) + tiny);
+               // No pressure passes a bend within a step.
+               for (const MatrixX2d *of : {&law.forward, &law.backward})
+               {
+                  for (Index k = 0; k + 1 < of->rows(); ++k)
+                  {
+                     const double bend = (*of)(k, 0), far = 1e-9 * now.peak_force;
+                     const bool below = before.p[i]<bend - far, above = before.p[i]> bend + far;
+                     EXPECT_FALSE(below && now.p[i] > bend + far && closed(now.status[i]));
+                     EXPECT_FALSE(above && now.p[i] < bend - far && closed(now.status[i]));
+                     passed += closed(now.status[i]) && std::abs(now.p[i] - bend) < far;
+                  }
+               }
+            }
+            before = now;
+         });
+      ASSERT_EQ(report.status, FrictionStatus::converged) << report.message;
+      EXPECT_EQ(report.fallbacks, 0) << report.fallback_reason;
+      EXPECT_LT(std::abs(report.energy_imbalance), 1e-11);
+      ++marched;
+      if (seed > 20) { continue; } // ten thousands of increments
+      double error[2];
+      for (const int fine : {0, 1})
+      {
+         MarchSettings fixed;
+         fixed.stepping = Stepping::fixed;
+         fixed.increments = fine ? 500 : 50;
+         ContactState state = ContactState::virgin(problem);
+         march(problem, history, state, fixed);
+         error[fine] = (state.v - path.v).cwiseAbs().maxCoeff();
+      }
+      EXPECT_LT(error[1], 0.3 * error[0] + 1e-9);
+   }
+   EXPECT_EQ(marched, 60);
+   EXPECT_GT(passed, 100);
+}
+
 // A law that gets steeper lets a block slip at first and holds it later, also when all loads
 // grow in proportion: one increment is not exact, and none is skipped. Shear 0.4 p meets the
 // bound 0.2 p up to p = 1, so that q = -0.2 and 2 v = 0.2 there; beyond, where the bound grows
