@@ -138,7 +138,13 @@ void wear_contact(Study &study)
    study.results["scene"] = file.empty() ? pad.profile : "reduced";
    if (settings.march.increments == 0)
    {
-      settings.march.increments = path_is_straight(scene.problem, scene.history) ? 1 : 20;
+      // On a straight path one increment between two points is exact, and takes no events.
+      const bool straight = path_is_straight(scene.problem, scene.history);
+      settings.march.increments = straight ? 1 : 20;
+      if (straight && !study.options().says("stepping"))
+      {
+         settings.march.stepping = Stepping::fixed;
+      }
    }
    const ReducedProblem &problem = scene.problem;
    study.save(problem);

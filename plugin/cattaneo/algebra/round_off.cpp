@@ -19,6 +19,11 @@ RoundOff::RoundOff(const Eigen::Ref<const MatrixXd> &K) : K_(K)
    graded_ = K.diagonal().minCoeff() < 1e-4 * K.diagonal().maxCoeff();
 }
 
+double RoundOff::most(const VectorXd &u, const VectorXd &f) const
+{
+   return 4 * eps * (norm_ * u.cwiseAbs().maxCoeff() + f.cwiseAbs().maxCoeff());
+}
+
 VectorXd RoundOff::rows(const VectorXd &size, const VectorXd &f) const
 {
    if (!graded_)
@@ -31,6 +36,7 @@ VectorXd RoundOff::rows(const VectorXd &size, const VectorXd &f) const
       }
    }
    VectorXd sum = f.cwiseAbs();
+   if (size.isZero(0)) { return 4 * eps * sum; }
    for (Index j = 0; j < K_.cols(); ++j) // half of K is read
    {
       const Index below = K_.rows() - j - 1;

@@ -530,7 +530,9 @@ bool ExactPath::advance(ContactState &state, const PathWay &way,
    const double rest = way.time - state.time,
                 stop = way.stop == way.time ? 1 : (way.stop - state.time) / rest;
    double share = share_to_event(stop);
-   if (equations_.round_off(share * rates_.b, share * u_rate_).maxCoeff() > 1e-6 * peak)
+   const VectorXd by = share * rates_.b, step = share * u_rate_;
+   if (equations_.most_round_off(by, step) > 1e-6 * peak &&
+       equations_.round_off(by, step).maxCoeff() > 1e-6 * peak)
    {
       last_.failure = "the present states do not hold the bodies";
       return false;

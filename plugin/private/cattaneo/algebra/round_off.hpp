@@ -16,6 +16,9 @@ public:
    /// `size`: bound of |u| entry by entry; f: forces with u = 0.
    Eigen::VectorXd rows(const Eigen::VectorXd &size, const Eigen::VectorXd &f) const;
 
+   /// At most what any row has, without a look at K; u itself, f as before.
+   double most(const Eigen::VectorXd &u, const Eigen::VectorXd &f) const;
+
 private:
    const Eigen::Ref<const Eigen::MatrixXd> K_;
    double norm_ = 0;

@@ -77,10 +77,12 @@ public:
    void solve_transposed(const Eigen::VectorXd &g, Eigen::VectorXd &y,
                          Eigen::VectorXd &z) const;
 
-   /// What round-off leaves of forces b + K x, row by row.
-   Eigen::VectorXd round_off(const Eigen::VectorXd &b, const Eigen::VectorXd &x) const
+   /// What round-off leaves of forces b + K x, row by row. That of the last call is known.
+   const Eigen::VectorXd &round_off(const Eigen::VectorXd &b, const Eigen::VectorXd &x) const;
+   /// At most that in any row, without a product with K.
+   double most_round_off(const Eigen::VectorXd &b, const Eigen::VectorXd &x) const
    {
-      return arithmetic_.rows(x.cwiseAbs(), b);
+      return arithmetic_.most(x, b);
    }
 
    /// K x
@@ -133,6 +135,11 @@ private:
    const bool tangential_;
    const Eigen::VectorXd diagonal_;
    const RoundOff arithmetic_;
+   /// Of the last call of round_off().
+   mutable struct
+   {
+      Eigen::VectorXd b, x, rows;
+   } known_;
    std::vector<NodeState> states_;
    std::vector<bool> held_;
    Eigen::VectorXd base_, base_forces_; // forces_again(): of a call before
