@@ -16,8 +16,8 @@ TEST(LapJoint, WorkErrorFallsWithTheIncrements)
    double error = 1;
    for (const char *increments : {"10", "30", "90"})
    {
-      const auto run =
-         run_miniapp("lap_joint", std::string("-spacing 0.02 -increments ") + increments);
+      const auto run = run_miniapp(
+         "lap_joint", std::string("-spacing 0.02 -stepping fixed -increments ") + increments);
       ASSERT_EQ(run.code, 0) << run.output;
       const double signed_error = run.results["work_error"].get<double>();
       const auto &last = run.results["cycles"].back();

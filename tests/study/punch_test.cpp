@@ -140,7 +140,7 @@ TEST(SquarePunch, LoopOfTheHistoryIsThatOfTheCycle)
 {
    const std::string prefix = testing::TempDir() + "loop";
    const auto run = run_miniapp("square_punch", "-nodes 41 -shear '0.5 0.9' -cycles 1 "
-                                                "-amplitude 0.5 --csv '" +
+                                                "-amplitude 0.5 -events --csv '" +
                                                    prefix + "'");
    ASSERT_EQ(run.code, 0) << run.output;
    std::ifstream in(prefix + "_history.csv");
