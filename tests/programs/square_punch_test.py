@@ -89,7 +89,7 @@ def test_slip_under_pressure_alone_is_odd(run):
 def test_loop_of_the_history_is_that_of_the_cycle(run):
     """The cycle begins where P alone left the punch, not where the levels of Q ended: the history says so, and the area of the
     loop in it is what is printed."""
-    got = run("square_punch", "-nodes", 41, "-shear", "0.5 0.9", "-cycles", 1, "-amplitude", 0.5, "--csv", run.folder / "loop")
+    got = run("square_punch", "-nodes", 41, "-shear", "0.5 0.9", "-cycles", 1, "-amplitude", 0.5, "-events", "--csv", run.folder / "loop")
     rows = run.columns("loop_history.csv")
     time, Q, moved = rows["time"], rows["load Q"], rows["displacement Q"]
     work = jumps = 0

@@ -368,11 +368,13 @@ bool MarchRun::follow_path()
          halted = state_.time > before ? 0 : halted + 1;
          continue;
       }
-      // 3. Where it does not go on there may be no equilibrium beyond.
+      // 3. Where it does not go on the way to the stop may be round-off, …
+      const double stop = piece_.end_of_step(state_.time);
+      if (stop - state_.time <= 1e-12 * piece_.duration() && hold(stop)) { continue; }
+      // 4. … or there may be no equilibrium beyond.
       if (settled && equilibria_end()) { return false; }
-      // 4. Else one increment is taken, to the next stop or to where a node closes first.
-      const double target = first_closing(piece_.end_of_step(state_.time));
-      if (!take_increment(target, false)) { return false; }
+      // 5. Else one increment is taken, to the stop or to where a node closes first.
+      if (!take_increment(first_closing(stop), false)) { return false; }
       if (record_.report.fallbacks++ == 0) { record_.report.fallback_reason = reason; }
       halted = 0;
       settled = true;
@@ -380,14 +382,14 @@ bool MarchRun::follow_path()
    return true;
 }
 
-/// Nothing happens to an equilibrium where the loads stay: what slips goes on to when they
-/// move. False if the state is none.
-bool MarchRun::hold()
+/// Nothing happens to an equilibrium where the loads stay until a time: what slips goes on to
+/// when they move. False if the state is none with the loads there.
+bool MarchRun::hold(double target)
 {
    MarchStep same;
    same.state = state_;
-   same.state.time = piece_.end();
-   same.state.multipliers = piece_.loads().to;
+   same.state.time = target;
+   same.state.multipliers = piece_.multipliers(target);
    same.increment = solver_.judge(state_, same.state);
    same.increment.found_by = "held";
    same.exact = true;
@@ -399,7 +401,7 @@ bool MarchRun::hold()
 bool MarchRun::march_piece()
 {
    // 1. Loads that stay.
-   if (piece_.loads().from == piece_.loads().to && hold()) { return true; }
+   if (piece_.loads().from == piece_.loads().to && hold(piece_.end())) { return true; }
    // 2. One increment where that is exact.
    const bool exact = exact_in_one();
    // 3. The path, from one change of state to the next.

@@ -57,7 +57,7 @@ private:
    // Each returns false where the march ends.
    bool march_pieces();
    bool march_piece();
-   bool hold();
+   bool hold(double target);
    bool follow_path();
    bool settle();
    bool path_step(std::string &reason);
