@@ -124,4 +124,13 @@ TEST(Statements, LoadsAreThoseOfTheCalls)
    refused("\xff pressure 3 1", "not UTF-8");
 }
 
+/// Attributes that supports hold, by number and by name; nodes at points are none.
+TEST(Statements, TellWhichAttributesAreHeld)
+{
+   const BodyTerms terms{{{"wall", {7}}}, true, 0};
+   EXPECT_EQ(supported_attributes("support", "4:x 2,3[0<y<1]:xy;@0,1:x wall:y", terms),
+             (std::vector<int>{4, 2, 3, 7}));
+   EXPECT_TRUE(supported_attributes("support", "").empty());
+}
+
 } // namespace
