@@ -169,7 +169,7 @@ def test_flat_and_radius_from_several_starts(run):
         assert start["before"] > objective
     assert got["objective_at_start"] == got["starts"][0]["before"]
     # 1/R takes the flat punch away.
-    flat = run.line("design --profile rounded --most 1e-9 --nodes 33", code=None)
+    flat = run.line("design --profile rounded --most 1e-9 --nodes 33")
     near(flat["objective"], got["cases"][0]["peak_before"], 1e-5)
 
 

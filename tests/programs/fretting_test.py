@@ -97,7 +97,7 @@ def test_finite_elements_take_bulk_in_the_pad_and_test_records(run):
     near_relative(both["k_t_trailing"], one["k_t_trailing"], 1e-6)
 
     run.write("tests.csv", "P,Q,bulk,cycles\n400,60,20,1e6\n300,40,0,2e5\n")
-    run("fretting", "-p", "fe", "-csv", run.folder / "all", "-rec", run.folder / "tests.csv", code=None)
+    run("fretting", "-p", "fe", "-csv", run.folder / "all", "-rec", run.folder / "tests.csv")
     # All that is printed line by line is a file as well: edges, and how far to trust it.
     for name, head, rows in (("all_edges.csv", "edge,position,", 2), ("all_validity.csv", "measure,value,trust,text", 5)):
         lines = run.text(name).splitlines()
@@ -236,9 +236,9 @@ def test_records_hold_materials_and_pads_of_their_own(run):
 
 def test_levels_divide_broken_from_lasting_tests(run):
     """Without bulk stress K_T is in proportion to Q, energy to Q² (largest) and Q³ (in all)."""
-    def levels(rows, *options, code=0):
+    def levels(rows, *options):
         run.write("tests.csv", "Q,cycles,runout\n" + rows)
-        return run("fretting", *"-P 400 -f 0.7 -bs 0 -rec".split(), run.folder / "tests.csv", *options, "-csv", run.folder / "t", code=code)
+        return run("fretting", *"-P 400 -f 0.7 -bs 0 -rec".split(), run.folder / "tests.csv", *options, "-csv", run.folder / "t")
 
     # Any level between 20 and 30 has the run-out of 40 on its wrong side, between 40 and 50 the broken 30: the first gap is the
     # wider one.
@@ -251,12 +251,12 @@ def test_levels_divide_broken_from_lasting_tests(run):
     near_relative(dividing[2]["level"], tests[2]["k_t_range"] * math.sqrt(6), 1e-12)
     near_relative(dividing[3]["level"], tests[2]["energy_max"] * 6, 1e-12)
     # The other way round no level is better than to call all tests one; of one kind none is sought.
-    reversed_ = levels("10,1e6,0\n20,1e6,0\n30,1e7,1\n40,1e7,1\n", code=None)["dividing_levels"][2]
+    reversed_ = levels("10,1e6,0\n20,1e6,0\n30,1e7,1\n40,1e7,1\n")["dividing_levels"][2]
     assert reversed_["level"] is None
     assert reversed_["wrong"] == 2
-    assert "dividing_levels" not in levels("10,1e6,0\n20,1e6,0\n", code=None).results
+    assert "dividing_levels" not in levels("10,1e6,0\n20,1e6,0\n").results
     # The threshold of R = -1 at R = 0.5, reduced to the same largest value: by 4.
-    levels("10,1e6,0\n20,1e7,1\n", "-lr", 0.5, code=None)
+    levels("10,1e6,0\n20,1e7,1\n", "-lr", 0.5)
     last = {}
     for line in run.text("t_mode_two.csv").splitlines():
         for name in ("mode II threshold,", "reduced to R = 0.5 at most,"):

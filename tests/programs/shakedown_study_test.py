@@ -225,7 +225,7 @@ def test_reads_what_it_saves(run):
     for key in ("friction_limit", "load_limit"):
         assert punch[key] == saved[key]
     # A contact that stays closed everywhere is its own closed part.
-    closed = run.line(f"shakedown -reduced '{file}' -closed -lambda-max 0.2 -reversal -0.5", code=None)
+    closed = run.line(f"shakedown -reduced '{file}' -closed -lambda-max 0.2 -reversal -0.5")
     assert closed["closed_nodes"] == 33
     # The part is a problem of its own, whose sums are rounded elsewhere.
     near(closed["load_limit"], saved["load_limit"], 1e-13)
