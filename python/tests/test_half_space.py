@@ -1,5 +1,7 @@
 """Contact of half-spaces in three dimensions."""
 
+from xml.etree import ElementTree
+
 import cattaneo
 import numpy as np
 import pytest
@@ -97,6 +99,31 @@ def test_torsion_of_squares_and_of_rings():
         rings.A, rings.B, rings.C, patterns, gap=r**2 / (2 * radius), friction=f, weights=rings.weights)
     state = cattaneo.march(twisted, [{}, {"P": load}, {"P": load, "turn": turn}], increments=1).state
     assert abs(state.q[n:] @ r) == pytest.approx(torque, rel=5e-3)
+
+
+def test_a_file_for_paraview(tmp_path):
+    """What a reader of VTU finds: quadrilaterals that cover the surface once, and the values of the state."""
+    space = cattaneo.HalfSpace(MATERIAL, size=[0.2, 0.3], centres=[[0.0, 0.0], [0.2, 0.0], [0.2, 0.3]])
+    problem = space.problem(gap=[0.0, 0.0, 1.0])
+    problem.friction = 0.3
+    state = cattaneo.march(problem, [{}, {"P": 0.1}, {"P": 0.1, "Q1": 0.01}], increments=1).state
+    file = tmp_path / "contact.vtu"
+    space.write_vtu(file, problem, state)
+    root = ElementTree.parse(file).getroot()
+    found = {
+        each.get("Name"): np.array(each.text.split(), dtype=float).reshape(-1, int(each.get("NumberOfComponents")))
+        for each in root.iter("DataArray")
+    }
+    assert list(found["types"].ravel()) == [9, 9, 9] and list(found["offsets"].ravel()) == [4, 8, 12]
+    x, y = found["Points"][found["connectivity"].astype(int)][:, :, :2].transpose(2, 0, 1)
+    area = 0.5 * (x * np.roll(y, -1, axis=1) - np.roll(x, -1, axis=1) * y).sum(axis=1)  # counter-clockwise
+    assert area == pytest.approx(0.06) and np.column_stack([x.mean(axis=1), y.mean(axis=1)]) == pytest.approx(space.centres)
+    assert (found["pressure"][:, 0] * area).sum() == pytest.approx(0.1)
+    assert (found["shear"] * area[:, None]).sum(axis=0) == pytest.approx([-0.01, 0, 0], abs=1e-12)
+    assert (found["slip"][:, :2] == state.v.reshape(2, 3).T).all() and (found["opening"][:, 0] == state.w + problem.gap).all()
+    assert list(found["state"][:, 0]) == list(cattaneo.settled_states(problem, state))
+    with pytest.raises(cattaneo.InputError, match="is not that of the half-spaces"):
+        space.write_vtu(file, cattaneo.load_reduced_problem(ROOT / "problems" / "hertz.json"), state)
 
 
 def test_what_is_refused():
